@@ -1,0 +1,109 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_ELEMENT_LIST_H
+#define CGAL_MIXED_MESH_3_ELEMENT_LIST_H
+
+#include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
+
+#include <CGAL/assertions.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+
+using Vertex_index = std::uint32_t;
+using Element_index = std::uint32_t;
+
+/// An element as seen in a list: a kind and its vertices. Valid as long as the list is not changed.
+class Element_view
+{
+  const Vertex_index* m_vertices;
+  Element_kind m_kind;
+
+public:
+  Element_view(Element_kind kind, const Vertex_index* vertices)
+    : m_vertices(vertices), m_kind(kind)
+  {}
+
+  Element_kind kind() const { return m_kind; }
+  const Reference_element& reference() const { return reference_elements[m_kind]; }
+  int size() const { return reference().number_of_vertices; }
+  Vertex_index operator[](int i) const { return m_vertices[i]; }
+  const Vertex_index* begin() const { return m_vertices; }
+  const Vertex_index* end() const { return m_vertices + size(); }
+};
+
+/*!
+\brief The connectivity of a mesh of mixed elements, in one contiguous array.
+
+Elements keep the order in which they were added. Geometry is elsewhere: the stages use this list
+with lattice positions, `Mixed_mesh_3` uses it with points.
+*/
+class Element_list
+{
+  std::vector<Element_kind> m_kinds;
+  std::vector<std::size_t> m_offsets{0};
+  std::vector<Vertex_index> m_vertices;
+
+public:
+  std::size_t size() const { return m_kinds.size(); }
+  bool empty() const { return m_kinds.empty(); }
+
+  Element_view operator[](std::size_t e) const
+  {
+    return {m_kinds[e], m_vertices.data() + m_offsets[e]};
+  }
+
+  void add(Element_kind kind, const Vertex_index* vertices)
+  {
+    m_kinds.push_back(kind);
+    m_vertices.insert(m_vertices.end(), vertices,
+                      vertices + reference_elements[kind].number_of_vertices);
+    m_offsets.push_back(m_vertices.size());
+  }
+
+  void add(Element_kind kind, std::initializer_list<Vertex_index> vertices)
+  {
+    CGAL_precondition(int(vertices.size()) == reference_elements[kind].number_of_vertices);
+    add(kind, vertices.begin());
+  }
+
+  void reserve(std::size_t elements, std::size_t vertices)
+  {
+    m_kinds.reserve(elements);
+    m_offsets.reserve(elements + 1);
+    m_vertices.reserve(vertices);
+  }
+
+  /// Number of elements of each kind.
+  std::array<std::size_t, number_of_element_kinds> counts() const
+  {
+    std::array<std::size_t, number_of_element_kinds> n{};
+    for(Element_kind kind : m_kinds)
+      ++n[kind];
+    return n;
+  }
+
+  /// \name Raw arrays
+  /// For writers and for renumbering: vertices of element `e` are
+  /// `connectivity()[offsets()[e]] ... connectivity()[offsets()[e + 1] - 1]`.
+  /// @{
+  const std::vector<Element_kind>& kinds() const { return m_kinds; }
+  const std::vector<std::size_t>& offsets() const { return m_offsets; }
+  const std::vector<Vertex_index>& connectivity() const { return m_vertices; }
+  std::vector<Vertex_index>& connectivity() { return m_vertices; }
+  /// @}
+};
+
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_ELEMENT_LIST_H

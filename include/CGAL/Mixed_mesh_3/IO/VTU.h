@@ -1,0 +1,398 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_IO_VTU_H
+#define CGAL_MIXED_MESH_3_IO_VTU_H
+
+#include <CGAL/Mixed_mesh_3.h>
+#include <CGAL/Mixed_mesh_3/quality.h>
+
+#include <CGAL/config.h>
+
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace IO {
+
+namespace internal {
+
+//----------------------------------------------------------------------------------------------
+// Shared by all writers.
+
+// Collects small pieces and hands them to the stream in blocks. Numbers do not depend on any locale,
+// and doubles have as many digits as it takes to read the same double back.
+class Buffered_output
+{
+  std::ostream& m_stream;
+  std::size_t m_size = 0;
+  char m_buffer[1 << 16];
+
+  char* room_for(std::size_t n)
+  {
+    if(m_size + n > sizeof(m_buffer))
+      empty_buffer();
+    return m_buffer + m_size;
+  }
+
+  void empty_buffer()
+  {
+    m_stream.write(m_buffer, std::streamsize(m_size));
+    m_size = 0;
+  }
+
+public:
+  explicit Buffered_output(std::ostream& stream) : m_stream(stream) {}
+  Buffered_output(const Buffered_output&) = delete;
+  Buffered_output& operator=(const Buffered_output&) = delete;
+
+  void write_bytes(const char* bytes, std::size_t n)
+  {
+    if(n > sizeof(m_buffer)) {
+      empty_buffer();
+      m_stream.write(bytes, std::streamsize(n));
+    } else {
+      std::memcpy(room_for(n), bytes, n);
+      m_size += n;
+    }
+  }
+
+  template <class Value>
+  void write_binary(const Value& value)
+  {
+    static_assert(std::is_trivially_copyable<Value>::value, "bytes of a class mean nothing");
+    write_bytes(reinterpret_cast<const char*>(&value), sizeof(value));
+  }
+
+  Buffered_output& operator<<(std::string_view text)
+  {
+    write_bytes(text.data(), text.size());
+    return *this;
+  }
+
+  Buffered_output& operator<<(char c)
+  {
+    *room_for(1) = c;
+    ++m_size;
+    return *this;
+  }
+
+  template <class Number, class = std::enable_if_t<std::is_arithmetic<Number>::value>>
+  Buffered_output& operator<<(Number number)
+  {
+    char* const begin = room_for(32);
+    m_size += std::size_t(std::to_chars(begin, begin + 32, number).ptr - begin);
+    return *this;
+  }
+
+  // Returns whether everything arrived.
+  bool finish()
+  {
+    empty_buffer();
+    m_stream.flush();
+    return m_stream.good();
+  }
+};
+
+inline void write_point(Buffered_output& out, const Mixed_meshes_3::internal::Vec3& p,
+                        std::string_view separator)
+{
+  out << p[0] << separator << p[1] << separator << p[2];
+}
+
+// Vertices numbered from 1, as all text formats want them.
+template <class Vertices>
+void write_vertices(Buffered_output& out, const Vertices& vertices, char separator)
+{
+  bool first = true;
+  for(Vertex_index v : vertices) {
+    if(!first)
+      out << separator;
+    out << std::uint64_t(v) + 1;
+    first = false;
+  }
+}
+
+// The vertices of a boundary face in the numbering of the mesh.
+class Face_vertices
+{
+  int m_size;
+  Vertex_index m_vertices[4];
+
+public:
+  template <class Mesh>
+  Face_vertices(const Mesh& mesh, const typename Mesh::Boundary_face& boundary_face)
+  {
+    const Element_view element = mesh.element(boundary_face.element);
+    const Element_face& face = element.reference().faces[boundary_face.local_face];
+    m_size = face.size;
+    for(int i = 0; i < face.size; ++i)
+      m_vertices[i] = element[face.vertices[i]];
+  }
+
+  int size() const { return m_size; }
+  const Vertex_index* begin() const { return m_vertices; }
+  const Vertex_index* end() const { return m_vertices + m_size; }
+};
+
+template <class Mesh>
+std::size_t number_of_boundary_faces(const Mesh& mesh, int size)
+{
+  std::size_t n = 0;
+  for(const auto& face : mesh.boundary_faces())
+    n += Face_vertices(mesh, face).size() == size;
+  return n;
+}
+
+// Elements of one kind, in the region or not: what formats write as a block.
+struct Element_block
+{
+  bool in_region;
+  Element_kind kind;
+  std::size_t size;
+
+  const Reference_element& reference() const { return reference_elements[kind]; }
+  const char* part() const { return in_region ? "region" : "rest"; }
+
+  template <class Mesh>
+  bool has(const Mesh& mesh, std::size_t e) const
+  {
+    return mesh.elements().kinds()[e] == kind && mesh.is_in_region(e) == in_region;
+  }
+};
+
+// The blocks that are not empty, those of the region first.
+template <class Mesh>
+std::vector<Element_block> element_blocks(const Mesh& mesh)
+{
+  std::size_t sizes[2][number_of_element_kinds] = {};
+  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
+    ++sizes[mesh.is_in_region(e)][mesh.elements().kinds()[e]];
+  std::vector<Element_block> blocks;
+  for(bool in_region : {true, false})
+    for(Element_kind kind : element_kinds)
+      if(sizes[in_region][kind] != 0)
+        blocks.push_back({in_region, kind, sizes[in_region][kind]});
+  return blocks;
+}
+
+// References of the parts in formats where they are numbers.
+constexpr int region_tag = 1, rest_tag = 2, boundary_tag = 3;
+
+} // namespace internal
+
+//----------------------------------------------------------------------------------------------
+
+/// Values at the vertices or at the elements, to be written with a mesh. Does not own the values:
+/// they must stay until the mesh is written.
+struct Data_array
+{
+  std::string name;
+  const std::vector<double>* values; ///< the components of the first vertex or element, and so on
+  int number_of_components = 1;
+
+  /// Whether there are values for `n` vertices or elements.
+  bool has_size(std::size_t n) const
+  {
+    return values != nullptr && number_of_components > 0
+           && values->size() == n * std::size_t(number_of_components);
+  }
+};
+
+struct VTU_options
+{
+  std::vector<Data_array> vertex_data;
+  std::vector<Data_array> element_data;
+};
+
+namespace internal {
+
+// An array of the file: what its declaration says, and what writes its bytes.
+struct VTU_array
+{
+  std::string name;
+  const char* type;
+  int number_of_components;
+  std::uint64_t number_of_bytes;
+  std::function<void(Buffered_output&)> write;
+};
+
+using VTU_arrays = std::vector<VTU_array>;
+
+template <class Value>
+constexpr const char* vtk_type_name()
+{
+  return std::is_floating_point<Value>::value ? "Float64"
+         : sizeof(Value) == 1                 ? "UInt8"
+         : sizeof(Value) == 4                 ? "Int32"
+                                              : "Int64";
+}
+
+// An array of one value for each element.
+template <class Value, class Function>
+VTU_array element_array(std::string name, std::size_t number_of_elements, Function value)
+{
+  return {std::move(name), vtk_type_name<Value>(), 1, number_of_elements * sizeof(Value),
+          [=](Buffered_output& out) {
+            for(std::size_t e = 0; e < number_of_elements; ++e)
+              out.write_binary(Value(value(e)));
+          }};
+}
+
+inline VTU_array data_array(const Data_array& data)
+{
+  const std::vector<double>* values = data.values;
+  return {data.name, vtk_type_name<double>(), data.number_of_components,
+          values->size() * sizeof(double), [=](Buffered_output& out) {
+            out.write_bytes(reinterpret_cast<const char*>(values->data()),
+                            values->size() * sizeof(double));
+          }};
+}
+
+template <class Index, class Mesh>
+VTU_arrays cell_arrays(const Mesh& mesh)
+{
+  const std::size_t n = mesh.number_of_elements();
+  return {{"connectivity", vtk_type_name<Index>(), 1,
+           mesh.elements().connectivity().size() * sizeof(Index),
+           [&mesh, n](Buffered_output& out) {
+             for(std::size_t e = 0; e < n; ++e) {
+               const Element_view element = mesh.element(e);
+               for(int i = 0; i < element.size(); ++i)
+                 out.write_binary(Index(element[element.reference().vtk_order[i]]));
+             }
+           }},
+          element_array<Index>("offsets", n,
+                               [&mesh](std::size_t e) { return mesh.elements().offsets()[e + 1]; }),
+          element_array<std::uint8_t>(
+            "types", n, [&mesh](std::size_t e) { return mesh.element(e).reference().vtk_type; })};
+}
+
+inline std::string escaped_for_XML(const std::string& text)
+{
+  std::string result;
+  for(char c : text)
+    switch(c) {
+    case '&': result += "&amp;"; break;
+    case '<': result += "&lt;"; break;
+    case '>': result += "&gt;"; break;
+    case '"': result += "&quot;"; break;
+    default: result += c;
+    }
+  return result;
+}
+
+} // namespace internal
+
+/*!
+\brief Writes a mesh as VTK unstructured grid: XML, version 1.0, with raw binary data appended.
+
+Element data: `kind` (the number of the `Element_kind`), `ARC` (the aspect-ratio coefficient),
+`in_region` (1 or 0), and what the options add. Nothing of the size of the mesh is allocated.
+
+VTK disagrees with itself on wedges. Written in the documented order, as here, their faces look
+outwards and `vtkCellSizeFilter` finds a positive volume, but the Jacobian of the shape functions of
+`vtkWedge` is negative (VTK 9.1).
+
+\return whether the stream took everything. If the size of an added array does not fit the mesh, then
+        nothing is written, and the stream's `failbit` is set.
+*/
+template <class Mesh>
+bool write_VTU(std::ostream& stream, const Mesh& mesh, const VTU_options& options = VTU_options())
+{
+  using namespace internal;
+  const std::size_t n = mesh.number_of_vertices(), m = mesh.number_of_elements();
+
+  VTU_arrays vertex_data, element_data;
+  bool fits = true;
+  for(const Data_array& data : options.vertex_data)
+    if((fits = fits && data.has_size(n)))
+      vertex_data.push_back(data_array(data));
+  element_data.push_back(
+    element_array<std::uint8_t>("kind", m, [&mesh](std::size_t e) { return mesh.element(e).kind(); }));
+  element_data.push_back(element_array<double>(
+    "ARC", m, [&mesh](std::size_t e) { return aspect_ratio_coefficient(mesh, e); }));
+  element_data.push_back(element_array<std::uint8_t>(
+    "in_region", m, [&mesh](std::size_t e) { return mesh.is_in_region(e); }));
+  for(const Data_array& data : options.element_data)
+    if((fits = fits && data.has_size(m)))
+      element_data.push_back(data_array(data));
+  if(!fits) {
+    stream.setstate(std::ios_base::failbit);
+    return false;
+  }
+
+  // The name "Points" is the one VTK gives.
+  const VTU_array points = {"Points", vtk_type_name<double>(), 3, n * 3 * sizeof(double),
+                            [&mesh](Buffered_output& out) {
+                              for(const auto& p : mesh.points())
+                                out.write_binary(Mixed_meshes_3::internal::to_vec3(p));
+                            }};
+
+  // Both are VTK's own types of indices; the small one halves the file.
+  const bool is_small = (std::max)(n, mesh.elements().connectivity().size())
+                        <= std::size_t((std::numeric_limits<std::int32_t>::max)());
+
+  struct Section
+  {
+    const char* name;
+    VTU_arrays arrays;
+  };
+  const Section sections[] = {
+    {"PointData", std::move(vertex_data)},
+    {"CellData", std::move(element_data)},
+    {"Points", {points}},
+    {"Cells", is_small ? cell_arrays<std::int32_t>(mesh) : cell_arrays<std::int64_t>(mesh)}};
+
+#ifdef CGAL_BIG_ENDIAN
+  const char* const byte_order = "BigEndian";
+#else
+  const char* const byte_order = "LittleEndian";
+#endif
+
+  Buffered_output out(stream);
+  out << "<?xml version=\"1.0\"?>\n"
+      << "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"" << byte_order
+      << "\" header_type=\"UInt64\">\n"
+      << "  <UnstructuredGrid>\n"
+      << "    <Piece NumberOfPoints=\"" << n << "\" NumberOfCells=\"" << m << "\">\n";
+  std::uint64_t offset = 0;
+  for(const Section& section : sections) {
+    out << "      <" << section.name << ">\n";
+    for(const VTU_array& array : section.arrays) {
+      out << "        <DataArray type=\"" << array.type << "\" Name=\""
+          << escaped_for_XML(array.name) << "\" NumberOfComponents=\""
+          << array.number_of_components << "\" format=\"appended\" offset=\"" << offset << "\"/>\n";
+      offset += sizeof(std::uint64_t) + array.number_of_bytes;
+    }
+    out << "      </" << section.name << ">\n";
+  }
+  out << "    </Piece>\n"
+      << "  </UnstructuredGrid>\n"
+      << "  <AppendedData encoding=\"raw\">\n_";
+  for(const Section& section : sections)
+    for(const VTU_array& array : section.arrays) {
+      out.write_binary(array.number_of_bytes);
+      array.write(out);
+    }
+  out << "\n  </AppendedData>\n</VTKFile>\n";
+  return out.finish();
+}
+
+} // namespace IO
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_IO_VTU_H

@@ -1,0 +1,186 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The four element kinds as constant tables. Every algorithm loops over these tables; none
+// enumerates faces or edges by hand.
+
+#ifndef CGAL_MIXED_MESH_3_MIXED_ELEMENT_TRAITS_3_H
+#define CGAL_MIXED_MESH_3_MIXED_ELEMENT_TRAITS_3_H
+
+#include <array>
+#include <cstdint>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+
+/// The kinds of elements; the value is the index into `reference_elements` and the value of the
+/// cell data `kind` in the files written.
+enum Element_kind : std::uint8_t { TETRAHEDRON, PYRAMID, PRISM, HEXAHEDRON };
+
+constexpr int number_of_element_kinds = 4;
+constexpr Element_kind element_kinds[number_of_element_kinds] = {TETRAHEDRON, PYRAMID, PRISM,
+                                                                 HEXAHEDRON};
+
+/// A face of an element: its local vertices, counter-clockwise seen from outside the element.
+struct Element_face
+{
+  int size;
+  std::uint8_t vertices[4];
+};
+
+/*!
+A row of the table of element kinds: combinatorics, reference coordinates, and the names other
+programs give to the kind.
+
+Vertex order (positive Jacobian; the order of Gmsh, Abaqus, Medit and FEBio):
+
+         3                 4                  5                 7-------6
+        /|\              / /|\               /|\               /|      /|
+       / | \            / / | \             / | \             4-------5 |
+      /  |  \          / 3-/---2           3-----4            | |     | |
+     0---|---2        / / /   /            |  2  |            | 3-----|-2
+      \  |  /        0-------1             | / \ |            |/      |/
+       \ | /                               |/   \|            0-------1
+         1                                 0-----1
+
+VTK's linear wedge is the mirror image of this prism: `vtk_order` lists, for each VTK position, the
+vertex of ours to write there.
+*/
+struct Reference_element
+{
+  const char* name;
+  const char* plural;
+  int number_of_vertices;
+  int number_of_edges;
+  std::uint8_t edges[12][2];
+  int number_of_faces;
+  Element_face faces[6];
+  /// Corner tetrahedra: a vertex with its three neighbours (of the apex of a pyramid there are
+  /// four, so it has none of its own; the four at the base cover the pyramid).
+  int number_of_corners;
+  std::uint8_t corners[8][4];
+  /// Coordinates of the vertices of the reference element; the barycentric tetrahedron and
+  /// triangle, [-1,1] in the other directions, height 1 for the pyramid.
+  std::int8_t coordinates[8][3];
+  int vtk_type;
+  std::uint8_t vtk_order[8];
+  int gmsh_type;
+  const char* medit_keyword;
+  const char* abaqus_type;
+  const char* febio_type;
+};
+
+constexpr Reference_element reference_elements[number_of_element_kinds] = {
+  {"tetrahedron", "tetrahedra", 4,
+   6, {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}},
+   4, {{3, {1, 2, 3}}, {3, {0, 3, 2}}, {3, {0, 1, 3}}, {3, {0, 2, 1}}},
+   1, {{0, 1, 2, 3}},
+   {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+   10, {0, 1, 2, 3}, 4, "Tetrahedra", "C3D4", "tet4"},
+  {"pyramid", "pyramids", 5,
+   8, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}},
+   5, {{4, {0, 3, 2, 1}}, {3, {0, 1, 4}}, {3, {1, 2, 4}}, {3, {2, 3, 4}}, {3, {3, 0, 4}}},
+   4, {{0, 1, 3, 4}, {1, 2, 0, 4}, {2, 3, 1, 4}, {3, 0, 2, 4}},
+   {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}},
+   14, {0, 1, 2, 3, 4}, 7, "Pyramids", "C3D5", "pyra5"},
+  {"prism", "prisms", 6,
+   9, {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}},
+   5, {{3, {0, 2, 1}}, {3, {3, 4, 5}}, {4, {0, 1, 4, 3}}, {4, {1, 2, 5, 4}}, {4, {2, 0, 3, 5}}},
+   6, {{0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5}, {3, 5, 4, 0}, {4, 3, 5, 1}, {5, 4, 3, 2}},
+   {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
+   13, {0, 2, 1, 3, 5, 4}, 6, "Prisms", "C3D6", "penta6"},
+  {"hexahedron", "hexahedra", 8,
+   12, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6},
+        {3, 7}},
+   6, {{4, {0, 4, 7, 3}}, {4, {1, 2, 6, 5}}, {4, {0, 1, 5, 4}}, {4, {3, 7, 6, 2}},
+       {4, {0, 3, 2, 1}}, {4, {4, 5, 6, 7}}},
+   8, {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7}, {4, 7, 5, 0}, {5, 4, 6, 1},
+       {6, 5, 7, 2}, {7, 6, 4, 3}},
+   {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1},
+    {-1, 1, 1}},
+   12, {0, 1, 2, 3, 4, 5, 6, 7}, 5, "Hexahedra", "C3D8", "hex8"}};
+
+/*!
+\brief Model of `MixedElementTraits_3` for one kind, known at compile time.
+
+Adds the shape functions to the table.
+
+\tparam Kind the element kind.
+*/
+template <Element_kind Kind>
+struct Mixed_element_traits_3
+{
+  static constexpr Element_kind kind = Kind;
+  static constexpr const Reference_element& reference = reference_elements[Kind];
+  static constexpr int number_of_vertices = reference_elements[Kind].number_of_vertices;
+  using Shape_values = std::array<double, number_of_vertices>;
+  using Shape_gradients = std::array<std::array<double, 3>, number_of_vertices>;
+
+  /// Values of the shape functions at the point `(r,s,t)` of the reference element. They are 1 at
+  /// their vertex, 0 at the others, and sum to 1. Those of the pyramid are rational (Bedrosian,
+  /// 1992), so that they are linear on the triangular faces, and continuous at the apex.
+  static Shape_values shape_functions(double r, double s, double t)
+  {
+    Shape_values n{};
+    if constexpr(Kind == TETRAHEDRON) {
+      n = {1 - r - s - t, r, s, t};
+    } else if constexpr(Kind == PYRAMID) {
+      const double d = 1 - t;
+      const double rs = d > 0 ? r * s * t / d : 0;
+      for(int i = 0; i < 4; ++i) {
+        const auto& c = reference.coordinates[i];
+        n[i] = ((1 + c[0] * r) * (1 + c[1] * s) - t + c[0] * c[1] * rs) / 4;
+      }
+      n[4] = t;
+    } else if constexpr(Kind == PRISM) {
+      const double l[3] = {1 - r - s, r, s};
+      for(int i = 0; i < 6; ++i)
+        n[i] = l[i % 3] * (1 + reference.coordinates[i][2] * t) / 2;
+    } else {
+      for(int i = 0; i < 8; ++i) {
+        const auto& c = reference.coordinates[i];
+        n[i] = (1 + c[0] * r) * (1 + c[1] * s) * (1 + c[2] * t) / 8;
+      }
+    }
+    return n;
+  }
+
+  /// Gradients of the shape functions in reference coordinates; not defined at the pyramid's apex.
+  static Shape_gradients shape_gradients(double r, double s, double t)
+  {
+    Shape_gradients g{};
+    if constexpr(Kind == TETRAHEDRON) {
+      g = {{{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    } else if constexpr(Kind == PYRAMID) {
+      const double d = 1 - t;
+      for(int i = 0; i < 4; ++i) {
+        const auto& c = reference.coordinates[i];
+        const double cc = c[0] * c[1];
+        g[i] = {(c[0] * (1 + c[1] * s) + cc * s * t / d) / 4,
+                (c[1] * (1 + c[0] * r) + cc * r * t / d) / 4, (-1 + cc * r * s / (d * d)) / 4};
+      }
+      g[4] = {0, 0, 1};
+    } else if constexpr(Kind == PRISM) {
+      const double l[3] = {1 - r - s, r, s};
+      const double dl[3][2] = {{-1, -1}, {1, 0}, {0, 1}};
+      for(int i = 0; i < 6; ++i) {
+        const double c = reference.coordinates[i][2], h = (1 + c * t) / 2;
+        g[i] = {dl[i % 3][0] * h, dl[i % 3][1] * h, l[i % 3] * c / 2};
+      }
+    } else {
+      for(int i = 0; i < 8; ++i) {
+        const auto& c = reference.coordinates[i];
+        const double a = 1 + c[0] * r, b = 1 + c[1] * s, e = 1 + c[2] * t;
+        g[i] = {c[0] * b * e / 8, a * c[1] * e / 8, a * b * c[2] / 8};
+      }
+    }
+    return g;
+  }
+};
+
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_MIXED_ELEMENT_TRAITS_3_H

@@ -1,0 +1,256 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// From the integer lattice of the octree to points: models of `OctreeCellTraits_3`.
+
+#ifndef CGAL_MIXED_MESH_3_OCTREE_CELL_TRAITS_3_H
+#define CGAL_MIXED_MESH_3_OCTREE_CELL_TRAITS_3_H
+
+#include <CGAL/Mixed_mesh_3/internal/Octree.h>
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+
+/// The kernel that decides geometry: exact predicates on doubles, whatever kernel the user has.
+using Predicates_kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+/// The shape of the root cell of axis-aligned octrees.
+enum class Root_cell {
+  CUBE, ///< a cube around the bounding box: all cells are cubes, of aspect-ratio coefficient 1
+  BOX   ///< the bounding box itself, as in the paper: cells have its proportions
+};
+
+namespace internal {
+
+// Lattice coordinates shall be exact doubles, so that cells that share a vertex, an edge or a face
+// do so exactly: all are multiples of a power of two that is at least 2^-52 of the largest one.
+inline double lattice_granularity(double largest_coordinate)
+{
+  return std::ldexp(1., std::ilogb(largest_coordinate) - 51);
+}
+
+// The side of a lattice cell, rounded up so that multiples of it are exact doubles: 20 significant
+// bits, fewer very far from the origin.
+inline double lattice_unit(double root_side, double granularity)
+{
+  const double unit = root_side / Octree::root_side;
+  const double g = (std::max)(granularity, std::ldexp(1., std::ilogb(unit) - 19));
+  return (std::max)(1., std::ceil(unit / g)) * g;
+}
+
+} // namespace internal
+
+/*!
+\brief Model of `OctreeCellTraits_3`: cells are boxes parallel to the axes.
+
+Every lattice point is an exact double.
+*/
+class Axis_aligned_octree_cell_traits_3
+{
+public:
+  using Point_3 = Predicates_kernel::Point_3;
+  using Triangle_3 = Predicates_kernel::Triangle_3;
+
+  /// A cell as the domain and the region see it.
+  class Cell
+  {
+    Bbox_3 m_bbox;
+    Point_3 m_centre;
+
+  public:
+    Cell(const Bbox_3& bbox, const Point_3& centre) : m_bbox(bbox), m_centre(centre) {}
+    const Bbox_3& bbox() const { return m_bbox; }
+    const Point_3& centre() const { return m_centre; }
+    /// Whether the closed cell meets the triangle; exact.
+    bool do_intersect(const Triangle_3& t) const { return CGAL::do_intersect(t, m_bbox); }
+  };
+
+  /// An octree around `bbox`.
+  /// \param bbox what to cover. \pre its three extents are positive and finite
+  /// \param root a cube (default) or the box itself
+  explicit Axis_aligned_octree_cell_traits_3(const Bbox_3& bbox, Root_cell root = Root_cell::CUBE)
+  {
+    const double longest = (std::max)({bbox.x_span(), bbox.y_span(), bbox.z_span()});
+    CGAL_precondition((std::min)({bbox.x_span(), bbox.y_span(), bbox.z_span()}) > 0
+                      && std::isfinite(longest));
+    // The margin keeps surfaces parallel to the axes off the faces of the cells.
+    const double cube_side = longest * (1 + 1. / 64);
+    double largest = cube_side;
+    for(int k = 0; k < 3; ++k)
+      largest = (std::max)({largest, std::abs((bbox.min)(k)) + cube_side,
+                            std::abs((bbox.max)(k)) + cube_side});
+    const double granularity = internal::lattice_granularity(largest);
+    for(int k = 0; k < 3; ++k) {
+      const double extent = (bbox.max)(k) - (bbox.min)(k);
+      m_unit[k] = internal::lattice_unit(root == Root_cell::CUBE ? cube_side : extent, granularity);
+      const double centre = (bbox.min)(k) + extent / 2;
+      m_origin[k] = std::floor((centre - m_unit[k] * (internal::Octree::root_side / 2)) / granularity)
+                    * granularity;
+    }
+  }
+
+  /// The position of a lattice point.
+  Point_3 point(const Lattice_point& p) const
+  {
+    return {coordinate(0, p[0]), coordinate(1, p[1]), coordinate(2, p[2])};
+  }
+
+  /// The cell of the given lattice side whose smallest corner is `corner`.
+  Cell cell(const Lattice_point& corner, std::uint32_t side) const
+  {
+    const std::uint32_t half = side / 2;
+    return {Bbox_3(coordinate(0, corner[0]), coordinate(1, corner[1]), coordinate(2, corner[2]),
+                   coordinate(0, corner[0] + side), coordinate(1, corner[1] + side),
+                   coordinate(2, corner[2] + side)),
+            point({corner[0] + half, corner[1] + half, corner[2] + half})};
+  }
+
+  /// The length of the shortest edge of a cell of the given lattice side.
+  double length(std::uint32_t side) const
+  {
+    return side * (std::min)({m_unit[0], m_unit[1], m_unit[2]});
+  }
+
+private:
+  double coordinate(int k, std::uint32_t i) const { return m_origin[k] + i * m_unit[k]; }
+
+  std::array<double, 3> m_origin, m_unit;
+};
+
+/*!
+\brief Model of `OctreeCellTraits_3`: cubes whose third axis has a given direction, for example that
+from the tumour to the skull opening.
+
+The frame comes from a quaternion of small integers, so that it is exactly orthogonal and lattice
+points are exact doubles; its axis is within 3 degrees of the wanted one.
+*/
+class Rotated_octree_cell_traits_3
+{
+public:
+  using Point_3 = Predicates_kernel::Point_3;
+  using Triangle_3 = Predicates_kernel::Triangle_3;
+
+  class Cell
+  {
+    std::array<Point_3, 8> m_vertices;
+    Point_3 m_centre;
+    Bbox_3 m_bbox;
+
+  public:
+    Cell(const std::array<Point_3, 8>& vertices, const Point_3& centre)
+      : m_vertices(vertices), m_centre(centre)
+    {
+      for(const Point_3& p : m_vertices)
+        m_bbox += p.bbox();
+    }
+    const Bbox_3& bbox() const { return m_bbox; }
+    const Point_3& centre() const { return m_centre; }
+    bool do_intersect(const Triangle_3& t) const
+    {
+      if(!CGAL::do_overlap(m_bbox, t.bbox()))
+        return false;
+      static constexpr int tetrahedra[5][4] = {
+        {0, 3, 5, 6}, {1, 0, 5, 3}, {2, 0, 3, 6}, {4, 0, 6, 5}, {7, 3, 6, 5}};
+      for(const auto& i : tetrahedra)
+        if(CGAL::do_intersect(t, Predicates_kernel::Tetrahedron_3(m_vertices[i[0]], m_vertices[i[1]],
+                                                                  m_vertices[i[2]],
+                                                                  m_vertices[i[3]])))
+          return true;
+      return false;
+    }
+  };
+
+  /// An octree around a range of points.
+  /// \param points a range of points, of any CGAL kernel, that do not all lie in a plane
+  /// \param axis the direction of the third axis of the cells; not zero
+  template <class PointRange, class Vector>
+  Rotated_octree_cell_traits_3(const PointRange& points, const Vector& axis)
+  {
+    set_frame(CGAL::to_double(axis.x()), CGAL::to_double(axis.y()), CGAL::to_double(axis.z()));
+    // the extent along the axes, in multiples of 1 / norm
+    std::array<double, 3> lower, upper;
+    lower.fill(std::numeric_limits<double>::infinity());
+    upper.fill(-std::numeric_limits<double>::infinity());
+    double largest = 0;
+    for(const auto& p : points) {
+      const double x[3] = {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+      for(int k = 0; k < 3; ++k) {
+        const double c = x[0] * m_axes[k][0] + x[1] * m_axes[k][1] + x[2] * m_axes[k][2];
+        lower[k] = (std::min)(lower[k], c);
+        upper[k] = (std::max)(upper[k], c);
+        largest = (std::max)(largest, std::abs(x[k]));
+      }
+    }
+    double longest = 0; // times norm
+    for(int k = 0; k < 3; ++k)
+      longest = (std::max)(longest, upper[k] - lower[k]);
+    CGAL_precondition(longest > 0 && std::isfinite(longest));
+    longest *= 1 + 1. / 64;
+    const double granularity = internal::lattice_granularity(largest + 2 * longest / m_norm);
+    m_unit = internal::lattice_unit(longest / (m_norm * m_norm), granularity);
+    for(int k = 0; k < 3; ++k) {
+      double centre = 0;
+      for(int a = 0; a < 3; ++a)
+        centre += m_axes[a][k] * (lower[a] + upper[a]) / 2 / (m_norm * m_norm);
+      const double half = m_unit * (internal::Octree::root_side / 2);
+      m_origin[k] = std::floor((centre - half * (m_axes[0][k] + m_axes[1][k] + m_axes[2][k]))
+                               / granularity) * granularity;
+    }
+  }
+
+  Point_3 point(const Lattice_point& p) const
+  {
+    return {coordinate(0, p), coordinate(1, p), coordinate(2, p)};
+  }
+
+  Cell cell(const Lattice_point& c, std::uint32_t side) const
+  {
+    std::array<Point_3, 8> vertices;
+    for(std::uint32_t i = 0; i < 8; ++i)
+      vertices[i] = point({c[0] + (i & 1) * side, c[1] + (i >> 1 & 1) * side, c[2] + (i >> 2) * side});
+    return {vertices, point({c[0] + side / 2, c[1] + side / 2, c[2] + side / 2})};
+  }
+
+  double length(std::uint32_t side) const { return side * m_unit * m_norm; }
+
+private:
+  // The rotation that takes z to the axis, as a quaternion (a, b, c, 0) rounded to integers.
+  void set_frame(double x, double y, double z)
+  {
+    const double length = std::sqrt(x * x + y * y + z * z);
+    CGAL_precondition(length > 0 && std::isfinite(length));
+    double a = 1 + z / length, b = -y / length, c = x / length;
+    if(a < 1e-3)
+      a = 0, b = 1, c = 0; // opposite to z: half a turn about x
+    const double scale = 31 / std::sqrt(a * a + b * b + c * c);
+    a = std::round(a * scale), b = std::round(b * scale), c = std::round(c * scale);
+    m_norm = a * a + b * b + c * c;
+    m_axes[0] = {a * a + b * b - c * c, 2 * b * c, -2 * a * c};
+    m_axes[1] = {2 * b * c, a * a - b * b + c * c, 2 * a * b};
+    m_axes[2] = {2 * a * c, -2 * a * b, a * a - b * b - c * c};
+  }
+
+  double coordinate(int k, const Lattice_point& p) const
+  {
+    return m_origin[k] + m_unit * (p[0] * m_axes[0][k] + p[1] * m_axes[1][k] + p[2] * m_axes[2][k]);
+  }
+
+  std::array<double, 3> m_origin;
+  std::array<std::array<double, 3>, 3> m_axes; // integers, orthogonal, each of length m_norm
+  double m_norm, m_unit;
+};
+
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_OCTREE_CELL_TRAITS_3_H

@@ -1,0 +1,119 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which faces of the elements are the same: boundary and interior faces.
+
+#ifndef CGAL_MIXED_MESH_3_BOUNDARY_FACES_H
+#define CGAL_MIXED_MESH_3_BOUNDARY_FACES_H
+
+#include <CGAL/Mixed_mesh_3/Element_list.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+
+/// A face of an element, by its position in `Reference_element::faces`.
+struct Face_handle
+{
+  Element_index element;
+  std::uint8_t local_face;
+};
+
+namespace internal {
+
+constexpr Vertex_index no_vertex = Vertex_index(-1);
+
+/// The vertices of a face in the order of its orientation; the fourth is `no_vertex` for a triangle.
+inline std::array<Vertex_index, 4> face_vertices(const Element_view& element, int f)
+{
+  const Element_face& face = element.reference().faces[f];
+  std::array<Vertex_index, 4> v{no_vertex, no_vertex, no_vertex, no_vertex};
+  for(int i = 0; i < face.size; ++i)
+    v[i] = element[face.vertices[i]];
+  return v;
+}
+
+// Three or four numbers: cheaper than std::sort.
+inline void sort_vertices(std::array<Vertex_index, 4>& v)
+{
+  const auto order = [&v](int i, int j) {
+    if(v[j] < v[i])
+      std::swap(v[i], v[j]);
+  };
+  order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);
+}
+
+/// Calls `visit(faces, n)` for each set of vertices that is a face of `n` elements.
+/// \cost linear in the number of elements, if vertices have boundedly many; 16 bytes per face
+template <class Visitor>
+void for_each_face(const Element_list& elements, std::size_t number_of_vertices, const Visitor& visit)
+{
+  struct Entry
+  {
+    std::array<Vertex_index, 3> others; // sorted, without the smallest
+    Face_handle face;
+  };
+  const auto for_each = [&elements](const auto& f) {
+    for(Element_index e = 0; e < elements.size(); ++e) {
+      const Element_view element = elements[e];
+      for(int i = 0; i < element.reference().number_of_faces; ++i) {
+        std::array<Vertex_index, 4> v = face_vertices(element, i);
+        sort_vertices(v);
+        f(v, Face_handle{e, std::uint8_t(i)});
+      }
+    }
+  };
+  // Buckets by smallest vertex, within a bucket by the others.
+  std::vector<std::size_t> ends(number_of_vertices + 1, 0);
+  for_each([&](const std::array<Vertex_index, 4>& v, Face_handle) { ++ends[v[0] + 1]; });
+  for(std::size_t v = 0; v < number_of_vertices; ++v)
+    ends[v + 1] += ends[v];
+  std::vector<Entry> entries(ends.back());
+  for_each([&](const std::array<Vertex_index, 4>& v, Face_handle face) {
+    entries[ends[v[0]]++] = {{v[1], v[2], v[3]}, face};
+  });
+  std::vector<Face_handle> faces;
+  auto first = entries.begin();
+  for(std::size_t v = 0; v < number_of_vertices; ++v) {
+    const auto last = entries.begin() + std::ptrdiff_t(ends[v]);
+    std::sort(first, last, [](const Entry& a, const Entry& b) { return a.others < b.others; });
+    while(first != last) {
+      faces.clear();
+      const auto others = first->others;
+      for(; first != last && first->others == others; ++first)
+        faces.push_back(first->face);
+      visit(faces.data(), faces.size());
+    }
+  }
+}
+
+} // namespace internal
+
+/// The faces that belong to one element only, in the order of the elements.
+template <class Mesh>
+std::vector<typename Mesh::Boundary_face> boundary_faces(const Mesh& mesh)
+{
+  std::vector<typename Mesh::Boundary_face> faces;
+  internal::for_each_face(mesh.elements(), mesh.number_of_vertices(),
+                          [&](const Face_handle* f, std::size_t n) {
+                            if(n == 1)
+                              faces.push_back({f->element, f->local_face});
+                          });
+  std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) {
+    return std::make_pair(a.element, a.local_face) < std::make_pair(b.element, b.local_face);
+  });
+  return faces;
+}
+
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_BOUNDARY_FACES_H

@@ -1,0 +1,169 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The octree of a domain: each node knows where it is relative to the domain and to the region.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_LOCATED_OCTREE_H
+#define CGAL_MIXED_MESH_3_INTERNAL_LOCATED_OCTREE_H
+
+#include <CGAL/Mixed_mesh_3/internal/Octree.h>
+#include <CGAL/Mixed_mesh_3/internal/balance.h>
+
+#include <CGAL/enum.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/*!
+A balanced octree whose nodes are located in the domain and in the region of interest. Children of a
+node that is off a surface inherit its side; those of a node that meets it look at the parent's part
+of the surface only.
+
+Copies share the domain, the region and the cell traits, which must outlive them.
+*/
+template <class Domain, class Region, class CellTraits>
+class Located_octree
+{
+public:
+  using Node_index = Octree::Node_index;
+  using Cell_traits = CellTraits;
+  using Surface_part = typename Domain::Surface_part;
+
+  Located_octree(const Domain& domain, const Region& region, const CellTraits& traits)
+    : m_domain(&domain), m_region(&region), m_traits(&traits)
+  {
+    m_domain_parts.push_back(domain.surface_part());
+    m_region_parts.push_back(region.surface_part());
+    m_locations.push_back({ON_BOUNDARY, ON_BOUNDARY, 0, 0});
+    locate(Octree::root(), m_locations[0]);
+  }
+
+  const Octree& octree() const { return m_octree; }
+  const Domain& domain() const { return *m_domain; }
+  const CellTraits& traits() const { return *m_traits; }
+
+  /// `ON_BOUNDARY`: the cell meets the surface of the domain; else the side of all its points.
+  Bounded_side side(Node_index n) const { return Bounded_side(m_locations[n].domain); }
+  /// Whether the cell meets the domain. Only such cells are refined or become elements.
+  bool is_alive(Node_index n) const { return side(n) != ON_UNBOUNDED_SIDE; }
+  bool is_in_region(Node_index n) const { return m_locations[n].region != ON_UNBOUNDED_SIDE; }
+  /// The part of the domain's surface that meets the cell. \pre `side(n) == ON_BOUNDARY`
+  const Surface_part& surface_part(Node_index n) const
+  {
+    return m_domain_parts[m_locations[n].domain_part];
+  }
+
+  typename Domain::Point_3 point(const Lattice_point& p) const { return m_traits->point(p); }
+
+  /// Splits leaves, then balances across faces and edges.
+  template <class NodeRange>
+  void refine(const NodeRange& nodes)
+  {
+    std::vector<Node_index> refined(std::begin(nodes), std::end(nodes));
+    for(Node_index n : refined)
+      split(n);
+    balance(m_octree, refined, Adjacency::EDGE, [this](Node_index n) { split(n); });
+  }
+
+  /// The leaves of a level that meet the domain, and the region too if asked for.
+  std::vector<Node_index> leaves_to_refine(int level, bool in_region_only) const
+  {
+    std::vector<Node_index> leaves;
+    for(Node_index n = 0; n < m_octree.size(); ++n)
+      if(m_octree.level(n) == level && m_octree.is_leaf(n) && is_alive(n)
+         && (!in_region_only || is_in_region(n)))
+        leaves.push_back(n);
+    return leaves;
+  }
+
+  /// Sorts leaves of one level by the depth of their centre in the region, deepest first. Where
+  /// there are many, they share the depth of an ancestor.
+  void sort_by_depth(std::vector<Node_index>& leaves) const
+  {
+    if(leaves.empty())
+      return;
+    int level = m_octree.level(leaves.front());
+    for(std::size_t queries = leaves.size(); queries > 20000 && level > 0; queries /= 8)
+      --level;
+    const std::uint32_t side = Octree::side_at(level), mask = ~(side - 1);
+    std::vector<std::pair<double, Node_index>> keys; // minus depth, node
+    Lattice_point last{Octree::root_side, 0, 0};
+    double depth = 0;
+    for(Node_index n : leaves) {
+      Lattice_point p = m_octree.corner(n);
+      for(std::uint32_t& c : p)
+        c &= mask;
+      if(p != last) {
+        depth = m_region->depth(m_traits->point({p[0] + side / 2, p[1] + side / 2, p[2] + side / 2}));
+        last = p;
+      }
+      keys.emplace_back(-depth, n);
+    }
+    std::sort(keys.begin(), keys.end());
+    for(std::size_t i = 0; i < leaves.size(); ++i)
+      leaves[i] = keys[i].second;
+  }
+
+private:
+  struct Location
+  {
+    std::int8_t domain, region; // Bounded_side
+    std::uint32_t domain_part, region_part; // 0: none (or, for the root, the whole)
+  };
+
+  void split(Node_index n)
+  {
+    const Node_index first = m_octree.split(n);
+    for(Node_index c = first; c < first + 8; ++c) {
+      m_locations.push_back(m_locations[n]);
+      locate(c, m_locations.back());
+    }
+  }
+
+  // Replaces the location of the parent by that of the cell.
+  void locate(Node_index n, Location& l)
+  {
+    const auto cell = m_traits->cell(m_octree.corner(n), m_octree.side(n));
+    l.domain = locate(*m_domain, cell, l.domain, l.domain_part, m_domain_parts);
+    l.region = locate(*m_region, cell, l.region, l.region_part, m_region_parts);
+  }
+
+  template <class Oracle, class Cell, class Part>
+  static std::int8_t locate(const Oracle& oracle, const Cell& cell, std::int8_t parent_side,
+                            std::uint32_t& part, std::vector<Part>& parts)
+  {
+    if(parent_side != ON_BOUNDARY)
+      return parent_side;
+    Part mine;
+    const Bounded_side side = oracle.locate(cell, parts[part], mine);
+    part = 0;
+    if(side == ON_BOUNDARY) {
+      part = std::uint32_t(parts.size());
+      parts.push_back(std::move(mine));
+    }
+    return std::int8_t(side);
+  }
+
+  const Domain* m_domain;
+  const Region* m_region;
+  const CellTraits* m_traits;
+  Octree m_octree;
+  std::vector<Location> m_locations;
+  std::vector<Surface_part> m_domain_parts;
+  std::vector<typename Region::Surface_part> m_region_parts;
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_LOCATED_OCTREE_H

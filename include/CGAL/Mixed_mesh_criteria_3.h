@@ -1,0 +1,97 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_CRITERIA_3_H
+#define CGAL_MIXED_MESH_CRITERIA_3_H
+
+#include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
+#include <CGAL/Mixed_mesh_3/internal/Boundary_stage.h>
+#include <CGAL/Mixed_mesh_3/internal/apply_transitions.h>
+
+#include <CGAL/assertions.h>
+
+#include <cstddef>
+
+namespace CGAL {
+
+/*!
+\brief What a mixed mesh shall be like. Each setter returns the object, so that calls can be chained.
+*/
+class Mixed_mesh_criteria_3
+{
+public:
+  static constexpr int automatic = -1;
+
+  /// \param maximal_number_of_vertices the vertex budget: the mesh has at most that many vertices,
+  ///        those of transitions and of the boundary included. \pre at least 1
+  explicit Mixed_mesh_criteria_3(std::size_t maximal_number_of_vertices)
+    : m_maximal_number_of_vertices(maximal_number_of_vertices)
+  {
+    CGAL_precondition(maximal_number_of_vertices > 0);
+  }
+
+  std::size_t maximal_number_of_vertices() const { return m_maximal_number_of_vertices; }
+
+  /// The octree level to which the whole domain is refined; cells of level `l` are 2^l times smaller
+  /// than the root. Default: 3, or the finest below it that leaves the budget unbroken.
+  /// \pre `automatic`, or from 0 to 10
+  Mixed_mesh_criteria_3& base_level(int level)
+  {
+    CGAL_precondition(level == automatic || (level >= 0 && level <= 10));
+    m_base_level = level;
+    return *this;
+  }
+  int base_level() const { return m_base_level; }
+
+  /// The shape of the root, hence of all cells. Default: a cube.
+  Mixed_mesh_criteria_3& root_cell(Mixed_meshes_3::Root_cell root)
+  {
+    m_root_cell = root;
+    return *this;
+  }
+  Mixed_meshes_3::Root_cell root_cell() const { return m_root_cell; }
+
+  /// The transition templates. Default: those with the fewest vertices.
+  Mixed_mesh_criteria_3& transition_templates(Mixed_meshes_3::Transition_templates_choice choice)
+  {
+    m_transition_templates = choice;
+    return *this;
+  }
+  Mixed_meshes_3::Transition_templates_choice transition_templates() const
+  {
+    return m_transition_templates;
+  }
+
+  /// How elements at the surface are split. Default: by vertex order.
+  Mixed_mesh_criteria_3& boundary_mode(Mixed_meshes_3::Boundary_mode mode)
+  {
+    m_boundary_mode = mode;
+    return *this;
+  }
+  Mixed_meshes_3::Boundary_mode boundary_mode() const { return m_boundary_mode; }
+
+  /// How many threads answer queries on the surface. The mesh does not depend on it. Default: 1.
+  /// \pre at least 1
+  Mixed_mesh_criteria_3& number_of_threads(unsigned threads)
+  {
+    CGAL_precondition(threads > 0);
+    m_number_of_threads = threads;
+    return *this;
+  }
+  unsigned number_of_threads() const { return m_number_of_threads; }
+
+private:
+  std::size_t m_maximal_number_of_vertices;
+  int m_base_level = automatic;
+  Mixed_meshes_3::Root_cell m_root_cell = Mixed_meshes_3::Root_cell::CUBE;
+  Mixed_meshes_3::Transition_templates_choice m_transition_templates =
+    Mixed_meshes_3::Transition_templates_choice::FEWEST_VERTICES;
+  Mixed_meshes_3::Boundary_mode m_boundary_mode = Mixed_meshes_3::Boundary_mode::VERTEX_ORDER;
+  unsigned m_number_of_threads = 1;
+};
+
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_CRITERIA_3_H

@@ -1,0 +1,164 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Regions of interest: models of `MixedMeshRegion_3`.
+
+#ifndef CGAL_MIXED_MESH_REGIONS_3_H
+#define CGAL_MIXED_MESH_REGIONS_3_H
+
+#include <CGAL/Mixed_mesh_3/internal/Surface_oracle_3.h>
+
+#include <CGAL/Named_function_parameters.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace CGAL {
+
+/*!
+\brief The region inside a closed triangulated surface.
+
+\cgalModels{MixedMeshRegion_3}
+*/
+class Polyhedral_mixed_mesh_region_3 : public Mixed_meshes_3::internal::Surface_oracle_3
+{
+public:
+  /// \pre `CGAL::is_triangle_mesh(surface) && CGAL::is_closed(surface)`
+  template <class FaceListGraph, class NamedParameters = parameters::Default_named_parameters>
+  explicit Polyhedral_mixed_mesh_region_3(const FaceListGraph& surface,
+                                          const NamedParameters& np = parameters::default_values())
+    : Surface_oracle_3(surface, np)
+  {}
+
+  /// Depth below the surface; negative outside.
+  double depth(const Point_3& p) const
+  {
+    const double d = std::sqrt(CGAL::squared_distance(p, closest_point(p)));
+    return bounded_side(p) == ON_UNBOUNDED_SIDE ? -d : d;
+  }
+};
+
+/*!
+\brief The region where a function is positive.
+
+The function must not change faster than the distance (for example, a signed distance, positive
+inside), so that its value at the centre of a cell tells where the cell can not be.
+
+\cgalModels{MixedMeshRegion_3}
+*/
+class Implicit_mixed_mesh_region_3
+{
+public:
+  using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
+  struct Surface_part {};
+
+  /// \param depth a function object `double(Point_3)`, positive inside, of Lipschitz constant 1
+  explicit Implicit_mixed_mesh_region_3(std::function<double(const Point_3&)> depth)
+    : m_depth(std::move(depth))
+  {}
+
+  Surface_part surface_part() const { return {}; }
+
+  template <class Cell>
+  Bounded_side locate(const Cell& cell, const Surface_part&, Surface_part&) const
+  {
+    const Bbox_3 b = cell.bbox();
+    const double radius = std::hypot(b.x_span(), b.y_span(), b.z_span()) / 2;
+    const double d = depth(cell.centre());
+    return d > radius ? ON_BOUNDED_SIDE : d < -radius ? ON_UNBOUNDED_SIDE : ON_BOUNDARY;
+  }
+
+  double depth(const Point_3& p) const { return m_depth(p); }
+
+private:
+  std::function<double(const Point_3&)> m_depth;
+};
+
+/*!
+\brief A ball.
+
+\cgalModels{MixedMeshRegion_3}
+*/
+class Ball_mixed_mesh_region_3 : public Implicit_mixed_mesh_region_3
+{
+public:
+  /// \param centre,radius in the unit of the domain. \pre `radius > 0`
+  Ball_mixed_mesh_region_3(const Point_3& centre, double radius)
+    : Implicit_mixed_mesh_region_3([centre, radius](const Point_3& p) {
+        return radius - std::sqrt(CGAL::squared_distance(p, centre));
+      })
+  {
+    CGAL_precondition(radius > 0);
+  }
+};
+
+/// The region that is everywhere: the whole domain is refined.
+/// \cgalModels{MixedMeshRegion_3}
+class Everywhere_mixed_mesh_region_3
+{
+public:
+  using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
+  struct Surface_part {};
+  Surface_part surface_part() const { return {}; }
+  template <class Cell>
+  Bounded_side locate(const Cell&, const Surface_part&, Surface_part&) const
+  {
+    return ON_BOUNDED_SIDE;
+  }
+  double depth(const Point_3&) const { return 0; }
+};
+
+/*!
+\brief The union of regions.
+
+\tparam Regions models of `MixedMeshRegion_3`
+\cgalModels{MixedMeshRegion_3}
+*/
+template <class... Regions>
+class Union_mixed_mesh_region_3
+{
+public:
+  using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
+  using Surface_part = std::tuple<typename Regions::Surface_part...>;
+
+  /// Takes the regions over (wrap one in `std::move`: a polyhedral region cannot be copied).
+  explicit Union_mixed_mesh_region_3(Regions... regions) : m_regions(std::move(regions)...) {}
+
+  Surface_part surface_part() const
+  {
+    return std::apply([](const auto&... r) { return Surface_part(r.surface_part()...); }, m_regions);
+  }
+
+  template <class Cell>
+  Bounded_side locate(const Cell& cell, const Surface_part& parent, Surface_part& part) const
+  {
+    return locate(cell, parent, part, std::index_sequence_for<Regions...>());
+  }
+
+  double depth(const Point_3& p) const
+  {
+    return std::apply([&](const auto&... r) { return (std::max)({r.depth(p)...}); }, m_regions);
+  }
+
+private:
+  // Inside one is inside; a boundary may lie within another region, which does no harm.
+  template <class Cell, std::size_t... I>
+  Bounded_side locate(const Cell& cell, const Surface_part& parent, Surface_part& part,
+                      std::index_sequence<I...>) const
+  {
+    return (std::max)({std::get<I>(m_regions).locate(cell, std::get<I>(parent),
+                                                     std::get<I>(part))...});
+  }
+
+  std::tuple<Regions...> m_regions;
+};
+
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_REGIONS_3_H

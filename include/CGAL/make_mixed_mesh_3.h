@@ -1,0 +1,226 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MAKE_MIXED_MESH_3_H
+#define CGAL_MAKE_MIXED_MESH_3_H
+
+#include <CGAL/Mixed_mesh_3.h>
+#include <CGAL/Mixed_mesh_3/Default_visitor.h>
+#include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
+#include <CGAL/Mixed_mesh_3/internal/Boundary_stage.h>
+#include <CGAL/Mixed_mesh_3/internal/Located_octree.h>
+#include <CGAL/Mixed_mesh_3/internal/apply_transitions.h>
+#include <CGAL/Mixed_mesh_3/internal/assemble_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/refine_in_region.h>
+#include <CGAL/Mixed_mesh_criteria_3.h>
+#include <CGAL/Mixed_mesh_regions_3.h>
+#include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
+
+#include <CGAL/Named_function_parameters.h>
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+namespace CGAL {
+
+/// How `make_mixed_mesh_3()` ended.
+enum class Mixed_mesh_status {
+  SUCCESS,            ///< the budget is filled to at least 97 %
+  BUDGET_NOT_FILLED,  ///< valid, but no cell of the region could be refined further
+  BUDGET_TOO_SMALL,   ///< no mesh: the coarsest one has more vertices than the budget
+  EMPTY,              ///< no mesh: no octree vertex is inside the domain
+  REGION_NOT_MET,     ///< no mesh: the region does not meet the domain
+  BOUNDARY_NOT_MANIFOLD, ///< the boundary is pinched at vertices on the border of the root cell
+  STOPPED             ///< no mesh: the visitor said so
+};
+
+/// What `make_mixed_mesh_3()` did.
+struct Mixed_mesh_result_3
+{
+  Mixed_mesh_status status = Mixed_mesh_status::EMPTY;
+  int base_level = 0;
+  int deepest_level = 0;
+  std::size_t number_of_cells = 0;                       ///< leaves that meet the domain
+  std::size_t number_of_vertices_needed = 0;             ///< of the coarsest mesh tried
+  std::size_t number_of_transition_vertices = 0;         ///< inserted by the transition templates
+  std::size_t number_of_boundary_vertices_inserted = 0;  ///< inserted by the boundary stage
+  std::size_t number_of_relabelled_vertices = 0;         ///< to make the boundary a manifold
+  std::size_t number_of_trials = 0;                      ///< octrees tried in search of the budget
+
+  /// Whether there is a mesh, and it is what was asked for or as close to it as possible.
+  bool has_mesh() const
+  {
+    return status == Mixed_mesh_status::SUCCESS || status == Mixed_mesh_status::BUDGET_NOT_FILLED
+           || status == Mixed_mesh_status::BOUNDARY_NOT_MANIFOLD;
+  }
+};
+
+namespace Mixed_meshes_3 {
+namespace internal {
+
+// One octree with the mesh made of it.
+struct Candidate
+{
+  std::size_t number_of_vertices = 0; // 0: stopped
+  Lattice_mesh mesh;
+  Boundary_pieces boundary;
+};
+
+template <class Domain, class Region, class CellTraits, class Mesh, class Visitor>
+Mixed_mesh_result_3 make_mesh(const Domain& domain, const Region& region,
+                              const Mixed_mesh_criteria_3& criteria, const CellTraits& traits,
+                              Mesh& mesh, Visitor& visitor)
+{
+  using Octree_ = Located_octree<Domain, Region, CellTraits>;
+  const std::size_t budget = criteria.maximal_number_of_vertices();
+  const unsigned threads = criteria.number_of_threads();
+  Mixed_mesh_result_3 result;
+  mesh.clear();
+
+  // The stages that follow the octree, for each octree on the way to the budget.
+  const auto try_octree = [&](const Octree_& octree) {
+    Candidate c;
+    visitor.end_stage(Stage::OCTREE);
+    if(visitor.go_on()) {
+      visitor.begin_stage(Stage::TRANSITIONS);
+      c.mesh = apply_transitions(octree, criteria.transition_templates(), threads);
+      visitor.end_stage(Stage::TRANSITIONS);
+      visitor.begin_stage(Stage::BOUNDARY);
+      c.boundary = split_boundary(octree, c.mesh, criteria.boundary_mode(), threads);
+      visitor.end_stage(Stage::BOUNDARY);
+      ++result.number_of_trials;
+      c.number_of_vertices = c.boundary.number_of_vertices;
+      visitor.progress(c.number_of_vertices, budget);
+    }
+    visitor.begin_stage(Stage::OCTREE);
+    return c;
+  };
+
+  // If no base level is given: the finest, from 3 down, that the budget allows.
+  const bool is_automatic = criteria.base_level() == Mixed_mesh_criteria_3::automatic;
+  int base_level = is_automatic ? 3 : criteria.base_level();
+  visitor.begin_stage(Stage::OCTREE);
+  Octree_ octree(domain, region, traits);
+  Candidate best;
+  for(;; --base_level) {
+    Octree_ trial(octree);
+    best = refine_in_region(trial, budget, base_level, try_octree);
+    if(!visitor.go_on() || best.number_of_vertices <= budget || !is_automatic || base_level == 0) {
+      octree = std::move(trial);
+      break;
+    }
+  }
+  visitor.end_stage(Stage::OCTREE);
+
+  result.base_level = base_level;
+  result.number_of_vertices_needed = best.number_of_vertices;
+  bool meets_region = false;
+  for(Octree::Node_index n = 0; n < octree.octree().size(); ++n)
+    if(octree.octree().is_leaf(n) && octree.is_alive(n)) {
+      ++result.number_of_cells;
+      result.deepest_level = (std::max)(result.deepest_level, octree.octree().level(n));
+      meets_region = meets_region || octree.is_in_region(n);
+    }
+  result.number_of_transition_vertices = best.mesh.number_of_inserted_vertices;
+  result.number_of_boundary_vertices_inserted = best.boundary.number_of_inserted_vertices;
+  result.number_of_relabelled_vertices = best.boundary.number_of_relabelled_vertices;
+  result.status = !visitor.go_on()                    ? Mixed_mesh_status::STOPPED
+                  : best.number_of_vertices == 0      ? Mixed_mesh_status::EMPTY
+                  : best.number_of_vertices > budget  ? Mixed_mesh_status::BUDGET_TOO_SMALL
+                  : !meets_region                     ? Mixed_mesh_status::REGION_NOT_MET
+                  : !best.boundary.defects.empty()    ? Mixed_mesh_status::BOUNDARY_NOT_MANIFOLD
+                  : best.number_of_vertices < 0.97 * double(budget)
+                                                      ? Mixed_mesh_status::BUDGET_NOT_FILLED
+                                                      : Mixed_mesh_status::SUCCESS;
+  if(result.has_mesh()) {
+    visitor.begin_stage(Stage::ASSEMBLY);
+    assemble_mesh(octree, best.mesh, best.boundary, mesh);
+    visitor.end_stage(Stage::ASSEMBLY);
+  }
+  return result;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+
+/*!
+\brief Meshes a domain with mixed elements, fine in a region of interest, within a vertex budget.
+
+The octree of the domain is split in the region only, balanced across faces and edges, and made
+conforming by transition templates; elements at the surface are split so that they can follow it
+(Lobos, Bucki, Hitschfeld, Payan: sections 5.1 and 5.2). Boundary vertices stay where the octree has
+them; all are outside or on the surface.
+
+Guarantees if `result.has_mesh()`: at most `criteria.maximal_number_of_vertices()` vertices; conforming;
+every element has positive volume, and so have its corner tetrahedra; the boundary is a closed
+oriented 2-manifold unless the status says otherwise; the same input gives the same mesh, whatever the
+number of threads.
+
+\tparam Domain a model of `MixedMeshDomain_3`
+\tparam Region a model of `MixedMeshRegion_3`
+\tparam CellTraits a model of `OctreeCellTraits_3`
+\tparam GeomTraits a model of `MixedMeshTraits_3`
+\param domain what to mesh
+\param region where to refine
+\param criteria the budget, and how to mesh
+\param cell_traits the frame of the octree
+\param mesh the result; cleared first
+\param np an optional sequence of named parameters: `visitor`, a pointer-like or reference-wrapped model
+       of `MixedMeshVisitor_3` (default: `Mixed_meshes_3::Default_visitor`)
+\return the status and what was done
+\cost linear in the number of vertices, and in the number of triangles of the surfaces
+*/
+template <class Domain, class Region, class CellTraits, class GeomTraits,
+          class NamedParameters = parameters::Default_named_parameters>
+Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region,
+                                      const Mixed_mesh_criteria_3& criteria,
+                                      const CellTraits& cell_traits, Mixed_mesh_3<GeomTraits>& mesh,
+                                      const NamedParameters& np)
+{
+  using Visitor = typename internal_np::Lookup_named_param_def<
+    internal_np::visitor_t, NamedParameters, Mixed_meshes_3::Default_visitor>::reference;
+  Mixed_meshes_3::Default_visitor default_visitor;
+  Visitor visitor = parameters::choose_parameter(
+    parameters::get_parameter_reference(np, internal_np::visitor), default_visitor);
+  return Mixed_meshes_3::internal::make_mesh(domain, region, criteria, cell_traits, mesh, visitor);
+}
+
+/// As above, with cells parallel to the axes and the root that the criteria say.
+template <class Domain, class Region, class GeomTraits,
+          class NamedParameters = parameters::Default_named_parameters>
+Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region,
+                                      const Mixed_mesh_criteria_3& criteria,
+                                      Mixed_mesh_3<GeomTraits>& mesh,
+                                      const NamedParameters& np = parameters::default_values())
+{
+  const Mixed_meshes_3::Axis_aligned_octree_cell_traits_3 traits(domain.bbox(),
+                                                                 criteria.root_cell());
+  return make_mixed_mesh_3(domain, region, criteria, traits, mesh, np);
+}
+
+/*!
+As above, for two closed triangulated surfaces and a vertex budget.
+
+\tparam Surface, RegionSurface models of `FaceListGraph`, with points of any CGAL kernel
+\param surface the surface of the domain. \pre closed and triangulated
+\param region_surface the surface of the region of interest. \pre closed and triangulated
+\param maximal_number_of_vertices the vertex budget. \pre at least 1
+*/
+template <class Surface, class RegionSurface, class GeomTraits,
+          class NamedParameters = parameters::Default_named_parameters>
+Mixed_mesh_result_3 make_mixed_mesh_3(const Surface& surface, const RegionSurface& region_surface,
+                                      std::size_t maximal_number_of_vertices,
+                                      Mixed_mesh_3<GeomTraits>& mesh,
+                                      const NamedParameters& np = parameters::default_values())
+{
+  return make_mixed_mesh_3(Polyhedral_mixed_mesh_domain_3(surface),
+                           Polyhedral_mixed_mesh_region_3(region_surface),
+                           Mixed_mesh_criteria_3(maximal_number_of_vertices), mesh, np);
+}
+
+} // namespace CGAL
+
+#endif // CGAL_MAKE_MIXED_MESH_3_H

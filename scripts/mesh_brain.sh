@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# From a fresh clone to a meshed brain: installs what is missing, builds the
+# command-line mesher, meshes data/brain.off refined in data/region.off, and
+# draws the result.
+#
+#   scripts/mesh_brain.sh [VERTICES]      the vertex budget, 660 by default
+#
+# Writes to out/. BUILD_DIR overrides the build directory, build/release.
+
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+# shellcheck source=scripts/setup.sh
+source "$root/scripts/setup.sh"
+
+vertices=${1:-660}
+build=${BUILD_DIR:-$root/build/release}
+out=$root/out
+
+install_packages build pictures
+
+if [[ ! -f $build/build.ninja ]]; then
+  cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF
+fi
+cmake --build "$build" --target mixed_mesh_3 --parallel "$(build_jobs)"
+
+mkdir -p "$out"
+"$build/bin/mixed_mesh_3" "$root/data/brain.off" --region "$root/data/region.off" --vertices "$vertices" \
+  --output "$out/brain.vtu" --output "$out/brain.msh" --report "$out/brain.json"
+
+# Debian's Python, which has Debian's VTK, whatever other Python the PATH leads to.
+timeout 600 /usr/bin/python3 "$root/scripts/render_mesh.py" "$out/brain.vtu" \
+  --surface "$root/data/brain.off" --region "$root/data/region.off" --output-prefix "$out/brain"
+
+cat << END
+
+mesh:     $out/brain.vtu (ParaView)
+          $out/brain.msh (Gmsh)
+report:   $out/brain.json
+pictures: $out/brain_surface.png
+          $out/brain_kinds.png
+          $out/brain_ARC.png
+END

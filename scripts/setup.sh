@@ -1,0 +1,80 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Installs the Debian packages that are missing for the purposes named:
+#
+#   scripts/setup.sh [build] [pictures] [tests]
+#
+# When nothing is missing, apt is not called. The other scripts source this
+# file for its two functions, install_packages and build_jobs.
+# SKIP_SETUP=1 installs nothing, for a system that got its packages elsewhere.
+
+set -euo pipefail
+
+fail() {
+  echo "${0##*/}: error: $*" >&2
+  exit 1
+}
+
+# Prints the packages of one purpose.
+packages_for() {
+  case $1 in
+    build) echo g++ cmake ninja-build libcgal-dev libeigen3-dev libcli11-dev nlohmann-json3-dev \
+                libboost-dev libgmp-dev libmpfr-dev ;;
+    # VTK opens an X display even to render off-screen: Xvfb and Mesa's software renderer provide it.
+    pictures) echo python3-vtk9 xvfb libgl1-mesa-dri ;;
+    # Peers that read back the files that we write.
+    tests) echo python3-gmsh python3-vtk9 ;;
+    *) fail "unknown purpose '$1': expected build, pictures or tests" ;;
+  esac
+}
+
+# Installs what is missing of the packages for the purposes given.
+install_packages() {
+  [[ ${SKIP_SETUP:-} != 1 ]] || return 0
+  local purpose packages package
+  local -a missing=() as_root=()
+  if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
+    fail "this system has no apt: install the packages listed in scripts/setup.sh, then set SKIP_SETUP=1"
+  fi
+
+  for purpose in "$@"; do
+    packages=$(packages_for "$purpose")
+    for package in $packages; do
+      if [[ " ${missing[*]-} " != *" $package "* &&
+            $(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2> /dev/null) != installed ]]; then
+        missing+=("$package")
+      fi
+    done
+  done
+  [[ ${#missing[@]} -gt 0 ]] || return 0
+
+  if [[ $(id -u) -ne 0 ]]; then
+    command -v sudo > /dev/null || fail "needs root or sudo to install: ${missing[*]}"
+    as_root=(sudo)
+  fi
+  echo "Installing ${missing[*]}"
+  as_root+=(env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=600 -o Acquire::Retries=3)
+  "${as_root[@]}" update
+  "${as_root[@]}" -o Dpkg::Use-Pty=0 install --yes --no-install-recommends "${missing[@]}" > /dev/null ||
+    fail "could not install: ${missing[*]}"
+}
+
+# Prints how many compilers may run at once: one a core, with 1.5 GB of memory each.
+build_jobs() {
+  local cores memory limit jobs
+  cores=$(nproc)
+  memory=$(awk '/^MemAvailable:/ { print $2 }' /proc/meminfo)
+  limit=$(cat /sys/fs/cgroup/memory.max 2> /dev/null || echo max)
+  if [[ $limit != max && $((limit / 1024)) -lt $memory ]]; then
+    memory=$((limit / 1024))
+  fi
+  jobs=$((memory / 1500000))
+  jobs=$((jobs < cores ? jobs : cores))
+  echo $((jobs > 1 ? jobs : 1))
+}
+
+if [[ ${BASH_SOURCE[0]} == "$0" ]]; then
+  [[ $# -gt 0 ]] || set -- build pictures tests
+  install_packages "$@"
+fi

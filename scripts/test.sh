@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Installs what is missing, builds the tests and the examples, and runs them:
+#
+#   scripts/test.sh [CTEST_OPTION...]     for example: scripts/test.sh -R octree
+#
+# BUILD_DIR overrides the build directory, build/test.
+
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+# shellcheck source=scripts/setup.sh
+source "$root/scripts/setup.sh"
+
+build=${BUILD_DIR:-$root/build/test}
+
+install_packages build pictures tests
+
+if [[ ! -f $build/build.ninja ]]; then
+  cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON
+fi
+cmake --build "$build" --parallel "$(build_jobs)"
+ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$(nproc)" "$@"
