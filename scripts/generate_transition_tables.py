@@ -342,7 +342,8 @@ def all_candidates():
                 for h in fourth.get((d, a, f), ()):
                     for g in fourth.get((c, b, e), ()):
                         if h > a and g > a and len({a, b, c, d, e, f, g, h}) == 8 \
-                                and g in fourth.get((h, d, c), ()) and g in fourth.get((h, f, e), ()):
+                                and g in fourth.get((h, d, c), ()) \
+                                and g in fourth.get((h, f, e), ()):
                             add((a, b, c, d, f, e, g, h))
     return sorted(found, key=lambda e: (len(e), e))
 
@@ -367,8 +368,8 @@ class Candidates:
                     boundary.append(bitset(face))
             self.sides.append(sides)
             self.boundary_faces.append(boundary)
-            self.boundary_edges.append([bitset((e[i], e[j])) for i, j in EDGES[KIND_OF_SIZE[len(e)]]
-                                        if on_one_cube_face((e[i], e[j]))])
+            edges = [(e[i], e[j]) for i, j in EDGES[KIND_OF_SIZE[len(e)]]]
+            self.boundary_edges.append([bitset(edge) for edge in edges if on_one_cube_face(edge)])
 
     def of_pattern(self, mask, with_centre, arc_limit):
         """Indices of the candidates that a solution for this pattern can contain."""
@@ -561,7 +562,8 @@ namespace internal {
 // A class is: mask, number of elements, elements.  An element is: kind (0 tetrahedron, 1 pyramid,
 // 2 prism, 3 hexahedron), then its 4, 5, 6 or 8 lattice indices.
 // Comments: mask, elements of each kind, worst ARC, "centre" if the cell centre (13) is a vertex.
-// %(free)d classes do without the centre (worst ARC %(arc_free).3f), %(centred)d have it (worst ARC %(arc_centred).3f).
+// %(free)d classes do without the centre (worst ARC %(arc_free).3f),
+// %(centred)d have it (worst ARC %(arc_centred).3f).
 
 constexpr int number_of_transition_classes = %(classes)d;
 

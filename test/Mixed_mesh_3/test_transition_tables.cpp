@@ -134,8 +134,7 @@ std::set<Vertex_set> expected_pieces(unsigned int mask, int face)
           result.insert({ m, a, c });
     return result;
   }
-  if (split.size() == 2 && distance(split[0], split[1]) == 2 && corners_at(split[0], 1) !=
-      corners_at(split[1], 1))
+  if (split.size() == 2)
   {
     std::vector<int> common;
     for (int c : corners)
@@ -225,12 +224,12 @@ Polygon reversed(Polygon polygon)
 
 int six_volume(const Template_element& e)
 {
-  // Any apex will do: all faces are planar.
+  // Cones from the cell's centre; any apex would do, as all faces are planar.
   int result = 0;
   for (const Polygon& face : faces(e))
     for (std::size_t i = 2; i < face.size(); ++i)
       result -= det(face[0], face[i - 1], face[i], 13);
-  return -result > 0 ? -result : -result;
+  return result;
 }
 
 bool has_positive_order(const Template_element& e)

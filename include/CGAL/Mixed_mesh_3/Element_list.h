@@ -76,6 +76,17 @@ public:
     add(kind, vertices.begin());
   }
 
+  /// Adds `n` elements of one kind, whose vertices are to be written to `connectivity()`.
+  void add_many(Element_kind kind, std::size_t n)
+  {
+    const std::size_t size = std::size_t(reference_elements[kind].number_of_vertices);
+    m_kinds.insert(m_kinds.end(), n, kind);
+    m_offsets.reserve(m_offsets.size() + n);
+    for(std::size_t i = 0; i < n; ++i)
+      m_offsets.push_back(m_offsets.back() + size);
+    m_vertices.resize(m_vertices.size() + n * size);
+  }
+
   void reserve(std::size_t elements, std::size_t vertices)
   {
     m_kinds.reserve(elements);

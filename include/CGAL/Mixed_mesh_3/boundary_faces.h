@@ -51,44 +51,54 @@ inline void sort_vertices(std::array<Vertex_index, 4>& v)
   order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);
 }
 
-/// Calls `visit(faces, n)` for each set of vertices that is a face of `n` elements.
-/// \cost linear in the number of elements, if vertices have boundedly many; 16 bytes per face
-template <class Visitor>
-void for_each_face(const Element_list& elements, std::size_t number_of_vertices, const Visitor& visit)
+/// Calls `visit(faces, n)` for each set of vertices that is a face of `n` elements, among the faces all
+/// of whose vertices satisfy `is_candidate`.
+/// \cost linear in the number of elements, if vertices have boundedly many; 24 bytes per face
+template <class Is_candidate, class Visitor>
+void for_each_face(const Element_list& elements, std::size_t number_of_vertices,
+                   const Is_candidate& is_candidate, const Visitor& visit)
 {
+  // In buckets by the smallest vertex; within a bucket by the others, sorted.
   struct Entry
   {
-    std::array<Vertex_index, 3> others; // sorted, without the smallest
+    std::uint64_t second_and_third;
+    Vertex_index fourth;
     Face_handle face;
+    bool operator<(const Entry& e) const
+    {
+      return second_and_third != e.second_and_third ? second_and_third < e.second_and_third
+                                                    : fourth < e.fourth;
+    }
   };
-  const auto for_each = [&elements](const auto& f) {
+  const auto for_each = [&](const auto& f) {
     for(Element_index e = 0; e < elements.size(); ++e) {
       const Element_view element = elements[e];
       for(int i = 0; i < element.reference().number_of_faces; ++i) {
         std::array<Vertex_index, 4> v = face_vertices(element, i);
+        if(!std::all_of(v.begin(), v.begin() + element.reference().faces[i].size, is_candidate))
+          continue;
         sort_vertices(v);
         f(v, Face_handle{e, std::uint8_t(i)});
       }
     }
   };
-  // Buckets by smallest vertex, within a bucket by the others.
   std::vector<std::size_t> ends(number_of_vertices + 1, 0);
   for_each([&](const std::array<Vertex_index, 4>& v, Face_handle) { ++ends[v[0] + 1]; });
   for(std::size_t v = 0; v < number_of_vertices; ++v)
     ends[v + 1] += ends[v];
   std::vector<Entry> entries(ends.back());
   for_each([&](const std::array<Vertex_index, 4>& v, Face_handle face) {
-    entries[ends[v[0]]++] = {{v[1], v[2], v[3]}, face};
+    entries[ends[v[0]]++] = {std::uint64_t(v[1]) << 32 | v[2], v[3], face};
   });
   std::vector<Face_handle> faces;
   auto first = entries.begin();
   for(std::size_t v = 0; v < number_of_vertices; ++v) {
     const auto last = entries.begin() + std::ptrdiff_t(ends[v]);
-    std::sort(first, last, [](const Entry& a, const Entry& b) { return a.others < b.others; });
+    std::sort(first, last);
     while(first != last) {
       faces.clear();
-      const auto others = first->others;
-      for(; first != last && first->others == others; ++first)
+      const Entry& same = *first;
+      for(; first != last && !(same < *first); ++first)
         faces.push_back(first->face);
       visit(faces.data(), faces.size());
     }
@@ -98,11 +108,14 @@ void for_each_face(const Element_list& elements, std::size_t number_of_vertices,
 } // namespace internal
 
 /// The faces that belong to one element only, in the order of the elements.
-template <class Mesh>
-std::vector<typename Mesh::Boundary_face> boundary_faces(const Mesh& mesh)
+/// \param is_candidate `bool(Vertex_index)`: looks at faces all of whose vertices satisfy it only;
+///        faster if few do
+template <class Mesh, class Is_candidate>
+std::vector<typename Mesh::Boundary_face> boundary_faces(const Mesh& mesh,
+                                                         const Is_candidate& is_candidate)
 {
   std::vector<typename Mesh::Boundary_face> faces;
-  internal::for_each_face(mesh.elements(), mesh.number_of_vertices(),
+  internal::for_each_face(mesh.elements(), mesh.number_of_vertices(), is_candidate,
                           [&](const Face_handle* f, std::size_t n) {
                             if(n == 1)
                               faces.push_back({f->element, f->local_face});
@@ -111,6 +124,13 @@ std::vector<typename Mesh::Boundary_face> boundary_faces(const Mesh& mesh)
     return std::make_pair(a.element, a.local_face) < std::make_pair(b.element, b.local_face);
   });
   return faces;
+}
+
+/// As above, looking at all faces.
+template <class Mesh>
+std::vector<typename Mesh::Boundary_face> boundary_faces(const Mesh& mesh)
+{
+  return boundary_faces(mesh, [](Vertex_index) { return true; });
 }
 
 } // namespace Mixed_meshes_3

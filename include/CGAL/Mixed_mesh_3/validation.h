@@ -159,7 +159,9 @@ void find_nonconforming_faces(const Mesh& mesh, Mesh_defects& defects)
     return face_vertices(mesh.element(f.element), f.local_face);
   };
   std::vector<Boundary_polygon> boundary;
-  for_each_face(mesh.elements(), mesh.number_of_vertices(), [&](const Face_handle* f, std::size_t n) {
+  const auto all = [](Vertex_index) { return true; };
+  for_each_face(mesh.elements(), mesh.number_of_vertices(), all,
+                [&](const Face_handle* f, std::size_t n) {
     if(n == 1) {
       const auto v = vertices(f[0]);
       boundary.push_back({v, v[3] == no_vertex ? 3 : 4});

@@ -63,11 +63,9 @@ public:
   Boundary_stage(const Octree_& located, Lattice_mesh& mesh, Boundary_mode mode, unsigned threads)
     : m_located(located), m_mesh(mesh), m_mode(mode), m_threads(threads)
   {
-    for(Element_index e = 0; e < mesh.elements.size(); ++e) {
-      const Element_view element = mesh.elements[e];
-      if(!std::all_of(element.begin(), element.end(), inside()))
+    for(Element_index e = 0; e < mesh.elements.size(); ++e)
+      if(!has_only_inside_vertices(mesh.elements[e]))
         m_outer.push_back(e);
-    }
     m_distances.assign(mesh.vertices.size(), -1);
     m_ranks.assign(mesh.vertices.size(), last_rank);
     const std::size_t first_inserted = mesh.vertices.size();
@@ -94,6 +92,11 @@ private:
   bool has_inside_vertex(const Element_view& element) const
   {
     return std::any_of(element.begin(), element.end(), inside());
+  }
+
+  bool has_only_inside_vertices(const Element_view& element) const
+  {
+    return std::all_of(element.begin(), element.end(), inside());
   }
 
   // The order: vertices outside first, nearest to the surface first, ties by lattice position.
@@ -140,9 +143,9 @@ private:
     pieces = Element_list();
     origins.clear();
     is_replaced.assign(m_mesh.elements.size(), 0);
+    for(Element_index e : m_outer) // all its vertices may have been labelled inside since
+      is_replaced[e] = !has_only_inside_vertices(m_mesh.elements[e]);
     if(m_mode == Boundary_mode::PAPER) {
-      for(Element_index e : m_outer)
-        is_replaced[e] = 1;
       const auto meets_surface = [&](Element_index e) {
         return m_located.side(m_mesh.cells[e]) == ON_BOUNDARY;
       };
@@ -151,9 +154,8 @@ private:
                                              is_replaced);
     } else {
       for(Element_index e : m_outer) {
-        is_replaced[e] = 1;
         const Element_view element = m_mesh.elements[e];
-        if(has_inside_vertex(element))
+        if(is_replaced[e] && has_inside_vertex(element))
           split_element(element, [&](Vertex_index v) { return m_ranks[v]; }, inside(),
                         [&](Element_kind kind, std::initializer_list<Vertex_index> v) {
                           add_piece(e, kind, v.begin());

@@ -45,6 +45,8 @@ public:
   static constexpr Node_index root() { return 0; }
   bool is_leaf(Node_index n) const { return m_nodes[n].first_child == 0; }
   Node_index child(Node_index n, int i) const { return m_nodes[n].first_child + Node_index(i); }
+  /// \pre not the root
+  Node_index parent(Node_index n) const { return m_parents[(n - 1) / 8]; }
   int level(Node_index n) const { return m_nodes[n].level; }
   const Lattice_point& corner(Node_index n) const { return m_nodes[n].corner; }
   std::uint32_t side(Node_index n) const { return side_at(level(n)); }
@@ -58,6 +60,7 @@ public:
     const std::uint32_t half = side_at(parent.level + 1);
     const Node_index first = Node_index(m_nodes.size());
     m_nodes[n].first_child = first;
+    m_parents.push_back(n);
     for(std::uint32_t i = 0; i < 8; ++i)
       m_nodes.push_back({{parent.corner[0] + (i & 1) * half, parent.corner[1] + (i >> 1 & 1) * half,
                           parent.corner[2] + (i >> 2) * half},
@@ -65,29 +68,28 @@ public:
     return first;
   }
 
-  /// The deepest node, of level at most `level`, whose half-open box contains `p`.
-  Node_index locate(const Lattice_point& p, int level = max_level) const
-  {
-    Node_index n = root();
-    for(int l = 0; l < level && !is_leaf(n); ++l) {
-      const int shift = max_level - l;
-      n = child(n, (p[0] >> shift & 1) | (p[1] >> shift & 1) << 1 | (p[2] >> shift & 1) << 2);
-    }
-    return n;
-  }
-
   /// The node of at most the level of `n` that covers the cell of the size of `n` next to it in
   /// direction `d` (components -1, 0, 1); `no_node` outside the root.
   Node_index neighbour(Node_index n, const std::array<int, 3>& d) const
   {
-    const std::uint32_t s = side(n);
+    const int l = level(n);
     Lattice_point p = corner(n);
+    std::uint32_t difference = 0;
     for(int k = 0; k < 3; ++k) {
-      p[k] += std::uint32_t(d[k]) * s; // modulo 2^32: below 0 becomes large
+      p[k] += std::uint32_t(d[k]) * side_at(l); // modulo 2^32: below 0 becomes large
       if(p[k] >= root_side)
         return no_node;
+      difference |= p[k] ^ corner(n)[k];
     }
-    return locate(p, level(n));
+    // up to the first common ancestor, whose children's bit is the highest that differs, and down
+    int common = l;
+    for(; difference >> (max_level + 1 - common) != 0; --common)
+      n = parent(n);
+    for(; common < l && !is_leaf(n); ++common) {
+      const int bit = max_level - common;
+      n = child(n, (p[0] >> bit & 1) | (p[1] >> bit & 1) << 1 | (p[2] >> bit & 1) << 2);
+    }
+    return n;
   }
 
   /*!
@@ -117,9 +119,6 @@ public:
     }
     descend.cell(r);
   }
-
-  /// Memory used per node, bytes.
-  static constexpr std::size_t node_size() { return sizeof(Node); }
 
 private:
   struct Node
@@ -213,6 +212,7 @@ private:
   };
 
   std::vector<Node> m_nodes;
+  std::vector<Node_index> m_parents; // of each eight siblings
 };
 
 /// A number for each lattice point; sorts by x, then y, then z.

@@ -14,6 +14,7 @@
 #include <CGAL/Mixed_mesh_3/internal/parallel_for.h>
 #include <CGAL/Mixed_mesh_3/internal/transition_templates.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <unordered_map>
@@ -40,14 +41,16 @@ class Apply_transitions
   const Octree_& m_located;
   const Octree& m_octree;
   const std::vector<std::uint16_t> m_patterns;
-  std::vector<std::array<Vertex_index, 8>> m_corners; // of leaves without hanging vertices
-  std::vector<std::uint32_t> m_slots;                 // of the others, into m_leaf_vertices
+  // A leaf without hanging vertices becomes one hexahedron, whose number is its slot; of the others,
+  // it is that in m_leaf_vertices.
+  std::vector<std::uint32_t> m_slots;
   std::vector<Leaf_vertices> m_leaf_vertices;
-  std::vector<std::uint8_t> m_is_used;
   std::unordered_map<std::uint64_t, Vertex_index> m_inserted;
   Lattice_mesh m_mesh;
 
   static constexpr std::uint32_t no_slot = std::uint32_t(-1);
+
+  bool is_used(Node_index n) const { return m_slots[n] != no_slot; }
 
 public:
   explicit Apply_transitions(const Octree_& octree)
@@ -58,7 +61,7 @@ public:
   {
     choose_leaves();
     number_vertices();
-    add_elements(choice);
+    add_transition_elements(choice);
     find_sides(threads);
     return std::move(m_mesh);
   }
@@ -68,35 +71,39 @@ private:
   // label one of their vertices inside.
   void choose_leaves()
   {
-    m_is_used.assign(m_octree.size(), 0);
     m_slots.assign(m_octree.size(), no_slot);
     const auto directions = neighbour_directions(Adjacency::VERTEX);
     for(Node_index n = 0; n < m_octree.size(); ++n) {
       if(!m_octree.is_leaf(n))
         continue;
-      m_is_used[n] = m_located.is_alive(n);
-      for(auto d = directions.begin(); !m_is_used[n] && d != directions.end(); ++d) {
-        const Node_index m = m_octree.neighbour(n, *d);
-        m_is_used[n] = m != Octree::no_node && (!m_octree.is_leaf(m) || m_located.is_alive(m));
-      }
-      if(m_is_used[n] && m_patterns[n] != 0) {
+      const auto touches_domain = [&](const std::array<int, 3>& d) {
+        const Node_index m = m_octree.neighbour(n, d);
+        return m != Octree::no_node && (!m_octree.is_leaf(m) || m_located.is_alive(m));
+      };
+      if(!m_located.is_alive(n) && std::none_of(directions.begin(), directions.end(), touches_domain))
+        continue;
+      if(m_patterns[n] == 0) {
+        m_slots[n] = std::uint32_t(m_mesh.cells.size());
+        m_mesh.cells.push_back(n);
+      } else {
         m_slots[n] = std::uint32_t(m_leaf_vertices.size());
         m_leaf_vertices.emplace_back();
         m_leaf_vertices.back().fill(Vertex_index(-1));
       }
     }
+    m_mesh.elements.add_many(HEXAHEDRON, m_mesh.cells.size());
   }
 
   void number_vertices()
   {
-    m_corners.resize(m_octree.size());
+    static constexpr int hexahedron_vertex[8] = {0, 1, 3, 2, 4, 5, 7, 6}; // of a corner of a cell
     m_octree.for_each_vertex([this](const Lattice_point& p, const std::array<Node_index, 8>& around) {
       // A leaf off the surface decides; a vertex whose leaves all meet it is asked for later.
       std::int8_t side = Lattice_mesh::unknown_side;
       Node_index leaf = Octree::no_node;
       bool is_on_rim = false;
       for(Node_index n : around)
-        if(n != Octree::no_node && m_is_used[n]) {
+        if(n != Octree::no_node && is_used(n)) {
           if(m_located.side(n) != ON_BOUNDARY)
             side = std::int8_t(m_located.side(n));
           if(leaf == Octree::no_node || m_located.side(n) == ON_BOUNDARY)
@@ -109,12 +116,12 @@ private:
       const Vertex_index v = m_mesh.add_vertex(p, side, leaf, is_on_rim);
       for(int i = 0; i < 8; ++i) {
         const Node_index n = around[i];
-        if(n == Octree::no_node || !m_is_used[n])
+        if(n == Octree::no_node || !is_used(n))
           continue;
-        if(m_slots[n] != no_slot)
-          m_leaf_vertices[m_slots[n]][local_position(n, p)] = v;
+        if(m_patterns[n] == 0)
+          m_mesh.elements.connectivity()[8 * std::size_t(m_slots[n]) + hexahedron_vertex[i ^ 7]] = v;
         else
-          m_corners[n][i ^ 7] = v;
+          m_leaf_vertices[m_slots[n]][local_position(n, p)] = v;
       }
     });
   }
@@ -127,18 +134,12 @@ private:
                + 9 * ((p[2] - c[2]) >> shift));
   }
 
-  void add_elements(Transition_templates_choice choice)
+  void add_transition_elements(Transition_templates_choice choice)
   {
     const Transition_templates& templates = Transition_templates::get();
     for(Node_index n = 0; n < m_octree.size(); ++n) {
-      if(!m_is_used[n])
+      if(!is_used(n) || m_patterns[n] == 0)
         continue;
-      if(m_slots[n] == no_slot) {
-        const auto& c = m_corners[n];
-        m_mesh.elements.add(HEXAHEDRON, {c[0], c[1], c[3], c[2], c[4], c[5], c[7], c[6]});
-        m_mesh.cells.push_back(n);
-        continue;
-      }
       Leaf_vertices& vertices = m_leaf_vertices[m_slots[n]];
       const bool centred = choice == Transition_templates_choice::CENTRED;
       for(const Template_element& e :

@@ -44,10 +44,10 @@ auto refine_in_region(Octree_& octree, std::size_t budget, int base_level, const
     std::vector<Octree::Node_index> leaves = octree.leaves_to_refine(level, true);
     if(leaves.empty() || best.number_of_vertices >= budget)
       break;
-    octree.sort_by_depth(leaves);
     // low leaves fit the budget, high do not (or there are not that many)
     const std::size_t n_coarse = best.number_of_vertices;
     std::size_t low = 0, high = leaves.size() + 1, n_low = n_coarse, n_high = 0;
+    bool is_sorted = false;
     Octree_ finest = octree;
     for(int step = 0; high - low > 1; ++step) {
       const double missing = double(budget - n_low);
@@ -58,8 +58,12 @@ auto refine_in_region(Octree_& octree, std::size_t budget, int base_level, const
       const std::size_t k = step > 2 && step % 2 == 1 && n_high > 0
                               ? low + (high - low) / 2
                               : low + std::size_t((std::max)(1., missing / rate));
-      Octree_ trial = octree;
       const std::size_t refined = (std::min)(k, high - 1);
+      if(refined < leaves.size() && !is_sorted) {
+        octree.sort_by_depth(leaves);
+        is_sorted = true;
+      }
+      Octree_ trial = octree;
       trial.refine(std::vector<Octree::Node_index>(leaves.begin(),
                                                    leaves.begin() + std::ptrdiff_t(refined)));
       Candidate candidate = try_octree(trial);

@@ -19,7 +19,8 @@ namespace internal {
 // A class is: mask, number of elements, elements.  An element is: kind (0 tetrahedron, 1 pyramid,
 // 2 prism, 3 hexahedron), then its 4, 5, 6 or 8 lattice indices.
 // Comments: mask, elements of each kind, worst ARC, "centre" if the cell centre (13) is a vertex.
-// 118 classes do without the centre (worst ARC 3.192), 26 have it (worst ARC 2.000).
+// 118 classes do without the centre (worst ARC 3.192),
+// 26 have it (worst ARC 2.000).
 
 constexpr int number_of_transition_classes = 144;
 

@@ -1,0 +1,504 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Usage: test_io [directory]. Writes files there (default: the current directory), and what is in
+// them to io_expected.json, for test_io_readers.py: a program that reads its own files cannot find
+// an error of convention.
+
+#include <CGAL/Mixed_mesh_3.h>
+#include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
+#include <CGAL/Mixed_mesh_3/quality.h>
+#include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <boost/core/lightweight_test.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <iterator>
+#include <limits>
+#include <locale>
+#include <map>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#if defined(__unix__)
+#  include <csignal>
+#  include <sys/resource.h>
+#endif
+
+using namespace CGAL::Mixed_meshes_3;
+namespace IO = CGAL::Mixed_meshes_3::IO;
+namespace fs = std::filesystem;
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Mixed_mesh_3<Kernel>;
+using Point = Kernel::Point_3;
+
+const char* const extensions[] = {".vtu", ".msh", ".msh2", ".mesh", ".inp", ".feb"};
+
+// Brute force: the faces that occur once. False if one occurs more than twice, or twice in the same
+// direction.
+template <class Mesh>
+bool find_boundary_faces(Mesh& mesh)
+{
+  std::map<std::vector<Vertex_index>, std::vector<typename Mesh::Boundary_face>> faces;
+  std::map<std::array<Vertex_index, 2>, int> boundary_edges;
+  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
+    for(int f = 0; f < mesh.element(e).reference().number_of_faces; ++f) {
+      const typename Mesh::Boundary_face face{Element_index(e), f};
+      const IO::internal::Face_vertices vertices(mesh, face);
+      std::vector<Vertex_index> key(vertices.begin(), vertices.end());
+      std::sort(key.begin(), key.end());
+      faces[key].push_back(face);
+    }
+  std::vector<typename Mesh::Boundary_face> result;
+  for(const auto& entry : faces) {
+    if(entry.second.size() > 2)
+      return false;
+    if(entry.second.size() == 1)
+      result.push_back(entry.second.front());
+  }
+  for(const auto& face : result) {
+    const IO::internal::Face_vertices v(mesh, face);
+    for(int i = 0; i < v.size(); ++i)
+      ++boundary_edges[{v.begin()[i], v.begin()[(i + 1) % v.size()]}];
+  }
+  for(const auto& edge : boundary_edges) {
+    const auto opposite = boundary_edges.find({edge.first[1], edge.first[0]});
+    if(opposite == boundary_edges.end() || opposite->second != edge.second)
+      return false;
+  }
+  std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) {
+    return std::make_pair(a.element, a.local_face) < std::make_pair(b.element, b.local_face);
+  });
+  mesh.set_boundary_faces(result);
+  return true;
+}
+
+// An affine map without symmetry; planar faces stay planar.
+Point affine(double x, double y, double z)
+{
+  return {1.25 * x + 0.25 * y - 0.1 * z - 7, 0.9 * y + 0.3 * z + 1. / 3, 1.1 * z - 0.2 * x + 1e-5};
+}
+const double affine_determinant = 1.25 * (0.9 * 1.1) - 0.25 * (0.3 * 0.2) - 0.1 * (0.9 * 0.2);
+
+Mesh single_element(Element_kind kind)
+{
+  const Reference_element& reference = reference_elements[kind];
+  Mesh mesh;
+  std::vector<Vertex_index> vertices;
+  for(int i = 0; i < reference.number_of_vertices; ++i) {
+    const auto& c = reference.coordinates[i];
+    vertices.push_back(mesh.add_vertex(affine(c[0], c[1], c[2])));
+  }
+  mesh.add_element(kind, vertices.data(), kind % 2 == 0);
+  BOOST_TEST(find_boundary_faces(mesh));
+  return mesh;
+}
+
+// A hexahedron, a pyramid on top of it, a prism and a tetrahedron beside them.
+Mesh one_of_each_kind()
+{
+  Mesh mesh;
+  for(const auto& c : reference_elements[HEXAHEDRON].coordinates)
+    mesh.add_vertex(affine((1 + c[0]) / 2, (1 + c[1]) / 2, (1 + c[2]) / 2));
+  mesh.add_vertex(affine(0.5, 0.5, 1.8)); // 8
+  mesh.add_vertex(affine(2, 0, 0));       // 9
+  mesh.add_vertex(affine(2, 1, 0));       // 10
+  mesh.add_vertex(affine(1.9, 0.5, 1.5)); // 11
+  mesh.add_element(HEXAHEDRON, {0, 1, 2, 3, 4, 5, 6, 7}, true);
+  mesh.add_element(PYRAMID, {4, 5, 6, 7, 8}, true);
+  mesh.add_element(PRISM, {1, 5, 9, 2, 6, 10}, false);
+  mesh.add_element(TETRAHEDRON, {5, 11, 6, 8}, false);
+  BOOST_TEST(find_boundary_faces(mesh));
+  return mesh;
+}
+
+// A grid of n^3 cells: hexahedra, cells of 6 pyramids, columns of prisms, and a top layer of cells
+// with a centre, joined to the prisms by tetrahedra. Vertices are numbered at random.
+Mesh grid(int n, unsigned int seed, double noise)
+{
+  std::mt19937 random(seed);
+  const auto uniform = [&random] { return double(random()) / 4294967296. - 0.5; };
+  const int centres = (n + 1) * (n + 1) * (n + 1);
+  std::vector<Vertex_index> number(std::size_t(centres + n * n * n));
+  for(std::size_t i = 0; i < number.size(); ++i) {
+    number[i] = Vertex_index(i);
+    std::swap(number[i], number[random() % (i + 1)]);
+  }
+  const auto lattice = [n](int x, int y, int z) { return (z * (n + 1) + y) * (n + 1) + x; };
+
+  std::vector<Point> points(number.size());
+  std::vector<std::array<int, 9>> elements; // lattice vertices
+  std::vector<Element_kind> kinds;
+  std::vector<bool> is_used(number.size());
+  const auto add = [&](Element_kind kind, std::array<int, 9> vertices) {
+    kinds.push_back(kind);
+    elements.push_back(vertices);
+    for(int i = 0; i < reference_elements[kind].number_of_vertices; ++i)
+      is_used[std::size_t(vertices[i])] = true;
+  };
+
+  for(int z = 0; z <= n; ++z)
+    for(int y = 0; y <= n; ++y)
+      for(int x = 0; x <= n; ++x)
+        points[number[std::size_t(lattice(x, y, z))]]
+          = affine(x + noise * uniform(), y + noise * uniform(), z + noise * uniform());
+
+  for(int z = 0; z < n; ++z)
+    for(int y = 0; y < n; ++y)
+      for(int x = 0; x < n; ++x) {
+        int v[8];
+        for(int i = 0; i < 8; ++i) {
+          const auto& c = reference_elements[HEXAHEDRON].coordinates[i];
+          v[i] = lattice(x + (c[0] > 0), y + (c[1] > 0), z + (c[2] > 0));
+        }
+        const int centre = centres + (z * n + y) * n + x;
+        points[number[std::size_t(centre)]]
+          = affine(x + 0.5 + noise * uniform(), y + 0.5 + noise * uniform(), z + 0.5);
+        const bool is_prism_column = (x + 2 * y) % 3 == 0;
+        if(z + 1 < n && is_prism_column) {
+          add(PRISM, {v[0], v[1], v[2], v[4], v[5], v[6]});
+          add(PRISM, {v[0], v[2], v[3], v[4], v[6], v[7]});
+        } else if(z + 1 < n && (x + y + z) % 2 == 0) {
+          add(HEXAHEDRON, {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]});
+        } else {
+          for(int f = 0; f < 6; ++f) {
+            const auto& w = reference_elements[HEXAHEDRON].faces[f].vertices;
+            if(f == 4 && is_prism_column) { // the bottom
+              add(TETRAHEDRON, {v[0], v[1], v[2], centre});
+              add(TETRAHEDRON, {v[0], v[2], v[3], centre});
+            } else {
+              add(PYRAMID, {v[w[3]], v[w[2]], v[w[1]], v[w[0]], centre});
+            }
+          }
+        }
+      }
+
+  // No unused vertices.
+  std::vector<Vertex_index> used_number(number.size());
+  std::vector<bool> is_number_used(number.size());
+  for(std::size_t i = 0; i < number.size(); ++i)
+    is_number_used[number[i]] = is_used[i];
+  Mesh mesh;
+  for(std::size_t i = 0; i < number.size(); ++i)
+    if(is_number_used[i])
+      used_number[i] = mesh.add_vertex(points[i]);
+  for(std::size_t e = 0; e < elements.size(); ++e) {
+    std::array<Vertex_index, 9> vertices{};
+    for(int i = 0; i < reference_elements[kinds[e]].number_of_vertices; ++i)
+      vertices[std::size_t(i)] = used_number[number[std::size_t(elements[e][std::size_t(i)])]];
+    mesh.add_element(kinds[e], vertices.data(), e % 5 < 2);
+  }
+  BOOST_TEST(find_boundary_faces(mesh));
+  return mesh;
+}
+
+std::string contents(const fs::path& path)
+{
+  std::ifstream in(path, std::ios_base::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::size_t number_of_files(const fs::path& directory)
+{
+  return std::size_t(std::distance(fs::directory_iterator(directory), fs::directory_iterator()));
+}
+
+bool mentions(const IO::Write_error& error, const std::string& text)
+{
+  const bool result = error && error->find(text) != std::string::npos
+                      && error->find('\n') == std::string::npos;
+  if(!result)
+    std::cerr << "error \"" << error.value_or("none") << "\" without \"" << text << "\"\n";
+  return result;
+}
+
+class Expectations
+{
+  fs::path m_directory;
+  std::ostringstream m_json;
+
+public:
+  explicit Expectations(const fs::path& directory) : m_directory(directory)
+  {
+    m_json << std::setprecision(17) << "[";
+  }
+
+  // Writes the mesh in all formats, twice, and what readers must find.
+  void write(const std::string& name, const Mesh& mesh,
+             const IO::Write_options& vtu_options = IO::Write_options())
+  {
+    for(const char* extension : extensions) {
+      const std::string path = (m_directory / (name + extension)).string();
+      const IO::Write_options options
+        = std::string(extension) == ".vtu" ? vtu_options : IO::Write_options();
+      BOOST_TEST(!IO::check_output_path(path));
+      BOOST_TEST(!IO::write_mixed_mesh(path, mesh, options));
+      const std::string first = contents(path);
+      BOOST_TEST(!first.empty());
+      BOOST_TEST(!IO::write_mixed_mesh(path, mesh, options));
+      BOOST_TEST(first == contents(path));
+    }
+    std::size_t region = 0;
+    for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
+      region += mesh.is_in_region(e);
+    const auto counts = mesh.elements().counts();
+    m_json << (m_json.str().size() > 1 ? ",\n" : "\n") << " {\"name\": \"" << name
+           << "\", \"vertices\": " << mesh.number_of_vertices() << ", \"kinds\": [" << counts[0]
+           << ", " << counts[1] << ", " << counts[2] << ", " << counts[3]
+           << "], \"region\": " << region
+           << ", \"triangles\": " << IO::internal::number_of_boundary_faces(mesh, 3)
+           << ", \"quadrilaterals\": " << IO::internal::number_of_boundary_faces(mesh, 4)
+           << ", \"volume\": " << volume(mesh) << ",\n  \"volumes\": [";
+    for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
+      m_json << (e == 0 ? "" : ", ") << volume(mesh, e);
+    m_json << "],\n  \"ARC\": [";
+    for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
+      m_json << (e == 0 ? "" : ", ") << aspect_ratio_coefficient(mesh, e);
+    m_json << "],\n  \"points\": [";
+    for(std::size_t v = 0; v < mesh.number_of_vertices(); ++v)
+      m_json << (v == 0 ? "" : ", ") << "[" << mesh.points()[v].x() << ", " << mesh.points()[v].y()
+             << ", " << mesh.points()[v].z() << "]";
+    m_json << "]}";
+  }
+
+  void finish()
+  {
+    std::ofstream out(m_directory / "io_expected.json");
+    out << m_json.str() << "\n]\n";
+    BOOST_TEST(out.good());
+  }
+};
+
+void test_writers(const fs::path& directory)
+{
+  Expectations expectations(directory);
+  for(Element_kind kind : element_kinds) {
+    const Mesh mesh = single_element(kind);
+    BOOST_TEST_GT(volume(mesh), 0.);
+    expectations.write(std::string("io_") + reference_elements[kind].name, mesh);
+  }
+
+  const Mesh each = one_of_each_kind();
+  BOOST_TEST_LT(std::abs(volume(each, 0) - affine_determinant), 1e-13);
+  for(std::size_t e = 0; e < each.number_of_elements(); ++e)
+    BOOST_TEST_GT(volume(each, e), 0.);
+  expectations.write("io_each", each);
+
+  const Mesh cells = grid(4, 1, 0);
+  BOOST_TEST_LT(std::abs(volume(cells) - 64 * affine_determinant), 1e-11);
+  for(std::size_t n : cells.elements().counts())
+    BOOST_TEST_GT(n, 0u);
+  std::vector<double> positions, element_numbers;
+  for(const Point& p : cells.points())
+    positions.insert(positions.end(), {p.x(), p.y(), p.z()});
+  for(std::size_t e = 0; e < cells.number_of_elements(); ++e)
+    element_numbers.push_back(double(e));
+  IO::Write_options with_data;
+  with_data.vertex_data = {{"position & <copy>", &positions, 3}};
+  with_data.element_data = {{"element", &element_numbers}};
+  expectations.write("io_grid", cells, with_data);
+  expectations.write("io_tetrahedra", split_to_tetrahedra(cells));
+
+  // The option is the function; element data follow their elements.
+  const std::string path = (directory / "io_option.vtu").string();
+  IO::Write_options options = with_data;
+  options.tetrahedra = true;
+  BOOST_TEST(!IO::write_mixed_mesh(path, cells, options));
+  std::vector<Element_index> origins;
+  const Mesh tetrahedra = split_to_tetrahedra(cells, &origins);
+  BOOST_TEST_EQ(origins.size(), tetrahedra.number_of_elements());
+  const std::vector<double> numbers(origins.begin(), origins.end());
+  std::ostringstream stream;
+  BOOST_TEST(IO::write_VTU(
+    stream, tetrahedra, {{{"position & <copy>", &positions, 3}}, {{"element", &numbers}}}));
+  BOOST_TEST(stream.str() == contents(path));
+  fs::remove(path);
+  expectations.finish();
+}
+
+// A number type that is not double, a locale with other digits, an empty mesh.
+void test_writers_in_odd_conditions()
+{
+  struct Commas : std::numpunct<char>
+  {
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\1"; }
+  };
+
+  const Mesh mesh = grid(3, 2, 0.1);
+  CGAL::Mixed_mesh_3<CGAL::Exact_predicates_exact_constructions_kernel> exact;
+  for(const Point& p : mesh.points())
+    exact.add_vertex({p.x(), p.y(), p.z()});
+  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
+    exact.add_element(mesh.element(e).kind(), mesh.element(e).begin(), mesh.is_in_region(e));
+  BOOST_TEST(find_boundary_faces(exact));
+
+  for(const char* extension : extensions) {
+    const IO::Format format = IO::format_of(std::string("x") + extension).value();
+    std::ostringstream expected, odd, empty;
+    BOOST_TEST(IO::internal::write(expected, mesh, format, {}));
+    const std::locale old = std::locale::global(std::locale(std::locale(), new Commas));
+    odd.imbue(std::locale());
+    BOOST_TEST(IO::internal::write(odd, exact, format, {}));
+    std::locale::global(old);
+    BOOST_TEST(expected.str() == odd.str());
+    BOOST_TEST(IO::internal::write(empty, Mesh(), format, {}));
+  }
+}
+
+void test_split(const Mesh& mesh, bool is_planar)
+{
+  std::vector<Element_index> origins;
+  Mesh tetrahedra = split_to_tetrahedra(mesh, &origins);
+  BOOST_TEST_EQ(tetrahedra.number_of_vertices(), mesh.number_of_vertices());
+  const auto counts = mesh.elements().counts();
+  BOOST_TEST_EQ(tetrahedra.number_of_elements(),
+                counts[TETRAHEDRON] + 2 * counts[PYRAMID] + 3 * counts[PRISM] + 6 * counts[HEXAHEDRON]);
+
+  std::vector<double> volumes(mesh.number_of_elements());
+  bool all_positive = true, same_region = true;
+  for(std::size_t t = 0; t < tetrahedra.number_of_elements(); ++t) {
+    const Element_view v = tetrahedra.element(t);
+    all_positive = all_positive
+                   && CGAL::orientation(tetrahedra.point(v[0]), tetrahedra.point(v[1]),
+                                        tetrahedra.point(v[2]), tetrahedra.point(v[3]))
+                        == CGAL::POSITIVE;
+    same_region = same_region && tetrahedra.is_in_region(t) == mesh.is_in_region(origins[t]);
+    volumes[origins[t]] += volume(tetrahedra, t);
+  }
+  BOOST_TEST(all_positive);
+  BOOST_TEST(same_region);
+  if(is_planar)
+    for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
+      BOOST_TEST_LT(std::abs(volumes[e] - volume(mesh, e)), 1e-12);
+
+  // Conforming, and the boundary faces are those found by brute force.
+  const std::vector<Mesh::Boundary_face> faces = tetrahedra.boundary_faces();
+  BOOST_TEST(find_boundary_faces(tetrahedra));
+  BOOST_TEST_EQ(faces.size(), tetrahedra.boundary_faces().size());
+  BOOST_TEST(std::equal(faces.begin(), faces.end(), tetrahedra.boundary_faces().begin(),
+                        tetrahedra.boundary_faces().end(), [](const auto& a, const auto& b) {
+                          return a.element == b.element && a.local_face == b.local_face;
+                        }));
+}
+
+void test_split()
+{
+  for(Element_kind kind : element_kinds)
+    test_split(single_element(kind), true);
+  test_split(one_of_each_kind(), true);
+  for(unsigned int seed = 0; seed < 20; ++seed) {
+    test_split(grid(4, seed, 0), true);
+    test_split(grid(4, seed, 0.2), false);
+  }
+}
+
+void test_errors(const fs::path& directory)
+{
+  const Mesh mesh = one_of_each_kind();
+  const fs::path place = directory / "io_errors";
+  fs::remove_all(place);
+  fs::create_directory(place);
+  const auto both = [&mesh](const fs::path& path, const std::string& text) {
+    BOOST_TEST(mentions(IO::check_output_path(path.string()), text));
+    BOOST_TEST(mentions(IO::check_output_path(path.string()), path.string()));
+    BOOST_TEST(mentions(IO::write_mixed_mesh(path.string(), mesh), text));
+  };
+
+  both(place / "mesh.stl", "known are .vtu .msh .msh2 .mesh .inp .feb");
+  both(place / "mesh", "unknown extension");
+  both(place / ".vtu", "unknown extension");
+  both("", "unknown extension");
+  both(place / "missing" / "mesh.vtu", "No such file or directory");
+  std::ofstream(place / "file") << "x";
+  both(place / "file" / "mesh.vtu", "Not a directory"); // holds for root, too
+  fs::create_directory(place / "directory.vtu");
+  both(place / "directory.vtu", "is a directory");
+  if(fs::exists("/proc/self"))
+    both("/proc/mesh.vtu", "cannot create a file in its directory");
+  BOOST_TEST(IO::format_of("A.B/C.MSH2") == IO::Format::MSH_2_2);
+  BOOST_TEST_EQ(number_of_files(place), 2u);
+
+  // An existing file is not touched by the check, nor by a failure; other files never.
+  const fs::path old = place / "old.vtu";
+  std::ofstream(old) << "old";
+  std::ofstream(place / "old.vtu.tmp0") << "somebody else's";
+  BOOST_TEST(!IO::check_output_path(old.string()));
+  BOOST_TEST_EQ(contents(old), "old");
+
+  Mesh bad = mesh;
+  bad.points()[3] = Point(0, std::numeric_limits<double>::quiet_NaN(), 0);
+  BOOST_TEST(mentions(IO::write_mixed_mesh(old.string(), bad), "vertex 3"));
+  const std::vector<double> values(5);
+  IO::Write_options options;
+  options.vertex_data = {{"data", &values}};
+  BOOST_TEST(mentions(IO::write_mixed_mesh(old.string(), mesh, options), "size of the mesh"));
+  BOOST_TEST(mentions(IO::write_mixed_mesh((place / "old.msh").string(), mesh, options), ".vtu only"));
+  std::ostringstream stream;
+  BOOST_TEST(!IO::write_VTU(stream, mesh, {{{"data", &values}}, {}}));
+  BOOST_TEST(stream.str().empty());
+  BOOST_TEST_EQ(contents(old), "old");
+  BOOST_TEST_EQ(number_of_files(place), 4u);
+
+#if defined(__unix__)
+  // Files that stop growing: what a full disk does.
+  const Mesh large = grid(8, 1, 0);
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit;
+  getrlimit(RLIMIT_FSIZE, &limit);
+  const rlimit small = {20000, limit.rlim_max};
+  for(const char* extension : extensions) {
+    const fs::path path = place / (std::string("old") + extension);
+    setrlimit(RLIMIT_FSIZE, &small);
+    const IO::Write_error error = IO::write_mixed_mesh(path.string(), large);
+    setrlimit(RLIMIT_FSIZE, &limit);
+    BOOST_TEST(mentions(error, "cannot write: File too large"));
+  }
+  BOOST_TEST_EQ(contents(old), "old");
+  BOOST_TEST_EQ(number_of_files(place), 4u);
+
+  // A link stays, and what it points to is replaced or, if a device, written to.
+  fs::create_symlink("old.vtu", place / "link.vtu");
+  BOOST_TEST(!IO::write_mixed_mesh((place / "link.vtu").string(), mesh));
+  BOOST_TEST(fs::is_symlink(place / "link.vtu"));
+  BOOST_TEST_GT(fs::file_size(old), 1000u);
+  if(fs::exists("/dev/full"))
+    for(const char* extension : extensions) {
+      const fs::path path = place / (std::string("full") + extension);
+      fs::create_symlink("/dev/full", path);
+      BOOST_TEST(!IO::check_output_path(path.string()));
+      BOOST_TEST(mentions(IO::write_mixed_mesh(path.string(), mesh), "No space left on device"));
+      std::ofstream full("/dev/full");
+      BOOST_TEST(!IO::internal::write(full, mesh, *IO::format_of(path.string()), {}));
+    }
+#endif
+  BOOST_TEST_EQ(contents(place / "old.vtu.tmp0"), "somebody else's");
+  fs::remove_all(place);
+}
+
+int main(int argc, char** argv)
+{
+  const fs::path directory = argc > 1 ? argv[1] : ".";
+  fs::create_directories(directory);
+  test_writers(directory);
+  test_writers_in_odd_conditions();
+  test_split();
+  test_errors(directory);
+  return boost::report_errors();
+}

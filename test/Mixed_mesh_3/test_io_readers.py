@@ -1,0 +1,312 @@
+#!/usr/bin/python3
+# Copyright (c) 2026 The Mixed_mesh_3 authors.
+# This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+"""Reads the files of test_io with other programs, VTK and Gmsh, and compares with io_expected.json.
+
+Usage: test_io_readers.py [directory that test_io wrote to]
+
+What counts is the sign of volumes: that is how an element in another program's numbering shows.
+Exit code 77 (skipped) if a module is missing: python3-vtk9, python3-gmsh.
+"""
+
+import json
+import os
+import sys
+import xml.etree.ElementTree as ElementTree
+
+try:
+    import gmsh
+    import numpy as np
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+except ImportError as error:
+    print("skipped:", error)
+    sys.exit(77)
+
+KINDS = ["tetrahedron", "pyramid", "prism", "hexahedron"]
+VTK_TYPES = [vtk.VTK_TETRA, vtk.VTK_PYRAMID, vtk.VTK_WEDGE, vtk.VTK_HEXAHEDRON]
+GMSH_TYPES = [4, 7, 6, 5]
+GMSH_REFERENCE_VOLUMES = [1 / 6, 4 / 3, 1, 8]
+MEDIT_KEYWORDS = {"Tetrahedra": 4, "Pyramids": 5, "Prisms": 6, "Hexahedra": 8, "Triangles": 3,
+                  "Quadrilaterals": 4}
+ABAQUS_TYPES = ["C3D4", "C3D5", "C3D6", "C3D8"]
+FEBIO_TYPES = ["tet4", "pyra5", "penta6", "hex8"]
+
+failures = 0
+
+
+def check(condition, *text):
+    global failures
+    if not condition:
+        failures += 1
+        if failures < 40:
+            print("FAILED:", *text)
+
+
+def close(a, b):
+    return bool(np.all(np.abs(np.asarray(a) - np.asarray(b)) <= 1e-12 * (1 + np.abs(b))))
+
+
+def tet_volume(p):
+    return np.linalg.det(np.asarray(p[1:]) - np.asarray(p[0])) / 6
+
+
+def check_vtu(path, expected):
+    errors = []
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.AddObserver("ErrorEvent", lambda *_: errors.append(1))
+    reader.AddObserver("WarningEvent", lambda *_: errors.append(1))
+    reader.SetFileName(path)
+    reader.Update()
+    grid = reader.GetOutput()
+    n = sum(expected["kinds"])
+    check(not errors, path, "VTK complains")
+    check(grid.GetNumberOfPoints() == expected["vertices"], path, "vertices")
+    check(grid.GetNumberOfCells() == n, path, "elements", grid.GetNumberOfCells(), n)
+    if grid.GetNumberOfCells() != n:
+        return
+    points = vtk_to_numpy(grid.GetPoints().GetData())
+    check(points.dtype == np.float64, path, "precision")
+    check(np.array_equal(points, expected["points"]), path, "coordinates")
+
+    types = vtk_to_numpy(grid.GetCellTypesArray())
+    check([int((types == t).sum()) for t in VTK_TYPES] == expected["kinds"], path, "counts")
+    data = grid.GetCellData()
+    kinds = vtk_to_numpy(data.GetArray("kind"))
+    check([VTK_TYPES[k] for k in kinds] == list(types), path, "data kind")
+    check(vtk_to_numpy(data.GetArray("in_region")).sum() == expected["region"], path, "in_region")
+    check(np.array_equal(vtk_to_numpy(data.GetArray("ARC")), expected["ARC"]), path, "ARC")
+
+    # VTK's filter for volumes, which are signed.
+    sizes = vtk.vtkCellSizeFilter()
+    sizes.SetInputData(grid)
+    sizes.Update()
+    volumes = vtk_to_numpy(sizes.GetOutput().GetCellData().GetArray("Volume"))
+    check(close(volumes, expected["volumes"]), path, "volumes by vtkCellSizeFilter", volumes[:3])
+    check(close(volumes.sum(), expected["volume"]), path, "total volume")
+
+    # VTK's tetrahedra and faces of each cell.
+    ids, corners = vtk.vtkIdList(), vtk.vtkPoints()
+    corners.SetDataTypeToDouble()
+    for e in range(n):
+        cell = grid.GetCell(e)
+        cell.Triangulate(0, ids, corners)
+        p = vtk_to_numpy(corners.GetData()).reshape(-1, 4, 3)
+        parts = [tet_volume(q) for q in p]
+        check(min(parts) > 0, path, "cell", e, KINDS[kinds[e]], "is inside out for VTK")
+        check(close(sum(parts), expected["volumes"][e]), path, "cell", e, "volume of its tetrahedra")
+        q = vtk_to_numpy(cell.GetPoints().GetData())
+        for f in range(cell.GetNumberOfFaces()):
+            face = vtk_to_numpy(cell.GetFace(f).GetPoints().GetData())
+            normal = np.cross(face[1] - face[0], face[2] - face[0])
+            check(np.dot(normal, face.mean(0) - q.mean(0)) > 0, path, "cell", e, KINDS[kinds[e]],
+                  "face", f, "looks inwards for VTK")
+
+        # The Jacobian of VTK's own shape functions: positive in Gmsh's order, so negative for a
+        # wedge in VTK's documented order. If this fails, then VTK has changed its mind on wedges.
+        m = cell.GetNumberOfPoints()
+        derivatives, centre = [0.0] * (3 * m), [0.0] * 3
+        cell.GetParametricCenter(centre)
+        cell.InterpolationDerivs(centre, derivatives)
+        jacobian = np.linalg.det(np.array(derivatives).reshape(3, m) @ q)
+        check(jacobian * (-1 if KINDS[kinds[e]] == "prism" else 1) > 0, path, "cell", e,
+              KINDS[kinds[e]], "Jacobian of VTK's shape functions", jacobian)
+
+    if expected["name"] == "io_grid":
+        array = grid.GetPointData().GetArray("position & <copy>")
+        check(array is not None and np.array_equal(vtk_to_numpy(array), points), path, "vertex data")
+        array = data.GetArray("element")
+        check(array is not None and np.array_equal(vtk_to_numpy(array), np.arange(n)), path,
+              "element data")
+
+
+def check_msh(path, version, expected):
+    gmsh.clear()
+    gmsh.logger.start()
+    gmsh.open(path)
+    log = gmsh.logger.get()
+    gmsh.logger.stop()
+    check(not [line for line in log if line.startswith(("Error", "Warning"))], path, "Gmsh:", log)
+
+    n = expected["vertices"]
+    mesh = gmsh.model.mesh
+    tags, coordinates, _ = mesh.getNodes()
+    order = np.argsort(tags)
+    check(np.array_equal(np.asarray(tags)[order], np.arange(1, n + 1)), path, "numbers of vertices")
+    points = np.asarray(coordinates).reshape(-1, 3)[order]
+    check(np.array_equal(points, expected["points"]), path, "coordinates")
+
+    volume = 0
+    for kind, gmsh_type in enumerate(GMSH_TYPES):
+        elements, nodes = mesh.getElementsByType(gmsh_type)
+        check(len(elements) == expected["kinds"][kind], path, "number of", KINDS[kind])
+        if len(elements) == 0:
+            continue
+        local, weights = mesh.getIntegrationPoints(gmsh_type, "Gauss4")
+        _, determinants, _ = mesh.getJacobians(gmsh_type, local)
+        determinants = np.asarray(determinants).reshape(len(elements), -1)
+        check(determinants.min() > 0, path, KINDS[kind], "is inside out for Gmsh")
+        # Gmsh 4.8 gives weights for the pyramid that add up to 16/9.
+        weights = np.asarray(weights) * GMSH_REFERENCE_VOLUMES[kind] / np.sum(weights)
+        volumes = determinants @ weights
+        check(close(volumes, np.array(expected["volumes"])[np.asarray(elements, int) - 1]), path,
+              "volumes of", KINDS[kind])
+        volume += volumes.sum()
+    check(close(volume, expected["volume"]), path, "total volume")
+
+    # Groups and entities: volumes 1 (region) and 2 (rest), surface 3.
+    region, rest = expected["region"], sum(expected["kinds"]) - expected["region"]
+    groups = {(dim, tag): gmsh.model.getPhysicalName(dim, tag)
+              for dim, tag in gmsh.model.getPhysicalGroups()}
+    wanted = {(2, 3): "boundary"}
+    if region:
+        wanted[3, 1] = "region"
+    if rest:
+        wanted[3, 2] = "rest"
+    check(groups == wanted, path, "physical groups", groups)
+    check(sorted(gmsh.model.getEntities()) == sorted(wanted), path, "entities",
+          gmsh.model.getEntities())
+    for dim, tag in wanted:
+        check(list(gmsh.model.getEntitiesForPhysicalGroup(dim, tag)) == [tag], path, "group", tag)
+        number = sum(map(len, mesh.getElements(dim, tag)[1]))
+        check(number == {1: region, 2: rest,
+                         3: expected["triangles"] + expected["quadrilaterals"]}[tag], path,
+              "number of elements of", wanted[dim, tag])
+    if version == 4.1:
+        tags = np.concatenate([mesh.getNodes(*entity)[0] for entity in wanted])
+        check(sorted(tags) == list(range(1, n + 1)), path, "each vertex is on one entity")
+        tags = mesh.getNodes(2, 3)[0]
+        ours = np.unique(np.concatenate(mesh.getElements(2, 3)[2]))
+        check(np.array_equal(np.sort(tags), ours), path, "vertices of the boundary")
+        if n < 20:  # the volumes know their surface
+            for dim, tag in wanted:
+                if dim == 3:
+                    check(list(gmsh.model.getAdjacencies(3, tag)[1]) == [3], path, "boundary of", tag)
+
+    check_boundary(path, expected, points,
+                   [np.asarray(nodes, int).reshape(-1, size) - 1
+                    for nodes, size in ((mesh.getElementsByType(2)[1], 3),
+                                        (mesh.getElementsByType(3)[1], 4))])
+
+
+def check_boundary(path, expected, points, faces):
+    """Counts, and the volume that the boundary encloses: its sign is its orientation."""
+    check([len(f) for f in faces] == [expected["triangles"], expected["quadrilaterals"]], path,
+          "number of boundary faces")
+    points = np.asarray(points) - np.mean(points, 0)
+    volume = 0
+    for face in (f for some in faces for f in some):
+        for i in range(1, len(face) - 1):
+            volume += np.linalg.det(points[[face[0], face[i], face[i + 1]]]) / 6
+    check(close(volume, expected["volume"]), path, "volume enclosed by the boundary", volume)
+
+
+def check_elements(path, expected, points, elements, parts):
+    """Files no reader here understands: elements by kind, in Gmsh's order, and parts ("region")."""
+    check(np.array_equal(points, expected["points"]), path, "coordinates")
+    check([len(e) for e in elements] == expected["kinds"], path, "counts")
+    check(parts.count("region") == expected["region"], path, "number of elements in the region")
+    check(len(parts) == sum(expected["kinds"]), path, "number of parts")
+    points = np.asarray(points)
+    # The corner at vertex 0.
+    neighbours = [(0, 1, 2, 3), (0, 1, 3, 4), (0, 1, 2, 3), (0, 1, 3, 4)]
+    for kind, some in enumerate(elements):
+        for e in some:
+            check(tet_volume(points[np.asarray(e)[list(neighbours[kind])]]) > 0, path, KINDS[kind])
+
+
+def check_medit(path, expected):
+    words = open(path).read().split()
+    check(words[:4] == ["MeshVersionFormatted", "2", "Dimension", "3"] and words[-1] == "End", path)
+    blocks, i, points = {}, 4, []
+    while words[i] != "End":
+        keyword, n = words[i], int(words[i + 1])
+        width = 4 if keyword == "Vertices" else MEDIT_KEYWORDS[keyword] + 1
+        rows = np.array(words[i + 2:i + 2 + n * width], float).reshape(n, width)
+        i += 2 + n * width
+        if keyword == "Vertices":
+            points = rows[:, :3]
+        else:
+            blocks[keyword] = rows.astype(int)
+    none = np.zeros((0, 5), int)
+    volumes = [blocks.get(k, none) for k in list(MEDIT_KEYWORDS)[:4]]
+    parts = [{1: "region", 2: "rest"}[r] for b in volumes for r in b[:, -1]]
+    check_elements(path, expected, points, [b[:, :-1] - 1 for b in volumes], parts)
+    check_boundary(path, expected, points,
+                   [blocks.get(k, none)[:, :-1] - 1 for k in ("Triangles", "Quadrilaterals")])
+
+
+def check_inp(path, expected):
+    points, elements, sets, members, boundary = [], [[] for _ in KINDS], {}, {}, []
+    for line in open(path):
+        check(len(line) <= 256, path, "long line")
+        line = line.strip().rstrip(",")
+        if line.startswith("*"):
+            words = [w.strip() for w in line.split(",")]
+            keyword, values = words[0], dict(w.split("=") for w in words[1:])
+        elif keyword == "*NODE":
+            points.append([float(w) for w in line.split(",")[1:]])
+        elif keyword == "*ELEMENT":
+            numbers = [int(w) for w in line.split(",")]
+            elements[ABAQUS_TYPES.index(values["TYPE"])].append([v - 1 for v in numbers[1:]])
+            sets.setdefault(values["ELSET"], []).append(numbers[0])
+        elif keyword == "*ELSET":
+            members.setdefault(values["ELSET"], []).append(line)
+        elif keyword == "*NSET":
+            numbers = [int(w) for w in line.split(",")]
+            check(len(numbers) <= 16, path, "numbers on a line")
+            boundary += numbers
+    parts = [name.lower() for name, of in members.items() for s in of for _ in sets[s]]
+    check_elements(path, expected, points, elements, parts)
+    check(0 < len(set(boundary)) == len(boundary) <= expected["vertices"], path, "boundary nodes")
+    numbers = sorted(i for s in sets.values() for i in s)
+    check(numbers == list(range(1, len(numbers) + 1)), path, "numbers of elements")
+
+
+def check_feb(path, expected):
+    root = ElementTree.parse(path).getroot()
+    check(root.tag == "febio_spec" and root.get("version") == "4.0", path, "root")
+    check([c.tag for c in root] == ["Module", "Material", "Mesh", "MeshDomains"], path, "sections")
+    mesh = root.find("Mesh")
+    points = [[float(w) for w in node.text.split(",")] for node in mesh.find("Nodes")]
+    domains = {d.get("name"): d.get("mat") for d in root.find("MeshDomains")}
+    elements, parts, names = [[] for _ in KINDS], [], []
+    for block in mesh.findall("Elements"):
+        names.append(block.get("name"))
+        for e in block:
+            elements[FEBIO_TYPES.index(block.get("type"))].append(
+                [int(w) - 1 for w in e.text.split(",")])
+            parts.append(domains[block.get("name")])
+    check(sorted(names) == sorted(set(domains)), path, "domains")
+    check(set(domains.values()) <= {m.get("name") for m in root.find("Material")}, path, "materials")
+    check_elements(path, expected, points, elements, parts)
+    check_boundary(path, expected, points,
+                   [[[int(w) - 1 for w in f.text.split(",")] for f in mesh.find("Surface").iter(tag)]
+                    for tag in ("tri3", "quad4")])
+
+
+def main():
+    directory = sys.argv[1] if len(sys.argv) > 1 else "."
+    with open(os.path.join(directory, "io_expected.json")) as file:
+        expectations = json.load(file)
+    gmsh.initialize(["gmsh"])
+    gmsh.option.setNumber("General.Terminal", 0)
+    for expected in expectations:
+        path = os.path.join(directory, expected["name"])
+        check_vtu(path + ".vtu", expected)
+        check_msh(path + ".msh", 4.1, expected)
+        check_msh(path + ".msh2", 2.2, expected)
+        check_medit(path + ".mesh", expected)
+        check_inp(path + ".inp", expected)
+        check_feb(path + ".feb", expected)
+    gmsh.finalize()
+    check(len(expectations) == 7, "number of meshes", len(expectations))
+    print("%d meshes, %d failures" % (len(expectations), failures))
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
