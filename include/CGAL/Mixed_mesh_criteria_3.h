@@ -35,7 +35,8 @@ public:
   std::size_t maximal_number_of_vertices() const { return m_maximal_number_of_vertices; }
 
   /// The octree level to which the whole domain is refined; cells of level `l` are 2^l times smaller
-  /// than the root. Default: 3, or the finest below it that leaves the budget unbroken.
+  /// than the root. Default: 3; coarser, down to 1, if the budget is too small for it; finer, up to 6, if
+  /// no octree vertex would be inside a thin domain.
   /// \pre `automatic`, or from 0 to 10
   Mixed_mesh_criteria_3& base_level(int level)
   {

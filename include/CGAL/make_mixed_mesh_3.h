@@ -61,10 +61,16 @@ struct Mixed_mesh_result_3
 namespace Mixed_meshes_3 {
 namespace internal {
 
+// Cells of 1/8 of the domain; see the manual, "Choosing parameters".
+constexpr int default_base_level = 3;
+constexpr int coarsest_automatic_base_level = 1;
+constexpr int finest_automatic_base_level = 6;
+
 // One octree with the mesh made of it.
 struct Candidate
 {
-  std::size_t number_of_vertices = 0; // 0: stopped
+  std::size_t number_of_vertices = 0;
+  bool is_stopped = false; // by the visitor
   Lattice_mesh mesh;
   Boundary_pieces boundary;
 };
@@ -84,7 +90,8 @@ Mixed_mesh_result_3 make_mesh(const Domain& domain, const Region& region,
   const auto try_octree = [&](const Octree_& octree) {
     Candidate c;
     visitor.end_stage(Stage::OCTREE);
-    if(visitor.go_on()) {
+    c.is_stopped = !visitor.go_on();
+    if(!c.is_stopped) {
       visitor.begin_stage(Stage::TRANSITIONS);
       c.mesh = apply_transitions(octree, criteria.transition_templates(), threads);
       visitor.end_stage(Stage::TRANSITIONS);
@@ -99,19 +106,25 @@ Mixed_mesh_result_3 make_mesh(const Domain& domain, const Region& region,
     return c;
   };
 
-  // If no base level is given: the finest, from 3 down, that the budget allows.
+  // If no base level is given: coarser than the default if the budget demands it, finer if a thin
+  // domain has no octree vertex inside.
   const bool is_automatic = criteria.base_level() == Mixed_mesh_criteria_3::automatic;
-  int base_level = is_automatic ? 3 : criteria.base_level();
+  int base_level = is_automatic ? default_base_level : criteria.base_level();
   visitor.begin_stage(Stage::OCTREE);
   Octree_ octree(domain, region, traits);
   Candidate best;
-  for(;; --base_level) {
+  for(int step = 0;; base_level += step) {
     Octree_ trial(octree);
     best = refine_in_region(trial, budget, base_level, try_octree);
-    if(!visitor.go_on() || best.number_of_vertices <= budget || !is_automatic || base_level == 0) {
+    const bool too_fine = best.number_of_vertices > budget && step <= 0
+                          && base_level > coarsest_automatic_base_level;
+    const bool too_coarse = best.number_of_vertices == 0 && step >= 0
+                            && base_level < finest_automatic_base_level;
+    if(best.is_stopped || !is_automatic || !(too_fine || too_coarse)) {
       octree = std::move(trial);
       break;
     }
+    step = too_fine ? -1 : 1;
   }
   visitor.end_stage(Stage::OCTREE);
 
@@ -127,7 +140,7 @@ Mixed_mesh_result_3 make_mesh(const Domain& domain, const Region& region,
   result.number_of_transition_vertices = best.mesh.number_of_inserted_vertices;
   result.number_of_boundary_vertices_inserted = best.boundary.number_of_inserted_vertices;
   result.number_of_relabelled_vertices = best.boundary.number_of_relabelled_vertices;
-  result.status = !visitor.go_on()                    ? Mixed_mesh_status::STOPPED
+  result.status = best.is_stopped                     ? Mixed_mesh_status::STOPPED
                   : best.number_of_vertices == 0      ? Mixed_mesh_status::EMPTY
                   : best.number_of_vertices > budget  ? Mixed_mesh_status::BUDGET_TOO_SMALL
                   : !meets_region                     ? Mixed_mesh_status::REGION_NOT_MET

@@ -23,7 +23,7 @@ namespace internal {
 Finds the finest octree whose mesh fits the budget.
 
 A candidate is an octree with the mesh made of it. `Candidate::number_of_vertices` is what is bounded;
-0 tells that the user wants to stop.
+`Candidate::is_stopped` tells that the user wants to stop.
 
 \param octree the located octree, not yet refined; becomes that of the result
 \param base_level the level of all cells that meet the domain
@@ -40,7 +40,7 @@ auto refine_in_region(Octree_& octree, std::size_t budget, int base_level, const
 
   // Refining a cell gives 7 new vertices deep inside, more at transitions.
   double vertices_per_cell = 8;
-  for(int level = base_level; level < Octree::max_level && best.number_of_vertices != 0; ++level) {
+  for(int level = base_level; level < Octree::max_level && !best.is_stopped; ++level) {
     std::vector<Octree::Node_index> leaves = octree.leaves_to_refine(level, true);
     if(leaves.empty() || best.number_of_vertices >= budget)
       break;
@@ -67,9 +67,9 @@ auto refine_in_region(Octree_& octree, std::size_t budget, int base_level, const
       trial.refine(std::vector<Octree::Node_index>(leaves.begin(),
                                                    leaves.begin() + std::ptrdiff_t(refined)));
       Candidate candidate = try_octree(trial);
-      const std::size_t n = candidate.number_of_vertices;
-      if(n == 0)
+      if(candidate.is_stopped)
         return candidate;
+      const std::size_t n = candidate.number_of_vertices;
       vertices_per_cell = (std::max)(1., double(n) - double(n_coarse)) / double(refined);
       if(n <= budget) {
         low = refined;
