@@ -32,6 +32,7 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #if defined(__unix__)
@@ -369,7 +370,8 @@ void test_split(const Mesh& mesh, bool is_planar)
   BOOST_TEST_EQ(tetrahedra.number_of_vertices(), mesh.number_of_vertices());
   const auto counts = mesh.elements().counts();
   BOOST_TEST_EQ(tetrahedra.number_of_elements(),
-                counts[TETRAHEDRON] + 2 * counts[PYRAMID] + 3 * counts[PRISM] + 6 * counts[HEXAHEDRON]);
+                counts[TETRAHEDRON] + 2 * counts[PYRAMID] + 3 * counts[PRISM]
+                  + 6 * counts[HEXAHEDRON]);
 
   std::vector<double> volumes(mesh.number_of_elements());
   bool all_positive = true, same_region = true;
@@ -449,7 +451,8 @@ void test_errors(const fs::path& directory)
   IO::Write_options options;
   options.vertex_data = {{"data", &values}};
   BOOST_TEST(mentions(IO::write_mixed_mesh(old.string(), mesh, options), "size of the mesh"));
-  BOOST_TEST(mentions(IO::write_mixed_mesh((place / "old.msh").string(), mesh, options), ".vtu only"));
+  BOOST_TEST(
+    mentions(IO::write_mixed_mesh((place / "old.msh").string(), mesh, options), ".vtu only"));
   std::ostringstream stream;
   BOOST_TEST(!IO::write_VTU(stream, mesh, {{{"data", &values}}, {}}));
   BOOST_TEST(stream.str().empty());

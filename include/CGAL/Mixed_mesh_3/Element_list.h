@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <iterator>
 #include <vector>
 
 namespace CGAL {
@@ -70,10 +71,17 @@ public:
     m_offsets.push_back(m_vertices.size());
   }
 
+  /// \pre `vertices` has as many entries as the kind has vertices
+  template <class Vertices>
+  auto add(Element_kind kind, const Vertices& vertices) -> decltype(std::data(vertices), void())
+  {
+    CGAL_precondition(int(std::size(vertices)) == reference_elements[kind].number_of_vertices);
+    add(kind, std::data(vertices));
+  }
+
   void add(Element_kind kind, std::initializer_list<Vertex_index> vertices)
   {
-    CGAL_precondition(int(vertices.size()) == reference_elements[kind].number_of_vertices);
-    add(kind, vertices.begin());
+    add<std::initializer_list<Vertex_index>>(kind, vertices);
   }
 
   /// Adds `n` elements of one kind, whose vertices are to be written to `connectivity()`.

@@ -6,7 +6,7 @@
 #ifndef CGAL_MIXED_MESH_3_IO_MEDIT_H
 #define CGAL_MIXED_MESH_3_IO_MEDIT_H
 
-#include <CGAL/Mixed_mesh_3/IO/VTU.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
 
 #include <array>
 #include <cstddef>

@@ -6,7 +6,7 @@
 #ifndef CGAL_MIXED_MESH_3_IO_MSH_H
 #define CGAL_MIXED_MESH_3_IO_MSH_H
 
-#include <CGAL/Mixed_mesh_3/IO/VTU.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
 
 #include <algorithm>
 #include <array>
@@ -50,7 +50,7 @@ class MSH_model
   template <class Mesh, class Vertices>
   void add(const Mesh& mesh, int entity, const Vertices& vertices)
   {
-    MSH_entity& e = m_entities[entity];
+    MSH_entity& e = m_entities[std::size_t(entity)];
     for(Vertex_index v : vertices) {
       const auto p = Mixed_meshes_3::internal::to_vec3(mesh.point(v));
       const bool is_first = e.number_of_elements == 0 && v == *vertices.begin();
@@ -126,7 +126,7 @@ void write_MSH_4_1_nodes(Buffered_output& out, const Mesh& mesh, const MSH_model
   const std::size_t n = mesh.number_of_vertices();
   out << "$Nodes\n" << blocks << ' ' << vertices << " 1 " << n << '\n';
   for(int i = 0; i < 3; ++i) {
-    const MSH_entity& e = model.entities()[i];
+    const MSH_entity& e = model.entities()[std::size_t(i)];
     if(e.number_of_vertices == 0)
       continue;
     out << e.dimension << ' ' << e.tag << " 0 " << e.number_of_vertices << '\n';

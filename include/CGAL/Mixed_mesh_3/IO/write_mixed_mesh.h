@@ -11,18 +11,15 @@
 #include <CGAL/Mixed_mesh_3/IO/MEDIT.h>
 #include <CGAL/Mixed_mesh_3/IO/MSH.h>
 #include <CGAL/Mixed_mesh_3/IO/VTU.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/Output_file.h>
 #include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
 
-#include <cerrno>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <ostream>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -40,6 +37,8 @@ struct Write_options
 {
   /// Whether to write `split_to_tetrahedra(mesh)` instead of the mesh.
   bool tetrahedra = false;
+  /// Whether `.msh` means Gmsh's format 2.2 instead of 4.1.
+  bool msh_2_2 = false;
   /// Values to write with the mesh; `Format::VTU` only.
   std::vector<Data_array> vertex_data;
   /// Values to write with the mesh; `Format::VTU` only.
@@ -58,89 +57,6 @@ struct Extension
 constexpr Extension extensions[] = {{".vtu", Format::VTU},      {".msh", Format::MSH_4_1},
                                     {".msh2", Format::MSH_2_2}, {".mesh", Format::MEDIT},
                                     {".inp", Format::INP},      {".feb", Format::FEB}};
-
-inline std::string system_message(int error_number)
-{
-  return error_number != 0 ? std::generic_category().message(error_number) : "unknown error";
-}
-
-// Where to write: symbolic links are followed, so that they stay. A device or pipe is written to; a
-// file is replaced by a new one when that is complete.
-class Output_file
-{
-  std::filesystem::path m_target, m_temporary;
-  std::string m_error;
-  bool m_is_direct = false;
-
-public:
-  explicit Output_file(const std::string& path) : m_target(path)
-  {
-    namespace fs = std::filesystem;
-    std::error_code ignored;
-    fs::path target = fs::weakly_canonical(path, ignored);
-    if(!ignored && !target.empty())
-      m_target = std::move(target);
-    const fs::file_status status = fs::status(m_target, ignored);
-    if(fs::is_directory(status)) {
-      m_error = "is a directory";
-      return;
-    }
-    m_is_direct = fs::exists(status) && !fs::is_regular_file(status);
-    if(m_is_direct)
-      return;
-
-    // Mode "x" creates the file or fails, so that nobody else's file is hit.
-    for(int i = 0; i < 1000; ++i) {
-      fs::path candidate = m_target;
-      candidate += ".tmp" + std::to_string(i);
-      errno = 0;
-      if(std::FILE* const file = std::fopen(candidate.string().c_str(), "wbx")) {
-        std::fclose(file);
-        m_temporary = std::move(candidate);
-        return;
-      }
-      if(errno != EEXIST)
-        break;
-    }
-    m_error = "cannot create a file in its directory: " + system_message(errno);
-  }
-
-  Output_file(const Output_file&) = delete;
-  Output_file& operator=(const Output_file&) = delete;
-
-  ~Output_file()
-  {
-    std::error_code ignored;
-    if(!m_temporary.empty())
-      std::filesystem::remove(m_temporary, ignored);
-  }
-
-  // Why nothing can be written, or empty.
-  const std::string& error() const { return m_error; }
-
-  // Calls `write(stream)`; the result is empty if all of it is in the file.
-  template <class Write>
-  std::string write(const Write& write)
-  {
-    errno = 0;
-    std::ofstream stream(m_is_direct ? m_target : m_temporary, std::ios_base::binary);
-    if(!stream)
-      return "cannot open: " + system_message(errno);
-    const bool is_written = write(static_cast<std::ostream&>(stream));
-    const int write_errno = errno;
-    stream.close(); // may find that the disk is full
-    if(!is_written || !stream)
-      return "cannot write: " + system_message(is_written ? errno : write_errno);
-    if(!m_is_direct) {
-      std::error_code error;
-      std::filesystem::rename(m_temporary, m_target, error);
-      if(error)
-        return "cannot replace: " + error.message();
-      m_temporary.clear();
-    }
-    return std::string();
-  }
-};
 
 template <class Mesh>
 bool write(std::ostream& stream, const Mesh& mesh, Format format, const Write_options& options)
@@ -171,6 +87,27 @@ inline std::optional<Format> format_of(const std::string& path)
   return std::nullopt;
 }
 
+/// Checks whether any file can be written to a path: its directory must exist and be writable.
+[[nodiscard]] inline Write_error check_output_directory(const std::string& path)
+{
+  const internal::Output_file file(path);
+  if(!file.error().empty())
+    return path + ": " + file.error();
+  return std::nullopt;
+}
+
+/// Writes a text to a file, with the same care as `write_mixed_mesh()`.
+[[nodiscard]] inline Write_error write_text_file(const std::string& path, const std::string& text)
+{
+  internal::Output_file file(path);
+  std::string reason = file.error();
+  if(reason.empty())
+    reason = file.write([&](std::ostream& stream) { return bool(stream << text); });
+  if(!reason.empty())
+    return path + ": " + reason;
+  return std::nullopt;
+}
+
 /*!
 \brief Checks whether a mesh can be written to a path: to be called before meshing.
 
@@ -185,10 +122,7 @@ temporary one is created beside it and removed.
       known += std::string(" ") + extension.name;
     return path + ": unknown extension, known are" + known;
   }
-  const internal::Output_file file(path);
-  if(!file.error().empty())
-    return path + ": " + file.error();
-  return std::nullopt;
+  return check_output_directory(path);
 }
 
 /*!
@@ -229,7 +163,7 @@ template <class Mesh>
   for(std::size_t v = 0; v < mesh.number_of_vertices(); ++v)
     for(double x : Mixed_meshes_3::internal::to_vec3(mesh.points()[v]))
       if(!std::isfinite(x))
-        return error("vertex " + std::to_string(v) + " of the mesh has a coordinate that is not finite");
+        return error("the mesh's vertex " + std::to_string(v) + " has no finite position");
 
   if(options.tetrahedra) {
     std::vector<Element_index> origins;
@@ -240,21 +174,22 @@ template <class Mesh>
     values.reserve(options.element_data.size());
     for(Data_array& array : new_options.element_data) {
       std::vector<double> split_values;
+      const std::size_t components = std::size_t(array.number_of_components);
       for(Element_index e : origins)
-        for(int i = 0; i < array.number_of_components; ++i)
-          split_values.push_back(
-            (*array.values)[std::size_t(e) * std::size_t(array.number_of_components) + std::size_t(i)]);
+        for(std::size_t i = 0; i < components; ++i)
+          split_values.push_back((*array.values)[e * components + i]);
       values.push_back(std::move(split_values));
       array.values = &values.back();
     }
     return write_mixed_mesh(path, tetrahedra, new_options);
   }
+  const Format used = options.msh_2_2 && *format == Format::MSH_4_1 ? Format::MSH_2_2 : *format;
 
   internal::Output_file file(path);
   std::string reason = file.error();
   if(reason.empty())
     reason = file.write([&](std::ostream& stream) {
-      return internal::write(stream, mesh, *format, options);
+      return internal::write(stream, mesh, used, options);
     });
   if(!reason.empty())
     return error(reason);

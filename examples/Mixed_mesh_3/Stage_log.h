@@ -1,0 +1,134 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Times and memory of stages, and progress on a terminal: the visitor of the command-line mesher.
+
+#ifndef MIXED_MESH_3_EXAMPLES_STAGE_LOG_H
+#define MIXED_MESH_3_EXAMPLES_STAGE_LOG_H
+
+#include <CGAL/Mixed_mesh_3/Default_visitor.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <sys/resource.h>
+
+/// What one stage took, over all its runs.
+struct Stage_cost
+{
+  std::string name;
+  double seconds = 0;         // wall clock
+  double cpu_seconds = 0;     // of all threads
+  std::size_t peak_bytes = 0; // largest resident memory of the process during the stage
+};
+
+/// Model of `MixedMeshVisitor_3`; also times the stages outside the library.
+class Stage_log : public CGAL::Mixed_meshes_3::Default_visitor
+{
+  using Clock = std::chrono::steady_clock;
+
+public:
+  /// \param show_progress whether to rewrite a line on stderr while stages run
+  explicit Stage_log(bool show_progress) : m_show_progress(show_progress) {}
+
+  void begin_stage(CGAL::Mixed_meshes_3::Stage stage)
+  {
+    begin(CGAL::Mixed_meshes_3::stage_names[int(stage)]);
+  }
+  void end_stage(CGAL::Mixed_meshes_3::Stage) { end(); }
+
+  void progress(std::size_t number_of_vertices, std::size_t budget)
+  {
+    if(m_show_progress)
+      std::fprintf(stderr, "\r\033[K%7.2f s  trial of %zu of %zu vertices", seconds_since(m_start),
+                   number_of_vertices, budget);
+  }
+
+  /// Runs `f` as a stage of the given name; returns its result.
+  template <class F>
+  auto operator()(const std::string& name, const F& f)
+  {
+    struct Ended // also if f throws
+    {
+      Stage_log& log;
+      ~Ended() { log.end(); }
+    };
+    begin(name);
+    const Ended ended{*this};
+    return f();
+  }
+
+  const std::vector<Stage_cost>& costs() const { return m_costs; }
+  double seconds() const { return seconds_since(m_start); }
+
+  /// Ends the progress line, so that other output can follow.
+  void finish_line()
+  {
+    if(m_show_progress)
+      std::fprintf(stderr, "\r\033[K");
+  }
+
+  /// Largest resident memory of the process so far.
+  static std::size_t peak_bytes()
+  {
+    rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    return std::size_t(usage.ru_maxrss) * 1024;
+  }
+
+private:
+  void begin(const std::string& name)
+  {
+    m_current = name;
+    m_stage_start = Clock::now();
+    m_stage_cpu = std::clock();
+    // Linux: lets the high-water mark of the next line of end() start anew.
+    std::ofstream("/proc/self/clear_refs") << "5";
+    if(m_show_progress)
+      std::fprintf(stderr, "\r\033[K%7.2f s  %s", seconds_since(m_start), name.c_str());
+  }
+
+  void end()
+  {
+    auto cost = m_costs.begin();
+    while(cost != m_costs.end() && cost->name != m_current)
+      ++cost;
+    if(cost == m_costs.end())
+      cost = m_costs.insert(m_costs.end(), Stage_cost{m_current});
+    cost->seconds += seconds_since(m_stage_start);
+    cost->cpu_seconds += double(std::clock() - m_stage_cpu) / CLOCKS_PER_SEC;
+    cost->peak_bytes = (std::max)(cost->peak_bytes, high_water_mark());
+  }
+
+  static double seconds_since(Clock::time_point start)
+  {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  }
+
+  static std::size_t high_water_mark()
+  {
+    std::ifstream status("/proc/self/status");
+    std::string word;
+    std::size_t kilobytes;
+    while(status >> word)
+      if(word == "VmHWM:" && status >> kilobytes)
+        return kilobytes * 1024;
+    return peak_bytes();
+  }
+
+  bool m_show_progress;
+  Clock::time_point m_start = Clock::now(), m_stage_start;
+  std::clock_t m_stage_cpu = 0;
+  std::string m_current;
+  std::vector<Stage_cost> m_costs;
+};
+
+#endif // MIXED_MESH_3_EXAMPLES_STAGE_LOG_H
