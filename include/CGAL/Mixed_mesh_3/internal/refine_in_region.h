@@ -13,11 +13,120 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
+
+template <class Octree_, class Try>
+class Budget_search
+{
+  using Node_index = Octree::Node_index;
+  using Candidate = decltype(std::declval<const Try&>()(std::declval<const Octree_&>()));
+
+  // A budget filled to 99.8 % is full enough while large steps are tried: with millions of vertices a
+  // further trial costs more than it brings. Below 98 % single cells are tried.
+  static constexpr double full_enough = 0.998, worth_single_cells = 0.98;
+  static constexpr std::size_t single_cells_per_level = 12;
+
+  const std::size_t m_budget;
+  const Try& m_try;
+  Octree_& m_octree;
+  Candidate m_best;
+  double m_vertices_per_cell = 8; // 7 deep inside, more at transitions; then the rate of the last trial
+
+public:
+  Budget_search(Octree_& octree, std::size_t budget, int base_level, const Try& try_octree)
+    : m_budget(budget), m_try(try_octree), m_octree(octree)
+  {
+    for(int level = 0; level < base_level; ++level)
+      m_octree.refine(m_octree.leaves_to_refine(level, false));
+    m_best = m_try(m_octree);
+    int level = base_level;
+    while(level < Octree::max_level && refine_level(level))
+      ++level;
+    for(; level >= base_level; --level)
+      add_single_cells(level);
+  }
+
+  Candidate best() && { return std::move(m_best); }
+
+private:
+  std::size_t size() const { return m_best.number_of_vertices; }
+  bool is_done() const { return m_best.is_stopped || size() >= m_budget; }
+
+  // Tries an octree; takes it over if it fits (or the user stops).
+  std::size_t attempt(Octree_& trial)
+  {
+    Candidate candidate = m_try(trial);
+    const std::size_t n = candidate.number_of_vertices;
+    if(candidate.is_stopped || n <= m_budget) {
+      m_octree = std::move(trial);
+      m_best = std::move(candidate);
+    }
+    return n;
+  }
+
+  // Refines the leaves of a level that are in the region, the region's core first, as many as the
+  // budget allows; returns whether it allows all, so that the next level may follow.
+  bool refine_level(int level)
+  {
+    const Octree_ coarse = m_octree;
+    std::vector<Node_index> leaves = coarse.leaves_to_refine(level, true);
+    if(leaves.empty() || is_done())
+      return false;
+    // low leaves fit, high do not (or there are not that many)
+    const std::size_t n_coarse = size();
+    std::size_t low = 0, high = leaves.size() + 1, n_high = 0;
+    bool is_sorted = false;
+    for(int step = 0; high - low > 1 && !is_done(); ++step) {
+      if(low > 0 && double(size()) > full_enough * double(m_budget))
+        break;
+      // by the rate of the last trial, by the secant, and by bisection where that is slow
+      const double rate =
+        n_high > 0 ? double(n_high - size()) / double(high - low) : m_vertices_per_cell;
+      const double secant = (std::max)(1., double(m_budget - size()) / rate);
+      const std::size_t k = step > 2 && step % 2 == 1 && n_high > 0 ? low + (high - low) / 2
+                                                                    : low + std::size_t(secant);
+      const std::size_t refined = (std::min)(k, high - 1);
+      if(refined < leaves.size() && !is_sorted) { // while all are refined, the order is the same
+        coarse.sort_by_depth(leaves);
+        is_sorted = true;
+      }
+      Octree_ trial = coarse;
+      trial.refine(std::vector<Node_index>(leaves.begin(), leaves.begin() + std::ptrdiff_t(refined)));
+      const std::size_t n = attempt(trial);
+      m_vertices_per_cell = (std::max)(1., double(n) - double(n_coarse)) / double(refined);
+      if(n <= m_budget) {
+        low = refined;
+      } else {
+        high = refined;
+        n_high = n;
+      }
+    }
+    return low == leaves.size() && !is_done();
+  }
+
+  // Where one more cell in order would exceed a small budget, others may fit: those left in the region,
+  // then coarser ones around it, nearest first.
+  void add_single_cells(int level)
+  {
+    std::vector<Node_index> leaves = m_octree.leaves_to_refine(level, false);
+    m_octree.sort_by_depth(leaves);
+    leaves.resize((std::min)(leaves.size(), single_cells_per_level));
+    for(Node_index n : leaves) {
+      if(is_done() || double(size()) > worth_single_cells * double(m_budget))
+        return;
+      if(!m_octree.octree().is_leaf(n))
+        continue;
+      Octree_ trial = m_octree;
+      trial.refine(std::vector<Node_index>{n});
+      attempt(trial);
+    }
+  }
+};
 
 /*!
 Finds the finest octree whose mesh fits the budget.
@@ -29,63 +138,12 @@ A candidate is an octree with the mesh made of it. `Candidate::number_of_vertice
 \param base_level the level of all cells that meet the domain
 \param try_octree `Candidate(octree)`: runs all stages that change the number of vertices
 \return the best candidate; its number of vertices is above the budget only if the base level is
+\cost O(log n) trials of at most a little more than n vertices; two for large n
 */
 template <class Octree_, class Try>
 auto refine_in_region(Octree_& octree, std::size_t budget, int base_level, const Try& try_octree)
 {
-  using Candidate = decltype(try_octree(octree));
-  for(int level = 0; level < base_level; ++level)
-    octree.refine(octree.leaves_to_refine(level, false));
-  Candidate best = try_octree(octree);
-
-  // Refining a cell gives 7 new vertices deep inside, more at transitions.
-  double vertices_per_cell = 8;
-  for(int level = base_level; level < Octree::max_level && !best.is_stopped; ++level) {
-    std::vector<Octree::Node_index> leaves = octree.leaves_to_refine(level, true);
-    if(leaves.empty() || best.number_of_vertices >= budget)
-      break;
-    // low leaves fit the budget, high do not (or there are not that many)
-    const std::size_t n_coarse = best.number_of_vertices;
-    std::size_t low = 0, high = leaves.size() + 1, n_low = n_coarse, n_high = 0;
-    bool is_sorted = false;
-    Octree_ finest = octree;
-    for(int step = 0; high - low > 1; ++step) {
-      const double missing = double(budget - n_low);
-      if(low > 0 && missing < 0.002 * double(budget))
-        break; // full enough: for large budgets a further trial costs more than it brings
-      // by the rate of the last trial, by the secant, and by bisection where that is slow
-      const double rate = n_high > 0 ? double(n_high - n_low) / double(high - low) : vertices_per_cell;
-      const std::size_t k = step > 2 && step % 2 == 1 && n_high > 0
-                              ? low + (high - low) / 2
-                              : low + std::size_t((std::max)(1., missing / rate));
-      const std::size_t refined = (std::min)(k, high - 1);
-      if(refined < leaves.size() && !is_sorted) {
-        octree.sort_by_depth(leaves);
-        is_sorted = true;
-      }
-      Octree_ trial = octree;
-      trial.refine(std::vector<Octree::Node_index>(leaves.begin(),
-                                                   leaves.begin() + std::ptrdiff_t(refined)));
-      Candidate candidate = try_octree(trial);
-      if(candidate.is_stopped)
-        return candidate;
-      const std::size_t n = candidate.number_of_vertices;
-      vertices_per_cell = (std::max)(1., double(n) - double(n_coarse)) / double(refined);
-      if(n <= budget) {
-        low = refined;
-        n_low = n;
-        finest = std::move(trial);
-        best = std::move(candidate);
-      } else {
-        high = refined;
-        n_high = n;
-      }
-    }
-    octree = std::move(finest);
-    if(low < leaves.size())
-      break;
-  }
-  return best;
+  return Budget_search<Octree_, Try>(octree, budget, base_level, try_octree).best();
 }
 
 } // namespace internal

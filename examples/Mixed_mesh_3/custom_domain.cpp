@@ -1,0 +1,97 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A domain without a surface mesh: a solid ring, given by its signed distance.
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
+#include <CGAL/make_mixed_mesh_3.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <set>
+
+namespace mm3 = CGAL::Mixed_meshes_3;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Mixed_mesh_3<Kernel>;
+
+// Model of MixedMeshDomain_3: the points within `r` of a circle of radius `R` about the z-axis.
+class Ring_domain
+{
+  static constexpr double R = 3, r = 1;
+
+public:
+  using Point_3 = Kernel::Point_3;
+
+  // What is known of the surface in a cell. A formula needs no such help.
+  struct Surface_part {};
+  Surface_part surface_part() const { return {}; }
+
+  CGAL::Bbox_3 bbox() const { return {-R - r, -R - r, -r, R + r, R + r, r}; }
+
+  // Positive outside.
+  double signed_distance(const Point_3& p) const
+  {
+    return std::hypot(std::hypot(p.x(), p.y()) - R, p.z()) - r;
+  }
+
+  // A cell is off the surface if its circumscribed ball is. To answer ON_BOUNDARY too often costs
+  // time; to answer it too rarely would lose parts of the domain.
+  template <class Cell>
+  CGAL::Bounded_side locate(const Cell& cell, const Surface_part&, Surface_part&) const
+  {
+    const CGAL::Bbox_3 b = cell.bbox();
+    const double radius = std::hypot(b.x_span(), b.y_span(), b.z_span()) / 2;
+    const double d = signed_distance(cell.centre());
+    return d > radius    ? CGAL::ON_UNBOUNDED_SIDE
+           : d < -radius ? CGAL::ON_BOUNDED_SIDE
+                         : CGAL::ON_BOUNDARY;
+  }
+
+  CGAL::Bounded_side bounded_side(const Point_3& p, const Surface_part&) const
+  {
+    const double d = signed_distance(p);
+    return d > 0 ? CGAL::ON_UNBOUNDED_SIDE : d < 0 ? CGAL::ON_BOUNDED_SIDE : CGAL::ON_BOUNDARY;
+  }
+
+  // From the nearest point of the circle, through `p`, to the surface. On the axis all directions
+  // are as near; inside the ring nobody asks.
+  Point_3 closest_point(const Point_3& p) const
+  {
+    const double d = std::hypot(p.x(), p.y());
+    const Point_3 q = d > 0 ? Point_3(R / d * p.x(), R / d * p.y(), 0) : Point_3(R, 0, 0);
+    return q + r / (signed_distance(p) + r) * (p - q);
+  }
+  Point_3 closest_point(const Point_3& p, const Surface_part&) const { return closest_point(p); }
+};
+
+int main()
+{
+  // Fine in a ball at one side of the ring.
+  const Ring_domain ring;
+  const CGAL::Ball_mixed_mesh_region_3 ball({3, 0, 0}, 1.5);
+  Mesh mesh;
+  if(!CGAL::make_mixed_mesh_3(ring, ball, CGAL::Mixed_mesh_criteria_3(5000), mesh).has_mesh())
+    return EXIT_FAILURE;
+
+  // Is the hole there? The boundary consists of triangles; its Euler characteristic is 0 for a torus.
+  std::set<mm3::Vertex_index> boundary_vertices;
+  for(const Mesh::Boundary_face& face : mesh.boundary_faces()) {
+    const mm3::Element_face& local = mesh.element(face.element).reference().faces[face.local_face];
+    for(int i = 0; i < local.size; ++i)
+      boundary_vertices.insert(mesh.element(face.element)[local.vertices[i]]);
+  }
+  const std::size_t triangles = mesh.boundary_faces().size(), edges = triangles * 3 / 2;
+  std::cout << mesh.number_of_vertices() << " vertices, " << mesh.number_of_elements()
+            << " elements; Euler characteristic of the boundary: "
+            << long(boundary_vertices.size()) - long(edges) + long(triangles) << '\n';
+
+  if(const auto error = mm3::IO::write_mixed_mesh("custom_domain.vtu", mesh)) {
+    std::cerr << *error << '\n';
+    return EXIT_FAILURE;
+  }
+  return EXIT_SUCCESS;
+}
