@@ -92,7 +92,7 @@ public:
     if(leaves.empty())
       return;
     int level = m_octree.level(leaves.front());
-    for(std::size_t queries = leaves.size(); queries > 20000 && level > 0; queries /= 8)
+    for(std::size_t queries = leaves.size(); queries > 4000 && level > 0; queries /= 8)
       --level;
     const std::uint32_t side = Octree::side_at(level), mask = ~(side - 1);
     std::vector<std::pair<double, Node_index>> keys; // minus depth, node

@@ -116,8 +116,11 @@ public:
     if(part.reference_side == ON_BOUNDARY)
       return bounded_side(p);
     const Point_3& q = part.reference;
+    const Bbox_3 segment = p.bbox() + q.bbox();
     bool odd = false;
     for(std::uint32_t f : part.facets) {
+      if(!CGAL::do_overlap(segment, m_data->boxes[f]))
+        continue;
       const Triangle_3& t = m_data->triangles[f];
       const Orientation side_p = orientation(t[0], t[1], t[2], p);
       const Orientation side_q = orientation(t[0], t[1], t[2], q);
@@ -148,13 +151,15 @@ public:
   {
     Point_3 hint = m_data->triangles.front()[0];
     double nearest = std::numeric_limits<double>::infinity();
-    for(std::uint32_t f : part.facets) {
-      const double d = CGAL::squared_distance(p, m_data->triangles[f][0]);
-      if(d < nearest) {
-        nearest = d;
-        hint = m_data->triangles[f][0];
+    for(std::uint32_t f : part.facets)
+      for(int i = 0; i < 3; ++i) {
+        const Point_3& q = m_data->triangles[f][i];
+        const double d = CGAL::squared_distance(p, q);
+        if(d < nearest) {
+          nearest = d;
+          hint = q;
+        }
       }
-    }
     return m_data->tree.closest_point(p, hint);
   }
 

@@ -1,0 +1,70 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One run of the mesher without files: from surfaces in memory to a checked mesh. Prints a line of JSON.
+//
+//   benchmark_make_mixed_mesh_3 SURFACE.off REGION.off VERTICES [THREADS]
+
+#include "Stage_log.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Mixed_mesh_3/quality.h>
+#include <CGAL/Mixed_mesh_3/validation.h>
+#include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/make_mixed_mesh_3.h>
+
+#include <nlohmann/json.hpp>
+
+#include <ctime>
+#include <functional>
+#include <iostream>
+#include <string>
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
+
+int main(int argc, char** argv)
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  Surface surface, region_surface;
+  if(argc < 4 || !PMP::IO::read_polygon_mesh(argv[1], surface)
+     || !PMP::IO::read_polygon_mesh(argv[2], region_surface)) {
+    std::cerr << "usage: benchmark_make_mixed_mesh_3 SURFACE REGION VERTICES [THREADS]\n";
+    return 2;
+  }
+  const auto criteria = CGAL::Mixed_mesh_criteria_3(std::stoul(argv[3]))
+                          .number_of_threads(argc > 4 ? unsigned(std::stoul(argv[4])) : 1);
+  const std::size_t memory_before = Stage_log::peak_bytes();
+  Stage_log log(false);
+  const std::clock_t start = std::clock();
+  const auto domain = log("AABB trees", [&] { return CGAL::Polyhedral_mixed_mesh_domain_3(surface); });
+  const auto region =
+    log("AABB trees", [&] { return CGAL::Polyhedral_mixed_mesh_region_3(region_surface); });
+  CGAL::Mixed_mesh_3<Kernel> mesh;
+  const auto result =
+    CGAL::make_mixed_mesh_3(domain, region, criteria, mesh, CGAL::parameters::visitor(std::ref(log)));
+  const auto defects = log("checks", [&] { return CGAL::Mixed_meshes_3::find_defects(mesh); });
+  const double cpu = double(std::clock() - start) / CLOCKS_PER_SEC, seconds = log.seconds();
+  if(!result.has_mesh() || !defects.none())
+    return 1;
+
+  const double n = double(mesh.number_of_vertices());
+  const auto quality = CGAL::Mixed_meshes_3::quality_statistics(mesh).back();
+  nlohmann::ordered_json line = {{"budget", criteria.maximal_number_of_vertices()},
+                                 {"vertices", mesh.number_of_vertices()},
+                                 {"elements", mesh.number_of_elements()},
+                                 {"seconds", seconds},
+                                 {"CPU seconds", cpu},
+                                 {"vertices per CPU second", n / cpu},
+                                 {"bytes per vertex", double(Stage_log::peak_bytes() - memory_before) / n},
+                                 {"peak MiB", double(Stage_log::peak_bytes()) / (1 << 20)},
+                                 {"octrees tried", result.number_of_trials},
+                                 {"ARC mean", quality.mean},
+                                 {"ARC max", quality.maximum}};
+  for(const Stage_cost& cost : log.costs())
+    line["stages"][cost.name] = cost.cpu_seconds;
+  std::cout << line << '\n';
+}

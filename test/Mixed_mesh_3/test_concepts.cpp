@@ -1,0 +1,432 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The concepts of the manual, from both sides: every model has what its concept asks for, and an
+// archetype, which has nothing else, is enough to make a mesh with.
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Mixed_mesh_3/IO/MEDIT.h>
+#include <CGAL/Mixed_mesh_3/IO/VTU.h>
+#include <CGAL/Mixed_mesh_3/quality.h>
+#include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
+#include <CGAL/Mixed_mesh_3/validation.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/make_mixed_mesh_3.h>
+
+#include <boost/core/lightweight_test.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <sstream>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace mm3 = CGAL::Mixed_meshes_3;
+using CGAL::Bounded_side;
+using CGAL::Mixed_mesh_status;
+using mm3::Lattice_point;
+using mm3::Stage;
+using Kernel = mm3::Predicates_kernel;
+using Point_3 = Kernel::Point_3;
+using Triangle_3 = Kernel::Triangle_3;
+
+//-- What the concepts ask for ----------------------------------------------------------------------
+
+// Where `T` is no model of the concept, is_...<T>() does not compile.
+template <class T>
+const T& a();
+template <class T>
+T& a_variable();
+template <class From, class To>
+constexpr bool converts = std::is_convertible_v<From, To>;
+
+template <class T>
+constexpr bool is_surface_part()
+{
+  return std::is_default_constructible_v<T> && std::is_copy_constructible_v<T>;
+}
+
+template <class Cell>
+constexpr bool is_cell()
+{
+  return converts<decltype(a<Cell>().bbox()), CGAL::Bbox_3>
+         && converts<decltype(a<Cell>().centre()), Point_3>
+         && converts<decltype(a<Cell>().do_intersect(a<Triangle_3>())), bool>;
+}
+
+template <class Traits>
+constexpr bool is_cell_traits()
+{
+  return converts<decltype(a<Traits>().point(a<Lattice_point>())), Point_3>
+         && is_cell<decltype(a<Traits>().cell(a<Lattice_point>(), std::uint32_t()))>()
+         && converts<decltype(a<Traits>().length(std::uint32_t())), double>;
+}
+
+template <class Domain, class Cell>
+constexpr bool is_domain()
+{
+  using P = typename Domain::Point_3;
+  using Part = typename Domain::Surface_part;
+  return is_surface_part<Part>() && converts<Point_3, P>
+         && converts<decltype(CGAL::squared_distance(a<P>(), a<P>())), double>
+         && converts<decltype(a<Domain>().bbox()), CGAL::Bbox_3>
+         && converts<decltype(a<Domain>().surface_part()), Part>
+         && converts<decltype(a<Domain>().locate(a<Cell>(), a<Part>(), a_variable<Part>())), Bounded_side>
+         && converts<decltype(a<Domain>().bounded_side(a<P>(), a<Part>())), Bounded_side>
+         && converts<decltype(a<Domain>().closest_point(a<P>())), P>
+         && converts<decltype(a<Domain>().closest_point(a<P>(), a<Part>())), P>;
+}
+
+template <class Region, class Cell>
+constexpr bool is_region()
+{
+  using Part = typename Region::Surface_part;
+  return is_surface_part<Part>() && converts<decltype(a<Region>().surface_part()), Part>
+         && converts<decltype(a<Region>().locate(a<Cell>(), a<Part>(), a_variable<Part>())), Bounded_side>
+         && converts<decltype(a<Region>().depth(a<Point_3>())), double>;
+}
+
+template <class Visitor>
+constexpr bool is_visitor()
+{
+  return std::is_same_v<decltype(a_variable<Visitor>().begin_stage(Stage())), void>
+         && std::is_same_v<decltype(a_variable<Visitor>().end_stage(Stage())), void>
+         && std::is_same_v<decltype(a_variable<Visitor>().progress(std::size_t(), std::size_t())), void>
+         && converts<decltype(a_variable<Visitor>().go_on()), bool>;
+}
+
+template <class Traits>
+constexpr bool is_mesh_traits()
+{
+  using P = typename Traits::Point_3;
+  return std::is_constructible_v<P, double, double, double> && std::is_copy_constructible_v<P>
+         && std::is_copy_assignable_v<P> && converts<decltype(a<P>() == a<P>()), bool>
+         && converts<decltype(CGAL::to_double(a<P>().x())), double>
+         && converts<decltype(CGAL::to_double(a<P>().y())), double>
+         && converts<decltype(CGAL::to_double(a<P>().z())), double>;
+}
+
+template <class Traits>
+constexpr bool is_element_traits()
+{
+  constexpr std::size_t n = Traits::number_of_vertices;
+  using Values = typename Traits::Shape_values;
+  using Gradients = typename Traits::Shape_gradients;
+  return &Traits::reference == &mm3::reference_elements[Traits::kind]
+         && n == std::size_t(Traits::reference.number_of_vertices)
+         && std::is_same_v<Values, std::array<double, n>>
+         && std::is_same_v<Gradients, std::array<std::array<double, 3>, n>>
+         && std::is_same_v<decltype(Traits::shape_functions(0., 0., 0.)), Values>
+         && std::is_same_v<decltype(Traits::shape_gradients(0., 0., 0.)), Gradients>;
+}
+
+//-- Archetypes: the members of the concept, nothing more -------------------------------------------
+
+struct Archetype // neither default constructible, nor copied, nor moved
+{
+  explicit Archetype(int) {}
+  Archetype(const Archetype&) = delete;
+  Archetype& operator=(const Archetype&) = delete;
+};
+
+// The concepts do not ask for assignment.
+struct Surface_part_archetype
+{
+  Surface_part_archetype() = default;
+  Surface_part_archetype(const Surface_part_archetype&) = default;
+  Surface_part_archetype& operator=(const Surface_part_archetype&) = delete;
+};
+
+struct Cell_archetype : Archetype
+{
+  using Archetype::Archetype;
+  double x, y, z, side;
+  CGAL::Bbox_3 bbox() const { return {x, y, z, x + side, y + side, z + side}; }
+  Point_3 centre() const { return {x + side / 2, y + side / 2, z + side / 2}; }
+  bool do_intersect(const Triangle_3& t) const { return CGAL::do_intersect(t, bbox()); }
+};
+
+// Cubes in [-1.5, 1.5]^3. That is 1.5 * 2^-20 for the side 2^21 of the root.
+struct Cell_traits_archetype : Archetype
+{
+  using Archetype::Archetype;
+  Point_3 point(const Lattice_point& p) const { return {x(p[0]), x(p[1]), x(p[2])}; }
+
+  struct Cell : Cell_archetype
+  {
+    Cell(double x0, double y0, double z0, double s) : Cell_archetype(0)
+    {
+      x = x0, y = y0, z = z0, side = s;
+    }
+  };
+  Cell cell(const Lattice_point& p, std::uint32_t side) const
+  {
+    return Cell(x(p[0]), x(p[1]), x(p[2]), length(side));
+  }
+  double length(std::uint32_t side) const { return side * std::ldexp(1.5, -20); }
+
+private:
+  double x(std::uint32_t i) const { return length(i) - 1.5; }
+};
+
+// The unit ball.
+struct Domain_archetype : Archetype
+{
+  using Archetype::Archetype;
+  using Point_3 = ::Point_3;
+  using Surface_part = Surface_part_archetype;
+
+  CGAL::Bbox_3 bbox() const { return {-1, -1, -1, 1, 1, 1}; }
+  Surface_part surface_part() const { return {}; }
+  template <class Cell>
+  Bounded_side locate(const Cell& cell, const Surface_part&, Surface_part&) const
+  {
+    const CGAL::Bbox_3 b = cell.bbox();
+    const double radius = std::hypot(b.x_span(), b.y_span(), b.z_span()) / 2;
+    const double d = norm(cell.centre()) - 1;
+    return d > radius ? CGAL::ON_UNBOUNDED_SIDE : d < -radius ? CGAL::ON_BOUNDED_SIDE : CGAL::ON_BOUNDARY;
+  }
+  Bounded_side bounded_side(const Point_3& p, const Surface_part&) const
+  {
+    const double d = norm(p) - 1;
+    return d > 0 ? CGAL::ON_UNBOUNDED_SIDE : d < 0 ? CGAL::ON_BOUNDED_SIDE : CGAL::ON_BOUNDARY;
+  }
+  Point_3 closest_point(const Point_3& p) const
+  {
+    const double d = norm(p);
+    return {p.x() / d, p.y() / d, p.z() / d};
+  }
+  Point_3 closest_point(const Point_3& p, const Surface_part&) const { return closest_point(p); }
+
+private:
+  static double norm(const Point_3& p) { return std::hypot(p.x(), p.y(), p.z()); }
+};
+
+// The half space x > 1/4.
+struct Region_archetype : Archetype
+{
+  using Archetype::Archetype;
+  using Surface_part = Surface_part_archetype;
+
+  Surface_part surface_part() const { return {}; }
+  template <class Cell>
+  Bounded_side locate(const Cell& cell, const Surface_part&, Surface_part&) const
+  {
+    const CGAL::Bbox_3 b = cell.bbox();
+    return (b.xmax)() < 0.25   ? CGAL::ON_UNBOUNDED_SIDE
+           : (b.xmin)() > 0.25 ? CGAL::ON_BOUNDED_SIDE
+                               : CGAL::ON_BOUNDARY;
+  }
+  double depth(const Point_3& p) const { return p.x() - 0.25; }
+};
+
+// Writes down what it is told, and says no when asked for the n-th time.
+struct Visitor_archetype : Archetype
+{
+  explicit Visitor_archetype(int n) : Archetype(0), m_questions(n) {}
+
+  void begin_stage(Stage s) { m_log.emplace_back(s, true); }
+  void end_stage(Stage s) { m_log.emplace_back(s, false); }
+  void progress(std::size_t, std::size_t) { ++m_trials; }
+  bool go_on() { return --m_questions != 0; }
+
+  // For the test, not of the concept.
+  const std::vector<std::pair<Stage, bool>>& log() const { return m_log; }
+  std::size_t trials() const { return m_trials; }
+
+private:
+  int m_questions;
+  std::size_t m_trials = 0;
+  std::vector<std::pair<Stage, bool>> m_log;
+};
+
+struct Mesh_traits_archetype
+{
+  class Point_3
+  {
+    double m[3];
+
+  public:
+    Point_3() = delete;
+    Point_3(double x, double y, double z) : m{x, y, z} {}
+    double x() const { return m[0]; }
+    double y() const { return m[1]; }
+    double z() const { return m[2]; }
+    friend bool operator==(const Point_3& p, const Point_3& q)
+    {
+      return p.x() == q.x() && p.y() == q.y() && p.z() == q.z();
+    }
+  };
+  Mesh_traits_archetype() = delete;
+};
+
+template <mm3::Element_kind Kind>
+struct Element_traits_archetype
+{
+  static constexpr mm3::Element_kind kind = Kind;
+  static constexpr const mm3::Reference_element& reference = mm3::reference_elements[Kind];
+  static constexpr int number_of_vertices = reference.number_of_vertices;
+  using Shape_values = std::array<double, number_of_vertices>;
+  using Shape_gradients = std::array<std::array<double, 3>, number_of_vertices>;
+  static Shape_values shape_functions(double, double, double) { return {}; }
+  static Shape_gradients shape_gradients(double, double, double) { return {}; }
+  Element_traits_archetype() = delete;
+};
+
+//-- Models and archetypes satisfy the concepts -----------------------------------------------------
+
+using CGAL::Ball_mixed_mesh_region_3;
+using CGAL::Everywhere_mixed_mesh_region_3;
+using CGAL::Implicit_mixed_mesh_region_3;
+using CGAL::Polyhedral_mixed_mesh_domain_3;
+using CGAL::Polyhedral_mixed_mesh_region_3;
+using CGAL::Union_mixed_mesh_region_3;
+using mm3::Axis_aligned_octree_cell_traits_3;
+using mm3::Rotated_octree_cell_traits_3;
+
+template <class Traits>
+constexpr bool is_cell_traits_with_all()
+{
+  using Cell = decltype(a<Traits>().cell(a<Lattice_point>(), std::uint32_t()));
+  using Union = Union_mixed_mesh_region_3<Ball_mixed_mesh_region_3, Polyhedral_mixed_mesh_region_3>;
+  return is_cell_traits<Traits>() && is_domain<Polyhedral_mixed_mesh_domain_3, Cell>()
+         && is_domain<Domain_archetype, Cell>() && is_region<Polyhedral_mixed_mesh_region_3, Cell>()
+         && is_region<Implicit_mixed_mesh_region_3, Cell>() && is_region<Ball_mixed_mesh_region_3, Cell>()
+         && is_region<Everywhere_mixed_mesh_region_3, Cell>() && is_region<Union, Cell>()
+         && is_region<Region_archetype, Cell>();
+}
+static_assert(is_cell_traits_with_all<Axis_aligned_octree_cell_traits_3>());
+static_assert(is_cell_traits_with_all<Rotated_octree_cell_traits_3>());
+static_assert(is_cell_traits_with_all<Cell_traits_archetype>());
+
+static_assert(is_visitor<mm3::Default_visitor>() && is_visitor<Visitor_archetype>());
+
+static_assert(is_mesh_traits<CGAL::Exact_predicates_inexact_constructions_kernel>());
+static_assert(is_mesh_traits<CGAL::Exact_predicates_exact_constructions_kernel>());
+static_assert(is_mesh_traits<CGAL::Simple_cartesian<double>>());
+static_assert(is_mesh_traits<Mesh_traits_archetype>());
+
+template <mm3::Element_kind Kind>
+constexpr bool are_element_traits = is_element_traits<mm3::Mixed_element_traits_3<Kind>>()
+                                    && is_element_traits<Element_traits_archetype<Kind>>();
+static_assert(are_element_traits<mm3::TETRAHEDRON> && are_element_traits<mm3::PYRAMID>);
+static_assert(are_element_traits<mm3::PRISM> && are_element_traits<mm3::HEXAHEDRON>);
+
+//-- Meshes made with them --------------------------------------------------------------------------
+
+// Everything that takes a mesh, and the mesh is that of a ball.
+template <class Mesh>
+void test_mesh(const CGAL::Mixed_mesh_result_3& result, const Mesh& mesh, std::size_t budget)
+{
+  BOOST_TEST(result.status == Mixed_mesh_status::SUCCESS);
+  BOOST_TEST(mesh.number_of_vertices() <= budget);
+  BOOST_TEST(mm3::find_defects(mesh).none());
+  const double ball = 4 * 3.14159265358979 / 3;
+  BOOST_TEST(mm3::volume(mesh) > ball);
+  BOOST_TEST(mm3::volume(mesh) < 2 * ball);
+  BOOST_TEST(mm3::quality_statistics(mesh)[mm3::number_of_element_kinds].maximum < 10);
+  for(const auto& face : mesh.boundary_faces()) {
+    const auto element = mesh.element(face.element);
+    for(int i = 0; i < 3; ++i) {
+      const auto& p = mesh.point(element[element.reference().faces[face.local_face].vertices[i]]);
+      BOOST_TEST(CGAL::to_double(p.x() * p.x() + p.y() * p.y() + p.z() * p.z()) >= 1);
+    }
+  }
+  const Mesh tetrahedra = mm3::split_to_tetrahedra(mesh);
+  BOOST_TEST(std::abs(mm3::volume(tetrahedra) - mm3::volume(mesh)) < 1e-12);
+  std::ostringstream vtu, medit;
+  BOOST_TEST(mm3::IO::write_VTU(vtu, mesh));
+  BOOST_TEST(mm3::IO::write_MEDIT(medit, mesh));
+}
+
+void test_archetypes()
+{
+  const Domain_archetype domain(0);
+  const Region_archetype region(0);
+  const Cell_traits_archetype cell_traits(0);
+  CGAL::Mixed_mesh_criteria_3 criteria(700);
+  Visitor_archetype visitor(0);
+  CGAL::Mixed_mesh_3<Mesh_traits_archetype> mesh;
+  for(const auto mode : {mm3::Boundary_mode::VERTEX_ORDER, mm3::Boundary_mode::PAPER}) {
+    criteria.boundary_mode(mode);
+    test_mesh(CGAL::make_mixed_mesh_3(domain, region, criteria, cell_traits, mesh,
+                                      CGAL::parameters::visitor(std::ref(visitor))),
+              mesh, 700);
+  }
+  // without a cell traits, and without a visitor
+  test_mesh(CGAL::make_mixed_mesh_3(domain, region, CGAL::Mixed_mesh_criteria_3(700), mesh), mesh, 700);
+}
+
+// Our models in the place of one archetype at a time.
+void test_models()
+{
+  const Domain_archetype ball(0);
+  const CGAL::Mixed_mesh_criteria_3 criteria(700);
+  const Axis_aligned_octree_cell_traits_3 aligned(ball.bbox());
+  const std::vector<Point_3> corners = {{-1, -1, -1}, {1, 1, 1}, {-1, 1, 1}, {1, -1, -1},
+                                        {1, -1, 1}, {-1, 1, -1}, {1, 1, -1}, {-1, -1, 1}};
+  const Rotated_octree_cell_traits_3 rotated(corners, Kernel::Vector_3(1, 2, 3));
+  const auto np = CGAL::parameters::default_values();
+
+  CGAL::Mixed_mesh_3<Kernel> mesh;
+  test_mesh(CGAL::make_mixed_mesh_3(ball, Region_archetype(0), criteria, aligned, mesh, np), mesh, 700);
+  test_mesh(CGAL::make_mixed_mesh_3(ball, Region_archetype(0), criteria, rotated, mesh, np), mesh, 700);
+  const Union_mixed_mesh_region_3 region(Ball_mixed_mesh_region_3({1, 0, 0}, 0.5),
+                                         Implicit_mixed_mesh_region_3([](const Point_3& p) {
+                                           return p.z() - 0.5;
+                                         }));
+  test_mesh(CGAL::make_mixed_mesh_3(ball, region, criteria, mesh), mesh, 700);
+
+  CGAL::Mixed_mesh_3<CGAL::Exact_predicates_exact_constructions_kernel> exact_mesh;
+  test_mesh(CGAL::make_mixed_mesh_3(ball, Region_archetype(0), criteria, exact_mesh), exact_mesh, 700);
+}
+
+// Stages alternate as the manual says, and a visitor that says no is obeyed.
+void test_visitor()
+{
+  const Domain_archetype domain(0);
+  const Region_archetype region(0);
+  const CGAL::Mixed_mesh_criteria_3 criteria(700);
+  CGAL::Mixed_mesh_3<Mesh_traits_archetype> mesh;
+
+  Visitor_archetype patient(0);
+  auto result = CGAL::make_mixed_mesh_3(domain, region, criteria, mesh,
+                                        CGAL::parameters::visitor(std::ref(patient)));
+  BOOST_TEST(result.has_mesh());
+  BOOST_TEST_EQ(patient.trials(), result.number_of_trials);
+  BOOST_TEST(patient.trials() > 1);
+
+  for(int n = 1; n <= int(patient.trials()); ++n) {
+    Visitor_archetype impatient(n);
+    result = CGAL::make_mixed_mesh_3(domain, region, criteria, mesh,
+                                     CGAL::parameters::visitor(std::ref(impatient)));
+    BOOST_TEST(result.status == Mixed_mesh_status::STOPPED);
+    BOOST_TEST(mesh.is_empty());
+    BOOST_TEST_EQ(int(impatient.trials()), n - 1);
+
+    // One stage at a time, each ended once.
+    const auto& log = impatient.log();
+    BOOST_TEST_EQ(log.size() % 2, 0u);
+    for(std::size_t i = 0; i + 1 < log.size(); i += 2)
+      BOOST_TEST(log[i].second && !log[i + 1].second && log[i].first == log[i + 1].first);
+  }
+  const auto& log = patient.log();
+  BOOST_TEST(log.front() == std::make_pair(Stage::OCTREE, true));
+  BOOST_TEST(log.back() == std::make_pair(Stage::ASSEMBLY, false));
+}
+
+int main()
+{
+  test_archetypes();
+  test_models();
+  test_visitor();
+  return boost::report_errors();
+}
