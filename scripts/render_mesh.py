@@ -42,7 +42,7 @@ KINDS = [  # by value of the cell data `kind`
     ("prisms", (0.55, 0.42, 0.68)),
     ("hexahedra", (0.42, 0.65, 0.83)),
 ]
-ARC_COLORS = [(0.96, 0.97, 0.93), (0.98, 0.88, 0.55), (0.96, 0.62, 0.26), (0.83, 0.24, 0.16), (0.45, 0.02, 0.10)]
+ARC_COLORS = [(0.55, 0.72, 0.84), (0.97, 0.90, 0.62), (0.96, 0.62, 0.26), (0.83, 0.24, 0.16), (0.45, 0.02, 0.10)]
 
 
 def fail(message):
@@ -300,7 +300,7 @@ class Canvas:
         self.add_text(title, 48, -76, 42, bold=True)
         self.add_text(subtitle, 48, -124, 30, GREY)
 
-    def look_at(self, surface, region, plane):
+    def look_at(self, surface, region, plane, skin=None):
         """Three-quarter view onto the cut from the region's side, filling the window below the title."""
         normal = plane.GetNormal()
         camera = self.renderer.GetActiveCamera()
@@ -316,7 +316,7 @@ class Canvas:
         camera.OrthogonalizeViewUp()
 
         view = camera.GetViewTransformMatrix()
-        corners = [s.GetPoint(i) for s in (surface, region) for i in range(s.GetNumberOfPoints())]
+        corners = [s.GetPoint(i) for s in filter(None, (surface, region, skin)) for i in range(s.GetNumberOfPoints())]
         seen = [view.MultiplyPoint(corner + (1,)) for corner in corners]
         (x0, x1), (y0, y1) = [(min(p[k] for p in seen), max(p[k] for p in seen)) for k in (0, 1)]
         width, height = self.size
@@ -403,7 +403,7 @@ def draw_kinds(size, mesh, skin, surface, region, plane, path):
         canvas.add_box(color, 48, 210 - 50 * row, 34, 34)
         canvas.add_box(None, 48, 210 - 50 * row, 34, 34)
         canvas.add_text(counted(counts[kind], name), 96, 217 - 50 * row, 26)
-    canvas.look_at(surface, region, plane)
+    canvas.look_at(surface, region, plane, skin)
     canvas.write(path)
 
 
@@ -432,7 +432,7 @@ def draw_arc(size, mesh, skin, surface, region, plane, path):
     canvas.add_outline(region, plane)
     canvas.add_title("Elements by aspect-ratio coefficient (ideal: 1)",
                      "%s; mean %.2f, largest %.3g" % (mesh_title(mesh), mean, values[-1]))
-    canvas.look_at(surface, region, plane)
+    canvas.look_at(surface, region, plane, skin)
     canvas.write(path)
 
 

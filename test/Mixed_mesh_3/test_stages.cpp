@@ -491,7 +491,7 @@ std::function<double(const Point_3&)> noise(unsigned seed, int share_inside, dou
 }
 
 Analytic_octree random_octree(const Analytic_domain& domain, const Aligned_traits& traits,
-                              unsigned seed, int base_level, int rounds)
+                              unsigned seed, int base_level, int rounds, unsigned one_in = 12)
 {
   static const Everywhere_mixed_mesh_region_3 region;
   std::mt19937 random(seed);
@@ -502,7 +502,7 @@ Analytic_octree random_octree(const Analytic_domain& domain, const Aligned_trait
     std::vector<Octree::Node_index> chosen;
     for(int level = 0; level < 7; ++level)
       for(Octree::Node_index n : octree.leaves_to_refine(level, true))
-        if(random() % 12 == 0)
+        if(random() % one_in == 0)
           chosen.push_back(n);
     octree.refine(chosen);
   }
@@ -746,6 +746,30 @@ void test_all_transitions()
       }
 }
 
+// The centre of a face on the border of the root, inserted since its four edges are split, is on the
+// rim like the others.
+void test_inserted_on_rim()
+{
+  static const Everywhere_mixed_mesh_region_3 region;
+  const Aligned_traits traits({0, 0, 0, 1, 1, 1});
+  for(double f : {9., 0.}) { // all cells inside, or all at the surface
+    const Analytic_domain domain([f](const Point_3&) { return f; });
+    Analytic_octree octree(domain, region, traits);
+    octree.refine(octree.leaves_to_refine(0, false));
+    octree.refine(octree.leaves_to_refine(1, false));
+    const std::uint32_t s = Octree::side_at(2);
+    std::vector<Octree::Node_index> chosen;
+    for(Octree::Node_index n : octree.leaves_to_refine(2, false)) {
+      const Lattice_point& c = octree.octree().corner(n);
+      if(c[2] == 0 && (c[0] == s) != (c[1] == s) && c[0] <= 2 * s && c[1] <= 2 * s)
+        chosen.push_back(n);
+    }
+    BOOST_TEST_EQ(chosen.size(), 4u);
+    octree.refine(chosen);
+    test_transitions(octree, Transition_templates_choice::FEWEST_VERTICES);
+  }
+}
+
 // Against all pairs of leaves, on an octree that is not balanced and after.
 void test_is_balanced()
 {
@@ -833,7 +857,7 @@ void test_split_element()
   }
 }
 
-std::size_t number_of_repaired = 0, number_with_first_defects = 0;
+std::size_t number_reaching_out = 0, number_with_first_defects = 0, number_of_repaired = 0;
 
 // Runs the stage and checks all it promises. `margin` tells that the rim can not be reached.
 void test_boundary(const Analytic_octree& located, Transition_templates_choice choice,
@@ -851,7 +875,7 @@ void test_boundary(const Analytic_octree& located, Transition_templates_choice c
                                  [&](Vertex_index v) { return before.is_inside(v); });
     n_reaching_out += n > 0 && n < element.size() && element.kind() != TETRAHEDRON;
   }
-  BOOST_TEST_GT(n_reaching_out, 0u);
+  number_reaching_out += n_reaching_out;
   Lattice_mesh fixed = before;
   std::fill(fixed.is_on_rim.begin(), fixed.is_on_rim.end(), std::uint8_t(1));
   const Boundary_pieces first = split_boundary(located, fixed, mode);
@@ -983,13 +1007,17 @@ void test_boundary_stage()
   // Noise: with a margin all is repaired, without one the status tells what is not.
   for(double margin : {0.3, 0.01})
     for(int share : {3, 10, 30, 60})
-      for(int repeat = 0; repeat < 3; ++repeat) {
+      for(int repeat = 0; repeat < 4; ++repeat) {
         const Analytic_domain domain(noise(++seed, share, margin));
-        const Analytic_octree octree = random_octree(domain, traits, seed, repeat == 0 ? 3 : 2, repeat);
+        const Analytic_octree octree =
+          repeat == 0   ? random_octree(domain, traits, seed, 3, 0)
+          : repeat < 3 ? random_octree(domain, traits, seed, 2, repeat)
+                        : random_octree(domain, traits, seed, 2, 1, 2);
         for(Boundary_mode mode : {Boundary_mode::VERTEX_ORDER, Boundary_mode::PAPER})
           test_boundary(octree, Transition_templates_choice::FEWEST_VERTICES, mode, false);
       }
-  BOOST_TEST_GT(number_with_first_defects, 30u);
+  BOOST_TEST_GT(number_reaching_out, 5000u);
+  BOOST_TEST_GT(number_with_first_defects, 40u);
   std::cout << "boundary stage: pinched at first " << number_with_first_defects << ", repaired "
             << number_of_repaired << std::endl;
 }
@@ -1221,6 +1249,7 @@ int main()
   test_cell_traits();
   test_domain_oracle();
   test_all_transitions();
+  test_inserted_on_rim();
   test_boundary_stage();
   test_find_nonfinite();
   return boost::report_errors();

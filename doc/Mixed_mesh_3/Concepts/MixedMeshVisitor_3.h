@@ -1,0 +1,52 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/*!
+\ingroup PkgMixedMesh3Concepts
+\cgalConcept
+
+The concept `MixedMeshVisitor_3` is told how a run goes, and can stop it.
+
+The search for the budget tries several octrees. For each of them, the calls are
+
+    begin_stage(OCTREE)  end_stage(OCTREE)  go_on()
+    begin_stage(TRANSITIONS)  end_stage(TRANSITIONS)
+    begin_stage(BOUNDARY)  end_stage(BOUNDARY)
+    progress(number_of_vertices, budget)
+
+They are followed by one `begin_stage(OCTREE)` and `end_stage(OCTREE)` for what remains of the search, and,
+if there is a mesh, by the stage `ASSEMBLY`. Stages are neither nested nor left open. All calls come
+from the thread that called `CGAL::make_mixed_mesh_3()`.
+
+A model need not be copied: pass it as `CGAL::parameters::visitor(std::ref(my_visitor))`. Members need not be
+`const`. The visitor must outlive the call.
+
+\cgalHasModelsBegin
+\cgalHasModels{CGAL::Mixed_meshes_3::Default_visitor}
+\cgalHasModelsEnd
+
+The example \ref Mixed_mesh_3/visitor.cpp has another model.
+
+\sa `CGAL::make_mixed_mesh_3()`
+*/
+class MixedMeshVisitor_3
+{
+public:
+  /// Called when a stage starts.
+  void begin_stage(CGAL::Mixed_meshes_3::Stage stage);
+
+  /// Called when a stage ends.
+  void end_stage(CGAL::Mixed_meshes_3::Stage stage);
+
+  /// Called when a mesh has been tried.
+  /// \param number_of_vertices of that mesh. It may exceed the budget, and is not monotonic
+  /// \param budget the maximal number of vertices of the result
+  void progress(std::size_t number_of_vertices, std::size_t budget);
+
+  /// Whether to go on. Asked once for each mesh that is tried, when its octree is there and its elements are
+  /// not. After `false` it is not asked again; the result has the status `CGAL::Mixed_mesh_status::STOPPED`,
+  /// and the mesh is empty.
+  bool go_on();
+};
