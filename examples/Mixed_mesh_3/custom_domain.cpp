@@ -59,13 +59,12 @@ public:
 
   // From the nearest point of the circle, through `p`, to the surface. On the axis all directions
   // are as near; inside the ring nobody asks.
-  Point_3 closest_point(const Point_3& p) const
+  Point_3 closest_point(const Point_3& p, const Surface_part&) const
   {
     const double d = std::hypot(p.x(), p.y());
     const Point_3 q = d > 0 ? Point_3(R / d * p.x(), R / d * p.y(), 0) : Point_3(R, 0, 0);
     return q + r / (signed_distance(p) + r) * (p - q);
   }
-  Point_3 closest_point(const Point_3& p, const Surface_part&) const { return closest_point(p); }
 };
 
 int main()

@@ -28,10 +28,10 @@
 #include <functional>
 #include <iostream>
 #include <map>
-#include <memory>
+#include <new>
+#include <sstream>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -203,10 +203,19 @@ void check_result(const CGAL::Mixed_mesh_result_3& result, const Options& o, con
   case Mixed_mesh_status::SUCCESS:
     break;
   }
-  // Octree vertices inside decide what is meshed: a mesh smaller than its surface lost thin parts.
-  if(mesh_volume < 0.97 * surface_volume)
-    warnings.push_back(o.surface + ": thin parts are lost: the mesh has "
-                       + std::to_string(100 * mesh_volume / surface_volume)
+  if(result.number_of_lost_cells != 0) {
+    const CGAL::Bbox_3& b = result.lost_cells;
+    std::ostringstream where;
+    where << '[' << b.xmin() << ", " << b.xmax() << "] x [" << b.ymin() << ", " << b.ymax() << "] x ["
+          << b.zmin() << ", " << b.zmax() << ']';
+    warnings.push_back(o.surface + ": parts thinner than a cell are lost: "
+                       + std::to_string(result.number_of_lost_cells) + " octree cells that they meet are "
+                       "away from the mesh, within " + where.str()
+                       + "; try more vertices or a larger --base-level");
+  }
+  if(mesh_volume < 0.9 * surface_volume)
+    warnings.push_back(o.surface + ": the mesh has only "
+                       + std::to_string(int(100 * mesh_volume / surface_volume))
                        + " % of the surface's volume; try more vertices or a larger --base-level");
 }
 
@@ -332,6 +341,7 @@ void run(const Options& o)
   report["octree"] = {{"base level", result.base_level},
                       {"deepest level", result.deepest_level},
                       {"cells", result.number_of_cells},
+                      {"cells lost", result.number_of_lost_cells},
                       {"octrees tried", result.number_of_trials}};
   report["vertices inserted"] = {{"by transition templates", result.number_of_transition_vertices},
                                  {"by boundary stage", result.number_of_boundary_vertices_inserted}};

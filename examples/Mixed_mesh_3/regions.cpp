@@ -30,8 +30,7 @@ bool mesh_and_report(const CGAL::Polyhedral_mixed_mesh_domain_3& brain, const Re
 {
   Mesh mesh;
   const auto result =
-    CGAL::make_mixed_mesh_3(brain, region, CGAL::Mixed_mesh_criteria_3(2000), cell_traits, mesh,
-                            CGAL::parameters::default_values());
+    CGAL::make_mixed_mesh_3(brain, region, CGAL::Mixed_mesh_criteria_3(2000), cell_traits, mesh);
   std::size_t in_region = 0;
   for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
     in_region += mesh.is_in_region(e);

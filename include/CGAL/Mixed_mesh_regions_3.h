@@ -39,7 +39,7 @@ public:
   /// Depth below the surface; negative outside.
   double depth(const Point_3& p) const
   {
-    const double d = std::sqrt(CGAL::squared_distance(p, closest_point(p)));
+    const double d = std::sqrt(CGAL::squared_distance(p, closest_point(p, Surface_part())));
     return bounded_side(p) == ON_UNBOUNDED_SIDE ? -d : d;
   }
 };

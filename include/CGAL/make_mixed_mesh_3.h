@@ -18,11 +18,15 @@
 #include <CGAL/Mixed_mesh_regions_3.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 
+#include <CGAL/Bbox_3.h>
 #include <CGAL/Named_function_parameters.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
-#include <type_traits>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace CGAL {
 
@@ -33,7 +37,7 @@ enum class Mixed_mesh_status {
   BUDGET_TOO_SMALL,   ///< no mesh: the coarsest one has more vertices than the budget
   EMPTY,              ///< no mesh: no octree vertex is inside the domain
   REGION_NOT_MET,     ///< no mesh: the region does not meet the domain
-  BOUNDARY_NOT_MANIFOLD, ///< the boundary is pinched at vertices on the border of the root cell
+  BOUNDARY_NOT_MANIFOLD, ///< the boundary is pinched where no further cell can be added
   STOPPED             ///< no mesh: the visitor said so
 };
 
@@ -49,6 +53,10 @@ struct Mixed_mesh_result_3
   std::size_t number_of_boundary_vertices_inserted = 0;  ///< inserted by the boundary stage
   std::size_t number_of_relabelled_vertices = 0;         ///< to make the boundary a manifold
   std::size_t number_of_trials = 0;                      ///< octrees tried in search of the budget
+  /// Cells that meet the domain, but are more than a cell away from the mesh: parts of the domain
+  /// thinner than a cell that no octree vertex is inside of.
+  std::size_t number_of_lost_cells = 0;
+  Bbox_3 lost_cells; ///< what contains those cells
 
   /// Whether there is a mesh, and it is what was asked for or as close to it as possible.
   bool has_mesh() const
@@ -74,6 +82,33 @@ struct Candidate
   Lattice_mesh mesh;
   Boundary_pieces boundary;
 };
+
+// The leaves that meet the domain while neither they nor their neighbours have elements.
+template <class Octree_>
+std::vector<Octree::Node_index> lost_cells(const Octree_& located, const Candidate& candidate)
+{
+  const Octree& octree = located.octree();
+  std::vector<std::uint8_t> is_meshed(octree.size(), 0);
+  for(std::size_t e = 0; e < candidate.mesh.cells.size(); ++e)
+    if(!candidate.boundary.is_replaced[e])
+      is_meshed[candidate.mesh.cells[e]] = 1;
+  for(Element_index e : candidate.boundary.origins)
+    is_meshed[candidate.mesh.cells[e]] = 1;
+  for(Octree::Node_index n = Octree::Node_index(octree.size()) - 1; n > 0; --n)
+    if(is_meshed[n])
+      is_meshed[octree.parent(n)] = 1;
+
+  const auto directions = neighbour_directions(Adjacency::VERTEX);
+  std::vector<Octree::Node_index> lost;
+  for(Octree::Node_index n = 0; n < octree.size(); ++n)
+    if(octree.is_leaf(n) && located.is_alive(n) && !is_meshed[n]
+       && std::none_of(directions.begin(), directions.end(), [&](const std::array<int, 3>& d) {
+            const Octree::Node_index m = octree.neighbour(n, d);
+            return m != Octree::no_node && is_meshed[m];
+          }))
+      lost.push_back(n);
+  return lost;
+}
 
 template <class Domain, class Region, class CellTraits, class Mesh, class Visitor>
 Mixed_mesh_result_3 make_mesh(const Domain& domain, const Region& region,
@@ -113,6 +148,7 @@ Mixed_mesh_result_3 make_mesh(const Domain& domain, const Region& region,
   visitor.begin_stage(Stage::OCTREE);
   Octree_ octree(domain, region, traits);
   Candidate best;
+  std::size_t least_above_budget = 0;
   for(int step = 0;; base_level += step) {
     Octree_ trial(octree);
     best = refine_in_region(trial, budget, base_level, try_octree);
@@ -120,6 +156,8 @@ Mixed_mesh_result_3 make_mesh(const Domain& domain, const Region& region,
                           && base_level > coarsest_automatic_base_level;
     const bool too_coarse = best.number_of_vertices == 0 && step >= 0
                             && base_level < finest_automatic_base_level;
+    if(best.number_of_vertices > budget)
+      least_above_budget = best.number_of_vertices;
     if(best.is_stopped || !is_automatic || !(too_fine || too_coarse)) {
       octree = std::move(trial);
       break;
@@ -129,7 +167,8 @@ Mixed_mesh_result_3 make_mesh(const Domain& domain, const Region& region,
   visitor.end_stage(Stage::OCTREE);
 
   result.base_level = base_level;
-  result.number_of_vertices_needed = best.number_of_vertices;
+  result.number_of_vertices_needed =
+    best.number_of_vertices == 0 ? least_above_budget : best.number_of_vertices;
   bool meets_region = false;
   for(Octree::Node_index n = 0; n < octree.octree().size(); ++n)
     if(octree.octree().is_leaf(n) && octree.is_alive(n)) {
@@ -141,8 +180,8 @@ Mixed_mesh_result_3 make_mesh(const Domain& domain, const Region& region,
   result.number_of_boundary_vertices_inserted = best.boundary.number_of_inserted_vertices;
   result.number_of_relabelled_vertices = best.boundary.number_of_relabelled_vertices;
   result.status = best.is_stopped                     ? Mixed_mesh_status::STOPPED
-                  : best.number_of_vertices == 0      ? Mixed_mesh_status::EMPTY
-                  : best.number_of_vertices > budget  ? Mixed_mesh_status::BUDGET_TOO_SMALL
+                  : result.number_of_vertices_needed == 0 ? Mixed_mesh_status::EMPTY
+                  : result.number_of_vertices_needed > budget ? Mixed_mesh_status::BUDGET_TOO_SMALL
                   : !meets_region                     ? Mixed_mesh_status::REGION_NOT_MET
                   : !best.boundary.defects.empty()    ? Mixed_mesh_status::BOUNDARY_NOT_MANIFOLD
                   : best.number_of_vertices < 0.97 * double(budget)
@@ -150,6 +189,10 @@ Mixed_mesh_result_3 make_mesh(const Domain& domain, const Region& region,
                                                       : Mixed_mesh_status::SUCCESS;
   if(result.has_mesh()) {
     visitor.begin_stage(Stage::ASSEMBLY);
+    for(Octree::Node_index n : lost_cells(octree, best)) {
+      ++result.number_of_lost_cells;
+      result.lost_cells += traits.cell(octree.octree().corner(n), octree.octree().side(n)).bbox();
+    }
     assemble_mesh(octree, best.mesh, best.boundary, mesh);
     visitor.end_stage(Stage::ASSEMBLY);
   }
@@ -181,8 +224,8 @@ number of threads.
 \param criteria the budget, and how to mesh
 \param cell_traits the frame of the octree
 \param mesh the result; cleared first
-\param np an optional sequence of named parameters: `visitor`, a pointer-like or reference-wrapped model
-       of `MixedMeshVisitor_3` (default: `Mixed_meshes_3::Default_visitor`)
+\param np an optional sequence of named parameters: `visitor(std::ref(v))` with `v` a model of
+       `MixedMeshVisitor_3` (default: `Mixed_meshes_3::Default_visitor`)
 \return the status and what was done
 \cost linear in the number of vertices, and in the number of triangles of the surfaces
 */
@@ -191,7 +234,7 @@ template <class Domain, class Region, class CellTraits, class GeomTraits,
 Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region,
                                       const Mixed_mesh_criteria_3& criteria,
                                       const CellTraits& cell_traits, Mixed_mesh_3<GeomTraits>& mesh,
-                                      const NamedParameters& np)
+                                      const NamedParameters& np = parameters::default_values())
 {
   using Visitor = typename internal_np::Lookup_named_param_def<
     internal_np::visitor_t, NamedParameters, Mixed_meshes_3::Default_visitor>::reference;
@@ -221,6 +264,8 @@ As above, for two closed triangulated surfaces and a vertex budget.
 \param surface the surface of the domain. \pre closed and triangulated
 \param region_surface the surface of the region of interest. \pre closed and triangulated
 \param maximal_number_of_vertices the vertex budget. \pre at least 1
+\param mesh the result; cleared first
+\param np an optional sequence of named parameters, as above
 */
 template <class Surface, class RegionSurface, class GeomTraits,
           class NamedParameters = parameters::Default_named_parameters>

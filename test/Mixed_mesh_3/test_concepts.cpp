@@ -66,8 +66,7 @@ template <class Traits>
 constexpr bool is_cell_traits()
 {
   return converts<decltype(a<Traits>().point(a<Lattice_point>())), Point_3>
-         && is_cell<decltype(a<Traits>().cell(a<Lattice_point>(), std::uint32_t()))>()
-         && converts<decltype(a<Traits>().length(std::uint32_t())), double>;
+         && is_cell<decltype(a<Traits>().cell(a<Lattice_point>(), std::uint32_t()))>();
 }
 
 template <class Domain, class Cell>
@@ -79,9 +78,9 @@ constexpr bool is_domain()
          && converts<decltype(CGAL::squared_distance(a<P>(), a<P>())), double>
          && converts<decltype(a<Domain>().bbox()), CGAL::Bbox_3>
          && converts<decltype(a<Domain>().surface_part()), Part>
-         && converts<decltype(a<Domain>().locate(a<Cell>(), a<Part>(), a_variable<Part>())), Bounded_side>
+         && converts<decltype(a<Domain>().locate(a<Cell>(), a<Part>(), a_variable<Part>())),
+                     Bounded_side>
          && converts<decltype(a<Domain>().bounded_side(a<P>(), a<Part>())), Bounded_side>
-         && converts<decltype(a<Domain>().closest_point(a<P>())), P>
          && converts<decltype(a<Domain>().closest_point(a<P>(), a<Part>())), P>;
 }
 
@@ -90,7 +89,8 @@ constexpr bool is_region()
 {
   using Part = typename Region::Surface_part;
   return is_surface_part<Part>() && converts<decltype(a<Region>().surface_part()), Part>
-         && converts<decltype(a<Region>().locate(a<Cell>(), a<Part>(), a_variable<Part>())), Bounded_side>
+         && converts<decltype(a<Region>().locate(a<Cell>(), a<Part>(), a_variable<Part>())),
+                     Bounded_side>
          && converts<decltype(a<Region>().depth(a<Point_3>())), double>;
 }
 
@@ -171,9 +171,9 @@ struct Cell_traits_archetype : Archetype
   {
     return Cell(x(p[0]), x(p[1]), x(p[2]), length(side));
   }
-  double length(std::uint32_t side) const { return side * std::ldexp(1.5, -20); }
 
 private:
+  static double length(std::uint32_t side) { return side * std::ldexp(1.5, -20); }
   double x(std::uint32_t i) const { return length(i) - 1.5; }
 };
 
@@ -192,19 +192,20 @@ struct Domain_archetype : Archetype
     const CGAL::Bbox_3 b = cell.bbox();
     const double radius = std::hypot(b.x_span(), b.y_span(), b.z_span()) / 2;
     const double d = norm(cell.centre()) - 1;
-    return d > radius ? CGAL::ON_UNBOUNDED_SIDE : d < -radius ? CGAL::ON_BOUNDED_SIDE : CGAL::ON_BOUNDARY;
+    return d > radius    ? CGAL::ON_UNBOUNDED_SIDE
+           : d < -radius ? CGAL::ON_BOUNDED_SIDE
+                         : CGAL::ON_BOUNDARY;
   }
   Bounded_side bounded_side(const Point_3& p, const Surface_part&) const
   {
     const double d = norm(p) - 1;
     return d > 0 ? CGAL::ON_UNBOUNDED_SIDE : d < 0 ? CGAL::ON_BOUNDED_SIDE : CGAL::ON_BOUNDARY;
   }
-  Point_3 closest_point(const Point_3& p) const
+  Point_3 closest_point(const Point_3& p, const Surface_part&) const
   {
     const double d = norm(p);
     return {p.x() / d, p.y() / d, p.z() / d};
   }
-  Point_3 closest_point(const Point_3& p, const Surface_part&) const { return closest_point(p); }
 
 private:
   static double norm(const Point_3& p) { return std::hypot(p.x(), p.y(), p.z()); }
@@ -299,7 +300,8 @@ constexpr bool is_cell_traits_with_all()
   using Union = Union_mixed_mesh_region_3<Ball_mixed_mesh_region_3, Polyhedral_mixed_mesh_region_3>;
   return is_cell_traits<Traits>() && is_domain<Polyhedral_mixed_mesh_domain_3, Cell>()
          && is_domain<Domain_archetype, Cell>() && is_region<Polyhedral_mixed_mesh_region_3, Cell>()
-         && is_region<Implicit_mixed_mesh_region_3, Cell>() && is_region<Ball_mixed_mesh_region_3, Cell>()
+         && is_region<Implicit_mixed_mesh_region_3, Cell>()
+         && is_region<Ball_mixed_mesh_region_3, Cell>()
          && is_region<Everywhere_mixed_mesh_region_3, Cell>() && is_region<Union, Cell>()
          && is_region<Region_archetype, Cell>();
 }

@@ -7,19 +7,20 @@
 \ingroup PkgMixedMesh3Concepts
 \cgalConcept
 
-The concept `MixedMeshDomain_3` describes what is meshed, by a handful of queries. The method never sees a
-surface: a domain may be the inside of a polyhedron, of an implicit surface, or of a segmented image.
+The concept `MixedMeshDomain_3` describes what is meshed, by a handful of queries. The method never
+sees a surface: a domain may be the inside of a polyhedron, of an implicit surface, or of a
+segmented image.
 
-Queries come from the octree, from the root down. A domain can hand what it knows about its surface in a
-cell, for example the triangles that meet it, down to the children of the cell: this is
+Queries come from the octree, from the root down. A domain can hand what it knows about its surface
+in a cell, for example the triangles that meet it, down to the children of the cell: this is
 `Surface_part`. A domain that has no use for it takes an empty struct.
 
 Answers may be too cautious, but must not contradict each other: where `locate()` does not answer
 `ON_BOUNDARY`, `bounded_side()` would say the same of every point of the closed cell.
 
-A model need not be copied. It must outlive the call. `bounded_side()` and `closest_point()` are called by
-several threads at once if `CGAL::Mixed_mesh_criteria_3::number_of_threads()` is above 1, and must not throw
-then.
+A model need not be copied. It must outlive the call. `bounded_side()` and `closest_point()` are
+called by several threads at once if `CGAL::Mixed_mesh_criteria_3::number_of_threads()` is above 1,
+and must not throw then.
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::Polyhedral_mixed_mesh_domain_3}
@@ -34,14 +35,15 @@ class MixedMeshDomain_3
 {
 public:
   /*!
-  A point of a CGAL kernel whose number type converts to `double`: `CGAL::squared_distance()` of two of them
-  is taken. The points of the cell traits must convert to it. With our cell traits:
+  A point of a CGAL kernel whose number type converts to `double`: `CGAL::squared_distance()` of two
+  of them is taken. The points of the cell traits must convert to it. With our cell traits:
   `CGAL::Mixed_meshes_3::Predicates_kernel::Point_3`.
   */
   typedef unspecified_type Point_3;
 
-  /// What is known about the surface in a cell: a model of `DefaultConstructible` and `CopyConstructible`.
-  /// There is one for each octree node that meets the surface, and it is copied with the octree.
+  /// What is known about the surface in a cell: a model of `DefaultConstructible` and
+  /// `CopyConstructible`. There is one for each octree node that meets the surface, and it is
+  /// copied with the octree.
   typedef unspecified_type Surface_part;
 
   /// A box that contains the domain, of positive finite extents. Needed only by the overload of
@@ -56,11 +58,12 @@ public:
 
   \tparam Cell the cell type of a model of `OctreeCellTraits_3`
   \param cell a cell
-  \param parent the part of a cell that contains it: of its parent in the octree, or `surface_part()`
+  \param parent the part of a cell that contains it: of its parent in the octree, or
+         `surface_part()`
   \param part default constructed; to be filled if the answer is `ON_BOUNDARY`, and ignored if not
-  \return `ON_BOUNDED_SIDE` if the closed cell is in the interior of the domain; `ON_UNBOUNDED_SIDE` if it is
-          in the exterior; `ON_BOUNDARY` if it meets the surface, or might. The children of a cell that is
-          off the surface are not asked about.
+  \return `ON_BOUNDED_SIDE` if the closed cell is in the interior of the domain; `ON_UNBOUNDED_SIDE`
+          if it is in the exterior; `ON_BOUNDARY` if it meets the surface, or might. The children of
+          a cell that is off the surface are not asked about.
   */
   template <class Cell>
   CGAL::Bounded_side locate(const Cell& cell, const Surface_part& parent, Surface_part& part) const;
@@ -70,13 +73,11 @@ public:
   /// \param part that of a cell which contains `p`, and for which `locate()` answered `ON_BOUNDARY`
   CGAL::Bounded_side bounded_side(const Point_3& p, const Surface_part& part) const;
 
-  /// A point of the surface as near to `p` as any. Asked for vertices outside the domain whose cell does
-  /// not meet the surface.
+  /// A point of the surface as near to `p` as any. Asked for vertices outside the domain.
   ///
   /// So far, only the distance counts: it decides the order in which boundary elements are split.
-  Point_3 closest_point(const Point_3& p) const;
-
-  /// The same. Asked for vertices outside the domain, and `part` is that of a cell which contains `p`; the
-  /// closest point may lie elsewhere.
+  /// \param p any point
+  /// \param part that of a cell which contains `p`, or a default-constructed one if that cell does not
+  ///        meet the surface; a hint, the closest point may lie elsewhere
   Point_3 closest_point(const Point_3& p, const Surface_part& part) const;
 };

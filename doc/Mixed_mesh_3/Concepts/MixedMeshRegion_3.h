@@ -7,9 +7,9 @@
 \ingroup PkgMixedMesh3Concepts
 \cgalConcept
 
-The concept `MixedMeshRegion_3` describes where a mesh shall be fine. It needs to tell where cells are, as a
-domain does, and what comes first when the budget does not reach everything; it needs no surface. It may
-extend beyond the domain.
+The concept `MixedMeshRegion_3` describes where a mesh shall be fine. It needs to tell where cells
+are, as a domain does, and what comes first when the budget does not reach everything; it needs no
+surface. It may extend beyond the domain.
 
 `MixedMeshDomain_3` does not refine this concept, nor the other way round.
 
@@ -41,16 +41,19 @@ public:
 
   \tparam Cell the cell type of a model of `OctreeCellTraits_3`
   \param cell a cell
-  \param parent the part of a cell that contains it: of its parent in the octree, or `surface_part()`
+  \param parent the part of a cell that contains it: of its parent in the octree, or
+         `surface_part()`
   \param part default constructed; to be filled if the answer is `ON_BOUNDARY`, and ignored if not
-  \return `ON_BOUNDED_SIDE` if the cell and all cells in it are to be refined; `ON_UNBOUNDED_SIDE` if none
-          is; `ON_BOUNDARY` if the cell is to be refined, and its children asked about
+  \return `ON_BOUNDED_SIDE` if the cell and all cells in it are to be refined; `ON_UNBOUNDED_SIDE`
+          if none is; `ON_BOUNDARY` if the cell is to be refined, and its children asked about
   */
   template <class Cell>
   CGAL::Bounded_side locate(const Cell& cell, const Surface_part& parent, Surface_part& part) const;
 
-  /// How deep a point is in the region; negative outside. Of two cells of one size, that with the deeper
-  /// centre is refined first. Only the order matters; not a NaN.
+  /// How deep a point is in the region; negative outside, and the less so the nearer it is. Of two
+  /// cells of one size, that with the deeper centre is refined first; where there are thousands, cells
+  /// share the depth of an ancestor. Cells outside come last, to use up a small budget. Only the order
+  /// of depths matters; they must not be NaN.
   /// \param p a `CGAL::Mixed_meshes_3::Predicates_kernel::Point_3`, as cell traits return it
   double depth(const Point_3& p) const;
 };

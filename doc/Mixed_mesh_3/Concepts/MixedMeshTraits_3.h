@@ -7,9 +7,9 @@
 \ingroup PkgMixedMesh3Concepts
 \cgalConcept
 
-The concept `MixedMeshTraits_3` says what the class `CGAL::Mixed_mesh_3` asks of its template parameter:
-a point type. No predicate and no construction is used; those of the method are on doubles, with
-`CGAL::Mixed_meshes_3::Predicates_kernel`.
+The concept `MixedMeshTraits_3` says what the class `CGAL::Mixed_mesh_3` asks of its template
+parameter: a point type. No predicate and no construction is used; those of the method are on
+doubles, with `CGAL::Mixed_meshes_3::Predicates_kernel`.
 
 A model need not be constructible.
 
@@ -24,7 +24,8 @@ class MixedMeshTraits_3
 {
 public:
   /*!
-  A point in space: a model of `CopyConstructible` and `Assignable`, which has, for points `p` and `q`,
+  A point in space: a model of `CopyConstructible` and `Assignable`, which has, for points `p` and
+  `q`,
 
   - a constructor from three `double`;
   - `p.x()`, `p.y()` and `p.z()`, of a type from which `CGAL::to_double()` makes a `double`;

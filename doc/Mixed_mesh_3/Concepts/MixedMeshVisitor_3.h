@@ -16,12 +16,12 @@ The search for the budget tries several octrees. For each of them, the calls are
     begin_stage(BOUNDARY)  end_stage(BOUNDARY)
     progress(number_of_vertices, budget)
 
-They are followed by one `begin_stage(OCTREE)` and `end_stage(OCTREE)` for what remains of the search, and,
-if there is a mesh, by the stage `ASSEMBLY`. Stages are neither nested nor left open. All calls come
-from the thread that called `CGAL::make_mixed_mesh_3()`.
+They are followed by one `begin_stage(OCTREE)` and `end_stage(OCTREE)` for what remains of the
+search, and, if there is a mesh, by the stage `ASSEMBLY`. Stages are neither nested nor left open.
+All calls come from the thread that called `CGAL::make_mixed_mesh_3()`.
 
-A model need not be copied: pass it as `CGAL::parameters::visitor(std::ref(my_visitor))`. Members need not be
-`const`. The visitor must outlive the call.
+A model need not be copied: pass it as `CGAL::parameters::visitor(std::ref(my_visitor))`. Members
+need not be `const`. The visitor must outlive the call.
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::Mixed_meshes_3::Default_visitor}
@@ -45,8 +45,8 @@ public:
   /// \param budget the maximal number of vertices of the result
   void progress(std::size_t number_of_vertices, std::size_t budget);
 
-  /// Whether to go on. Asked once for each mesh that is tried, when its octree is there and its elements are
-  /// not. After `false` it is not asked again; the result has the status `CGAL::Mixed_mesh_status::STOPPED`,
-  /// and the mesh is empty.
+  /// Whether to go on. Asked once for each mesh that is tried, when its octree is there and its
+  /// elements are not. After `false` it is not asked again; the result has the status
+  /// `CGAL::Mixed_mesh_status::STOPPED`, and the mesh is empty.
   bool go_on();
 };

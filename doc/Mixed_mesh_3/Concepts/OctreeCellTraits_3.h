@@ -7,19 +7,20 @@
 \ingroup PkgMixedMesh3Concepts
 \cgalConcept
 
-The concept `OctreeCellTraits_3` puts an octree into space: it maps lattice points, which are integers,
-to points.
+The concept `OctreeCellTraits_3` puts an octree into space: it maps lattice points, which are
+integers, to points.
 
-The lattice is \f$ [0, 2^{21}]^3 \f$; the root cell is the whole of it. A cell of level `l` has the lattice
-side \f$ 2^{21-l} \f$, and `l` is at most 20, so that centres of cells are lattice points too.
+The lattice is \f$ [0, 2^{21}]^3 \f$; the root cell is the whole of it. A cell of level `l` has the
+lattice side \f$ 2^{21-l} \f$, and `l` is at most 20, so that centres of cells are lattice points
+too.
 
-The map shall be affine, and keep orientation, so that cells are parallelepipeds and elements, which are
-convex in the lattice, are convex and positive in space. It shall be exact on all lattice points that are
-used: cells that have a vertex, an edge or a face in common then have it exactly. The models choose an
-origin and a unit with few significant bits for that reason.
+The map shall be affine, and keep orientation, so that cells are parallelepipeds and elements, which
+are convex in the lattice, are convex and positive in space. It shall be exact on all lattice points
+that are used: cells that have a vertex, an edge or a face in common then have it exactly. The
+models choose an origin and a unit with few significant bits for that reason.
 
-The root cell shall contain the domain, with room around: where the surface touches the border of the root
-cell, the boundary of the mesh cannot be repaired if it is pinched.
+The root cell shall contain the domain, with room around: where the surface touches the border of
+the root cell, the boundary of the mesh cannot be repaired if it is pinched.
 
 A model need not be copied. It must outlive the call.
 
@@ -34,9 +35,9 @@ class OctreeCellTraits_3
 {
 public:
   /*!
-  What `cell()` returns: a cell as a domain and a region see it. The method hands it on, and asks it for
-  nothing; the members are what the models of `MixedMeshDomain_3` and of `MixedMeshRegion_3` use. It need
-  not be copied or moved, nor be a nested type of that name.
+  What `cell()` returns: a cell as a domain and a region see it. The method hands it on, and asks it
+  for nothing; the members are what the models of `MixedMeshDomain_3` and of `MixedMeshRegion_3`
+  use. It need not be copied or moved, nor be a nested type of that name.
   */
   class Cell
   {
@@ -48,8 +49,8 @@ public:
     /// \return a `CGAL::Mixed_meshes_3::Predicates_kernel::Point_3`
     unspecified_type centre() const;
 
-    /// Whether the closed cell and the triangle have a point in common; must be exact.
-    /// Used by polyhedral domains and regions only.
+    /// Whether the closed cell and the triangle have a point in common; must be exact. Used by
+    /// polyhedral domains and regions only.
     bool do_intersect(const CGAL::Mixed_meshes_3::Predicates_kernel::Triangle_3& t) const;
   };
 
@@ -60,8 +61,4 @@ public:
 
   /// The cell of lattice side `side` whose vertex with the smallest coordinates is `corner`.
   Cell cell(const CGAL::Mixed_meshes_3::Lattice_point& corner, std::uint32_t side) const;
-
-  /// The length of the shortest edge of a cell of lattice side `side`. The method asks for that of the
-  /// root only, as the unit in which distances are compared.
-  double length(std::uint32_t side) const;
 };

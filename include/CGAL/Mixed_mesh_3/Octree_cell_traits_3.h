@@ -221,6 +221,7 @@ public:
     return {vertices, point({c[0] + side / 2, c[1] + side / 2, c[2] + side / 2})};
   }
 
+  /// The length of the edges of a cell of the given lattice side.
   double length(std::uint32_t side) const { return side * m_unit * m_norm; }
 
 private:

@@ -108,6 +108,7 @@ void for_each_face(const Element_list& elements, std::size_t number_of_vertices,
 } // namespace internal
 
 /// The faces that belong to one element only, in the order of the elements.
+/// \param mesh the mesh
 /// \param is_candidate `bool(Vertex_index)`: looks at faces all of whose vertices satisfy it only;
 ///        faster if few do
 template <class Mesh, class Is_candidate>

@@ -119,7 +119,8 @@ private:
         m_distances[v] = m_mesh.sides[v] == ON_BOUNDARY ? 0 : distance(v);
     });
     // Distances that are equal but for rounding must not decide: compare them on a scale.
-    const double scale = std::ldexp(1., 24) / m_located.traits().length(Octree::root_side);
+    const Bbox_3 box = m_located.domain().bbox();
+    const double scale = std::ldexp(1., 24) / (box.x_span() + box.y_span() + box.z_span());
     std::vector<std::tuple<double, std::uint64_t, Vertex_index>> order;
     for(Vertex_index v : outside)
       order.emplace_back(std::floor(m_distances[v] * scale + 0.3), lattice_key(m_mesh.vertices[v]), v);
@@ -131,10 +132,7 @@ private:
   double distance(Vertex_index v) const
   {
     const auto p = m_located.point(m_mesh.vertices[v]);
-    const auto n = m_mesh.leaves[v];
-    const auto q = m_located.side(n) == ON_BOUNDARY
-                     ? m_located.domain().closest_point(p, m_located.surface_part(n))
-                     : m_located.domain().closest_point(p);
+    const auto q = m_located.domain().closest_point(p, m_located.surface_part(m_mesh.leaves[v]));
     return std::sqrt(CGAL::squared_distance(p, q));
   }
 
@@ -235,7 +233,8 @@ private:
 Runs the boundary stage. The result keeps exactly the elements that have a vertex inside, in pieces
 where they have others too, so that all boundary vertices are outside (or on) the surface. Pinched
 boundary vertices are labelled inside until the boundary is a closed oriented 2-manifold; \c defects
-tells what remains, which can only be at the rim of the root cell.
+tells what remains: it can only be where a leaf around the vertex has no elements, at the border of the
+root cell or beside dead leaves.
 
 \param mesh the labels of pinched vertices change; in the paper's mode vertices are added
 \cost O(n + m log m) for n elements, m of them at the surface, plus m closest-point queries

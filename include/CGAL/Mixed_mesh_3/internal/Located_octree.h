@@ -49,17 +49,16 @@ public:
 
   const Octree& octree() const { return m_octree; }
   const Domain& domain() const { return *m_domain; }
-  const CellTraits& traits() const { return *m_traits; }
 
   /// `ON_BOUNDARY`: the cell meets the surface of the domain; else the side of all its points.
   Bounded_side side(Node_index n) const { return Bounded_side(m_locations[n].domain); }
   /// Whether the cell meets the domain. Only such cells are refined or become elements.
   bool is_alive(Node_index n) const { return side(n) != ON_UNBOUNDED_SIDE; }
   bool is_in_region(Node_index n) const { return m_locations[n].region != ON_UNBOUNDED_SIDE; }
-  /// The part of the domain's surface that meets the cell. \pre `side(n) == ON_BOUNDARY`
+  /// The part of the domain's surface that meets the cell; a default one if none does.
   const Surface_part& surface_part(Node_index n) const
   {
-    return m_domain_parts[m_locations[n].domain_part];
+    return side(n) == ON_BOUNDARY ? m_domain_parts[m_locations[n].domain_part] : m_no_part;
   }
 
   typename Domain::Point_3 point(const Lattice_point& p) const { return m_traits->point(p); }
@@ -159,6 +158,7 @@ private:
   Octree m_octree;
   std::vector<Location> m_locations;
   std::vector<Surface_part> m_domain_parts;
+  Surface_part m_no_part{};
   std::vector<typename Region::Surface_part> m_region_parts;
 };
 

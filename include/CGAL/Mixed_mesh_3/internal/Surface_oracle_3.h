@@ -143,10 +143,7 @@ public:
   /// The side of any point, by a ray through the AABB tree.
   Bounded_side bounded_side(const Point_3& p) const { return (*m_data->side_of_surface)(p); }
 
-  /// The closest point of the surface.
-  Point_3 closest_point(const Point_3& p) const { return closest_point(p, Surface_part()); }
-
-  /// The closest point of the surface; faster if `part` has facets near `p`.
+  /// The closest point of the surface; faster if `part` has facets near `p`, but it need not.
   Point_3 closest_point(const Point_3& p, const Surface_part& part) const
   {
     Point_3 hint = m_data->triangles.front()[0];

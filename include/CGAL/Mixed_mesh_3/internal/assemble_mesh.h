@@ -47,7 +47,7 @@ void assemble_mesh(const Octree_& octree, const Lattice_mesh& lattice, const Bou
       }
       v[i] = number;
     }
-    elements.add(element.kind(), v);
+    elements.add(element.kind(), &v[0]);
     in_region.push_back(octree.is_in_region(lattice.cells[origin]));
   };
   std::size_t piece = 0;

@@ -44,10 +44,12 @@ public:
     for(int level = 0; level < base_level; ++level)
       m_octree.refine(m_octree.leaves_to_refine(level, false));
     m_best = m_try(m_octree);
+    if(m_octree.leaves_to_refine(base_level, true).empty())
+      return; // the region does not meet the domain
     int level = base_level;
     while(level < Octree::max_level && refine_level(level))
       ++level;
-    for(; level >= base_level; --level)
+    for(level = (std::min)(level, Octree::max_level - 1); level >= base_level; --level)
       add_single_cells(level);
   }
 

@@ -1,0 +1,586 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// make_mixed_mesh_3() from end to end: what it guarantees, on the brain and on awkward domains.
+//
+//   test_make_mixed_mesh [DATA_DIRECTORY]
+
+#include <CGAL/make_mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/quality.h>
+#include <CGAL/Mixed_mesh_3/validation.h>
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/IO/polygon_mesh_io.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
+
+#include <boost/core/lightweight_test.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <string>
+#include <vector>
+
+#ifndef MIXED_MESH_3_DATA_DIR
+#define MIXED_MESH_3_DATA_DIR "data"
+#endif
+
+namespace {
+
+using namespace CGAL::Mixed_meshes_3;
+using CGAL::Ball_mixed_mesh_region_3;
+using CGAL::Everywhere_mixed_mesh_region_3;
+using CGAL::Implicit_mixed_mesh_region_3;
+using CGAL::Mixed_mesh_criteria_3;
+using CGAL::Mixed_mesh_result_3;
+using CGAL::Polyhedral_mixed_mesh_domain_3;
+using CGAL::Polyhedral_mixed_mesh_region_3;
+using CGAL::Union_mixed_mesh_region_3;
+using CGAL::make_mixed_mesh_3;
+using Status = CGAL::Mixed_mesh_status;
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Exact_kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using Simple_kernel = CGAL::Simple_cartesian<double>;
+using Point_3 = Kernel::Point_3;
+using Vector_3 = Kernel::Vector_3;
+using Surface = CGAL::Surface_mesh<Point_3>;
+using Mesh = CGAL::Mixed_mesh_3<Kernel>;
+
+// ---- helpers -----------------------------------------------------------------------------------
+
+// All that a mesh is, in doubles.
+struct Content
+{
+  std::vector<std::array<double, 3>> points;
+  std::vector<Element_kind> kinds;
+  std::vector<Vertex_index> connectivity;
+  std::vector<bool> in_region;
+  std::vector<std::pair<Element_index, int>> boundary;
+
+  bool has_same_topology(const Content& c) const
+  {
+    return kinds == c.kinds && connectivity == c.connectivity && in_region == c.in_region
+           && boundary == c.boundary;
+  }
+  bool operator==(const Content& c) const { return points == c.points && has_same_topology(c); }
+};
+
+template <class AnyMesh>
+Content content(const AnyMesh& mesh)
+{
+  Content c;
+  for(const auto& p : mesh.points())
+    c.points.push_back({CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())});
+  c.kinds = mesh.elements().kinds();
+  c.connectivity = mesh.elements().connectivity();
+  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
+    c.in_region.push_back(mesh.is_in_region(e));
+  for(const auto& f : mesh.boundary_faces())
+    c.boundary.emplace_back(f.element, f.local_face);
+  return c;
+}
+
+// What holds for any input: a valid mesh within the budget, or none.
+template <class AnyMesh>
+void check(const AnyMesh& mesh, const Mixed_mesh_result_3& result, std::size_t budget)
+{
+  if(!result.has_mesh()) {
+    BOOST_TEST(mesh.is_empty());
+    BOOST_TEST_EQ(mesh.number_of_vertices(), 0u);
+    return;
+  }
+  BOOST_TEST(!mesh.is_empty());
+  BOOST_TEST_LE(mesh.number_of_vertices(), budget);
+  const Mesh_defects d = find_defects(mesh);
+  BOOST_TEST(d.conforming() && d.positive() && d.unused_vertices == 0 && d.duplicate_vertices == 0);
+  BOOST_TEST_EQ(d.closed_manifold_boundary(), result.status != Status::BOUNDARY_NOT_MANIFOLD);
+  BOOST_TEST(boundary_faces(mesh).size() == mesh.boundary_faces().size());
+  BOOST_TEST_GT(volume(mesh), 0);
+  BOOST_TEST(result.status != Status::SUCCESS || mesh.number_of_vertices() >= 0.97 * double(budget));
+  BOOST_TEST(result.status != Status::BUDGET_NOT_FILLED
+             || mesh.number_of_vertices() < 0.97 * double(budget));
+}
+
+template <class Domain, class Region>
+Mixed_mesh_result_3 run(const Domain& domain, const Region& region,
+                        const Mixed_mesh_criteria_3& criteria, Mesh& mesh)
+{
+  const Mixed_mesh_result_3 result = make_mixed_mesh_3(domain, region, criteria, mesh);
+  check(mesh, result, criteria.maximal_number_of_vertices());
+  return result;
+}
+
+// Every boundary vertex is outside or on the surface, every other one inside, unless the repair of
+// pinched places made it so.
+void check_sides(const Mesh& mesh, const Mixed_mesh_result_3& result,
+                 const Polyhedral_mixed_mesh_domain_3& domain)
+{
+  std::vector<bool> is_boundary(mesh.number_of_vertices());
+  for(const auto& f : mesh.boundary_faces())
+    for(Vertex_index v : internal::face_vertices(mesh.element(f.element), f.local_face))
+      if(v != internal::no_vertex)
+        is_boundary[v] = true;
+  for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v) {
+    const bool is_inside = domain.bounded_side(mesh.point(v)) == CGAL::ON_BOUNDED_SIDE;
+    BOOST_TEST(!is_inside || !is_boundary[v]);
+    BOOST_TEST(is_inside || is_boundary[v] || result.number_of_relabelled_vertices > 0);
+  }
+}
+
+Surface transformed(Surface s, const std::function<Point_3(const Point_3&)>& f)
+{
+  for(auto v : s.vertices())
+    s.point(v) = f(s.point(v));
+  return s;
+}
+
+void add_box(Surface& s, const Point_3& a, const Point_3& b)
+{
+  Surface::Vertex_index v[8];
+  for(int i = 0; i < 8; ++i)
+    v[i] = s.add_vertex({(i & 1 ? b : a).x(), (i & 2 ? b : a).y(), (i & 4 ? b : a).z()});
+  static constexpr int quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                      {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  for(const auto& q : quads) {
+    s.add_face(v[q[0]], v[q[1]], v[q[2]]);
+    s.add_face(v[q[0]], v[q[2]], v[q[3]]);
+  }
+}
+
+// Rings of 2n vertices between the poles.
+void add_sphere(Surface& s, const Point_3& centre, double radius, int n)
+{
+  std::vector<std::vector<Surface::Vertex_index>> rings(std::size_t(n) + 1);
+  for(int i = 0; i <= n; ++i)
+    for(int j = 0; j < (i == 0 || i == n ? 1 : 2 * n); ++j) {
+      const double a = CGAL_PI * i / n, b = CGAL_PI * j / n;
+      rings[i].push_back(s.add_vertex(centre + radius * Vector_3(std::sin(a) * std::cos(b),
+                                                                 std::sin(a) * std::sin(b),
+                                                                 std::cos(a))));
+    }
+  for(int i = 0; i < n; ++i) {
+    const auto &up = rings[i], &down = rings[i + 1];
+    const std::size_t m = (std::max)(up.size(), down.size());
+    for(std::size_t j = 0; j < m; ++j) {
+      const std::size_t k = (j + 1) % m;
+      if(down.size() > 1)
+        s.add_face(up[j % up.size()], down[j], down[k]);
+      if(up.size() > 1)
+        s.add_face(up[j], down[k % down.size()], up[k]);
+    }
+  }
+}
+
+// Notes what it is told, and stops when asked for the n-th time.
+struct Recording_visitor
+{
+  std::size_t stop_at = std::numeric_limits<std::size_t>::max();
+  std::size_t number_of_questions = 0, number_of_trials = 0, number_of_errors = 0;
+  std::size_t largest_accepted = 0;
+  std::array<std::size_t, number_of_stages> begun{}, ended{};
+  int open = -1; // the stage under way
+
+  void begin_stage(Stage s)
+  {
+    number_of_errors += open != -1;
+    open = int(s);
+    ++begun[int(s)];
+  }
+  void end_stage(Stage s)
+  {
+    number_of_errors += open != int(s);
+    open = -1;
+    ++ended[int(s)];
+  }
+  void progress(std::size_t number_of_vertices, std::size_t budget)
+  {
+    ++number_of_trials;
+    if(number_of_vertices <= budget)
+      largest_accepted = (std::max)(largest_accepted, number_of_vertices);
+  }
+  bool go_on() { return number_of_questions++ < stop_at; }
+};
+
+// ---- the brain ---------------------------------------------------------------------------------
+
+void test_budgets(const Polyhedral_mixed_mesh_domain_3& domain,
+                  const Polyhedral_mixed_mesh_region_3& region)
+{
+  for(std::size_t n : {660, 2000, 10000}) {
+    Mesh mesh;
+    const Mixed_mesh_result_3 result = run(domain, region, Mixed_mesh_criteria_3(n), mesh);
+    BOOST_TEST(result.status == Status::SUCCESS);
+    BOOST_TEST_GE(double(mesh.number_of_vertices()), 0.97 * double(n));
+    BOOST_TEST(find_defects(mesh).none());
+    BOOST_TEST_EQ(result.number_of_boundary_vertices_inserted, 0u);
+    BOOST_TEST_EQ(result.base_level, 3);
+    check_sides(mesh, result, domain);
+    if(n == 660) {
+      const auto rows = quality_statistics(mesh);
+      BOOST_TEST_LE(rows[number_of_element_kinds].mean, 1.55);
+      BOOST_TEST_LE(rows[number_of_element_kinds].maximum, 3.2);
+      for(const auto& row : rows)
+        BOOST_TEST_GT(row.count, 0u); // all four kinds
+    }
+    std::cout << n << ": " << mesh.number_of_vertices() << " vertices, " << result.number_of_trials
+              << " trials, " << result.number_of_relabelled_vertices << " relabelled" << std::endl;
+  }
+}
+
+void test_repeatability(const Polyhedral_mixed_mesh_domain_3& domain,
+                        const Polyhedral_mixed_mesh_region_3& region)
+{
+  Content first;
+  for(unsigned threads : {1, 1, 2, 5, 1}) {
+    Mesh mesh;
+    run(domain, region, Mixed_mesh_criteria_3(2000).number_of_threads(threads), mesh);
+    if(first.points.empty())
+      first = content(mesh);
+    BOOST_TEST(content(mesh) == first);
+  }
+}
+
+template <class MeshKernel, class AnySurface>
+void test_same(const AnySurface& surface, const AnySurface& region, const Content& expected)
+{
+  CGAL::Mixed_mesh_3<MeshKernel> mesh;
+  const Mixed_mesh_result_3 result = make_mixed_mesh_3(surface, region, 660, mesh);
+  check(mesh, result, 660);
+  BOOST_TEST(content(mesh) == expected);
+}
+
+template <class AnySurface>
+AnySurface copy(const Surface& surface)
+{
+  AnySurface result;
+  CGAL::copy_face_graph(surface, result);
+  return result;
+}
+
+void test_kernels(const Surface& brain, const Surface& region)
+{
+  Mesh mesh;
+  make_mixed_mesh_3(brain, region, 660, mesh);
+  const Content expected = content(mesh);
+  BOOST_TEST(!expected.points.empty());
+  test_same<Exact_kernel>(brain, region, expected);
+  test_same<Simple_kernel>(brain, region, expected);
+  using Exact_surface = CGAL::Surface_mesh<Exact_kernel::Point_3>;
+  test_same<Exact_kernel>(copy<Exact_surface>(brain), copy<Exact_surface>(region), expected);
+  using Simple_polyhedron = CGAL::Polyhedron_3<Simple_kernel>;
+  test_same<Simple_kernel>(copy<Simple_polyhedron>(brain), copy<Simple_polyhedron>(region), expected);
+  using Polyhedron = CGAL::Polyhedron_3<Kernel>;
+  test_same<Kernel>(copy<Polyhedron>(brain), copy<Polyhedron>(region), expected);
+}
+
+void test_criteria(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& domain,
+                   const Polyhedral_mixed_mesh_region_3& region)
+{
+  Mesh plain, mesh;
+  const auto expected = run(domain, region, Mixed_mesh_criteria_3(1500), plain);
+
+  auto result = run(domain, region, Mixed_mesh_criteria_3(1500).root_cell(Root_cell::BOX), mesh);
+  BOOST_TEST(result.status == Status::SUCCESS);
+  BOOST_TEST(!(content(mesh) == content(plain)));
+  check_sides(mesh, result, domain);
+
+  result = run(domain, region,
+               Mixed_mesh_criteria_3(1500).transition_templates(Transition_templates_choice::CENTRED),
+               mesh);
+  BOOST_TEST(result.status == Status::SUCCESS);
+  BOOST_TEST_GT(result.number_of_transition_vertices, expected.number_of_transition_vertices);
+  check_sides(mesh, result, domain);
+
+  // In the paper's mode the kept elements are the same; fewer of them are for the same budget.
+  result = run(domain, region, Mixed_mesh_criteria_3(1500).boundary_mode(Boundary_mode::PAPER), mesh);
+  BOOST_TEST(result.status == Status::SUCCESS);
+  BOOST_TEST_GT(result.number_of_boundary_vertices_inserted, 0u);
+  BOOST_TEST_LE(result.number_of_cells, expected.number_of_cells);
+
+  for(int level = 0; level <= 5; ++level) {
+    result = run(domain, region, Mixed_mesh_criteria_3(1500).base_level(level), mesh);
+    BOOST_TEST_EQ(result.base_level, level);
+    BOOST_TEST(result.status
+               == (level <= 3 ? Status::SUCCESS
+                              : result.number_of_vertices_needed > 1500 ? Status::BUDGET_TOO_SMALL
+                                                                        : Status::SUCCESS));
+    BOOST_TEST_GE(result.deepest_level, level);
+  }
+  BOOST_TEST(result.status == Status::BUDGET_TOO_SMALL);
+  // as many as needed are enough
+  const std::size_t needed = result.number_of_vertices_needed;
+  result = run(domain, region, Mixed_mesh_criteria_3(needed).base_level(5), mesh);
+  BOOST_TEST(result.status == Status::SUCCESS);
+  BOOST_TEST_EQ(mesh.number_of_vertices(), needed);
+  result = run(domain, region, Mixed_mesh_criteria_3(needed - 1).base_level(5), mesh);
+  BOOST_TEST(result.status == Status::BUDGET_TOO_SMALL);
+
+  for(const Vector_3& axis : {Vector_3(1, 2, 3), Vector_3(0, 0, -1), Vector_3(-1, 0.3, 0.1)}) {
+    const Rotated_octree_cell_traits_3 traits(brain.points(), axis);
+    const Mixed_mesh_criteria_3 criteria(1500);
+    result = make_mixed_mesh_3(domain, region, criteria, traits, mesh,
+                               CGAL::parameters::default_values());
+    check(mesh, result, 1500);
+    BOOST_TEST(result.status == Status::SUCCESS);
+    check_sides(mesh, result, domain);
+  }
+}
+
+void test_regions(const Polyhedral_mixed_mesh_domain_3& domain, const Surface& region_surface)
+{
+  const CGAL::Bbox_3 b = domain.bbox();
+  const Point_3 centre((b.xmin() + b.xmax()) / 2, (b.ymin() + b.ymax()) / 2, (b.zmin() + b.zmax()) / 2);
+  const Mixed_mesh_criteria_3 criteria(1500);
+  Mesh ball, same, everywhere, united;
+  const double radius = 15;
+  BOOST_TEST(run(domain, Ball_mixed_mesh_region_3(centre, radius), criteria, ball).status
+             == Status::SUCCESS);
+  run(domain, Implicit_mixed_mesh_region_3([=](const Point_3& p) {
+        return radius - std::sqrt(CGAL::squared_distance(p, centre));
+      }), criteria, same);
+  BOOST_TEST(content(ball) == content(same));
+
+  BOOST_TEST(run(domain, Everywhere_mixed_mesh_region_3(), criteria, everywhere).status
+             == Status::SUCCESS);
+  for(std::size_t e = 0; e < everywhere.number_of_elements(); ++e)
+    BOOST_TEST(everywhere.is_in_region(e));
+
+  using Union = Union_mixed_mesh_region_3<Polyhedral_mixed_mesh_region_3, Ball_mixed_mesh_region_3>;
+  const auto result = run(domain, Union(Polyhedral_mixed_mesh_region_3(region_surface),
+                                        Ball_mixed_mesh_region_3(centre, radius)), criteria, united);
+  BOOST_TEST(result.status == Status::SUCCESS);
+  const Polyhedral_mixed_mesh_region_3 alone(region_surface);
+  // elements of the union belong to one of the two
+  bool has_first = false, has_second = false;
+  for(std::size_t e = 0; e < united.number_of_elements(); ++e)
+    if(united.is_in_region(e))
+      for(Vertex_index v : united.element(e)) {
+        has_first = has_first || alone.depth(united.point(v)) > 0;
+        has_second = has_second || CGAL::squared_distance(united.point(v), centre) < radius * radius;
+      }
+  BOOST_TEST(has_first && has_second);
+
+  // away from the domain
+  Mesh none;
+  none.add_vertex(centre);
+  const Point_3 away(b.xmax() + 1000, 0, 0);
+  BOOST_TEST(run(domain, Ball_mixed_mesh_region_3(away, 10), criteria, none).status
+             == Status::REGION_NOT_MET);
+}
+
+// Position and unit do not matter, but for the rounding of the input.
+void test_invariance(const Surface& brain, const Surface& region)
+{
+  Mesh mesh;
+  BOOST_TEST(make_mixed_mesh_3(brain, region, 660, mesh).has_mesh());
+  const Content expected = content(mesh);
+  for(double scale : {std::ldexp(1., 20), std::ldexp(1., -20), 1e6, 1e-6, 25.4}) {
+    const auto f = [&](const Point_3& p) { return Point_3(scale * p.x(), scale * p.y(), scale * p.z()); };
+    const auto result = make_mixed_mesh_3(transformed(brain, f), transformed(region, f), 660, mesh);
+    check(mesh, result, 660);
+    BOOST_TEST(result.status == Status::SUCCESS);
+    BOOST_TEST(content(mesh).has_same_topology(expected));
+  }
+  for(double offset : {1000., 1e8}) {
+    const auto f = [&](const Point_3& p) { return p + Vector_3(offset, -offset, offset); };
+    const auto result = make_mixed_mesh_3(transformed(brain, f), transformed(region, f), 660, mesh);
+    check(mesh, result, 660);
+    BOOST_TEST(result.status == Status::SUCCESS);
+    // at 1e8 the lattice has so few digits left that the root is a little larger
+    BOOST_TEST(offset > 1e6 || content(mesh).has_same_topology(expected));
+  }
+  Surface inside_out = brain, region_inside_out = region;
+  CGAL::Polygon_mesh_processing::reverse_face_orientations(inside_out);
+  CGAL::Polygon_mesh_processing::reverse_face_orientations(region_inside_out);
+  make_mixed_mesh_3(inside_out, region_inside_out, 660, mesh);
+  BOOST_TEST(content(mesh) == expected);
+}
+
+void test_small_budgets(const Polyhedral_mixed_mesh_domain_3& domain,
+                        const Polyhedral_mixed_mesh_region_3& region)
+{
+  Mesh mesh;
+  std::size_t smallest = 0; // that gives a mesh
+  for(std::size_t n : {1, 4, 8, 9, 20, 27, 35, 50, 80, 125, 200, 300, 400, 500}) {
+    mesh.add_vertex({0, 0, 0}); // to be cleared
+    const auto result = run(domain, region, Mixed_mesh_criteria_3(n), mesh);
+    BOOST_TEST(result.has_mesh() || result.status == Status::BUDGET_TOO_SMALL);
+    if(!result.has_mesh())
+      BOOST_TEST_GT(result.number_of_vertices_needed, n);
+    if(n <= 4) // a vertex inside has at least four around it
+      BOOST_TEST(!result.has_mesh());
+    if(result.has_mesh() && smallest == 0)
+      smallest = n;
+    BOOST_TEST(smallest == 0 || result.has_mesh()); // more is never too small
+  }
+  BOOST_TEST(smallest > 4 && smallest <= 200);
+}
+
+void test_visitor(const Surface& brain, const Surface& region)
+{
+  Mesh expected, mesh;
+  make_mixed_mesh_3(brain, region, 660, expected);
+  Recording_visitor all;
+  const auto result = make_mixed_mesh_3(brain, region, 660, mesh,
+                                        CGAL::parameters::visitor(std::ref(all)));
+  BOOST_TEST(content(mesh) == content(expected));
+  BOOST_TEST_EQ(all.number_of_errors, 0u);
+  BOOST_TEST_EQ(all.open, -1);
+  BOOST_TEST(all.begun == all.ended);
+  for(std::size_t n : all.begun)
+    BOOST_TEST_GT(n, 0u);
+  BOOST_TEST_EQ(all.begun[int(Stage::ASSEMBLY)], 1u);
+  BOOST_TEST_EQ(all.number_of_trials, result.number_of_trials);
+  BOOST_TEST_EQ(all.largest_accepted, mesh.number_of_vertices());
+  BOOST_TEST_GT(all.number_of_questions, 2u);
+
+  for(std::size_t i = 0; i < all.number_of_questions; ++i) {
+    Recording_visitor visitor;
+    visitor.stop_at = i;
+    const auto stopped = make_mixed_mesh_3(brain, region, 660, mesh,
+                                           CGAL::parameters::visitor(std::ref(visitor)));
+    BOOST_TEST(stopped.status == Status::STOPPED);
+    check(mesh, stopped, 660);
+    BOOST_TEST_EQ(visitor.number_of_errors, 0u);
+    BOOST_TEST(visitor.begun == visitor.ended);
+    BOOST_TEST_EQ(visitor.number_of_questions, i + 1); // not asked again
+    BOOST_TEST_EQ(visitor.begun[int(Stage::ASSEMBLY)], 0u);
+  }
+}
+
+// ---- awkward domains ---------------------------------------------------------------------------
+
+// Returns the volume of the mesh.
+double mesh_shape(const std::string& name, const Surface& surface, std::size_t budget,
+                  std::vector<Status> expected)
+{
+  const Polyhedral_mixed_mesh_domain_3 domain(surface);
+  double first_volume = 0;
+  for(Root_cell root : {Root_cell::CUBE, Root_cell::BOX}) {
+    Mesh mesh;
+    const auto result = run(domain, Everywhere_mixed_mesh_region_3(),
+                            Mixed_mesh_criteria_3(budget).root_cell(root), mesh);
+    const bool is_expected = std::count(expected.begin(), expected.end(), result.status) != 0;
+    BOOST_TEST(is_expected);
+    if(!is_expected)
+      std::cout << name << (root == Root_cell::BOX ? " (box)" : "") << ": status "
+                << int(result.status) << ", needed " << result.number_of_vertices_needed << std::endl;
+    check_sides(mesh, result, domain);
+    if(root == Root_cell::CUBE && !mesh.is_empty())
+      first_volume = volume(mesh);
+  }
+  return first_volume;
+}
+
+void test_shapes()
+{
+  const std::vector<Status> filled = {Status::SUCCESS, Status::BUDGET_NOT_FILLED};
+  const std::vector<Status> any = {Status::SUCCESS, Status::BUDGET_NOT_FILLED,
+                                   Status::BUDGET_TOO_SMALL, Status::EMPTY};
+  // the mesh contains the vertices inside; its volume is not far from that of the domain
+  const auto is_near = [](double volume, double exact) {
+    return volume > 0.8 * exact && volume < 2.5 * exact;
+  };
+
+  Surface cube;
+  add_box(cube, {0, 0, 0}, {1, 1, 1});
+  BOOST_TEST(is_near(mesh_shape("cube", cube, 1000, filled), 1));
+
+  Surface tetrahedron;
+  tetrahedron.add_vertex({0, 0, 0});
+  tetrahedron.add_vertex({3, 0, 0});
+  tetrahedron.add_vertex({0, 3, 0});
+  tetrahedron.add_vertex({0, 0, 3});
+  using V = Surface::Vertex_index;
+  for(const auto& f : {std::array<int, 3>{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}})
+    tetrahedron.add_face(V(f[0]), V(f[1]), V(f[2]));
+  BOOST_TEST(is_near(mesh_shape("tetrahedron", tetrahedron, 2000, filled), 4.5));
+
+  Surface plate;
+  add_box(plate, {0, 0, 0}, {100, 100, 1});
+  mesh_shape("plate", plate, 20000, any);
+  mesh_shape("plate, few", plate, 300, any);
+  const auto tilt = [](const Point_3& p) { // a rotation
+    const double c = 0.8, s = 0.6;
+    const Point_3 q(c * p.x() - s * p.z(), p.y(), s * p.x() + c * p.z());
+    return Point_3(q.x(), c * q.y() - s * q.z(), s * q.y() + c * q.z());
+  };
+  mesh_shape("tilted plate", transformed(plate, tilt), 20000, any);
+
+  Surface needle;
+  add_box(needle, {0, 0, 0}, {100, 1, 1});
+  mesh_shape("needle", needle, 2000, any);
+  mesh_shape("tilted needle", transformed(needle, tilt), 2000, any);
+
+  Surface two;
+  add_sphere(two, {0, 0, 0}, 1, 8);
+  add_sphere(two, {5, 0.3, 0.1}, 1, 8);
+  const double sphere = 4 * CGAL_PI / 3;
+  BOOST_TEST(is_near(mesh_shape("two spheres", two, 4000, filled), 2 * sphere));
+
+  // almost touching: pinched without the repair
+  Surface touching;
+  add_sphere(touching, {0, 0, 0}, 1, 8);
+  add_sphere(touching, {1.3, 1.3, 1.2}, 1, 8);
+  BOOST_TEST(is_near(mesh_shape("touching spheres", touching, 4000, filled), 2 * sphere));
+
+  Surface cavity;
+  add_sphere(cavity, {0, 0, 0}, 1, 10);
+  add_sphere(cavity, {0.1, 0, 0}, 0.5, 8);
+  BOOST_TEST(is_near(mesh_shape("cavity", cavity, 4000, filled), sphere * 7 / 8));
+
+  // inside out; the sphere is symmetric, so that many cells are equally deep, but for rounding
+  Surface reversed;
+  add_sphere(reversed, {0, 0, 0}, 1, 8);
+  Mesh a, b;
+  make_mixed_mesh_3(reversed, reversed, 500, a);
+  CGAL::Polygon_mesh_processing::reverse_face_orientations(reversed);
+  make_mixed_mesh_3(reversed, reversed, 500, b);
+  BOOST_TEST(!a.is_empty() && content(a) == content(b));
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  const std::string data = argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR;
+  Surface brain, region_surface;
+  if(!CGAL::IO::read_polygon_mesh(data + "/brain.off", brain)
+     || !CGAL::IO::read_polygon_mesh(data + "/region.off", region_surface)) {
+    std::cerr << "cannot read brain.off and region.off in " << data << std::endl;
+    return 1;
+  }
+  const Polyhedral_mixed_mesh_domain_3 domain(brain);
+  const Polyhedral_mixed_mesh_region_3 region(region_surface);
+
+  auto last = std::chrono::steady_clock::now();
+  const auto timed = [&](const char* name, const std::function<void()>& f) {
+    f();
+    const auto now = std::chrono::steady_clock::now();
+    std::cout << name << ": " << std::chrono::duration<double>(now - last).count() << " s" << std::endl;
+    last = now;
+  };
+  timed("budgets", [&] { test_budgets(domain, region); });
+  timed("repeatability", [&] { test_repeatability(domain, region); });
+  timed("kernels", [&] { test_kernels(brain, region_surface); });
+  timed("criteria", [&] { test_criteria(brain, domain, region); });
+  timed("regions", [&] { test_regions(domain, region_surface); });
+  timed("invariance", [&] { test_invariance(brain, region_surface); });
+  timed("small budgets", [&] { test_small_budgets(domain, region); });
+  timed("visitor", [&] { test_visitor(brain, region_surface); });
+  timed("shapes", [&] { test_shapes(); });
+  return boost::report_errors();
+}

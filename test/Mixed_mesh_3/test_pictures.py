@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Peers read the brain's mesh with the same volume, and its pictures are drawn.
+
+  test_pictures.py MESHER REPOSITORY WORK_DIRECTORY
+"""
+
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+
+try:
+    import gmsh
+    import vtk
+except ImportError as error:
+    print("skipped:", error)
+    sys.exit(77)
+
+MESHER, REPOSITORY, WORK = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+DATA = REPOSITORY / "data"
+
+
+def vtk_volume(path):
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(path))
+    sizes = vtk.vtkCellSizeFilter()
+    sizes.SetInputConnection(reader.GetOutputPort())
+    sizes.Update()
+    grid = sizes.GetOutput()
+    volumes = grid.GetCellData().GetArray("Volume")
+    cells = [volumes.GetValue(i) for i in range(grid.GetNumberOfCells())]
+    assert min(cells) > 0
+    for name in ("kind", "ARC", "in_region"):
+        assert grid.GetCellData().GetArray(name).GetNumberOfTuples() == len(cells)
+    return grid.GetNumberOfPoints(), len(cells), sum(cells)
+
+
+def gmsh_volume(path):
+    """From the determinants at the centres and corners of Gmsh's own elements: all are positive; the
+    volume is that of the tetrahedra from the centroid over Gmsh's faces."""
+    gmsh.initialize()
+    gmsh.option.setNumber("General.Terminal", 0)
+    gmsh.open(str(path))
+    total, count = 0.0, 0
+    for kind in gmsh.model.mesh.getElementTypes(3):
+        tags, _ = gmsh.model.mesh.getElementsByType(kind)
+        points, weights = gmsh.model.mesh.getIntegrationPoints(kind, "Gauss4")
+        _, determinants, _ = gmsh.model.mesh.getJacobians(kind, points)
+        assert min(determinants) > 0
+        # Gmsh 4.8 has pyramid weights that sum to 16/9 instead of the volume 4/3
+        scale = (4 / 3) / sum(weights) if kind == 7 else 1
+        n = len(weights)
+        total += scale * sum(d * weights[i % n] for i, d in enumerate(determinants))
+        count += len(tags)
+    gmsh.finalize()
+    return count, total
+
+
+def main():
+    shutil.rmtree(WORK, ignore_errors=True)
+    WORK.mkdir(parents=True)
+    report = WORK / "brain.json"
+    files = [WORK / "brain.vtu", WORK / "brain.msh", WORK / "brain.msh2"]
+    subprocess.run([MESHER, DATA / "brain.off", "--region", DATA / "region.off", "--vertices", "660", "--report",
+                    report] + [x for f in files for x in ("--output", f)], check=True)
+    mesh = json.loads(report.read_text())["mesh"]
+    points, cells, volume = vtk_volume(files[0])
+    assert (points, cells) == (mesh["vertices"], mesh["elements"])
+    assert abs(volume / mesh["volume"] - 1) < 1e-9, (volume, mesh["volume"])
+    for path in files[1:]:
+        cells, volume = gmsh_volume(path)
+        assert cells == mesh["elements"]
+        # the Gauss points of its pyramids do not integrate the rational Jacobian exactly
+        assert abs(volume / mesh["volume"] - 1) < 1e-6, (volume, mesh["volume"])
+
+    subprocess.run(["/usr/bin/python3", REPOSITORY / "scripts" / "render_mesh.py", files[0], "--surface",
+                    DATA / "brain.off", "--region", DATA / "region.off", "--output-prefix", WORK / "brain",
+                    "--size", "800x600"], check=True)
+    for name in ("surface", "kinds", "ARC"):
+        reader = vtk.vtkPNGReader()
+        reader.SetFileName(str(WORK / f"brain_{name}.png"))
+        reader.Update()
+        picture = reader.GetOutput()
+        assert picture.GetDimensions()[:2] == (800, 600)
+        colours = {tuple(picture.GetScalarComponentAsDouble(x, y, 0, k) for k in range(3))
+                   for x in range(0, 800, 7) for y in range(0, 600, 7)}
+        assert len(colours) > 30, name
+    print("no errors detected")
+
+
+main()
