@@ -16,7 +16,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -41,8 +42,8 @@ public:
   Located_octree(const Domain& domain, const Region& region, const CellTraits& traits)
     : m_domain(&domain), m_region(&region), m_traits(&traits)
   {
-    m_domain_parts.push_back(domain.surface_part());
-    m_region_parts.push_back(region.surface_part());
+    add_part(m_domain_parts, domain.surface_part());
+    add_part(m_region_parts, region.surface_part());
     m_locations.push_back({ON_BOUNDARY, ON_BOUNDARY, 0, 0});
     locate(Octree::root(), m_locations[0]);
   }
@@ -58,7 +59,7 @@ public:
   /// The part of the domain's surface that meets the cell; a default one if none does.
   const Surface_part& surface_part(Node_index n) const
   {
-    return side(n) == ON_BOUNDARY ? m_domain_parts[m_locations[n].domain_part] : m_no_part;
+    return *(side(n) == ON_BOUNDARY ? m_domain_parts[m_locations[n].domain_part] : m_no_part);
   }
 
   typename Domain::Point_3 point(const Lattice_point& p) const { return m_traits->point(p); }
@@ -136,18 +137,28 @@ private:
     l.region = locate(*m_region, cell, l.region, l.region_part, m_region_parts);
   }
 
+  // Parts never change, so that copies of the octree share them.
+  template <class Part>
+  using Parts = std::vector<std::shared_ptr<const Part>>;
+
+  template <class Part>
+  static void add_part(Parts<Part>& parts, Part part)
+  {
+    parts.push_back(std::make_shared<const Part>(std::move(part)));
+  }
+
   template <class Oracle, class Cell, class Part>
   static std::int8_t locate(const Oracle& oracle, const Cell& cell, std::int8_t parent_side,
-                            std::uint32_t& part, std::vector<Part>& parts)
+                            std::uint32_t& part, Parts<Part>& parts)
   {
     if(parent_side != ON_BOUNDARY)
       return parent_side;
     Part mine;
-    const Bounded_side side = oracle.locate(cell, parts[part], mine);
+    const Bounded_side side = oracle.locate(cell, *parts[part], mine);
     part = 0;
     if(side == ON_BOUNDARY) {
       part = std::uint32_t(parts.size());
-      parts.push_back(std::move(mine));
+      add_part(parts, std::move(mine));
     }
     return std::int8_t(side);
   }
@@ -157,9 +168,9 @@ private:
   const CellTraits* m_traits;
   Octree m_octree;
   std::vector<Location> m_locations;
-  std::vector<Surface_part> m_domain_parts;
-  Surface_part m_no_part{};
-  std::vector<typename Region::Surface_part> m_region_parts;
+  Parts<Surface_part> m_domain_parts;
+  Parts<typename Region::Surface_part> m_region_parts;
+  std::shared_ptr<const Surface_part> m_no_part = std::make_shared<const Surface_part>();
 };
 
 } // namespace internal
