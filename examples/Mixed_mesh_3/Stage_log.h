@@ -39,6 +39,8 @@ public:
   /// \param show_progress whether to rewrite a line on stderr while stages run
   explicit Stage_log(bool show_progress) : m_show_progress(show_progress) {}
 
+  ~Stage_log() { clear_line(); }
+
   void begin_stage(CGAL::Mixed_meshes_3::Stage stage)
   {
     begin(CGAL::Mixed_meshes_3::stage_names[int(stage)]);
@@ -69,11 +71,15 @@ public:
   const std::vector<Stage_cost>& costs() const { return m_costs; }
   double seconds() const { return seconds_since(m_start); }
 
-  /// Ends the progress line, so that other output can follow.
-  void finish_line()
+  /// Replaces the progress line by what each stage took.
+  void finish_progress()
   {
-    if(m_show_progress)
-      std::fprintf(stderr, "\r\033[K");
+    if(!m_show_progress)
+      return;
+    clear_line();
+    for(const Stage_cost& cost : m_costs)
+      std::fprintf(stderr, "%9.3f s %6zu MiB  %s\n", cost.seconds, cost.peak_bytes >> 20,
+                   cost.name.c_str());
   }
 
   /// Largest resident memory of the process so far.
@@ -85,6 +91,12 @@ public:
   }
 
 private:
+  void clear_line() const
+  {
+    if(m_show_progress)
+      std::fprintf(stderr, "\r\033[K");
+  }
+
   void begin(const std::string& name)
   {
     m_current = name;

@@ -170,6 +170,7 @@ const char* name_of(Mixed_mesh_status status)
   switch(status) {
   case Mixed_mesh_status::SUCCESS: return "success";
   case Mixed_mesh_status::BUDGET_NOT_FILLED: return "budget not filled";
+  case Mixed_mesh_status::PARTS_LOST: return "parts lost";
   case Mixed_mesh_status::BUDGET_TOO_SMALL: return "budget too small";
   case Mixed_mesh_status::EMPTY: return "empty";
   case Mixed_mesh_status::REGION_NOT_MET: return "region not met";
@@ -201,6 +202,7 @@ void check_result(const CGAL::Mixed_mesh_result_3& result, const Options& o, con
     break;
   case Mixed_mesh_status::BOUNDARY_NOT_MANIFOLD:
     throw Invalid_mesh("the boundary is pinched at the border of the root cell; try another --base-level");
+  case Mixed_mesh_status::PARTS_LOST: // below
   case Mixed_mesh_status::SUCCESS:
     break;
   }
@@ -266,8 +268,8 @@ void print_summary(const Mesh& mesh, const Options& o, const Json& report)
   for(int k = mm3::number_of_element_kinds - 1; k >= 0; --k)
     std::cout << counts[std::size_t(k)] << ' ' << mm3::reference_elements[k].plural << (k > 0 ? ", " : ")\n");
   const Json& all = report["quality"]["all"];
-  std::cout << "ARC mean " << all["ARC mean"] << ", max " << all["ARC max"] << "; all checks hold; "
-            << report["seconds"] << " s\n";
+  std::cout << std::setprecision(3) << "ARC mean " << double(all["ARC mean"]) << ", max "
+            << double(all["ARC max"]) << "; all checks hold; " << double(report["seconds"]) << " s\n";
   for(const std::string& path : o.outputs)
     std::cout << "wrote " << path << '\n';
   if(!o.report.empty())
@@ -371,7 +373,7 @@ void run(const Options& o)
   if(!o.report.empty())
     if(const auto error = mm3::IO::write_text_file(o.report, report.dump(2) + "\n"))
       throw std::runtime_error(*error);
-  log.finish_line();
+  log.finish_progress();
   for(const std::string& warning : warnings)
     std::cerr << "warning: " << warning << '\n';
   if(!o.quiet)

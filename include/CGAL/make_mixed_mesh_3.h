@@ -34,6 +34,7 @@ namespace CGAL {
 enum class Mixed_mesh_status {
   SUCCESS,            ///< the budget is filled to at least 97 %
   BUDGET_NOT_FILLED,  ///< valid, but no cell of the region could be refined further
+  PARTS_LOST,         ///< valid, but parts of the domain thinner than a cell are not meshed
   BUDGET_TOO_SMALL,   ///< no mesh: the coarsest one has more vertices than the budget
   EMPTY,              ///< no mesh: no octree vertex is inside the domain
   REGION_NOT_MET,     ///< no mesh: the region does not meet the domain
@@ -62,6 +63,7 @@ struct Mixed_mesh_result_3
   bool has_mesh() const
   {
     return status == Mixed_mesh_status::SUCCESS || status == Mixed_mesh_status::BUDGET_NOT_FILLED
+           || status == Mixed_mesh_status::PARTS_LOST
            || status == Mixed_mesh_status::BOUNDARY_NOT_MANIFOLD;
   }
 };
@@ -73,6 +75,7 @@ namespace internal {
 constexpr int default_base_level = 3;
 constexpr int coarsest_automatic_base_level = 1;
 constexpr int finest_automatic_base_level = 6;
+constexpr double tolerated_share_of_lost_cells = 0.05;
 
 // One octree with the mesh made of it.
 struct Candidate
@@ -82,6 +85,15 @@ struct Candidate
   Lattice_mesh mesh;
   Boundary_pieces boundary;
 };
+
+template <class Octree_>
+std::size_t number_of_cells(const Octree_& located)
+{
+  std::size_t n = 0;
+  for(Octree::Node_index c = 0; c < located.octree().size(); ++c)
+    n += located.octree().is_leaf(c) && located.is_alive(c);
+  return n;
+}
 
 // The leaves that meet the domain while neither they nor their neighbours have elements.
 template <class Octree_>
@@ -141,58 +153,68 @@ Mixed_mesh_result_3 make_mesh(const Domain& domain, const Region& region,
     return c;
   };
 
-  // If no base level is given: coarser than the default if the budget demands it, finer if a thin
-  // domain has no octree vertex inside.
+  // If no base level is given: coarser than the default if the budget demands it; finer, as far as the
+  // budget allows, if much of a thin domain would have no elements.
   const bool is_automatic = criteria.base_level() == Mixed_mesh_criteria_3::automatic;
   int base_level = is_automatic ? default_base_level : criteria.base_level();
   visitor.begin_stage(Stage::OCTREE);
-  Octree_ octree(domain, region, traits);
+  const Octree_ root(domain, region, traits);
+  Octree_ octree(root);
   Candidate best;
-  std::size_t least_above_budget = 0;
-  for(int step = 0;; base_level += step) {
-    Octree_ trial(octree);
-    best = refine_in_region(trial, budget, base_level, try_octree);
-    const bool too_fine = best.number_of_vertices > budget && step <= 0
-                          && base_level > coarsest_automatic_base_level;
-    const bool too_coarse = best.number_of_vertices == 0 && step >= 0
-                            && base_level < finest_automatic_base_level;
-    if(best.number_of_vertices > budget)
-      least_above_budget = best.number_of_vertices;
-    if(best.is_stopped || !is_automatic || !(too_fine || too_coarse)) {
+  std::vector<Octree::Node_index> lost;
+  for(int level = base_level, step = 0;; level += step) {
+    Octree_ trial(root);
+    Candidate candidate = refine_in_region(trial, budget, level, try_octree);
+    const bool is_above = candidate.number_of_vertices > budget;
+    if(candidate.is_stopped || !is_above || step <= 0) {
+      base_level = level;
       octree = std::move(trial);
-      break;
+      best = std::move(candidate);
+      if(is_above)
+        result.number_of_vertices_needed = best.number_of_vertices;
     }
-    step = too_fine ? -1 : 1;
+    if(best.is_stopped)
+      break;
+    lost = lost_cells(octree, best);
+    const bool is_too_coarse = best.number_of_vertices == 0
+                               || double(lost.size())
+                                    > tolerated_share_of_lost_cells * double(number_of_cells(octree));
+    if(is_automatic && is_above && step <= 0 && level > coarsest_automatic_base_level)
+      step = -1;
+    else if(is_automatic && !is_above && step >= 0 && is_too_coarse && level < finest_automatic_base_level)
+      step = 1;
+    else
+      break;
   }
   visitor.end_stage(Stage::OCTREE);
 
+  const std::size_t n = best.number_of_vertices;
+  if(n != 0 || result.number_of_vertices_needed == 0)
+    result.number_of_vertices_needed = n;
   result.base_level = base_level;
-  result.number_of_vertices_needed =
-    best.number_of_vertices == 0 ? least_above_budget : best.number_of_vertices;
+  result.number_of_cells = number_of_cells(octree);
+  result.number_of_lost_cells = lost.size();
+  for(Octree::Node_index c : lost)
+    result.lost_cells += traits.cell(octree.octree().corner(c), octree.octree().side(c)).bbox();
   bool meets_region = false;
-  for(Octree::Node_index n = 0; n < octree.octree().size(); ++n)
-    if(octree.octree().is_leaf(n) && octree.is_alive(n)) {
-      ++result.number_of_cells;
-      result.deepest_level = (std::max)(result.deepest_level, octree.octree().level(n));
-      meets_region = meets_region || octree.is_in_region(n);
+  for(Octree::Node_index c = 0; c < octree.octree().size(); ++c)
+    if(octree.octree().is_leaf(c) && octree.is_alive(c)) {
+      result.deepest_level = (std::max)(result.deepest_level, octree.octree().level(c));
+      meets_region = meets_region || octree.is_in_region(c);
     }
   result.number_of_transition_vertices = best.mesh.number_of_inserted_vertices;
   result.number_of_boundary_vertices_inserted = best.boundary.number_of_inserted_vertices;
   result.number_of_relabelled_vertices = best.boundary.number_of_relabelled_vertices;
-  result.status = best.is_stopped                     ? Mixed_mesh_status::STOPPED
-                  : result.number_of_vertices_needed == 0 ? Mixed_mesh_status::EMPTY
+  result.status = best.is_stopped                           ? Mixed_mesh_status::STOPPED
                   : result.number_of_vertices_needed > budget ? Mixed_mesh_status::BUDGET_TOO_SMALL
-                  : !meets_region                     ? Mixed_mesh_status::REGION_NOT_MET
-                  : !best.boundary.defects.empty()    ? Mixed_mesh_status::BOUNDARY_NOT_MANIFOLD
-                  : best.number_of_vertices < 0.97 * double(budget)
-                                                      ? Mixed_mesh_status::BUDGET_NOT_FILLED
-                                                      : Mixed_mesh_status::SUCCESS;
+                  : n == 0                                  ? Mixed_mesh_status::EMPTY
+                  : !meets_region                           ? Mixed_mesh_status::REGION_NOT_MET
+                  : !best.boundary.defects.empty()          ? Mixed_mesh_status::BOUNDARY_NOT_MANIFOLD
+                  : !lost.empty()                           ? Mixed_mesh_status::PARTS_LOST
+                  : double(n) < 0.97 * double(budget)       ? Mixed_mesh_status::BUDGET_NOT_FILLED
+                                                            : Mixed_mesh_status::SUCCESS;
   if(result.has_mesh()) {
     visitor.begin_stage(Stage::ASSEMBLY);
-    for(Octree::Node_index n : lost_cells(octree, best)) {
-      ++result.number_of_lost_cells;
-      result.lost_cells += traits.cell(octree.octree().corner(n), octree.octree().side(n)).bbox();
-    }
     assemble_mesh(octree, best.mesh, best.boundary, mesh);
     visitor.end_stage(Stage::ASSEMBLY);
   }

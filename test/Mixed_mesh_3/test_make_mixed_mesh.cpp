@@ -388,7 +388,9 @@ void test_invariance(const Surface& brain, const Surface& region)
   BOOST_TEST(make_mixed_mesh_3(brain, region, 660, mesh).has_mesh());
   const Content expected = content(mesh);
   for(double scale : {std::ldexp(1., 20), std::ldexp(1., -20), 1e6, 1e-6, 25.4}) {
-    const auto f = [&](const Point_3& p) { return Point_3(scale * p.x(), scale * p.y(), scale * p.z()); };
+    const auto f = [&](const Point_3& p) {
+      return Point_3(scale * p.x(), scale * p.y(), scale * p.z());
+    };
     const auto result = make_mixed_mesh_3(transformed(brain, f), transformed(region, f), 660, mesh);
     check(mesh, result, 660);
     BOOST_TEST(result.status == Status::SUCCESS);

@@ -207,7 +207,8 @@ void test_cell_traits()
   std::uniform_real_distribution<double> uniform(0, 1);
   std::vector<Bbox_3> boxes = {
     {0, 0, 0, 1, 1, 1}, {0.1, -0.7, 1. / 3, 1.1, 0.9, 0.7}, {-3.9, -44, -65.8, 60.1, 55, 65.79},
-    {1e8, -1e8, 1e8, 1e8 + 100, -1e8 + 33, 1e8 + 7}, {1e8, 1e8, 1e8, 1e8 + 1e-5, 1e8 + 1e-6, 1e8 + 1e-6}};
+    {1e8, -1e8, 1e8, 1e8 + 100, -1e8 + 33, 1e8 + 7},
+    {1e8, 1e8, 1e8, 1e8 + 1e-5, 1e8 + 1e-6, 1e8 + 1e-6}};
   for(int i = 0; i < 30; ++i) {
     const double offset = std::array<double, 3>{0, 1, 1e8}[i % 3];
     const double x = offset * uniform(random), y = -offset * uniform(random), z = uniform(random);
@@ -1143,7 +1144,8 @@ void test_find_defects()
     Mesh mesh;
     std::vector<Vertex_index> v;
     for(int i = 0; i < r.number_of_vertices; ++i)
-      v.push_back(mesh.add_vertex(Point_3(r.coordinates[i][0], r.coordinates[i][1], r.coordinates[i][2])));
+      v.push_back(mesh.add_vertex(
+        Point_3(r.coordinates[i][0], r.coordinates[i][1], r.coordinates[i][2])));
     mesh.add_element(kind, v.data());
     check(mesh, 0);
     mesh.points()[0] = Point_3(9, 9, 9); // inside out somewhere
@@ -1198,7 +1200,8 @@ void test_find_defects()
   check(tetrahedra({{0, 1, 2, 3}, {0, 2, 1, 4}}, {o, x, y, z, below}), 0);
   // on the same side of it: both positive, folded
   const Mesh folded = tetrahedra({{0, 1, 2, 3}, {0, 1, 2, 4}}, {o, x, y, z, {0.3, 0.3, 2}});
-  check(folded, NONCONFORMING | EDGES | (find_defects(folded).nonmanifold_boundary_vertices ? VERTICES : 0));
+  check(folded, NONCONFORMING | EDGES
+                  | (find_defects(folded).nonmanifold_boundary_vertices ? VERTICES : 0));
   BOOST_TEST_EQ(find_defects(folded).nonconforming_faces, 1u);
   BOOST_TEST_EQ(find_defects(folded).nonmanifold_boundary_edges, 3u);
   // a face with three elements

@@ -92,10 +92,15 @@ public:
     const double granularity = internal::lattice_granularity(largest);
     for(int k = 0; k < 3; ++k) {
       const double extent = (bbox.max)(k) - (bbox.min)(k);
-      m_unit[k] = internal::lattice_unit(root == Root_cell::CUBE ? cube_side : extent, granularity);
       const double centre = (bbox.min)(k) + extent / 2;
-      m_origin[k] = std::floor((centre - m_unit[k] * (internal::Octree::root_side / 2)) / granularity)
-                    * granularity;
+      // Without a margin, the rounded root may miss the box by a digit: then take a larger unit.
+      for(double side = root == Root_cell::CUBE ? cube_side : extent;; side *= 1 + std::ldexp(1., -18)) {
+        m_unit[k] = internal::lattice_unit(side, granularity);
+        m_origin[k] = std::floor((centre - m_unit[k] * (internal::Octree::root_side / 2)) / granularity)
+                      * granularity;
+        if(m_origin[k] <= (bbox.min)(k) && coordinate(k, internal::Octree::root_side) >= (bbox.max)(k))
+          break;
+      }
     }
   }
 

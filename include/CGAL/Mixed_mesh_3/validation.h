@@ -210,7 +210,8 @@ Mesh_defects find_defects(const Mesh& mesh)
   internal::find_invalid_elements(mesh, defects);
   internal::find_bad_vertices(mesh, defects);
   if(defects.invalid_elements == 0) {
-    internal::find_nonpositive_corners(mesh, defects);
+    if(defects.nonfinite_vertices == 0) // exact predicates need numbers
+      internal::find_nonpositive_corners(mesh, defects);
     internal::find_nonconforming_faces(mesh, defects);
   }
   return defects;

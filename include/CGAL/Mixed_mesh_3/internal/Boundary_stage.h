@@ -14,6 +14,9 @@
 #include <CGAL/Mixed_mesh_3/internal/split_boundary_elements.h>
 #include <CGAL/Mixed_mesh_3/internal/split_boundary_elements_by_parity.h>
 
+#include <CGAL/Bbox_3.h>
+#include <CGAL/squared_distance_3.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -11,6 +11,7 @@
 #include <CGAL/Mixed_mesh_3/internal/Octree.h>
 #include <CGAL/Mixed_mesh_3/internal/balance.h>
 
+#include <CGAL/Bbox_3.h>
 #include <CGAL/enum.h>
 
 #include <algorithm>
@@ -95,6 +96,9 @@ public:
     for(std::size_t queries = leaves.size(); queries > 4000 && level > 0; queries /= 8)
       --level;
     const std::uint32_t side = Octree::side_at(level), mask = ~(side - 1);
+    // Depths that are equal but for rounding must not decide: compare them on a scale.
+    const Bbox_3 box = m_domain->bbox();
+    const double scale = std::ldexp(1., 24) / (box.x_span() + box.y_span() + box.z_span());
     std::vector<std::pair<double, Node_index>> keys; // minus depth, node
     Lattice_point last{Octree::root_side, 0, 0};
     double depth = 0;
@@ -106,7 +110,7 @@ public:
         depth = m_region->depth(m_traits->point({p[0] + side / 2, p[1] + side / 2, p[2] + side / 2}));
         last = p;
       }
-      keys.emplace_back(-depth, n);
+      keys.emplace_back(-std::floor(depth * scale + 0.3), n);
     }
     std::sort(keys.begin(), keys.end());
     for(std::size_t i = 0; i < leaves.size(); ++i)

@@ -49,6 +49,7 @@ class Apply_transitions
   Lattice_mesh m_mesh;
 
   static constexpr std::uint32_t no_slot = std::uint32_t(-1);
+  static constexpr int cell_centre = 13;
 
   bool is_used(Node_index n) const { return m_slots[n] != no_slot; }
 
@@ -169,9 +170,12 @@ private:
     if(is_new) {
       ++m_mesh.number_of_inserted_vertices;
       const Bounded_side side = m_located.side(n);
-      m_mesh.add_vertex(p, side == ON_BOUNDARY ? Lattice_mesh::unknown_side : std::int8_t(side), n);
-    } else if(m_located.side(n) != ON_BOUNDARY) {
-      m_mesh.sides[known->second] = std::int8_t(m_located.side(n));
+      m_mesh.add_vertex(p, side == ON_BOUNDARY ? Lattice_mesh::unknown_side : std::int8_t(side), n,
+                        local != cell_centre); // until the leaf behind the face asks for it, too
+    } else {
+      m_mesh.is_on_rim[known->second] = false;
+      if(m_located.side(n) != ON_BOUNDARY)
+        m_mesh.sides[known->second] = std::int8_t(m_located.side(n));
     }
     return known->second;
   }

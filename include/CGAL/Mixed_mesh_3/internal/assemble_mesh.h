@@ -30,7 +30,7 @@ void assemble_mesh(const Octree_& octree, const Lattice_mesh& lattice, const Bou
   std::vector<Vertex_index> numbers(lattice.vertices.size(), Vertex_index(-1));
   std::vector<Point_3> points;
   Element_list elements;
-  std::vector<std::uint8_t> in_region, is_inside;
+  std::vector<std::uint8_t> in_region, is_inner;
   points.reserve(boundary.number_of_vertices);
   elements.reserve(lattice.elements.size(), lattice.elements.connectivity().size());
   in_region.reserve(lattice.elements.size());
@@ -43,7 +43,7 @@ void assemble_mesh(const Octree_& octree, const Lattice_mesh& lattice, const Bou
         number = Vertex_index(points.size());
         const auto p = octree.point(lattice.vertices[element[i]]);
         points.emplace_back(p.x(), p.y(), p.z());
-        is_inside.push_back(lattice.is_inside(element[i]));
+        is_inner.push_back(lattice.is_inside(element[i]) && !lattice.is_on_rim[element[i]]);
       }
       v[i] = number;
     }
@@ -58,7 +58,7 @@ void assemble_mesh(const Octree_& octree, const Lattice_mesh& lattice, const Bou
       add(boundary.pieces[piece], e);
   }
   mesh.assign(std::move(points), std::move(elements), std::move(in_region));
-  mesh.set_boundary_faces(boundary_faces(mesh, [&](Vertex_index v) { return !is_inside[v]; }));
+  mesh.set_boundary_faces(boundary_faces(mesh, [&](Vertex_index v) { return !is_inner[v]; }));
 }
 
 } // namespace internal

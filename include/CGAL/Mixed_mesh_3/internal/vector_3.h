@@ -8,6 +8,7 @@
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_VECTOR_3_H
 #define CGAL_MIXED_MESH_3_INTERNAL_VECTOR_3_H
 
+#include <CGAL/double.h>
 #include <CGAL/number_utils.h>
 
 #include <array>
