@@ -496,7 +496,8 @@ double mesh_shape(const std::string& name, const Surface& surface, std::size_t b
 void test_shapes()
 {
   const std::vector<Status> filled = {Status::SUCCESS, Status::BUDGET_NOT_FILLED};
-  const std::vector<Status> any = {Status::SUCCESS, Status::BUDGET_NOT_FILLED,
+  const std::vector<Status> sharp = {Status::SUCCESS, Status::PARTS_LOST}; // thin at the corners
+  const std::vector<Status> any = {Status::SUCCESS, Status::BUDGET_NOT_FILLED, Status::PARTS_LOST,
                                    Status::BUDGET_TOO_SMALL, Status::EMPTY};
   // the mesh contains the vertices inside; its volume is not far from that of the domain
   const auto is_near = [](double volume, double exact) {
@@ -515,7 +516,7 @@ void test_shapes()
   using V = Surface::Vertex_index;
   for(const auto& f : {std::array<int, 3>{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}})
     tetrahedron.add_face(V(f[0]), V(f[1]), V(f[2]));
-  BOOST_TEST(is_near(mesh_shape("tetrahedron", tetrahedron, 2000, filled), 4.5));
+  BOOST_TEST(is_near(mesh_shape("tetrahedron", tetrahedron, 2000, sharp), 4.5));
 
   Surface plate;
   add_box(plate, {0, 0, 0}, {100, 100, 1});
@@ -538,6 +539,24 @@ void test_shapes()
   add_sphere(two, {5, 0.3, 0.1}, 1, 8);
   const double sphere = 4 * CGAL_PI / 3;
   BOOST_TEST(is_near(mesh_shape("two spheres", two, 4000, filled), 2 * sphere));
+
+  // Two plates between the planes of the coarse octree: the default base level would lose one of them.
+  Surface plates;
+  add_box(plates, {0, 0, 0}, {100, 100, 4});
+  add_box(plates, {0, 0, 56.3}, {100, 100, 60.3});
+  const CGAL::Polyhedral_mixed_mesh_domain_3 plates_domain(plates);
+  Mesh mesh;
+  for(std::size_t n : {100, 500, 20000}) {
+    const auto result =
+      make_mixed_mesh_3(plates_domain, CGAL::Everywhere_mixed_mesh_region_3(), Mixed_mesh_criteria_3(n), mesh);
+    double lower = 100, upper = 0; // how far the mesh reaches
+    for(const auto& p : mesh.points())
+      lower = (std::min)(lower, p.z()), upper = (std::max)(upper, p.z());
+    const bool has_both = lower < 4 && upper > 56.3;
+    BOOST_TEST(has_both || result.status == Status::PARTS_LOST
+               || result.status == Status::BUDGET_TOO_SMALL || result.status == Status::EMPTY);
+    BOOST_TEST(n < 20000 || has_both);
+  }
 
   // almost touching: pinched without the repair
   Surface touching;
