@@ -231,7 +231,8 @@ Json checks_of(const mm3::Mesh_defects& d)
 {
   return {{"conforming", d.conforming()},
           {"closed manifold boundary", d.closed_manifold_boundary()},
-          {"corner tetrahedra positive (exact)", d.positive()},
+          {"corner tetrahedra positive (exact)", d.nonpositive_corners == 0},
+          {"Jacobian positive on whole elements (exact)", d.positive()},
           {"no unused vertex", d.unused_vertices == 0},
           {"no duplicate vertex", d.duplicate_vertices == 0}};
 }

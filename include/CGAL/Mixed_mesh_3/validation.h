@@ -11,6 +11,7 @@
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/certificate.h>
 #include <CGAL/Mixed_mesh_3/internal/balance.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary_surface.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
@@ -52,6 +53,8 @@ struct Mesh_defects
   std::size_t nonmanifold_boundary_edges = 0;    ///< not once in each direction
   std::size_t nonmanifold_boundary_vertices = 0; ///< with more than one fan of boundary faces
   std::size_t nonpositive_corners = 0;  ///< corner tetrahedra whose orientation is not positive, exactly
+  std::size_t nonpositive_elements = 0; ///< whose Jacobian is not positive everywhere, exactly
+  std::size_t undecided_elements = 0;   ///< of which that could be neither proved nor disproved
   std::size_t unused_vertices = 0;
   std::size_t duplicate_vertices = 0;   ///< with the coordinates of an earlier one
   std::size_t nonfinite_vertices = 0;
@@ -62,7 +65,11 @@ struct Mesh_defects
   {
     return nonmanifold_boundary_edges == 0 && nonmanifold_boundary_vertices == 0;
   }
-  bool positive() const { return nonpositive_corners == 0 && nonfinite_vertices == 0; }
+  bool positive() const
+  {
+    return nonpositive_corners == 0 && nonpositive_elements == 0 && undecided_elements == 0
+           && nonfinite_vertices == 0;
+  }
   bool none() const
   {
     return conforming() && closed_manifold_boundary() && positive() && unused_vertices == 0
@@ -120,23 +127,26 @@ void find_bad_vertices(const Mesh& mesh, Mesh_defects& defects)
   }
 }
 
+// The Jacobian at a corner is the determinant of its tetrahedron: where it is positive everywhere, corners
+// need no look.
 template <class Mesh>
-void find_nonpositive_corners(const Mesh& mesh, Mesh_defects& defects)
+void find_nonpositive_elements(const Mesh& mesh, Mesh_defects& defects)
 {
-  const auto point = [&mesh](Vertex_index v) {
-    const auto& p = mesh.point(v);
-    return Predicates_kernel::Point_3(CGAL::to_double(p.x()), CGAL::to_double(p.y()),
-                                      CGAL::to_double(p.z()));
-  };
   for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
+    const Jacobian_sign sign = jacobian_sign(mesh, e);
+    if(sign == Jacobian_sign::POSITIVE)
+      continue;
+    ++(sign == Jacobian_sign::UNDECIDED ? defects.undecided_elements : defects.nonpositive_elements);
     const Element_view element = mesh.element(e);
-    Predicates_kernel::Point_3 p[8];
-    for(int i = 0; i < element.size(); ++i)
-      p[i] = point(element[i]);
+    const auto point = [&](int i) {
+      const Vec3 p = to_vec3(mesh.point(element[i]));
+      return Predicates_kernel::Point_3(p[0], p[1], p[2]);
+    };
     const Reference_element& reference = element.reference();
     for(int c = 0; c < reference.number_of_corners; ++c) {
       const auto& i = reference.corners[c];
-      defects.nonpositive_corners += orientation(p[i[0]], p[i[1]], p[i[2]], p[i[3]]) != POSITIVE;
+      defects.nonpositive_corners +=
+        orientation(point(i[0]), point(i[1]), point(i[2]), point(i[3])) != POSITIVE;
     }
   }
 }
@@ -198,8 +208,8 @@ void find_nonconforming_faces(const Mesh& mesh, Mesh_defects& defects)
 /*!
 Looks for all defects that a finite-element solver would stumble over.
 
-Orientations are exact on the coordinates as doubles. Corner tetrahedra prove tetrahedra valid; of the
-other kinds they test the corners.
+Signs are exact on the coordinates as doubles, and those of Jacobians hold on whole elements: a mesh
+without defects has no inverted element.
 
 \cost O(n log n) for n elements; about 120 bytes per hexahedron
 */
@@ -211,7 +221,7 @@ Mesh_defects find_defects(const Mesh& mesh)
   internal::find_bad_vertices(mesh, defects);
   if(defects.invalid_elements == 0) {
     if(defects.nonfinite_vertices == 0) // exact predicates need numbers
-      internal::find_nonpositive_corners(mesh, defects);
+      internal::find_nonpositive_elements(mesh, defects);
     internal::find_nonconforming_faces(mesh, defects);
   }
   return defects;
