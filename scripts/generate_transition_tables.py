@@ -565,9 +565,9 @@ namespace internal {
 // %(free)d classes do without the centre (worst ARC %(arc_free).3f),
 // %(centred)d have it (worst ARC %(arc_centred).3f).
 
-constexpr int number_of_transition_classes = %(classes)d;
+inline constexpr int number_of_transition_classes = %(classes)d;
 
-constexpr unsigned short transition_table[] = {
+inline constexpr unsigned short transition_table[] = {
 """
 
 FOOTER = """\

@@ -19,7 +19,7 @@ fail() {
 # Prints the packages of one purpose.
 packages_for() {
   case $1 in
-    build) echo g++ cmake ninja-build libcgal-dev libeigen3-dev libcli11-dev nlohmann-json3-dev \
+    build) echo g++ cmake ninja-build libcgal-dev libcli11-dev nlohmann-json3-dev \
                 libboost-dev libgmp-dev libmpfr-dev ;;
     # VTK opens an X display even to render off-screen: Xvfb and Mesa's software renderer provide it.
     pictures) echo python3-vtk9 xvfb libgl1-mesa-dri ;;

@@ -82,13 +82,8 @@ public:
                    cost.name.c_str());
   }
 
-  /// Largest resident memory of the process so far.
-  static std::size_t peak_bytes()
-  {
-    rusage usage;
-    getrusage(RUSAGE_SELF, &usage);
-    return std::size_t(usage.ru_maxrss) * 1024;
-  }
+  /// Largest resident memory of the process since the log was made, in all stages and between them.
+  std::size_t peak_bytes() const { return (std::max)(m_peak, high_water_mark()); }
 
 private:
   void clear_line() const
@@ -100,10 +95,10 @@ private:
   void begin(const std::string& name)
   {
     m_current = name;
+    m_peak = peak_bytes();
+    std::ofstream("/proc/self/clear_refs") << "5"; // Linux: the high-water mark starts anew
     m_stage_start = Clock::now();
     m_stage_cpu = std::clock();
-    // Linux: lets the high-water mark of the next line of end() start anew.
-    std::ofstream("/proc/self/clear_refs") << "5";
     if(m_show_progress)
       std::fprintf(stderr, "\r\033[K%7.2f s  %s", seconds_since(m_start), name.c_str());
   }
@@ -133,12 +128,15 @@ private:
     while(status >> word)
       if(word == "VmHWM:" && status >> kilobytes)
         return kilobytes * 1024;
-    return peak_bytes();
+    rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    return std::size_t(usage.ru_maxrss) * 1024;
   }
 
   bool m_show_progress;
   Clock::time_point m_start = Clock::now(), m_stage_start;
   std::clock_t m_stage_cpu = 0;
+  std::size_t m_peak = 0;
   std::string m_current;
   std::vector<Stage_cost> m_costs;
 };

@@ -13,6 +13,7 @@
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
+#include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
 #include <CGAL/Mixed_mesh_3/validation.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/make_mixed_mesh_3.h>
@@ -22,14 +23,18 @@
 #include <boost/version.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <iomanip>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <new>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -107,7 +112,7 @@ void set_up(CLI::App& app, Options& o)
     ->type_name("CHOICE");
   app.add_flag("--msh2", o.msh2, "Write .msh files in Gmsh's format 2.2 instead of 4.1");
   app.add_flag("--tetrahedra", o.tetrahedra,
-               "Split all elements to tetrahedra when writing, for solvers without the other kinds");
+               "Split all elements to tetrahedra, for solvers without the other kinds");
   app.add_flag("--quiet", o.quiet, "Print errors and warnings only");
   app.add_option("--threads", o.threads, "Threads for queries on the surface; the mesh is the same")
     ->check(CLI::Range(1, 256))
@@ -115,6 +120,16 @@ void set_up(CLI::App& app, Options& o)
   app.set_version_flag("--version", "mixed_mesh_3 0.1 (CGAL " CGAL_VERSION_STR ")");
   app.footer("Lengths are in the unit of SURFACE. Example:\n"
              "  mixed_mesh_3 data/brain.off --region data/region.off --vertices 660 --output brain.vtu");
+}
+
+// Physical memory, or the limit of the control group if that is less. Unknown: infinite.
+double available_memory()
+{
+  const double pages = double(sysconf(_SC_PHYS_PAGES)), page = double(sysconf(_SC_PAGE_SIZE));
+  double bytes = pages > 0 && page > 0 ? pages * page : std::numeric_limits<double>::infinity(), limit;
+  if(std::ifstream("/sys/fs/cgroup/memory.max") >> limit && limit > 0)
+    bytes = (std::min)(bytes, limit);
+  return bytes;
 }
 
 // Before anything takes time: what can not be written, or not fit into memory.
@@ -129,24 +144,24 @@ void check_feasible(const Options& o)
       throw std::runtime_error(*error);
     outputs.push_back(o.report);
   }
-  for(std::size_t i = 0; i < outputs.size(); ++i)
-    for(std::size_t j = 0; j <= outputs.size(); ++j) {
-      std::error_code ignored;
-      const std::string other = j < i ? outputs[j] : j == outputs.size() ? o.surface : o.region;
-      if(j < i ? std::filesystem::weakly_canonical(outputs[i], ignored)
-                   == std::filesystem::weakly_canonical(other, ignored)
-               : std::filesystem::equivalent(outputs[i], other, ignored))
-        throw std::runtime_error(outputs[i] + ": is given twice, as output and as "
-                                 + (j < i ? "output" : "input"));
-    }
-  constexpr double bytes_per_vertex = 700;
-  const double needed = double(o.vertices) * bytes_per_vertex;
-  const double available = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
-  if(o.vertices > 1000000000u || needed > available)
+  std::set<std::filesystem::path> seen;
+  for(const std::string& path : outputs) {
+    std::error_code ignored;
+    for(const std::string& input : {o.surface, o.region})
+      if(std::filesystem::equivalent(path, input, ignored))
+        throw std::runtime_error(path + ": is given twice, as input and as output");
+    if(!seen.insert(std::filesystem::weakly_canonical(path, ignored)).second)
+      throw std::runtime_error(path + ": is given twice as output");
+  }
+  constexpr double bytes_per_vertex = 700; // more than measured
+  const double needed = double(o.vertices) * bytes_per_vertex, available = available_memory();
+  const auto gibibytes = [](double bytes) { return std::to_string(std::size_t(bytes / (1 << 30)) + 1); };
+  if(needed > available)
     throw std::runtime_error("--vertices " + std::to_string(o.vertices) + ": would need about "
-                             + std::to_string(std::size_t(needed / (1 << 30)) + 1) + " GiB of memory, of "
-                             + std::to_string(std::size_t(available / (1 << 30)))
-                             + " GiB (and at most 1000000000 vertices are supported)");
+                             + gibibytes(needed) + " GiB of memory, of " + gibibytes(available) + " GiB");
+  if(o.vertices > 1000000000u || (o.tetrahedra && o.vertices > 500000000u))
+    throw std::runtime_error("--vertices " + std::to_string(o.vertices)
+                             + ": more than the 32-bit indices of the files allow");
 }
 
 Surface read(const std::string& path, Json& report, std::vector<std::string>& warnings)
@@ -187,7 +202,8 @@ void check_result(const CGAL::Mixed_mesh_result_3& result, const Options& o, con
   case Mixed_mesh_status::BUDGET_TOO_SMALL:
     throw std::runtime_error("--vertices " + std::to_string(o.vertices) + ": too small, the coarsest mesh "
                              "of " + o.surface + " at base level " + std::to_string(result.base_level)
-                             + " has " + std::to_string(result.number_of_vertices_needed) + " vertices");
+                             + " has at least " + std::to_string(result.number_of_vertices_needed)
+                             + " vertices");
   case Mixed_mesh_status::EMPTY:
     throw std::runtime_error(o.surface + ": too thin for this budget, no octree vertex is inside; try "
                              "more vertices or a larger --base-level");
@@ -195,17 +211,17 @@ void check_result(const CGAL::Mixed_mesh_result_3& result, const Options& o, con
     throw std::runtime_error(o.region + ": the region does not meet the domain of " + o.surface);
   case Mixed_mesh_status::STOPPED:
     throw std::runtime_error("stopped");
-  case Mixed_mesh_status::BUDGET_NOT_FILLED:
-    warnings.push_back("only " + std::to_string(mesh.number_of_vertices()) + " of "
-                       + std::to_string(o.vertices) + " vertices used: the region cannot be refined "
-                       "further, or the next cells would exceed the budget");
-    break;
   case Mixed_mesh_status::BOUNDARY_NOT_MANIFOLD:
     throw Invalid_mesh("the boundary is pinched at the border of the root cell; try another --base-level");
-  case Mixed_mesh_status::PARTS_LOST: // below
+  case Mixed_mesh_status::BUDGET_NOT_FILLED:
+  case Mixed_mesh_status::PARTS_LOST:
   case Mixed_mesh_status::SUCCESS:
     break;
   }
+  if(double(mesh.number_of_vertices()) < 0.97 * double(o.vertices))
+    warnings.push_back("only " + std::to_string(mesh.number_of_vertices()) + " of "
+                       + std::to_string(o.vertices) + " vertices used: the region cannot be refined "
+                       "further, or each further cell tried would exceed the budget");
   if(result.number_of_lost_cells != 0) {
     const CGAL::Bbox_3& b = result.lost_cells;
     std::ostringstream where;
@@ -303,6 +319,8 @@ void run(const Options& o)
                        {"templates", o.templates == mm3::Transition_templates_choice::CENTRED
                                        ? "centred" : "fewest"},
                        {"fit", false},
+                       {"tetrahedra", o.tetrahedra},
+                       {"msh version", o.msh2 ? "2.2" : "4.1"},
                        {"threads", o.threads}};
 
   const auto criteria = CGAL::Mixed_mesh_criteria_3(o.vertices)
@@ -325,6 +343,8 @@ void run(const Options& o)
     });
     result = CGAL::make_mixed_mesh_3(domain, region, criteria, mesh, np);
   }
+  if(o.tetrahedra) // now, so that what is checked and reported is what is written
+    mesh = log("split to tetrahedra", [&] { return mm3::split_to_tetrahedra(mesh); });
   const double mesh_volume = mm3::volume(mesh);
   check_result(result, o, mesh, surface_report["volume"], mesh_volume, warnings);
 
@@ -359,21 +379,26 @@ void run(const Options& o)
   report["checks"] = checks;
 
   mm3::IO::Write_options write_options;
-  write_options.tetrahedra = o.tetrahedra;
   write_options.msh_2_2 = o.msh2;
+  mm3::IO::Output_files files; // appear together, at the end
   for(const std::string& path : o.outputs)
     if(const auto error = log("write " + path, [&] {
-         return mm3::IO::write_mixed_mesh(path, mesh, write_options);
+         return mm3::IO::write_mixed_mesh(files, path, mesh, write_options);
        }))
       throw std::runtime_error(*error);
   report["outputs"] = o.outputs;
   report["warnings"] = warnings;
   report["stages"] = costs_of(log);
   report["seconds"] = log.seconds();
-  report["peak memory MiB"] = double(Stage_log::peak_bytes()) / (1 << 20);
+  report["peak memory MiB"] = double(log.peak_bytes()) / (1 << 20);
   if(!o.report.empty())
-    if(const auto error = mm3::IO::write_text_file(o.report, report.dump(2) + "\n"))
+    if(const auto error = files.write(o.report, [&](std::ostream& stream) {
+         // file names need not be UTF-8
+         return bool(stream << report.dump(2, ' ', false, Json::error_handler_t::replace) << '\n');
+       }))
       throw std::runtime_error(*error);
+  if(const auto error = files.commit())
+    throw std::runtime_error(*error);
   log.finish_progress();
   for(const std::string& warning : warnings)
     std::cerr << "warning: " << warning << '\n';

@@ -36,7 +36,7 @@ try {
   const std::size_t budget = argc > 3 ? std::stoul(argv[3]) : 660;
   Mesh mesh;
   const CGAL::Mixed_mesh_result_3 result = CGAL::make_mixed_mesh_3(brain, path, budget, mesh);
-  if(!result.has_mesh()) {
+  if(result.status != CGAL::Mixed_mesh_status::SUCCESS) {
     std::cerr << "no mesh with " << budget << " vertices; one with " << result.number_of_vertices_needed
               << " has been tried\n";
     return EXIT_FAILURE;

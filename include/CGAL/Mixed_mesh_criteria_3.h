@@ -6,9 +6,9 @@
 #ifndef CGAL_MIXED_MESH_CRITERIA_3_H
 #define CGAL_MIXED_MESH_CRITERIA_3_H
 
+#include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
-#include <CGAL/Mixed_mesh_3/internal/Boundary_stage.h>
-#include <CGAL/Mixed_mesh_3/internal/apply_transitions.h>
+#include <CGAL/Mixed_mesh_3/options.h>
 
 #include <CGAL/assertions.h>
 
@@ -25,18 +25,19 @@ public:
   static constexpr int automatic = -1;
 
   /// \param maximal_number_of_vertices the vertex budget: the mesh has at most that many vertices,
-  ///        those of transitions and of the boundary included. \pre at least 1
+  ///        those of transitions and of the boundary included. \pre at least 1, at most 2^32 - 2
   explicit Mixed_mesh_criteria_3(std::size_t maximal_number_of_vertices)
     : m_maximal_number_of_vertices(maximal_number_of_vertices)
   {
-    CGAL_precondition(maximal_number_of_vertices > 0);
+    CGAL_precondition(maximal_number_of_vertices > 0
+                      && maximal_number_of_vertices < Mixed_meshes_3::Vertex_index(-1));
   }
 
   std::size_t maximal_number_of_vertices() const { return m_maximal_number_of_vertices; }
 
   /// The octree level to which the whole domain is refined; cells of level `l` are 2^l times smaller
   /// than the root. Default: 3; coarser, down to 1, if the budget is too small for it; finer, up to 6, if
-  /// no octree vertex would be inside a thin domain.
+  /// no octree vertex would be inside a thin domain, or more than 5 % of its cells would be lost.
   /// \pre `automatic`, or from 0 to 10
   Mixed_mesh_criteria_3& base_level(int level)
   {

@@ -10,12 +10,15 @@
 
 #include <CGAL/Mixed_mesh_3/internal/Surface_oracle_3.h>
 
+#include <CGAL/Bbox_3.h>
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/assertions.h>
+#include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -125,14 +128,22 @@ class Union_mixed_mesh_region_3
 {
 public:
   using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
-  using Surface_part = std::tuple<typename Regions::Surface_part...>;
+  /// The parts of the regions, and where the cell is relative to each.
+  struct Surface_part
+  {
+    std::tuple<typename Regions::Surface_part...> parts;
+    std::array<Bounded_side, sizeof...(Regions)> sides;
+  };
 
   /// Takes the regions over (wrap one in `std::move`: a polyhedral region cannot be copied).
   explicit Union_mixed_mesh_region_3(Regions... regions) : m_regions(std::move(regions)...) {}
 
   Surface_part surface_part() const
   {
-    return std::apply([](const auto&... r) { return Surface_part(r.surface_part()...); }, m_regions);
+    Surface_part part{
+      std::apply([](const auto&... r) { return std::make_tuple(r.surface_part()...); }, m_regions), {}};
+    part.sides.fill(ON_BOUNDARY);
+    return part;
   }
 
   template <class Cell>
@@ -147,13 +158,18 @@ public:
   }
 
 private:
-  // Inside one is inside; a boundary may lie within another region, which does no harm.
+  // Inside one is inside; a boundary may lie within another region, which does no harm. A region whose
+  // surface does not meet the parent is not asked.
   template <class Cell, std::size_t... I>
   Bounded_side locate(const Cell& cell, const Surface_part& parent, Surface_part& part,
                       std::index_sequence<I...>) const
   {
-    return (std::max)({std::get<I>(m_regions).locate(cell, std::get<I>(parent),
-                                                     std::get<I>(part))...});
+    ((part.sides[I] = parent.sides[I] != ON_BOUNDARY
+                        ? parent.sides[I]
+                        : std::get<I>(m_regions).locate(cell, std::get<I>(parent.parts),
+                                                        std::get<I>(part.parts))),
+     ...);
+    return *std::max_element(part.sides.begin(), part.sides.end());
   }
 
   std::tuple<Regions...> m_regions;

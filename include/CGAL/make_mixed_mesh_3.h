@@ -33,7 +33,7 @@ namespace CGAL {
 /// How `make_mixed_mesh_3()` ended.
 enum class Mixed_mesh_status {
   SUCCESS,            ///< the budget is filled to at least 97 %
-  BUDGET_NOT_FILLED,  ///< valid, but no cell of the region could be refined further
+  BUDGET_NOT_FILLED,  ///< valid, but below 97 %: each cell tried would exceed the budget
   PARTS_LOST,         ///< valid, but parts of the domain thinner than a cell are not meshed
   BUDGET_TOO_SMALL,   ///< no mesh: the coarsest one has more vertices than the budget
   EMPTY,              ///< no mesh: no octree vertex is inside the domain
@@ -49,7 +49,8 @@ struct Mixed_mesh_result_3
   int base_level = 0;
   int deepest_level = 0;
   std::size_t number_of_cells = 0;                       ///< leaves that meet the domain
-  std::size_t number_of_vertices_needed = 0;             ///< of the coarsest mesh tried
+  /// Those of the mesh; without one, those (at least) of the coarsest mesh at `base_level`.
+  std::size_t number_of_vertices_needed = 0;
   std::size_t number_of_transition_vertices = 0;         ///< inserted by the transition templates
   std::size_t number_of_boundary_vertices_inserted = 0;  ///< inserted by the boundary stage
   std::size_t number_of_relabelled_vertices = 0;         ///< to make the boundary a manifold
@@ -84,6 +85,8 @@ struct Candidate
   bool is_stopped = false; // by the visitor
   Lattice_mesh mesh;
   Boundary_pieces boundary;
+
+  bool is_manifold() const { return boundary.defects.empty(); }
 };
 
 template <class Octree_>
@@ -166,12 +169,14 @@ Mixed_mesh_result_3 make_mesh(const Domain& domain, const Region& region,
     Octree_ trial(root);
     Candidate candidate = refine_in_region(trial, budget, level, try_octree);
     const bool is_above = candidate.number_of_vertices > budget;
+    if(is_above && step <= 0) {
+      result.base_level = level;
+      result.number_of_vertices_needed = candidate.number_of_vertices;
+    }
     if(candidate.is_stopped || !is_above || step <= 0) {
       base_level = level;
       octree = std::move(trial);
       best = std::move(candidate);
-      if(is_above)
-        result.number_of_vertices_needed = best.number_of_vertices;
     }
     if(best.is_stopped)
       break;
@@ -189,9 +194,10 @@ Mixed_mesh_result_3 make_mesh(const Domain& domain, const Region& region,
   visitor.end_stage(Stage::OCTREE);
 
   const std::size_t n = best.number_of_vertices;
-  if(n != 0 || result.number_of_vertices_needed == 0)
+  if(n != 0 || result.number_of_vertices_needed == 0) { // else: of the coarsest mesh that is not empty
     result.number_of_vertices_needed = n;
-  result.base_level = base_level;
+    result.base_level = base_level;
+  }
   result.number_of_cells = number_of_cells(octree);
   result.number_of_lost_cells = lost.size();
   for(Octree::Node_index c : lost)
@@ -202,14 +208,17 @@ Mixed_mesh_result_3 make_mesh(const Domain& domain, const Region& region,
       result.deepest_level = (std::max)(result.deepest_level, octree.octree().level(c));
       meets_region = meets_region || octree.is_in_region(c);
     }
-  result.number_of_transition_vertices = best.mesh.number_of_inserted_vertices;
+  const auto& is_used = best.boundary.is_used;
+  result.number_of_transition_vertices = std::size_t(
+    std::count(is_used.begin() + std::ptrdiff_t(best.mesh.first_inserted_vertex),
+               is_used.end() - std::ptrdiff_t(best.boundary.number_of_inserted_vertices), 1));
   result.number_of_boundary_vertices_inserted = best.boundary.number_of_inserted_vertices;
   result.number_of_relabelled_vertices = best.boundary.number_of_relabelled_vertices;
   result.status = best.is_stopped                           ? Mixed_mesh_status::STOPPED
                   : result.number_of_vertices_needed > budget ? Mixed_mesh_status::BUDGET_TOO_SMALL
                   : n == 0                                  ? Mixed_mesh_status::EMPTY
                   : !meets_region                           ? Mixed_mesh_status::REGION_NOT_MET
-                  : !best.boundary.defects.empty()          ? Mixed_mesh_status::BOUNDARY_NOT_MANIFOLD
+                  : !best.is_manifold()                     ? Mixed_mesh_status::BOUNDARY_NOT_MANIFOLD
                   : !lost.empty()                           ? Mixed_mesh_status::PARTS_LOST
                   : double(n) < 0.97 * double(budget)       ? Mixed_mesh_status::BUDGET_NOT_FILLED
                                                             : Mixed_mesh_status::SUCCESS;
@@ -227,7 +236,8 @@ Mixed_mesh_result_3 make_mesh(const Domain& domain, const Region& region,
 /*!
 \brief Meshes a domain with mixed elements, fine in a region of interest, within a vertex budget.
 
-The octree of the domain is split in the region only, balanced across faces and edges, and made
+The octree of the domain is split in the region only (single cells around it apart, where a small budget
+would be left over), balanced across faces and edges, and made
 conforming by transition templates; elements at the surface are split so that they can follow it
 (Lobos, Bucki, Hitschfeld, Payan: sections 5.1 and 5.2). Boundary vertices stay where the octree has
 them; all are outside or on the surface.

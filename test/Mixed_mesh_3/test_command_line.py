@@ -38,7 +38,20 @@ def shifted(faces, n):
     return [tuple(v + n for v in f) for f in faces]
 
 
+def stl(points, faces):
+    lines = ["facet normal 0 0 0\nouter loop\n" + "".join("vertex {} {} {}\n".format(*points[v]) for v in f)
+             + "endloop\nendfacet" for f in faces]
+    return "\n".join(["solid x", *lines, "endsolid x"]) + "\n"
+
+
 CUBE_OFF = off(CUBE, TRIANGLES)
+# The edge 0-1 is 0-8-9-1 in the front face; two triangles without area are between them.
+NEEDLES = CUBE + [(0.25, 0, 0), (0.5, 0, 0)]
+NEEDLE_TRIANGLES = [f for f in TRIANGLES if f != (0, 1, 5)] + [(0, 8, 5), (8, 9, 5), (9, 1, 5), (0, 1, 9),
+                                                               (0, 9, 8)]
+# Two cubes, with a corner in common.
+PINCHED_TRIANGLES = TRIANGLES + [tuple(7 if v == 0 else v + 7 for v in f) for f in TRIANGLES]
+PINCHED = CUBE + moved(CUBE, 1, (1, 1, 1))[1:]
 
 # name of the file, contents, words that the error must have
 BAD_SURFACES = [
@@ -67,7 +80,11 @@ BAD_SURFACES = [
     ("small_coordinates.off", off(moved(CUBE, 1e-200), TRIANGLES), "underflow"),
     ("far_away.off", off(moved(CUBE, 1e-6, (1e8, 0, 0)), TRIANGLES), ""),
     ("self_intersecting.off", off(CUBE + moved(CUBE, 1, (0.5, 0.4, 0.3)),
-                                  TRIANGLES + shifted(TRIANGLES, 8)), "intersects itself"),
+                                  TRIANGLES + shifted(TRIANGLES, 8)), "of faces, for example near ("),
+    # a corner in common, but the second cube goes into the first
+    ("pinched_and_crossing.off", off(CUBE + [(1 - (5 * x + 2 * y + 3 * z) / 10, 1 - (3 * x + 5 * y + 4 * z) / 10,
+                                              1 - (2 * x + 3 * y + 20 * z) / 10) for x, y, z in CUBE][1:],
+                                     PINCHED_TRIANGLES), "intersects itself"),
     ("unknown_format.xyz", CUBE_OFF, "unknown format"),
     ("cut.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0", ""),
     ("cut.ply", "ply\nformat ascii 1.0\nelement vertex 8\nproperty double x\n", ""),
@@ -83,6 +100,10 @@ HARMLESS_SURFACES = [
                                                     for i, f in enumerate(TRIANGLES)]), "merged 1"),
     ("unused_point.off", off(CUBE + [(9, 9, 9)], TRIANGLES), "1 unused point"),
     ("degenerate_face.off", off(CUBE, TRIANGLES + [(0, 1, 1)]), "degenerate"),
+    ("needles.off", off(NEEDLES, NEEDLE_TRIANGLES), "removed 2 degenerate faces"),
+    ("needles.stl", stl(NEEDLES, NEEDLE_TRIANGLES), "removed 2 degenerate faces"),
+    ("pinched.off", off(PINCHED, PINCHED_TRIANGLES), "pinched at 1 point"),
+    ("pinched.stl", stl(PINCHED, PINCHED_TRIANGLES), "pinched at 1 point"),
     ("two_components.off", off(CUBE + moved(CUBE, 1, (3, 0, 0)),
                                TRIANGLES + shifted(TRIANGLES, 8)), "2 components"),
     ("cavity.off", off(CUBE + moved(CUBE, 0.4, (0.3, 0.3, 0.3)),
@@ -135,9 +156,10 @@ class CommandLine(unittest.TestCase):
             with self.subTest(n):
                 self.fails(self.good, "--vertices", n, names="--vertices", status=2)
         self.fails(self.good, "--vertices", 1, "--output", self.output, names="--vertices 1",
-                   words="has 7 vertices")
+                   words="has at least 7 vertices")
         self.fails(self.good, "--vertices", 10**12, names="--vertices", words="GiB")
         self.fails(self.good, "--vertices", 100, "--base-level", 5, names="--vertices", words="base level 5")
+        self.fails(self.good, "--vertices", 100, "--base-level", 10, names="--vertices", words="at least")
         self.fails(self.good, "--vertices", 100, "--base-level", 11, names="--base-level", status=2)
         self.fails(self.good, "--vertices", 100, "--mode", "fast", names="--mode", status=2)
         self.fails("--vertices", 100, names="SURFACE", status=2)
@@ -166,14 +188,14 @@ class CommandLine(unittest.TestCase):
             with self.subTest(name):
                 path = self.file(name, contents)
                 report = WORK / "report.json"
-                run = self.mesher(path, "--vertices", 800, "--output", self.output, "--report", report)
+                run = self.mesher(path, "--vertices", 2000, "--output", self.output, "--report", report)
                 self.assertEqual(run.returncode, 0, run.stderr)
                 self.assertTrue(all(line.startswith("warning: ") for line in run.stderr.splitlines()))
                 self.assertIn(words, run.stderr)
                 told = json.loads(report.read_text())
                 self.assertTrue(any(words in w for w in told["warnings"]))
                 self.assertTrue(all(told["checks"].values()))
-                self.assertGreaterEqual(told["mesh"]["vertices"], 0.97 * 800)
+                self.assertGreaterEqual(told["mesh"]["vertices"], 0.97 * 2000)
                 volume = told["inputs"]["surface"]["volume"]
                 self.assertGreater(told["mesh"]["volume"], 0.95 * volume)
 

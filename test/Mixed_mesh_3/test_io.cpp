@@ -8,12 +8,15 @@
 // an error of convention.
 
 #include <CGAL/Mixed_mesh_3.h>
+#include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/Surface_mesh.h>
 
 #include <boost/core/lightweight_test.hpp>
 
@@ -31,6 +34,7 @@
 #include <map>
 #include <random>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -495,6 +499,76 @@ void test_errors(const fs::path& directory)
   fs::remove_all(place);
 }
 
+// For Surface_mesh and Polyhedron_3.
+template <class Surface>
+void test_reader(const fs::path& directory)
+{
+  const std::string path = (directory / "io_reader.off").string();
+  const auto read = [&path](const std::string& off, Surface& surface) {
+    std::ofstream(path) << off;
+    return IO::read_closed_surface(path, surface);
+  };
+  const auto has_warning = [](const IO::Surface_input& input, const std::string& text) {
+    return std::any_of(input.warnings.begin(), input.warnings.end(),
+                       [&text](const std::string& w) { return w.find(text) != std::string::npos; });
+  };
+  const std::string cube = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n";
+
+  Surface surface;
+  IO::Surface_input input =
+      read("OFF\n8 6 0\n" + cube + "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n",
+           surface);
+  BOOST_TEST_EQ(input.number_of_components, 1u);
+  BOOST_TEST_LT(std::abs(input.volume - 1), 1e-15);
+  BOOST_TEST_EQ(faces(surface).size(), 12u);
+  BOOST_TEST(has_warning(input, "triangulated 6 polygons"));
+
+  // A cavity that hangs from the middle of the upper face: the components touch, where the cavity is
+  // highest. What was in the mesh is replaced.
+  const std::string walls = "4 0 2 3 1\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n"
+                            "3 4 5 8\n3 5 7 8\n3 7 6 8\n3 6 4 8\n";
+  for(const char* cavity :
+      {"3 8 9 10\n3 8 10 11\n3 8 11 9\n3 9 11 10\n", "3 8 10 9\n3 8 11 10\n3 8 9 11\n3 9 10 11\n"}) {
+    input = read("OFF\n12 13 0\n" + cube + "0.5 0.5 1\n0.25 0.25 0.5\n0.75 0.25 0.5\n0.25 0.75 0.5\n"
+                     + walls + cavity,
+                 surface);
+    BOOST_TEST_EQ(input.number_of_components, 2u);
+    BOOST_TEST_LT(std::abs(input.volume - (1 - 0.125 * 0.5 / 3)), 1e-15);
+    BOOST_TEST(has_warning(input, "pinched at 1 point"));
+    BOOST_TEST_EQ(vertices(surface).size(), 13u);
+    BOOST_TEST_EQ(faces(surface).size(), 18u);
+  }
+
+  // Two faces with their vertices on the edge between the first two: removed, without a trace.
+  const std::string needles =
+      "OFF\n10 16 0\n" + cube
+      + "0.25 0 0\n0.5 0 0\n"
+        "3 0 3 1\n3 0 2 3\n3 4 5 7\n3 4 7 6\n3 2 6 7\n3 2 7 3\n3 0 4 6\n3 0 6 2\n"
+        "3 1 3 7\n3 1 7 5\n3 0 5 4\n3 0 8 5\n3 8 9 5\n3 9 1 5\n3 0 1 9\n3 0 9 8\n";
+  input = read(needles, surface);
+  BOOST_TEST(has_warning(input, "removed 2 degenerate faces"));
+  BOOST_TEST_LT(std::abs(input.volume - 1), 1e-15);
+  BOOST_TEST_EQ(faces(surface).size() + 4, 2 * vertices(surface).size());
+  std::size_t n = 0;
+  for(auto v : vertices(surface)) {
+    BOOST_TEST(halfedge(v, surface) != boost::graph_traits<Surface>::null_halfedge());
+    ++n;
+  }
+  BOOST_TEST_EQ(n, vertices(surface).size());
+
+  std::string error;
+  try {
+    read("OFF\n8 8 0\n0 0 0\n3 0 0\n0 3 0\n0 0 3\n0.5 0.5 0.5\n3 0.5 0.5\n0.5 3 0.5\n0.5 0.5 3\n"
+         "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n3 4 6 5\n3 4 5 7\n3 4 7 6\n3 5 6 7\n",
+         surface);
+  } catch(const std::runtime_error& e) {
+    error = e.what();
+  }
+  BOOST_TEST(error.find(path + ": the surface intersects itself in ") == 0);
+  BOOST_TEST(error.find(" pairs of faces, for example near (") != std::string::npos);
+  fs::remove(path);
+}
+
 int main(int argc, char** argv)
 {
   const fs::path directory = argc > 1 ? argv[1] : ".";
@@ -503,5 +577,7 @@ int main(int argc, char** argv)
   test_writers_in_odd_conditions();
   test_split();
   test_errors(directory);
+  test_reader<CGAL::Surface_mesh<Point>>(directory);
+  test_reader<CGAL::Polyhedron_3<Kernel>>(directory);
   return boost::report_errors();
 }

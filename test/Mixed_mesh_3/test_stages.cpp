@@ -724,7 +724,10 @@ void test_transitions(const Analytic_octree& located, Transition_templates_choic
       BOOST_TEST(is_on_rim);
     BOOST_TEST_EQ(int(mesh.sides[v]), int(located.domain().bounded_side(located.point(p))));
   }
-  BOOST_TEST_EQ(n_inserted, mesh.number_of_inserted_vertices);
+  BOOST_TEST_EQ(n_inserted, mesh.vertices.size() - mesh.first_inserted_vertex);
+
+  const Mesh_defects defects = find_defects(mesh);
+  BOOST_TEST(defects.conforming() && defects.positive() && defects.duplicate_vertices == 0);
 }
 
 void test_all_transitions()
@@ -1101,8 +1104,8 @@ void check(const Mesh& mesh, int expected)
   BOOST_TEST_EQ(found, expected);
   BOOST_TEST_EQ(d.none(), expected == 0);
   BOOST_TEST_EQ(d.conforming(), (expected & (NONCONFORMING | INVALID)) == 0);
-  BOOST_TEST_EQ(d.closed_manifold_boundary(), (expected & (EDGES | VERTICES)) == 0);
-  BOOST_TEST_EQ(d.positive(), (expected & (CORNERS | NONFINITE)) == 0);
+  BOOST_TEST_EQ(d.closed_manifold_boundary(), (expected & (EDGES | VERTICES | INVALID)) == 0);
+  BOOST_TEST_EQ(d.positive(), (expected & (CORNERS | NONFINITE | INVALID)) == 0);
 }
 
 // A unit cube of vertices 0 to 7 in the order of the hexahedron, then others.

@@ -42,12 +42,13 @@ public:
   typedef unspecified_type Point_3;
 
   /// What is known about the surface in a cell: a model of `DefaultConstructible` and
-  /// `CopyConstructible`. There is one for each octree node that meets the surface, and it is
-  /// copied with the octree.
+  /// `MoveConstructible`. There is one for each octree node that meets the surface; it is never
+  /// copied nor changed, copies of the octree share it.
   typedef unspecified_type Surface_part;
 
   /// A box that contains the domain, of positive finite extents. Needed only by the overload of
-  /// `CGAL::make_mixed_mesh_3()` that takes no cell traits.
+  /// `CGAL::make_mixed_mesh_3()` that takes no cell traits: with cell traits, all lengths are
+  /// compared on the scale of their root.
   CGAL::Bbox_3 bbox() const;
 
   /// What is known before any query: the part for the root cell.
@@ -75,7 +76,8 @@ public:
 
   /// A point of the surface as near to `p` as any. Asked for vertices outside the domain.
   ///
-  /// So far, only the distance counts: it decides the order in which boundary elements are split.
+  /// So far, only the distance counts: it decides the order in which boundary elements are split,
+  /// in units of \f$ 2^{-24} \f$ of the diagonal of the root cell.
   /// \param p any point
   /// \param part that of a cell which contains `p`, or a default-constructed one if that cell does not
   ///        meet the surface; a hint, the closest point may lie elsewhere

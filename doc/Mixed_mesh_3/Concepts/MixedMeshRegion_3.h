@@ -30,7 +30,7 @@ class MixedMeshRegion_3
 {
 public:
   /// What is known about the region's surface in a cell: a model of `DefaultConstructible` and
-  /// `CopyConstructible`.
+  /// `MoveConstructible`. Copies of the octree share it.
   typedef unspecified_type Surface_part;
 
   /// What is known before any query: the part for the root cell.
@@ -52,8 +52,11 @@ public:
 
   /// How deep a point is in the region; negative outside, and the less so the nearer it is. Of two
   /// cells of one size, that with the deeper centre is refined first; where there are thousands, cells
-  /// share the depth of an ancestor. Cells outside come last, to use up a small budget. Only the order
-  /// of depths matters; they must not be NaN.
+  /// share the depth of an ancestor. Of equally deep ones, those at the domain's surface come first.
+  /// Cells outside the region come last, to use up a small budget.
+  ///
+  /// Depths are lengths, in the unit of the points: they are compared in units of \f$ 2^{-24} \f$ of
+  /// the diagonal of the root cell. But for that, only their order matters; they must not be NaN.
   /// \param p a `CGAL::Mixed_meshes_3::Predicates_kernel::Point_3`, as cell traits return it
   double depth(const Point_3& p) const;
 };

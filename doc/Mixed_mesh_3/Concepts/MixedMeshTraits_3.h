@@ -14,7 +14,8 @@ doubles, with `CGAL::Mixed_meshes_3::Predicates_kernel`.
 A model need not be constructible.
 
 \cgalHasModelsBegin
-\cgalHasModels{any CGAL kernel\, for example `CGAL::Exact_predicates_inexact_constructions_kernel`\,
+\cgalHasModels{any CGAL kernel whose number type holds doubles unchanged\, for example
+`CGAL::Exact_predicates_inexact_constructions_kernel`\,
 `CGAL::Exact_predicates_exact_constructions_kernel` or `CGAL::Simple_cartesian<double>`}
 \cgalHasModelsEnd
 
@@ -24,12 +25,15 @@ class MixedMeshTraits_3
 {
 public:
   /*!
-  A point in space: a model of `CopyConstructible` and `Assignable`, which has, for points `p` and
-  `q`,
+  A point in space: a model of `CopyConstructible` and `Assignable`, which has, for a
+  point `p`,
 
   - a constructor from three `double`;
-  - `p.x()`, `p.y()` and `p.z()`, of a type from which `CGAL::to_double()` makes a `double`;
-  - `p == q`, needed by `CGAL::Mixed_meshes_3::find_defects()` only.
+  - `p.x()`, `p.y()` and `p.z()`, of a type from which `CGAL::to_double()` makes a `double`.
+
+  It has to hold doubles unchanged: `CGAL::to_double(p.x())` is what `p` was constructed from. A
+  point that rounds, such as that of `CGAL::Simple_cartesian<float>`, voids the guarantees: its
+  vertices are not where the proofs have them.
 
   It need not be default constructible.
   */

@@ -54,9 +54,10 @@ public:
     bool do_intersect(const CGAL::Mixed_meshes_3::Predicates_kernel::Triangle_3& t) const;
   };
 
-  /// The position of a lattice point.
+  /// The position of a lattice point. Those of the root's corners also give the scale on which
+  /// distances and depths are compared.
   /// \return a `CGAL::Mixed_meshes_3::Predicates_kernel::Point_3`, or what converts to it and to
-  ///         `MixedMeshDomain_3::Point_3`
+  ///         `MixedMeshDomain_3::Point_3` and has `x()`, `y()` and `z()` of type `double`
   unspecified_type point(const CGAL::Mixed_meshes_3::Lattice_point& p) const;
 
   /// The cell of lattice side `side` whose vertex with the smallest coordinates is `corner`.

@@ -15,8 +15,8 @@ namespace Mixed_meshes_3 {
 /// octree, transition and boundary stages several times.
 enum class Stage { OCTREE, TRANSITIONS, BOUNDARY, ASSEMBLY };
 
-constexpr int number_of_stages = 4;
-constexpr const char* stage_names[number_of_stages] = {"octree", "transitions", "boundary",
+inline constexpr int number_of_stages = 4;
+inline constexpr const char* stage_names[number_of_stages] = {"octree", "transitions", "boundary",
                                                        "assembly"};
 
 /// \brief Model of `MixedMeshVisitor_3` that does nothing.

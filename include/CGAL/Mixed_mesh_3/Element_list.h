@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <iterator>
+#include <stdexcept>
 #include <vector>
 
 namespace CGAL {
@@ -50,6 +51,12 @@ with lattice positions, `Mixed_mesh_3` uses it with points.
 */
 class Element_list
 {
+  void check_size(std::size_t more) const
+  {
+    if(more > Element_index(-1) - m_kinds.size())
+      throw std::length_error("Mixed_mesh_3: more than 2^32 elements");
+  }
+
   std::vector<Element_kind> m_kinds;
   std::vector<std::size_t> m_offsets{0};
   std::vector<Vertex_index> m_vertices;
@@ -65,6 +72,7 @@ public:
 
   void add(Element_kind kind, const Vertex_index* vertices)
   {
+    check_size(1);
     m_kinds.push_back(kind);
     m_vertices.insert(m_vertices.end(), vertices,
                       vertices + reference_elements[kind].number_of_vertices);
@@ -87,6 +95,7 @@ public:
   /// Adds `n` elements of one kind, whose vertices are to be written to `connectivity()`.
   void add_many(Element_kind kind, std::size_t n)
   {
+    check_size(n);
     const std::size_t size = std::size_t(reference_elements[kind].number_of_vertices);
     m_kinds.insert(m_kinds.end(), n, kind);
     m_offsets.reserve(m_offsets.size() + n);

@@ -19,8 +19,8 @@ namespace Mixed_meshes_3 {
 /// cell data `kind` in the files written.
 enum Element_kind : std::uint8_t { TETRAHEDRON, PYRAMID, PRISM, HEXAHEDRON };
 
-constexpr int number_of_element_kinds = 4;
-constexpr Element_kind element_kinds[number_of_element_kinds] = {TETRAHEDRON, PYRAMID, PRISM,
+inline constexpr int number_of_element_kinds = 4;
+inline constexpr Element_kind element_kinds[number_of_element_kinds] = {TETRAHEDRON, PYRAMID, PRISM,
                                                                  HEXAHEDRON};
 
 /// A face of an element: its local vertices, counter-clockwise seen from outside the element.
@@ -72,7 +72,7 @@ struct Reference_element
   const char* febio_type;
 };
 
-constexpr Reference_element reference_elements[number_of_element_kinds] = {
+inline constexpr Reference_element reference_elements[number_of_element_kinds] = {
   {"tetrahedron", "tetrahedra", 4,
    6, {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}},
    4, {{3, {1, 2, 3}}, {3, {0, 3, 2}}, {3, {0, 1, 3}}, {3, {0, 2, 1}}},

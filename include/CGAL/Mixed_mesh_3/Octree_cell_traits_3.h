@@ -11,6 +11,7 @@
 #include <CGAL/Mixed_mesh_3/internal/Octree.h>
 
 #include <CGAL/Bbox_3.h>
+#include <CGAL/assertions.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <algorithm>
@@ -137,7 +138,7 @@ private:
 from the tumour to the skull opening.
 
 The frame comes from a quaternion of small integers, so that it is exactly orthogonal and lattice
-points are exact doubles; its axis is within 3 degrees of the wanted one.
+points are exact doubles; its axis is within 4 degrees of the wanted one.
 */
 class Rotated_octree_cell_traits_3
 {

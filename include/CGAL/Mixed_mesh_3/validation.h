@@ -12,6 +12,7 @@
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
+#include <CGAL/Mixed_mesh_3/internal/Lattice_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/balance.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary_surface.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
@@ -22,7 +23,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <tuple>
+#include <iterator>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -55,6 +57,7 @@ struct Mesh_defects
   std::size_t nonpositive_corners = 0;  ///< corner tetrahedra whose orientation is not positive, exactly
   std::size_t nonpositive_elements = 0; ///< whose Jacobian is not positive everywhere, exactly
   std::size_t undecided_elements = 0;   ///< of which that could be neither proved nor disproved
+  std::size_t wrong_boundary_faces = 0; ///< missing in, or too many in `mesh.boundary_faces()`
   std::size_t unused_vertices = 0;
   std::size_t duplicate_vertices = 0;   ///< with the coordinates of an earlier one
   std::size_t nonfinite_vertices = 0;
@@ -63,12 +66,13 @@ struct Mesh_defects
   bool conforming() const { return nonconforming_faces == 0 && invalid_elements == 0; }
   bool closed_manifold_boundary() const
   {
-    return nonmanifold_boundary_edges == 0 && nonmanifold_boundary_vertices == 0;
+    return nonmanifold_boundary_edges == 0 && nonmanifold_boundary_vertices == 0
+           && wrong_boundary_faces == 0 && invalid_elements == 0;
   }
   bool positive() const
   {
     return nonpositive_corners == 0 && nonpositive_elements == 0 && undecided_elements == 0
-           && nonfinite_vertices == 0;
+           && nonfinite_vertices == 0 && invalid_elements == 0;
   }
   bool none() const
   {
@@ -121,7 +125,7 @@ void find_bad_vertices(const Mesh& mesh, Mesh_defects& defects)
     for(j = i + 1; j < hashes.size() && hashes[j].first == hashes[i].first; ++j) {
       bool is_duplicate = false;
       for(std::size_t k = i; k < j; ++k)
-        is_duplicate = is_duplicate || mesh.point(hashes[k].second) == mesh.point(hashes[j].second);
+        is_duplicate = is_duplicate || to_vec3(mesh.point(hashes[k].second)) == to_vec3(mesh.point(hashes[j].second));
       defects.duplicate_vertices += is_duplicate;
     }
   }
@@ -169,16 +173,26 @@ void find_nonconforming_faces(const Mesh& mesh, Mesh_defects& defects)
     return face_vertices(mesh.element(f.element), f.local_face);
   };
   std::vector<Boundary_polygon> boundary;
+  std::vector<std::pair<Element_index, int>> boundary_faces, listed_faces;
   const auto all = [](Vertex_index) { return true; };
   for_each_face(mesh.elements(), mesh.number_of_vertices(), all,
                 [&](const Face_handle* f, std::size_t n) {
     if(n == 1) {
       const auto v = vertices(f[0]);
       boundary.push_back({v, v[3] == no_vertex ? 3 : 4});
+      boundary_faces.emplace_back(f[0].element, f[0].local_face);
     } else if(n > 2 || !are_opposite(vertices(f[0]), vertices(f[1]))) {
       ++defects.nonconforming_faces;
     }
   });
+  for(const auto& f : mesh.boundary_faces()) // none: nobody asked for them
+    listed_faces.emplace_back(f.element, f.local_face);
+  std::sort(boundary_faces.begin(), boundary_faces.end());
+  std::sort(listed_faces.begin(), listed_faces.end());
+  std::vector<std::pair<Element_index, int>> wrong;
+  std::set_symmetric_difference(boundary_faces.begin(), boundary_faces.end(), listed_faces.begin(),
+                                listed_faces.end(), std::back_inserter(wrong));
+  defects.wrong_boundary_faces = listed_faces.empty() ? 0 : wrong.size();
   // A quadrilateral against two triangles leaves all three on the "boundary".
   std::vector<std::array<Vertex_index, 4>> triangles;
   for(const Boundary_polygon& p : boundary)
@@ -225,6 +239,19 @@ Mesh_defects find_defects(const Mesh& mesh)
     internal::find_nonconforming_faces(mesh, defects);
   }
   return defects;
+}
+
+/// Looks for defects in what the transition stage hands on; positions are those of the lattice. Its elements
+/// end where the octree does: the boundary need not be a manifold, nor is every vertex used.
+inline Mesh_defects find_defects(const internal::Lattice_mesh& lattice)
+{
+  std::vector<Predicates_kernel::Point_3> points;
+  points.reserve(lattice.vertices.size());
+  for(const Lattice_point& p : lattice.vertices)
+    points.emplace_back(p[0], p[1], p[2]);
+  Mixed_mesh_3<Predicates_kernel> mesh;
+  mesh.assign(std::move(points), lattice.elements, std::vector<std::uint8_t>(lattice.elements.size()));
+  return find_defects(mesh);
 }
 
 } // namespace Mixed_meshes_3

@@ -6,17 +6,30 @@
 #ifndef CGAL_MIXED_MESH_3_IO_READ_CLOSED_SURFACE_H
 #define CGAL_MIXED_MESH_3_IO_READ_CLOSED_SURFACE_H
 
+#include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Polygon_mesh_processing/shape_predicates.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 
+#include <CGAL/Bbox_3.h>
 #include <CGAL/IO/polygon_soup_io.h>
+#include <CGAL/Kernel_traits.h>
+#include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
 #include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/properties.h>
+#include <CGAL/enum.h>
+#include <CGAL/number_utils.h>
+
+#include <boost/graph/graph_traits.hpp>
+#include <boost/property_map/property_map.hpp>
 
 #include <algorithm>
 #include <array>
@@ -30,6 +43,9 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <locale>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -60,19 +76,36 @@ inline std::string counted(std::size_t n, const char* one, const char* many)
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
-using Soup_edges = std::vector<std::pair<std::size_t, std::size_t>>;
-
-// Undirected edges, sorted.
-inline Soup_edges edges_of(const std::vector<std::vector<std::size_t>>& polygons)
+struct Edge_counts
 {
-  Soup_edges edges;
+  std::size_t open = 0, crowded = 0; // edges with one face, and with more than two
+  bool is_oriented = true;           // no edge occurs twice in the same direction
+};
+
+inline Edge_counts count_edges(const std::vector<std::vector<std::size_t>>& polygons)
+{
+  struct Edge
+  {
+    std::size_t low, high;
+    bool is_upwards;
+    bool operator<(const Edge& e) const { return low != e.low ? low < e.low : high < e.high; }
+  };
+  std::vector<Edge> edges;
   for(const auto& polygon : polygons)
     for(std::size_t i = 0; i < polygon.size(); ++i) {
       const std::size_t a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-      edges.emplace_back((std::min)(a, b), (std::max)(a, b));
+      edges.push_back({(std::min)(a, b), (std::max)(a, b), a < b});
     }
   std::sort(edges.begin(), edges.end());
-  return edges;
+  Edge_counts counts;
+  for(auto first = edges.begin(), last = first; first != edges.end(); first = last) {
+    last = std::upper_bound(first, edges.end(), *first);
+    counts.open += last - first == 1;
+    counts.crowded += last - first > 2;
+    if(last - first == 2 && first[0].is_upwards == first[1].is_upwards)
+      counts.is_oriented = false;
+  }
+  return counts;
 }
 
 // What stands in a file may be anything: numbers first, then topology.
@@ -112,13 +145,195 @@ void check_soup(const std::string& path, const std::vector<Point>& points,
     refuse(path, "it is so small, and so far from the origin, that its coordinates have no digits left");
 }
 
+template <class Mesh>
+using Point_of = typename boost::property_traits<
+  typename boost::property_map<Mesh, CGAL::vertex_point_t>::type>::value_type;
+
+template <class Mesh>
+using Face_of = typename boost::graph_traits<Mesh>::face_descriptor;
+
+template <class Mesh>
+struct Triangle_view
+{
+  std::array<typename boost::graph_traits<Mesh>::vertex_descriptor, 3> vertices;
+  std::array<Point_of<Mesh>, 3> points;
+
+  Triangle_view(Face_of<Mesh> face, const Mesh& mesh)
+  {
+    auto h = halfedge(face, mesh);
+    for(std::size_t i = 0; i < 3; ++i, h = next(h, mesh)) {
+      vertices[i] = target(h, mesh);
+      points[i] = get(get(CGAL::vertex_point, mesh), vertices[i]);
+    }
+  }
+};
+
+// "(1, 2, 3)": the place of a face, in the coordinates of the file; its number is ours, not the file's.
+template <class Mesh>
+std::string place_of(Face_of<Mesh> face, const Mesh& mesh)
+{
+  const auto p = Triangle_view<Mesh>(face, mesh).points[0];
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(7);
+  out << "(" << CGAL::to_double(p.x()) << ", " << CGAL::to_double(p.y()) << ", "
+      << CGAL::to_double(p.z()) << ")";
+  return out.str();
+}
+
+// Whether two faces meet in nothing but the point of two different vertices: a pinched point.
+template <class Mesh>
+bool meet_in_pinched_point(Face_of<Mesh> f, Face_of<Mesh> g, const Mesh& mesh)
+{
+  using Kernel = typename Kernel_traits<Point_of<Mesh>>::Kernel;
+  using Segment = typename Kernel::Segment_3;
+  using Triangle = typename Kernel::Triangle_3;
+  const Triangle_view<Mesh> a(f, mesh), b(g, mesh);
+  const auto& p = a.points;
+  const auto& q = b.points;
+  const auto do_intersect = Kernel().do_intersect_3_object();
+  for(std::size_t i = 0; i < 3; ++i)
+    for(std::size_t j = 0; j < 3; ++j)
+      if(p[i] == q[j] && a.vertices[i] != b.vertices[j])
+        return !do_intersect(Triangle(p[0], p[1], p[2]), Segment(q[(j + 1) % 3], q[(j + 2) % 3]))
+               && !do_intersect(Triangle(q[0], q[1], q[2]), Segment(p[(i + 1) % 3], p[(i + 2) % 3]));
+  return false;
+}
+
+// Removes triangles whose vertices are on a line, or refuses.
+template <class Mesh>
+void remove_degenerate_faces(const std::string& path, Mesh& mesh, Surface_input& input)
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  std::vector<Face_of<Mesh>> degenerate;
+  PMP::degenerate_faces(mesh, std::back_inserter(degenerate));
+  if(degenerate.empty())
+    return;
+  if(degenerate.size() == faces(mesh).size())
+    refuse(path, "all its faces are degenerate");
+  std::size_t n = degenerate.size();
+  std::string place = place_of(degenerate.front(), mesh);
+  bool is_intact = false;
+  try {
+    PMP::remove_degenerate_faces(mesh);
+    is_intact = CGAL::is_valid_polygon_mesh(mesh) && CGAL::is_closed(mesh)
+                && CGAL::is_triangle_mesh(mesh);
+  } catch(const std::exception&) { // an assertion of CGAL
+  }
+  degenerate.clear();
+  if(is_intact) {
+    PMP::degenerate_faces(mesh, std::back_inserter(degenerate));
+    if(!degenerate.empty()) {
+      n = degenerate.size();
+      place = place_of(degenerate.front(), mesh);
+    }
+  }
+  if(!is_intact || !degenerate.empty())
+    refuse(path, "has " + counted(n, "degenerate face", "degenerate faces")
+                   + " (three vertices on a line), the first near " + place);
+  input.warnings.push_back("removed " + counted(n, "degenerate face", "degenerate faces"));
+  Mesh compact; // without the places of removed faces
+  CGAL::copy_face_graph(mesh, compact);
+  clear(mesh);
+  CGAL::copy_face_graph(compact, mesh);
+}
+
+template <class Mesh>
+void refuse_self_intersections(const std::string& path, const Mesh& mesh)
+{
+  std::vector<std::pair<Face_of<Mesh>, Face_of<Mesh>>> crossings;
+  CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(crossings));
+  crossings.erase(std::remove_if(crossings.begin(), crossings.end(),
+                                 [&mesh](const auto& pair) {
+                                   return meet_in_pinched_point(pair.first, pair.second, mesh);
+                                 }),
+                  crossings.end());
+  if(crossings.empty())
+    return;
+  std::vector<std::string> places;
+  for(std::size_t i = 0; i < crossings.size() && places.size() < 3; ++i) {
+    const std::string place = place_of(crossings[i].first, mesh);
+    if(std::find(places.begin(), places.end(), place) == places.end())
+      places.push_back(place);
+  }
+  std::string text = "the surface intersects itself in "
+                     + counted(crossings.size(), "pair", "pairs") + " of faces, for example near ";
+  for(std::size_t i = 0; i < places.size(); ++i)
+    text += (i == 0 ? "" : ", ") + places[i];
+  refuse(path, text);
+}
+
+// Orients the components such that the solid is on their inner side; returns the number of components.
+// PMP::orient_to_bound_a_volume() looks at one vertex of a component only; where components touch, that
+// vertex may be in both.
+template <class Mesh>
+std::size_t orient_components(Mesh& mesh, std::size_t& number_of_reversed)
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  using Side = CGAL::Side_of_triangle_mesh<Mesh, typename Kernel_traits<Point_of<Mesh>>::Kernel>;
+  struct Component
+  {
+    std::vector<Face_of<Mesh>> faces;
+    Bbox_3 bbox;
+    double volume = 0;
+    bool is_cavity = false;
+  };
+
+  const auto component_map = get(CGAL::dynamic_face_property_t<std::size_t>(), mesh);
+  std::vector<Component> components(PMP::connected_components(mesh, component_map));
+  for(Face_of<Mesh> face : faces(mesh))
+    components[get(component_map, face)].faces.push_back(face);
+  for(Component& c : components) {
+    const Point_of<Mesh> origin = Triangle_view<Mesh>(c.faces.front(), mesh).points[0];
+    for(Face_of<Mesh> face : c.faces) {
+      const Triangle_view<Mesh> t(face, mesh);
+      for(const auto& p : t.points)
+        c.bbox += p.bbox();
+      c.volume += CGAL::to_double(CGAL::volume(origin, t.points[0], t.points[1], t.points[2]));
+    }
+  }
+
+  for(const Component& outer : components) {
+    std::vector<Component*> candidates;
+    for(Component& c : components) {
+      bool is_within = &c != &outer;
+      for(int k = 0; k < 3; ++k)
+        is_within = is_within && outer.bbox.min(k) <= c.bbox.min(k) && c.bbox.max(k) <= outer.bbox.max(k);
+      if(is_within)
+        candidates.push_back(&c);
+    }
+    if(candidates.empty())
+      continue;
+    const typename Side::AABB_tree tree(outer.faces.begin(), outer.faces.end(), mesh,
+                                        get(CGAL::vertex_point, mesh));
+    const Side side(tree);
+    for(Component* c : candidates) {
+      Bounded_side s = ON_BOUNDARY;
+      for(std::size_t i = 0; i < c->faces.size() && s == ON_BOUNDARY; ++i)
+        for(const auto& p : Triangle_view<Mesh>(c->faces[i], mesh).points)
+          if(s == ON_BOUNDARY)
+            s = side(p);
+      c->is_cavity ^= s == ON_BOUNDED_SIDE;
+    }
+  }
+  number_of_reversed = 0;
+  for(const Component& c : components)
+    if((c.volume < 0) != c.is_cavity) {
+      PMP::reverse_face_orientations(c.faces, mesh);
+      ++number_of_reversed;
+    }
+  return components.size();
+}
+
 } // namespace internal
 
 /*!
 Reads a closed surface from an OFF, OBJ, STL or PLY file, and mends what is harmless: duplicate points
-and faces, unused points, polygons (triangulated), inconsistent or inward orientation.
+and faces, unused points, polygons (triangulated), faces whose vertices are on a line, inconsistent or
+inward orientation. A surface may touch itself in points: it gets a vertex for each sheet there.
 
-\tparam Mesh a model of `MutableFaceGraph` with an internal vertex point map
+\tparam Mesh a model of `MutableFaceGraph` and `FaceListGraph` with an internal vertex point map, for
+        example `Surface_mesh` or `Polyhedron_3`
 \param path the file; its format follows from the extension
 \param mesh the result: triangulated, closed, not self-intersecting, oriented outwards
 \return what was read, with a warning for everything mended
@@ -130,8 +345,7 @@ template <class Mesh>
 Surface_input read_closed_surface(const std::string& path, Mesh& mesh)
 {
   namespace PMP = CGAL::Polygon_mesh_processing;
-  using Point = typename boost::property_traits<
-    typename boost::property_map<Mesh, CGAL::vertex_point_t>::type>::value_type;
+  using Point = internal::Point_of<Mesh>;
   using internal::counted;
   using internal::refuse;
 
@@ -183,34 +397,29 @@ Surface_input read_closed_surface(const std::string& path, Mesh& mesh)
   if(polygons.empty())
     refuse(path, "all its faces are degenerate");
 
-  const internal::Soup_edges edges = internal::edges_of(polygons);
-  std::size_t open = 0, crowded = 0;
-  for(auto first = edges.begin(), last = first; first != edges.end(); first = last) {
-    last = std::upper_bound(first, edges.end(), *first);
-    open += last - first == 1;
-    crowded += last - first > 2;
-  }
-  if(open != 0)
-    refuse(path, "the surface is not closed: " + counted(open, "border edge", "border edges"));
-  if(crowded != 0)
+  const internal::Edge_counts edges = internal::count_edges(polygons);
+  if(edges.open != 0)
+    refuse(path, "the surface is not closed: " + counted(edges.open, "border edge", "border edges"));
+  if(edges.crowded != 0)
     refuse(path, "the surface is not a manifold: "
-                   + counted(crowded, "edge has more than two faces", "edges have more than two faces"));
+                   + counted(edges.crowded, "edge has more than two faces",
+                             "edges have more than two faces"));
   if(!PMP::is_polygon_soup_a_polygon_mesh(polygons)) {
+    // Duplicates pinched points, and those of edges that it has to cut, as in a Moebius band.
     const std::size_t n = points.size();
     PMP::orient_polygon_soup(points, polygons);
+    if(internal::count_edges(polygons).open != 0)
+      refuse(path, "the surface cannot be oriented");
     if(!PMP::is_polygon_soup_a_polygon_mesh(polygons))
       refuse(path, "the faces do not form a surface");
-    // orient_polygon_soup() duplicates points where it has to cut: pinched vertices, or a Moebius band
-    if(internal::edges_of(polygons).size() == edges.size() && points.size() > n)
-      input.warnings.push_back("duplicated " + counted(points.size() - n, "pinched point",
-                                                       "pinched points"));
-    else
+    if(!edges.is_oriented)
       input.warnings.push_back("oriented the faces consistently");
+    const std::set<Point> pinched(points.begin() + std::ptrdiff_t(n), points.end());
+    if(!pinched.empty())
+      input.warnings.push_back("the surface is pinched at " + counted(pinched.size(), "point", "points"));
   }
   clear(mesh);
   PMP::polygon_soup_to_polygon_mesh(points, polygons, mesh);
-  if(!CGAL::is_closed(mesh))
-    refuse(path, "the surface cannot be oriented");
   if(!CGAL::is_triangle_mesh(mesh)) {
     const std::size_t n = std::size_t(std::count_if(polygons.begin(), polygons.end(),
                                                     [](const auto& p) { return p.size() > 3; }));
@@ -223,29 +432,15 @@ Surface_input read_closed_surface(const std::string& path, Mesh& mesh)
   const double box = b.x_span() * b.y_span() * b.z_span();
   if(!(box > 0))
     refuse(path, "the surface is flat: it encloses no volume");
-  std::vector<std::pair<typename boost::graph_traits<Mesh>::face_descriptor,
-                        typename boost::graph_traits<Mesh>::face_descriptor>> crossings;
-  PMP::self_intersections(mesh, std::back_inserter(crossings));
-  if(!crossings.empty()) {
-    std::string pairs;
-    for(std::size_t i = 0; i < crossings.size() && i < 5; ++i)
-      pairs += (i == 0 ? " " : ", ") + std::to_string(std::size_t(crossings[i].first)) + "-"
-               + std::to_string(std::size_t(crossings[i].second));
-    refuse(path, "the surface intersects itself in " + counted(crossings.size(), "pair", "pairs")
-                   + " of faces:" + pairs + (crossings.size() > 5 ? ", ..." : ""));
-  }
-  auto components = get(CGAL::dynamic_face_property_t<std::size_t>(), mesh);
-  input.number_of_components = PMP::connected_components(mesh, components);
-  if(input.number_of_components == 1) {
-    if(!PMP::is_outward_oriented(mesh)) {
-      PMP::reverse_face_orientations(mesh);
-      input.warnings.push_back("turned the surface inside out: it was oriented inwards");
-    }
-  } else {
-    PMP::orient_to_bound_a_volume(mesh);
+  internal::remove_degenerate_faces(path, mesh, input);
+  internal::refuse_self_intersections(path, mesh);
+  std::size_t number_of_reversed;
+  input.number_of_components = internal::orient_components(mesh, number_of_reversed);
+  if(input.number_of_components > 1)
     input.warnings.push_back("has " + std::to_string(input.number_of_components)
                              + " components: one inside another is a cavity");
-  }
+  else if(number_of_reversed == 1)
+    input.warnings.push_back("turned the surface inside out: it was oriented inwards");
   input.volume = CGAL::to_double(PMP::volume(mesh));
   if(!(input.volume > 1e-12 * box))
     refuse(path, "the surface encloses no volume");

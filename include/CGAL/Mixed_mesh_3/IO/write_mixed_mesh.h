@@ -16,10 +16,12 @@
 
 #include <cmath>
 #include <cstddef>
+#include <deque>
 #include <filesystem>
 #include <optional>
 #include <ostream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -54,7 +56,7 @@ struct Extension
 };
 
 // The first extension of a format is its usual one; Gmsh knows `.msh2`, too.
-constexpr Extension extensions[] = {{".vtu", Format::VTU},      {".msh", Format::MSH_4_1},
+inline constexpr Extension extensions[] = {{".vtu", Format::VTU},      {".msh", Format::MSH_4_1},
                                     {".msh2", Format::MSH_2_2}, {".mesh", Format::MEDIT},
                                     {".inp", Format::INP},      {".feb", Format::FEB}};
 
@@ -96,17 +98,45 @@ inline std::optional<Format> format_of(const std::string& path)
   return std::nullopt;
 }
 
-/// Writes a text to a file, with the same care as `write_mixed_mesh()`.
-[[nodiscard]] inline Write_error write_text_file(const std::string& path, const std::string& text)
+/*!
+\brief Files that appear together, when all of them are complete.
+
+Each is written under another name in its directory; `commit()` renames them. Files not committed are
+removed by the destructor, and what was there before stays.
+*/
+class Output_files
 {
-  internal::Output_file file(path);
-  std::string reason = file.error();
-  if(reason.empty())
-    reason = file.write([&](std::ostream& stream) { return bool(stream << text); });
-  if(!reason.empty())
-    return path + ": " + reason;
-  return std::nullopt;
-}
+  std::deque<std::pair<std::string, internal::Output_file>> m_files;
+
+public:
+  /// Writes a file.
+  /// \param path the file, once committed
+  /// \param write called as `bool(std::ostream&)`; returns whether all went well
+  template <class Write>
+  [[nodiscard]] Write_error write(const std::string& path, const Write& write)
+  {
+    internal::Output_file& file = m_files.emplace_back(std::piecewise_construct, std::make_tuple(path),
+                                                       std::make_tuple(path)).second;
+    std::string reason = file.error();
+    if(reason.empty())
+      reason = file.write(write);
+    if(!reason.empty())
+      return path + ": " + reason;
+    return std::nullopt;
+  }
+
+  /// Gives all files written their names.
+  [[nodiscard]] Write_error commit()
+  {
+    for(auto& [path, file] : m_files) {
+      const std::string reason = file.commit();
+      if(!reason.empty())
+        return path + ": " + reason;
+    }
+    m_files.clear();
+    return std::nullopt;
+  }
+};
 
 /*!
 \brief Checks whether a mesh can be written to a path: to be called before meshing.
@@ -125,25 +155,9 @@ temporary one is created beside it and removed.
   return check_output_directory(path);
 }
 
-/*!
-\brief Writes a mesh to a file, in the format that the extension tells.
-
-| extension | format |
-|-----------|--------|
-| `.vtu`    | VTK, binary: `write_VTU()` |
-| `.msh`    | Gmsh 4.1: `write_MSH()` |
-| `.msh2`   | Gmsh 2.2: `write_MSH()` |
-| `.mesh`   | Medit: `write_MEDIT()` |
-| `.inp`    | Abaqus: `write_INP()` |
-| `.feb`    | FEBio: `write_FEB()` |
-
-The file appears when it is complete: it is written under another name in the same directory, which
-is removed when something goes wrong. An existing file stays until it is replaced.
-
-\return the error, or `std::nullopt`: `if(const auto error = write_mixed_mesh(path, mesh)) ...`
-*/
+/// Writes a mesh to one of several files that shall appear together, as the function below does to one.
 template <class Mesh>
-[[nodiscard]] Write_error write_mixed_mesh(const std::string& path, const Mesh& mesh,
+[[nodiscard]] Write_error write_mixed_mesh(Output_files& files, const std::string& path, const Mesh& mesh,
                                            const Write_options& options = Write_options())
 {
   const std::optional<Format> format = format_of(path);
@@ -181,19 +195,40 @@ template <class Mesh>
       values.push_back(std::move(split_values));
       array.values = &values.back();
     }
-    return write_mixed_mesh(path, tetrahedra, new_options);
+    return write_mixed_mesh(files, path, tetrahedra, new_options);
   }
   const Format used = options.msh_2_2 && *format == Format::MSH_4_1 ? Format::MSH_2_2 : *format;
 
-  internal::Output_file file(path);
-  std::string reason = file.error();
-  if(reason.empty())
-    reason = file.write([&](std::ostream& stream) {
-      return internal::write(stream, mesh, used, options);
-    });
-  if(!reason.empty())
-    return error(reason);
-  return std::nullopt;
+  return files.write(path, [&](std::ostream& stream) {
+    return internal::write(stream, mesh, used, options);
+  });
+}
+
+/*!
+\brief Writes a mesh to a file, in the format that the extension tells.
+
+| extension | format |
+|-----------|--------|
+| `.vtu`    | VTK, binary: `write_VTU()` |
+| `.msh`    | Gmsh 4.1: `write_MSH()` |
+| `.msh2`   | Gmsh 2.2: `write_MSH()` |
+| `.mesh`   | Medit: `write_MEDIT()` |
+| `.inp`    | Abaqus: `write_INP()` |
+| `.feb`    | FEBio: `write_FEB()` |
+
+The file appears when it is complete: it is written under another name in the same directory, which
+is removed when something goes wrong. An existing file stays until it is replaced.
+
+\return the error, or `std::nullopt`: `if(const auto error = write_mixed_mesh(path, mesh)) ...`
+*/
+template <class Mesh>
+[[nodiscard]] Write_error write_mixed_mesh(const std::string& path, const Mesh& mesh,
+                                           const Write_options& options = Write_options())
+{
+  Output_files files;
+  if(auto error = write_mixed_mesh(files, path, mesh, options))
+    return error;
+  return files.commit();
 }
 
 } // namespace IO

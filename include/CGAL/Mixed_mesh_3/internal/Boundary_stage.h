@@ -13,26 +13,22 @@
 #include <CGAL/Mixed_mesh_3/internal/parallel_for.h>
 #include <CGAL/Mixed_mesh_3/internal/split_boundary_elements.h>
 #include <CGAL/Mixed_mesh_3/internal/split_boundary_elements_by_parity.h>
+#include <CGAL/Mixed_mesh_3/options.h>
 
-#include <CGAL/Bbox_3.h>
+#include <CGAL/assertions.h>
 #include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <initializer_list>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
-
-/// How elements at the surface are split.
-enum class Boundary_mode {
-  VERTEX_ORDER, ///< by one order of all vertices: inserts none, keeps pyramids
-  PAPER         ///< sections 5.2 of the paper: all to tetrahedra, diagonals propagate
-};
 
 namespace internal {
 
@@ -121,12 +117,9 @@ private:
       if(m_distances[v] < 0)
         m_distances[v] = m_mesh.sides[v] == ON_BOUNDARY ? 0 : distance(v);
     });
-    // Distances that are equal but for rounding must not decide: compare them on a scale.
-    const Bbox_3 box = m_located.domain().bbox();
-    const double scale = std::ldexp(1., 24) / (box.x_span() + box.y_span() + box.z_span());
     std::vector<std::tuple<double, std::uint64_t, Vertex_index>> order;
     for(Vertex_index v : outside)
-      order.emplace_back(std::floor(m_distances[v] * scale + 0.3), lattice_key(m_mesh.vertices[v]), v);
+      order.emplace_back(m_located.quantized(m_distances[v]), lattice_key(m_mesh.vertices[v]), v);
     std::sort(order.begin(), order.end());
     for(std::size_t i = 0; i < order.size(); ++i)
       m_ranks[std::get<2>(order[i])] = std::uint32_t(i);

@@ -11,6 +11,8 @@
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/internal/Octree.h>
 
+#include <CGAL/enum.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -30,7 +32,8 @@ struct Lattice_mesh
   std::vector<std::uint8_t> is_on_rim;       ///< not all leaves around the vertex have elements
   Element_list elements;
   std::vector<Octree::Node_index> cells;     ///< for each element, the leaf it comes from
-  std::size_t number_of_inserted_vertices = 0; ///< those that the octree does not have
+  /// From here on, vertices are not the octree's: transition templates inserted them.
+  std::size_t first_inserted_vertex = 0;
 
   Vertex_index add_vertex(const Lattice_point& p, std::int8_t side, Octree::Node_index leaf,
                           bool rim = false)
@@ -50,7 +53,7 @@ struct Lattice_mesh
     is_on_rim.pop_back();
   }
 
-  bool is_inside(Vertex_index v) const { return sides[v] == 1; }
+  bool is_inside(Vertex_index v) const { return sides[v] == ON_BOUNDED_SIDE; }
 };
 
 } // namespace internal

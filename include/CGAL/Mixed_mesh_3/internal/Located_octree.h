@@ -11,13 +11,14 @@
 #include <CGAL/Mixed_mesh_3/internal/Octree.h>
 #include <CGAL/Mixed_mesh_3/internal/balance.h>
 
-#include <CGAL/Bbox_3.h>
 #include <CGAL/enum.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <memory>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -46,6 +47,9 @@ public:
     add_part(m_domain_parts, domain.surface_part());
     add_part(m_region_parts, region.surface_part());
     m_locations.push_back({ON_BOUNDARY, ON_BOUNDARY, 0, 0});
+    const auto p = traits.point({0, 0, 0}),
+               q = traits.point({Octree::root_side, Octree::root_side, Octree::root_side});
+    m_scale = std::ldexp(1., 24) / std::hypot(q.x() - p.x(), q.y() - p.y(), q.z() - p.z());
     locate(Octree::root(), m_locations[0]);
   }
 
@@ -64,6 +68,19 @@ public:
   }
 
   typename Domain::Point_3 point(const Lattice_point& p) const { return m_traits->point(p); }
+
+  /// The number of leaves that are inside the domain and do not meet its surface.
+  std::size_t number_of_cells_inside() const
+  {
+    std::size_t count = 0;
+    for(Node_index n = 0; n < m_octree.size(); ++n)
+      count += m_octree.is_leaf(n) && side(n) == ON_BOUNDED_SIDE;
+    return count;
+  }
+
+  /// A length in units of 2^-24 of the root, rounded: lengths that are equal but for rounding rarely
+  /// differ, so that symmetric input does not depend on it.
+  double quantized(double length) const { return std::floor(length * m_scale + 0.3); }
 
   /// Splits leaves, then balances across faces and edges.
   template <class NodeRange>
@@ -96,10 +113,8 @@ public:
     for(std::size_t queries = leaves.size(); queries > 4000 && level > 0; queries /= 8)
       --level;
     const std::uint32_t side = Octree::side_at(level), mask = ~(side - 1);
-    // Depths that are equal but for rounding must not decide: compare them on a scale.
-    const Bbox_3 box = m_domain->bbox();
-    const double scale = std::ldexp(1., 24) / (box.x_span() + box.y_span() + box.z_span());
-    std::vector<std::pair<double, Node_index>> keys; // minus depth, node
+    // Of equally deep ones, those at the surface first: there they serve the shape, too.
+    std::vector<std::tuple<double, bool, Node_index>> keys;
     Lattice_point last{Octree::root_side, 0, 0};
     double depth = 0;
     for(Node_index n : leaves) {
@@ -110,11 +125,11 @@ public:
         depth = m_region->depth(m_traits->point({p[0] + side / 2, p[1] + side / 2, p[2] + side / 2}));
         last = p;
       }
-      keys.emplace_back(-std::floor(depth * scale + 0.3), n);
+      keys.emplace_back(-quantized(depth), this->side(n) != ON_BOUNDARY, n);
     }
     std::sort(keys.begin(), keys.end());
     for(std::size_t i = 0; i < leaves.size(); ++i)
-      leaves[i] = keys[i].second;
+      leaves[i] = std::get<2>(keys[i]);
   }
 
 private:
@@ -171,6 +186,7 @@ private:
   const Region* m_region;
   const CellTraits* m_traits;
   Octree m_octree;
+  double m_scale;
   std::vector<Location> m_locations;
   Parts<Surface_part> m_domain_parts;
   Parts<typename Region::Surface_part> m_region_parts;

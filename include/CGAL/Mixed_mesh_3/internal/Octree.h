@@ -14,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 namespace CGAL {
@@ -56,6 +57,8 @@ public:
   Node_index split(Node_index n)
   {
     CGAL_precondition(is_leaf(n) && level(n) < max_level);
+    if(m_nodes.size() > std::size_t(no_node) - 8)
+      throw std::length_error("Mixed_mesh_3: more than 2^32 octree nodes");
     const Node parent = m_nodes[n];
     const std::uint32_t half = side_at(parent.level + 1);
     const Node_index first = Node_index(m_nodes.size());

@@ -11,18 +11,24 @@
 #define CGAL_MIXED_MESH_3_INTERNAL_SURFACE_ORACLE_3_H
 
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
+#include <CGAL/Mixed_mesh_3/internal/vector_3.h>
 
+#include <CGAL/Bbox_3.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/assertions.h>
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/named_params_helper.h>
+#include <CGAL/squared_distance_3.h>
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -59,8 +65,7 @@ public:
     Surface& s = m_data->surface;
     for(auto v : vertices(surface)) {
       const auto& p = get(vpm, v);
-      copy[v] = s.add_vertex(Point_3(CGAL::to_double(p.x()), CGAL::to_double(p.y()),
-                                     CGAL::to_double(p.z())));
+      copy[v] = s.add_vertex(Point_3(rounded(p.x()), rounded(p.y()), rounded(p.z())));
     }
     for(auto f : faces(surface)) {
       std::array<Surface::Vertex_index, 3> v;

@@ -13,6 +13,7 @@
 #include <CGAL/Mixed_mesh_3/internal/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/parallel_for.h>
 #include <CGAL/Mixed_mesh_3/internal/transition_templates.h>
+#include <CGAL/Mixed_mesh_3/options.h>
 
 #include <algorithm>
 #include <array>
@@ -22,12 +23,6 @@
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
-
-/// How cells with hanging vertices are decomposed.
-enum class Transition_templates_choice {
-  FEWEST_VERTICES, ///< 118 of 144 templates need no vertex at the cell's centre
-  CENTRED          ///< every such cell is coned from its centre
-};
 
 namespace internal {
 
@@ -62,6 +57,7 @@ public:
   {
     choose_leaves();
     number_vertices();
+    m_mesh.first_inserted_vertex = m_mesh.vertices.size();
     add_transition_elements(choice);
     find_sides(threads);
     return std::move(m_mesh);
@@ -168,7 +164,6 @@ private:
     const auto [known, is_new] =
       m_inserted.try_emplace(lattice_key(p), Vertex_index(m_mesh.vertices.size()));
     if(is_new) {
-      ++m_mesh.number_of_inserted_vertices;
       const Bounded_side side = m_located.side(n);
       m_mesh.add_vertex(p, side == ON_BOUNDARY ? Lattice_mesh::unknown_side : std::int8_t(side), n,
                         local != cell_centre); // until the leaf behind the face asks for it, too

@@ -10,6 +10,7 @@
 #define CGAL_MIXED_MESH_3_INTERNAL_BALANCE_H
 
 #include <CGAL/Mixed_mesh_3/internal/Octree.h>
+#include <CGAL/Mixed_mesh_3/options.h>
 
 #include <array>
 #include <cstdint>
@@ -18,9 +19,6 @@
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
-
-/// Across what neighbouring leaves may differ by one level only.
-enum class Adjacency { FACE = 1, EDGE = 2, VERTEX = 3 };
 
 namespace internal {
 

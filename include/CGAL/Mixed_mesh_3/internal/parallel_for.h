@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -28,9 +29,16 @@ void parallel_for(std::size_t n, unsigned threads, const F& f)
       f(i);
   };
   std::vector<std::thread> workers;
-  for(std::size_t block = 1; block < blocks; ++block)
-    workers.emplace_back(run, block);
+  std::size_t block = 1;
+  try {
+    for(; block < blocks; ++block)
+      workers.emplace_back(run, block);
+  } catch(const std::system_error&) {
+    // the system gives no more threads: the rest is done here
+  }
   run(0);
+  for(; block < blocks; ++block)
+    run(block);
   for(std::thread& worker : workers)
     worker.join();
 }

@@ -30,6 +30,7 @@ class Budget_search
   // further trial costs more than it brings. Below 98 % single cells are tried.
   static constexpr double full_enough = 0.998, worth_single_cells = 0.98;
   static constexpr std::size_t single_cells_per_level = 12;
+  static constexpr std::size_t far_above_budget = 1000000;
 
   const std::size_t m_budget;
   const Try& m_try;
@@ -41,8 +42,15 @@ public:
   Budget_search(Octree_& octree, std::size_t budget, int base_level, const Try& try_octree)
     : m_budget(budget), m_try(try_octree), m_octree(octree)
   {
-    for(int level = 0; level < base_level; ++level)
+    for(int level = 0; level < base_level; ++level) {
+      // Cells inside have their smallest corners inside, and eight children each: a lower bound. Far
+      // above the budget, the mesh is not made.
+      if(8 * m_octree.number_of_cells_inside() > (std::max)(m_budget, far_above_budget)) {
+        m_best.number_of_vertices = 8 * m_octree.number_of_cells_inside();
+        return;
+      }
       m_octree.refine(m_octree.leaves_to_refine(level, false));
+    }
     m_best = m_try(m_octree);
     if(m_octree.leaves_to_refine(base_level, true).empty())
       return; // the region does not meet the domain
@@ -64,6 +72,8 @@ private:
   {
     Candidate candidate = m_try(trial);
     const std::size_t n = candidate.number_of_vertices;
+    if(!candidate.is_stopped && !candidate.is_manifold() && m_best.is_manifold())
+      return m_budget + 1; // rare: another number of cells will do
     if(candidate.is_stopped || n <= m_budget) {
       m_octree = std::move(trial);
       m_best = std::move(candidate);

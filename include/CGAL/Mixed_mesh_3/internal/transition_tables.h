@@ -22,9 +22,9 @@ namespace internal {
 // 118 classes do without the centre (worst ARC 3.192),
 // 26 have it (worst ARC 2.000).
 
-constexpr int number_of_transition_classes = 144;
+inline constexpr int number_of_transition_classes = 144;
 
-constexpr unsigned short transition_table[] = {
+inline constexpr unsigned short transition_table[] = {
   // 0x000: 1 hexahedron; 1.00
   0x000,1, 3,0,2,8,6,18,20,26,24,
   // 0x001: 4 pyramids; 2.00

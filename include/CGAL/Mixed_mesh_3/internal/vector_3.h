@@ -15,15 +15,32 @@
 #include <cmath>
 
 namespace CGAL {
+
+template <class ET>
+class Lazy_exact_nt;
+
 namespace Mixed_meshes_3 {
 namespace internal {
 
 using Vec3 = std::array<double, 3>;
 
+// A lazy number rounds to a double that depends on what was asked of it before, unless it is made exact.
+template <class FT>
+double rounded(const FT& x)
+{
+  return CGAL::to_double(x);
+}
+
+template <class ET>
+double rounded(const CGAL::Lazy_exact_nt<ET>& x)
+{
+  return CGAL::to_double(x.exact());
+}
+
 template <class Point>
 Vec3 to_vec3(const Point& p)
 {
-  return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+  return {rounded(p.x()), rounded(p.y()), rounded(p.z())};
 }
 
 inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }

@@ -81,7 +81,7 @@ public:
   // Why nothing can be written, or empty.
   const std::string& error() const { return m_error; }
 
-  // Calls `write(stream)`; the result is empty if all of it is in the file.
+  // Calls `write(stream)`; the result is empty if all of it is in the temporary file.
   template <class Write>
   std::string write(const Write& write)
   {
@@ -94,13 +94,19 @@ public:
     stream.close(); // may find that the disk is full
     if(!is_written || !stream)
       return "cannot write: " + system_message(is_written ? errno : write_errno);
-    if(!m_is_direct) {
-      std::error_code error;
-      std::filesystem::rename(m_temporary, m_target, error);
-      if(error)
-        return "cannot replace: " + error.message();
-      m_temporary.clear();
-    }
+    return std::string();
+  }
+
+  // Gives the temporary file its name; the result is empty if that went well.
+  std::string commit()
+  {
+    if(m_is_direct)
+      return std::string();
+    std::error_code error;
+    std::filesystem::rename(m_temporary, m_target, error);
+    if(error)
+      return "cannot replace: " + error.message();
+    m_temporary.clear();
     return std::string();
   }
 };

@@ -1,0 +1,30 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_OPTIONS_H
+#define CGAL_MIXED_MESH_3_OPTIONS_H
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+
+/// Across what neighbouring leaves may differ by one level only.
+enum class Adjacency { FACE = 1, EDGE = 2, VERTEX = 3 };
+
+/// How cells with hanging vertices are decomposed.
+enum class Transition_templates_choice {
+  FEWEST_VERTICES, ///< 118 of 144 templates need no vertex at the cell's centre
+  CENTRED          ///< every such cell is coned from its centre
+};
+
+/// How elements at the surface are split.
+enum class Boundary_mode {
+  VERTEX_ORDER, ///< by one order of all vertices: inserts none, keeps pyramids
+  PAPER         ///< section 5.2 of the paper: all to tetrahedra, diagonals propagate
+};
+
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_OPTIONS_H
