@@ -69,6 +69,15 @@ public:
 
   typename Domain::Point_3 point(const Lattice_point& p) const { return m_traits->point(p); }
 
+  /// The number of leaves that meet the domain.
+  std::size_t number_of_cells() const
+  {
+    std::size_t count = 0;
+    for(Node_index n = 0; n < m_octree.size(); ++n)
+      count += m_octree.is_leaf(n) && is_alive(n);
+    return count;
+  }
+
   /// The number of leaves that are inside the domain and do not meet its surface.
   std::size_t number_of_cells_inside() const
   {

@@ -1,0 +1,182 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The method as a list of stages: octree, transitions, boundary, assembly.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_DRIVER_H
+#define CGAL_MIXED_MESH_3_INTERNAL_DRIVER_H
+
+#include <CGAL/Mixed_mesh_3/Default_visitor.h>
+#include <CGAL/Mixed_mesh_3/internal/Boundary_stage.h>
+#include <CGAL/Mixed_mesh_3/internal/Lattice_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/Located_octree.h>
+#include <CGAL/Mixed_mesh_3/internal/apply_transitions.h>
+#include <CGAL/Mixed_mesh_3/internal/assemble_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/lost_cells.h>
+#include <CGAL/Mixed_mesh_3/internal/refine_in_region.h>
+#include <CGAL/Mixed_mesh_criteria_3.h>
+#include <CGAL/Mixed_mesh_result_3.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+// Cells of 1/8 of the domain; see the manual, "Choosing parameters".
+inline constexpr int default_base_level = 3;
+inline constexpr int coarsest_automatic_base_level = 1;
+inline constexpr int finest_automatic_base_level = 6;
+inline constexpr double tolerated_share_of_lost_cells = 0.05;
+
+// One octree with the mesh made of it.
+struct Candidate
+{
+  std::size_t number_of_vertices = 0;
+  bool is_stopped = false; // by the visitor
+  Lattice_mesh mesh;
+  Boundary_pieces boundary;
+
+  bool is_manifold() const { return boundary.defects.empty(); }
+};
+
+/// The stages in their order. The octree is refined, and what follows is tried, until the budget is full.
+template <class Domain, class Region, class CellTraits, class Mesh, class Visitor>
+class Driver
+{
+  using Octree_ = Located_octree<Domain, Region, CellTraits>;
+
+  const Mixed_mesh_criteria_3& m_criteria;
+  const CellTraits& m_traits;
+  Visitor& m_visitor;
+  Octree_ m_octree;
+  Candidate m_best;
+  std::vector<Octree::Node_index> m_lost;
+  Mixed_mesh_result_3 m_result;
+
+public:
+  Driver(const Domain& domain, const Region& region, const Mixed_mesh_criteria_3& criteria,
+         const CellTraits& traits, Visitor& visitor)
+    : m_criteria(criteria), m_traits(traits), m_visitor(visitor), m_octree(domain, region, traits)
+  {}
+
+  Mixed_mesh_result_3 operator()(Mesh& mesh)
+  {
+    mesh.clear();
+    m_visitor.begin_stage(Stage::OCTREE);
+    fill_budget();
+    m_visitor.end_stage(Stage::OCTREE);
+    describe();
+    if(m_result.has_mesh()) {
+      m_visitor.begin_stage(Stage::ASSEMBLY);
+      assemble_mesh(m_octree, m_best.mesh, m_best.boundary, mesh);
+      m_visitor.end_stage(Stage::ASSEMBLY);
+    }
+    return m_result;
+  }
+
+private:
+  std::size_t budget() const { return m_criteria.maximal_number_of_vertices(); }
+
+  // The stages that follow the octree, for each octree on the way to the budget.
+  Candidate try_octree(const Octree_& octree)
+  {
+    Candidate c;
+    m_visitor.end_stage(Stage::OCTREE);
+    c.is_stopped = !m_visitor.go_on();
+    if(!c.is_stopped) {
+      m_visitor.begin_stage(Stage::TRANSITIONS);
+      c.mesh = apply_transitions(octree, m_criteria.transition_templates(), m_criteria.number_of_threads());
+      m_visitor.end_stage(Stage::TRANSITIONS);
+      m_visitor.begin_stage(Stage::BOUNDARY);
+      c.boundary =
+        split_boundary(octree, c.mesh, m_criteria.boundary_mode(), m_criteria.number_of_threads());
+      m_visitor.end_stage(Stage::BOUNDARY);
+      ++m_result.number_of_trials;
+      c.number_of_vertices = c.boundary.number_of_vertices;
+      m_visitor.progress(c.number_of_vertices, budget());
+    }
+    m_visitor.begin_stage(Stage::OCTREE);
+    return c;
+  }
+
+  // If no base level is given: coarser than the default if the budget demands it; finer, as far as the
+  // budget allows, if much of a thin domain would have no elements.
+  void fill_budget()
+  {
+    const Octree_ root = m_octree;
+    const bool is_automatic = m_criteria.base_level() == Mixed_mesh_criteria_3::automatic;
+    int level = is_automatic ? default_base_level : m_criteria.base_level();
+    for(int step = 0;; level += step) {
+      Octree_ octree = root;
+      Candidate candidate = refine_in_region(octree, budget(), level,
+                                             [this](const Octree_& o) { return try_octree(o); });
+      const bool is_above = candidate.number_of_vertices > budget();
+      if(is_above && step > 0)
+        return; // the coarser one, which fits, stays
+      m_octree = std::move(octree);
+      m_best = std::move(candidate);
+      if(m_best.is_stopped)
+        return;
+      // without vertices, the last level that had too many tells more
+      if(m_best.number_of_vertices != 0 || m_result.number_of_vertices_needed == 0) {
+        m_result.base_level = level;
+        m_result.number_of_vertices_needed = m_best.number_of_vertices;
+      }
+      m_lost = lost_cells(m_octree, m_best.mesh, m_best.boundary);
+      m_result.number_of_cells = m_octree.number_of_cells();
+      const bool is_too_coarse =
+        m_best.number_of_vertices == 0
+        || double(m_lost.size()) > tolerated_share_of_lost_cells * double(m_result.number_of_cells);
+      if(is_automatic && is_above && level > coarsest_automatic_base_level)
+        step = -1;
+      else if(is_automatic && !is_above && step >= 0 && is_too_coarse && level < finest_automatic_base_level)
+        step = 1;
+      else
+        return;
+    }
+  }
+
+  void describe()
+  {
+    const Octree& octree = m_octree.octree();
+    bool meets_region = false;
+    for(Octree::Node_index n = 0; n < octree.size(); ++n)
+      if(octree.is_leaf(n) && m_octree.is_alive(n)) {
+        m_result.deepest_level = (std::max)(m_result.deepest_level, octree.level(n));
+        meets_region = meets_region || m_octree.is_in_region(n);
+      }
+    m_result.number_of_lost_cells = m_lost.size();
+    for(Octree::Node_index n : m_lost)
+      m_result.lost_cells += m_traits.cell(octree.corner(n), octree.side(n)).bbox();
+    const std::vector<std::uint8_t>& is_used = m_best.boundary.is_used;
+    m_result.number_of_transition_vertices = std::size_t(
+      std::count(is_used.begin() + std::ptrdiff_t(m_best.mesh.first_inserted_vertex),
+                 is_used.end() - std::ptrdiff_t(m_best.boundary.number_of_inserted_vertices), 1));
+    m_result.number_of_boundary_vertices_inserted = m_best.boundary.number_of_inserted_vertices;
+    m_result.number_of_relabelled_vertices = m_best.boundary.number_of_relabelled_vertices;
+
+    using Status = Mixed_mesh_status;
+    const std::size_t n = m_best.number_of_vertices;
+    m_result.status = m_best.is_stopped                                  ? Status::STOPPED
+                      : m_result.number_of_vertices_needed > budget()    ? Status::BUDGET_TOO_SMALL
+                      : n == 0                                           ? Status::EMPTY
+                      : !meets_region                                    ? Status::REGION_NOT_MET
+                      : !m_best.is_manifold()                            ? Status::BOUNDARY_NOT_MANIFOLD
+                      : !m_lost.empty()                                  ? Status::PARTS_LOST
+                      : double(n) < 0.97 * double(budget())              ? Status::BUDGET_NOT_FILLED
+                                                                         : Status::SUCCESS;
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_DRIVER_H

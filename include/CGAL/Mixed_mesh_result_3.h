@@ -1,0 +1,56 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_RESULT_3_H
+#define CGAL_MIXED_MESH_RESULT_3_H
+
+#include <CGAL/Bbox_3.h>
+
+#include <cstddef>
+
+namespace CGAL {
+
+/// How `make_mixed_mesh_3()` ended.
+enum class Mixed_mesh_status {
+  SUCCESS,            ///< the budget is filled to at least 97 %
+  BUDGET_NOT_FILLED,  ///< valid, but below 97 %: each cell tried would exceed the budget
+  PARTS_LOST,         ///< valid, but parts of the domain thinner than a cell are not meshed
+  BUDGET_TOO_SMALL,   ///< no mesh: the coarsest one has more vertices than the budget
+  EMPTY,              ///< no mesh: no octree vertex is inside the domain
+  REGION_NOT_MET,     ///< no mesh: the region does not meet the domain
+  BOUNDARY_NOT_MANIFOLD, ///< the boundary is pinched where no further cell can be added
+  STOPPED             ///< no mesh: the visitor said so
+};
+
+/// What `make_mixed_mesh_3()` did.
+struct Mixed_mesh_result_3
+{
+  Mixed_mesh_status status = Mixed_mesh_status::EMPTY;
+  int base_level = 0;
+  int deepest_level = 0;
+  std::size_t number_of_cells = 0;                       ///< leaves that meet the domain
+  /// Those of the mesh; without one, those (at least) of the coarsest mesh at `base_level`.
+  std::size_t number_of_vertices_needed = 0;
+  std::size_t number_of_transition_vertices = 0;         ///< inserted by the transition templates
+  std::size_t number_of_boundary_vertices_inserted = 0;  ///< inserted by the boundary stage
+  std::size_t number_of_relabelled_vertices = 0;         ///< to make the boundary a manifold
+  std::size_t number_of_trials = 0;                      ///< octrees tried in search of the budget
+  /// Cells that meet the domain, but are more than a cell away from the mesh: parts of the domain
+  /// thinner than a cell that no octree vertex is inside of.
+  std::size_t number_of_lost_cells = 0;
+  Bbox_3 lost_cells; ///< what contains those cells
+
+  /// Whether there is a mesh, and it is what was asked for or as close to it as possible.
+  bool has_mesh() const
+  {
+    return status == Mixed_mesh_status::SUCCESS || status == Mixed_mesh_status::BUDGET_NOT_FILLED
+           || status == Mixed_mesh_status::PARTS_LOST
+           || status == Mixed_mesh_status::BOUNDARY_NOT_MANIFOLD;
+  }
+};
+
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_RESULT_3_H
