@@ -7,6 +7,8 @@
 //
 //   test_make_mixed_mesh [DATA_DIRECTORY]
 
+#include "test_surfaces.h"
+
 #include <CGAL/make_mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/quality.h>
@@ -145,43 +147,6 @@ Surface transformed(Surface s, const std::function<Point_3(const Point_3&)>& f)
   for(auto v : s.vertices())
     s.point(v) = f(s.point(v));
   return s;
-}
-
-void add_box(Surface& s, const Point_3& a, const Point_3& b)
-{
-  Surface::Vertex_index v[8];
-  for(int i = 0; i < 8; ++i)
-    v[i] = s.add_vertex({(i & 1 ? b : a).x(), (i & 2 ? b : a).y(), (i & 4 ? b : a).z()});
-  static constexpr int quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                      {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-  for(const auto& q : quads) {
-    s.add_face(v[q[0]], v[q[1]], v[q[2]]);
-    s.add_face(v[q[0]], v[q[2]], v[q[3]]);
-  }
-}
-
-// Rings of 2n vertices between the poles.
-void add_sphere(Surface& s, const Point_3& centre, double radius, int n)
-{
-  std::vector<std::vector<Surface::Vertex_index>> rings(std::size_t(n) + 1);
-  for(int i = 0; i <= n; ++i)
-    for(int j = 0; j < (i == 0 || i == n ? 1 : 2 * n); ++j) {
-      const double a = CGAL_PI * i / n, b = CGAL_PI * j / n;
-      rings[i].push_back(s.add_vertex(centre + radius * Vector_3(std::sin(a) * std::cos(b),
-                                                                 std::sin(a) * std::sin(b),
-                                                                 std::cos(a))));
-    }
-  for(int i = 0; i < n; ++i) {
-    const auto &up = rings[i], &down = rings[i + 1];
-    const std::size_t m = (std::max)(up.size(), down.size());
-    for(std::size_t j = 0; j < m; ++j) {
-      const std::size_t k = (j + 1) % m;
-      if(down.size() > 1)
-        s.add_face(up[j % up.size()], down[j], down[k]);
-      if(up.size() > 1)
-        s.add_face(up[j], down[k % down.size()], up[k]);
-    }
-  }
 }
 
 // Notes what it is told, and stops when asked for the n-th time.

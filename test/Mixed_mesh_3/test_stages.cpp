@@ -7,6 +7,8 @@
 // exact rationals for the frames of the cells, brute force for the surface queries, integers for
 // volumes and orientations. And the checkers, on meshes with one defect each.
 
+#include "test_surfaces.h"
+
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/Boundary_stage.h>
@@ -258,42 +260,7 @@ void test_cell_traits()
 
 void add_box(Surface& s, const Bbox_3& b)
 {
-  Surface::Vertex_index v[8];
-  for(int i = 0; i < 8; ++i)
-    v[i] = s.add_vertex({i & 1 ? b.xmax() : b.xmin(), i & 2 ? b.ymax() : b.ymin(),
-                         i & 4 ? b.zmax() : b.zmin()});
-  static constexpr int quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                      {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-  for(const auto& q : quads) {
-    s.add_face(v[q[0]], v[q[1]], v[q[2]]);
-    s.add_face(v[q[0]], v[q[2]], v[q[3]]);
-  }
-}
-
-// Rings of 2n vertices between the poles; an octahedron for n = 2.
-void add_sphere(Surface& s, const Point_3& centre, double radius, int n)
-{
-  std::vector<std::vector<Surface::Vertex_index>> rings(std::size_t(n) + 1);
-  for(int i = 0; i <= n; ++i)
-    for(int j = 0; j < (i == 0 || i == n ? 1 : n == 2 ? 4 : 2 * n); ++j) {
-      const double a = CGAL_PI * i / n, b = CGAL_PI * j / (n == 2 ? 2 : n);
-      const auto exact_if_axis = [&](double x) { return std::abs(x) < 1e-9 ? 0 : x; };
-      rings[i].push_back(s.add_vertex(
-        centre + radius * Kernel::Vector_3(exact_if_axis(std::sin(a) * std::cos(b)),
-                                           exact_if_axis(std::sin(a) * std::sin(b)),
-                                           exact_if_axis(std::cos(a)))));
-    }
-  for(int i = 0; i < n; ++i) {
-    const auto &up = rings[i], &down = rings[i + 1];
-    const std::size_t m = (std::max)(up.size(), down.size());
-    for(std::size_t j = 0; j < m; ++j) {
-      const std::size_t k = (j + 1) % m;
-      if(down.size() > 1)
-        s.add_face(up[j % up.size()], down[j], down[k]);
-      if(up.size() > 1)
-        s.add_face(up[j], down[k % down.size()], up[k]);
-    }
-  }
+  ::add_box(s, {b.xmin(), b.ymin(), b.zmin()}, {b.xmax(), b.ymax(), b.zmax()});
 }
 
 Bbox_3 bbox_of(const Surface& s) { return CGAL::bbox_3(s.points().begin(), s.points().end()); }
