@@ -3,7 +3,7 @@
 #
 # From a fresh clone to a meshed brain: installs what is missing, builds the
 # command-line mesher, meshes data/brain.off refined in data/region.off, and
-# draws the result.
+# draws the result and the histogram of its aspect ratios.
 #
 #   scripts/mesh_brain.sh [VERTICES]      the vertex budget, 660 by default
 #
@@ -33,6 +33,7 @@ mkdir -p "$out"
 # Debian's Python, which has Debian's VTK, whatever other Python the PATH leads to.
 timeout --foreground 600 /usr/bin/python3 "$root/scripts/render_mesh.py" "$out/brain.vtu" \
   --surface "$root/data/brain.off" --region "$root/data/region.off" --output-prefix "$out/brain"
+timeout --foreground 600 /usr/bin/python3 "$root/scripts/plot_quality.py" "$out/brain.json" "$out/brain_quality.png"
 
 cat << END
 
@@ -42,4 +43,5 @@ report:   $out/brain.json
 pictures: $out/brain_surface.png
           $out/brain_kinds.png
           $out/brain_ARC.png
+          $out/brain_quality.png
 END

@@ -20,7 +20,7 @@ fail() {
 packages_for() {
   case $1 in
     build) echo g++ cmake ninja-build libcgal-dev libcli11-dev nlohmann-json3-dev \
-                libboost-dev libgmp-dev libmpfr-dev ;;
+                libboost-dev libgmp-dev libmpfr-dev libeigen3-dev libsuitesparse-dev ;;
     # VTK opens an X display even to render off-screen: Xvfb and Mesa's software renderer provide it.
     pictures) echo python3-vtk9 xvfb libgl1-mesa-dri ;;
     # Peers that read back the files that we write.

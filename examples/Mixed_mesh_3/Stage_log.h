@@ -43,15 +43,22 @@ public:
 
   void begin_stage(CGAL::Mixed_meshes_3::Stage stage)
   {
+    m_number_of_meshes += stage == CGAL::Mixed_meshes_3::Stage::ASSEMBLY;
     begin(CGAL::Mixed_meshes_3::stage_names[int(stage)]);
   }
   void end_stage(CGAL::Mixed_meshes_3::Stage) { end(); }
 
   void progress(std::size_t number_of_vertices, std::size_t budget)
   {
-    if(m_show_progress)
-      std::fprintf(stderr, "\r\033[K%7.2f s  trial of %zu of %zu vertices", seconds_since(m_start),
-                   number_of_vertices, budget);
+    show("trial of " + std::to_string(number_of_vertices) + " of " + std::to_string(budget) + " vertices");
+  }
+
+  /// Asked before each round of fitting, too.
+  bool go_on()
+  {
+    if(m_is_running)
+      show(m_current + ", round " + std::to_string(++m_round));
+    return true;
   }
 
   /// Runs `f` as a stage of the given name; returns its result.
@@ -86,6 +93,17 @@ public:
   std::size_t peak_bytes() const { return (std::max)(m_peak, high_water_mark()); }
 
 private:
+  // With a tolerance, many meshes are made, each with another place or size of the octree.
+  void show(const std::string& what) const
+  {
+    if(!m_show_progress)
+      return;
+    std::fprintf(stderr, "\r\033[K%7.2f s  ", seconds_since(m_start));
+    if(m_number_of_meshes > 1)
+      std::fprintf(stderr, "octree %zu to compare: ", m_number_of_meshes);
+    std::fputs(what.c_str(), stderr);
+  }
+
   void clear_line() const
   {
     if(m_show_progress)
@@ -95,16 +113,18 @@ private:
   void begin(const std::string& name)
   {
     m_current = name;
+    m_is_running = true;
+    m_round = 0;
     m_peak = peak_bytes();
     std::ofstream("/proc/self/clear_refs") << "5"; // Linux: the high-water mark starts anew
     m_stage_start = Clock::now();
     m_stage_cpu = std::clock();
-    if(m_show_progress)
-      std::fprintf(stderr, "\r\033[K%7.2f s  %s", seconds_since(m_start), name.c_str());
+    show(name);
   }
 
   void end()
   {
+    m_is_running = false;
     auto cost = m_costs.begin();
     while(cost != m_costs.end() && cost->name != m_current)
       ++cost;
@@ -138,6 +158,8 @@ private:
   std::clock_t m_stage_cpu = 0;
   std::size_t m_peak = 0;
   std::string m_current;
+  bool m_is_running = false;
+  std::size_t m_round = 0, m_number_of_meshes = 0;
   std::vector<Stage_cost> m_costs;
 };
 

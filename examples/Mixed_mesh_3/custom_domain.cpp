@@ -8,11 +8,14 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/make_mixed_mesh_3.h>
+#include <CGAL/number_utils.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
 #include <set>
+#include <vector>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -57,13 +60,30 @@ public:
     return d > 0 ? CGAL::ON_UNBOUNDED_SIDE : d < 0 ? CGAL::ON_BOUNDED_SIDE : CGAL::ON_BOUNDARY;
   }
 
-  // From the nearest point of the circle, through `p`, to the surface. On the axis all directions
-  // are as near; inside the ring nobody asks.
-  Point_3 closest_point(const Point_3& p, const Surface_part&) const
+  // From the nearest point of the circle, through `p`, to the surface. On the axis, and on the circle, all
+  // directions are as near.
+  Point_3 closest_point(const Point_3& p) const
   {
     const double d = std::hypot(p.x(), p.y());
     const Point_3 q = d > 0 ? Point_3(R / d * p.x(), R / d * p.y(), 0) : Point_3(R, 0, 0);
-    return q + r / (signed_distance(p) + r) * (p - q);
+    const double distance = std::hypot(d - R, p.z());
+    return distance > 0 ? q + r / distance * (p - q) : q + Kernel::Vector_3(0, 0, r);
+  }
+  // The same, with a hint: what is known of the surface in a cell, or a point of the surface near by.
+  Point_3 closest_point(const Point_3& p, const Surface_part&) const { return closest_point(p); }
+  Point_3 closest_point(const Point_3& p, const Point_3&) const { return closest_point(p); }
+
+  // A grid of that spacing, along the circle and around it. Distances are measured there, with a tolerance.
+  std::vector<Point_3> surface_samples(double spacing) const
+  {
+    std::vector<Point_3> samples;
+    const int m = int(std::ceil(2 * CGAL_PI * (R + r) / spacing)), n = int(std::ceil(2 * CGAL_PI * r / spacing));
+    for(int i = 0; i < m; ++i)
+      for(int j = 0; j < n; ++j) {
+        const double a = 2 * CGAL_PI * i / m, b = 2 * CGAL_PI * j / n, d = R + r * std::cos(b);
+        samples.emplace_back(d * std::cos(a), d * std::sin(a), r * std::sin(b));
+      }
+    return samples;
   }
 };
 
@@ -73,7 +93,8 @@ int main()
   const Ring_domain ring;
   const CGAL::Ball_mixed_mesh_region_3 ball({3, 0, 0}, 1.5);
   Mesh mesh;
-  if(!CGAL::make_mixed_mesh_3(ring, ball, CGAL::Mixed_mesh_criteria_3(5000), mesh).has_mesh())
+  const auto result = CGAL::make_mixed_mesh_3(ring, ball, CGAL::Mixed_mesh_criteria_3(5000), mesh);
+  if(result.status != CGAL::Mixed_mesh_status::SUCCESS)
     return EXIT_FAILURE;
 
   // Is the hole there? The boundary consists of triangles; its Euler characteristic is 0 for a torus.
@@ -83,14 +104,18 @@ int main()
     for(int i = 0; i < local.size; ++i)
       boundary_vertices.insert(mesh.element(face.element)[local.vertices[i]]);
   }
+  double farthest = 0; // from the surface, of the boundary's vertices
+  for(mm3::Vertex_index v : boundary_vertices)
+    farthest = (std::max)(farthest, std::abs(ring.signed_distance(mesh.point(v))));
   const std::size_t triangles = mesh.boundary_faces().size(), edges = triangles * 3 / 2;
+  const long characteristic = long(boundary_vertices.size()) - long(edges) + long(triangles);
   std::cout << mesh.number_of_vertices() << " vertices, " << mesh.number_of_elements()
-            << " elements; Euler characteristic of the boundary: "
-            << long(boundary_vertices.size()) - long(edges) + long(triangles) << '\n';
+            << " elements; Euler characteristic of the boundary: " << characteristic
+            << "; its vertices are on the surface to " << farthest << '\n';
 
   if(const auto error = mm3::IO::write_mixed_mesh("custom_domain.vtu", mesh)) {
     std::cerr << *error << '\n';
     return EXIT_FAILURE;
   }
-  return EXIT_SUCCESS;
+  return characteristic == 0 && farthest < 1e-12 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -32,11 +32,11 @@ try {
   mm3::IO::read_closed_surface(argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR "/brain.off", brain);
   mm3::IO::read_closed_surface(argc > 2 ? argv[2] : MIXED_MESH_3_DATA_DIR "/region.off", path);
 
-  // The budget bounds the mesh that comes out, everything included.
+  // The budget bounds the mesh that comes out, everything included. Its boundary is on the surface.
   const std::size_t budget = argc > 3 ? std::stoul(argv[3]) : 660;
   Mesh mesh;
   const CGAL::Mixed_mesh_result_3 result = CGAL::make_mixed_mesh_3(brain, path, budget, mesh);
-  if(result.status != CGAL::Mixed_mesh_status::SUCCESS) {
+  if(!result.has_mesh()) {
     std::cerr << "no mesh with " << budget << " vertices; one with " << result.number_of_vertices_needed
               << " has been tried\n";
     return EXIT_FAILURE;

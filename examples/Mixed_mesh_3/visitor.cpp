@@ -42,11 +42,11 @@ public:
 
   void begin_stage(mm3::Stage stage)
   {
-    if(stage == mm3::Stage::ASSEMBLY)
+    if(stage == mm3::Stage::ASSEMBLY || stage == mm3::Stage::OPTIMIZATION)
       std::cout << "  " << seconds() << " s: " << mm3::stage_names[int(stage)] << '\n';
   }
 
-  // Asked once for each mesh that is tried.
+  // Asked for each mesh that is tried, and in each round of the optimisation.
   bool go_on() { return seconds() < m_limit; }
 };
 

@@ -74,6 +74,28 @@ public:
   }
   Mixed_meshes_3::Boundary_mode boundary_mode() const { return m_boundary_mode; }
 
+  /// Whether the boundary is carried onto the surface and the elements are optimised, as
+  /// `optimize_mixed_mesh_3()` does. If not, boundary vertices stay where the octree has them, outside the
+  /// domain or on its surface. Default: yes.
+  Mixed_mesh_criteria_3& fit_to_surface(bool fit)
+  {
+    m_fit_to_surface = fit;
+    return *this;
+  }
+  bool fit_to_surface() const { return m_fit_to_surface; }
+
+  /// How far boundary and surface may be from each other, in the surface's unit. If positive, part of the
+  /// budget is spent outside the region, on cells where a coarse mesh is farther, and boundary vertices
+  /// slide towards places that are. 0: nothing is spent outside the region. Default: 0.
+  /// \pre at least 0
+  Mixed_mesh_criteria_3& tolerance(double distance)
+  {
+    CGAL_precondition(distance >= 0);
+    m_tolerance = distance;
+    return *this;
+  }
+  double tolerance() const { return m_tolerance; }
+
   /// How many threads answer queries on the surface. The mesh does not depend on it. Default: 1.
   /// \pre at least 1
   Mixed_mesh_criteria_3& number_of_threads(unsigned threads)
@@ -91,6 +113,8 @@ private:
   Mixed_meshes_3::Transition_templates_choice m_transition_templates =
     Mixed_meshes_3::Transition_templates_choice::FEWEST_VERTICES;
   Mixed_meshes_3::Boundary_mode m_boundary_mode = Mixed_meshes_3::Boundary_mode::VERTEX_ORDER;
+  bool m_fit_to_surface = true;
+  double m_tolerance = 0;
   unsigned m_number_of_threads = 1;
 };
 

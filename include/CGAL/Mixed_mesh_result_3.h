@@ -6,6 +6,8 @@
 #ifndef CGAL_MIXED_MESH_RESULT_3_H
 #define CGAL_MIXED_MESH_RESULT_3_H
 
+#include <CGAL/Mixed_mesh_optimization_criteria_3.h>
+
 #include <CGAL/Bbox_3.h>
 
 #include <cstddef>
@@ -14,8 +16,11 @@ namespace CGAL {
 
 /// How `make_mixed_mesh_3()` ended.
 enum class Mixed_mesh_status {
-  SUCCESS,            ///< the budget is filled to at least 97 %
+  SUCCESS,            ///< the budget is filled to at least 97 %, and the boundary is where it should be
   BUDGET_NOT_FILLED,  ///< valid, but below 97 %: each cell tried would exceed the budget
+  TOLERANCE_NOT_REACHED, ///< valid, on the surface, but farther from it between vertices than the tolerance
+  NOT_ALL_ARRIVED,    ///< valid, but some boundary vertices stay off the surface: elements would be inverted,
+                      ///< or faces of the boundary would cut each other
   PARTS_LOST,         ///< valid, but parts of the domain thinner than a cell are not meshed
   BUDGET_TOO_SMALL,   ///< no mesh: the coarsest one has more vertices than the budget
   EMPTY,              ///< no mesh: no octree vertex is inside the domain
@@ -41,12 +46,19 @@ struct Mixed_mesh_result_3
   /// thinner than a cell that no octree vertex is inside of.
   std::size_t number_of_lost_cells = 0;
   Bbox_3 lost_cells; ///< what contains those cells
+  std::size_t number_of_vertices_in_region = 0;
+  /// What the coarse mesh (as fine as the tolerance asks for, without the region) takes of the budget; 0
+  /// without a tolerance.
+  std::size_t number_of_vertices_for_tolerance = 0;
+  /// What fitting and optimisation did; its status is `EMPTY` if they did not run.
+  Mixed_mesh_optimization_result_3 optimization;
 
   /// Whether there is a mesh, and it is what was asked for or as close to it as possible.
   bool has_mesh() const
   {
     return status == Mixed_mesh_status::SUCCESS || status == Mixed_mesh_status::BUDGET_NOT_FILLED
-           || status == Mixed_mesh_status::PARTS_LOST
+           || status == Mixed_mesh_status::TOLERANCE_NOT_REACHED
+           || status == Mixed_mesh_status::NOT_ALL_ARRIVED || status == Mixed_mesh_status::PARTS_LOST
            || status == Mixed_mesh_status::BOUNDARY_NOT_MANIFOLD;
   }
 };

@@ -10,6 +10,7 @@
 #include <CGAL/Mixed_mesh_3/Default_visitor.h>
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
 #include <CGAL/Mixed_mesh_3/internal/Driver.h>
+#include <CGAL/Mixed_mesh_3/internal/place_lattice.h>
 #include <CGAL/Mixed_mesh_criteria_3.h>
 #include <CGAL/Mixed_mesh_regions_3.h>
 #include <CGAL/Mixed_mesh_result_3.h>
@@ -19,6 +20,9 @@
 
 #include <cstddef>
 #include <type_traits>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace CGAL {
 
@@ -66,7 +70,29 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
   return Driver(domain, region, criteria, cell_traits, visitor)(mesh);
 }
 
-/// As above, with cells parallel to the axes and the root that the criteria say.
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// Whether a result is to be preferred: valid, then within the tolerance, then with more vertices in the region
+/// (or, outside the tolerance, nearer to the surface).
+inline bool is_better(const Mixed_mesh_result_3& a, const Mixed_mesh_result_3& b, double tolerance)
+{
+  const auto rank = [&](const Mixed_mesh_result_3& r) {
+    const bool is_within = r.optimization.largest_distance <= tolerance;
+    return std::make_tuple(r.has_mesh(), r.status != Mixed_mesh_status::NOT_ALL_ARRIVED, is_within,
+                           is_within ? double(r.number_of_vertices_in_region) : -r.optimization.largest_distance);
+  };
+  return rank(a) > rank(b);
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+
+/*!
+As above, with cells parallel to the axes and the root that the criteria say. With a tolerance and a budget of
+at most 20,000 vertices, roots of other sizes and positions are tried too, as these decide how many vertices
+are left for the region.
+*/
 template <class Domain, class Region, class GeomTraits,
           class NamedParameters = parameters::Default_named_parameters>
 Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region,
@@ -74,9 +100,35 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
                                       Mixed_mesh_3<GeomTraits>& mesh,
                                       const NamedParameters& np = parameters::default_values())
 {
-  const Mixed_meshes_3::Axis_aligned_octree_cell_traits_3 traits(domain.bbox(),
-                                                                 criteria.root_cell());
-  return make_mixed_mesh_3(domain, region, criteria, traits, mesh, np);
+  namespace place = Mixed_meshes_3::internal;
+  using Traits = Mixed_meshes_3::Axis_aligned_octree_cell_traits_3;
+  const auto make = [&](const Bbox_3& root, const Mixed_mesh_criteria_3& c, Mixed_mesh_3<GeomTraits>& m) {
+    return make_mixed_mesh_3(domain, region, c, Traits(root, c.root_cell()), m, np);
+  };
+  const std::size_t budget = criteria.maximal_number_of_vertices();
+  if(!(criteria.tolerance() > 0) || criteria.root_cell() != Mixed_meshes_3::Root_cell::CUBE
+     || budget > place::largest_budget_to_place_lattice)
+    return make(domain.bbox(), criteria, mesh);
+
+  // Of the roots that leave most vertices to the region, the one whose mesh is within the tolerance with most
+  // vertices in the region, else nearest to it.
+  Mixed_mesh_3<GeomTraits> trial;
+  const std::vector<Bbox_3> roots = place::best_roots(
+    place::candidate_roots(domain.bbox()), place::vertices_to_compare_roots / budget + 1,
+    [&](const Bbox_3& root) {
+      const Mixed_mesh_result_3 result =
+        make(root, Mixed_mesh_criteria_3(criteria).tolerance(0).fit_to_surface(false), trial);
+      return result.has_mesh() ? result.number_of_vertices_in_region : 0;
+    });
+  Mixed_mesh_result_3 best = make(roots.front(), criteria, mesh);
+  for(std::size_t i = 1; i < roots.size() && best.status != Mixed_mesh_status::STOPPED; ++i) {
+    const Mixed_mesh_result_3 result = make(roots[i], criteria, trial);
+    if(result.status == Mixed_mesh_status::STOPPED || place::is_better(result, best, criteria.tolerance())) {
+      best = result;
+      std::swap(mesh, trial);
+    }
+  }
+  return best;
 }
 
 /*!

@@ -467,15 +467,15 @@ void test_statistics()
   BOOST_TEST_EQ(rows[TETRAHEDRON].mean, 0.);
   BOOST_TEST_EQ(rows[PRISM].count, 0u);
   BOOST_TEST_EQ(rows[PYRAMID].count, 1u);
-  BOOST_TEST_EQ(rows[PYRAMID].share_at_most_7, 1.);
+  BOOST_TEST_EQ(rows[PYRAMID].share, 1.);
   BOOST_TEST_EQ(rows[HEXAHEDRON].count, 3u);
   BOOST_TEST_EQ(rows[HEXAHEDRON].mean, 4.);
   BOOST_TEST_EQ(rows[HEXAHEDRON].maximum, 9.);
-  BOOST_TEST_EQ(rows[HEXAHEDRON].share_at_most_7, 2. / 3);
+  BOOST_TEST_EQ(rows[HEXAHEDRON].share, 2. / 3);
   BOOST_TEST_EQ(rows[number_of_element_kinds].count, 4u);
   BOOST_TEST_EQ(rows[number_of_element_kinds].mean, 19. / 4);
   BOOST_TEST_EQ(rows[number_of_element_kinds].maximum, 9.);
-  BOOST_TEST_EQ(rows[number_of_element_kinds].share_at_most_7, 0.75);
+  BOOST_TEST_EQ(rows[number_of_element_kinds].share, 0.75);
   BOOST_TEST(is_close(volume(mesh), 1 + 2 + 9 + 7. / 3, 1e-14));
 }
 

@@ -12,6 +12,7 @@
 #include <CGAL/make_mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/quality.h>
+#include <CGAL/Mixed_mesh_3/surface_distance.h>
 #include <CGAL/Mixed_mesh_3/validation.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -95,6 +96,9 @@ Content content(const AnyMesh& mesh)
   return c;
 }
 
+// The mesh as the octree leaves it, its boundary outside the domain.
+Mixed_mesh_criteria_3 unfitted(std::size_t n) { return Mixed_mesh_criteria_3(n).fit_to_surface(false); }
+
 // What holds for any input: a valid mesh within the budget, or none.
 template <class AnyMesh>
 void check(const AnyMesh& mesh, const Mixed_mesh_result_3& result, std::size_t budget)
@@ -125,7 +129,7 @@ Mixed_mesh_result_3 run(const Domain& domain, const Region& region,
   return result;
 }
 
-// Every boundary vertex is outside or on the surface, every other one inside, unless the repair of
+// Of a mesh that is not fitted: every boundary vertex is outside or on the surface, every other one inside, unless the repair of
 // pinched places made it so.
 void check_sides(const Mesh& mesh, const Mixed_mesh_result_3& result,
                  const Polyhedral_mixed_mesh_domain_3& domain)
@@ -181,17 +185,19 @@ struct Recording_visitor
 
 // ---- the brain ---------------------------------------------------------------------------------
 
-void test_budgets(const Polyhedral_mixed_mesh_domain_3& domain,
+void test_budgets(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& domain,
                   const Polyhedral_mixed_mesh_region_3& region)
 {
   for(std::size_t n : {660, 2000, 10000}) {
-    Mesh mesh;
-    const Mixed_mesh_result_3 result = run(domain, region, Mixed_mesh_criteria_3(n), mesh);
+    Mesh mesh, fitted;
+    const Mixed_mesh_result_3 result = run(domain, region, unfitted(n), mesh);
     BOOST_TEST(result.status == Status::SUCCESS);
     BOOST_TEST_GE(double(mesh.number_of_vertices()), 0.97 * double(n));
     BOOST_TEST(find_defects(mesh).none());
     BOOST_TEST_EQ(result.number_of_boundary_vertices_inserted, 0u);
     BOOST_TEST_EQ(result.base_level, 3);
+    BOOST_TEST(result.optimization.status == CGAL::Mixed_mesh_optimization_status::EMPTY);
+    BOOST_TEST_EQ(result.number_of_vertices_for_tolerance, 0u);
     check_sides(mesh, result, domain);
     if(n == 660) {
       const auto rows = quality_statistics(mesh);
@@ -202,6 +208,49 @@ void test_budgets(const Polyhedral_mixed_mesh_domain_3& domain,
     }
     std::cout << n << ": " << mesh.number_of_vertices() << " vertices, " << result.number_of_trials
               << " trials, " << result.number_of_relabelled_vertices << " relabelled" << std::endl;
+
+    // The same vertices, moved onto the surface.
+    const Mixed_mesh_result_3 with = run(domain, region, Mixed_mesh_criteria_3(n), fitted);
+    BOOST_TEST(with.status == Status::SUCCESS);
+    BOOST_TEST(with.optimization.status == CGAL::Mixed_mesh_optimization_status::SUCCESS);
+    BOOST_TEST_EQ(fitted.number_of_vertices(), mesh.number_of_vertices());
+    BOOST_TEST_EQ(with.number_of_vertices_in_region, result.number_of_vertices_in_region);
+    BOOST_TEST_GT(number_of_vertices_off_surface(mesh, brain), 100u);
+    BOOST_TEST_EQ(number_of_vertices_off_surface(fitted, brain), 0u);
+    BOOST_TEST(find_defects(fitted).none());
+    const auto rows = quality_statistics(fitted);
+    BOOST_TEST_LE(rows[number_of_element_kinds].mean, 1.45);
+    BOOST_TEST_LE(rows[number_of_element_kinds].maximum, 2.8);
+    BOOST_TEST_LT(volume(fitted), volume(mesh));
+  }
+}
+
+// The search for a tolerance, with the root given.
+void test_tolerance(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& domain,
+                    const Polyhedral_mixed_mesh_region_3& region)
+{
+  const Axis_aligned_octree_cell_traits_3 traits(domain.bbox());
+  Mesh mesh;
+  double last = std::numeric_limits<double>::infinity();
+  for(double tolerance : {0., 6., 4.}) {
+    const auto criteria = Mixed_mesh_criteria_3(1500).tolerance(tolerance);
+    const auto result = make_mixed_mesh_3(domain, region, criteria, traits, mesh);
+    check(mesh, result, 1500);
+    BOOST_TEST(result.status == Status::SUCCESS || result.status == Status::TOLERANCE_NOT_REACHED);
+    BOOST_TEST_EQ(number_of_vertices_off_surface(mesh, brain), 0u);
+    const double distance = hausdorff_distance(mesh, brain, 1e-3).distance();
+    BOOST_TEST_LT(distance, last);
+    BOOST_TEST_EQ(result.number_of_vertices_for_tolerance > 0, tolerance > 0);
+    BOOST_TEST_EQ(result.optimization.largest_distance > 0, tolerance > 0);
+    if(result.status == Status::SUCCESS && tolerance > 0)
+      BOOST_TEST_LE(distance, 1.5 * tolerance); // farther only between samples
+    std::cout << "tolerance " << tolerance << ": distance " << distance << ", "
+              << result.number_of_vertices_in_region << " vertices in the region" << std::endl;
+    last = distance;
+    Mesh again;
+    make_mixed_mesh_3(domain, region, Mixed_mesh_criteria_3(1500).tolerance(tolerance).number_of_threads(3), traits,
+                      again);
+    BOOST_TEST(content(again) == content(mesh));
   }
 }
 
@@ -255,15 +304,15 @@ void test_criteria(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& d
                    const Polyhedral_mixed_mesh_region_3& region)
 {
   Mesh plain, mesh;
-  const auto expected = run(domain, region, Mixed_mesh_criteria_3(1500), plain);
+  const auto expected = run(domain, region, unfitted(1500), plain);
 
-  auto result = run(domain, region, Mixed_mesh_criteria_3(1500).root_cell(Root_cell::BOX), mesh);
+  auto result = run(domain, region, unfitted(1500).root_cell(Root_cell::BOX), mesh);
   BOOST_TEST(result.status == Status::SUCCESS);
   BOOST_TEST(!(content(mesh) == content(plain)));
   check_sides(mesh, result, domain);
 
   result = run(domain, region,
-               Mixed_mesh_criteria_3(1500).transition_templates(Transition_templates_choice::CENTRED),
+               unfitted(1500).transition_templates(Transition_templates_choice::CENTRED),
                mesh);
   BOOST_TEST(result.status == Status::SUCCESS);
   BOOST_TEST_GT(result.number_of_transition_vertices, expected.number_of_transition_vertices);
@@ -295,7 +344,7 @@ void test_criteria(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& d
 
   for(const Vector_3& axis : {Vector_3(1, 2, 3), Vector_3(0, 0, -1), Vector_3(-1, 0.3, 0.1)}) {
     const Rotated_octree_cell_traits_3 traits(brain.points(), axis);
-    const Mixed_mesh_criteria_3 criteria(1500);
+    const Mixed_mesh_criteria_3 criteria = unfitted(1500);
     result = make_mixed_mesh_3(domain, region, criteria, traits, mesh,
                                CGAL::parameters::default_values());
     check(mesh, result, 1500);
@@ -308,7 +357,7 @@ void test_regions(const Polyhedral_mixed_mesh_domain_3& domain, const Surface& r
 {
   const CGAL::Bbox_3 b = domain.bbox();
   const Point_3 centre((b.xmin() + b.xmax()) / 2, (b.ymin() + b.ymax()) / 2, (b.zmin() + b.zmax()) / 2);
-  const Mixed_mesh_criteria_3 criteria(1500);
+  const Mixed_mesh_criteria_3 criteria = unfitted(1500);
   Mesh ball, same, everywhere, united;
   const double radius = 15;
   BOOST_TEST(run(domain, Ball_mixed_mesh_region_3(centre, radius), criteria, ball).status
@@ -360,7 +409,7 @@ void test_invariance(const Surface& brain, const Surface& region)
     check(mesh, result, 660);
     BOOST_TEST(result.status == Status::SUCCESS);
     // The side of a cell is rounded to 20 bits: other factors move vertices by up to 2e-6 of the root
-    // relative to the surface, which can swap two that are almost equally far from it.
+    // relative to the surface, which can swap two that are almost equally far from it, or flip.
     int exponent;
     if(std::frexp(scale, &exponent) == 0.5)
       BOOST_TEST(content(mesh).has_same_topology(expected));
@@ -374,6 +423,7 @@ void test_invariance(const Surface& brain, const Surface& region)
     BOOST_TEST(result.status == Status::SUCCESS);
     // at 1e8 the lattice has so few digits left that the root is a little larger
     BOOST_TEST(offset > 1e6 || content(mesh).has_same_topology(expected));
+    BOOST_TEST_EQ(mesh.number_of_vertices(), expected.points.size());
   }
   Surface inside_out = brain, region_inside_out = region;
   CGAL::Polygon_mesh_processing::reverse_face_orientations(inside_out);
@@ -418,7 +468,8 @@ void test_visitor(const Surface& brain, const Surface& region)
   BOOST_TEST_EQ(all.begun[int(Stage::ASSEMBLY)], 1u);
   BOOST_TEST_EQ(all.number_of_trials, result.number_of_trials);
   BOOST_TEST_EQ(all.largest_accepted, mesh.number_of_vertices());
-  BOOST_TEST_GT(all.number_of_questions, 2u);
+  BOOST_TEST_EQ(all.begun[int(Stage::OPTIMIZATION)], 1u);
+  BOOST_TEST_GT(all.number_of_questions, all.number_of_trials + 2);
 
   for(std::size_t i = 0; i < all.number_of_questions; ++i) {
     Recording_visitor visitor;
@@ -430,22 +481,23 @@ void test_visitor(const Surface& brain, const Surface& region)
     BOOST_TEST_EQ(visitor.number_of_errors, 0u);
     BOOST_TEST(visitor.begun == visitor.ended);
     BOOST_TEST_EQ(visitor.number_of_questions, i + 1); // not asked again
-    BOOST_TEST_EQ(visitor.begun[int(Stage::ASSEMBLY)], 0u);
+    const bool is_in_search = i < result.number_of_trials;
+    BOOST_TEST_EQ(visitor.begun[int(Stage::ASSEMBLY)], is_in_search ? 0u : 1u);
+    BOOST_TEST_EQ(visitor.begun[int(Stage::OPTIMIZATION)], is_in_search ? 0u : 1u);
   }
 }
 
 // ---- awkward domains ---------------------------------------------------------------------------
 
-// Returns the volume of the mesh.
+// Returns the volume of the mesh that is not fitted; the fitted one is valid, too, and nearer.
 double mesh_shape(const std::string& name, const Surface& surface, std::size_t budget,
                   std::vector<Status> expected)
 {
   const Polyhedral_mixed_mesh_domain_3 domain(surface);
   double first_volume = 0;
   for(Root_cell root : {Root_cell::CUBE, Root_cell::BOX}) {
-    Mesh mesh;
-    const auto result = run(domain, Everywhere_mixed_mesh_region_3(),
-                            Mixed_mesh_criteria_3(budget).root_cell(root), mesh);
+    Mesh mesh, fitted;
+    const auto result = run(domain, Everywhere_mixed_mesh_region_3(), unfitted(budget).root_cell(root), mesh);
     const bool is_expected = std::count(expected.begin(), expected.end(), result.status) != 0;
     BOOST_TEST(is_expected);
     if(!is_expected)
@@ -454,6 +506,22 @@ double mesh_shape(const std::string& name, const Surface& surface, std::size_t b
     check_sides(mesh, result, domain);
     if(root == Root_cell::CUBE && !mesh.is_empty())
       first_volume = volume(mesh);
+
+    const auto with = run(domain, Everywhere_mixed_mesh_region_3(), Mixed_mesh_criteria_3(budget).root_cell(root),
+                          fitted);
+    BOOST_TEST(with.status == result.status || with.status == Status::NOT_ALL_ARRIVED);
+    BOOST_TEST_EQ(fitted.is_empty(), mesh.is_empty());
+    if(fitted.is_empty())
+      continue;
+    const std::size_t off = number_of_vertices_off_surface(fitted, surface);
+    BOOST_TEST_LE(off, with.optimization.number_of_boundary_vertices - with.optimization.number_of_arrived_vertices);
+    BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED || off == 0);
+    BOOST_TEST(off == 0 || off < number_of_vertices_off_surface(mesh, surface));
+    BOOST_TEST_LT(volume(fitted), volume(mesh) * (1 + 1e-12));
+    const auto rows = quality_statistics(fitted);
+    std::cout << name << (root == Root_cell::BOX ? " (box)" : "") << ": status " << int(with.status) << ", " << off
+              << " off, ARC " << rows[number_of_element_kinds].mean << ", at most "
+              << rows[number_of_element_kinds].maximum << std::endl;
   }
   return first_volume;
 }
@@ -513,7 +581,7 @@ void test_shapes()
   Mesh mesh;
   for(std::size_t n : {100, 500, 20000}) {
     const auto result =
-      make_mixed_mesh_3(plates_domain, CGAL::Everywhere_mixed_mesh_region_3(), Mixed_mesh_criteria_3(n), mesh);
+      make_mixed_mesh_3(plates_domain, CGAL::Everywhere_mixed_mesh_region_3(), unfitted(n), mesh);
     double lower = 100, upper = 0; // how far the mesh reaches
     for(const auto& p : mesh.points())
       lower = (std::min)(lower, p.z()), upper = (std::max)(upper, p.z());
@@ -544,6 +612,64 @@ void test_shapes()
   BOOST_TEST(!a.is_empty() && content(a) == content(b));
 }
 
+// ---- each way to end ---------------------------------------------------------------------------
+
+// A ball that says that all its surface is at one place.
+struct Pinched_domain : Analytic_domain
+{
+  using Analytic_domain::Analytic_domain;
+  Point_3 closest_point(const Point_3& p, const Surface_part&) const { return closest_point(p); }
+  Point_3 closest_point(const Point_3& p, const Point_3&) const { return closest_point(p); }
+  Point_3 closest_point(const Point_3&) const { return {0.5, 0.5, 0.5}; }
+};
+
+void test_statuses()
+{
+  const Everywhere_mixed_mesh_region_3 everywhere;
+  Surface surface;
+  add_sphere(surface, {0, 0, 0}, 1, 12);
+  const Polyhedral_mixed_mesh_domain_3 sphere(surface);
+  Mesh mesh;
+  const auto status = [&](const Mixed_mesh_criteria_3& criteria) { return run(sphere, everywhere, criteria, mesh).status; };
+  BOOST_TEST(status(Mixed_mesh_criteria_3(1000)) == Status::SUCCESS);
+  BOOST_TEST(status(Mixed_mesh_criteria_3(1000).tolerance(1)) == Status::SUCCESS);
+  BOOST_TEST(status(Mixed_mesh_criteria_3(1000).tolerance(1e-3)) == Status::TOLERANCE_NOT_REACHED);
+  BOOST_TEST(find_defects(mesh).none());
+  BOOST_TEST(status(Mixed_mesh_criteria_3(1000).base_level(6)) == Status::BUDGET_TOO_SMALL);
+  // One more cell is worth so many vertices of a small mesh that some budgets cannot be filled.
+  bool is_filled_always = true;
+  for(std::size_t n = 30; n < 60; ++n)
+    is_filled_always = is_filled_always && status(Mixed_mesh_criteria_3(n)) != Status::BUDGET_NOT_FILLED;
+  BOOST_TEST(!is_filled_always);
+
+  BOOST_TEST(run(sphere, Ball_mixed_mesh_region_3({9, 9, 9}, 1), Mixed_mesh_criteria_3(1000), mesh).status
+             == Status::REGION_NOT_MET);
+  Recording_visitor visitor;
+  visitor.stop_at = 0;
+  BOOST_TEST(make_mixed_mesh_3(sphere, everywhere, Mixed_mesh_criteria_3(1000), mesh,
+                               CGAL::parameters::visitor(std::ref(visitor))).status == Status::STOPPED);
+
+  Surface plate; // between the planes of a coarse octree, which has no vertex inside
+  add_box(plate, {0, 0, 0.3}, {1, 1, 0.31});
+  BOOST_TEST(run(Polyhedral_mixed_mesh_domain_3(plate), everywhere, Mixed_mesh_criteria_3(1000).base_level(2), mesh).status
+             == Status::EMPTY);
+  add_sphere(plate, {0.5, 0.5, 1}, 0.45, 8);
+  BOOST_TEST(run(Polyhedral_mixed_mesh_domain_3(plate), everywhere, Mixed_mesh_criteria_3(1000).base_level(3), mesh).status
+             == Status::PARTS_LOST);
+
+  const Pinched_domain pinched(ball({0.5, 0.5, 0.5}, 0.4));
+  const auto result = run(pinched, everywhere, Mixed_mesh_criteria_3(1000), mesh);
+  BOOST_TEST(result.status == Status::NOT_ALL_ARRIVED);
+  BOOST_TEST(result.optimization.status == CGAL::Mixed_mesh_optimization_status::NOT_ALL_ARRIVED);
+  BOOST_TEST_LT(result.optimization.number_of_arrived_vertices, result.optimization.number_of_boundary_vertices);
+
+  // Labels without geometry, up to the border of the root, where nothing can be repaired.
+  const Analytic_domain labels(noise(7, 30, 0.01));
+  for(bool fit : {false, true})
+    BOOST_TEST(run(labels, everywhere, Mixed_mesh_criteria_3(5000).base_level(3).fit_to_surface(fit), mesh).status
+               == Status::BOUNDARY_NOT_MANIFOLD);
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -565,7 +691,9 @@ int main(int argc, char** argv)
     std::cout << name << ": " << std::chrono::duration<double>(now - last).count() << " s" << std::endl;
     last = now;
   };
-  timed("budgets", [&] { test_budgets(domain, region); });
+  timed("budgets", [&] { test_budgets(brain, domain, region); });
+  timed("tolerance", [&] { test_tolerance(brain, domain, region); });
+  timed("statuses", [&] { test_statuses(); });
   timed("repeatability", [&] { test_repeatability(domain, region); });
   timed("kernels", [&] { test_kernels(brain, region_surface); });
   timed("criteria", [&] { test_criteria(brain, domain, region); });

@@ -78,14 +78,21 @@ def main():
     subprocess.run(["/usr/bin/python3", REPOSITORY / "scripts" / "render_mesh.py", files[0], "--surface",
                     DATA / "brain.off", "--region", DATA / "region.off", "--output-prefix", WORK / "brain",
                     "--size", "800x600"], check=True)
-    for name in ("surface", "kinds", "ARC"):
+    pictures = {name: (800, 600) for name in ("surface", "kinds", "ARC")}
+    unfitted = WORK / "unfitted.json"  # has no mesh before fitting
+    subprocess.run([MESHER, DATA / "brain.off", "--vertices", "660", "--no-fit", "--report", unfitted], check=True)
+    for name, told in (("quality", report), ("unfitted_quality", unfitted)):
+        subprocess.run(["/usr/bin/python3", REPOSITORY / "scripts" / "plot_quality.py", told,
+                        WORK / f"brain_{name}.png"], check=True)
+        pictures[name] = (1600, 1000)
+    for name, size in pictures.items():
         reader = vtk.vtkPNGReader()
         reader.SetFileName(str(WORK / f"brain_{name}.png"))
         reader.Update()
         picture = reader.GetOutput()
-        assert picture.GetDimensions()[:2] == (800, 600)
+        assert picture.GetDimensions()[:2] == size
         colours = {tuple(picture.GetScalarComponentAsDouble(x, y, 0, k) for k in range(3))
-                   for x in range(0, 800, 7) for y in range(0, 600, 7)}
+                   for x in range(0, size[0], 7) for y in range(0, size[1], 7)}
         assert len(colours) > 30, name
     print("no errors detected")
 

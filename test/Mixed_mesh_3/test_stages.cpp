@@ -15,6 +15,7 @@
 #include <CGAL/Mixed_mesh_3/internal/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/apply_transitions.h>
 #include <CGAL/Mixed_mesh_3/internal/assemble_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/place_lattice.h>
 #include <CGAL/Mixed_mesh_3/validation.h>
 #include <CGAL/Mixed_mesh_regions_3.h>
 
@@ -310,8 +311,12 @@ void walk(const Polyhedral_mixed_mesh_domain_3& domain, const Surface& surface, 
       }
       const double tolerance = 1e-12 * nearest + 1e-15 * std::sqrt((p - CGAL::ORIGIN).squared_length());
       BOOST_TEST_LE(std::abs(std::sqrt(CGAL::squared_distance(p, q)) - nearest), tolerance);
-      const Point_3 without_hint = domain.closest_point(p, {});
+      const Point_3 without_hint = domain.closest_point(p, Polyhedral_mixed_mesh_domain_3::Surface_part());
       BOOST_TEST_LE(std::abs(std::sqrt(CGAL::squared_distance(p, without_hint)) - nearest), tolerance);
+      // a hint from elsewhere, and none
+      for(const Point_3& r : {domain.closest_point(p, surface.point(Surface::Vertex_index(i % 6))),
+                              domain.closest_point(p)})
+        BOOST_TEST_LE(std::abs(std::sqrt(CGAL::squared_distance(p, r)) - nearest), tolerance);
     }
   }
   if(located != CGAL::ON_BOUNDARY)
@@ -384,79 +389,49 @@ void test_domain_oracle()
   BOOST_TEST_GT(number_of_boundary_cells, 300u);
 }
 
-// ---- a domain made of labels ------------------------------------------------------------------
-
-// A function of points, positive inside; |f| bounds the distance to the surface from below. All
-// that the stages ask of a domain.
-class Analytic_domain
+// No point of the surface is far from all samples, and they are on the surface.
+void test_surface_samples()
 {
-public:
-  using Point_3 = Kernel::Point_3;
-  struct Surface_part {};
-
-  explicit Analytic_domain(std::function<double(const Point_3&)> f) : m_function(std::move(f)) {}
-
-  Bbox_3 bbox() const { return {0, 0, 0, 1, 1, 1}; }
-  Surface_part surface_part() const { return {}; }
-
-  template <class Cell>
-  Bounded_side locate(const Cell& cell, const Surface_part&, Surface_part&) const
-  {
-    const Bbox_3 b = cell.bbox();
-    const double radius = std::hypot(b.x_span(), b.y_span(), b.z_span()) / 2;
-    const double f = m_function(cell.centre());
-    return f > radius ? CGAL::ON_BOUNDED_SIDE
-                      : f < -radius ? CGAL::ON_UNBOUNDED_SIDE : CGAL::ON_BOUNDARY;
+  Surface thin; // long triangles
+  add_box(thin, Bbox_3(0, 0, 0, 100, 1, 7));
+  Surface sphere;
+  add_sphere(sphere, {1, 2, 3}, 2, 12);
+  std::mt19937 random(41);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::size_t last = 0;
+  for(const Surface& surface : {thin, sphere}) {
+    const Polyhedral_mixed_mesh_domain_3 domain(surface);
+    for(double spacing : {1000., 3., 0.7}) {
+      const std::vector<Point_3> samples = domain.surface_samples(spacing);
+      for(const Point_3& p : samples)
+        BOOST_TEST_LE(CGAL::squared_distance(p, domain.closest_point(p)), 1e-20);
+      for(auto v : surface.vertices())
+        BOOST_TEST(std::count(samples.begin(), samples.end(), surface.point(v)) == 1);
+      double farthest = 0; // of all points, squared
+      for(auto f : faces(surface))
+        for(int i = 0; i < 40; ++i) {
+          const auto h = surface.halfedge(f);
+          const Point_3 a = surface.point(surface.source(h)), b = surface.point(surface.target(h)),
+                        c = surface.point(surface.target(surface.next(h)));
+          const double u = uniform(random), v = uniform(random) * (1 - u);
+          const Point_3 p = a + u * (b - a) + v * (c - a);
+          double nearest = std::numeric_limits<double>::infinity();
+          for(const Point_3& q : samples)
+            nearest = (std::min)(nearest, CGAL::squared_distance(p, q));
+          farthest = (std::max)(farthest, nearest);
+        }
+      BOOST_TEST_LE(farthest, spacing * spacing);
+      BOOST_TEST(spacing > 100 ? samples.size() == surface.number_of_vertices() : samples.size() >= last);
+      BOOST_TEST(spacing > 1 || samples.size() > surface.number_of_vertices());
+      last = samples.size();
+    }
   }
+}
 
-  Bounded_side bounded_side(const Point_3& p) const
-  {
-    const double f = m_function(p);
-    return f > 0 ? CGAL::ON_BOUNDED_SIDE : f < 0 ? CGAL::ON_UNBOUNDED_SIDE : CGAL::ON_BOUNDARY;
-  }
-  Bounded_side bounded_side(const Point_3& p, const Surface_part&) const { return bounded_side(p); }
-
-  // Only its distance matters.
-  Point_3 closest_point(const Point_3& p) const
-  {
-    return p + Kernel::Vector_3(std::abs(m_function(p)), 0, 0);
-  }
-  Point_3 closest_point(const Point_3& p, const Surface_part&) const { return closest_point(p); }
-
-private:
-  std::function<double(const Point_3&)> m_function;
-};
+// ---- a domain made of labels -------------------------------------------------------------------
 
 using Analytic_octree =
   Located_octree<Analytic_domain, Everywhere_mixed_mesh_region_3, Aligned_traits>;
-
-std::function<double(const Point_3&)> ball(const Point_3& centre, double radius)
-{
-  return [=](const Point_3& p) { return radius - std::sqrt(CGAL::squared_distance(p, centre)); };
-}
-
-std::function<double(const Point_3&)> united(std::function<double(const Point_3&)> f,
-                                             std::function<double(const Point_3&)> g)
-{
-  return [=](const Point_3& p) { return (std::max)(f(p), g(p)); };
-}
-
-// A label for each point, of no geometry at all: the hardest that the boundary stage can meet. Points
-// within `margin` of the border of the unit cube are outside.
-std::function<double(const Point_3&)> noise(unsigned seed, int share_inside, double margin)
-{
-  return [=](const Point_3& p) {
-    const double x[3] = {p.x(), p.y(), p.z()};
-    std::uint64_t hash = seed;
-    for(double c : x) {
-      if(c < margin || c > 1 - margin)
-        return -1e-3;
-      hash = (hash ^ std::uint64_t(std::llround(c * 1e7))) * 0x9E3779B97F4A7C15u;
-      hash ^= hash >> 29;
-    }
-    return (hash >> 7) % 100 < std::uint64_t(share_inside) ? 1e-3 : -1e-3;
-  };
-}
 
 Analytic_octree random_octree(const Analytic_domain& domain, const Aligned_traits& traits,
                               unsigned seed, int base_level, int rounds, unsigned one_in = 12)
@@ -780,6 +755,94 @@ void test_is_balanced()
       }
     }
   }
+}
+
+// ---- the rim of the region ---------------------------------------------------------------------
+
+// Few leaves at the rim of the region are left out: their centres are outside, but that of one of 26
+// neighbours is inside. By all pairs.
+void test_rim()
+{
+  const Aligned_traits traits({0, 0, 0, 1, 1, 1});
+  const Analytic_domain domain([](const Point_3&) { return 9.; });
+  std::size_t number_left_out = 0, number_kept_outside = 0;
+  // the last one is smaller than a cell, and contains no centre
+  for(const auto& region : {CGAL::Ball_mixed_mesh_region_3({0.4, 0.5, 0.6}, 0.3),
+                            CGAL::Ball_mixed_mesh_region_3({0, 0, 0}, 0.5),
+                            CGAL::Ball_mixed_mesh_region_3({0.5, 0.5, 0.5}, 0.02)}) {
+    Located_octree octree(domain, region, traits);
+    for(int level = 0; level < 6; ++level) {
+      std::vector<Octree::Node_index> all; // that meet the region
+      for(Octree::Node_index n : octree.leaves_to_refine(level, false))
+        if(octree.is_in_region(n))
+          all.push_back(n);
+      const auto corner = [&](Octree::Node_index n, int k) { return std::int64_t(octree.octree().corner(n)[k]); };
+      const std::int64_t side = Octree::side_at(level);
+      std::vector<std::uint8_t> is_core;
+      for(Octree::Node_index n : all)
+        is_core.push_back(region.depth(traits.cell(octree.octree().corner(n), Octree::side_at(level)).centre()) >= 0);
+      std::vector<Octree::Node_index> expected;
+      for(std::size_t i = 0; i < all.size(); ++i) {
+        bool is_at_rim = false;
+        for(std::size_t j = 0; all.size() <= 4000 && !is_core[i] && j < all.size(); ++j)
+          if(is_core[j]) {
+            bool is_near = true;
+            for(int k = 0; k < 3; ++k)
+              is_near = is_near && std::abs(corner(all[i], k) - corner(all[j], k)) <= side;
+            is_at_rim = is_at_rim || is_near;
+          }
+        number_left_out += is_at_rim;
+        if(!is_at_rim) {
+          expected.push_back(all[i]);
+          number_kept_outside += !is_core[i];
+        }
+      }
+      BOOST_TEST(octree.leaves_to_refine(level, true) == expected);
+      BOOST_TEST_EQ(expected.empty(), all.empty());
+      octree.refine(octree.leaves_to_refine(level, false));
+    }
+  }
+  BOOST_TEST_GT(number_left_out, 500u);
+  BOOST_TEST_GT(number_kept_outside, 500u); // where there are many
+}
+
+// ---- the lattice -------------------------------------------------------------------------------
+
+// All roots contain the domain; the best ones come first.
+void test_place_lattice()
+{
+  using internal::candidate_roots;
+  using internal::best_roots;
+  for(const Bbox_3& b : {Bbox_3(0, 0, 0, 1, 1, 1), Bbox_3(-3.9, -44, -65.8, 60.1, 55, 65.79),
+                         Bbox_3(1e8, -1e8, 1e8, 1e8 + 100, -1e8 + 33, 1e8 + 7)}) {
+    const std::vector<Bbox_3> roots = candidate_roots(b);
+    BOOST_TEST(roots.front() == b);
+    std::set<std::array<double, 4>> places;
+    const double side = (std::max)({b.x_span(), b.y_span(), b.z_span()});
+    for(const Bbox_3& r : roots) {
+      BOOST_TEST(r.xmin() <= b.xmin() && r.ymin() <= b.ymin() && r.zmin() <= b.zmin());
+      BOOST_TEST(r.xmax() >= b.xmax() && r.ymax() >= b.ymax() && r.zmax() >= b.zmax());
+      BOOST_TEST_LE((std::max)({r.x_span(), r.y_span(), r.z_span()}), 1.26 * side);
+      places.insert({r.xmin(), r.ymin(), r.zmin(), r.xmax()});
+    }
+    BOOST_TEST_EQ(places.size(), roots.size()); // no two are the same
+  }
+
+  std::vector<Bbox_3> roots;
+  for(int i = 0; i < 5; ++i)
+    roots.emplace_back(i, 0, 0, i + 1, 1, 1);
+  constexpr std::size_t counts[] = {30, 50, 0, 50, 40};
+  const auto choose = [&](std::size_t number) {
+    std::vector<double> chosen;
+    for(const Bbox_3& r : best_roots(roots, number,
+                                     [&](const Bbox_3& b) { return counts[std::size_t(b.xmin())]; }))
+      chosen.push_back(r.xmin());
+    return chosen;
+  };
+  using Numbers = std::vector<double>;
+  BOOST_TEST(choose(1) == Numbers({1}));
+  BOOST_TEST(choose(3) == Numbers({1, 3, 4}));
+  BOOST_TEST(choose(9) == Numbers({1, 3, 4, 0, 2}));
 }
 
 // ---- boundary stage ----------------------------------------------------------------------------
@@ -1222,6 +1285,9 @@ int main()
   test_split_element();
   test_cell_traits();
   test_domain_oracle();
+  test_surface_samples();
+  test_rim();
+  test_place_lattice();
   test_all_transitions();
   test_inserted_on_rim();
   test_boundary_stage();

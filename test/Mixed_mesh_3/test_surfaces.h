@@ -3,18 +3,23 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Surfaces that several tests mesh.
+// Surfaces and domains that several tests mesh.
 
 #ifndef MIXED_MESH_3_TEST_SURFACES_H
 #define MIXED_MESH_3_TEST_SURFACES_H
 
+#include <CGAL/Bbox_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/enum.h>
 #include <CGAL/number_utils.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
 using Test_kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -58,6 +63,77 @@ inline void add_sphere(Test_surface& s, const Test_point& centre, double radius,
         s.add_face(up[j], down[k % down.size()], up[k]);
     }
   }
+}
+
+// A domain in the unit cube that is a function of points, positive inside; |f| bounds the distance to the
+// surface from below.
+class Analytic_domain
+{
+public:
+  using Point_3 = Test_point;
+  struct Surface_part {};
+
+  explicit Analytic_domain(std::function<double(const Point_3&)> f) : m_function(std::move(f)) {}
+
+  CGAL::Bbox_3 bbox() const { return {0, 0, 0, 1, 1, 1}; }
+  Surface_part surface_part() const { return {}; }
+
+  template <class Cell>
+  CGAL::Bounded_side locate(const Cell& cell, const Surface_part&, Surface_part&) const
+  {
+    const CGAL::Bbox_3 b = cell.bbox();
+    const double radius = std::hypot(b.x_span(), b.y_span(), b.z_span()) / 2;
+    const double f = m_function(cell.centre());
+    return f > radius ? CGAL::ON_BOUNDED_SIDE
+                      : f < -radius ? CGAL::ON_UNBOUNDED_SIDE : CGAL::ON_BOUNDARY;
+  }
+
+  CGAL::Bounded_side bounded_side(const Point_3& p) const
+  {
+    const double f = m_function(p);
+    return f > 0 ? CGAL::ON_BOUNDED_SIDE : f < 0 ? CGAL::ON_UNBOUNDED_SIDE : CGAL::ON_BOUNDARY;
+  }
+  CGAL::Bounded_side bounded_side(const Point_3& p, const Surface_part&) const { return bounded_side(p); }
+
+  // Only its distance matters: not for fitting.
+  Point_3 closest_point(const Point_3& p) const
+  {
+    return p + Test_kernel::Vector_3(std::abs(m_function(p)), 0, 0);
+  }
+  Point_3 closest_point(const Point_3& p, const Surface_part&) const { return closest_point(p); }
+  Point_3 closest_point(const Point_3& p, const Point_3&) const { return closest_point(p); }
+  std::vector<Point_3> surface_samples(double) const { return {}; }
+
+private:
+  std::function<double(const Point_3&)> m_function;
+};
+
+inline std::function<double(const Test_point&)> ball(const Test_point& centre, double radius)
+{
+  return [=](const Test_point& p) { return radius - std::sqrt(CGAL::squared_distance(p, centre)); };
+}
+
+inline std::function<double(const Test_point&)> united(std::function<double(const Test_point&)> f,
+                                                       std::function<double(const Test_point&)> g)
+{
+  return [=](const Test_point& p) { return (std::max)(f(p), g(p)); };
+}
+
+// A label for each point, of no geometry at all: the hardest that the boundary stage can meet. Points
+// within `margin` of the border of the unit cube are outside.
+inline std::function<double(const Test_point&)> noise(unsigned seed, int share_inside, double margin)
+{
+  return [=](const Test_point& p) {
+    const double x[3] = {p.x(), p.y(), p.z()};
+    std::uint64_t hash = seed;
+    for(double c : x) {
+      if(c < margin || c > 1 - margin)
+        return -1e-3;
+      hash = (hash ^ std::uint64_t(std::llround(c * 1e7))) * 0x9E3779B97F4A7C15u;
+      hash ^= hash >> 29;
+    }
+    return (hash >> 7) % 100 < std::uint64_t(share_inside) ? 1e-3 : -1e-3;
+  };
 }
 
 #endif // MIXED_MESH_3_TEST_SURFACES_H

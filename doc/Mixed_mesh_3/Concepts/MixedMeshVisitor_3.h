@@ -17,8 +17,13 @@ The search for the budget tries several octrees. For each of them, the calls are
     progress(number_of_vertices, budget)
 
 They are followed by one `begin_stage(OCTREE)` and `end_stage(OCTREE)` for what remains of the
-search, and, if there is a mesh, by the stage `ASSEMBLY`. Stages are neither nested nor left open.
-All calls come from the thread that called `CGAL::make_mixed_mesh_3()`.
+search, and, if there is a mesh, by the stages `ASSEMBLY` and, unless the boundary shall stay where the
+octree has it, `OPTIMIZATION`, in which `go_on()` is asked before each round. With a tolerance,
+`go_on()` is asked in the stage `OCTREE` too, and all of this may be repeated for several roots of the
+octree. Stages are neither nested nor left open. All calls come from the thread that called
+`CGAL::make_mixed_mesh_3()`.
+
+`CGAL::optimize_mixed_mesh_3()` and `CGAL::fit_mixed_mesh_to_surface()` ask `go_on()` only.
 
 A model need not be copied: pass it as `CGAL::parameters::visitor(std::ref(my_visitor))`. Members
 need not be `const`. The visitor must outlive the call.
@@ -45,8 +50,9 @@ public:
   /// \param budget the maximal number of vertices of the result
   void progress(std::size_t number_of_vertices, std::size_t budget);
 
-  /// Whether to go on. Asked once for each mesh that is tried, when its octree is there and its
-  /// elements are not. After `false` it is not asked again; the result has the status
-  /// `CGAL::Mixed_mesh_status::STOPPED`, and the mesh is empty.
+  /// Whether to go on. Asked for each mesh that is tried, when its octree is there and its elements are
+  /// not, and before each round of the optimisation. After `false` it is not asked again, and the result
+  /// has the status `STOPPED`. The mesh of `CGAL::make_mixed_mesh_3()` is empty then, that of other
+  /// functions valid, as far as it went.
   bool go_on();
 };

@@ -13,11 +13,11 @@ namespace Mixed_meshes_3 {
 
 /// The stages of the method, in the order of their first run. The search for the budget runs the
 /// octree, transition and boundary stages several times.
-enum class Stage { OCTREE, TRANSITIONS, BOUNDARY, ASSEMBLY };
+enum class Stage { OCTREE, TRANSITIONS, BOUNDARY, ASSEMBLY, OPTIMIZATION };
 
-inline constexpr int number_of_stages = 4;
+inline constexpr int number_of_stages = 5;
 inline constexpr const char* stage_names[number_of_stages] = {"octree", "transitions", "boundary",
-                                                       "assembly"};
+                                                              "assembly", "optimization"};
 
 /// \brief Model of `MixedMeshVisitor_3` that does nothing.
 struct Default_visitor

@@ -3,115 +3,38 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Measures of elements and of meshes: volume, and the aspect-ratio coefficient (ARC) of
-// Lobos, Bucki, Hitschfeld, Payan: "Mixed-element mesh for an intra-operative modeling of the
-// brain tumor extraction", section 5.3.
+// Measures of elements and of meshes.
 
 #ifndef CGAL_MIXED_MESH_3_QUALITY_H
 #define CGAL_MIXED_MESH_3_QUALITY_H
 
 #include <CGAL/Mixed_mesh_3.h>
-#include <CGAL/Mixed_mesh_3/internal/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/element_measures.h>
+
+#include <CGAL/assertions.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
+#include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
 namespace internal {
 
-using Element_points = std::array<Vec3, 8>;
-
-// Positions relative to the element's first vertex, so that no digits are lost far from the origin.
-template <class Mesh>
-Element_points element_points(const Mesh& mesh, const Element_view& element)
+/// What computes a measure from kind and points, as a function object on the elements of any mesh.
+template <double (*measure)(Element_kind, const Element_points&)>
+struct Element_measure
 {
-  Element_points p{};
-  const Vec3 origin = to_vec3(mesh.point(element[0]));
-  for(int i = 1; i < element.size(); ++i)
-    p[i] = to_vec3(mesh.point(element[i])) - origin;
-  return p;
-}
-
-inline Vec3 middle(const Vec3& a, const Vec3& b) { return 0.5 * (a + b); }
-
-// A quadrilateral as a bilinear patch: its flux is the mean of the two triangulations'.
-inline double volume(Element_kind kind, const Element_points& p)
-{
-  const Reference_element& reference = reference_elements[kind];
-  double six_volumes = 0;
-  for(int f = 0; f < reference.number_of_faces; ++f) {
-    const Element_face& face = reference.faces[f];
-    const Vec3 &a = p[face.vertices[0]], &b = p[face.vertices[1]], &c = p[face.vertices[2]];
-    if(face.size == 3) {
-      six_volumes += determinant(a, b, c);
-    } else {
-      const Vec3& d = p[face.vertices[3]];
-      six_volumes += 0.5 * (determinant(a, b, c) + determinant(a, c, d) + determinant(a, b, d)
-                            + determinant(b, c, d));
-    }
+  template <class Mesh>
+  double operator()(const Mesh& mesh, std::size_t e) const
+  {
+    const Element_view element = mesh.element(e);
+    return measure(element.kind(), element_points(mesh, element));
   }
-  return six_volumes / 6;
-}
-
-inline double ratio_of_longest_to_shortest(double a, double b, double c)
-{
-  const double shortest = (std::min)({a, b, c});
-  return shortest > 0 ? (std::max)({a, b, c}) / shortest
-                      : std::numeric_limits<double>::infinity();
-}
-
-inline double aspect_ratio_coefficient(Element_kind kind, const Element_points& p)
-{
-  const Reference_element& reference = reference_elements[kind];
-  switch(kind) {
-  case TETRAHEDRON: {
-    double sum = 0;
-    for(const auto& e : reference.edges)
-      if(e[0] != e[1]) {
-        const Vec3 d = p[e[1]] - p[e[0]];
-        sum += dot(d, d);
-      }
-    const double v = volume(kind, p), l2 = sum / 6;
-    return v > 0 ? l2 * std::sqrt(l2) / (8.47867 * v) : std::numeric_limits<double>::infinity();
-  }
-  case PYRAMID: {
-    const Vec3 normal = cross(p[2] - p[0], p[3] - p[1]);
-    const Vec3 centre = 0.25 * (p[0] + p[1] + p[2] + p[3]);
-    const double area = norm(normal);
-    const double height = area > 0 ? dot(normal, p[4] - centre) / area : 0;
-    return ratio_of_longest_to_shortest(norm(middle(p[2], p[3]) - middle(p[0], p[1])),
-                                        norm(middle(p[1], p[2]) - middle(p[3], p[0])), height);
-  }
-  case PRISM: {
-    double worst = 1;
-    for(int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3, k = (i + 2) % 3;
-      const Vec3 mi = middle(p[i], p[i + 3]), mj = middle(p[j], p[j + 3]),
-                 mk = middle(p[k], p[k + 3]);
-      const double width = norm(mj - mi);
-      const double length = norm(middle(p[i + 3], p[j + 3]) - middle(p[i], p[j]));
-      const double height = width > 0 ? norm(cross(mj - mi, mk - mi)) / width : 0;
-      worst = (std::max)(worst, ratio_of_longest_to_shortest(width, length, height));
-    }
-    return worst;
-  }
-  default: {
-    Vec3 centres[6];
-    for(int f = 0; f < 6; ++f) {
-      const auto& v = reference.faces[f].vertices;
-      centres[f] = 0.25 * (p[v[0]] + p[v[1]] + p[v[2]] + p[v[3]]);
-    }
-    return ratio_of_longest_to_shortest(norm(centres[1] - centres[0]),
-                                        norm(centres[3] - centres[2]),
-                                        norm(centres[5] - centres[4]));
-  }
-  }
-}
+};
 
 } // namespace internal
 
@@ -119,8 +42,7 @@ inline double aspect_ratio_coefficient(Element_kind kind, const Element_points& 
 template <class Mesh>
 double volume(const Mesh& mesh, std::size_t e)
 {
-  const Element_view element = mesh.element(e);
-  return internal::volume(element.kind(), internal::element_points(mesh, element));
+  return internal::Element_measure<internal::volume>()(mesh, e);
 }
 
 /// Sum of the volumes of all elements.
@@ -133,8 +55,14 @@ double volume(const Mesh& mesh)
   return sum;
 }
 
+/// \name Measures of an Element
+/// Function objects: called with a mesh and the number of an element, and passed to `quality_statistics()`
+/// and `histogram()`. None depends on the position or the unit of the mesh.
+/// @{
+
 /*!
-Aspect-ratio coefficient of element `e`: 1 is ideal, infinity degenerate (section 5.3 of the paper).
+Aspect-ratio coefficient (ARC): 1 is ideal, infinity degenerate. Section 5.3 of Lobos, Bucki, Hitschfeld,
+Payan: "Mixed-element mesh for an intra-operative modeling of the brain tumor extraction".
 
 - tetrahedron: `(sum l_i^2 / 6)^(3/2) / (8.47867 V)` over the six edge lengths;
 - hexahedron: longest / shortest segment between centres of opposite faces;
@@ -143,44 +71,105 @@ Aspect-ratio coefficient of element `e`: 1 is ideal, infinity degenerate (sectio
 - prism: for a quadrilateral face its two midpoint segments and the height of the mean triangle;
   the worst of the three faces.
 */
-template <class Mesh>
-double aspect_ratio_coefficient(const Mesh& mesh, std::size_t e)
-{
-  const Element_view element = mesh.element(e);
-  return internal::aspect_ratio_coefficient(element.kind(),
-                                            internal::element_points(mesh, element));
-}
+inline constexpr internal::Element_measure<internal::aspect_ratio_coefficient> aspect_ratio_coefficient{};
 
-/// Mean, maximum and share of acceptable values of a measure over some elements.
+/*!
+Scaled Jacobian, as in Stimpson, Ernst, Knupp, Pebay, Thompson: "The Verdict geometric quality library"
+(SAND2007-1751), and in Verdict's code for pyramids: 1 is ideal, 0 degenerate, negative inverted.
+
+The smallest, over the corners, of the determinant of the three edges divided by their lengths, and by its
+value for the ideal element: the regular tetrahedron, the pyramid and the prism of equal edges, the cube.
+
+- tetrahedron: over its four corners;
+- pyramid: of the tetrahedra at the four corners of its base, over their four corners; a value `1 + x`
+  becomes `1 - x`. Unlike Verdict's, it is not cut off at 0;
+- prism, hexahedron: over all corners; Verdict has the centre of the hexahedron too.
+*/
+inline constexpr internal::Element_measure<internal::scaled_jacobian> scaled_jacobian{};
+
+/*!
+Smallest angle, in degrees, between two faces at an edge, inside the element. The normal of a quadrilateral
+is its vector area (half the cross product of its diagonals), its mean normal.
+
+Angles are in `[0, 360]`; those of an element with a re-entrant edge, or turned inside out, exceed 180. A
+face without area counts as 180 degrees. Why they matter: Shewchuk, "What is a good linear finite element?"
+*/
+inline constexpr internal::Element_measure<internal::smallest_dihedral_angle> smallest_dihedral_angle{};
+
+/// Largest angle, in degrees, between two faces at an edge; see `smallest_dihedral_angle`.
+inline constexpr internal::Element_measure<internal::largest_dihedral_angle> largest_dihedral_angle{};
+
+/// Largest angle, in degrees, between the normals of the two triangles of a quadrilateral face, for the
+/// worse of its two diagonals; 0 for a tetrahedron.
+inline constexpr internal::Element_measure<internal::quad_warp> quad_warp{};
+
+/// @}
+
+/// The values of a measure over some elements; all zero if there are none.
 struct Quality_statistics
 {
   std::size_t count = 0;
   double mean = 0;
+  double minimum = 0;
   double maximum = 0;
-  double share_at_most_7 = 0; ///< share of elements with ARC at most 7, the paper's bound
+  double share = 0; ///< of elements with a value in the interval asked for
 };
 
-/// The paper's Table 1: the aspect-ratio coefficient for each kind, and for all elements (last).
-template <class Mesh>
-std::array<Quality_statistics, number_of_element_kinds + 1> quality_statistics(const Mesh& mesh)
+/// A row for each kind of element, by `Element_kind`, and one for all elements, the last.
+using Quality_table = std::array<Quality_statistics, number_of_element_kinds + 1>;
+
+/// The values of a measure for each kind, and for all elements.
+/// \param mesh the mesh
+/// \param measure `double(const Mesh&, std::size_t)`, such as `scaled_jacobian`
+/// \param lowest, highest the closed interval of acceptable values, for the share of elements in it
+template <class Mesh, class Measure>
+Quality_table quality_statistics(const Mesh& mesh, const Measure& measure,
+                                 double lowest = -std::numeric_limits<double>::infinity(),
+                                 double highest = std::numeric_limits<double>::infinity())
 {
-  std::array<Quality_statistics, number_of_element_kinds + 1> rows;
+  Quality_table rows;
   for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
-    const double arc = aspect_ratio_coefficient(mesh, e);
+    const double value = measure(mesh, e);
     for(int row : {int(mesh.element(e).kind()), number_of_element_kinds}) {
       Quality_statistics& r = rows[row];
+      r.minimum = r.count == 0 ? value : (std::min)(r.minimum, value);
+      r.maximum = r.count == 0 ? value : (std::max)(r.maximum, value);
       ++r.count;
-      r.mean += arc;
-      r.maximum = (std::max)(r.maximum, arc);
-      r.share_at_most_7 += arc <= 7;
+      r.mean += value;
+      r.share += lowest <= value && value <= highest;
     }
   }
   for(Quality_statistics& r : rows)
     if(r.count != 0) {
       r.mean /= double(r.count);
-      r.share_at_most_7 /= double(r.count);
+      r.share /= double(r.count);
     }
   return rows;
+}
+
+/// The paper's Table 1: the aspect-ratio coefficient, and the share of elements where it is at most 7.
+template <class Mesh>
+Quality_table quality_statistics(const Mesh& mesh)
+{
+  return quality_statistics(mesh, aspect_ratio_coefficient, 0, 7);
+}
+
+/// Counts the elements by the value of a measure. No element is left out: there is a bin below the first
+/// edge, one for each interval between two edges, which contains its lower edge, and one from the last
+/// edge on.
+/// \param mesh the mesh
+/// \param measure `double(const Mesh&, std::size_t)`, such as `aspect_ratio_coefficient`
+/// \param edges the values that separate bins. \pre sorted
+/// \return the counts: one more than there are edges
+template <class Mesh, class Measure>
+std::vector<std::size_t> histogram(const Mesh& mesh, const Measure& measure,
+                                   const std::vector<double>& edges)
+{
+  CGAL_precondition(std::is_sorted(edges.begin(), edges.end()));
+  std::vector<std::size_t> counts(edges.size() + 1);
+  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
+    ++counts[std::size_t(std::upper_bound(edges.begin(), edges.end(), measure(mesh, e)) - edges.begin())];
+  return counts;
 }
 
 } // namespace Mixed_meshes_3

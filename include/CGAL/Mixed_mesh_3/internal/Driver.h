@@ -3,15 +3,17 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The method as a list of stages: octree, transitions, boundary, assembly.
+// The method as a list of stages: octree, transitions, boundary, assembly, optimisation.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_DRIVER_H
 #define CGAL_MIXED_MESH_3_INTERNAL_DRIVER_H
 
+#include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
 #include <CGAL/Mixed_mesh_3/Default_visitor.h>
 #include <CGAL/Mixed_mesh_3/internal/Boundary_stage.h>
 #include <CGAL/Mixed_mesh_3/internal/Lattice_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/Located_octree.h>
+#include <CGAL/Mixed_mesh_3/internal/Surface_optimiser.h>
 #include <CGAL/Mixed_mesh_3/internal/apply_transitions.h>
 #include <CGAL/Mixed_mesh_3/internal/assemble_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/lost_cells.h>
@@ -34,6 +36,12 @@ inline constexpr int default_base_level = 3;
 inline constexpr int coarsest_automatic_base_level = 1;
 inline constexpr int finest_automatic_base_level = 6;
 inline constexpr double tolerated_share_of_lost_cells = 0.05;
+
+// Towards the tolerance: rounds of splitting, the share of the budget they may take, how gently a coarse mesh
+// is fitted for that, and, where too many places are too far, multiples of the tolerance to begin with.
+inline constexpr int tolerance_rounds = 4, rounds_of_coarse_fit = 5;
+inline constexpr double largest_share_for_tolerance = 0.7;
+inline constexpr double tolerance_multiples[] = {1, 1.2, 1.4, 1.7, 2};
 
 // One octree with the mesh made of it.
 struct Candidate
@@ -58,6 +66,7 @@ class Driver
   Octree_ m_octree;
   Candidate m_best;
   std::vector<Octree::Node_index> m_lost;
+  std::vector<std::vector<Vec3>> m_far_points; // of the surface, where cells are split for the tolerance
   Mixed_mesh_result_3 m_result;
 
 public:
@@ -70,6 +79,8 @@ public:
   {
     mesh.clear();
     m_visitor.begin_stage(Stage::OCTREE);
+    if(m_criteria.tolerance() > 0)
+      find_far_points();
     fill_budget();
     m_visitor.end_stage(Stage::OCTREE);
     describe();
@@ -77,6 +88,8 @@ public:
       m_visitor.begin_stage(Stage::ASSEMBLY);
       assemble_mesh(m_octree, m_best.mesh, m_best.boundary, mesh);
       m_visitor.end_stage(Stage::ASSEMBLY);
+      if(m_criteria.fit_to_surface())
+        optimise(mesh);
     }
     return m_result;
   }
@@ -106,16 +119,108 @@ private:
     return c;
   }
 
+  int first_base_level() const
+  {
+    return m_criteria.base_level() == Mixed_mesh_criteria_3::automatic ? default_base_level
+                                                                        : m_criteria.base_level();
+  }
+
+  // One level more around each far point, outside the region, round by round.
+  void split_far_cells(Octree_& octree) const
+  {
+    for(const std::vector<Vec3>& points : m_far_points) {
+      std::vector<Octree::Node_index> leaves;
+      for(const Vec3& p : points) {
+        const Octree::Node_index n = octree.leaf_at(typename Domain::Point_3(p[0], p[1], p[2]));
+        if(octree.is_alive(n) && !octree.is_in_region(n) && octree.octree().level(n) < Octree::max_level)
+          leaves.push_back(n);
+      }
+      std::sort(leaves.begin(), leaves.end());
+      leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+      octree.refine(leaves);
+    }
+  }
+
+  // Fits the mesh of the base level, splits cells where it is too far from the surface, and again.
+  void find_far_points()
+  {
+    const double limit = largest_share_for_tolerance * double(budget());
+    const Octree_ root = m_octree;
+    Octree_ octree = root;
+    Candidate candidate = try_base_octree(octree);
+    for(int round = 0; round < tolerance_rounds; ++round) {
+      if(candidate.is_stopped || candidate.number_of_vertices == 0
+         || double(candidate.number_of_vertices) > limit)
+        return;
+      m_result.number_of_vertices_for_tolerance = candidate.number_of_vertices;
+      Mesh coarse;
+      assemble_mesh(octree, candidate.mesh, candidate.boundary, coarse);
+      const auto criteria = Mixed_mesh_optimization_criteria_3()
+                              .tolerance(m_criteria.tolerance())
+                              .number_of_rounds(rounds_of_coarse_fit);
+      Surface_optimiser optimiser(coarse, m_octree.domain(), criteria, Aspect_ratio_quality_3());
+      optimiser([this] { return m_visitor.go_on(); });
+      bool is_split = false;
+      for(double multiple : tolerance_multiples) {
+        const std::vector<Vec3> points = optimiser.far_points(multiple);
+        if(points.empty())
+          break;
+        m_far_points.push_back(points);
+        Octree_ finer = root;
+        candidate = try_base_octree(finer);
+        is_split = candidate.is_stopped || double(candidate.number_of_vertices) <= limit;
+        if(is_split) {
+          octree = std::move(finer);
+          break;
+        }
+        m_far_points.pop_back();
+      }
+      if(!is_split)
+        return;
+    }
+  }
+
+  Candidate try_base_octree(Octree_& octree)
+  {
+    for(int level = 0; level < first_base_level(); ++level)
+      octree.refine(octree.leaves_to_refine(level, false));
+    split_far_cells(octree);
+    return try_octree(octree);
+  }
+
+  void optimise(Mesh& mesh)
+  {
+    using Status = Mixed_mesh_status;
+    m_visitor.begin_stage(Stage::OPTIMIZATION);
+    const auto criteria = Mixed_mesh_optimization_criteria_3().tolerance(m_criteria.tolerance());
+    const Aspect_ratio_quality_3 quality;
+    Surface_optimiser optimiser(mesh, m_octree.domain(), criteria, quality);
+    m_result.optimization = optimiser([this] { return m_visitor.go_on(); });
+    m_visitor.end_stage(Stage::OPTIMIZATION);
+    const Mixed_mesh_optimization_status status = m_result.optimization.status;
+    if(status == Mixed_mesh_optimization_status::STOPPED) {
+      m_result.status = Status::STOPPED;
+      mesh.clear();
+    } else if(status == Mixed_mesh_optimization_status::NOT_ALL_ARRIVED
+              && m_result.status != Status::BOUNDARY_NOT_MANIFOLD) {
+      m_result.status = Status::NOT_ALL_ARRIVED;
+    } else if(status == Mixed_mesh_optimization_status::TOLERANCE_NOT_REACHED
+              && (m_result.status == Status::SUCCESS || m_result.status == Status::BUDGET_NOT_FILLED)) {
+      m_result.status = Status::TOLERANCE_NOT_REACHED;
+    }
+  }
+
   // If no base level is given: coarser than the default if the budget demands it; finer, as far as the
   // budget allows, if much of a thin domain would have no elements.
   void fill_budget()
   {
     const Octree_ root = m_octree;
     const bool is_automatic = m_criteria.base_level() == Mixed_mesh_criteria_3::automatic;
-    int level = is_automatic ? default_base_level : m_criteria.base_level();
+    int level = first_base_level();
     for(int step = 0;; level += step) {
       Octree_ octree = root;
       Candidate candidate = refine_in_region(octree, budget(), level,
+                                             [this](Octree_& o) { split_far_cells(o); },
                                              [this](const Octree_& o) { return try_octree(o); });
       const bool is_above = candidate.number_of_vertices > budget();
       if(is_above && step > 0)
@@ -143,6 +248,16 @@ private:
     }
   }
 
+  // By the leaf of each vertex; a query only where that meets the region's surface.
+  std::size_t count_vertices_in_region() const
+  {
+    std::size_t count = 0;
+    for(Vertex_index v = 0; v < m_best.boundary.is_used.size(); ++v)
+      count += m_best.boundary.is_used[v]
+               && m_octree.is_in_region(m_best.mesh.vertices[v], m_best.mesh.leaves[v]);
+    return count;
+  }
+
   void describe()
   {
     const Octree& octree = m_octree.octree();
@@ -153,6 +268,7 @@ private:
         meets_region = meets_region || m_octree.is_in_region(n);
       }
     m_result.number_of_lost_cells = m_lost.size();
+    m_result.number_of_vertices_in_region = count_vertices_in_region();
     for(Octree::Node_index n : m_lost)
       m_result.lost_cells += m_traits.cell(octree.corner(n), octree.side(n)).bbox();
     const std::vector<std::uint8_t>& is_used = m_best.boundary.is_used;

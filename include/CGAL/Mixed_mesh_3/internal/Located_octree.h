@@ -12,11 +12,13 @@
 #include <CGAL/Mixed_mesh_3/internal/balance.h>
 
 #include <CGAL/enum.h>
+#include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <tuple>
 #include <utility>
@@ -61,6 +63,12 @@ public:
   /// Whether the cell meets the domain. Only such cells are refined or become elements.
   bool is_alive(Node_index n) const { return side(n) != ON_UNBOUNDED_SIDE; }
   bool is_in_region(Node_index n) const { return m_locations[n].region != ON_UNBOUNDED_SIDE; }
+  /// Whether a lattice point of a leaf is in the region.
+  bool is_in_region(const Lattice_point& p, Node_index leaf) const
+  {
+    return m_locations[leaf].region == ON_BOUNDED_SIDE
+           || (m_locations[leaf].region == ON_BOUNDARY && m_region->depth(m_traits->point(p)) >= 0);
+  }
   /// The part of the domain's surface that meets the cell; a default one if none does.
   const Surface_part& surface_part(Node_index n) const
   {
@@ -91,6 +99,29 @@ public:
   /// differ, so that symmetric input does not depend on it.
   double quantized(double length) const { return std::floor(length * m_scale + 0.3); }
 
+  /// The leaf around a point of the root.
+  template <class Point>
+  Node_index leaf_at(const Point& q) const
+  {
+    Node_index n = Octree::root();
+    while(!m_octree.is_leaf(n)) {
+      // the child with the nearest centre, whatever the frame of the cells
+      Node_index nearest = n;
+      double least = std::numeric_limits<double>::infinity();
+      const Node_index first = m_octree.child(n, 0);
+      for(Node_index c = first; c < first + 8; ++c) {
+        const auto p = m_traits->cell(m_octree.corner(c), m_octree.side(c)).centre();
+        const double d = CGAL::squared_distance(p, q);
+        if(d < least) {
+          least = d;
+          nearest = c;
+        }
+      }
+      n = nearest;
+    }
+    return n;
+  }
+
   /// Splits leaves, then balances across faces and edges.
   template <class NodeRange>
   void refine(const NodeRange& nodes)
@@ -101,7 +132,9 @@ public:
     balance(m_octree, refined, Adjacency::EDGE, [this](Node_index n) { split(n); });
   }
 
-  /// The leaves of a level that meet the domain, and the region too if asked for.
+  /// The leaves of a level that meet the domain, and the region too if asked for. Of few cells, those at
+  /// the region's rim are left out: they meet it, but their centres are outside, while that of a neighbour
+  /// is inside. They would take much of a small budget to where it is not wanted.
   std::vector<Node_index> leaves_to_refine(int level, bool in_region_only) const
   {
     std::vector<Node_index> leaves;
@@ -109,6 +142,8 @@ public:
       if(m_octree.level(n) == level && m_octree.is_leaf(n) && is_alive(n)
          && (!in_region_only || is_in_region(n)))
         leaves.push_back(n);
+    if(in_region_only && leaves.size() <= large_number_of_cells)
+      remove_rim(leaves);
     return leaves;
   }
 
@@ -119,7 +154,7 @@ public:
     if(leaves.empty())
       return;
     int level = m_octree.level(leaves.front());
-    for(std::size_t queries = leaves.size(); queries > 4000 && level > 0; queries /= 8)
+    for(std::size_t queries = leaves.size(); queries > large_number_of_cells && level > 0; queries /= 8)
       --level;
     const std::uint32_t side = Octree::side_at(level), mask = ~(side - 1);
     // Of equally deep ones, those at the surface first: there they serve the shape, too.
@@ -142,6 +177,38 @@ public:
   }
 
 private:
+  // So many queries on the region take no notable time.
+  static constexpr std::size_t large_number_of_cells = 4000;
+
+  // Leaves of one level.
+  void remove_rim(std::vector<Node_index>& leaves) const
+  {
+    std::vector<Lattice_point> core; // corners of those with the centre in the region
+    std::vector<std::uint8_t> is_core(leaves.size(), 0);
+    const std::uint32_t side = leaves.empty() ? 0 : m_octree.side(leaves.front());
+    for(std::size_t i = 0; i < leaves.size(); ++i) {
+      const Lattice_point p = m_octree.corner(leaves[i]);
+      is_core[i] = m_region->depth(m_traits->point({p[0] + side / 2, p[1] + side / 2, p[2] + side / 2})) >= 0;
+      if(is_core[i])
+        core.push_back(p);
+    }
+    std::sort(core.begin(), core.end());
+    const auto is_beside_core = [&](const Lattice_point& p) {
+      for(std::uint32_t n = 0; n < 27; ++n) { // wraps around below 0, where there is no cell
+        const Lattice_point q{p[0] + (n % 3 - 1) * side, p[1] + (n / 3 % 3 - 1) * side,
+                              p[2] + (n / 9 - 1) * side};
+        if(std::binary_search(core.begin(), core.end(), q))
+          return true;
+      }
+      return false;
+    };
+    std::size_t kept = 0;
+    for(std::size_t i = 0; i < leaves.size(); ++i)
+      if(is_core[i] || !is_beside_core(m_octree.corner(leaves[i])))
+        leaves[kept++] = leaves[i];
+    leaves.resize(kept);
+  }
+
   struct Location
   {
     std::int8_t domain, region; // Bounded_side

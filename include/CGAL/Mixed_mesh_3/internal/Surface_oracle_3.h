@@ -21,7 +21,9 @@
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/squared_distance_3.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -162,7 +164,47 @@ public:
           hint = q;
         }
       }
+    return closest_point(p, hint);
+  }
+
+  /// The closest point of the surface; faster if `hint`, a point of the surface, is near.
+  Point_3 closest_point(const Point_3& p, const Point_3& hint) const
+  {
     return m_data->tree.closest_point(p, hint);
+  }
+
+  /// The closest point of the surface, by a search that starts anywhere.
+  Point_3 closest_point(const Point_3& p) const
+  {
+    return closest_point(p, m_data->triangles.front()[0]);
+  }
+
+  /// Points of the surface, such that none of its points is farther than about `spacing` from one of them:
+  /// all vertices, and a grid on larger triangles.
+  std::vector<Point_3> surface_samples(double spacing) const
+  {
+    std::vector<Point_3> samples;
+    const Surface& s = m_data->surface;
+    std::vector<std::uint8_t> is_seen(s.number_of_vertices(), 0);
+    for(const auto f : faces(s)) {
+      std::array<Point_3, 3> p;
+      double longest = 0;
+      int k = 0;
+      for(const auto v : vertices_around_face(halfedge(f, s), s)) {
+        p[k++] = s.point(v);
+        if(!is_seen[v])
+          samples.push_back(s.point(v));
+        is_seen[v] = 1;
+      }
+      for(int i = 0; i < 3; ++i)
+        longest = (std::max)(longest, std::sqrt(CGAL::squared_distance(p[i], p[(i + 1) % 3])));
+      const int n = int((std::min)(std::ceil(longest / spacing), 1000.));
+      for(int i = 0; i <= n; ++i)
+        for(int j = 0; i + j <= n; ++j)
+          if((i > 0) + (j > 0) + (i + j < n) > 1) // not at a vertex
+            samples.push_back(p[0] + (double(i) / n) * (p[1] - p[0]) + (double(j) / n) * (p[2] - p[0]));
+    }
+    return samples;
   }
 
 private:

@@ -39,7 +39,9 @@ class Budget_search
   double m_vertices_per_cell = 8; // 7 deep inside, more at transitions; then the rate of the last trial
 
 public:
-  Budget_search(Octree_& octree, std::size_t budget, int base_level, const Try& try_octree)
+  template <class Refine_base>
+  Budget_search(Octree_& octree, std::size_t budget, int base_level, const Refine_base& refine_base,
+                const Try& try_octree)
     : m_budget(budget), m_try(try_octree), m_octree(octree)
   {
     for(int level = 0; level < base_level; ++level) {
@@ -51,6 +53,7 @@ public:
       }
       m_octree.refine(m_octree.leaves_to_refine(level, false));
     }
+    refine_base(m_octree);
     m_best = m_try(m_octree);
     if(m_octree.leaves_to_refine(base_level, true).empty())
       return; // the region does not meet the domain
@@ -148,14 +151,16 @@ A candidate is an octree with the mesh made of it. `Candidate::number_of_vertice
 
 \param octree the located octree, not yet refined; becomes that of the result
 \param base_level the level of all cells that meet the domain
+\param refine_base `void(octree)`: refines cells, in the region or not, before the region is
 \param try_octree `Candidate(octree)`: runs all stages that change the number of vertices
 \return the best candidate; its number of vertices is above the budget only if the base level is
 \cost O(log n) trials of at most a little more than n vertices; two for large n
 */
-template <class Octree_, class Try>
-auto refine_in_region(Octree_& octree, std::size_t budget, int base_level, const Try& try_octree)
+template <class Octree_, class Refine_base, class Try>
+auto refine_in_region(Octree_& octree, std::size_t budget, int base_level, const Refine_base& refine_base,
+                      const Try& try_octree)
 {
-  return Budget_search<Octree_, Try>(octree, budget, base_level, try_octree).best();
+  return Budget_search<Octree_, Try>(octree, budget, base_level, refine_base, try_octree).best();
 }
 
 } // namespace internal

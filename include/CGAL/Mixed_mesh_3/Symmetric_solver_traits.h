@@ -1,0 +1,132 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Sparse solvers of Eigen and, if `CGAL_MIXED_MESH_3_USE_CHOLMOD` is defined, of SuiteSparse. The macro is the
+// user's word that the program is linked with CHOLMOD; the CMake target gives it if CHOLMOD was found.
+
+#ifndef CGAL_MIXED_MESH_3_SYMMETRIC_SOLVER_TRAITS_H
+#define CGAL_MIXED_MESH_3_SYMMETRIC_SOLVER_TRAITS_H
+
+#include <CGAL/Eigen_sparse_matrix.h>
+#include <CGAL/Eigen_vector.h>
+
+#include <CGAL/assertions.h>
+
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCholesky>
+#ifdef CGAL_MIXED_MESH_3_USE_CHOLMOD
+#include <Eigen/CholmodSupport>
+#endif
+
+#include <algorithm>
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+
+/*!
+\brief Solves symmetric positive definite systems with a solver of Eigen.
+
+Where `CGAL::Eigen_solver_traits` starts again at each `factor()`, this class keeps the symbolic factorisation
+as long as the pattern of the matrix is the same. An iterative solver starts from the `X` that it is given.
+
+\cgalModels{SparseLinearAlgebraWithFactorTraits_d}
+
+\tparam EigenSolver a sparse solver of Eigen that reads the lower triangle of an
+        `Eigen::SparseMatrix<double>`
+*/
+template <class EigenSolver>
+class Symmetric_solver_traits
+{
+public:
+  using NT = double;
+  using Vector = CGAL::Eigen_vector<double>;
+
+  /// The lower triangle of a symmetric matrix; the upper one is ignored.
+  struct Matrix : CGAL::Eigen_sparse_symmetric_matrix<double>
+  {
+    using Base = CGAL::Eigen_sparse_symmetric_matrix<double>;
+    using Base::Base;
+
+    /// The lower triangle in compressed columns, rows ascending.
+    Matrix(const std::vector<int>& starts, const std::vector<int>& rows, const std::vector<double>& values)
+      : Base(int(starts.size() - 1))
+    {
+      const int n = int(starts.size() - 1);
+      this->eigen_object() = Eigen::Map<const Eigen::SparseMatrix<double>>(
+        n, n, Eigen::Index(rows.size()), starts.data(), rows.data(), values.data());
+    }
+  };
+
+  /// Eigen's solver, to set its parameters.
+  EigenSolver& solver() { return *m_solver; }
+
+  /// \param matrix must live as long as systems are solved with it
+  /// \param denominator set to 1
+  /// \return whether the matrix is positive definite
+  bool factor(const Matrix& matrix, NT& denominator)
+  {
+    denominator = 1;
+    const Eigen::SparseMatrix<double>& a = matrix.eigen_object();
+    const int *starts = a.outerIndexPtr(), *rows = a.innerIndexPtr();
+    const bool has_same_pattern =
+      std::equal(starts, starts + a.cols() + 1, m_starts.begin(), m_starts.end())
+      && std::equal(rows, rows + a.nonZeros(), m_rows.begin(), m_rows.end());
+    if(!has_same_pattern) {
+      m_starts.assign(starts, starts + a.cols() + 1);
+      m_rows.assign(rows, rows + a.nonZeros());
+      m_solver->analyzePattern(a);
+    }
+    m_solver->factorize(a);
+    return m_solver->info() == Eigen::Success;
+  }
+
+  /// Solves with the matrix given to `factor()`.
+  /// \param b the right-hand side
+  /// \param x the solution; a guess of it on entry, if it has the dimension of `b`
+  bool linear_solver(const Vector& b, Vector& x)
+  {
+    CGAL_precondition(!m_starts.empty());
+    if constexpr(is_iterative)
+      x = x.size() == b.size() ? m_solver->solveWithGuess(b, x.eigen_object()).eval()
+                               : m_solver->solve(b).eval();
+    else
+      x = m_solver->solve(b);
+    return m_solver->info() == Eigen::Success;
+  }
+
+  bool linear_solver(const Matrix& a, const Vector& b, Vector& x, NT& denominator)
+  {
+    return factor(a, denominator) && linear_solver(b, x);
+  }
+
+private:
+  static constexpr bool is_iterative =
+    std::is_base_of_v<Eigen::IterativeSolverBase<EigenSolver>, EigenSolver>;
+
+  std::shared_ptr<EigenSolver> m_solver = std::make_shared<EigenSolver>(); // solvers cannot be copied
+  std::vector<int> m_starts, m_rows; // the pattern that was analysed
+};
+
+/// Conjugate gradients with Jacobi's preconditioner. The fastest where few layers of vertices move.
+using Conjugate_gradient_solver_traits =
+  Symmetric_solver_traits<Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower>>;
+
+/// Eigen's simplicial factorisation.
+using Simplicial_solver_traits = Symmetric_solver_traits<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>;
+
+#ifdef CGAL_MIXED_MESH_3_USE_CHOLMOD
+/// The supernodal factorisation of CHOLMOD. The fastest direct solver for large systems.
+using Cholmod_solver_traits =
+  Symmetric_solver_traits<Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>>;
+#endif
+
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_SYMMETRIC_SOLVER_TRAITS_H

@@ -1,0 +1,183 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How well the boundary of a mesh represents a surface.
+
+#ifndef CGAL_MIXED_MESH_3_SURFACE_DISTANCE_H
+#define CGAL_MIXED_MESH_3_SURFACE_DISTANCE_H
+
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/hausdorff_distance.h>
+#include <CGAL/Mixed_mesh_3/internal/vector_3.h>
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/Named_function_parameters.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/assertions.h>
+#include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/named_params_helper.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+
+namespace internal {
+
+inline Predicates_kernel::Point_3 rounded_point(const Vec3& p) { return {p[0], p[1], p[2]}; }
+
+/// The boundary of a mesh. Quadrilaterals are split through their vertex of smallest index, as
+/// `split_to_tetrahedra()` does. Only the vertices of the boundary are in the soup.
+template <class Mesh>
+Triangle_soup boundary_triangles(const Mesh& mesh)
+{
+  CGAL_precondition(!mesh.boundary_faces().empty());
+  Triangle_soup soup;
+  constexpr std::size_t none = std::size_t(-1);
+  std::vector<std::size_t> index(mesh.number_of_vertices(), none);
+  for(const auto& f : mesh.boundary_faces()) {
+    auto v = face_vertices(mesh.element(f.element), f.local_face);
+    const auto size = v[3] == no_vertex ? 3 : 4;
+    std::rotate(v.begin(), std::min_element(v.begin(), v.begin() + size), v.begin() + size);
+    for(int i = 0; i < size; ++i)
+      if(index[v[i]] == none) {
+        index[v[i]] = soup.points.size();
+        soup.points.push_back(rounded_point(to_vec3(mesh.point(v[i]))));
+      }
+    for(int i = 1; i + 1 < size; ++i)
+      soup.triangles.push_back({index[v[0]], index[v[i]], index[v[i + 1]]});
+  }
+  return soup;
+}
+
+template <class FaceListGraph, class NamedParameters>
+Triangle_soup surface_triangles(const FaceListGraph& surface, const NamedParameters& np)
+{
+  CGAL_precondition(CGAL::is_triangle_mesh(surface) && faces(surface).first != faces(surface).second);
+  auto vpm = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
+                                          get_const_property_map(CGAL::vertex_point, surface));
+  Triangle_soup soup;
+  std::unordered_map<typename boost::graph_traits<FaceListGraph>::vertex_descriptor, std::size_t> index;
+  for(auto v : vertices(surface)) {
+    index[v] = soup.points.size();
+    soup.points.push_back(rounded_point(to_vec3(get(vpm, v))));
+  }
+  for(auto f : faces(surface)) {
+    std::array<std::size_t, 3> t;
+    int i = 0;
+    for(auto v : vertices_around_face(halfedge(f, surface), surface))
+      t[i++] = index[v];
+    soup.triangles.push_back(t);
+  }
+  return soup;
+}
+
+/// Length of the diagonal of the box of the triangles; a soup may have points of its own.
+inline double diagonal(const Triangle_soup& soup)
+{
+  Bbox_3 b;
+  for(const auto& t : soup.triangles)
+    for(std::size_t v : t)
+      b += soup.points[v].bbox();
+  return norm({b.x_span(), b.y_span(), b.z_span()});
+}
+
+} // namespace internal
+
+/// How far the boundary of a mesh and a surface are from each other.
+struct Hausdorff_distance
+{
+  One_sided_distance from_mesh;    ///< the point of the boundary that is farthest from the surface
+  One_sided_distance from_surface; ///< the point of the surface that is farthest from the boundary
+
+  double distance() const { return (std::max)(from_mesh.distance, from_surface.distance); }
+};
+
+/*!
+\brief Computes the Hausdorff distance between the boundary of a mesh and a surface, both ways.
+
+Not sampled: a bound on the error is proved, up to rounding. Quadrilaterals on the boundary are split into
+two triangles, through their vertex of smallest index.
+
+\tparam Mesh a `Mixed_mesh_3`
+\tparam FaceListGraph a model of `FaceListGraph`, with points of any CGAL kernel
+\param mesh the mesh. \pre its boundary faces are set, and not empty
+\param surface the surface. \pre triangulated, and not empty
+\param relative_error how much a distance may be too small, relative to the diagonal of the box of
+       `surface`. Where large triangles coincide with thousands of small ones the error can be larger;
+       `One_sided_distance::error` tells.
+\param np an optional sequence of named parameters: `vertex_point_map` of `surface`
+\cost about O(n log n) for n triangles, if the distances are not all the same; at most some seconds more
+*/
+template <class Mesh, class FaceListGraph, class NamedParameters = parameters::Default_named_parameters>
+Hausdorff_distance hausdorff_distance(const Mesh& mesh, const FaceListGraph& surface,
+                                      double relative_error = 1e-4,
+                                      const NamedParameters& np = parameters::default_values())
+{
+  CGAL_precondition(relative_error > 0);
+  const internal::Triangle_soup boundary = internal::boundary_triangles(mesh);
+  const internal::Triangle_soup triangles = internal::surface_triangles(surface, np);
+  const double maximal_error = relative_error * internal::diagonal(triangles);
+  return {internal::one_sided_distance(boundary, internal::Nearest_triangle(triangles), maximal_error),
+          internal::one_sided_distance(triangles, internal::Nearest_triangle(boundary), maximal_error)};
+}
+
+/// Number of vertices on the boundary of a mesh that are not on a surface.
+/// \param mesh the mesh. \pre its boundary faces are set, and not empty
+/// \param surface a model of `FaceListGraph`. \pre triangulated, and not empty
+/// \param relative_tolerance the distance beyond which a vertex is not on the surface, relative to the
+///        diagonal of the box of `surface`
+/// \param np an optional sequence of named parameters: `vertex_point_map` of `surface`
+template <class Mesh, class FaceListGraph, class NamedParameters = parameters::Default_named_parameters>
+std::size_t number_of_vertices_off_surface(const Mesh& mesh, const FaceListGraph& surface,
+                                           double relative_tolerance = 1e-9,
+                                           const NamedParameters& np = parameters::default_values())
+{
+  const internal::Triangle_soup boundary = internal::boundary_triangles(mesh);
+  const internal::Triangle_soup triangles = internal::surface_triangles(surface, np);
+  const internal::Nearest_triangle nearest(triangles);
+  const double tolerance = relative_tolerance * internal::diagonal(triangles);
+  std::size_t n = 0;
+  auto hint = nearest.start();
+  for(const auto& p : boundary.points) {
+    const auto query = nearest(p, hint);
+    n += query.distance > tolerance;
+    hint = query.nearest; // vertices in order are near to each other
+  }
+  return n;
+}
+
+/// Number of pairs of triangles of the boundary that intersect other than in a common edge or vertex, by
+/// exact predicates. A degenerate triangle counts as a pair with itself; where the boundary is not a
+/// manifold, what touches counts as well.
+/// \param mesh the mesh. \pre its boundary faces are set, and not empty
+template <class Mesh>
+std::size_t number_of_boundary_self_intersections(const Mesh& mesh)
+{
+  namespace PMP = Polygon_mesh_processing;
+  using Surface = CGAL::Surface_mesh<Predicates_kernel::Point_3>;
+  internal::Triangle_soup soup = internal::boundary_triangles(mesh);
+  PMP::orient_polygon_soup(soup.points, soup.triangles); // duplicates vertices that are not manifold
+  Surface surface;
+  PMP::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, surface);
+  std::vector<std::pair<Surface::Face_index, Surface::Face_index>> pairs;
+  PMP::self_intersections(surface, std::back_inserter(pairs));
+  return pairs.size();
+}
+
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_SURFACE_DISTANCE_H

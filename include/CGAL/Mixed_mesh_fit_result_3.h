@@ -1,0 +1,47 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_FIT_RESULT_3_H
+#define CGAL_MIXED_MESH_FIT_RESULT_3_H
+
+#include <cstddef>
+
+namespace CGAL {
+
+/// How `fit_mixed_mesh_to_surface()` ended: of those that apply the last.
+enum class Mixed_mesh_fit_status {
+  SUCCESS,          ///< the boundary is on the surface, all elements that moved are of acceptable quality
+  CAP_REACHED,      ///< the boundary is on the surface; stiffening did not make all elements acceptable
+  NOT_ALL_ARRIVED,  ///< valid, but boundary vertices stay off the surface: elements would be inverted
+  SOLVER_FAILED,    ///< valid, as far as it went: the solver did not solve a system
+  STOPPED,          ///< valid, as far as it went: the visitor said so
+  INVALID_MESH,     ///< unchanged: an element is inverted, or names a vertex that does not exist
+  EMPTY             ///< unchanged: there is no element
+};
+
+/// What `fit_mixed_mesh_to_surface()` did.
+struct Mixed_mesh_fit_result_3
+{
+  Mixed_mesh_fit_status status = Mixed_mesh_fit_status::EMPTY;
+  std::size_t number_of_boundary_vertices = 0;
+  std::size_t number_of_arrived_vertices = 0;   ///< boundary vertices on the surface
+  std::size_t number_of_frozen_vertices = 0;    ///< held back in the last attempt, lest elements be inverted
+  std::size_t number_of_folded_faces = 0;       ///< boundary faces whose target could not be unfolded
+  std::size_t number_of_solves = 0;             ///< of systems of linear equations
+  std::size_t number_of_halvings = 0;           ///< of steps
+  /// Elements of unacceptable quality among those that moved: stiffened up to the cap, or without an inner
+  /// vertex, or bad from the start and not worse now.
+  std::size_t number_of_unacceptable_elements = 0;
+
+  /// Whether the mesh is valid and all its boundary vertices are on the surface.
+  bool is_on_surface() const
+  {
+    return status == Mixed_mesh_fit_status::SUCCESS || status == Mixed_mesh_fit_status::CAP_REACHED;
+  }
+};
+
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_FIT_RESULT_3_H

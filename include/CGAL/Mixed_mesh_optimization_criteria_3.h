@@ -1,0 +1,95 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_OPTIMIZATION_CRITERIA_3_H
+#define CGAL_MIXED_MESH_OPTIMIZATION_CRITERIA_3_H
+
+#include <CGAL/assertions.h>
+
+#include <cstddef>
+
+namespace CGAL {
+
+/*!
+\brief How a mixed mesh is optimised. Each setter returns the object, so that calls can be chained.
+*/
+class Mixed_mesh_optimization_criteria_3
+{
+public:
+  /// How far the boundary may be from the surface, and the surface from the boundary, in the mesh's unit:
+  /// boundary vertices slide towards places that are farther. 0: vertices are on the surface, and no more is
+  /// asked for. Default: 0. \pre at least 0
+  Mixed_mesh_optimization_criteria_3& tolerance(double distance)
+  {
+    CGAL_precondition(distance >= 0);
+    m_tolerance = distance;
+    return *this;
+  }
+  double tolerance() const { return m_tolerance; }
+
+  /// How often moves and flips alternate. Default: 4; 12 with a tolerance. \pre at least 1
+  Mixed_mesh_optimization_criteria_3& number_of_rounds(int rounds)
+  {
+    CGAL_precondition(rounds > 0);
+    m_number_of_rounds = rounds;
+    return *this;
+  }
+  int number_of_rounds() const
+  {
+    return m_number_of_rounds > 0 ? m_number_of_rounds : m_tolerance > 0 ? 12 : 4;
+  }
+
+  /// Boundary vertices slide on the surface only where an element has a larger cost: free sliding would lose
+  /// volume. Default: 2.25. \pre at least 1
+  Mixed_mesh_optimization_criteria_3& sliding_threshold(double cost)
+  {
+    CGAL_precondition(cost >= 1);
+    m_sliding_threshold = cost;
+    return *this;
+  }
+  double sliding_threshold() const { return m_sliding_threshold; }
+
+  /// Whether tetrahedra may be flipped; else the elements stay the same. Default: yes.
+  Mixed_mesh_optimization_criteria_3& flips(bool allowed)
+  {
+    m_flips = allowed;
+    return *this;
+  }
+  bool flips() const { return m_flips; }
+
+private:
+  double m_tolerance = 0;
+  int m_number_of_rounds = 0;
+  double m_sliding_threshold = 2.25;
+  bool m_flips = true;
+};
+
+/// How `optimize_mixed_mesh_3()` ended. The first that applies, from the bottom up.
+enum class Mixed_mesh_optimization_status {
+  SUCCESS,               ///< the boundary is on the surface, and within the tolerance if there is one
+  TOLERANCE_NOT_REACHED, ///< the boundary vertices are on the surface; it is farther away between them
+  NOT_ALL_ARRIVED,       ///< valid, but boundary vertices stay off the surface: elements would be inverted,
+                         ///< or faces of the boundary would cut each other
+  STOPPED,               ///< valid, as far as it went: the visitor said so
+  INVALID_MESH,          ///< unchanged: an element is inverted, or names a vertex that does not exist
+  EMPTY                  ///< unchanged: there is no element
+};
+
+/// What `optimize_mixed_mesh_3()` did.
+struct Mixed_mesh_optimization_result_3
+{
+  Mixed_mesh_optimization_status status = Mixed_mesh_optimization_status::EMPTY;
+  std::size_t number_of_boundary_vertices = 0;
+  std::size_t number_of_arrived_vertices = 0; ///< boundary vertices on the surface
+  std::size_t number_of_flips = 0;            ///< of tetrahedra
+  bool is_boundary_simple = true;             ///< whether the boundary does not cut itself
+  std::size_t number_of_rounds = 0;
+  /// With a tolerance: the largest distance between boundary and surface, either way, at sample points.
+  double largest_distance = 0;
+};
+
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_OPTIMIZATION_CRITERIA_3_H

@@ -1,0 +1,587 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// fit_mixed_mesh_to_surface() and its stages: the elasticity against linear fields, that it must reproduce;
+// targets; meshes carried onto surfaces that they were made for, and onto others; each way to end.
+//
+//   test_fit [DATA_DIRECTORY]
+
+#include "test_surfaces.h"
+
+#include <CGAL/fit_mixed_mesh_to_surface.h>
+#include <CGAL/make_mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/quality.h>
+#include <CGAL/Mixed_mesh_3/validation.h>
+
+#include <CGAL/Eigen_solver_traits.h>
+#include <CGAL/boost/graph/IO/polygon_mesh_io.h>
+
+#include <boost/core/lightweight_test.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <string>
+#include <vector>
+
+#ifndef MIXED_MESH_3_DATA_DIR
+#define MIXED_MESH_3_DATA_DIR "data"
+#endif
+
+namespace {
+
+using namespace CGAL::Mixed_meshes_3;
+using namespace CGAL::Mixed_meshes_3::internal;
+using CGAL::Everywhere_mixed_mesh_region_3;
+using CGAL::Mixed_mesh_criteria_3;
+using CGAL::Mixed_mesh_fit_criteria_3;
+using CGAL::Mixed_mesh_fit_result_3;
+using CGAL::Polyhedral_mixed_mesh_domain_3;
+using CGAL::fit_mixed_mesh_to_surface;
+using Status = CGAL::Mixed_mesh_fit_status;
+
+using Mesh = CGAL::Mixed_mesh_3<Test_kernel>;
+
+// ---- helpers -----------------------------------------------------------------------------------
+
+// Numbers in [-1,1], the same everywhere.
+class Noise
+{
+  std::uint32_t m_state = 1;
+
+public:
+  double operator()()
+  {
+    m_state = m_state * 1664525u + 1013904223u;
+    return double(m_state >> 8) / double(1 << 23) - 1;
+  }
+};
+
+// n^3 cells in [0,1]^3, of elements of one kind; vertices moved by up to `noise` cells.
+Mesh grid(int n, Element_kind kind, double noise = 0)
+{
+  Mesh mesh;
+  Noise random;
+  const auto add_vertex = [&](double x, double y, double z) {
+    const double dx = noise * random(), dy = noise * random(), dz = noise * random(); // in this order
+    return mesh.add_vertex({(x + dx) / n, (y + dy) / n, (z + dz) / n});
+  };
+  for(int z = 0; z <= n; ++z)
+    for(int y = 0; y <= n; ++y)
+      for(int x = 0; x <= n; ++x)
+        add_vertex(x, y, z);
+  const auto vertex = [&](int x, int y, int z) { return Vertex_index(x + (n + 1) * (y + (n + 1) * z)); };
+  for(int z = 0; z < n; ++z)
+    for(int y = 0; y < n; ++y)
+      for(int x = 0; x < n; ++x) {
+        std::array<Vertex_index, 8> v{};
+        for(int i = 0; i < 8; ++i) {
+          const auto& c = reference_elements[HEXAHEDRON].coordinates[i];
+          v[i] = vertex(x + (c[0] + 1) / 2, y + (c[1] + 1) / 2, z + (c[2] + 1) / 2);
+        }
+        if(kind == HEXAHEDRON) {
+          mesh.add_element(kind, v);
+        } else if(kind == PRISM) {
+          mesh.add_element(kind, {v[0], v[1], v[2], v[4], v[5], v[6]});
+          mesh.add_element(kind, {v[0], v[2], v[3], v[4], v[6], v[7]});
+        } else if(kind == PYRAMID) {
+          const Vertex_index centre = add_vertex(x + 0.5, y + 0.5, z + 0.5);
+          for(const Element_face& f : reference_elements[HEXAHEDRON].faces) // seen from inside: reversed
+            mesh.add_element(kind,
+                             {v[f.vertices[3]], v[f.vertices[2]], v[f.vertices[1]], v[f.vertices[0]], centre});
+        } else { // around the diagonal, the same in each cell
+          static constexpr int path[6][2] = {{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}};
+          for(const auto& p : path)
+            mesh.add_element(kind, {v[0], v[p[0]], v[p[1]], v[6]});
+        }
+      }
+  return mesh;
+}
+
+Vec3 position(const Mesh& mesh, Vertex_index v) { return to_vec3(mesh.point(v)); }
+
+std::vector<Vec3> positions(const Mesh& mesh)
+{
+  std::vector<Vec3> p;
+  for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
+    p.push_back(position(mesh, v));
+  return p;
+}
+
+std::vector<bool> is_on_boundary(const Mesh& mesh)
+{
+  std::vector<bool> result(mesh.number_of_vertices());
+  for(const Boundary_polygon& p : boundary_polygons(mesh))
+    for(int i = 0; i < p.size; ++i)
+      result[p.vertices[i]] = true;
+  return result;
+}
+
+template <class F>
+Test_surface mapped(const Test_surface& surface, const F& f)
+{
+  Test_surface result = surface;
+  for(auto v : result.vertices())
+    result.point(v) = f(surface.point(v));
+  return result;
+}
+
+Test_surface sphere(const Test_point& centre, double radius, int n)
+{
+  Test_surface s;
+  add_sphere(s, centre, radius, n);
+  return s;
+}
+
+Test_surface box(const Test_point& a, const Test_point& b)
+{
+  Test_surface s;
+  add_box(s, a, b);
+  return s;
+}
+
+double diagonal(const Test_surface& s)
+{
+  CGAL::Bbox_3 b;
+  for(auto v : s.vertices())
+    b += s.point(v).bbox();
+  return norm(Vec3{b.x_span(), b.y_span(), b.z_span()});
+}
+
+// Without the tree.
+double distance(const Test_point& p, const Test_surface& s)
+{
+  double d = std::numeric_limits<double>::infinity();
+  for(auto f : s.faces()) {
+    std::vector<Test_point> t;
+    for(auto v : vertices_around_face(s.halfedge(f), s))
+      t.push_back(s.point(v));
+    d = (std::min)(d, CGAL::squared_distance(p, Test_kernel::Triangle_3(t[0], t[1], t[2])));
+  }
+  return std::sqrt(d);
+}
+
+// What holds for any input.
+void check(const Mesh& mesh, const Mesh& before, const Test_surface& surface,
+           const Mixed_mesh_fit_result_3& result)
+{
+  BOOST_TEST(find_defects(mesh).positive());
+  BOOST_TEST(mesh.elements().connectivity() == before.elements().connectivity());
+  const std::vector<bool> is_boundary = is_on_boundary(mesh);
+  std::size_t boundary = 0, arrived = 0;
+  for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
+    if(is_boundary[v]) {
+      ++boundary;
+      arrived += distance(mesh.point(v), surface) <= 1e-9 * diagonal(surface);
+    }
+  BOOST_TEST_EQ(boundary, result.number_of_boundary_vertices);
+  BOOST_TEST_LE(result.number_of_arrived_vertices, arrived);
+  BOOST_TEST_EQ(result.is_on_surface(), result.number_of_arrived_vertices == boundary);
+  BOOST_TEST_EQ(result.status == Status::CAP_REACHED,
+                result.is_on_surface() && result.number_of_unacceptable_elements != 0);
+}
+
+// Fits, checks, says what came out.
+Mixed_mesh_fit_result_3 fit(const char* what, Mesh& mesh, const Test_surface& surface,
+                            const Mixed_mesh_fit_criteria_3& criteria = Mixed_mesh_fit_criteria_3())
+{
+  const Mesh before = mesh;
+  const Mixed_mesh_fit_result_3 result =
+    fit_mixed_mesh_to_surface(mesh, Polyhedral_mixed_mesh_domain_3(surface), criteria);
+  check(mesh, before, surface, result);
+  const auto arc = quality_statistics(mesh)[number_of_element_kinds];
+  std::cout << what << ": status " << int(result.status) << ", " << result.number_of_arrived_vertices << " of "
+            << result.number_of_boundary_vertices << " arrived, " << result.number_of_folded_faces << " folded, "
+            << result.number_of_solves << " solves, " << result.number_of_halvings << " halvings, ARC mean "
+            << arc.mean << ", at most " << arc.maximum << '\n';
+  return result;
+}
+
+// ---- elasticity --------------------------------------------------------------------------------
+
+constexpr Elastic_material soft{1, 0.45};
+
+Vec3 linear_field(const Vec3& p)
+{
+  return {0.1 + 0.3 * p[0] - 0.2 * p[1], -0.2 + 0.5 * p[2] + 0.1 * p[1], 0.4 * p[0] - 0.1 * p[2]};
+}
+
+Vec3 rotation(const Vec3& p) { return Vec3{0.3, 0.1, -0.2} + cross(Vec3{0.2, -0.5, 0.7}, p); }
+
+// Solves for the inner nodes with the field prescribed on the boundary.
+template <class Solver>
+double error_of_field(const Mesh& mesh, Vec3 (*field)(const Vec3&), Solver solver)
+{
+  const std::vector<bool> is_boundary = is_on_boundary(mesh);
+  std::vector<bool> is_free = is_boundary;
+  is_free.flip();
+  std::vector<Vec3> u;
+  for(const Vec3& p : positions(mesh))
+    u.push_back(field(p));
+  Elasticity_system system(mesh.elements(), is_free);
+  BOOST_TEST(system.number_of_unknowns() > 0);
+  for(Element_index e : system.active_elements())
+    system.add(e, soft, positions(mesh), u);
+  const auto matrix = make_matrix<typename Solver::Matrix>(system);
+  const std::size_t n = std::size_t(system.number_of_unknowns());
+  typename Solver::Vector b(n), x(n);
+  for(int i = 0; i < system.number_of_unknowns(); ++i)
+    b[i] = system.right_hand_side()[i];
+  double denominator;
+  BOOST_TEST(solver.factor(matrix, denominator));
+  BOOST_TEST(solver.linear_solver(b, x));
+  double error = 0;
+  for(std::size_t i = 0; i < system.free_vertices().size(); ++i)
+    for(int k = 0; k < 3; ++k)
+      error = (std::max)(error, std::abs(x[int(3 * i) + k] - u[system.free_vertices()[i]][k]));
+  return error;
+}
+
+void test_elasticity()
+{
+  for(Element_kind kind : element_kinds) {
+    const Mesh mesh = grid(3, kind, 0.15);
+    BOOST_TEST(find_defects(mesh).positive());
+    BOOST_TEST_LT(error_of_field(mesh, linear_field, Simplicial_solver_traits()), 1e-12);
+
+    // Quadrature gives the volume; rigid motions no force, others some energy.
+    const Element_view element = mesh.element(0);
+    std::array<Vec3, 8> p{};
+    for(int i = 0; i < element.size(); ++i)
+      p[i] = position(mesh, element[i]);
+    double sum = 0;
+    for(int q = 0; q < quadrature_rule(kind).number_of_points; ++q)
+      sum += strain_operator(kind, p, q).volume;
+    BOOST_TEST_LT(std::abs(sum - CGAL::Mixed_meshes_3::volume(mesh, 0)), 1e-14);
+    Element_stiffness stiffness;
+    compute_element_stiffness(kind, p, soft, stiffness);
+    double rigid = 0, energy = 0;
+    for(int a = 0; a < element.size(); ++a) {
+      Vec3 force{}, force_of_field{};
+      for(int b = 0; b < element.size(); ++b)
+        for(int i = 0; i < 3; ++i)
+          for(int j = 0; j < 3; ++j) {
+            const double k = b <= a ? stiffness[a][b][i][j] : stiffness[b][a][j][i];
+            force[i] += k * rotation(p[b])[j];
+            force_of_field[i] += k * linear_field(p[b])[j];
+          }
+      rigid = (std::max)(rigid, norm(force));
+      energy += dot(force_of_field, linear_field(p[a]));
+    }
+    BOOST_TEST_LT(rigid, 1e-14);
+    // of a constant strain: volume times stress times strain
+    const double trace = 0.3 + 0.1 - 0.1, strain_squared = 0.09 + 0.01 + 0.01 + (0.04 + 0.16 + 0.25) / 2;
+    const double expected = sum * (soft.lambda() * trace * trace + 2 * soft.mu() * strain_squared);
+    BOOST_TEST_LT(std::abs(energy - expected), 1e-12 * expected);
+  }
+}
+
+// ---- solvers -----------------------------------------------------------------------------------
+
+using Eigen_matrix = Eigen::SparseMatrix<double>;
+using Cgal_solver = CGAL::Eigen_solver_traits<Eigen::SimplicialLDLT<Eigen_matrix>>;
+
+template <class Solver>
+Mesh fitted_with(Solver solver, const Mesh& source, const Test_surface& surface)
+{
+  Mesh mesh = source;
+  const auto result =
+    fit_mixed_mesh_to_surface(mesh, surface, CGAL::parameters::sparse_linear_solver(std::ref(solver)));
+  check(mesh, source, surface, result);
+  return mesh;
+}
+
+double difference(const Mesh& a, const Mesh& b)
+{
+  double d = 0;
+  for(Vertex_index v = 0; v < a.number_of_vertices(); ++v)
+    d = (std::max)(d, norm(position(a, v) - position(b, v)));
+  return d;
+}
+
+void test_solvers()
+{
+  const Mesh mesh = grid(4, HEXAHEDRON, 0.1);
+  const Test_surface ball = sphere({0.5, 0.5, 0.5}, 0.6, 12);
+  const Mesh expected = fitted_with(Simplicial_solver_traits(), mesh, ball);
+  Conjugate_gradient_solver_traits gradients;
+  gradients.solver().setTolerance(1e-12);
+  BOOST_TEST_LT(difference(fitted_with(gradients, mesh, ball), expected), 1e-9);
+  BOOST_TEST_LT(difference(fitted_with(Cgal_solver(), mesh, ball), expected), 1e-9);
+#ifdef CGAL_MIXED_MESH_3_USE_CHOLMOD
+  BOOST_TEST_LT(difference(fitted_with(Cholmod_solver_traits(), mesh, ball), expected), 1e-9);
+#endif
+  // The default is less exact, but boundary vertices are where they are with all others.
+  Mesh by_default = mesh;
+  fit_mixed_mesh_to_surface(by_default, ball);
+  BOOST_TEST_LT(difference(by_default, expected), 1e-2);
+  const std::vector<bool> is_boundary = is_on_boundary(mesh);
+  for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
+    if(is_boundary[v])
+      BOOST_TEST(position(by_default, v) == position(expected, v));
+
+  // The solver by itself, with another matrix of the same pattern, and one of another.
+  Simplicial_solver_traits solver;
+  for(double diagonal : {2., 4., 3.}) {
+    Simplicial_solver_traits::Matrix matrix(2);
+    matrix.set_coef(0, 0, diagonal, true);
+    matrix.set_coef(1, 1, diagonal, true);
+    if(diagonal == 3)
+      matrix.set_coef(1, 0, 1, true);
+    Simplicial_solver_traits::Vector b(2), x(2);
+    b[0] = b[1] = 12;
+    double denominator;
+    BOOST_TEST(solver.linear_solver(matrix, b, x, denominator));
+    BOOST_TEST_LT(std::abs(x[0] - (diagonal == 3 ? 3 : 12 / diagonal)), 1e-14);
+    BOOST_TEST_LT(std::abs(x[1] - x[0]), 1e-14);
+  }
+}
+
+// ---- targets -----------------------------------------------------------------------------------
+
+// Faces below a quality if vertices go to the closest points of the surface, and if they go to their targets.
+struct Folded_faces
+{
+  std::size_t before, after;
+};
+
+Folded_faces folded_faces(const Mesh& mesh, const Test_surface& surface, double quality)
+{
+  const Polyhedral_mixed_mesh_domain_3 domain(surface);
+  std::vector<Boundary_polygon> polygons = boundary_polygons(mesh);
+  const Surface_targets targets = surface_targets(polygons, positions(mesh), domain);
+  std::vector<Vec3> sources, closest;
+  std::vector<Vertex_index> numbers(mesh.number_of_vertices());
+  for(std::size_t i = 0; i < targets.vertices.size(); ++i) {
+    const Vertex_index v = targets.vertices[i];
+    numbers[v] = Vertex_index(i);
+    sources.push_back(position(mesh, v));
+    closest.push_back(to_vec3(domain.closest_point(mesh.point(v))));
+    const Vec3& t = targets.positions[i];
+    BOOST_TEST_LT(distance({t[0], t[1], t[2]}, surface), 1e-9 * diagonal(surface));
+  }
+  for(Boundary_polygon& p : polygons)
+    for(int i = 0; i < p.size; ++i)
+      p.vertices[i] = numbers[p.vertices[i]];
+  const Boundary_folds folds(polygons, sources);
+  std::vector<std::uint8_t> is_folded(sources.size());
+  BOOST_TEST_EQ(folds.find(targets.positions, 0, is_folded), targets.number_of_folded_faces);
+  const Folded_faces result{folds.find(closest, quality, is_folded),
+                            folds.find(targets.positions, quality, is_folded)};
+  std::cout << "faces of quality below " << quality << ": " << result.before << ", then " << result.after << '\n';
+  return result;
+}
+
+// ---- meshes and surfaces -----------------------------------------------------------------------
+
+Mesh mesh_of(const Test_surface& surface, std::size_t budget)
+{
+  Mesh mesh;
+  CGAL::make_mixed_mesh_3(Polyhedral_mixed_mesh_domain_3(surface), Everywhere_mixed_mesh_region_3(),
+                          Mixed_mesh_criteria_3(budget), mesh);
+  BOOST_TEST(!mesh.is_empty());
+  return mesh;
+}
+
+Test_surface bent_ellipsoid()
+{
+  return mapped(sphere({0, 0, 0}, 1, 16), [](const Test_point& p) {
+    return Test_point(1.3 * p.x(), 0.7 * p.y() + 0.35 * p.x() * p.x(), 0.85 * p.z());
+  });
+}
+
+void test_other_surfaces(const Test_surface& brain)
+{
+  const Mesh ball = mesh_of(sphere({0, 0, 0}, 1, 16), 700);
+  Mesh mesh = ball;
+  BOOST_TEST(fit("ball to itself", mesh, sphere({0, 0, 0}, 1, 16)).status == Status::SUCCESS);
+  mesh = ball;
+  BOOST_TEST(fit("ball to bent ellipsoid", mesh, bent_ellipsoid()).is_on_surface());
+  mesh = ball;
+  BOOST_TEST(fit("ball to box", mesh, box({-1, -0.8, -0.7}, {0.9, 0.8, 0.8})).is_on_surface());
+  // a mesh of another head: the brain, smoother and larger
+  CGAL::Bbox_3 b;
+  for(auto v : brain.vertices())
+    b += brain.point(v).bbox();
+  const Test_surface scaled_brain = mapped(brain, [&](const Test_point& p) {
+    return Test_point(2 * (p.x() - (b.xmin)()) / b.x_span() - 1, 2 * (p.y() - (b.ymin)()) / b.y_span() - 1,
+                      2 * (p.z() - (b.zmin)()) / b.z_span() - 1);
+  });
+  mesh = ball;
+  BOOST_TEST(fit("ball to brain", mesh, scaled_brain).is_on_surface());
+  // closest points fold, targets do not
+  for(const Test_surface& surface : {scaled_brain, box({-1, -0.8, -0.7}, {0.9, 0.8, 0.8})}) {
+    const Folded_faces folded = folded_faces(ball, surface, 0);
+    BOOST_TEST(folded.before > 0);
+    BOOST_TEST_EQ(folded.after, 0u);
+  }
+
+  // Quadrilateral boundary faces, and no list of them.
+  for(Element_kind kind : element_kinds) {
+    mesh = grid(5, kind);
+    BOOST_TEST(mesh.boundary_faces().empty());
+    const std::string what = std::string("grid of ") + reference_elements[kind].plural;
+    const Test_surface larger_box = box({-0.1, -0.05, -0.1}, {1.1, 1.05, 1.2});
+    BOOST_TEST(fit((what + " to box").c_str(), mesh, larger_box).is_on_surface());
+    mesh = grid(5, kind);
+    // at the cube's edges two of the three vertices around a corner of a pyramid's base pass the third
+    BOOST_TEST_EQ(fit((what + " to ball").c_str(), mesh, sphere({0.5, 0.5, 0.5}, 0.7, 32)).is_on_surface(),
+                  kind != PYRAMID);
+  }
+}
+
+// ---- each way to end ---------------------------------------------------------------------------
+
+struct Stop_after : Default_visitor
+{
+  int questions;
+  explicit Stop_after(int n) : questions(n) {}
+  bool go_on() { return --questions >= 0; }
+};
+
+// Solves so many systems, then no more.
+struct Failing_solver : Simplicial_solver_traits
+{
+  int solves = 1;
+  bool factor(const Matrix& matrix, double& denominator)
+  {
+    return --solves >= 0 && Simplicial_solver_traits::factor(matrix, denominator);
+  }
+};
+
+void test_statuses()
+{
+  const Test_surface ball = sphere({0.5, 0.5, 0.5}, 0.7, 12);
+  const Mesh cubes = grid(4, HEXAHEDRON);
+  Mesh mesh = cubes;
+  BOOST_TEST(fit("success", mesh, ball).status == Status::SUCCESS);
+
+  mesh = cubes;
+  const auto strict = Mixed_mesh_fit_criteria_3().acceptable_aspect_ratio(1.05).maximal_stiffness(8);
+  const Mixed_mesh_fit_result_3 capped = fit("cap", mesh, ball, strict);
+  BOOST_TEST(capped.status == Status::CAP_REACHED);
+  BOOST_TEST(capped.number_of_unacceptable_elements > 0);
+
+  // A single tetrahedron over a plane has nowhere to go; it stays as it is, or at least not flat.
+  mesh.clear();
+  for(const Test_point& p : {Test_point(0, 0, 1.1), {0.3, 0, 1.1}, {0, 0.3, 1.1}, {0, 0, 1.4}})
+    mesh.add_vertex(p);
+  mesh.add_element(TETRAHEDRON, {0, 1, 2, 3});
+  const Mixed_mesh_fit_result_3 flat = fit("tetrahedron to plane", mesh, box({-9, -9, -9}, {9, 9, 1}));
+  BOOST_TEST(flat.status == Status::NOT_ALL_ARRIVED);
+  BOOST_TEST(flat.number_of_frozen_vertices > 0);
+  BOOST_TEST(flat.number_of_halvings > 0);
+
+  mesh = cubes;
+  Stop_after visitor(2);
+  auto result = fit_mixed_mesh_to_surface(mesh, ball, CGAL::parameters::visitor(std::ref(visitor)));
+  BOOST_TEST(result.status == Status::STOPPED);
+  BOOST_TEST_EQ(result.number_of_solves, 2u);
+  BOOST_TEST(difference(mesh, cubes) > 0); // half of the way
+  check(mesh, cubes, ball, result);
+
+  mesh = cubes;
+  Failing_solver solver;
+  result = fit_mixed_mesh_to_surface(mesh, ball, CGAL::parameters::sparse_linear_solver(std::ref(solver)));
+  BOOST_TEST(result.status == Status::SOLVER_FAILED);
+  check(mesh, cubes, ball, result);
+
+  for(double bad : {1., std::numeric_limits<double>::quiet_NaN()}) {
+    mesh = cubes;
+    mesh.points()[0] = Test_point(bad, bad, bad);
+    BOOST_TEST(fit_mixed_mesh_to_surface(mesh, ball).status == Status::INVALID_MESH);
+    BOOST_TEST_EQ(difference(mesh, cubes) > 0, bad == 1); // nothing else has changed
+  }
+  mesh.clear();
+  mesh.add_vertex({0, 0, 0});
+  BOOST_TEST(fit_mixed_mesh_to_surface(mesh, ball).status == Status::EMPTY);
+  mesh.add_element(TETRAHEDRON, {0, 1, 2, 3});
+  BOOST_TEST(fit_mixed_mesh_to_surface(mesh, ball).status == Status::INVALID_MESH);
+}
+
+// ---- options, repetition -----------------------------------------------------------------------
+
+void test_criteria()
+{
+  const Test_surface ball = sphere({0.5, 0.5, 0.5}, 0.7, 32);
+  const Mesh cubes = grid(8, HEXAHEDRON);
+  const auto number_of_moved = [&](const Mesh& mesh) {
+    std::size_t n = 0;
+    for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
+      n += position(mesh, v) != position(cubes, v);
+    return n;
+  };
+  for(int layers : {0, 1, 2, 3}) { // each as a cube of cubes less two on each side
+    Mesh mesh = cubes;
+    const auto result = fit("layers", mesh, ball, Mixed_mesh_fit_criteria_3().number_of_layers(layers));
+    const std::size_t inner = std::size_t(7 - 2 * layers);
+    BOOST_TEST_LE(number_of_moved(mesh), 729 - inner * inner * inner);
+    BOOST_TEST(layers < 2 || result.is_on_surface());
+  }
+  for(int steps : {1, 3, 10}) {
+    Mesh mesh = cubes;
+    const auto result = fit("steps", mesh, ball, Mixed_mesh_fit_criteria_3().number_of_steps(steps));
+    BOOST_TEST_LE(std::size_t(steps), result.number_of_solves);
+    BOOST_TEST(result.is_on_surface());
+  }
+  // the same again; far from the origin and in another unit nearly so, if no two points are equally close
+  const Test_surface other_ball = sphere({0.47, 0.52, 0.51}, 0.7, 32);
+  Mesh first = cubes, second = cubes, other = cubes;
+  fit("first", first, other_ball);
+  fit("second", second, other_ball);
+  BOOST_TEST_EQ(difference(first, second), 0);
+  const auto far = [](const Test_point& p) {
+    return Test_point(1e6 + 1000 * p.x(), 1000 * p.y() - 1e6, 1000 * p.z());
+  };
+  for(Test_point& p : other.points())
+    p = far(p);
+  fit("far", other, mapped(other_ball, far));
+  for(Test_point& p : first.points())
+    p = far(p);
+  BOOST_TEST_LT(difference(first, other), 1e-3);
+}
+
+// ---- the brain ---------------------------------------------------------------------------------
+
+void test_brain(const Mesh& source, const Test_surface& brain)
+{
+  const Folded_faces folded = folded_faces(source, brain, Boundary_folds::least_quality);
+  BOOST_TEST(folded.before > 0);
+  BOOST_TEST_EQ(folded.after, 0u);
+  Mesh mesh = source;
+  const Mixed_mesh_fit_result_3 result = fit("brain", mesh, brain);
+  BOOST_TEST(result.status == Status::SUCCESS);
+  const auto rows = quality_statistics(mesh);
+  BOOST_TEST_LE(rows[number_of_element_kinds].mean, 1.66);
+  BOOST_TEST_LE(rows[number_of_element_kinds].maximum, 7);
+  BOOST_TEST_LE(rows[TETRAHEDRON].mean, 1.8);
+  BOOST_TEST(find_defects(mesh).none());
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  const std::string data = argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR;
+  Test_surface brain, region;
+  BOOST_TEST(CGAL::IO::read_polygon_mesh(data + "/brain.off", brain));
+  BOOST_TEST(CGAL::IO::read_polygon_mesh(data + "/region.off", region));
+  Mesh mesh;
+  CGAL::make_mixed_mesh_3(brain, region, 660, mesh);
+
+  test_elasticity();
+  test_solvers();
+  test_brain(mesh, brain);
+  test_other_surfaces(brain);
+  test_statuses();
+  test_criteria();
+  return boost::report_errors();
+}
