@@ -19,9 +19,9 @@ enum class Mixed_mesh_status {
   SUCCESS,            ///< the budget is filled to at least 97 %, and the boundary is where it should be
   BUDGET_NOT_FILLED,  ///< valid, but below 97 %: each cell tried would exceed the budget
   TOLERANCE_NOT_REACHED, ///< valid, on the surface, but farther from it between vertices than the tolerance
+  PARTS_LOST,         ///< valid, but parts of the domain thinner than a cell are not meshed
   NOT_ALL_ARRIVED,    ///< valid, but some boundary vertices stay off the surface: elements would be inverted,
                       ///< or faces of the boundary would cut each other
-  PARTS_LOST,         ///< valid, but parts of the domain thinner than a cell are not meshed
   BUDGET_TOO_SMALL,   ///< no mesh: the coarsest one has more vertices than the budget
   EMPTY,              ///< no mesh: no octree vertex is inside the domain
   REGION_NOT_MET,     ///< no mesh: the region does not meet the domain

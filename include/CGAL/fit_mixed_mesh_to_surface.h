@@ -29,9 +29,9 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /// Targets, and Algorithm 1; vertices that stay behind get new targets, those nearest to where they have come.
-template <class Domain, class Mesh, class Solver, class Go_on>
-Mixed_mesh_fit_result_3 fit(Mesh& mesh, const Domain& domain, const Mixed_mesh_fit_criteria_3& criteria,
-                            Solver& solver, const Go_on& go_on)
+template <class Domain, class Mesh, class Quality, class Solver, class Go_on>
+Mixed_mesh_fit_result_3 fit(Mesh& mesh, const Domain& domain, const Quality& quality,
+                            const Mixed_mesh_fit_criteria_3& criteria, Solver& solver, const Go_on& go_on)
 {
   constexpr int maximal_number_of_attempts = 3;
   Mixed_mesh_fit_result_3 result;
@@ -46,7 +46,6 @@ Mixed_mesh_fit_result_3 fit(Mesh& mesh, const Domain& domain, const Mixed_mesh_f
   for(const auto& p : mesh.points())
     points.push_back(to_vec3(p));
   const std::vector<Boundary_polygon> boundary = boundary_polygons(mesh);
-  const Aspect_ratio_bound quality(criteria.acceptable_aspect_ratio());
   for(int attempt = 0; attempt < maximal_number_of_attempts; ++attempt) {
     const Surface_targets targets = surface_targets(boundary, points, domain);
     Surface_relaxation relaxation(mesh.elements(), targets, criteria, quality, solver, go_on, points);
@@ -77,8 +76,11 @@ mesh.
 
 \tparam Domain has `closest_point(p)` and `closest_point(p, hint)` as `Polyhedral_mixed_mesh_domain_3`
 \tparam GeomTraits a model of `MixedMeshTraits_3`
+\tparam Quality a model of `MixedMeshQuality_3`; its gradients are not used
 \param mesh its points are changed
 \param domain its surface is where the boundary goes
+\param quality elements of a cost that is not acceptable are stiffened; `acceptable_aspect_ratio()` of the
+       criteria is not used
 \param criteria how to get there
 \param np an optional sequence of named parameters:
        - `visitor(std::ref(v))` with `v` a model of `MixedMeshVisitor_3`, asked `go_on()` before each solve
@@ -89,8 +91,10 @@ mesh.
 \cost a linear system with three unknowns for each vertex that moves inside, in each step and each time that
       elements are stiffened
 */
-template <class Domain, class GeomTraits, class NamedParameters = parameters::Default_named_parameters>
+template <class Domain, class GeomTraits, class Quality,
+          class NamedParameters = parameters::Default_named_parameters>
 Mixed_mesh_fit_result_3 fit_mixed_mesh_to_surface(Mixed_mesh_3<GeomTraits>& mesh, const Domain& domain,
+                                                 const Quality& quality,
                                                  const Mixed_mesh_fit_criteria_3& criteria,
                                                  const NamedParameters& np = parameters::default_values())
 {
@@ -107,7 +111,17 @@ Mixed_mesh_fit_result_3 fit_mixed_mesh_to_surface(Mixed_mesh_3<GeomTraits>& mesh
   default_solver.solver().setTolerance(1e-3); // inner vertices need no more
   Solver solver = parameters::choose_parameter(
     parameters::get_parameter_reference(np, internal_np::sparse_linear_solver), default_solver);
-  return Mixed_meshes_3::internal::fit(mesh, domain, criteria, solver, [&] { return visitor.go_on(); });
+  return Mixed_meshes_3::internal::fit(mesh, domain, quality, criteria, solver, [&] { return visitor.go_on(); });
+}
+
+/// As above, with the paper's aspect-ratio coefficient, acceptable up to `acceptable_aspect_ratio()`.
+template <class Domain, class GeomTraits, class NamedParameters = parameters::Default_named_parameters>
+Mixed_mesh_fit_result_3 fit_mixed_mesh_to_surface(Mixed_mesh_3<GeomTraits>& mesh, const Domain& domain,
+                                                 const Mixed_mesh_fit_criteria_3& criteria,
+                                                 const NamedParameters& np = parameters::default_values())
+{
+  const Mixed_meshes_3::internal::Aspect_ratio_bound quality(criteria.acceptable_aspect_ratio());
+  return fit_mixed_mesh_to_surface(mesh, domain, quality, criteria, np);
 }
 
 /*!

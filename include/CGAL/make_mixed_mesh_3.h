@@ -113,21 +113,36 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
   // Of the roots that leave most vertices to the region, the one whose mesh is within the tolerance with most
   // vertices in the region, else nearest to it.
   Mixed_mesh_3<GeomTraits> trial;
+  bool is_stopped = false;
   const std::vector<Bbox_3> roots = place::best_roots(
     place::candidate_roots(domain.bbox()), place::vertices_to_compare_roots / budget + 1,
-    [&](const Bbox_3& root) {
+    [&](const Bbox_3& root) -> std::size_t {
+      if(is_stopped)
+        return 0;
       const Mixed_mesh_result_3 result =
         make(root, Mixed_mesh_criteria_3(criteria).tolerance(0).fit_to_surface(false), trial);
+      is_stopped = result.status == Mixed_mesh_status::STOPPED;
       return result.has_mesh() ? result.number_of_vertices_in_region : 0;
     });
-  Mixed_mesh_result_3 best = make(roots.front(), criteria, mesh);
+  if(is_stopped) {
+    mesh.clear();
+    Mixed_mesh_result_3 result;
+    result.status = Mixed_mesh_status::STOPPED;
+    return result;
+  }
+  const Mixed_mesh_criteria_3 fitted = Mixed_mesh_criteria_3(criteria).fit_to_surface(true);
+  Mixed_mesh_result_3 best = make(roots.front(), fitted, mesh);
+  Bbox_3 best_root = roots.front();
   for(std::size_t i = 1; i < roots.size() && best.status != Mixed_mesh_status::STOPPED; ++i) {
-    const Mixed_mesh_result_3 result = make(roots[i], criteria, trial);
+    const Mixed_mesh_result_3 result = make(roots[i], fitted, trial);
     if(result.status == Mixed_mesh_status::STOPPED || place::is_better(result, best, criteria.tolerance())) {
       best = result;
+      best_root = roots[i];
       std::swap(mesh, trial);
     }
   }
+  if(!criteria.fit_to_surface() && best.has_mesh())
+    return make(best_root, criteria, mesh);
   return best;
 }
 

@@ -19,7 +19,7 @@
 namespace CGAL {
 
 /*!
-\brief Improves the elements of a mixed mesh by moving vertices and flipping tetrahedra, its boundary on a surface.
+\brief Brings the boundary of a mixed mesh onto a surface, moves vertices and flips tetrahedra to improve elements.
 
 Boundary vertices that are not on the surface yet are brought there, each as far at a time as its elements
 allow, while inner vertices give way. Then, in turns, each vertex descends on the sum of the powers (4, later
@@ -30,8 +30,9 @@ the improvement of slivers that the paper announces (Lobos, Bucki, Hitschfeld, P
 
 Guarantees: if the mesh was valid, it is valid after each move and in the end (the Jacobian of each element is
 proved positive on the whole element, on the coordinates as they are); boundary vertices counted in
-`number_of_arrived_vertices` are on the surface up to the rounding of `double`; hexahedra, prisms, pyramids
-and the boundary's faces stay, and no vertex is added; the same input gives the same mesh.
+`number_of_arrived_vertices` are on the surface up to the rounding of `double`; the boundary does not cut itself
+unless `is_boundary_simple` says so; hexahedra, prisms and pyramids stay, no vertex is added or removed, and
+the boundary's faces stay but where a flat tetrahedron on it is removed; the same input gives the same mesh.
 
 \tparam GeomTraits a model of `MixedMeshTraits_3`
 \tparam Domain has `closest_point(p)`, `closest_point(p, hint)` and `surface_samples(spacing)` as

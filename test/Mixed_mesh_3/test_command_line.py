@@ -197,7 +197,7 @@ class CommandLine(unittest.TestCase):
                 self.assertTrue(all(told["checks"].values()))
                 self.assertGreaterEqual(told["mesh"]["vertices"], 0.97 * 2000)
                 volume = told["inputs"]["surface"]["volume"]
-                self.assertGreater(told["mesh"]["volume"], 0.95 * volume)
+                self.assertGreater(told["mesh"]["volume"], 0.93 * volume)  # two cubes lose most, at edges
                 self.assertLess(told["mesh"]["volume"], 1.05 * volume)
                 self.assertEqual(told["surface"]["boundary vertices not on surface"], 0)
 
@@ -364,14 +364,15 @@ class CommandLine(unittest.TestCase):
             self.assertRegex(run.stderr, "built without (CHOLMOD|Eigen)")
 
     def test_same_bytes(self):
-        for arguments in ([], ["--no-optimize"], ["--tolerance", 8], ["--no-fit"]):
+        for arguments in ([], ["--no-optimize"], ["--tolerance", 12], ["--no-fit"]):
             if arguments == ["--no-optimize"] and self.mesher(self.good, "--vertices", 100, *arguments).returncode:
                 continue  # built without Eigen
             hashes = set()
             for i, threads in enumerate((1, 5) if "--tolerance" in arguments else (1, 1, 1, 2, 5)):
                 path = WORK / f"{i}.vtu"
-                run = self.mesher(DATA / "brain.off", "--region", DATA / "region.off", "--vertices", 660,
-                                  *arguments, "--threads", threads, "--output", path)
+                run = self.mesher(DATA / "brain.off", "--region", DATA / "region.off", "--vertices",
+                                  300 if "--tolerance" in arguments else 660, *arguments, "--threads", threads,
+                                  "--output", path)
                 self.assertEqual(run.returncode, 0, run.stderr)
                 hashes.add(hashlib.sha256(path.read_bytes()).hexdigest())
             self.assertEqual(len(hashes), 1, arguments)

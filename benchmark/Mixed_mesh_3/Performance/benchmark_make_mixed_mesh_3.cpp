@@ -5,7 +5,9 @@
 //
 // One run of the mesher without files: from surfaces in memory to a checked mesh. Prints a line of JSON.
 //
-//   benchmark_make_mixed_mesh_3 SURFACE.off REGION.off VERTICES [THREADS]
+//   benchmark_make_mixed_mesh_3 SURFACE.off REGION.off VERTICES [THREADS [optimize|relax|none]]
+//
+// The boundary gets onto the surface by the optimisation, by Algorithm 1 alone, or not at all.
 
 #include "Stage_log.h"
 
@@ -14,6 +16,7 @@
 #include <CGAL/Mixed_mesh_3/validation.h>
 #include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/fit_mixed_mesh_to_surface.h>
 #include <CGAL/make_mixed_mesh_3.h>
 
 #include <nlohmann/json.hpp>
@@ -32,11 +35,13 @@ int main(int argc, char** argv)
   Surface surface, region_surface;
   if(argc < 4 || !PMP::IO::read_polygon_mesh(argv[1], surface)
      || !PMP::IO::read_polygon_mesh(argv[2], region_surface)) {
-    std::cerr << "usage: benchmark_make_mixed_mesh_3 SURFACE REGION VERTICES [THREADS]\n";
+    std::cerr << "usage: benchmark_make_mixed_mesh_3 SURFACE REGION VERTICES [THREADS [optimize|relax|none]]\n";
     return 2;
   }
   const auto criteria = CGAL::Mixed_mesh_criteria_3(std::stoul(argv[3]))
-                          .number_of_threads(argc > 4 ? unsigned(std::stoul(argv[4])) : 1);
+                          .number_of_threads(argc > 4 ? unsigned(std::stoul(argv[4])) : 1)
+                          .fit_to_surface(argc <= 5 || std::string(argv[5]) == "optimize");
+  const bool relaxes = argc > 5 && std::string(argv[5]) == "relax";
   Stage_log log(false);
   const std::size_t memory_before = log.peak_bytes();
   const std::clock_t start = std::clock();
@@ -46,6 +51,10 @@ int main(int argc, char** argv)
   CGAL::Mixed_mesh_3<Kernel> mesh;
   const auto result =
     CGAL::make_mixed_mesh_3(domain, region, criteria, mesh, CGAL::parameters::visitor(std::ref(log)));
+  if(relaxes)
+    log("Algorithm 1", [&] {
+      return CGAL::fit_mixed_mesh_to_surface(mesh, domain, CGAL::Mixed_mesh_fit_criteria_3());
+    });
   const auto defects = log("checks", [&] { return CGAL::Mixed_meshes_3::find_defects(mesh); });
   const double cpu = double(std::clock() - start) / CLOCKS_PER_SEC, seconds = log.seconds();
   const bool is_valid = result.status == CGAL::Mixed_mesh_status::SUCCESS && defects.none();

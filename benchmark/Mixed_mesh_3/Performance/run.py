@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the benchmark for growing budgets and prints medians as a table.
 
-  run.py BENCHMARK [--vertices 660 10000 ...] [--runs 5] [--save FILE.json]
+  run.py BENCHMARK [--vertices 660 10000 ...] [--runs 5] [--path relax] [--save FILE.json]
   run.py --compare OLD.json NEW.json      the ratios of two saved runs, for example of two commits
 
 BENCHMARK is the program benchmark_make_mixed_mesh_3; each run is a process of its own. Times are CPU
@@ -16,20 +16,20 @@ import statistics
 import subprocess
 
 DATA = pathlib.Path(__file__).resolve().parents[3] / "data"
-STAGES = ["AABB trees", "octree", "transitions", "boundary", "assembly", "checks"]
+STAGES = ["AABB trees", "octree", "transitions", "boundary", "assembly", "optimization", "Algorithm 1", "checks"]
 
 
-def measure(program, surface, region, vertices, runs):
+def measure(program, surface, region, vertices, runs, path):
     """The medians over some runs, after one that does not count."""
     lines = []
     for _ in range(runs + 1):
-        out = subprocess.run([program, surface, region, str(vertices)], check=True, capture_output=True)
+        out = subprocess.run([program, surface, region, str(vertices), "1", path], check=True, capture_output=True)
         lines.append(json.loads(out.stdout))
     row = dict(lines[-1])
     for key in ("seconds", "CPU seconds", "vertices per CPU second", "bytes per vertex", "peak MiB"):
         row[key] = statistics.median(line[key] for line in lines[1:])
     row["CPU seconds min, max"] = [f(line["CPU seconds"] for line in lines[1:]) for f in (min, max)]
-    row["stages"] = {s: statistics.median(line["stages"][s] for line in lines[1:]) for s in STAGES}
+    row["stages"] = {s: statistics.median(line["stages"].get(s, 0) for line in lines[1:]) for s in STAGES}
     return row
 
 
@@ -62,6 +62,8 @@ def main():
     parser.add_argument("--vertices", type=int, nargs="+",
                         default=[660, 2000, 10000, 50000, 200000, 500000, 2000000])
     parser.add_argument("--runs", type=int, default=5)
+    parser.add_argument("--path", choices=["optimize", "relax", "none"], default="optimize",
+                        help="how the boundary gets onto the surface: optimisation, Algorithm 1, not at all")
     parser.add_argument("--save", help="also write the medians as JSON")
     parser.add_argument("--compare", nargs=2, metavar=("OLD.json", "NEW.json"))
     options = parser.parse_args()
@@ -70,7 +72,7 @@ def main():
         return
     if not options.program:
         parser.error("BENCHMARK is missing")
-    rows = [measure(options.program, options.surface, options.region, n, options.runs)
+    rows = [measure(options.program, options.surface, options.region, n, options.runs, options.path)
             for n in options.vertices]
     print_table(rows)
     if options.save:

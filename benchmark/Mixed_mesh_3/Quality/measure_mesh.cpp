@@ -10,6 +10,7 @@
 
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
+#include <CGAL/Mixed_mesh_3/validation.h>
 #include <CGAL/make_mixed_mesh_3.h>
 
 #include <CLI/CLI.hpp>
@@ -30,10 +31,13 @@ try {
   CLI::App app("Makes a mesh of mixed elements and measures it.");
   std::string surface_file, region_file, output_file;
   std::size_t number_of_vertices = 0;
+  double tolerance = 0;
   bool only_time = false;
   app.add_option("surface", surface_file, "closed surface of the domain")->required();
   app.add_option("region", region_file, "closed surface of the region of interest")->required();
   app.add_option("vertices", number_of_vertices, "vertex budget")->required()->check(CLI::PositiveNumber);
+  app.add_option("--tolerance", tolerance, "how far the boundary may be from the surface; 0: unbounded")
+    ->check(CLI::NonNegativeNumber);
   app.add_option("--output", output_file, "also write the mesh, to a .vtu file for example");
   app.add_flag("--only-time", only_time, "measure the time only");
   CLI11_PARSE(app, argc, argv);
@@ -44,7 +48,11 @@ try {
 
   CGAL::Mixed_mesh_3<Kernel> mesh;
   const std::clock_t start = std::clock();
-  const auto result = CGAL::make_mixed_mesh_3(surface, region_surface, number_of_vertices, mesh);
+  const auto result = CGAL::make_mixed_mesh_3(
+    CGAL::Polyhedral_mixed_mesh_domain_3(surface), CGAL::Polyhedral_mixed_mesh_region_3(region_surface),
+    CGAL::Mixed_mesh_criteria_3(number_of_vertices).tolerance(tolerance), mesh);
+  if(!mm3::find_defects(mesh).none())
+    throw std::runtime_error("the mesh has defects");
   const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
   if(!result.has_mesh())
     throw std::runtime_error("no mesh with that many vertices");
@@ -52,6 +60,8 @@ try {
   nlohmann::ordered_json line = {{"mesher", "Mixed_mesh_3"},
                                  {"wanted vertices", number_of_vertices},
                                  {"vertices", mesh.number_of_vertices()},
+                                 {"tolerance", tolerance},
+                                 {"vertices for tolerance", result.number_of_vertices_for_tolerance},
                                  {"CPU seconds", seconds}};
   if(!only_time)
     line.update(Mesh_measures::measure(mesh, surface, region_surface));

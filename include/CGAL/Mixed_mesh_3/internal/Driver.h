@@ -67,6 +67,7 @@ class Driver
   Candidate m_best;
   std::vector<Octree::Node_index> m_lost;
   std::vector<std::vector<Vec3>> m_far_points; // of the surface, where cells are split for the tolerance
+  bool m_is_stopped = false; // by the visitor, on the way to the tolerance
   Mixed_mesh_result_3 m_result;
 
 public:
@@ -81,7 +82,8 @@ public:
     m_visitor.begin_stage(Stage::OCTREE);
     if(m_criteria.tolerance() > 0)
       find_far_points();
-    fill_budget();
+    if(!m_is_stopped)
+      fill_budget();
     m_visitor.end_stage(Stage::OCTREE);
     describe();
     if(m_result.has_mesh()) {
@@ -149,7 +151,8 @@ private:
     Octree_ octree = root;
     Candidate candidate = try_base_octree(octree);
     for(int round = 0; round < tolerance_rounds; ++round) {
-      if(candidate.is_stopped || candidate.number_of_vertices == 0
+      m_is_stopped = candidate.is_stopped;
+      if(m_is_stopped || candidate.number_of_vertices == 0
          || double(candidate.number_of_vertices) > limit)
         return;
       m_result.number_of_vertices_for_tolerance = candidate.number_of_vertices;
@@ -159,7 +162,10 @@ private:
                               .tolerance(m_criteria.tolerance())
                               .number_of_rounds(rounds_of_coarse_fit);
       Surface_optimiser optimiser(coarse, m_octree.domain(), criteria, Aspect_ratio_quality_3());
-      optimiser([this] { return m_visitor.go_on(); });
+      m_is_stopped = optimiser([this] { return m_visitor.go_on(); }).status
+                     == Mixed_mesh_optimization_status::STOPPED;
+      if(m_is_stopped)
+        return;
       bool is_split = false;
       for(double multiple : tolerance_multiples) {
         const std::vector<Vec3> points = optimiser.far_points(multiple);
@@ -280,7 +286,7 @@ private:
 
     using Status = Mixed_mesh_status;
     const std::size_t n = m_best.number_of_vertices;
-    m_result.status = m_best.is_stopped                                  ? Status::STOPPED
+    m_result.status = m_is_stopped || m_best.is_stopped                  ? Status::STOPPED
                       : m_result.number_of_vertices_needed > budget()    ? Status::BUDGET_TOO_SMALL
                       : n == 0                                           ? Status::EMPTY
                       : !meets_region                                    ? Status::REGION_NOT_MET

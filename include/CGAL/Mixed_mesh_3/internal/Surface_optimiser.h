@@ -77,8 +77,9 @@ public:
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality), m_project{domain},
       m_boundary(boundary_polygons(mesh)), m_working(mesh, m_boundary),
       m_moves(m_working, m_quality, m_project, criteria.sliding_threshold()),
-      m_samples(samples(domain, criteria.tolerance())),
-      m_attraction(m_working, m_project, m_samples, criteria.tolerance()), m_is_arrived(m_working.points.size(), 0)
+      m_samples(surface_samples()),
+      m_attraction(m_working, m_project, m_samples, criteria.tolerance()),
+      m_is_arrived(m_working.points.size(), 0)
   {
     m_attraction.set_boundary(m_boundary);
   }
@@ -96,11 +97,12 @@ public:
       m_result.largest_distance = m_attraction.largest_distance();
     }
     m_working.store(m_mesh);
-    m_result.status =
-      is_stopped                                                                  ? Status::STOPPED
-      : m_result.number_of_arrived_vertices < m_result.number_of_boundary_vertices ? Status::NOT_ALL_ARRIVED
-      : m_result.largest_distance > m_criteria.tolerance()                         ? Status::TOLERANCE_NOT_REACHED
-                                                                                   : Status::SUCCESS;
+    const bool is_fitted = m_result.number_of_arrived_vertices == m_result.number_of_boundary_vertices
+                           && m_result.is_boundary_simple;
+    m_result.status = is_stopped   ? Status::STOPPED
+                      : !is_fitted ? Status::NOT_ALL_ARRIVED
+                      : m_result.largest_distance > m_criteria.tolerance() ? Status::TOLERANCE_NOT_REACHED
+                                                                           : Status::SUCCESS;
     return m_result;
   }
 
@@ -108,13 +110,26 @@ public:
   std::vector<Vec3> far_points(double multiple) const { return m_attraction.far_points(multiple); }
 
 private:
-  static std::vector<Vec3> samples(const Domain& domain, double tolerance)
+  // Closer ones than twice the tolerance would rarely be farther off; much closer ones than the boundary's
+  // vertices could not draw these to different places.
+  std::vector<Vec3> surface_samples() const
   {
-    std::vector<Vec3> result;
-    if(tolerance > 0)
-      for(const auto& p : domain.surface_samples(2 * tolerance)) // closer ones would rarely be farther off
-        result.push_back(to_vec3(p));
-    return result;
+    std::vector<Vec3> samples;
+    if(m_criteria.tolerance() > 0)
+      for(const auto& p :
+          m_domain.surface_samples((std::max)(2 * m_criteria.tolerance(), mean_edge_length() / 6)))
+        samples.push_back(to_vec3(p));
+    return samples;
+  }
+
+  double mean_edge_length() const
+  {
+    double sum = 0;
+    std::size_t count = 0;
+    for(const Boundary_polygon& p : m_boundary)
+      for(int i = 0; i < p.size; ++i, ++count)
+        sum += norm(m_working.points[p.vertices[i]] - m_working.points[p.vertices[(i + 1) % p.size]]);
+    return count > 0 ? sum / double(count) : 0;
   }
 
   // Each boundary vertex goes to its target, all the way or part of it, as far as validity and quality
@@ -124,17 +139,24 @@ private:
   {
     const Surface_targets targets = surface_targets(m_boundary, m_working.points, m_domain);
     m_result.number_of_boundary_vertices = targets.vertices.size();
-    for(std::size_t i = 0; i < targets.vertices.size(); ++i)
-      m_travellers.emplace_back(targets.vertices[i], targets.positions[i]);
+    for(std::size_t i = 0; i < targets.vertices.size(); ++i) {
+      // what is on the surface stays, even if its faces are folded
+      const Vec3& p = m_working.points[targets.vertices[i]];
+      const Vec3 q = m_project(p, targets.positions[i]);
+      const bool is_there = norm(q - p) <= 1e-14 * (norm(p) + norm(targets.positions[i] - p));
+      m_travellers.emplace_back(targets.vertices[i], is_there ? p : targets.positions[i]);
+    }
     double acceptable = acceptable_at_first;
-    for(int round = 0; round < arrival_rounds && !m_travellers.empty() && go_on(); ++round) {
+    for(int round = 0; round < arrival_rounds && !m_travellers.empty(); ++round) {
+      if(!go_on())
+        return false;
       advance(acceptable);
       m_moves.run(4, good_enough[0], arrival_sweeps);
       acceptable = (std::min)(acceptable_growth * acceptable, acceptable_at_most);
       if(round % rounds_until_new_target == rounds_until_new_target - 1)
         choose_new_targets();
     }
-    return go_on();
+    return true;
   }
 
   // Where the surface comes near to itself, faces between its vertices may meet. Their vertices go back

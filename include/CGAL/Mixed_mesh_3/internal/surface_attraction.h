@@ -86,7 +86,7 @@ public:
   }
 
   /// Measures all distances.
-  /// \cost a query to an AABB tree for each sample of the surface, and for four of each boundary triangle
+  /// \cost a query to an AABB tree for each sample of the surface, and of the boundary
   void measure()
   {
     m_shifts.assign(m_mesh.points.size(), Vec3{});
@@ -129,7 +129,7 @@ private:
   }
 
   // The point of the triangle with barycentric coordinates b should be at `where`, a point of the surface.
-  void add(const Triangle& t, const std::array<double, 3>& b, const Vec3& shift, const Vec3& where)
+  void add(const Triangle& t, const std::array<double, 3>& b, const Vec3& shift, const Vec3& where, double share)
   {
     const double distance = norm(shift), excess = distance - 0.7 * tolerated_share * m_tolerance;
     m_largest_distance = (std::max)(m_largest_distance, distance);
@@ -139,7 +139,7 @@ private:
       return;
     for(int i = 0; i < 3; ++i)
       if(b[i] > 0) {
-        const double w = b[i] * excess * excess;
+        const double w = share * b[i] * excess * excess;
         m_shifts[t[i]] = m_shifts[t[i]] + w * shift;
         m_weights[t[i]] += w * b[i];
       }
@@ -164,7 +164,7 @@ private:
       nearest = tree.closest_point_and_primitive(point(s), nearest);
       const Triangle& t = m_triangles[std::size_t(nearest.second - triangles.cbegin())];
       const Vec3 p = to_vec3(nearest.first);
-      add(t, barycentric_coordinates(t, p), s - p, s);
+      add(t, barycentric_coordinates(t, p), s - p, s, 1);
     }
   }
 
@@ -178,16 +178,25 @@ private:
     return {dot(normal, cross(b, c)) / area, dot(normal, cross(c, a)) / area, dot(normal, cross(a, b)) / area};
   }
 
+  // On a grid, the finer the larger the triangle is.
   void measure_from_boundary()
   {
-    constexpr std::array<double, 3> samples[4] = {{1 / 3., 1 / 3., 1 / 3.}, {0.5, 0.5, 0}, {0, 0.5, 0.5},
-                                                  {0.5, 0, 0.5}};
-    for(const Triangle& t : m_triangles)
-      for(const std::array<double, 3>& b : samples) {
-        const Vec3 p = b[0] * m_mesh.points[t[0]] + b[1] * m_mesh.points[t[1]] + b[2] * m_mesh.points[t[2]];
-        const Vec3 q = m_project(p, m_mesh.points[t[0]]);
-        add(t, b, q - p, q);
-      }
+    constexpr double largest_number_of_steps = 8;
+    for(const Triangle& t : m_triangles) {
+      double longest = 0;
+      for(int i = 0; i < 3; ++i)
+        longest = (std::max)(longest, norm(m_mesh.points[t[i]] - m_mesh.points[t[(i + 1) % 3]]));
+      const int n = int((std::min)((std::max)(std::ceil(longest / m_tolerance), 2.), largest_number_of_steps));
+      const double share = 4. / ((n + 1) * (n + 2) / 2 - 3); // as if it were four samples
+      for(int i = 0; i <= n; ++i)
+        for(int j = 0; i + j <= n; ++j)
+          if((i > 0) + (j > 0) + (i + j < n) > 1) { // not at a vertex
+            const std::array<double, 3> b{1 - double(i + j) / n, double(i) / n, double(j) / n};
+            const Vec3 p = b[0] * m_mesh.points[t[0]] + (b[1] * m_mesh.points[t[1]] + b[2] * m_mesh.points[t[2]]);
+            const Vec3 q = m_project(p, m_mesh.points[t[0]]);
+            add(t, b, q - p, q, share);
+          }
+    }
   }
 };
 
