@@ -386,7 +386,7 @@ Mesh mesh_of(const Test_surface& surface, std::size_t budget)
 {
   Mesh mesh;
   CGAL::make_mixed_mesh_3(Polyhedral_mixed_mesh_domain_3(surface), Everywhere_mixed_mesh_region_3(),
-                          Mixed_mesh_criteria_3(budget), mesh);
+                          Mixed_mesh_criteria_3(budget).fit_to_surface(false), mesh);
   BOOST_TEST(!mesh.is_empty());
   return mesh;
 }
@@ -575,7 +575,8 @@ int main(int argc, char** argv)
   BOOST_TEST(CGAL::IO::read_polygon_mesh(data + "/brain.off", brain));
   BOOST_TEST(CGAL::IO::read_polygon_mesh(data + "/region.off", region));
   Mesh mesh;
-  CGAL::make_mixed_mesh_3(brain, region, 660, mesh);
+  CGAL::make_mixed_mesh_3(Polyhedral_mixed_mesh_domain_3(brain), CGAL::Polyhedral_mixed_mesh_region_3(region),
+                          Mixed_mesh_criteria_3(660).fit_to_surface(false), mesh);
 
   test_elasticity();
   test_solvers();

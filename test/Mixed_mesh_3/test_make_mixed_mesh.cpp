@@ -534,7 +534,7 @@ double mesh_shape(const std::string& name, const Surface& surface, std::size_t b
     const std::size_t off = number_of_vertices_off_surface(fitted, surface);
     BOOST_TEST_LE(off, with.optimization.number_of_boundary_vertices - with.optimization.number_of_arrived_vertices);
     BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED || off == 0);
-    BOOST_TEST_LT(volume(fitted), volume(mesh) * (1 + 1e-12));
+    BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED || volume(fitted) < volume(mesh) * (1 + 1e-12));
     const auto rows = quality_statistics(fitted);
     std::cout << name << (root == Root_cell::BOX ? " (box)" : "") << ": status " << int(with.status) << ", " << off
               << " off, ARC " << rows[number_of_element_kinds].mean << ", at most "

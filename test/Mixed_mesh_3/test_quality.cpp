@@ -593,7 +593,10 @@ void test_brain(const std::string& data)
   BOOST_TEST(CGAL::IO::read_polygon_mesh(data + "/brain.off", brain));
   BOOST_TEST(CGAL::IO::read_polygon_mesh(data + "/region.off", region));
   Mesh mesh;
-  BOOST_TEST(make_mixed_mesh_3(brain, region, 660, mesh).has_mesh());
+  BOOST_TEST(CGAL::make_mixed_mesh_3(CGAL::Polyhedral_mixed_mesh_domain_3(brain),
+                                     CGAL::Polyhedral_mixed_mesh_region_3(region),
+                                     CGAL::Mixed_mesh_criteria_3(660).fit_to_surface(false), mesh)
+               .has_mesh());
   const Hausdorff_distance d = hausdorff_distance(mesh, brain);
   BOOST_TEST_EQ(number_of_boundary_self_intersections(mesh), 0u);
   BOOST_TEST_GT(number_of_vertices_off_surface(mesh, brain), 100u);

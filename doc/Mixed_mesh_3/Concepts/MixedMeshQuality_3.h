@@ -43,6 +43,8 @@ public:
   /*!
   The same cost, and its gradient.
 
+  \param kind as above
+  \param points as above
   \param vertex the number of a vertex in the element
   \param gradient becomes the gradient by the position of that vertex, where the cost is finite. At a
          kink, that of any of the measures that meet there
