@@ -10,11 +10,10 @@
 
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
 #include <CGAL/Mixed_mesh_3/internal/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/compatibility.h>
 #include <CGAL/Mixed_mesh_3/internal/vertex_optimisation.h>
 
-#include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
 
 #include <algorithm>
 #include <array>
@@ -148,7 +147,7 @@ private:
   void measure_from_surface()
   {
     using Kernel = Predicates_kernel;
-    using Primitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Kernel::Triangle_3>::const_iterator>;
+    using Traits = AABB_triangle_traits<Kernel, std::vector<Kernel::Triangle_3>::const_iterator>;
     const auto point = [](const Vec3& p) { return Kernel::Point_3(p[0], p[1], p[2]); };
     if(m_samples.empty() || m_triangles.empty())
       return;
@@ -156,7 +155,7 @@ private:
     for(const Triangle& t : m_triangles)
       triangles.emplace_back(point(m_mesh.points[t[0]]), point(m_mesh.points[t[1]]),
                              point(m_mesh.points[t[2]]));
-    CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree(triangles.begin(), triangles.end());
+    CGAL::AABB_tree<Traits> tree(triangles.begin(), triangles.end());
     tree.do_not_accelerate_distance_queries(); // the last triangle is a good hint, as samples are in order
     tree.build();
     auto nearest = std::make_pair(triangles[0][0], triangles.cbegin());
