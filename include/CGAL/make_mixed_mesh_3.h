@@ -19,8 +19,8 @@
 #include <CGAL/Named_function_parameters.h>
 
 #include <cstddef>
-#include <type_traits>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -32,7 +32,9 @@ namespace CGAL {
 The octree of the domain is split in the region only (single cells around it apart, where a small budget
 would be left over), balanced across faces and edges, and made conforming by transition templates;
 elements at the surface are split so that they can follow it (Lobos, Bucki, Hitschfeld, Payan: sections
-5.1 and 5.2). Boundary vertices stay where the octree has them; all are outside or on the surface.
+5.1 and 5.2). Then the boundary is carried onto the surface and the elements are optimised, as
+`optimize_mixed_mesh_3()` does; with `criteria.fit_to_surface(false)` boundary vertices stay where the octree
+has them, all outside or on the surface.
 
 Guarantees if `result.has_mesh()`: at most `criteria.maximal_number_of_vertices()` vertices; conforming;
 the Jacobian of every element is positive on the whole element; the boundary is a closed oriented

@@ -8,6 +8,7 @@
 //
 //   test_fit [DATA_DIRECTORY]
 
+#include "test_meshes.h"
 #include "test_surfaces.h"
 
 #include <CGAL/fit_mixed_mesh_to_surface.h>
@@ -68,42 +69,11 @@ public:
 // n^3 cells in [0,1]^3, of elements of one kind; vertices moved by up to `noise` cells.
 Mesh grid(int n, Element_kind kind, double noise = 0)
 {
-  Mesh mesh;
   Noise random;
-  const auto add_vertex = [&](double x, double y, double z) {
+  return grid_of_cells<Mesh>(n, kind, [&](double x, double y, double z) {
     const double dx = noise * random(), dy = noise * random(), dz = noise * random(); // in this order
-    return mesh.add_vertex({(x + dx) / n, (y + dy) / n, (z + dz) / n});
-  };
-  for(int z = 0; z <= n; ++z)
-    for(int y = 0; y <= n; ++y)
-      for(int x = 0; x <= n; ++x)
-        add_vertex(x, y, z);
-  const auto vertex = [&](int x, int y, int z) { return Vertex_index(x + (n + 1) * (y + (n + 1) * z)); };
-  for(int z = 0; z < n; ++z)
-    for(int y = 0; y < n; ++y)
-      for(int x = 0; x < n; ++x) {
-        std::array<Vertex_index, 8> v{};
-        for(int i = 0; i < 8; ++i) {
-          const auto& c = reference_elements[HEXAHEDRON].coordinates[i];
-          v[i] = vertex(x + (c[0] + 1) / 2, y + (c[1] + 1) / 2, z + (c[2] + 1) / 2);
-        }
-        if(kind == HEXAHEDRON) {
-          mesh.add_element(kind, v);
-        } else if(kind == PRISM) {
-          mesh.add_element(kind, {v[0], v[1], v[2], v[4], v[5], v[6]});
-          mesh.add_element(kind, {v[0], v[2], v[3], v[4], v[6], v[7]});
-        } else if(kind == PYRAMID) {
-          const Vertex_index centre = add_vertex(x + 0.5, y + 0.5, z + 0.5);
-          for(const Element_face& f : reference_elements[HEXAHEDRON].faces) // seen from inside: reversed
-            mesh.add_element(kind,
-                             {v[f.vertices[3]], v[f.vertices[2]], v[f.vertices[1]], v[f.vertices[0]], centre});
-        } else { // around the diagonal, the same in each cell
-          static constexpr int path[6][2] = {{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}};
-          for(const auto& p : path)
-            mesh.add_element(kind, {v[0], v[p[0]], v[p[1]], v[6]});
-        }
-      }
-  return mesh;
+    return Test_point((x + dx) / n, (y + dy) / n, (z + dz) / n);
+  });
 }
 
 Vec3 position(const Mesh& mesh, Vertex_index v) { return to_vec3(mesh.point(v)); }
@@ -132,20 +102,6 @@ Test_surface mapped(const Test_surface& surface, const F& f)
   for(auto v : result.vertices())
     result.point(v) = f(surface.point(v));
   return result;
-}
-
-Test_surface sphere(const Test_point& centre, double radius, int n)
-{
-  Test_surface s;
-  add_sphere(s, centre, radius, n);
-  return s;
-}
-
-Test_surface box(const Test_point& a, const Test_point& b)
-{
-  Test_surface s;
-  add_box(s, a, b);
-  return s;
 }
 
 double diagonal(const Test_surface& s)

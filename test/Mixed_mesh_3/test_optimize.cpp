@@ -8,6 +8,7 @@
 //
 //   test_optimize [DATA_DIRECTORY]
 
+#include "test_meshes.h"
 #include "test_surfaces.h"
 
 #include <CGAL/make_mixed_mesh_3.h>
@@ -256,36 +257,8 @@ void check(const Mesh& before, const Mesh& after, const Mixed_mesh_optimization_
 // n^3 cells in [0,1]^3, of elements of one kind.
 Mesh grid(int n, Element_kind kind)
 {
-  Mesh mesh;
-  for(int z = 0; z <= n; ++z)
-    for(int y = 0; y <= n; ++y)
-      for(int x = 0; x <= n; ++x)
-        mesh.add_vertex({double(x) / n, double(y) / n, double(z) / n});
-  for(int z = 0; z < n; ++z)
-    for(int y = 0; y < n; ++y)
-      for(int x = 0; x < n; ++x) {
-        std::array<Vertex_index, 8> v{};
-        for(int i = 0; i < 8; ++i) {
-          const auto& c = reference_elements[HEXAHEDRON].coordinates[i];
-          v[i] = Vertex_index(x + (c[0] + 1) / 2 + (n + 1) * (y + (c[1] + 1) / 2 + (n + 1) * (z + (c[2] + 1) / 2)));
-        }
-        if(kind == HEXAHEDRON) {
-          mesh.add_element(kind, v);
-        } else if(kind == PRISM) {
-          mesh.add_element(kind, {v[0], v[1], v[2], v[4], v[5], v[6]});
-          mesh.add_element(kind, {v[0], v[2], v[3], v[4], v[6], v[7]});
-        } else if(kind == PYRAMID) {
-          const Vertex_index centre = mesh.add_vertex({(x + 0.5) / n, (y + 0.5) / n, (z + 0.5) / n});
-          for(const Element_face& f : reference_elements[HEXAHEDRON].faces) // seen from inside: reversed
-            mesh.add_element(kind,
-                             {v[f.vertices[3]], v[f.vertices[2]], v[f.vertices[1]], v[f.vertices[0]], centre});
-        } else { // around the diagonal, the same in each cell
-          static constexpr int path[6][2] = {{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}};
-          for(const auto& p : path)
-            mesh.add_element(kind, {v[0], v[p[0]], v[p[1]], v[6]});
-        }
-      }
-  return mesh;
+  return grid_of_cells<Mesh>(n, kind,
+                             [&](double x, double y, double z) { return Test_point(x / n, y / n, z / n); });
 }
 
 // Moves inner vertices as far as all elements stay valid.
@@ -305,19 +278,9 @@ void distort(Mesh& mesh, double amplitude, unsigned seed)
       }
 }
 
-Test_surface unit_cube()
-{
-  Test_surface s;
-  add_box(s, {0, 0, 0}, {1, 1, 1});
-  return s;
-}
+Test_surface unit_cube() { return box({0, 0, 0}, {1, 1, 1}); }
 
-Test_surface sphere(double radius = 1, int n = 12)
-{
-  Test_surface s;
-  add_sphere(s, {0.1, 0.2, 0.3}, radius, n);
-  return s;
-}
+Test_surface ball_surface(double radius = 1) { return sphere({0.1, 0.2, 0.3}, radius, 12); }
 
 // As the octree leaves it: its boundary outside the surface.
 Mesh unfitted(const Test_surface& surface, std::size_t n)
@@ -535,7 +498,7 @@ struct Stopping_visitor : Default_visitor
 
 void test_statuses()
 {
-  const Test_surface surface = sphere();
+  const Test_surface surface = ball_surface();
   const Polyhedral_mixed_mesh_domain_3 domain(surface);
   Mesh empty;
   BOOST_TEST(optimize_mixed_mesh_3(empty, surface).status == Status::EMPTY);
@@ -621,7 +584,7 @@ void test_criteria()
 {
   BOOST_TEST_EQ(Criteria().number_of_rounds(), 4);
   BOOST_TEST_EQ(Criteria().tolerance(1).number_of_rounds(), 12);
-  const Test_surface surface = sphere();
+  const Test_surface surface = ball_surface();
   const Mesh start = unfitted(surface, 300);
   const Polyhedral_mixed_mesh_domain_3 domain(surface);
   for(int rounds : {1, 2, 7}) {
@@ -631,7 +594,7 @@ void test_criteria()
     check(start, mesh, result, surface);
   }
   // Carried elsewhere: to a sphere twice as large, and with the other measure.
-  const Test_surface larger = sphere(1.5);
+  const Test_surface larger = ball_surface(1.5);
   for(int model : {0, 1}) {
     Mesh mesh = start;
     const Polyhedral_mixed_mesh_domain_3 larger_domain(larger);

@@ -337,20 +337,6 @@ Mesh solid(const Test_surface& surface, const Test_point& centre)
   return mesh;
 }
 
-Test_surface sphere(double radius, int n, const Test_point& centre = Test_point(0, 0, 0))
-{
-  Test_surface s;
-  add_sphere(s, centre, radius, n);
-  return s;
-}
-
-Test_surface box(const Test_point& a, const Test_point& b)
-{
-  Test_surface s;
-  add_box(s, a, b);
-  return s;
-}
-
 // Each triangle into four, n times.
 Test_surface refined(Test_surface s, int n)
 {
@@ -456,15 +442,15 @@ void test_hausdorff_distance()
   // Concentric spheres. Of the outer one the vertices are farthest, of the octahedron within the centres
   // of its faces.
   const Test_point centre(0.5, 0.5, 0.5);
-  d = check_hausdorff(sphere(1, 8, centre), sphere(2, 8, centre), 4);
+  d = check_hausdorff(sphere(centre, 1, 8), sphere(centre, 2, 8), 4);
   BOOST_TEST(is_close(d.from_surface.distance, 1, 1e-14));
-  d = check_hausdorff(sphere(1, 2, centre), sphere(1, 12, centre), 6);
+  d = check_hausdorff(sphere(centre, 1, 2), sphere(centre, 1, 12), 6);
   BOOST_TEST(is_close(d.from_mesh.distance, 1 - std::sqrt(1. / 3), 0.02));
 
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-0.1, 0.1);
   for(int repeat = 0; repeat < 5; ++repeat) {
-    Test_surface a = sphere(1, 5, centre), b = sphere(1.1, 6, centre);
+    Test_surface a = sphere(centre, 1, 5), b = sphere(centre, 1.1, 6);
     for(Test_surface* s : {&a, &b})
       for(auto v : vertices(*s))
         s->point(v) = s->point(v) + Test_kernel::Vector_3(uniform(random), uniform(random), uniform(random));
@@ -524,7 +510,7 @@ void test_hausdorff_distance()
 
 void test_vertices_off_surface()
 {
-  const Test_surface surface = sphere(1, 10);
+  const Test_surface surface = sphere({0, 0, 0}, 1, 10);
   Mesh mesh = solid(surface, {0, 0, 0}); // the vertex at the centre is not on the boundary
   BOOST_TEST_EQ(number_of_vertices_off_surface(mesh, surface), 0u);
   const double diagonal = 2 * std::sqrt(3.);
@@ -542,7 +528,7 @@ void test_vertices_off_surface()
 
 void test_self_intersections()
 {
-  const Test_surface surface = sphere(1, 8);
+  const Test_surface surface = sphere({0, 0, 0}, 1, 8);
   Mesh mesh = solid(surface, {0, 0, 0});
   BOOST_TEST_EQ(number_of_boundary_self_intersections(mesh), 0u);
   mesh.points()[20] = mesh.point(20) - 2.5 * (mesh.point(20) - CGAL::ORIGIN); // out on the other side

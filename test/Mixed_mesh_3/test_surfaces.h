@@ -65,6 +65,20 @@ inline void add_sphere(Test_surface& s, const Test_point& centre, double radius,
   }
 }
 
+inline Test_surface box(const Test_point& a, const Test_point& b)
+{
+  Test_surface s;
+  add_box(s, a, b);
+  return s;
+}
+
+inline Test_surface sphere(const Test_point& centre, double radius, int n)
+{
+  Test_surface s;
+  add_sphere(s, centre, radius, n);
+  return s;
+}
+
 // A domain in the unit cube that is a function of points, positive inside; |f| bounds the distance to the
 // surface from below.
 class Analytic_domain

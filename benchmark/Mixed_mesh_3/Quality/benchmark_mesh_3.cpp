@@ -25,7 +25,6 @@
 #include "mesh_measures.h"
 
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
-#include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_criteria_3.h>
@@ -298,12 +297,7 @@ try {
                                  {"CPU seconds of refinement", result.cpu_seconds_of_refinement},
                                  {"CPU seconds of perturbation", result.cpu_seconds_of_perturbation},
                                  {"CPU seconds of exudation", result.cpu_seconds_of_exudation}};
-  if(!only_time)
-    line.update(Mesh_measures::measure(mesh, surface, region_surface));
-  if(!output_file.empty())
-    if(const auto error = mm3::IO::write_mixed_mesh(output_file, mesh))
-      throw std::runtime_error(*error);
-  std::cout << line << '\n';
+  Mesh_measures::finish(line, mesh, surface, region_surface, only_time, output_file);
   return 0;
 } catch(const std::exception& e) {
   std::cerr << "benchmark_mesh_3: " << e.what() << '\n';

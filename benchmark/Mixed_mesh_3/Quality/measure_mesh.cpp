@@ -9,7 +9,6 @@
 #include "mesh_measures.h"
 
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
-#include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/validation.h>
 #include <CGAL/make_mixed_mesh_3.h>
 
@@ -63,12 +62,7 @@ try {
                                  {"tolerance", tolerance},
                                  {"vertices for tolerance", result.number_of_vertices_for_tolerance},
                                  {"CPU seconds", seconds}};
-  if(!only_time)
-    line.update(Mesh_measures::measure(mesh, surface, region_surface));
-  if(!output_file.empty())
-    if(const auto error = mm3::IO::write_mixed_mesh(output_file, mesh))
-      throw std::runtime_error(*error);
-  std::cout << line << '\n';
+  Mesh_measures::finish(line, mesh, surface, region_surface, only_time, output_file);
   return 0;
 } catch(const std::exception& e) {
   std::cerr << "measure_mesh: " << e.what() << '\n';

@@ -10,6 +10,7 @@
 #define MIXED_MESH_3_BENCHMARK_MESH_MEASURES_H
 
 #include <CGAL/Mixed_mesh_3.h>
+#include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/vector_3.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
@@ -26,6 +27,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iostream>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace Mesh_measures {
@@ -279,10 +283,7 @@ nlohmann::ordered_json measure(const Mesh& mesh, const Surface& surface, const S
   const auto rows = mm3::quality_statistics(mesh);
   line["ARC mean"] = rows.back().mean;
   line["ARC max"] = rows.back().maximum;
-  std::size_t number_of_good_elements = 0;
-  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
-    number_of_good_elements += mm3::aspect_ratio_coefficient(mesh, e) <= 7;
-  line["ARC share at most 7"] = double(number_of_good_elements) / double(mesh.number_of_elements());
+  line["ARC share at most 7"] = rows.back().share;
   for(const mm3::Element_kind kind : mm3::element_kinds) {
     const auto& row = rows[kind];
     if(row.count != 0)
@@ -296,6 +297,19 @@ nlohmann::ordered_json measure(const Mesh& mesh, const Surface& surface, const S
   line["farthest, surface to mesh"] = farthest_places(of_surface, 5, 20 * step);
   line["farthest, mesh to surface"] = farthest_places(of_boundary, 5, 20 * step);
   return line;
+}
+
+/// Ends a program: adds the measures to a line if wanted, writes the mesh if a file is given, prints the line.
+template <class Mesh>
+void finish(nlohmann::ordered_json line, const Mesh& mesh, const Surface& surface, const Surface& region,
+            bool only_time, const std::string& output_file)
+{
+  if(!only_time)
+    line.update(measure(mesh, surface, region));
+  if(!output_file.empty())
+    if(const auto error = CGAL::Mixed_meshes_3::IO::write_mixed_mesh(output_file, mesh))
+      throw std::runtime_error(*error);
+  std::cout << line << '\n';
 }
 
 } // namespace Mesh_measures

@@ -10,6 +10,7 @@
 #define CGAL_MIXED_MESH_3_ASPECT_RATIO_QUALITY_3_H
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/internal/element_measures.h>
 #include <CGAL/Mixed_mesh_3/internal/vector_3.h>
 
 #include <array>
@@ -38,7 +39,7 @@ inline double squared_tetrahedron_arc(const Vec3& a, const Vec3& b, const Vec3& 
     return std::numeric_limits<double>::infinity();
   const double l2 =
     (dot(ab, ab) + dot(ac, ac) + dot(ad, ad) + dot(bc, bc) + dot(bd, bd) + dot(cd, cd)) / 6;
-  constexpr double factor = 36 / (8.47867 * 8.47867);
+  constexpr double factor = 36 / (tetrahedron_arc_factor * tetrahedron_arc_factor);
   return factor * l2 * l2 * l2 / (six_volumes * six_volumes);
 }
 
@@ -139,9 +140,7 @@ private:
 
   static Vec3 corner_gradient(const std::uint8_t (&c)[4], const Points& p, int v)
   {
-    // even permutations, the vertex first
-    constexpr int order[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 0, 1, 3}, {3, 0, 2, 1}};
-    for(const auto& o : order)
+    for(const auto& o : internal::even_permutations)
       if(c[o[0]] == v)
         return internal::tetrahedron_arc_gradient(p[c[o[0]]], p[c[o[1]]], p[c[o[2]]], p[c[o[3]]]);
     return Vec3{};
@@ -166,7 +165,8 @@ private:
     internal::Vec3 point{};
     double weight = 0;
 
-    Mean(const Points& p, const int (&vertices)[n], int v)
+    template <class Index>
+    Mean(const Points& p, const Index (&vertices)[n], int v)
     {
       using namespace internal;
       for(int i : vertices) {
@@ -198,12 +198,11 @@ private:
     const auto add_segment = [&](Extremes& extremes, const auto& a, const auto& b) {
       extremes.add(segment<with_gradient>(Mean(p, a, v), Mean(p, b, v)));
     };
-    constexpr int hexahedron[6][4] = {{1, 2, 6, 5}, {0, 4, 7, 3}, {3, 7, 6, 2},
-                                      {0, 1, 5, 4}, {4, 5, 6, 7}, {0, 3, 2, 1}};
     constexpr int pyramid[4][2] = {{2, 3}, {0, 1}, {1, 2}, {3, 0}};
     if(kind == HEXAHEDRON) {
+      const auto& faces = reference_elements[kind].faces; // opposite ones side by side
       for(int i = 0; i < 6; i += 2)
-        add_segment(e, hexahedron[i], hexahedron[i + 1]);
+        add_segment(e, faces[i + 1].vertices, faces[i].vertices);
     } else if(kind == PYRAMID) {
       for(int i = 0; i < 4; i += 2)
         add_segment(e, pyramid[i], pyramid[i + 1]);
@@ -298,14 +297,6 @@ private:
           gradient = cross(gm, a - c);
       }
     return worst;
-  }
-
-  static std::array<Vec3, 2> triangle_normals(const Element_face& face, int diagonal, const Points& p)
-  {
-    using namespace internal;
-    const auto at = [&](int i) -> const Vec3& { return p[face.vertices[(i + diagonal) % 4]]; };
-    const Vec3 b = at(1) - at(0), c = at(2) - at(0), d = at(3) - at(0);
-    return {cross(b, c), cross(c, d)};
   }
 };
 

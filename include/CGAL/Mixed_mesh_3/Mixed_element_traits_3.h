@@ -102,6 +102,13 @@ inline constexpr Reference_element reference_elements[number_of_element_kinds] =
     {-1, 1, 1}},
    12, {0, 1, 2, 3, 4, 5, 6, 7}, 5, "Hexahedra", "C3D8", "hex8"}};
 
+namespace internal {
+
+/// The vertices of a tetrahedron in orders that keep its orientation, each of them first once.
+inline constexpr int even_permutations[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 0, 1, 3}, {3, 0, 2, 1}};
+
+} // namespace internal
+
 /*!
 \brief Model of `MixedElementTraits_3` for one kind, known at compile time.
 

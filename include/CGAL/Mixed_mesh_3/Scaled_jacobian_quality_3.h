@@ -76,15 +76,14 @@ private:
   static Corner find_smallest(Element_kind kind, const Points& p)
   {
     using namespace internal;
-    // even permutations: a tetrahedron has four corners
-    constexpr int order[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 0, 1, 3}, {3, 0, 2, 1}};
     const Reference_element& reference = reference_elements[kind];
     const int corners_of_each = kind == TETRAHEDRON || kind == PYRAMID ? 4 : 1;
     Corner smallest{std::numeric_limits<double>::infinity(), {}};
     for(int c = 0; c < (kind == TETRAHEDRON ? 1 : reference.number_of_corners); ++c)
       for(int i = 0; i < corners_of_each; ++i) {
         const auto& k = reference.corners[c];
-        const std::array<int, 4> v{k[order[i][0]], k[order[i][1]], k[order[i][2]], k[order[i][3]]};
+        const int(&o)[4] = even_permutations[i]; // a tetrahedron has four corners
+        const std::array<int, 4> v{k[o[0]], k[o[1]], k[o[2]], k[o[3]]};
         const Vec3 a = p[v[1]] - p[v[0]], b = p[v[2]] - p[v[0]], d = p[v[3]] - p[v[0]];
         const double six_volumes = determinant(a, b, d);
         if(!(six_volumes > 0))

@@ -276,15 +276,23 @@ inline Jacobian_sign jacobian_sign(Element_kind kind, const std::array<std::arra
   return internal::jacobian_sign_with<CGAL::Exact_rational>(kind, points, exact_subdivisions);
 }
 
+/// The sign of the Jacobian of an element.
+/// \param element its kind and vertices
+/// \param position `std::array<double, 3>(Vertex_index)`: where a vertex is
+template <class Position>
+Jacobian_sign jacobian_sign(const Element_view& element, const Position& position)
+{
+  std::array<internal::Vec3, 8> points{};
+  for(int i = 0; i < element.size(); ++i)
+    points[std::size_t(i)] = position(element[i]);
+  return jacobian_sign(element.kind(), points);
+}
+
 /// The sign of the Jacobian of element `e`.
 template <class Mesh>
 Jacobian_sign jacobian_sign(const Mesh& mesh, std::size_t e)
 {
-  const Element_view element = mesh.element(e);
-  std::array<internal::Vec3, 8> points{};
-  for(int i = 0; i < element.size(); ++i)
-    points[std::size_t(i)] = internal::to_vec3(mesh.point(element[i]));
-  return jacobian_sign(element.kind(), points);
+  return jacobian_sign(mesh.element(e), [&](Vertex_index v) { return internal::to_vec3(mesh.point(v)); });
 }
 
 } // namespace Mixed_meshes_3

@@ -33,15 +33,7 @@ namespace internal {
 template <class Mesh, class Domain, class Quality>
 class Surface_optimiser
 {
-  struct Project
-  {
-    const Domain& domain;
-    Vec3 operator()(const Vec3& p, const Vec3& hint) const
-    {
-      using Point_3 = typename Domain::Point_3;
-      return to_vec3(domain.closest_point(Point_3(p[0], p[1], p[2]), Point_3(hint[0], hint[1], hint[2])));
-    }
-  };
+  using Project = Surface_projection<Domain>;
   using Moves = Vertex_optimiser<Quality, Project>;
   using Attraction_ = Surface_attraction<Project>;
 
@@ -74,7 +66,7 @@ class Surface_optimiser
 public:
   Surface_optimiser(Mesh& mesh, const Domain& domain, const Mixed_mesh_optimization_criteria_3& criteria,
                     const Quality& quality)
-    : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality), m_project{domain},
+    : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality), m_project(domain),
       m_boundary(boundary_polygons(mesh)), m_working(mesh, m_boundary),
       m_moves(m_working, m_quality, m_project, criteria.sliding_threshold()),
       m_samples(surface_samples()),
@@ -88,7 +80,6 @@ public:
   Mixed_mesh_optimization_result_3 operator()(const Go_on& go_on)
   {
     using Status = Mixed_mesh_optimization_status;
-    m_result.status = Status::SUCCESS;
     const std::vector<Vec3> start = m_working.points;
     const bool is_stopped = !arrive(go_on) || !alternate(go_on);
     retreat_from_self_intersections(start);

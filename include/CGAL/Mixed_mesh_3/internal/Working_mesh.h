@@ -12,6 +12,7 @@
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary_surface.h>
+#include <CGAL/Mixed_mesh_3/internal/element_measures.h>
 #include <CGAL/Mixed_mesh_3/internal/vector_3.h>
 
 #include <algorithm>
@@ -62,9 +63,9 @@ struct Working_mesh
     const Reference_element& reference() const { return reference_elements[kind]; }
     const Vertex_index* begin() const { return vertices.data(); }
     const Vertex_index* end() const { return vertices.data() + reference().number_of_vertices; }
+    operator Element_view() const { return {kind, begin()}; }
     int position(Vertex_index v) const { return int(std::find(begin(), end(), v) - begin()); }
   };
-  using Points = std::array<Vec3, 8>;
 
   std::vector<Vec3> points;
   std::vector<Element> elements;
@@ -122,23 +123,22 @@ struct Working_mesh
       incident[v].erase(std::find(incident[v].begin(), incident[v].end(), e));
   }
 
-  /// Positions relative to the first vertex: no digits are lost far from the origin.
-  Points relative_points(const Element& element) const
+  /// Where a vertex is, as a function object.
+  auto position() const
   {
-    Points p{};
-    const Vec3& origin = points[element.vertices[0]];
-    for(int i = 1; i < element.reference().number_of_vertices; ++i)
-      p[i] = points[element.vertices[i]] - origin;
-    return p;
+    return [this](Vertex_index v) -> const Vec3& { return points[v]; };
+  }
+
+  /// Positions relative to the first vertex.
+  Element_points relative_points(const Element_view& element) const
+  {
+    return internal::relative_points(element, position());
   }
 
   /// Whether the Jacobian is proved positive on the whole element.
-  bool is_positive(const Element& element) const
+  bool is_positive(const Element_view& element) const
   {
-    Points p{};
-    for(int i = 0; i < element.reference().number_of_vertices; ++i)
-      p[i] = points[element.vertices[i]];
-    return jacobian_sign(element.kind, p) == Jacobian_sign::POSITIVE;
+    return jacobian_sign(element, position()) == Jacobian_sign::POSITIVE;
   }
 
   /// Writes back what has changed. Boundary faces are found again if elements have.

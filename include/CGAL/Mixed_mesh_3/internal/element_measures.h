@@ -27,14 +27,21 @@ namespace internal {
 using Element_points = std::array<Vec3, 8>;
 
 // Positions relative to the element's first vertex, so that no digits are lost far from the origin.
+/// \param position `Vec3(Vertex_index)`
+template <class Position>
+Element_points relative_points(const Element_view& element, const Position& position)
+{
+  Element_points p{};
+  const Vec3 origin = position(element[0]);
+  for(int i = 1; i < element.size(); ++i)
+    p[i] = position(element[i]) - origin;
+  return p;
+}
+
 template <class Mesh>
 Element_points element_points(const Mesh& mesh, const Element_view& element)
 {
-  Element_points p{};
-  const Vec3 origin = to_vec3(mesh.point(element[0]));
-  for(int i = 1; i < element.size(); ++i)
-    p[i] = to_vec3(mesh.point(element[i])) - origin;
-  return p;
+  return relative_points(element, [&](Vertex_index v) { return to_vec3(mesh.point(v)); });
 }
 
 inline Vec3 middle(const Vec3& a, const Vec3& b) { return 0.5 * (a + b); }
@@ -58,6 +65,9 @@ inline double volume(Element_kind kind, const Element_points& p)
   return six_volumes / 6;
 }
 
+// The paper's, so that the ARC of the regular tetrahedron is 1, nearly: it should be 6 sqrt(2).
+inline constexpr double tetrahedron_arc_factor = 8.47867;
+
 inline double ratio_of_longest_to_shortest(double a, double b, double c)
 {
   const double shortest = (std::min)({a, b, c});
@@ -77,7 +87,7 @@ inline double aspect_ratio_coefficient(Element_kind kind, const Element_points& 
         sum += dot(d, d);
       }
     const double v = volume(kind, p), l2 = sum / 6;
-    return v > 0 ? l2 * std::sqrt(l2) / (8.47867 * v) : std::numeric_limits<double>::infinity();
+    return v > 0 ? l2 * std::sqrt(l2) / (tetrahedron_arc_factor * v) : std::numeric_limits<double>::infinity();
   }
   case PYRAMID: {
     const Vec3 normal = cross(p[2] - p[0], p[3] - p[1]);
@@ -194,16 +204,23 @@ inline double largest_dihedral_angle(Element_kind kind, const Element_points& p)
   return dihedral_angles(kind, p).largest;
 }
 
+// The normals, not of unit length, of the two triangles of a quadrilateral on either side of a diagonal: 0 is
+// that through its first vertex, 1 the other one.
+inline std::array<Vec3, 2> triangle_normals(const Element_face& face, int diagonal, const Element_points& p)
+{
+  const auto at = [&](int i) -> const Vec3& { return p[face.vertices[(i + diagonal) % 4]]; };
+  const Vec3 b = at(1) - at(0), c = at(2) - at(0), d = at(3) - at(0);
+  return {cross(b, c), cross(c, d)};
+}
+
 inline double quad_warp(Element_kind kind, const Element_points& p)
 {
   const Reference_element& reference = reference_elements[kind];
   double largest = 0;
   for(int f = 0; f < reference.number_of_faces; ++f) {
     const Element_face& face = reference.faces[f];
-    for(int i = 0; face.size == 4 && i < 2; ++i) { // the diagonals
-      const Vec3 &a = p[face.vertices[i]], &b = p[face.vertices[i + 1]], &c = p[face.vertices[i + 2]],
-                 &d = p[face.vertices[(i + 3) % 4]];
-      const Vec3 left = cross(b - a, c - a), right = cross(c - a, d - a);
+    for(int diagonal = 0; face.size == 4 && diagonal < 2; ++diagonal) {
+      const auto [left, right] = triangle_normals(face, diagonal, p);
       largest = (std::max)(largest, std::atan2(norm(cross(left, right)), dot(left, right)));
     }
   }

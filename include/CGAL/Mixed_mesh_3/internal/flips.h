@@ -86,10 +86,7 @@ private:
 
   double cost(const Vertex_index* v) const
   {
-    Working_mesh::Points p{};
-    for(int i = 1; i < 4; ++i)
-      p[i] = m_mesh.points[v[i]] - m_mesh.points[v[0]];
-    return power(m_quality(TETRAHEDRON, p), m_power);
+    return power(m_quality(TETRAHEDRON, m_mesh.relative_points(Element_view(TETRAHEDRON, v))), m_power);
   }
 
   double cost(const Tetrahedron& t) const { return cost(t.data()); }

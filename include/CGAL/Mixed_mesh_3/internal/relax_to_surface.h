@@ -198,24 +198,20 @@ private:
     return is_free;
   }
 
-  // Relative to the first vertex, so that no digits are lost far from the origin.
-  std::array<Vec3, 8> element_points(Element_index e, const std::vector<Vec3>& points) const
+  static auto position_in(const std::vector<Vec3>& points)
   {
-    std::array<Vec3, 8> p{};
-    const Element_view element = m_elements[e];
-    for(int i = 1; i < element.size(); ++i)
-      p[i] = points[element[i]] - points[element[0]];
-    return p;
+    return [&points](Vertex_index v) -> const Vec3& { return points[v]; };
+  }
+
+  Element_points element_points(Element_index e, const std::vector<Vec3>& points) const
+  {
+    return relative_points(m_elements[e], position_in(points));
   }
 
   // On the very coordinates, which differences would round.
   bool is_inverted(Element_index e, const std::vector<Vec3>& points) const
   {
-    std::array<Vec3, 8> p{};
-    const Element_view element = m_elements[e];
-    for(int i = 0; i < element.size(); ++i)
-      p[i] = points[element[i]];
-    return jacobian_sign(element.kind(), p) != Jacobian_sign::POSITIVE;
+    return jacobian_sign(m_elements[e], position_in(points)) != Jacobian_sign::POSITIVE;
   }
 
   bool has_arrived(std::size_t i) const { return m_points[m_targets.vertices[i]] == m_targets.positions[i]; }

@@ -43,6 +43,26 @@ std::vector<Boundary_polygon> boundary_polygons(const Mesh& mesh)
   return polygons;
 }
 
+/// The point of a domain's surface that is closest to a given one.
+template <class Domain>
+class Surface_projection
+{
+  using Point_3 = typename Domain::Point_3;
+
+  const Domain* m_domain;
+
+public:
+  explicit Surface_projection(const Domain& domain) : m_domain(&domain) {}
+
+  Vec3 operator()(const Vec3& p) const { return to_vec3(m_domain->closest_point(Point_3(p[0], p[1], p[2]))); }
+
+  /// Faster if `hint`, a point of the surface, is near.
+  Vec3 operator()(const Vec3& p, const Vec3& hint) const
+  {
+    return to_vec3(m_domain->closest_point(Point_3(p[0], p[1], p[2]), Point_3(hint[0], hint[1], hint[2])));
+  }
+};
+
 /// What `surface_targets()` found.
 struct Surface_targets
 {
@@ -154,11 +174,8 @@ template <class Oracle>
 Surface_targets surface_targets(std::vector<Boundary_polygon> polygons, const std::vector<Vec3>& points,
                                 const Oracle& oracle)
 {
-  using Point_3 = typename Oracle::Point_3;
   constexpr int maximal_number_of_rounds = 100, rounds_until_wider = 10;
-  const auto closest = [&](const Vec3& p, const Vec3& hint) {
-    return to_vec3(oracle.closest_point(Point_3(p[0], p[1], p[2]), Point_3(hint[0], hint[1], hint[2])));
-  };
+  const Surface_projection closest(oracle);
 
   // Number the boundary vertices.
   Surface_targets result;
@@ -186,7 +203,7 @@ Surface_targets surface_targets(std::vector<Boundary_polygon> polygons, const st
     const Vec3& p = sources[i];
     targets.push_back(!neighbours_of[i].empty() && neighbours_of[i][0] < i
                         ? closest(p, targets[neighbours_of[i][0]])
-                        : to_vec3(oracle.closest_point(Point_3(p[0], p[1], p[2]))));
+                        : closest(p));
   }
 
   // Unfold. Where that takes long, the neighbours must give way too.

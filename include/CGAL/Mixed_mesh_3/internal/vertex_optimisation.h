@@ -209,7 +209,7 @@ private:
     double shortest = infinity;
     for(Element_index e : m_mesh.incident[v]) {
       const Working_mesh::Element& element = m_mesh.elements[e];
-      const Working_mesh::Points p = m_mesh.relative_points(element);
+      const Element_points p = m_mesh.relative_points(element);
       const int position = element.position(v);
       Vec3 g{};
       const double q = m_quality(element.kind, p, position, g);
