@@ -3,9 +3,9 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// NIfTI images. Headers are read by nifti_clib (Debian: libnifti2-dev, zlib1g-dev; link nifti2, znz and z).
-// Voxels are read and written here: nifti_clib turns what is not a number into 0 without a word, and does
-// not tell when the disk is full.
+// NIfTI images. Headers are interpreted by nifti_clib (Debian: libnifti2-dev, zlib1g-dev; link nifti2, znz
+// and z). Files are read and written here: nifti_clib turns what is not a number into 0 without a word,
+// prints, and does not tell when the disk is full.
 
 #ifndef CGAL_MIXED_MESH_3_IO_NIFTI_H
 #define CGAL_MIXED_MESH_3_IO_NIFTI_H
@@ -25,12 +25,12 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <memory>
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -70,71 +70,188 @@ bool with_voxel_type(int type, const F& f)
   throw std::runtime_error(path + ": " + defect);
 }
 
+// Reads plain and compressed files.
+class Input_file
+{
+  struct Close
+  {
+    void operator()(gzFile_s* file) const { gzclose(file); }
+  };
+  const std::string& m_path;
+  std::unique_ptr<gzFile_s, Close> m_file;
+
+  int check_compression()
+  {
+    int error = Z_OK;
+    gzerror(m_file.get(), &error);
+    if(error != Z_OK && error != Z_BUF_ERROR) // which is the end of the file
+      refuse_image(m_path, "is damaged: its compressed data are not valid");
+    return error;
+  }
+
+public:
+  explicit Input_file(const std::string& path) : m_path(path)
+  {
+    if(std::filesystem::is_directory(path))
+      refuse_image(path, "is a directory");
+    errno = 0;
+    m_file.reset(gzopen(path.c_str(), "rb"));
+    if(!m_file)
+      refuse_image(path, std::string("cannot be opened: ") + std::strerror(errno));
+    gzbuffer(m_file.get(), 1 << 17);
+  }
+
+  // Whether there were so many bytes.
+  bool read(void* bytes, std::size_t size)
+  {
+    for(char* p = static_cast<char*>(bytes); size != 0;) {
+      const int n = gzread(m_file.get(), p, unsigned((std::min)(size, std::size_t(1) << 30)));
+      check_compression();
+      if(n <= 0)
+        return false;
+      p += n;
+      size -= std::size_t(n);
+    }
+    return true;
+  }
+
+  // Whether the file goes on as it should after what was read: compressed data end with a checksum.
+  bool has_end()
+  {
+    char next;
+    gzread(m_file.get(), &next, 1);
+    return check_compression() != Z_BUF_ERROR;
+  }
+
+  bool skip_to(std::int64_t position)
+  {
+    return position >= 0 && gzseek(m_file.get(), z_off_t(position), SEEK_SET) == z_off_t(position);
+  }
+
+  // No more than that can be in the file: deflate shrinks to no less than 1/1032.
+  double largest_size() const
+  {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(m_path, error);
+    return error ? std::numeric_limits<double>::infinity() : 1032. * double(size);
+  }
+};
+
+struct Free_nifti_image
+{
+  void operator()(nifti_image* header) const { nifti_image_free(header); }
+};
+using Nifti_header = std::unique_ptr<nifti_image, Free_nifti_image>;
+
+// What is wrong with a header, after bytes have been swapped if need be; or empty. What passes makes
+// nifti_clib neither print nor overflow.
+template <class Header>
+std::string header_defect(const Header& header)
+{
+  if(header.dim[0] < 1 || header.dim[0] > 7)
+    return "cannot be read: it says that it has " + std::to_string(header.dim[0]) + " dimensions";
+  double values = 1;
+  for(int i = 1; i <= header.dim[0]; ++i) {
+    if(header.dim[i] < 1 || header.dim[i] > 1000000000)
+      return "cannot be read: its dimension " + std::to_string(i) + " is " + std::to_string(header.dim[i]);
+    values *= i > 3 ? double(header.dim[i]) : 1;
+  }
+  if(values != 1) {
+    std::string sizes = std::to_string(header.dim[1]);
+    for(int i = 2; i <= header.dim[0]; ++i)
+      sizes += " x " + std::to_string(header.dim[i]);
+    return "is a " + std::to_string(header.dim[0]) + "-D image of " + sizes
+           + " values; expected three dimensions";
+  }
+  if(!with_voxel_type(header.datatype, [](auto) {}))
+    return std::string("has voxels of type ") + nifti_datatype_to_string(header.datatype)
+           + "; expected one real number in a voxel";
+  return std::string();
+}
+
+template <class Header, class Convert>
+Nifti_header read_header(const std::string& path, Input_file& file, std::int32_t first, int version,
+                         const char* magic, const Convert& convert)
+{
+  const char* const unknown = "cannot be read: not a NIfTI image";
+  Header header;
+  std::memcpy(&header, &first, sizeof(first));
+  if(!file.read(reinterpret_cast<char*>(&header) + sizeof(first), sizeof(header) - sizeof(first)))
+    refuse_image(path, unknown);
+  if(std::memcmp(header.magic, magic, 4) != 0)
+    refuse_image(path, std::memcmp(header.magic, "ni", 2) == 0 ? "cannot be read: its voxels are in another file"
+                                                               : unknown);
+  Header native = header;
+  if(native.sizeof_hdr != int(sizeof(Header)))
+    swap_nifti_header(&native, version);
+  const std::string defect = header_defect(native);
+  if(!defect.empty())
+    refuse_image(path, defect);
+  nifti_set_debug_level(0); // or it prints
+  Nifti_header result(convert(header));
+  if(!result)
+    refuse_image(path, unknown);
+  return result;
+}
+
+inline Nifti_header read_header(const std::string& path, Input_file& file)
+{
+  std::int32_t size = 0, swapped_size = 0;
+  if(file.read(&size, sizeof(size))) {
+    swapped_size = size;
+    nifti_swap_4bytes(1, &swapped_size);
+  }
+  if(size == 540 || swapped_size == 540)
+    return read_header<nifti_2_header>(path, file, size, 2, "n+2", [](const nifti_2_header& header) {
+      return nifti_convert_n2hdr2nim(header, nullptr);
+    });
+  if(size != 348 && swapped_size != 348)
+    refuse_image(path, "cannot be read: not a NIfTI image");
+  return read_header<nifti_1_header>(path, file, size, 1, "n+1", [](const nifti_1_header& header) {
+    return nifti_convert_n1hdr2nim(header, nullptr);
+  });
+}
+
 // The grid of an image: sform, else qform, else the voxels' sizes. Lengths become millimetres.
 inline Voxel_grid_3 read_grid(const std::string& path, const nifti_image& header)
 {
   Voxel_grid_3 grid;
-  const char* const names[] = {"first", "second", "third"};
-  const std::int64_t size[] = {header.nx, header.ny, header.nz};
-  for(int i = 0; i < 3; ++i) {
-    if(size[i] < 1 || size[i] > 1000000)
-      refuse_image(path, std::string("its ") + names[i] + " dimension is " + std::to_string(size[i]));
-    grid.size[i] = std::size_t(size[i]);
-  }
+  grid.size = {std::size_t(header.nx), std::size_t(header.ny), std::size_t(header.nz)};
   const bool has_sform = header.sform_code > 0;
   grid.world = has_sform ? header.sform_code : header.qform_code > 0 ? header.qform_code : 0;
   const double unit = header.xyz_units == NIFTI_UNITS_METER ? 1000
                       : header.xyz_units == NIFTI_UNITS_MICRON ? 0.001 : 1;
   const nifti_dmat44& map = has_sform ? header.sto_xyz : header.qto_xyz;
-  for(int i = 0; i < 3; ++i)
-    for(int j = 0; j < 4; ++j) {
-      grid.index_to_world[i][j] = unit * map.m[i][j];
-      if(!(std::abs(grid.index_to_world[i][j]) < 1e15))
-        refuse_image(path, "its orientation has entries that are not finite numbers");
-    }
   double scale = 1; // determinants of rotations times sizes are as large as the product of the columns
-  for(int j = 0; j < 3; ++j)
-    scale *= std::hypot(grid.index_to_world[0][j], grid.index_to_world[1][j], grid.index_to_world[2][j]);
+  for(int j = 0; j < 4; ++j) {
+    double length = 0;
+    for(int i = 0; i < 3; ++i) {
+      grid.index_to_world[i][j] = unit * map.m[i][j];
+      length = std::hypot(length, grid.index_to_world[i][j]);
+    }
+    if(!(length < 1e15))
+      refuse_image(path, "its orientation has entries that are not finite numbers");
+    scale *= j < 3 ? length : 1;
+  }
   if(!(std::abs(Mixed_meshes_3::determinant(grid.index_to_world)) > 1e-6 * scale))
     refuse_image(path, std::string("its ") + (has_sform ? "sform" : "qform") + " is singular");
   return grid;
 }
 
 // The numbers as they are in the file, in this machine's byte order.
-inline std::vector<char> read_voxel_bytes(const std::string& path, const nifti_image& header,
-                                          std::size_t count)
+inline std::vector<char> read_voxel_bytes(const std::string& path, Input_file& file,
+                                          const nifti_image& header)
 {
-  const std::size_t width = std::size_t(header.nbyper), size = count * width;
-  const std::string truncated = "is truncated: " + std::to_string(count) + " voxels expected";
-  // Before memory is asked for: deflate shrinks to no less than 1/1032.
-  std::error_code ignored;
-  const auto file_size = std::filesystem::file_size(path, ignored);
-  if(!ignored && std::filesystem::is_regular_file(path, ignored)
-     && size / (ends_with(path, ".gz") ? 1032 : 1) > file_size)
+  const double count = double(header.nx) * double(header.ny) * double(header.nz);
+  const std::string truncated = "is truncated: " + std::to_string(header.nx) + " x " + std::to_string(header.ny)
+                                + " x " + std::to_string(header.nz) + " voxels expected";
+  if(count * header.nbyper > file.largest_size()) // before memory is asked for
     refuse_image(path, truncated);
-  struct Close
-  {
-    void operator()(gzFile_s* file) const { gzclose(file); }
-  };
-  const std::unique_ptr<gzFile_s, Close> file(gzopen(path.c_str(), "rb")); // reads plain files, too
-  if(!file)
-    refuse_image(path, std::string("cannot be opened: ") + std::strerror(errno));
-  gzbuffer(file.get(), 1 << 17);
-  if(header.iname_offset < 0
-     || gzseek(file.get(), z_off_t(header.iname_offset), SEEK_SET) != z_off_t(header.iname_offset))
+  std::vector<char> bytes(std::size_t(count) * std::size_t(header.nbyper));
+  if(!file.skip_to(header.iname_offset) || !file.read(bytes.data(), bytes.size()) || !file.has_end())
     refuse_image(path, truncated);
-  std::vector<char> bytes(size);
-  for(std::size_t done = 0; done < size;) {
-    const int n = gzread(file.get(), bytes.data() + done, unsigned((std::min)(size - done, std::size_t(1) << 30)));
-    if(n <= 0)
-      refuse_image(path, truncated);
-    done += std::size_t(n);
-  }
-  char end; // the checksum comes after the last byte
-  if(gzread(file.get(), &end, 1) < 0)
-    refuse_image(path, "is damaged: its compressed data do not have the checksum that the file says");
-  if(header.byteorder != nifti_short_order() && width > 1)
-    nifti_swap_Nbytes(std::int64_t(count), int(width), bytes.data());
+  if(header.byteorder != nifti_short_order() && header.nbyper > 1)
+    nifti_swap_Nbytes(std::int64_t(count), header.nbyper, bytes.data());
   return bytes;
 }
 
@@ -300,32 +417,9 @@ inline Voxel_image_3 read_NIFTI(const std::string& path)
   using internal::refuse_image;
   if(!internal::ends_with(path, ".nii") && !internal::ends_with(path, ".nii.gz"))
     refuse_image(path, "unknown format; expected .nii or .nii.gz");
-  if(std::filesystem::is_directory(path))
-    refuse_image(path, "is a directory");
-  errno = 0;
-  if(!std::ifstream(path))
-    refuse_image(path, std::string("cannot be opened: ") + std::strerror(errno));
-
-  struct Free
-  {
-    void operator()(nifti_image* header) const { nifti_image_free(header); }
-  };
-  nifti_set_debug_level(0); // or it prints
-  const std::unique_ptr<nifti_image, Free> owner(nifti_image_read(path.c_str(), 0));
-  if(!owner || owner->nifti_type == NIFTI_FTYPE_ANALYZE) // which does not know left from right
-    refuse_image(path, "cannot be read: not a NIfTI image");
+  internal::Input_file input(path);
+  const internal::Nifti_header owner = internal::read_header(path, input);
   const nifti_image& header = *owner;
-  if(header.nifti_type != NIFTI_FTYPE_NIFTI1_1 && header.nifti_type != NIFTI_FTYPE_NIFTI2_1)
-    refuse_image(path, "cannot be read: its voxels are in another file");
-
-  std::int64_t volumes = 1;
-  const std::int64_t further[] = {header.nt, header.nu, header.nv, header.nw};
-  for(std::int64_t n : further)
-    if(n > 1)
-      volumes = n < 1000000 && volumes < 1000000 ? volumes * n : 1000000;
-  if(volumes != 1)
-    refuse_image(path, "is a " + std::to_string(header.ndim) + "-D image with " + std::to_string(volumes)
-                         + " values in a voxel; expected a 3-D image with one");
   Voxel_image_3 image;
   image.grid = internal::read_grid(path, header);
   image.type = Voxel_type(header.datatype);
@@ -337,9 +431,9 @@ inline Voxel_image_3 read_NIFTI(const std::string& path)
     refuse_image(path, "its slope or intercept is not a finite number");
 
   const std::size_t count = image.grid.number_of_voxels();
-  const bool is_known = internal::with_voxel_type(header.datatype, [&](auto zero) {
+  internal::with_voxel_type(header.datatype, [&](auto zero) {
     using T = decltype(zero);
-    const std::vector<char> bytes = internal::read_voxel_bytes(path, header, count);
+    const std::vector<char> bytes = internal::read_voxel_bytes(path, input, header);
     image.values.resize(count);
     for(std::size_t i = 0; i < count; ++i) {
       T x;
@@ -353,9 +447,6 @@ inline Voxel_image_3 read_NIFTI(const std::string& path)
       }
     }
   });
-  if(!is_known)
-    refuse_image(path, std::string("has voxels of type ") + nifti_datatype_to_string(header.datatype)
-                         + "; expected one real number in a voxel");
   return image;
 }
 

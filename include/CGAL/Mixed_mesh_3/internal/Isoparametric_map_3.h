@@ -188,7 +188,7 @@ class Isoparametric_map_3
   static Vec3 restricted(Vec3 r)
   {
     if constexpr(Kind == PYRAMID) {
-      r[2] = (std::max)(-0.5, (std::min)(r[2], 1 - 1e-12));
+      r[2] = (std::max)(-0.5, (std::min)(r[2], 1 - 1e-13));
       const double w = 1.5 * (1 - r[2]);
       for(int i = 0; i < 2; ++i)
         r[i] = (std::max)(-w, (std::min)(r[i], w));
@@ -255,12 +255,17 @@ public:
   bool improve(const Vec3& p, Vec3& r, double accuracy) const
   {
     const Vec3 x = p - m_origin;
+    r = restricted(r);
     for(int iteration = 0; iteration < 20; ++iteration) {
-      r = restricted(r);
       const Vec3 step = product(inverse_rows(m_field.derivatives(r)), x - m_field(r));
-      r = r + step;
+      const double height = r[2];
+      r = restricted(r + step);
+      // Not across the apex: only the direction from there counts, and that would be the opposite one.
+      if(Kind == PYRAMID && 1 - r[2] < 0.01 * (1 - height))
+        r = restricted({r[0], r[1], 1 - 0.01 * (1 - height)});
       const double length = (std::max)({std::abs(step[0]), std::abs(step[1]), std::abs(step[2])});
-      if(length < accuracy)
+      // The nearer to a pyramid's apex, the faster the derivative changes.
+      if(length < (Kind == PYRAMID ? accuracy * (std::max)(1e-4, 1 - r[2]) : accuracy))
         return true;
       if(!(length < 1e6)) // a singular derivative
         return false;
