@@ -54,8 +54,8 @@ def main():
         check(np.allclose(read.affine, affine, atol=1e-5), name, "affine", read.affine)
         check(np.allclose(read.get_sform(), affine, atol=1e-5), name, "sform")
         check(np.allclose(read.get_qform(), affine, atol=1e-4), name, "qform", read.get_qform())
-        check(read.get_sform(coded=True)[1] == read.get_qform(coded=True)[1] == (4 if "mirrored" in name else 1),
-              name, "code")
+        code = 4 if "mirrored" in name else 1
+        check(read.get_sform(coded=True)[1] == read.get_qform(coded=True)[1] == code, name, "code")
         check(read.header.get_xyzt_units()[0] == "mm", name, "unit")
         values = np.asarray(read.dataobj).astype(np.float32).ravel(order="F")
         check(np.array_equal(values, np.array(image["values"], np.float32)), name, "values", values)

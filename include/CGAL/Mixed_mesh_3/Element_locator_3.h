@@ -139,16 +139,6 @@ class Element_locator_3
 {
   using Vec3 = internal::Vec3;
 
-  const Mesh& m_mesh;
-  std::vector<Vec3> m_points;
-  std::vector<Face_handle> m_boundary;
-  // A uniform grid: the elements whose boxes meet cell c are
-  // m_elements[m_ends[c]] ... m_elements[m_ends[c + 1] - 1], in ascending order.
-  Vec3 m_lower{}, m_cells_per_unit{};
-  std::array<std::size_t, 3> m_size{1, 1, 1};
-  std::vector<std::size_t> m_ends;
-  std::vector<Element_index> m_elements;
-
   struct Box
   {
     Vec3 lower, upper;
@@ -167,6 +157,17 @@ class Element_locator_3
       return sum;
     }
   };
+
+  const Mesh& m_mesh;
+  std::vector<Vec3> m_points;
+  std::vector<Face_handle> m_boundary;
+  // A uniform grid: the elements whose boxes meet cell c are
+  // m_elements[m_ends[c]] ... m_elements[m_ends[c + 1] - 1], in ascending order.
+  Box m_box{{1, 1, 1}, {0, 0, 0}}; // of all elements; of none if there are none
+  Vec3 m_cells_per_unit{};
+  std::array<std::size_t, 3> m_size{1, 1, 1};
+  std::vector<std::size_t> m_ends;
+  std::vector<Element_index> m_elements;
 
   // The box of some vertices; wider by what counts as inside.
   template <class Vertices>
@@ -191,7 +192,7 @@ class Element_locator_3
   {
     std::array<std::size_t, 3> c;
     for(int k = 0; k < 3; ++k) {
-      const double x = (p[k] - m_lower[k]) * m_cells_per_unit[k];
+      const double x = (p[k] - m_box.lower[k]) * m_cells_per_unit[k];
       c[k] = x > 0 ? (std::min)(std::size_t((std::min)(x, 1e9)), m_size[k] - 1) : 0;
     }
     return c;
@@ -221,15 +222,14 @@ class Element_locator_3
       boxes.push_back(box(m_mesh.element(e), m_mesh.element(e).size()));
     Vec3 extent{};
     if(n != 0) {
-      Box whole = boxes.front();
+      m_box = boxes.front();
       for(const Box& b : boxes)
         for(int k = 0; k < 3; ++k) {
-          whole.lower[k] = (std::min)(whole.lower[k], b.lower[k]);
-          whole.upper[k] = (std::max)(whole.upper[k], b.upper[k]);
+          m_box.lower[k] = (std::min)(m_box.lower[k], b.lower[k]);
+          m_box.upper[k] = (std::max)(m_box.upper[k], b.upper[k]);
         }
-      m_lower = whole.lower;
       for(int k = 0; k < 3; ++k)
-        extent[k] = whole.upper[k] - whole.lower[k];
+        extent[k] = m_box.upper[k] - m_box.lower[k];
     }
     // About as many cubic cells as elements, and not more than so many of these in a row.
     const double width = std::cbrt(extent[0] * extent[1] * extent[2] / double(n + 1));
@@ -299,6 +299,8 @@ public:
   std::optional<Element_location_3> locate(const Point& point) const
   {
     const Vec3 p = internal::components(point);
+    if(!m_box.contains(p))
+      return std::nullopt;
     const auto c = cell(p);
     const std::size_t index = cell_index(c[0], c[1], c[2]);
     for(std::size_t i = m_ends[index]; i < m_ends[index + 1]; ++i)

@@ -120,8 +120,10 @@ private:
 
   static std::string centre(const Voxel_grid_3& grid)
   {
-    return text(transform(grid.index_to_world, {0.5 * double(grid.size[0] - 1), 0.5 * double(grid.size[1] - 1),
-                                                0.5 * double(grid.size[2] - 1)}));
+    Vec3 middle;
+    for(int k = 0; k < 3; ++k)
+      middle[k] = 0.5 * double(grid.size[k] - 1);
+    return text(transform(grid.index_to_world, middle));
   }
 
   template <class Mesh>
@@ -179,7 +181,7 @@ void for_each_displaced_voxel(const Displacement_field_3& field, const Visitor& 
         }
         Vec3 p{double(i), double(j), double(k)};
         for(int a = 0; a < 3; ++a)
-          p[a] += to_index[a][0] * double(u[0]) + to_index[a][1] * double(u[1]) + to_index[a][2] * double(u[2]);
+          p[a] += dot({to_index[a][0], to_index[a][1], to_index[a][2]}, {double(u[0]), double(u[1]), double(u[2])});
         visit(offset, p);
       }
 }
@@ -203,7 +205,7 @@ inline Voxel_image_3 resample_image(const Voxel_image_3& image, const Displaceme
   Voxel_image_3 result = image;
   internal::for_each_displaced_voxel(
     field,
-    [&](std::size_t offset, const std::array<double, 3>& p) { result.values[offset] = interpolate(image, p); },
+    [&](std::size_t offset, const internal::Vec3& p) { result.values[offset] = interpolate(image, p); },
     [](std::size_t) {});
   return result;
 }
@@ -216,10 +218,10 @@ is there now; the value is the image's there, linear between voxels. Outside the
 `Warp_options::fade_distance`. The mesh and the image are in the same world: millimetres, x to the right,
 y to the front, z upwards.
 
-The two fields are inverse to each other in the mesh, but for the rounding to voxels. Outside they agree at the
-surface only. Voxels of resected tissue are those, after the deformation, that would show tissue removed:
-points of tissue of which `is_resected` holds, and points outside the remaining mesh that come from a
-resected element.
+In the mesh the fields are those of the elements at the centres of the voxels, up to the rounding to
+floats, and inverse to each other; outside they agree at the surface only. Voxels of resected tissue are
+those, after the deformation, that would show tissue removed: points of tissue of which `is_resected` holds,
+and points outside the remaining mesh that come from a resected element.
 
 \tparam Mesh a `Mixed_mesh_3`
 \tparam Displacements an array with components `[0]`, `[1]`, `[2]` for each vertex

@@ -179,8 +179,8 @@ Nifti_header read_header(const std::string& path, Input_file& file, std::int32_t
   if(!file.read(reinterpret_cast<char*>(&header) + sizeof(first), sizeof(header) - sizeof(first)))
     refuse_image(path, unknown);
   if(std::memcmp(header.magic, magic, 4) != 0)
-    refuse_image(path, std::memcmp(header.magic, "ni", 2) == 0 ? "cannot be read: its voxels are in another file"
-                                                               : unknown);
+    refuse_image(path, std::memcmp(header.magic, "ni", 2) == 0
+                         ? "cannot be read: its voxels are in another file" : unknown);
   Header native = header;
   if(native.sizeof_hdr != int(sizeof(Header)))
     swap_nifti_header(&native, version);
@@ -243,8 +243,9 @@ inline std::vector<char> read_voxel_bytes(const std::string& path, Input_file& f
                                           const nifti_image& header)
 {
   const double count = double(header.nx) * double(header.ny) * double(header.nz);
-  const std::string truncated = "is truncated: " + std::to_string(header.nx) + " x " + std::to_string(header.ny)
-                                + " x " + std::to_string(header.nz) + " voxels expected";
+  const std::string truncated = "is truncated: " + std::to_string(header.nx) + " x "
+                                + std::to_string(header.ny) + " x " + std::to_string(header.nz)
+                                + " voxels expected";
   if(count * header.nbyper > file.largest_size()) // before memory is asked for
     refuse_image(path, truncated);
   std::vector<char> bytes(std::size_t(count) * std::size_t(header.nbyper));

@@ -12,13 +12,14 @@
 #include <CGAL/Mixed_mesh_3/Voxel_image_3.h>
 #include <CGAL/Mixed_mesh_3/internal/Isoparametric_map_3.h>
 
+#include <CGAL/assertions.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -204,11 +205,13 @@ Gives each voxel outside the mesh the vector of the nearest voxel in the mesh, t
 smoothly from 1 to 0 over a distance.
 
 Distances are measured along the axes of the grid as if these were at right angles.
+\pre fewer than 2^32 voxels
 \cost linear in the number of voxels in a box around the mesh
 */
 inline void fade_displacement(double distance, Displacement_field_3& field)
 {
   const Voxel_grid_3& grid = field.grid;
+  CGAL_precondition(grid.number_of_voxels() <= std::numeric_limits<std::uint32_t>::max());
   Vec3 spacing, margin;
   for(int k = 0; k < 3; ++k) {
     const Affine_map_3& m = grid.index_to_world;
@@ -291,7 +294,8 @@ inline void fade_displacement(double distance, Displacement_field_3& field)
           continue;
         envelope.for_each(0, n[axis], [&](std::ptrdiff_t a, std::ptrdiff_t place, double d) {
           if(d < value(a))
-            first[a * stride] = d <= limit ? Nearest{float(d), line[std::size_t(place)].offset} : Nearest{far, 0};
+            first[a * stride] = d <= limit ? Nearest{float(d), line[std::size_t(place)].offset}
+                                           : Nearest{far, 0};
         });
       }
   };
