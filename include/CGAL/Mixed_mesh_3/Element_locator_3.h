@@ -1,0 +1,365 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_ELEMENT_LOCATOR_3_H
+#define CGAL_MIXED_MESH_3_ELEMENT_LOCATOR_3_H
+
+#include <CGAL/Mixed_mesh_3.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/Isoparametric_map_3.h>
+
+#include <CGAL/assertions.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+
+/// A point of a mesh: its element, and where it is there.
+struct Element_location_3
+{
+  Element_index element = Element_index(-1);
+  std::array<double, 3> coordinates{}; ///< in the reference element
+  /// Values of the shape functions, in the order of the element's vertices: a field of the mesh is the sum
+  /// of its values at the vertices times these.
+  std::array<double, 8> weights{};
+  double distance = 0; ///< of the point asked for; 0 if it is in the element
+};
+
+namespace internal {
+
+template <class Triple>
+Vec3 components(const Triple& p)
+{
+  return {rounded(p[0]), rounded(p[1]), rounded(p[2])};
+}
+
+/// Positions of a mesh's vertices, displaced. \pre a displacement for each vertex
+template <class Mesh, class Displacements>
+std::vector<Vec3> displaced_points(const Mesh& mesh, const Displacements& displacements)
+{
+  CGAL_precondition(std::size_t(std::size(displacements)) == mesh.number_of_vertices());
+  std::vector<Vec3> points;
+  points.reserve(mesh.number_of_vertices());
+  for(const auto& p : mesh.points())
+    points.push_back(to_vec3(p) + components(displacements[points.size()]));
+  return points;
+}
+
+// The point of a triangle or bilinear quadrilateral nearest to the origin, as weights of its corners.
+// For fixed v the patch is a segment in u, and conversely: descends in u and v by turns.
+inline std::array<double, 4> nearest_weights_on_quadrilateral(const Vec3* p, double u, double v)
+{
+  const auto on_segment = [](const Vec3& a, const Vec3& b) {
+    const Vec3 d = b - a;
+    const double length = dot(d, d);
+    return length > 0 ? (std::max)(0., (std::min)(1., -dot(a, d) / length)) : 0.;
+  };
+  for(int i = 0; i < 200; ++i) {
+    const double new_u = on_segment((1 - v) * p[0] + v * p[3], (1 - v) * p[1] + v * p[2]);
+    const double new_v = on_segment((1 - new_u) * p[0] + new_u * p[1], (1 - new_u) * p[3] + new_u * p[2]);
+    const double change = (std::max)(std::abs(new_u - u), std::abs(new_v - v));
+    u = new_u;
+    v = new_v;
+    if(change < 1e-14)
+      break;
+  }
+  return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
+}
+
+inline std::array<double, 4> nearest_weights_on_triangle(const Vec3* p)
+{
+  const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
+  const double area = dot(n, n);
+  std::array<double, 4> best{};
+  if(area > 0) {
+    best = {dot(n, cross(p[1], p[2])) / area, dot(n, cross(p[2], p[0])) / area,
+            dot(n, cross(p[0], p[1])) / area, 0};
+    if(best[0] >= 0 && best[1] >= 0 && best[2] >= 0)
+      return best;
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for(int i = 0; i < 3; ++i) { // on an edge
+    const int j = (i + 1) % 3;
+    const Vec3 d = p[j] - p[i];
+    const double length = dot(d, d);
+    const double t = length > 0 ? (std::max)(0., (std::min)(1., -dot(p[i], d) / length)) : 0.;
+    const Vec3 q = p[i] + t * d;
+    if(dot(q, q) < least) {
+      least = dot(q, q);
+      best = {};
+      best[i] = 1 - t;
+      best[j] = t;
+    }
+  }
+  return best;
+}
+
+inline std::array<double, 4> nearest_weights(const Vec3* p, int size)
+{
+  if(size == 3)
+    return nearest_weights_on_triangle(p);
+  // From each corner and from the middle: a warped patch may have several points that are locally nearest.
+  std::array<double, 4> best{};
+  double least = std::numeric_limits<double>::infinity();
+  for(const auto& start : {std::array<double, 2>{0.5, 0.5}, {0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+    const auto w = nearest_weights_on_quadrilateral(p, start[0], start[1]);
+    const double distance = norm(w[0] * p[0] + w[1] * p[1] + w[2] * p[2] + w[3] * p[3]);
+    if(distance < least) {
+      least = distance;
+      best = w;
+    }
+  }
+  return best;
+}
+
+} // namespace internal
+
+/*!
+\brief Finds the element of a mesh that contains a point, and the point's coordinates there.
+
+For the mesh as it is, or displaced. Of several elements that contain a point (on common faces, edges and
+vertices) it is the one with the smallest index. Points that are outside by less than 1e-9 in reference
+coordinates count as inside, so that none is lost between elements.
+
+The mesh must outlive the locator and not change. Points are whatever has `p[0]`, `p[1]`, `p[2]`.
+
+\tparam Mesh a `Mixed_mesh_3`
+*/
+template <class Mesh>
+class Element_locator_3
+{
+  using Vec3 = internal::Vec3;
+
+  struct Box
+  {
+    Vec3 lower, upper;
+    bool contains(const Vec3& p) const
+    {
+      return lower[0] <= p[0] && p[0] <= upper[0] && lower[1] <= p[1] && p[1] <= upper[1]
+             && lower[2] <= p[2] && p[2] <= upper[2];
+    }
+    double squared_distance(const Vec3& p) const
+    {
+      double sum = 0;
+      for(int i = 0; i < 3; ++i) {
+        const double d = (std::max)({lower[i] - p[i], p[i] - upper[i], 0.});
+        sum += d * d;
+      }
+      return sum;
+    }
+  };
+
+  const Mesh& m_mesh;
+  std::vector<Vec3> m_points;
+  std::vector<Face_handle> m_boundary;
+  // A uniform grid: the elements whose boxes meet cell c are
+  // m_elements[m_ends[c]] ... m_elements[m_ends[c + 1] - 1], in ascending order.
+  Box m_box{{1, 1, 1}, {0, 0, 0}}; // of all elements; of none if there are none
+  Vec3 m_cells_per_unit{};
+  std::array<std::size_t, 3> m_size{1, 1, 1};
+  std::vector<std::size_t> m_ends;
+  std::vector<Element_index> m_elements;
+
+  // The box of some vertices; wider by what counts as inside.
+  template <class Vertices>
+  Box box(const Vertices& vertices, int size) const
+  {
+    Box b{m_points[vertices[0]], m_points[vertices[0]]};
+    for(int i = 1; i < size; ++i)
+      for(int k = 0; k < 3; ++k) {
+        b.lower[k] = (std::min)(b.lower[k], m_points[vertices[i]][k]);
+        b.upper[k] = (std::max)(b.upper[k], m_points[vertices[i]][k]);
+      }
+    using internal::operator-;
+    const double margin = 1e-8 * internal::norm(b.upper - b.lower);
+    for(int k = 0; k < 3; ++k) {
+      b.lower[k] -= margin;
+      b.upper[k] += margin;
+    }
+    return b;
+  }
+
+  std::array<std::size_t, 3> cell(const Vec3& p) const
+  {
+    std::array<std::size_t, 3> c;
+    for(int k = 0; k < 3; ++k) {
+      const double x = (p[k] - m_box.lower[k]) * m_cells_per_unit[k];
+      c[k] = x > 0 ? (std::min)(std::size_t((std::min)(x, 1e9)), m_size[k] - 1) : 0;
+    }
+    return c;
+  }
+
+  std::size_t cell_index(std::size_t i, std::size_t j, std::size_t k) const
+  {
+    return i + m_size[0] * (j + m_size[1] * k);
+  }
+
+  template <class F>
+  void for_each_cell(const Box& b, const F& f) const
+  {
+    const auto lower = cell(b.lower), upper = cell(b.upper);
+    for(std::size_t k = lower[2]; k <= upper[2]; ++k)
+      for(std::size_t j = lower[1]; j <= upper[1]; ++j)
+        for(std::size_t i = lower[0]; i <= upper[0]; ++i)
+          f(cell_index(i, j, k));
+  }
+
+  void make_grid()
+  {
+    const std::size_t n = m_mesh.number_of_elements();
+    std::vector<Box> boxes;
+    boxes.reserve(n);
+    for(std::size_t e = 0; e < n; ++e)
+      boxes.push_back(box(m_mesh.element(e), m_mesh.element(e).size()));
+    Vec3 extent{};
+    if(n != 0) {
+      m_box = boxes.front();
+      for(const Box& b : boxes)
+        for(int k = 0; k < 3; ++k) {
+          m_box.lower[k] = (std::min)(m_box.lower[k], b.lower[k]);
+          m_box.upper[k] = (std::max)(m_box.upper[k], b.upper[k]);
+        }
+      for(int k = 0; k < 3; ++k)
+        extent[k] = m_box.upper[k] - m_box.lower[k];
+    }
+    // About as many cubic cells as elements, and not more than so many of these in a row.
+    const double width = std::cbrt(extent[0] * extent[1] * extent[2] / double(n + 1));
+    for(int k = 0; k < 3; ++k) {
+      m_size[k] = width > 0 ? std::size_t((std::min)(extent[k] / width, 1000.)) + 1 : 1;
+      m_cells_per_unit[k] = extent[k] > 0 ? double(m_size[k]) / extent[k] : 0;
+    }
+    m_ends.assign(m_size[0] * m_size[1] * m_size[2] + 2, 0);
+    for(const Box& b : boxes)
+      for_each_cell(b, [&](std::size_t c) { ++m_ends[c + 2]; });
+    for(std::size_t c = 2; c < m_ends.size(); ++c)
+      m_ends[c] += m_ends[c - 1];
+    m_elements.resize(m_ends.back());
+    for(std::size_t e = 0; e < n; ++e)
+      for_each_cell(boxes[e], [&](std::size_t c) { m_elements[m_ends[c + 1]++] = Element_index(e); });
+  }
+
+  std::optional<Element_location_3> locate_in(Element_index e, const Vec3& p) const
+  {
+    const Element_view element = m_mesh.element(e);
+    Vec3 points[8];
+    for(int i = 0; i < element.size(); ++i)
+      points[i] = m_points[element[i]];
+    return internal::with_kind(element.kind(), [&](auto kind) -> std::optional<Element_location_3> {
+      const auto r = internal::Isoparametric_map_3<kind.value>(points).inverse(p);
+      if(!r)
+        return std::nullopt;
+      Element_location_3 location;
+      location.element = e;
+      location.coordinates = *r;
+      const auto weights = Mixed_element_traits_3<kind.value>::shape_functions((*r)[0], (*r)[1], (*r)[2]);
+      std::copy(weights.begin(), weights.end(), location.weights.begin());
+      return location;
+    });
+  }
+
+  void prepare()
+  {
+    make_grid();
+    for(const auto& face : boundary_faces(m_mesh))
+      m_boundary.push_back({face.element, std::uint8_t(face.local_face)});
+  }
+
+public:
+  /// For the mesh as it is. \cost O(n log n) in the number of elements
+  explicit Element_locator_3(const Mesh& mesh)
+    : m_mesh(mesh)
+  {
+    m_points.reserve(mesh.number_of_vertices());
+    for(const auto& p : mesh.points())
+      m_points.push_back(internal::to_vec3(p));
+    prepare();
+  }
+
+  /// For the displaced mesh. \param mesh the mesh
+  /// \param displacements a vector for each vertex, with components `[0]`, `[1]`, `[2]`
+  template <class Displacements>
+  Element_locator_3(const Mesh& mesh, const Displacements& displacements)
+    : m_mesh(mesh), m_points(internal::displaced_points(mesh, displacements))
+  {
+    prepare();
+  }
+
+  /// The element that contains a point, or none.
+  /// \cost proportional to the number of elements whose boxes are near: constant unless sizes differ much
+  template <class Point>
+  std::optional<Element_location_3> locate(const Point& point) const
+  {
+    const Vec3 p = internal::components(point);
+    if(!m_box.contains(p))
+      return std::nullopt;
+    const auto c = cell(p);
+    const std::size_t index = cell_index(c[0], c[1], c[2]);
+    for(std::size_t i = m_ends[index]; i < m_ends[index + 1]; ++i)
+      if(const auto location = locate_in(m_elements[i], p))
+        return location;
+    return std::nullopt;
+  }
+
+  /*!
+  The element that contains a point, or else the point of the boundary nearest to it; of equally near ones
+  the one in the element with the smallest index.
+
+  \pre the mesh is not empty
+  \cost as `locate()`, and linear in the number of boundary faces for a point outside
+  */
+  template <class Point>
+  Element_location_3 nearest(const Point& point) const
+  {
+    using internal::operator+;
+    using internal::operator-;
+    using internal::operator*;
+    CGAL_precondition(!m_mesh.is_empty());
+    if(const auto location = locate(point))
+      return *location;
+    const Vec3 p = internal::components(point);
+    Element_location_3 best;
+    best.distance = std::numeric_limits<double>::infinity();
+    for(const Face_handle& handle : m_boundary) {
+      const Element_view element = m_mesh.element(handle.element);
+      const Element_face& face = element.reference().faces[handle.local_face];
+      const auto vertices = internal::face_vertices(element, handle.local_face);
+      if(box(vertices, face.size).squared_distance(p) > best.distance * best.distance)
+        continue;
+      Vec3 corners[4];
+      for(int i = 0; i < face.size; ++i)
+        corners[i] = m_points[vertices[i]] - p;
+      const auto weights = internal::nearest_weights(corners, face.size);
+      Vec3 offset{};
+      for(int i = 0; i < face.size; ++i)
+        offset = offset + weights[i] * corners[i];
+      const double distance = internal::norm(offset);
+      if(!(distance < best.distance))
+        continue;
+      // On a face only its own vertices count, with the weights of the face.
+      best = {};
+      best.element = handle.element;
+      best.distance = distance;
+      for(int i = 0; i < face.size; ++i) {
+        const int v = face.vertices[i];
+        best.weights[v] = weights[i];
+        for(int k = 0; k < 3; ++k)
+          best.coordinates[k] += weights[i] * element.reference().coordinates[v][k];
+      }
+    }
+    return best;
+  }
+};
+
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_ELEMENT_LOCATOR_3_H
