@@ -100,6 +100,14 @@ public:
     return m_solver->info() == Eigen::Success;
   }
 
+  /// Solves for several right-hand sides at once, the columns of `b`, which is faster than one by one.
+  bool linear_solver(const Eigen::MatrixXd& b, Eigen::MatrixXd& x)
+  {
+    CGAL_precondition(!m_starts.empty());
+    x = m_solver->solve(b);
+    return m_solver->info() == Eigen::Success;
+  }
+
   bool linear_solver(const Matrix& a, const Vector& b, Vector& x, NT& denominator)
   {
     return factor(a, denominator) && linear_solver(b, x);
@@ -121,10 +129,49 @@ using Conjugate_gradient_solver_traits =
 using Simplicial_solver_traits = Symmetric_solver_traits<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>;
 
 #ifdef CGAL_MIXED_MESH_3_USE_CHOLMOD
-/// The supernodal factorisation of CHOLMOD. The fastest direct solver for large systems.
+/// The supernodal factorisation of CHOLMOD. The fastest direct solver for large systems, with a good BLAS.
 using Cholmod_solver_traits =
   Symmetric_solver_traits<Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>>;
+/// The fastest direct solver there is.
+using Direct_solver_traits = Cholmod_solver_traits;
+#else
+using Direct_solver_traits = Simplicial_solver_traits;
 #endif
+
+namespace internal {
+
+struct Solve_columns
+{
+  template <class Solver>
+  auto operator()(Solver& solver, const Eigen::MatrixXd& b, Eigen::MatrixXd& x) const
+    -> decltype(solver.linear_solver(b, x))
+  {
+    return solver.linear_solver(b, x);
+  }
+};
+
+/// Solves for the columns of `b`: at once if the solver can, else one by one.
+template <class Solver>
+bool solve_columns(Solver& solver, const Eigen::MatrixXd& b, Eigen::MatrixXd& x)
+{
+  if constexpr(std::is_invocable_v<decltype(Solve_columns()), Solver&, const Eigen::MatrixXd&, Eigen::MatrixXd&>) {
+    return Solve_columns()(solver, b, x);
+  } else {
+    x.resize(b.rows(), b.cols());
+    for(Eigen::Index c = 0; c < b.cols(); ++c) {
+      typename Solver::Vector right{std::size_t(b.rows())}, solution{std::size_t(b.rows())};
+      for(Eigen::Index i = 0; i < b.rows(); ++i)
+        right[i] = b(i, c);
+      if(!solver.linear_solver(right, solution))
+        return false;
+      for(Eigen::Index i = 0; i < b.rows(); ++i)
+        x(i, c) = solution[i];
+    }
+    return true;
+  }
+}
+
+} // namespace internal
 
 } // namespace Mixed_meshes_3
 } // namespace CGAL

@@ -10,6 +10,7 @@
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_ELASTICITY_ASSEMBLY_H
 #define CGAL_MIXED_MESH_3_INTERNAL_ELASTICITY_ASSEMBLY_H
 
+#include <CGAL/Mixed_mesh_3/Elastic_material.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
@@ -21,6 +22,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -28,24 +31,12 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-struct Elastic_material
-{
-  double young_modulus; // in the unit of stress
-  double poisson_ratio; // from 0 to below 1/2
-
-  // Lame's constants.
-  double lambda() const
-  {
-    return young_modulus * poisson_ratio / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio));
-  }
-  double mu() const { return young_modulus / (2 * (1 + poisson_ratio)); }
-};
-
-/// The points where a stiffness is integrated: weights, and the gradients of the shape functions there.
+/// The points where a stiffness is integrated: weights, and the shape functions and their gradients there.
 struct Quadrature_rule
 {
   int number_of_points = 0;
   std::array<double, 8> weights{};
+  std::array<std::array<double, 8>, 8> values{};  // of the shape functions, by point and by node
   std::array<std::array<Vec3, 8>, 8> gradients{}; // in reference coordinates, by point and by node
 };
 
@@ -58,6 +49,8 @@ Quadrature_rule make_quadrature_rule()
     const std::size_t q = std::size_t(rule.number_of_points++);
     rule.weights[q] = weight;
     std::copy(gradients.begin(), gradients.end(), rule.gradients[q].begin());
+    const auto values = Mixed_element_traits_3<Kind>::shape_functions(r, s, t);
+    std::copy(values.begin(), values.end(), rule.values[q].begin());
   };
   const double gauss = 1 / std::sqrt(3.); // two points on [-1,1], of weight 1
   if constexpr(Kind == TETRAHEDRON) {
@@ -132,34 +125,54 @@ using Matrix_3x3 = std::array<Vec3, 3>; // rows
 /// The blocks of pairs of nodes `[a][b]`, `b <= a`; the others are their transposes.
 using Element_stiffness = std::array<std::array<Matrix_3x3, 8>, 8>;
 
+/// What resists a change of volume: the dilatation at each point of the quadrature, or its mean over the
+/// element (Nagtegaal, Parks, Rice, 1974; Hughes' B-bar), or nothing: the mean over several elements is added
+/// apart. Pointwise, hexahedra, prisms and pyramids lock if the material is nearly incompressible.
+enum class Dilatation { POINTWISE, MEAN, NONE };
+
+/// The integral of the divergence over an element, by the displacement of each node; and the volume.
+struct Dilatation_operator
+{
+  std::array<Vec3, 8> gradients{};
+  double volume = 0;
+};
+
 /// \cost constant: 8 points and 36 blocks for a hexahedron, 1 point and 10 blocks for a tetrahedron
-inline void compute_element_stiffness(Element_kind kind, const std::array<Vec3, 8>& points,
-                                      const Elastic_material& material, Element_stiffness& stiffness)
+inline Dilatation_operator compute_element_stiffness(Element_kind kind, const std::array<Vec3, 8>& points,
+                                                     const Elastic_material& material, Dilatation dilatation,
+                                                     Element_stiffness& stiffness)
 {
   const int n = reference_elements[kind].number_of_vertices;
+  Dilatation_operator whole;
   for(int a = 0; a < n; ++a)
     for(int b = 0; b <= a; ++b)
       stiffness[a][b] = Matrix_3x3{};
   // first the integrals of the dyadic products of gradients, which do not depend on the material
   for(int q = 0; q < quadrature_rule(kind).number_of_points; ++q) {
     const Strain_operator s = strain_operator(kind, points, q);
+    whole.volume += s.volume;
     for(int a = 0; a < n; ++a) {
       const Vec3 ga = s.volume * s.gradients[a];
+      whole.gradients[a] = whole.gradients[a] + ga;
       for(int b = 0; b <= a; ++b)
         for(int i = 0; i < 3; ++i)
           for(int j = 0; j < 3; ++j)
             stiffness[a][b][i][j] += ga[i] * s.gradients[b][j];
     }
   }
-  const double lambda = material.lambda(), mu = material.mu();
+  const double mu = material.mu();
+  const double lambda = dilatation == Dilatation::POINTWISE ? material.lambda() : -2 * mu / 3;
+  const double mean = dilatation == Dilatation::MEAN ? material.bulk_modulus() / whole.volume : 0;
   for(int a = 0; a < n; ++a)
     for(int b = 0; b <= a; ++b) {
       const Matrix_3x3 d = stiffness[a][b];
       const double shear = mu * (d[0][0] + d[1][1] + d[2][2]);
       for(int i = 0; i < 3; ++i)
         for(int j = 0; j < 3; ++j)
-          stiffness[a][b][i][j] = lambda * d[i][j] + mu * d[j][i] + (i == j ? shear : 0);
+          stiffness[a][b][i][j] = lambda * d[i][j] + mu * d[j][i] + (i == j ? shear : 0)
+                                  + mean * whole.gradients[a][i] * whole.gradients[b][j];
     }
+  return whole;
 }
 
 /*!
@@ -183,7 +196,9 @@ class Elasticity_system
 public:
   /// \param elements kept by reference
   /// \param is_free of each vertex, whether its displacement is unknown
-  Elasticity_system(const Element_list& elements, const std::vector<bool>& is_free)
+  /// \param patches sets of nodes, besides those of the elements, that `add_patch()` will get
+  Elasticity_system(const Element_list& elements, const std::vector<bool>& is_free,
+                    const std::vector<std::vector<Vertex_index>>& patches = {})
     : m_elements(elements), m_unknowns(is_free.size(), no_vertex)
   {
     for(Vertex_index v = 0; v < is_free.size(); ++v)
@@ -194,7 +209,7 @@ public:
     for(Element_index e = 0; e < elements.size(); ++e)
       if(std::any_of(elements[e].begin(), elements[e].end(), [&](Vertex_index v) { return is_free[v]; }))
         m_active.push_back(e);
-    find_neighbours();
+    find_neighbours(patches);
     build_pattern();
   }
 
@@ -215,33 +230,57 @@ public:
     std::fill(m_right_hand_side.begin(), m_right_hand_side.end(), 0.);
   }
 
-  /// Adds an element. An element added before becomes stiffer by that.
+  /// Adds an element. An element added before becomes stiffer by that, or softer if Young's modulus is negative.
   /// \param points positions of all nodes
   /// \param displacements of all nodes; those of the free ones are ignored
   /// \pre the element has a free node
-  void add(Element_index e, const Elastic_material& material, const std::vector<Vec3>& points,
-           const std::vector<Vec3>& displacements)
+  Dilatation_operator add(Element_index e, const Elastic_material& material, const std::vector<Vec3>& points,
+                          const std::vector<Vec3>& displacements,
+                          Dilatation dilatation = Dilatation::POINTWISE)
   {
     const Element_view element = m_elements[e];
     std::array<Vec3, 8> p{};
     for(int a = 1; a < element.size(); ++a)
       p[a] = points[element[a]] - points[element[0]];
-    compute_element_stiffness(element.kind(), p, material, m_element_stiffness);
+    const Dilatation_operator whole =
+      compute_element_stiffness(element.kind(), p, material, dilatation, m_element_stiffness);
     for(int a = 0; a < element.size(); ++a)
       for(int b = 0; b <= a; ++b)
         add(element[a], element[b], m_element_stiffness[a][b], displacements);
+    return whole;
+  }
+
+  /// Adds resistance to the mean dilatation over several elements.
+  /// \param nodes of the elements
+  /// \param gradients the integral of the divergence by the displacement of each node
+  /// \param factor bulk modulus by volume
+  void add_patch(const std::vector<Vertex_index>& nodes, const std::vector<Vec3>& gradients, double factor,
+                 const std::vector<Vec3>& displacements)
+  {
+    for(std::size_t a = 0; a < nodes.size(); ++a)
+      for(std::size_t b = 0; b <= a; ++b) {
+        Matrix_3x3 block;
+        for(int i = 0; i < 3; ++i)
+          block[i] = (factor * gradients[a][i]) * gradients[b];
+        add(nodes[a], nodes[b], block, displacements);
+      }
   }
 
 private:
-  void find_neighbours()
+  void find_neighbours(const std::vector<std::vector<Vertex_index>>& patches)
   {
     std::vector<std::size_t>& starts = m_block_starts;
+    const auto for_each_pair_of = [&](const auto& nodes, const auto& f) {
+      for(Vertex_index v : nodes)
+        for(Vertex_index w : nodes)
+          if(m_unknowns[v] < m_unknowns[w] && m_unknowns[w] != no_vertex)
+            f(m_unknowns[v], int(m_unknowns[w]));
+    };
     const auto for_each_pair = [&](const auto& f) {
       for(Element_index e : m_active)
-        for(Vertex_index v : m_elements[e])
-          for(Vertex_index w : m_elements[e])
-            if(m_unknowns[v] < m_unknowns[w] && m_unknowns[w] != no_vertex)
-              f(m_unknowns[v], int(m_unknowns[w]));
+        for_each_pair_of(m_elements[e], f);
+      for(const std::vector<Vertex_index>& patch : patches)
+        for_each_pair_of(patch, f);
     };
     std::vector<std::size_t> ends(m_free.size() + 1, 0);
     for_each_pair([&](Vertex_index i, int) { ++ends[i + 1]; });
@@ -327,6 +366,27 @@ private:
     }
   }
 };
+
+/// A symmetric matrix as any model of CGAL's concept takes it, of its lower triangle in compressed columns.
+template <class Matrix>
+Matrix make_matrix(const std::vector<int>& starts, const std::vector<int>& rows, const std::vector<double>& values)
+{
+  using Arrays = const std::vector<int>&;
+  if constexpr(std::is_constructible_v<Matrix, Arrays, Arrays, const std::vector<double>&>) {
+    return Matrix(starts, rows, values);
+  } else {
+    const int n = int(starts.size() - 1);
+    Matrix matrix(n);
+    for(int j = 0; j < n; ++j)
+      for(int k = starts[j]; k < starts[j + 1]; ++k) {
+        const int i = rows[k];
+        matrix.set_coef(i, j, values[k], true);
+        if(i != j) // ignored by classes of symmetric matrices
+          matrix.set_coef(j, i, values[k], true);
+      }
+    return matrix;
+  }
+}
 
 } // namespace internal
 } // namespace Mixed_meshes_3

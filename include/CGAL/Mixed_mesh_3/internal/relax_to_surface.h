@@ -77,26 +77,6 @@ inline std::vector<int> layers_from(const std::vector<Vertex_index>& vertices, c
   return layers;
 }
 
-/// The matrix of a system as any model of CGAL's concept takes it.
-template <class Matrix>
-Matrix make_matrix(const Elasticity_system& system)
-{
-  using Arrays = const std::vector<int>&;
-  if constexpr(std::is_constructible_v<Matrix, Arrays, Arrays, const std::vector<double>&>) {
-    return Matrix(system.starts(), system.rows(), system.values());
-  } else {
-    Matrix matrix(system.number_of_unknowns());
-    for(int j = 0; j < system.number_of_unknowns(); ++j)
-      for(int k = system.starts()[j]; k < system.starts()[j + 1]; ++k) {
-        const int i = system.rows()[k];
-        matrix.set_coef(i, j, system.values()[k], true);
-        if(i != j) // ignored by classes of symmetric matrices
-          matrix.set_coef(j, i, system.values()[k], true);
-      }
-    return matrix;
-  }
-}
-
 /*!
 \tparam Solver a model of `SparseLinearAlgebraWithFactorTraits_d`
 \tparam Quality a cost of elements: `double(Element_kind, std::array<Vec3, 8>)`, and `is_acceptable(cost)`
@@ -295,7 +275,7 @@ private:
 
   void add_to_system(Element_index e, double stiffness)
   {
-    m_system.add(e, Elastic_material{stiffness / m_sizes[e], m_criteria.poisson_ratio()}, m_points,
+    m_system.add(e, Elastic_material{stiffness / m_sizes[e], m_criteria.poisson_ratio(), 0}, m_points,
                  m_displacements);
   }
 
@@ -306,7 +286,7 @@ private:
     if(n == 0)
       return true;
     ++m_result.number_of_solves;
-    const auto matrix = make_matrix<typename Solver::Matrix>(m_system);
+    const auto matrix = make_matrix<typename Solver::Matrix>(m_system.starts(), m_system.rows(), m_system.values());
     typename Solver::Vector b{std::size_t(n)};
     for(int i = 0; i < n; ++i)
       b[i] = m_system.right_hand_side()[std::size_t(i)];

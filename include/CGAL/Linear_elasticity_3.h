@@ -1,0 +1,735 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Linear elasticity on mixed meshes, for many load cases: section 6.2 of Lobos, Bucki, Hitschfeld, Payan:
+// "Mixed-element mesh for an intra-operative modeling of the brain tumor extraction".
+
+#ifndef CGAL_LINEAR_ELASTICITY_3_H
+#define CGAL_LINEAR_ELASTICITY_3_H
+
+#include <CGAL/Linear_elasticity_result_3.h>
+#include <CGAL/Mixed_mesh_3.h>
+#include <CGAL/Mixed_mesh_3/Elastic_material.h>
+#include <CGAL/Mixed_mesh_3/Element_locator_3.h>
+#include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/control_constraints.h>
+#include <CGAL/Mixed_mesh_3/internal/dilatation_patches.h>
+#include <CGAL/Mixed_mesh_3/internal/elasticity_assembly.h>
+#include <CGAL/Mixed_mesh_3/internal/element_measures.h>
+#include <CGAL/Mixed_mesh_3/internal/rigid_modes.h>
+
+#include <CGAL/assertions.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+
+/*!
+\brief Small-strain linear elasticity on a mixed mesh: factored once, solved for many load cases.
+
+Elements are isoparametric; those of the four kinds fit together. What resists a change of volume is the mean
+dilatation of a hexahedron, prism or pyramid, and that of a patch of tetrahedra, so that nearly incompressible
+materials do not lock.
+
+Units: millimetres, kilopascals, kilograms, seconds. So forces are in millinewtons (kPa mm^2), and forces by
+volume in mN/mm^3.
+
+The order of use:
+-# *supports*: `prescribe()` and `slide()` vertices; the others are free;
+-# `factor()`;
+-# *loads*: `set_body_force()`, `set_gravity()`, `set_support_displacement()`, `set_control_points()`; in any
+   order, and again as often as wanted;
+-# `solve()`, and read `displacements()`.
+
+After a resection, `remove_elements()` takes the place of `factor()`: supports, loads and control points stay.
+
+Supports may leave rigid motions free, as long as the control points hold these: the mesh can be held by control
+points alone.
+
+The mesh must outlive the object and not change.
+
+\tparam Mesh a `Mixed_mesh_3`
+\tparam SolverTraits a model of `SparseLinearAlgebraWithFactorTraits_d`, direct
+*/
+template <class Mesh, class SolverTraits = Mixed_meshes_3::Direct_solver_traits>
+class Linear_elasticity_3
+{
+public:
+  using Vertex_index = Mixed_meshes_3::Vertex_index;
+  using Element_index = Mixed_meshes_3::Element_index;
+  using Elastic_material = Mixed_meshes_3::Elastic_material;
+  /// A displacement in mm, a force in mN, a point.
+  using Vector = std::array<double, 3>;
+  using Result = Linear_elasticity_result_3;
+  using Status = Linear_elasticity_status;
+
+  /// One material: by default E = 1 kPa, nu = 0.45, 1e-6 kg/mm^3.
+  explicit Linear_elasticity_3(const Mesh& mesh, const Elastic_material& material = Elastic_material())
+    : Linear_elasticity_3(mesh, std::vector<Elastic_material>{material})
+  {}
+
+  /// A material for each element.
+  Linear_elasticity_3(const Mesh& mesh, std::vector<Elastic_material> materials)
+    : m_mesh(mesh), m_materials(std::move(materials)), m_supports(mesh.number_of_vertices()),
+      m_is_removed(mesh.number_of_elements(), false)
+  {
+    CGAL_precondition(m_materials.size() == 1 || m_materials.size() == mesh.number_of_elements());
+    for([[maybe_unused]] const Elastic_material& m : m_materials)
+      CGAL_precondition(m.young_modulus > 0 && m.poisson_ratio >= 0 && m.poisson_ratio < 0.5 && m.density >= 0);
+    m_points.reserve(mesh.number_of_vertices());
+    for(const auto& p : mesh.points())
+      m_points.push_back(Mixed_meshes_3::internal::to_vec3(p));
+  }
+
+  /// \name Supports
+  /// To be set before `factor()`.
+  /// @{
+
+  /// Gives a vertex a displacement, in mm. The default fixes it.
+  void prescribe(Vertex_index v, const Vector& displacement = Vector{})
+  {
+    m_supports[v].size = 3;
+    m_supports[v].directions = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    m_supports[v].displacement = displacement;
+  }
+
+  /// Lets a vertex slide without friction, orthogonally to a direction; on an edge or in a corner of such planes
+  /// when called again. A vertex that is prescribed stays so.
+  /// \param normal of any length but zero
+  void slide(Vertex_index v, const Vector& normal) { m_supports[v].add(normal); }
+
+  /// Lets boundary vertices slide without friction along the boundary, as on the inside of the skull.
+  /// \param is_sliding `bool(Vertex_index)`, asked for the vertices of the boundary
+  template <class Is_sliding>
+  void slide_along_boundary(const Is_sliding& is_sliding)
+  {
+    using namespace Mixed_meshes_3::internal;
+    // The integral of the normal times the vertex's shape function: then a flow along the boundary keeps the
+    // volume.
+    std::vector<Vec3> normals(m_mesh.number_of_vertices(), Vec3{});
+    for(const auto& face : Mixed_meshes_3::boundary_faces(m_mesh)) {
+      const auto v = face_vertices(m_mesh.element(face.element), face.local_face);
+      const bool is_triangle = v[3] == no_vertex;
+      const Vec3 area = is_triangle ? cross(m_points[v[1]] - m_points[v[0]], m_points[v[2]] - m_points[v[0]])
+                                    : cross(m_points[v[2]] - m_points[v[0]], m_points[v[3]] - m_points[v[1]]);
+      for(int i = 0; i < (is_triangle ? 3 : 4); ++i)
+        normals[v[i]] = normals[v[i]] + (is_triangle ? 1. / 6 : 1. / 8) * area;
+    }
+    for(Vertex_index v = 0; v < normals.size(); ++v)
+      if(norm(normals[v]) > 0 && is_sliding(v))
+        slide(v, normals[v]);
+  }
+  /// @}
+
+  /*!
+  Assembles and factors the system for the supports.
+
+  \return `NO_ELEMENTS`, `INVERTED_ELEMENT`, `SOLVER_FAILED` or `SUCCESS`. It is a success if supports leave rigid
+          motions free: control points may hold them, `solve()` will tell.
+  \cost that of the sparse factorisation: with nested dissection O(n^2) operations and O(n^(4/3)) memory for n
+        vertices
+  */
+  Result factor()
+  {
+    m_system.reset();
+    m_matrix.reset();
+    m_locator.reset();
+    Result result;
+    if(is_all_removed())
+      return failed(Status::NO_ELEMENTS);
+    result.element = find_inverted_element();
+    if(result.element != m_mesh.number_of_elements())
+      return failed(Status::INVERTED_ELEMENT, result);
+
+    const auto is_together = [this](Element_index e, Element_index f) {
+      const Elastic_material &a = material(e), &b = material(f);
+      return !m_is_removed[e] && !m_is_removed[f]
+             && std::tie(a.young_modulus, a.poisson_ratio) == std::tie(b.young_modulus, b.poisson_ratio);
+    };
+    m_patches = Mixed_meshes_3::internal::dilatation_patches(m_mesh.elements(), m_points.size(), is_together);
+    std::vector<std::vector<Vertex_index>> patch_vertices;
+    m_patch_of.assign(m_mesh.number_of_elements(), no_patch);
+    for(std::size_t i = 0; i < m_patches.size(); ++i) {
+      patch_vertices.push_back(vertices_of(m_patches[i]));
+      for(Element_index e : m_patches[i])
+        m_patch_of[e] = i;
+    }
+    m_system.emplace(m_mesh.elements(), std::vector<bool>(m_points.size(), true), patch_vertices);
+    m_system->clear();
+    for(Element_index e = 0; e < m_mesh.number_of_elements(); ++e)
+      if(!m_is_removed[e])
+        add_element(e, 1);
+    for(std::size_t i = 0; i < m_patches.size(); ++i)
+      add_patch(i, 1);
+    return factor_system();
+  }
+
+  /*!
+  Removes elements, after a resection for example (see `Mixed_meshes_3::resect()`), and factors what is left.
+  Supports, loads and control points stay; vertices without an element have no displacement. If a control point
+  was in an element removed, `set_control_points()` has to be called again.
+
+  Only what changed is assembled; the order of elimination and the symbolic factorisation are kept. The
+  numbers are factored anew: at the sizes that this class is for, that is faster than updating a factor, as a
+  resection changes more columns than it leaves; see the manual.
+
+  \param is_removed for each element; those removed before stay removed
+  \pre `factor()` was successful
+  */
+  Result remove_elements(const std::vector<bool>& is_removed)
+  {
+    CGAL_precondition(is_factored() && is_removed.size() == m_is_removed.size());
+    std::vector<std::size_t> changed_patches;
+    std::vector<Element_index> removed;
+    for(Element_index e = 0; e < is_removed.size(); ++e)
+      if(is_removed[e] && !m_is_removed[e]) {
+        removed.push_back(e);
+        if(m_patch_of[e] != no_patch)
+          changed_patches.push_back(m_patch_of[e]);
+      }
+    std::sort(changed_patches.begin(), changed_patches.end());
+    changed_patches.erase(std::unique(changed_patches.begin(), changed_patches.end()), changed_patches.end());
+    for(std::size_t i : changed_patches)
+      add_patch(i, -1);
+    for(Element_index e : removed) {
+      add_element(e, -1);
+      m_is_removed[e] = true;
+    }
+    for(std::size_t i : changed_patches) {
+      std::vector<Element_index>& patch = m_patches[i];
+      patch.erase(std::remove_if(patch.begin(), patch.end(), [this](Element_index e) { return m_is_removed[e]; }),
+                  patch.end());
+      add_patch(i, 1);
+    }
+    m_locator.reset();
+    if(is_all_removed()) {
+      m_system.reset();
+      return failed(Status::NO_ELEMENTS);
+    }
+    Result result = factor_system();
+    if(result.is_success() && !m_control_points.empty())
+      result = set_control_points(std::vector<Vector>(m_control_points), m_largest_distance, m_compliance);
+    return result;
+  }
+
+  bool is_factored() const { return m_system.has_value(); }
+
+  /// \name Loads
+  /// @{
+
+  /// A force by volume, in mN/mm^3, the same everywhere.
+  void set_body_force(const Vector& force)
+  {
+    m_body_force = force;
+    m_is_loaded = false;
+  }
+
+  /// Gravity: an acceleration in mm/s^2, times the density of each element; (0, 0, -9810) on the Earth, upright.
+  void set_gravity(const Vector& acceleration)
+  {
+    m_gravity = acceleration;
+    m_is_loaded = false;
+  }
+
+  /// Another displacement of a vertex that was prescribed, in mm. No new factorisation.
+  /// \pre `prescribe()` was called for the vertex
+  void set_support_displacement(Vertex_index v, const Vector& displacement)
+  {
+    CGAL_precondition(m_supports[v].size == 3);
+    m_supports[v].displacement = displacement;
+    m_is_loaded = false;
+  }
+
+  /*!
+  Points that will have given displacements: points in space, each in the element that contains it. The
+  displacement there is interpolated by the element's shape functions.
+
+  \param points in mm
+  \param largest_distance points outside the mesh up to so far, in mm, stand for the nearest point of its boundary
+  \param compliance in mm/mN: a spring between each point and its displacement gives way so much. With 0, the
+         displacements are exact; measured ones that are many to an element, and noisy, contradict each other then
+  \return `CONTROL_POINT_OUTSIDE`: none of them is used; or `SOLVER_FAILED` or `SUCCESS`
+  \pre `factor()` was successful
+  \cost three solutions of the system a point, and 72 bytes a vertex and point
+  */
+  template <class Points>
+  Result set_control_points(const Points& points, double largest_distance = 0, double compliance = 0)
+  {
+    CGAL_precondition(is_factored() && compliance >= 0);
+    m_compliance = compliance;
+    m_control_points.clear();
+    m_controls.reset();
+    m_largest_distance = largest_distance;
+    std::vector<Mixed_meshes_3::internal::Control_weights> weights;
+    std::vector<Vector> positions;
+    for(const auto& p : points) {
+      positions.push_back(Mixed_meshes_3::internal::components(p));
+      const Mixed_meshes_3::Element_location_3 location = locator().nearest(positions.back());
+      if(location.distance > largest_distance || !std::isfinite(location.distance)) {
+        Result result;
+        result.control_point = weights.size();
+        result.distance = location.distance;
+        return failed(Status::CONTROL_POINT_OUTSIDE, result);
+      }
+      Mixed_meshes_3::internal::Control_weights w;
+      const auto element = m_mesh.element(location.element);
+      for(int i = 0; i < element.size(); ++i)
+        if(location.weights[i] != 0)
+          w.emplace_back(element[i], location.weights[i]);
+      weights.push_back(std::move(w));
+    }
+    m_control_points = std::move(positions);
+    return prepare_controls(std::move(weights));
+  }
+  /// @}
+
+  /*!
+  Solves for the loads.
+
+  \param control_displacements in mm, of each control point
+  \return `FREE_RIGID_MOTION`, `CONTRADICTORY_CONTROL_POINTS`, `SOLVER_FAILED` or `SUCCESS`; `displacements()` has
+          the solution if successful, else it is as before
+  \cost for new displacements of the same control points: linear, in vertices times control points. For new
+        loads or displacements of supports, one solution of the system besides.
+  \pre `factor()` was successful
+  */
+  template <class Displacements>
+  Result solve(const Displacements& control_displacements)
+  {
+    CGAL_precondition(is_factored() && std::size_t(std::size(control_displacements)) == m_control_points.size());
+    if(!m_is_loaded && !solve_loads())
+      return failed(Status::SOLVER_FAILED);
+    if(!m_controls) {
+      const Result result = prepare_controls({});
+      if(!result.is_success())
+        return result;
+    }
+    Eigen::VectorXd wanted(Eigen::Index(3 * m_control_points.size()));
+    Eigen::Index row = 0;
+    for(const auto& u : control_displacements)
+      for(double x : Mixed_meshes_3::internal::components(u))
+        wanted[row++] = x;
+    Mixed_meshes_3::internal::Control_solution solution;
+    Result result = m_controls->solve(m_loaded, m_load, wanted, m_modes, solution);
+    if(!result.is_success())
+      return result;
+    m_control_forces = solution.forces;
+    m_displacements.assign(m_points.size(), Vector{});
+    using namespace Mixed_meshes_3::internal;
+    for(Vertex_index v = 0; v < m_points.size(); ++v)
+      if(m_is_kept[v])
+        for(int k = 0; k < 3; ++k)
+          m_displacements[v][k] = solution.displacements[3 * Eigen::Index(v) + k];
+    return result;
+  }
+
+  /// As above, without control points.
+  Result solve() { return solve(std::vector<Vector>()); }
+
+  /// The displacement of each vertex, in mm.
+  const std::vector<Vector>& displacements() const { return m_displacements; }
+
+  /// The force that each control point needs for its displacement, in mN.
+  std::vector<Vector> control_forces() const
+  {
+    std::vector<Vector> forces(std::size_t(m_control_forces.size() / 3));
+    for(std::size_t i = 0; i < forces.size(); ++i)
+      for(int k = 0; k < 3; ++k)
+        forces[i][k] = m_control_forces[Eigen::Index(3 * i) + k];
+    return forces;
+  }
+
+  /// The elastic energy of the solution, in microjoules (mN mm).
+  double energy() const
+  {
+    Eigen::VectorXd u(3 * Eigen::Index(m_points.size()));
+    for(std::size_t v = 0; v < m_points.size(); ++v)
+      for(int k = 0; k < 3; ++k)
+        u[Eigen::Index(3 * v) + k] = m_displacements.empty() ? 0 : m_displacements[v][k];
+    return u.dot(product(u)) / 2;
+  }
+
+  const Mesh& mesh() const { return m_mesh; }
+  const std::vector<bool>& removed_elements() const { return m_is_removed; }
+  std::size_t number_of_control_points() const { return m_control_points.size(); }
+  /// The solver, to set its parameters before `factor()`.
+  SolverTraits& solver() { return m_solver; }
+
+private:
+  using Vec3 = Mixed_meshes_3::internal::Vec3;
+  using Matrix = typename SolverTraits::Matrix;
+  static constexpr std::size_t no_patch = std::size_t(-1);
+
+  const Elastic_material& material(Element_index e) const
+  {
+    return m_materials.size() == 1 ? m_materials.front() : m_materials[e];
+  }
+
+  bool is_all_removed() const { return std::find(m_is_removed.begin(), m_is_removed.end(), false) == m_is_removed.end(); }
+
+  static Result failed(Status status, Result result = Result())
+  {
+    result.status = status;
+    return result;
+  }
+
+  Element_index find_inverted_element() const
+  {
+    for(Element_index e = 0; e < m_mesh.number_of_elements(); ++e)
+      if(!m_is_removed[e]) {
+        const auto element = m_mesh.element(e);
+        const auto points =
+          Mixed_meshes_3::internal::relative_points(element, [this](Vertex_index v) { return m_points[v]; });
+        for(int q = 0; q < Mixed_meshes_3::internal::quadrature_rule(element.kind()).number_of_points; ++q)
+          if(!(Mixed_meshes_3::internal::strain_operator(element.kind(), points, q).volume > 0))
+            return e;
+      }
+    return Element_index(m_mesh.number_of_elements());
+  }
+
+  std::vector<Vertex_index> vertices_of(const std::vector<Element_index>& elements) const
+  {
+    std::vector<Vertex_index> vertices;
+    for(Element_index e : elements)
+      vertices.insert(vertices.end(), m_mesh.element(e).begin(), m_mesh.element(e).end());
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+  }
+
+  void add_element(Element_index e, double factor)
+  {
+    using Mixed_meshes_3::internal::Dilatation;
+    Elastic_material m = material(e);
+    m.young_modulus *= factor;
+    m_system->add(e, m, m_points, m_points, m_patch_of[e] == no_patch ? Dilatation::MEAN : Dilatation::NONE);
+  }
+
+  void add_patch(std::size_t i, double factor)
+  {
+    using namespace Mixed_meshes_3::internal;
+    const std::vector<Element_index>& patch = m_patches[i];
+    if(patch.empty())
+      return;
+    const std::vector<Vertex_index> vertices = vertices_of(patch);
+    std::vector<Vec3> gradients(vertices.size(), Vec3{});
+    double volume = 0;
+    for(Element_index e : patch) {
+      const auto element = m_mesh.element(e);
+      const Strain_operator s = strain_operator(
+        TETRAHEDRON, relative_points(element, [this](Vertex_index v) { return m_points[v]; }), 0);
+      volume += s.volume;
+      for(int a = 0; a < 4; ++a) {
+        Vec3& g = gradients[std::size_t(std::lower_bound(vertices.begin(), vertices.end(), element[a])
+                                        - vertices.begin())];
+        g = g + s.volume * s.gradients[a];
+      }
+    }
+    m_system->add_patch(vertices, gradients, factor * material(patch.front()).bulk_modulus() / volume, m_points);
+  }
+
+  // K u, with the stiffness of all vertices.
+  Eigen::VectorXd product(const Eigen::VectorXd& u) const
+  {
+    const std::vector<int>&starts = m_system->starts(), &rows = m_system->rows();
+    const std::vector<double>& values = m_system->values();
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(u.size());
+    for(int j = 0; j < int(u.size()); ++j) {
+      f[j] += values[starts[j]] * u[j];
+      for(int k = starts[j] + 1; k < starts[j + 1]; ++k) {
+        f[rows[k]] += values[k] * u[j];
+        f[j] += values[k] * u[rows[k]];
+      }
+    }
+    return f;
+  }
+
+  // The vertices that have unknowns, at first: they keep their numbers when elements are removed.
+  Result factor_system()
+  {
+    using namespace Mixed_meshes_3::internal;
+    m_is_loaded = false;
+    m_controls.reset();
+    m_is_kept.assign(m_points.size(), false);
+    m_modes.clear();
+    const auto parts = connected_vertices(m_mesh.elements(), m_points.size(),
+                                          [this](Element_index e) { return !m_is_removed[e]; });
+    const double largest = *std::max_element(m_system->values().begin(), m_system->values().end());
+    std::vector<double> springs(3 * m_points.size(), 0); // to be added to the diagonal
+    for(const std::vector<Vertex_index>& part : parts) {
+      for(Vertex_index v : part)
+        m_is_kept[v] = true;
+      const std::vector<Rigid_mode> modes = free_rigid_modes(part, m_points, m_supports);
+      for(std::size_t unknown : springs_for(part, modes))
+        springs[unknown] = m_system->values()[m_system->starts()[unknown]];
+      for(const Rigid_mode& mode : modes)
+        m_modes.push_back({mode, part});
+    }
+
+    // K on the directions that are free, P K P, with something positive on those that are not. As springs hold
+    // just as many unknowns as there are motions free, they bear nothing if the loads are in equilibrium.
+    std::vector<Vertex_index> number(m_points.size(), no_vertex);
+    if(m_matrix == nullptr) {
+      m_unknowns.clear();
+      for(Vertex_index v = 0; v < m_points.size(); ++v)
+        if(m_is_kept[v] && m_supports[v].size < 3)
+          m_unknowns.push_back(v);
+    }
+    for(std::size_t i = 0; i < m_unknowns.size(); ++i)
+      number[m_unknowns[i]] = Vertex_index(i);
+    std::vector<int> starts{0}, rows;
+    std::vector<double> values;
+    const std::vector<int>&all_starts = m_system->starts(), &all_rows = m_system->rows();
+    const std::vector<double>& all = m_system->values();
+    for(Vertex_index v : m_unknowns) {
+      const std::size_t first = values.size();
+      for(int k = 0; k < 3; ++k) {
+        for(int i = all_starts[3 * v + k]; i < all_starts[3 * v + k + 1]; ++i)
+          if(const Vertex_index w = number[std::size_t(all_rows[i]) / 3]; w != no_vertex) {
+            rows.push_back(int(3 * w) + all_rows[i] % 3);
+            values.push_back(all[i]);
+          }
+        starts.push_back(int(rows.size()));
+      }
+      values[first] += springs[3 * v];
+      values[std::size_t(starts[starts.size() - 3])] += springs[3 * v + 1];
+      values[std::size_t(starts[starts.size() - 2])] += springs[3 * v + 2];
+    }
+    project(starts, rows, values, largest);
+    m_matrix = std::make_unique<Matrix>(make_matrix<Matrix>(starts, rows, values));
+    typename SolverTraits::NT denominator = 1;
+    if(!m_unknowns.empty() && !m_solver.factor(*m_matrix, denominator)) {
+      m_system.reset();
+      m_matrix.reset();
+      return failed(Status::SOLVER_FAILED);
+    }
+    return Result();
+  }
+
+  // As many unknowns of a part as motions are free, such that holding these holds the part: rows of the matrix
+  // of modes, by elimination with pivots.
+  std::vector<std::size_t> springs_for(const std::vector<Vertex_index>& part,
+                                       const std::vector<Mixed_meshes_3::internal::Rigid_mode>& modes) const
+  {
+    using Row = std::array<double, 6>;
+    std::vector<std::size_t> chosen;
+    if(modes.empty())
+      return chosen;
+    std::vector<std::pair<std::size_t, Row>> table;
+    for(Vertex_index v : part)
+      for(int k = 0; k < 3; ++k)
+        if(m_supports[v].size < 3) {
+          Row row{};
+          for(std::size_t m = 0; m < modes.size(); ++m)
+            row[m] = m_supports[v].free_part(modes[m](m_points[v]))[k];
+          table.emplace_back(3 * v + k, row);
+        }
+    const auto dot = [](const Row& a, const Row& b) {
+      double sum = 0;
+      for(int i = 0; i < 6; ++i)
+        sum += a[i] * b[i];
+      return sum;
+    };
+    for(std::size_t m = 0; m < modes.size(); ++m) {
+      const auto pivot = *std::max_element(table.begin(), table.end(), [&](const auto& a, const auto& b) {
+        return dot(a.second, a.second) < dot(b.second, b.second);
+      });
+      chosen.push_back(pivot.first);
+      const double square = dot(pivot.second, pivot.second);
+      for(auto& [unknown, row] : table) {
+        const double c = dot(row, pivot.second) / square;
+        for(int i = 0; i < 6; ++i)
+          row[i] -= c * pivot.second[i];
+      }
+    }
+    return chosen;
+  }
+
+  // Replaces each block (v, w) by P_v (v, w) P_w, for vertices that slide or have no element any more, and adds
+  // `scale` where that leaves nothing.
+  void project(const std::vector<int>& starts, const std::vector<int>& rows, std::vector<double>& values,
+               double scale) const
+  {
+    using namespace Mixed_meshes_3::internal;
+    const auto is_plain = [&](Vertex_index v) { return m_supports[v].size == 0 && m_is_kept[v]; };
+    const auto projector = [&](Vertex_index v) {
+      Matrix_3x3 p{};
+      if(m_is_kept[v])
+        for(int k = 0; k < 3; ++k) {
+          Vec3 unit{};
+          unit[k] = 1;
+          p[k] = m_supports[v].free_part(unit);
+        }
+      return p;
+    };
+    for(std::size_t j = 0; j < m_unknowns.size(); ++j) {
+      const Vertex_index v = m_unknowns[j];
+      const int* column = &starts[3 * j];
+      // the columns are three, two and one entry on the diagonal, then three rows a neighbour
+      const int neighbours = (column[1] - column[0] - 3) / 3;
+      for(int i = -1; i < neighbours; ++i) {
+        const Vertex_index w = i < 0 ? v : m_unknowns[std::size_t(rows[column[0] + 3 + 3 * i]) / 3];
+        if(is_plain(v) && is_plain(w))
+          continue;
+        const auto entry = [&](int row, int k) -> double& {
+          return i < 0 ? values[column[k] + row - k] : values[column[k] + 3 - k + 3 * i + row];
+        };
+        Matrix_3x3 block;
+        for(int row = 0; row < 3; ++row)
+          for(int k = 0; k < 3; ++k)
+            block[row][k] = i < 0 && row < k ? entry(k, row) : entry(row, k);
+        const Matrix_3x3 pv = projector(v), pw = projector(w);
+        for(int k = 0; k < 3; ++k)
+          for(int row = i < 0 ? k : 0; row < 3; ++row) {
+            double sum = i < 0 ? scale * ((row == k) - pv[row][k]) : 0;
+            for(int a = 0; a < 3; ++a)
+              for(int b = 0; b < 3; ++b)
+                sum += pw[row][a] * block[a][b] * pv[b][k];
+            entry(row, k) = sum;
+          }
+      }
+    }
+  }
+
+  // Solves for right-hand sides of all vertices; the solutions are in the free directions.
+  bool solve_system(const Eigen::MatrixXd& forces, Eigen::MatrixXd& solutions)
+  {
+    using namespace Mixed_meshes_3::internal;
+    const Eigen::Index n = 3 * Eigen::Index(m_unknowns.size());
+    Eigen::MatrixXd b(n, forces.cols()), x;
+    for(Eigen::Index c = 0; c < forces.cols(); ++c)
+      for(std::size_t i = 0; i < m_unknowns.size(); ++i) {
+        const Vertex_index v = m_unknowns[i];
+        Vec3 f{};
+        if(m_is_kept[v])
+          f = m_supports[v].free_part({forces(3 * v, c), forces(3 * v + 1, c), forces(3 * v + 2, c)});
+        for(int k = 0; k < 3; ++k)
+          b(Eigen::Index(3 * i) + k, c) = f[k];
+      }
+    if(n > 0 && !solve_columns(m_solver, b, x))
+      return false;
+    solutions = Eigen::MatrixXd::Zero(forces.rows(), forces.cols());
+    for(Eigen::Index c = 0; c < forces.cols(); ++c)
+      for(std::size_t i = 0; i < m_unknowns.size(); ++i)
+        for(int k = 0; k < 3; ++k)
+          solutions(Eigen::Index(3 * m_unknowns[i]) + k, c) = x(Eigen::Index(3 * i) + k, c);
+    return solutions.allFinite();
+  }
+
+  // The solution for body forces and supports, without control points.
+  bool solve_loads()
+  {
+    using namespace Mixed_meshes_3::internal;
+    const Eigen::Index n = 3 * Eigen::Index(m_points.size());
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(n), supported = Eigen::VectorXd::Zero(n);
+    bool is_supported = false, is_loaded = false;
+    for(Vertex_index v = 0; v < m_points.size(); ++v)
+      if(m_is_kept[v])
+        for(int k = 0; k < 3; ++k) {
+          supported[3 * Eigen::Index(v) + k] = m_supports[v].displacement[k];
+          is_supported = is_supported || m_supports[v].displacement[k] != 0;
+        }
+    if(m_body_force != Vector{} || m_gravity != Vector{}) {
+      is_loaded = true;
+      for(Element_index e = 0; e < m_mesh.number_of_elements(); ++e)
+        if(!m_is_removed[e])
+          add_body_force(e, force);
+    }
+    if(is_supported)
+      force -= product(supported);
+    m_load = force;
+    if(is_loaded || is_supported) {
+      Eigen::MatrixXd solution;
+      if(!solve_system(force, solution))
+        return false;
+      m_loaded = solution.col(0) + supported;
+    } else {
+      m_loaded = Eigen::VectorXd::Zero(n);
+    }
+    m_is_loaded = true;
+    return true;
+  }
+
+  void add_body_force(Element_index e, Eigen::VectorXd& force) const
+  {
+    using namespace Mixed_meshes_3::internal;
+    const auto element = m_mesh.element(e);
+    const auto points = relative_points(element, [this](Vertex_index v) { return m_points[v]; });
+    const Vec3 density = m_body_force + material(e).density * m_gravity;
+    const Quadrature_rule& rule = quadrature_rule(element.kind());
+    for(int q = 0; q < rule.number_of_points; ++q) {
+      const double volume = strain_operator(element.kind(), points, q).volume;
+      for(int a = 0; a < element.size(); ++a)
+        for(int k = 0; k < 3; ++k)
+          force[3 * Eigen::Index(element[a]) + k] += volume * rule.values[q][a] * density[k];
+    }
+  }
+
+  Result prepare_controls(std::vector<Mixed_meshes_3::internal::Control_weights> weights)
+  {
+    m_controls.emplace(std::move(weights), m_compliance, m_modes, m_points, m_supports,
+                       [this](const Eigen::MatrixXd& f, Eigen::MatrixXd& u) { return solve_system(f, u); });
+    if(m_controls->is_solved())
+      return Result();
+    m_controls.reset();
+    return failed(Status::SOLVER_FAILED);
+  }
+
+  const Mixed_meshes_3::Element_locator_3<Mesh>& locator()
+  {
+    if(!m_locator) {
+      m_kept_mesh.clear();
+      for(const auto& p : m_mesh.points())
+        m_kept_mesh.add_vertex(p);
+      for(Element_index e = 0; e < m_mesh.number_of_elements(); ++e)
+        if(!m_is_removed[e])
+          m_kept_mesh.add_element(m_mesh.element(e).kind(), m_mesh.element(e).begin());
+      m_locator.emplace(m_kept_mesh);
+    }
+    return *m_locator;
+  }
+
+  const Mesh& m_mesh;
+  std::vector<Elastic_material> m_materials; // one for all, or one for each element
+  std::vector<Vec3> m_points;
+  std::vector<Mixed_meshes_3::internal::Support> m_supports; // of each vertex
+  std::vector<bool> m_is_removed;            // of each element
+  std::vector<bool> m_is_kept;               // of each vertex, whether an element is left
+  Mixed_meshes_3::internal::Patches m_patches;
+  std::vector<std::size_t> m_patch_of; // of each element
+
+  std::optional<Mixed_meshes_3::internal::Elasticity_system> m_system; // the stiffness of all vertices
+  std::vector<Vertex_index> m_unknowns;                // the vertices of the system that is factored
+  std::unique_ptr<Matrix> m_matrix;                    // the solver refers to it
+  SolverTraits m_solver;
+  std::vector<Mixed_meshes_3::internal::Free_motion> m_modes;
+
+  Vector m_body_force{}, m_gravity{};
+  bool m_is_loaded = false; // whether m_load and m_loaded are up to date
+  Eigen::VectorXd m_load, m_loaded;
+
+  Mesh m_kept_mesh;
+  std::optional<Mixed_meshes_3::Element_locator_3<Mesh>> m_locator; // of m_kept_mesh
+  std::vector<Vector> m_control_points;
+  double m_largest_distance = 0, m_compliance = 0;
+  std::optional<Mixed_meshes_3::internal::Control_constraints> m_controls;
+  Eigen::VectorXd m_control_forces;
+  std::vector<Vector> m_displacements;
+};
+
+} // namespace CGAL
+
+#endif // CGAL_LINEAR_ELASTICITY_3_H

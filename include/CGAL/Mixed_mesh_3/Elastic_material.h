@@ -1,0 +1,33 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_ELASTIC_MATERIAL_H
+#define CGAL_MIXED_MESH_3_ELASTIC_MATERIAL_H
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+
+/// An isotropic linear elastic material. The defaults are those of the paper's brain tissue.
+struct Elastic_material
+{
+  double young_modulus = 1;    ///< kPa; positive
+  double poisson_ratio = 0.45; ///< from 0 to below 1/2
+  double density = 1e-6;       ///< kg/mm^3
+
+  /// Lame's first constant, kPa.
+  double lambda() const
+  {
+    return young_modulus * poisson_ratio / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio));
+  }
+  /// The shear modulus, kPa.
+  double mu() const { return young_modulus / (2 * (1 + poisson_ratio)); }
+  /// The bulk modulus, kPa.
+  double bulk_modulus() const { return young_modulus / (3 * (1 - 2 * poisson_ratio)); }
+};
+
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_ELASTIC_MATERIAL_H

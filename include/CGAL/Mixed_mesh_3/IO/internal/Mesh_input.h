@@ -1,0 +1,159 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the readers of meshes share: a file in memory, the words in it, and what they make of it. A file may
+// hold anything: memory is asked for only after its size is found to fit the size of the file.
+
+#ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_MESH_INPUT_H
+#define CGAL_MIXED_MESH_3_IO_INTERNAL_MESH_INPUT_H
+
+#include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/internal/vector_3.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <ios>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace IO {
+namespace internal {
+
+/// A mesh as it is in a file: indices are in range, all else is to be checked.
+struct Mesh_input
+{
+  std::vector<Mixed_meshes_3::internal::Vec3> points;
+  Element_list elements;
+  std::vector<std::uint8_t> in_region;
+};
+
+// Vertices and elements are counted in 32 bits, with one value to spare.
+constexpr std::uint64_t largest_mesh_size = 0xfffffffe;
+
+[[noreturn]] inline void refuse_mesh(const std::string& path, const std::string& defect)
+{
+  throw std::runtime_error(path + ": " + defect);
+}
+
+/// A part of a file for a message: short, and on one line.
+inline std::string in_quotes(std::string_view text)
+{
+  constexpr std::size_t longest = 32;
+  std::string result = "\"";
+  for(char c : text.substr(0, longest))
+    result += c >= ' ' && c <= '~' ? c : '?';
+  return result + (text.size() > longest ? "...\"" : "\"");
+}
+
+inline std::string read_mesh_file(const std::string& path)
+{
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if(fs::is_directory(status))
+    refuse_mesh(path, "is a directory");
+  if(fs::exists(status) && !fs::is_regular_file(status)) // a pipe or device may never end
+    refuse_mesh(path, "is not a regular file");
+  errno = 0;
+  std::ifstream in(path, std::ios_base::binary);
+  if(!in)
+    refuse_mesh(path, std::string("cannot be opened: ") + std::strerror(errno));
+  const std::uintmax_t size = fs::file_size(path, error);
+  if(error)
+    refuse_mesh(path, "cannot be read: " + error.message());
+  if(size == 0)
+    refuse_mesh(path, "is empty");
+  std::string bytes(std::size_t(size), '\0');
+  in.read(bytes.data(), std::streamsize(size));
+  if(std::uintmax_t(in.gcount()) != size)
+    refuse_mesh(path, "cannot be read to its end");
+  return bytes;
+}
+
+inline bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+/// The number that is a whole word; in every locale, and not beyond the range of its type.
+template <class Number>
+bool parse_number(std::string_view word, Number& number)
+{
+  if(word.size() > 1 && word[0] == '+' && word[1] != '-')
+    word.remove_prefix(1);
+  const char* const end = word.data() + word.size();
+  const std::from_chars_result result = std::from_chars(word.data(), end, number);
+  return result.ec == std::errc() && result.ptr == end;
+}
+
+/// Takes words and binary values from the front of a text.
+class Text_input
+{
+  std::string_view m_text;
+
+public:
+  explicit Text_input(std::string_view text) : m_text(text) {}
+
+  /// What has not been taken yet.
+  std::string_view rest() const { return m_text; }
+
+  void skip(std::size_t n) { m_text.remove_prefix(n); }
+
+  void skip_space()
+  {
+    std::size_t n = 0;
+    while(n < m_text.size() && is_space(m_text[n]))
+      ++n;
+    skip(n);
+  }
+
+  /// Skips what is left of a line; false if that is more than space.
+  bool skip_end_of_line()
+  {
+    std::size_t n = 0;
+    while(n < m_text.size() && is_space(m_text[n]) && m_text[n] != '\n')
+      ++n;
+    const bool is_end = n < m_text.size() && m_text[n] == '\n';
+    skip(n + is_end);
+    return is_end;
+  }
+
+  /// The next word, after space; empty at the end.
+  std::string_view word()
+  {
+    skip_space();
+    std::size_t n = 0;
+    while(n < m_text.size() && !is_space(m_text[n]))
+      ++n;
+    const std::string_view result = m_text.substr(0, n);
+    skip(n);
+    return result;
+  }
+
+  /// The next bytes as they are in memory; false if there are not enough.
+  template <class Value>
+  bool binary(Value& value)
+  {
+    if(m_text.size() < sizeof(Value))
+      return false;
+    std::memcpy(&value, m_text.data(), sizeof(Value));
+    skip(sizeof(Value));
+    return true;
+  }
+};
+
+} // namespace internal
+} // namespace IO
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_IO_INTERNAL_MESH_INPUT_H

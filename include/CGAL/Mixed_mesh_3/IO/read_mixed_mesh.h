@@ -1,0 +1,95 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_IO_READ_MIXED_MESH_H
+#define CGAL_MIXED_MESH_3_IO_READ_MIXED_MESH_H
+
+#include <CGAL/Mixed_mesh_3/IO/internal/Mesh_input.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/read_MSH.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/read_VTU.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace IO {
+
+/*!
+Reads a mesh of linear hexahedra, prisms, pyramids and tetrahedra, in the format that the extension tells.
+
+| extension       | format |
+|-----------------|--------|
+| `.vtu`          | VTK unstructured grid: text, base64 or raw, in one or several pieces |
+| `.msh`, `.msh2` | Gmsh 2.2 and 4.1, text or binary |
+
+Data of VTK that are compressed by zlib can be read if `CGAL_USE_ZLIB` is defined and zlib is linked.
+
+What `write_mixed_mesh()` writes in these formats is read back as it was, except vertices that are on no
+element and no boundary face, which it does not write to Gmsh 4.1. All vertices in the file are kept, and none
+are merged: vertices and elements have the order of the file or, in Gmsh's formats, of the numbers that the
+file gives them. Elements of lower dimension are skipped. An element is in the region if the cell data
+`in_region` (VTK) are not 0, or if it is in a physical volume called "region" (Gmsh). Boundary faces are
+computed.
+
+The file is checked, but not the mesh: elements may be inverted, or not fit together; see `find_defects()`.
+
+\tparam Mesh a `Mixed_mesh_3`
+\param file the file
+\param mesh the result; as it was if an exception is thrown
+\throw std::runtime_error a line naming the file and the defect, if the file cannot be read or has no element
+\cost O(n log n); memory for the file and twice the mesh
+*/
+template <class Mesh>
+void read_mixed_mesh(const std::string& file, Mesh& mesh)
+{
+  using internal::refuse_mesh;
+  std::string extension = std::filesystem::path(file).extension().string();
+  for(char& c : extension)
+    if(c >= 'A' && c <= 'Z')
+      c = char(c - 'A' + 'a');
+  if(extension != ".vtu" && extension != ".msh" && extension != ".msh2")
+    refuse_mesh(file, "unknown format; expected .vtu, .msh or .msh2");
+
+  try {
+    internal::Mesh_input input;
+    {
+      const std::string bytes = internal::read_mesh_file(file);
+      input = extension == ".vtu" ? internal::read_VTU(file, bytes) : internal::read_MSH(file, bytes);
+    }
+    std::vector<typename Mesh::Point_3> points;
+    points.reserve(input.points.size());
+    for(const auto& p : input.points) {
+      for(double x : p)
+        if(!std::isfinite(x))
+          refuse_mesh(file, "vertex " + std::to_string(points.size())
+                              + " has a coordinate that is not a finite number");
+      points.emplace_back(p[0], p[1], p[2]);
+    }
+    if(input.elements.empty())
+      refuse_mesh(file, "has no hexahedra, prisms, pyramids or tetrahedra");
+    Mesh result;
+    result.assign(std::move(points), std::move(input.elements), std::move(input.in_region));
+    result.set_boundary_faces(boundary_faces(result));
+    mesh = std::move(result);
+  } catch(const std::bad_alloc&) {
+    refuse_mesh(file, "does not fit into the memory");
+  } catch(const std::length_error&) {
+    refuse_mesh(file, "does not fit into the memory");
+  }
+}
+
+} // namespace IO
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_IO_READ_MIXED_MESH_H

@@ -1,0 +1,324 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Resection: which elements are removed with a tumour, and the mesh that is left.
+
+#ifndef CGAL_MIXED_MESH_3_RESECT_H
+#define CGAL_MIXED_MESH_3_RESECT_H
+
+#include <CGAL/Mixed_mesh_3.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/Resection_repair.h>
+#include <CGAL/Mixed_mesh_3/internal/vector_3.h>
+#include <CGAL/Mixed_mesh_3/quality.h>
+#include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
+
+#include <CGAL/assertions.h>
+#include <CGAL/enum.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+
+/// How `resect()` ended.
+enum class Resection_status {
+  SUCCESS,               ///< something is removed, and the boundary of what is left is a closed 2-manifold
+  NOTHING_REMOVED,       ///< no element was asked for that is still there: no centroid is inside
+  EVERYTHING_RESTORED,   ///< all elements asked for had to stay: each would leave a pinched vertex
+  EVERYTHING_REMOVED,    ///< no element is left
+  BOUNDARY_NOT_MANIFOLD  ///< pinched vertices remain: the boundary of the mesh was not a manifold before
+};
+
+/// A status in words.
+inline const char* description(Resection_status status)
+{
+  switch(status) {
+  case Resection_status::SUCCESS: return "success";
+  case Resection_status::NOTHING_REMOVED: return "nothing removed: no element is inside";
+  case Resection_status::EVERYTHING_RESTORED:
+    return "nothing removed: without the elements inside, the boundary would touch itself";
+  case Resection_status::EVERYTHING_REMOVED: return "everything removed: no element is left";
+  case Resection_status::BOUNDARY_NOT_MANIFOLD: return "the boundary of what is left is not a manifold";
+  }
+  return "";
+}
+
+struct Resection_options
+{
+  /// Elements removed by earlier resections, true for each; empty: none. They stay removed.
+  std::vector<bool> already_removed;
+  /// Whether pieces that come loose stay. They hang on by nothing then: each moves on its own.
+  bool keep_floating_pieces = false;
+};
+
+/// A piece that comes loose: elements connected across faces.
+struct Floating_piece_3
+{
+  std::vector<Element_index> elements; ///< in increasing order
+  double volume = 0;                   ///< in the cube of the mesh's unit: mm^3
+};
+
+/// What `resect()` removes: of the elements not removed before, those asked for, less
+/// `number_of_restored_elements`, plus `number_of_floating_elements` plus `number_of_pinch_elements`.
+struct Resection_3
+{
+  Resection_status status = Resection_status::NOTHING_REMOVED;
+  std::vector<bool> is_removed;                ///< for each element, those removed before too
+  std::size_t number_of_asked_elements = 0;    ///< asked for, and not removed before
+  std::size_t number_of_restored_elements = 0; ///< of which stay: without them a vertex would be pinched
+  /// Removed in addition, as they came loose; 0 if such pieces are kept.
+  std::size_t number_of_floating_elements = 0;
+  std::size_t number_of_pinch_elements = 0;    ///< removed in addition: with them a vertex would be pinched
+  std::size_t number_of_pinched_vertices = 0;  ///< that remain
+  /// The pieces that came loose, removed or kept: of each connected part of the mesh all but the largest.
+  std::vector<Floating_piece_3> floating;
+  double volume = 0; ///< removed by this resection, in the cube of the mesh's unit: mm^3
+
+  /// Whether there is something left to compute with.
+  bool has_mesh() const
+  {
+    return status != Resection_status::EVERYTHING_REMOVED
+           && status != Resection_status::BOUNDARY_NOT_MANIFOLD;
+  }
+};
+
+namespace internal {
+
+// What has parts of a surface is a model of `MixedMeshDomain_3`; what has none is a surface.
+template <class Tumour, class = void>
+struct Is_domain : std::false_type {};
+
+template <class Tumour>
+struct Is_domain<Tumour, std::void_t<typename Tumour::Surface_part>> : std::true_type {};
+
+// The concept wants a part of the surface with the point. Ours find the side of a point sooner without.
+template <class Domain, class = void>
+struct Side_of_domain
+{
+  const Domain& domain;
+  typename Domain::Surface_part part = domain.surface_part();
+  Bounded_side operator()(const typename Domain::Point_3& p) const { return domain.bounded_side(p, part); }
+};
+
+template <class Domain>
+struct Side_of_domain<Domain, std::void_t<decltype(std::declval<const Domain&>().bounded_side(
+                                std::declval<const typename Domain::Point_3&>()))>>
+{
+  const Domain& domain;
+  Bounded_side operator()(const typename Domain::Point_3& p) const { return domain.bounded_side(p); }
+};
+
+} // namespace internal
+
+/*!
+\brief Removes elements from a mesh, such that what is left can be computed with.
+
+An element that hangs on by a vertex or an edge is a hinge: elasticity is singular there. So the boundary of
+what is left is a closed oriented 2-manifold, if that of the mesh was. For this some elements stay although
+they were asked for, and some others go: few, `internal::Resection_repair` says which. Pieces that come
+loose are reported, and removed by default.
+
+The same input gives the same result. The mesh is not changed: `remaining_mesh()` makes that which is left.
+
+\tparam Mesh a `Mixed_mesh_3`
+\param mesh the mesh. \pre conforming, of positive elements, its boundary a closed 2-manifold
+\param is_asked the elements to remove, true for each. \pre one for each element
+\param options what has been removed before, and whether loose pieces stay. \pre its set is empty, or has one
+       for each element
+\return what is removed, and why
+\cost linear in the number of elements, plus a tenth of a millisecond for each pinched vertex
+*/
+template <class Mesh>
+Resection_3 resect(const Mesh& mesh, const std::vector<bool>& is_asked,
+                   const Resection_options& options = Resection_options())
+{
+  using Repair = internal::Resection_repair;
+  using State = Repair::State;
+  const std::size_t n = mesh.number_of_elements();
+  CGAL_precondition(is_asked.size() == n);
+  CGAL_precondition(options.already_removed.empty() || options.already_removed.size() == n);
+  Resection_3 result;
+  result.is_removed = options.already_removed;
+  result.is_removed.resize(n, false);
+  std::size_t number_of_elements_left = 0; // if everything goes as asked
+  std::vector<State> states(n, State::KEPT);
+  std::vector<double> volumes(n);
+  for(std::size_t e = 0; e < n; ++e) {
+    states[e] = result.is_removed[e] ? State::GONE : is_asked[e] ? State::ASKED : State::KEPT;
+    result.number_of_asked_elements += states[e] == State::ASKED;
+    number_of_elements_left += states[e] == State::KEPT;
+    volumes[e] = volume(mesh, e);
+  }
+  if(result.number_of_asked_elements == 0) {
+    if(number_of_elements_left == 0)
+      result.status = Resection_status::EVERYTHING_REMOVED;
+    return result;
+  }
+
+  Repair repair(mesh.elements(), mesh.number_of_vertices(), volumes, std::move(states));
+  if(number_of_elements_left != 0) {
+    if(!options.keep_floating_pieces)
+      repair.find_floating(true);
+    repair.remove_pinches();
+    repair.find_floating(!options.keep_floating_pieces);
+    for(const Repair::Piece& piece : repair.floating())
+      result.floating.push_back({piece.elements, piece.volume});
+    result.number_of_pinched_vertices = repair.number_of_pinched_vertices();
+  }
+  std::size_t number_of_removed_elements = 0;
+  number_of_elements_left = 0;
+  for(Element_index e = 0; e < n; ++e) {
+    const State state = repair.states()[e];
+    result.is_removed[e] = state != State::KEPT;
+    result.number_of_restored_elements += state == State::KEPT && repair.is_asked(e);
+    result.number_of_floating_elements += state == State::FLOATING;
+    result.number_of_pinch_elements += state == State::PINCH;
+    number_of_elements_left += state == State::KEPT;
+    if(state != State::KEPT && state != State::GONE) {
+      ++number_of_removed_elements;
+      result.volume += volumes[e];
+    }
+  }
+  result.status = number_of_elements_left == 0             ? Resection_status::EVERYTHING_REMOVED
+                  : result.number_of_pinched_vertices != 0 ? Resection_status::BOUNDARY_NOT_MANIFOLD
+                  : number_of_removed_elements == 0        ? Resection_status::EVERYTHING_RESTORED
+                                                           : Resection_status::SUCCESS;
+  return result;
+}
+
+/*!
+\brief Removes the elements in a tumour: those whose centroid, the mean of their vertices, is inside.
+
+A centroid on the surface is not inside. The answer is exact on the centroid, rounded to double, as far as
+that of the domain is.
+
+\tparam Mesh a `Mixed_mesh_3`
+\tparam Tumour a model of `MixedMeshDomain_3`, of which the inside test is used only, or a model of
+        `FaceListGraph` with points of any CGAL kernel
+\param mesh the mesh, as above
+\param tumour what to remove, in the coordinates of the mesh. \pre a surface is closed and triangulated
+\param options as above
+\return what is removed, and why
+\cost as above, plus an inside test for each element
+*/
+template <class Mesh, class Tumour>
+Resection_3 resect(const Mesh& mesh, const Tumour& tumour,
+                   const Resection_options& options = Resection_options())
+{
+  if constexpr(!internal::Is_domain<Tumour>::value) {
+    return resect(mesh, Polyhedral_mixed_mesh_domain_3(tumour), options);
+  } else {
+    using internal::operator+;
+    using internal::operator*;
+    CGAL_precondition(options.already_removed.empty()
+                      || options.already_removed.size() == mesh.number_of_elements());
+    const internal::Side_of_domain<Tumour> side{tumour};
+    std::vector<bool> is_inside(mesh.number_of_elements(), false);
+    for(std::size_t e = 0; e < is_inside.size(); ++e) {
+      if(!options.already_removed.empty() && options.already_removed[e])
+        continue;
+      internal::Vec3 centroid{};
+      for(Vertex_index v : mesh.element(e))
+        centroid = centroid + internal::to_vec3(mesh.point(v));
+      centroid = (1. / mesh.element(e).size()) * centroid;
+      is_inside[e] = side(typename Tumour::Point_3(centroid[0], centroid[1], centroid[2])) == ON_BOUNDED_SIDE;
+    }
+    return resect(mesh, is_inside, options);
+  }
+}
+
+/*!
+\brief The mesh that is left: without the elements removed, and without the vertices that only they had.
+
+Elements and vertices keep their order, elements their region flags; boundary faces are set.
+
+\param mesh the mesh
+\param is_removed true for each element that is removed. \pre one for each element
+\param vertex_map if not null, receives for each vertex of the result its index in `mesh`, in increasing order
+\param element_map if not null, receives for each element of the result its index in `mesh`, likewise
+\cost linear in the number of elements
+*/
+template <class Mesh>
+Mesh remaining_mesh(const Mesh& mesh, const std::vector<bool>& is_removed,
+                    std::vector<Vertex_index>* vertex_map = nullptr,
+                    std::vector<Element_index>* element_map = nullptr)
+{
+  CGAL_precondition(is_removed.size() == mesh.number_of_elements());
+  std::vector<Vertex_index> numbers(mesh.number_of_vertices(), internal::no_vertex);
+  for(std::size_t e = 0; e < is_removed.size(); ++e)
+    if(!is_removed[e])
+      for(Vertex_index v : mesh.element(e))
+        numbers[v] = 0;
+  Mesh remaining;
+  if(vertex_map != nullptr)
+    vertex_map->clear();
+  if(element_map != nullptr)
+    element_map->clear();
+  for(Vertex_index v = 0; v < numbers.size(); ++v)
+    if(numbers[v] != internal::no_vertex) {
+      numbers[v] = remaining.add_vertex(mesh.point(v));
+      if(vertex_map != nullptr)
+        vertex_map->push_back(v);
+    }
+  for(Element_index e = 0; e < is_removed.size(); ++e)
+    if(!is_removed[e]) {
+      const Element_view element = mesh.element(e);
+      std::vector<Vertex_index> v;
+      for(Vertex_index u : element)
+        v.push_back(numbers[u]);
+      remaining.add_element(element.kind(), v, mesh.is_in_region(e));
+      if(element_map != nullptr)
+        element_map->push_back(e);
+    }
+  remaining.set_boundary_faces(boundary_faces(remaining));
+  return remaining;
+}
+
+/*!
+The surface of the cavity: the boundary faces of `remaining_mesh(mesh, is_removed)` that were inner faces of
+`mesh`, in the numbers of the elements left, in their order.
+
+\param mesh the mesh
+\param is_removed true for each element that is removed. \pre one for each element
+\cost linear in the number of elements
+*/
+template <class Mesh>
+std::vector<typename Mesh::Boundary_face> cavity_faces(const Mesh& mesh, const std::vector<bool>& is_removed)
+{
+  CGAL_precondition(is_removed.size() == mesh.number_of_elements());
+  std::vector<Element_index> numbers;
+  Element_index number_of_elements_left = 0;
+  std::vector<bool> is_at_cavity(mesh.number_of_vertices(), false);
+  for(Element_index e = 0; e < is_removed.size(); ++e) {
+    numbers.push_back(number_of_elements_left);
+    number_of_elements_left += !is_removed[e];
+    if(is_removed[e])
+      for(Vertex_index v : mesh.element(e))
+        is_at_cavity[v] = true;
+  }
+  std::vector<typename Mesh::Boundary_face> faces;
+  internal::for_each_face(mesh.elements(), mesh.number_of_vertices(),
+                          [&](Vertex_index v) { return is_at_cavity[v]; },
+                          [&](const Face_handle* f, std::size_t n) {
+                            if(n != 2 || is_removed[f[0].element] == is_removed[f[1].element])
+                              return;
+                            const Face_handle& left = is_removed[f[0].element] ? f[1] : f[0];
+                            faces.push_back({numbers[left.element], left.local_face});
+                          });
+  std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) {
+    return std::make_pair(a.element, a.local_face) < std::make_pair(b.element, b.local_face);
+  });
+  return faces;
+}
+
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_RESECT_H

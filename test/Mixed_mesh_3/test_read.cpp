@@ -1,0 +1,455 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Readers of meshes.
+//
+//   test_read DATA_DIRECTORY WORK_DIRECTORY
+//   test_read --files FILE...    for test_read_writers.py: damages copies of the files, and prints what is in
+//                                each, as a line of JSON
+
+#include <CGAL/Mixed_mesh_3.h>
+#include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
+#include <CGAL/Mixed_mesh_3/IO/read_mixed_mesh.h>
+#include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/quality.h>
+#include <CGAL/make_mixed_mesh_3.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <boost/core/lightweight_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <iterator>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace CGAL::Mixed_meshes_3;
+namespace IO = CGAL::Mixed_meshes_3::IO;
+namespace fs = std::filesystem;
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Mixed_mesh_3<Kernel>;
+
+std::string contents(const fs::path& path)
+{
+  std::ifstream in(path, std::ios_base::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+void set_contents(const fs::path& path, const std::string& bytes)
+{
+  fs::remove(path); // some file systems wait for the disk when a file is overwritten
+  std::ofstream(path, std::ios_base::binary) << bytes;
+}
+
+bool are_same(const Mesh& a, const Mesh& b)
+{
+  bool same = a.points() == b.points() && a.elements().kinds() == b.elements().kinds()
+              && a.elements().connectivity() == b.elements().connectivity()
+              && std::equal(a.boundary_faces().begin(), a.boundary_faces().end(), b.boundary_faces().begin(),
+                            b.boundary_faces().end(), [](const auto& f, const auto& g) {
+                              return f.element == g.element && f.local_face == g.local_face;
+                            });
+  for(std::size_t e = 0; same && e < a.number_of_elements(); ++e)
+    same = a.is_in_region(e) == b.is_in_region(e);
+  return same;
+}
+
+// The error without the name of the file; empty if there is none.
+std::string read_error(const std::string& path, Mesh& mesh)
+{
+  try {
+    IO::read_mixed_mesh(path, mesh);
+  } catch(const std::runtime_error& e) {
+    const std::string error = e.what(), begin = path + ": ";
+    BOOST_TEST_EQ(error.substr(0, begin.size()), begin);
+    BOOST_TEST(error.find('\n') == std::string::npos);
+    BOOST_TEST_GT(error.size(), begin.size());
+    return error.substr((std::min)(begin.size(), error.size()));
+  }
+  return std::string();
+}
+
+// A hexahedron, a pyramid on top of it, a prism and a tetrahedron beside them.
+Mesh one_of_each_kind()
+{
+  Mesh mesh;
+  for(const auto& c : reference_elements[HEXAHEDRON].coordinates)
+    mesh.add_vertex({(1 + c[0]) / 2 + 1. / 3, (1 + c[1]) / 2 - 1e-300, (1 + c[2]) / 2 + 1e5});
+  mesh.add_vertex({0.8, 0.5, 1.8 + 1e5});
+  mesh.add_vertex({2, 0, 1e5});
+  mesh.add_vertex({2, 1, 1e5});
+  mesh.add_vertex({1.9, 0.5, 1.5 + 1e5});
+  mesh.add_element(TETRAHEDRON, {5, 11, 6, 8}, false);
+  mesh.add_element(HEXAHEDRON, {0, 1, 2, 3, 4, 5, 6, 7}, true);
+  mesh.add_element(PYRAMID, {4, 5, 6, 7, 8}, true);
+  mesh.add_element(PRISM, {1, 5, 9, 2, 6, 10}, false);
+  mesh.set_boundary_faces(boundary_faces(mesh));
+  return mesh;
+}
+
+// Files cut off anywhere, and with wrong bytes: they are refused, or what is read is a mesh.
+void test_damage(const std::string& path, const std::string& damaged_path)
+{
+  const std::string bytes = contents(path);
+  Mesh original, mesh;
+  BOOST_TEST_EQ(read_error(path, original), "");
+  const std::size_t trials = 1500;
+  std::size_t refused = 0;
+  const std::size_t step = bytes.size() / trials + 1;
+  for(std::size_t size = 0; size < bytes.size(); size += step) {
+    set_contents(damaged_path, bytes.substr(0, size));
+    mesh = Mesh();
+    const std::string error = read_error(damaged_path, mesh);
+    BOOST_TEST(error.empty() ? are_same(mesh, original) : mesh.is_empty());
+    refused += !error.empty();
+  }
+  BOOST_TEST_GT(refused, bytes.size() / step / 2);
+
+  std::mt19937 random(1);
+  for(std::size_t trial = 0; trial < trials; ++trial) {
+    std::string wrong = bytes;
+    for(std::size_t n = 1 + random() % 3; n != 0; --n) {
+      // Half of them where the file describes itself; digits, so that numbers stay numbers; bits.
+      const std::size_t range = trial % 2 == 0 ? wrong.size() : (std::min)(wrong.size(), std::size_t(2000));
+      char& c = wrong[random() % range];
+      c = n % 3 == 0 ? char('0' + random() % 10)
+          : n % 3 == 1 ? char(c ^ (1 << random() % 8)) : char(random());
+    }
+    if(trial % 10 == 0) // a part is missing
+      wrong.erase(random() % wrong.size(), random() % 30);
+    set_contents(damaged_path, wrong);
+    mesh = Mesh();
+    if(!read_error(damaged_path, mesh).empty())
+      continue;
+    BOOST_TEST(!mesh.is_empty());
+    for(Vertex_index v : mesh.elements().connectivity())
+      BOOST_TEST_LT(v, mesh.number_of_vertices());
+    for(const auto& p : mesh.points())
+      BOOST_TEST(std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()));
+  }
+  fs::remove(damaged_path);
+}
+
+void test_round_trip(const fs::path& directory, const std::string& name, const Mesh& mesh)
+{
+  for(const char* extension : {".vtu", ".msh", ".msh2"}) {
+    const std::string path = (directory / (name + extension)).string();
+    BOOST_TEST(!IO::write_mixed_mesh(path, mesh));
+    Mesh read = one_of_each_kind(); // which is replaced
+    BOOST_TEST_EQ(read_error(path, read), "");
+    BOOST_TEST(are_same(read, mesh));
+    const std::string first = contents(path);
+    BOOST_TEST(!IO::write_mixed_mesh(path, read));
+    BOOST_TEST(first == contents(path));
+    test_damage(path, (directory / (std::string("damaged") + extension)).string());
+  }
+}
+
+void test_round_trips(const fs::path& data, const fs::path& directory)
+{
+  test_round_trip(directory, "each", one_of_each_kind());
+
+  CGAL::Surface_mesh<Kernel::Point_3> brain, region;
+  IO::read_closed_surface((data / "brain.off").string(), brain);
+  IO::read_closed_surface((data / "region.off").string(), region);
+  Mesh mesh;
+  BOOST_TEST(CGAL::make_mixed_mesh_3(brain, region, 300, mesh).has_mesh());
+  for(std::size_t n : mesh.elements().counts())
+    BOOST_TEST_GT(n, 0u);
+  test_round_trip(directory, "brain", mesh);
+
+  // A vertex that is on no element stays.
+  mesh = one_of_each_kind();
+  mesh.add_vertex({7, 8, 9});
+  for(const char* name : {"unused.vtu", "unused.msh2"}) {
+    Mesh read;
+    BOOST_TEST(!IO::write_mixed_mesh((directory / name).string(), mesh));
+    BOOST_TEST_EQ(read_error((directory / name).string(), read), "");
+    BOOST_TEST(are_same(read, mesh));
+  }
+}
+
+// ---- files written by hand -----------------------------------------------------------------------
+
+struct Piece_text
+{
+  std::string points = "0 0 0 1 0 0 0 1 0 0 0 1", connectivity = "0 1 2 3", offsets = "4", types = "10",
+              in_region = "1", number_of_points = "4", number_of_cells = "1", point_type = "Float64",
+              index_type = "Int64";
+
+  std::string text() const
+  {
+    const auto array = [](const std::string& type, const std::string& name, const std::string& values) {
+      return "<DataArray type='" + type + "' Name=\"" + name + "\" format=\"ascii\">" + values
+             + "</DataArray>\n";
+    };
+    return "<Piece NumberOfPoints=\"" + number_of_points + "\" NumberOfCells=\"" + number_of_cells
+           + "\"><!-- <Points> -->\n<CellData>" + array("Float32", "in_region", in_region)
+           + "</CellData>\n<Points><DataArray type=\"" + point_type + "\" NumberOfComponents = \"3\">\n"
+           + points + "<InformationKey name=\"x\"><Value> 0 </Value></InformationKey></DataArray></Points>\n"
+           + "<Cells>"
+           + array(index_type, "connectivity", connectivity) + array(index_type, "offsets", offsets)
+           + array("UInt8", "types", types) + "</Cells></Piece>\n";
+  }
+};
+
+std::string vtu(const std::string& pieces, const std::string& attributes = "")
+{
+  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" " + attributes
+         + ">\n<UnstructuredGrid>\n" + pieces + "</UnstructuredGrid>\n</VTKFile>\n";
+}
+
+std::string replaced(std::string text, const std::string& old_part, const std::string& new_part)
+{
+  const std::size_t position = text.find(old_part);
+  BOOST_TEST(position != std::string::npos);
+  return position == std::string::npos ? text : text.replace(position, old_part.size(), new_part);
+}
+
+// A tetrahedron with `in_region` in base64.
+std::string with_region(const std::string& base64)
+{
+  return replaced(replaced(vtu(Piece_text().text()), "ascii", "binary"), ">1<", ">" + base64 + "<");
+}
+
+const std::string names = "$PhysicalNames\r\n3\r\n2 4 \"region\"\r\n3 7 \"a b\"\r\n3 9 \"region\"\r\n"
+                          "$EndPhysicalNames\r\n";
+
+const std::string msh2_nodes = "$Nodes\n6\n5 0 0 0\n900 1 0 0\n30 0 1 0\n4 0 0 1\n1000000007 1 1 1\n"
+                               "12 5 5 5\n$EndNodes\n";
+const std::string msh2 = "$MeshFormat\r\n2.2 0 8\r\n$EndMeshFormat\r\n$Comments\n$Nodes\n$EndComments\n"
+                         + names + msh2_nodes
+                         + "$Elements\n4\n1 15 2 4 4 5\n2 2 2 4 1 5 900 30\n8 4 3 9 7 1 900 30 4 1000000007\n"
+                           "7 4 2 7 9 5 900 30 4\n$EndElements\n$NodeData\n1 2 3\n$EndNodeData\n";
+
+const std::string msh4 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n" + names
+                         + "$Entities\n1 0 1 2\n1 0 0 0 0\n3 0 0 0 1 1 1 1 4 0\n"
+                           "1 0 0 0 1 1 1 2 7 9 1 3\n2 0 0 0 1 1 1 1 7 1 -3\n$EndEntities\n"
+                           "$Nodes\n3 6 1 90\n2 3 1 2\n8\n5\n0 0 1 0.5 0.5\n0 0 0 0.5 0.5\n"
+                           "3 1 0 4\n6\n7\n90\n11\n1 0 0\n0 1 0\n1 1 1\n5 5 5\n3 2 0 0\n$EndNodes\n"
+                           "$Elements\n3 3 1 4\n2 3 2 1\n1 5 6 7\n3 2 4 1\n4 6 7 8 90\n3 1 4 1\n3 5 6 7 8\n"
+                           "$EndElements\n";
+
+Mesh read_text(const fs::path& directory, const char* name, const std::string& text)
+{
+  const std::string path = (directory / name).string();
+  set_contents(path, text);
+  Mesh mesh;
+  BOOST_TEST_EQ(read_error(path, mesh), "");
+  return mesh;
+}
+
+void test_hand_written(const fs::path& directory)
+{
+  using Point = Kernel::Point_3;
+  // A voxel with a quadrilateral and a wedge, and a tetrahedron in another piece; an unused point.
+  Piece_text first;
+  first.point_type = "Float32";
+  first.index_type = "Int8";
+  first.points = "0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1\n9 9 9 2 0 0.1 +2 0 1.0e0 ";
+  first.connectivity = "0 1 3 2  0 1 2 3 4 5 6 7  1 3 9 5 7 10";
+  first.offsets = "4 12\t18";
+  first.types = "9 11 13";
+  first.in_region = "1 0 0.5";
+  first.number_of_points = "11";
+  first.number_of_cells = "3";
+  Piece_text empty;
+  empty.number_of_points = empty.number_of_cells = "0";
+  empty.points = empty.connectivity = empty.offsets = empty.types = empty.in_region = "";
+  const std::string pieces = first.text() + empty.text() + Piece_text().text();
+  Mesh mesh = read_text(directory, "hand.vtu", vtu(pieces, "byte_order=\"BigEndian\""));
+  BOOST_TEST_EQ(mesh.number_of_vertices(), 15u);
+  BOOST_TEST_EQ(mesh.number_of_elements(), 3u);
+  if(mesh.number_of_elements() == 3) {
+    BOOST_TEST_EQ(mesh.point(9).z(), double(0.1f));
+    BOOST_TEST_EQ(mesh.element(0).kind(), HEXAHEDRON);
+    BOOST_TEST_EQ(volume(mesh, 0), 1.);
+    BOOST_TEST_EQ(mesh.element(1).kind(), PRISM);
+    BOOST_TEST_GT(volume(mesh, 1), 0.4);
+    BOOST_TEST_EQ(mesh.element(2)[3], 14u);
+    BOOST_TEST(!mesh.is_in_region(0) && mesh.is_in_region(1) && mesh.is_in_region(2));
+  }
+
+  // Header and values encoded apart or as one.
+  for(const char* base64 : {"BAAAAA==AACAPw==", "\n BAAAAA==\n AACA\r\nPw== ", "BAAAAAAAgD8="}) {
+    mesh = read_text(directory, "hand_base64.vtu", with_region(base64));
+    BOOST_TEST(mesh.number_of_elements() == 1 && mesh.is_in_region(0));
+  }
+
+  // Tags with gaps, elements in another order, several groups, text that looks like a section.
+  mesh = read_text(directory, "hand.msh", msh2);
+  const std::vector<Point> points = {{0, 0, 1}, {0, 0, 0}, {5, 5, 5}, {0, 1, 0}, {1, 0, 0}, {1, 1, 1}};
+  BOOST_TEST(mesh.points() == points);
+  BOOST_TEST(mesh.elements().connectivity() == (std::vector<Vertex_index>{1, 4, 3, 0, 4, 3, 0, 5}));
+  BOOST_TEST_EQ(mesh.number_of_elements(), 2u);
+  if(mesh.number_of_elements() == 2)
+    BOOST_TEST(!mesh.is_in_region(0) && mesh.is_in_region(1));
+  BOOST_TEST_EQ(mesh.boundary_faces().size(), 6u);
+
+  // Parametric nodes, a volume in two groups.
+  mesh = read_text(directory, "hand.msh", msh4);
+  const std::vector<Point> points4 = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 5, 5}, {1, 1, 1}};
+  BOOST_TEST(mesh.points() == points4);
+  BOOST_TEST(mesh.elements().connectivity() == (std::vector<Vertex_index>{0, 1, 2, 3, 1, 2, 3, 5}));
+  if(mesh.number_of_elements() == 2)
+    BOOST_TEST(mesh.is_in_region(0) && !mesh.is_in_region(1));
+
+  for(const char* name : {"hand.vtu", "hand.msh"})
+    test_damage((directory / name).string(), (directory / (std::string("damaged_") + name)).string());
+  set_contents(directory / "hand.msh", msh2);
+  test_damage((directory / "hand.msh").string(), (directory / "damaged_hand.msh").string());
+}
+
+// ---- errors --------------------------------------------------------------------------------------
+
+void test_errors(const fs::path& directory)
+{
+  const Mesh original = one_of_each_kind();
+  const auto check_path = [&](const fs::path& path, const std::string& expected) {
+    Mesh mesh = original;
+    const std::string error = read_error(path.string(), mesh);
+    BOOST_TEST(error.find(expected) != std::string::npos);
+    if(error.find(expected) == std::string::npos)
+      std::cerr << "\"" << error << "\" without \"" << expected << "\"\n";
+    BOOST_TEST(are_same(mesh, original));
+  };
+  const auto check = [&](const char* extension, const std::string& text, const std::string& expected) {
+    const fs::path path = directory / (std::string("error") + extension);
+    set_contents(path, text);
+    check_path(path, expected);
+    fs::remove(path);
+  };
+  const auto check_piece = [&](auto member, const std::string& text, const std::string& expected) {
+    Piece_text piece;
+    piece.*member = text;
+    check(".vtu", vtu(piece.text()), expected);
+  };
+
+  check_path("", "unknown format; expected .vtu, .msh or .msh2");
+  check_path(directory / "mesh.mesh", "unknown format");
+  check_path(directory / "missing.vtu", "cannot be opened: No such file");
+  fs::create_directories(directory / "directory.MSH");
+  check_path(directory / "directory.MSH", "is a directory");
+  fs::remove(directory / "directory.MSH");
+  if(fs::exists("/dev/zero")) {
+    fs::create_symlink("/dev/zero", directory / "endless.vtu");
+    check_path(directory / "endless.vtu", "is not a regular file");
+    fs::remove(directory / "endless.vtu");
+  }
+
+  check(".vtu", "", "is empty");
+  check(".vtu", "solid \x01 \n x", "not an XML file of VTK");
+  check(".vtu", msh2, "not an XML file of VTK");
+  check(".vtu", vtu(""), "has no hexahedra");
+  check(".vtu", replaced(vtu(""), "UnstructuredGrid", "PolyData"), "holds VTK data of type \"PolyData\"");
+  check(".vtu", vtu("", "compressor=\"vtkLZ4DataCompressor\""), "compressed by \"vtkLZ4DataCompressor\"");
+  check(".vtu", vtu("", "header_type=\"Int8\""), "headers of type");
+  check(".vtu", vtu("", "header_type=Int8"), "no valid attributes");
+  check(".vtu", vtu("</Piece>"), "no valid XML");
+  check(".vtu", vtu("<Piece NumberOfPoints=\"\">"), "NumberOfPoints of <Piece> is \"\"");
+  check(".vtu", with_region("AQ=="), "its array \"in_region\" is truncated");
+  check(".vtu", with_region("AQAAAAAA"), "has 1 bytes; expected 4");
+  check(".vtu", with_region("BAAAAAAA"), "its array \"in_region\" is truncated");
+  check(".vtu", with_region("BAAAAA==********"), "no valid base64");
+  check(".vtu", replaced(with_region(""), "version=\"0.1\"", "byte_order=\"BigEndian\""),
+        "byte order of another machine");
+  check_piece(&Piece_text::number_of_points, "4294967296", "2^32");
+  check_piece(&Piece_text::number_of_points, "18446744073709551615", "2^32");
+  check_piece(&Piece_text::number_of_points, "4000000000", "more than fit into the file");
+  check_piece(&Piece_text::number_of_points, "5", "does not have the 15 values");
+  check_piece(&Piece_text::number_of_points, "3", "does not have the 9 values");
+  check_piece(&Piece_text::number_of_cells, "2", "does not have the 2 values");
+  check_piece(&Piece_text::points, "0 0 0 1 0 0 0 1 0 0 nan 1", "vertex 3 has a coordinate");
+  check_piece(&Piece_text::points, "0 0 0 1 0 0 0 1 0 0 -inf 1", "vertex 3 has a coordinate");
+  check_piece(&Piece_text::points, "0 0 0 1 0 0 0 1 0 0 0x 1", "has \"0x\" where a number");
+  check_piece(&Piece_text::point_type, "Float16", "unknown type \"Float16\"");
+  check_piece(&Piece_text::index_type, "Float32", "expected integers");
+  check_piece(&Piece_text::connectivity, "0 1 2 4", "cell 0 has the point 4, which does not exist");
+  check_piece(&Piece_text::connectivity, "0 -1 2 3", "cell 0 has the point -1");
+  check_piece(&Piece_text::offsets, "9000000000000000000", "more than fit into the file");
+  check_piece(&Piece_text::offsets, "-1", "not increasing");
+  check_piece(&Piece_text::types, "12", "cell 0 has 4 points; expected 8");
+  check_piece(&Piece_text::types, "24", "cell 0 is of higher order (VTK's type 24)");
+  check_piece(&Piece_text::types, "42", "cell 0 cannot be read (VTK's type 42)");
+  check_piece(&Piece_text::types, "5", "has no hexahedra");
+  check_piece(&Piece_text::types, "256", "has \"256\" where a number of type UInt8");
+  const std::string whole = vtu(Piece_text().text());
+  check(".vtu", whole.substr(0, whole.size() - 3), "is truncated");
+
+  check(".msh", "", "is empty");
+  check(".msh", whole, "not a file of Gmsh");
+  check(".msh", replaced(msh4, "4.1", "4"), "unknown version");
+  check(".msh", replaced(msh4, "0 8", "0 4"), "size other than 8");
+  check(".msh", replaced(msh4, "4.1 0 8\n", std::string("4.1 1 8\n\0\0\0\1", 12)),
+        "byte order of another machine");
+  check(".msh", replaced(msh2, msh2_nodes, ""), "has elements before the nodes");
+  check(".msh", replaced(msh2, msh2_nodes, msh2_nodes + msh2_nodes), "two sections $Nodes");
+  check(".msh", msh2.substr(0, msh2.find("$Elements")), "it has no $Elements");
+  check(".msh", replaced(msh2, "$Nodes\n6", "$ParametricNodes\n6"), "has $ParametricNodes");
+  check(".msh", replaced(msh2, "5 0 0 0", "4 0 0 0"), "two nodes have the number 4");
+  check(".msh", replaced(msh2, "5 0 0 0", "5 0 0 1e999"), "\"1e999\" where a number");
+  check(".msh", replaced(msh2, "5 0 0 0", "5 0 0 inf"), "vertex 1 has a coordinate");
+  check(".msh", replaced(msh2, "$Nodes\n6", "$Nodes\n2147483647"), "a count of 2147483647 in $Nodes");
+  check(".msh", replaced(msh2, "$Nodes\n6", "$Nodes\n-6"), "a count of -6");
+  check(".msh", replaced(msh2, "$Nodes\n6", "$Nodes\n7"), "where a number is expected");
+  check(".msh", replaced(msh2, "7 4 2", "7 11 2"), "higher order (Gmsh's type 11)");
+  check(".msh", replaced(msh2, "7 4 2", "7 35 2"), "cannot be read (Gmsh's type 35)");
+  check(".msh", replaced(msh2, "900 30 4\n$", "900 30 3\n$"), "has the node 3, which does not exist");
+  check(".msh", replaced(msh4, "$Nodes\n3 6", "$Nodes\n3 7"), "it has 6 nodes");
+  check(".msh", replaced(msh4, "$Elements\n3 3", "$Elements\n3 4"), "it has 3 elements");
+  check(".msh", replaced(msh4, "4 6 7 8 90", "4 6 7 8 89"), "has the node 89");
+  check(".msh", replaced(msh4, "$EndNodes", "$End"), "where \"$Nodes\" should end");
+}
+
+// What test_read_writers.py compares with.
+void print(const std::string& path)
+{
+  Mesh mesh;
+  IO::read_mixed_mesh(path, mesh);
+  std::cout << std::setprecision(17) << "{\"vertices\": " << mesh.number_of_vertices()
+            << ", \"boundary_faces\": " << mesh.boundary_faces().size() << ", \"elements\": [";
+  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
+    std::cout << (e == 0 ? "" : ", ") << "[\"" << mesh.element(e).reference().name << "\", "
+              << volume(mesh, e) << ", " << mesh.is_in_region(e) << "]";
+  std::cout << "]}\n";
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  if(argc > 1 && std::string(argv[1]) == "--files") {
+    for(int i = 2; i < argc; ++i) {
+      const fs::path path = argv[i];
+      try {
+        print(path.string());
+      } catch(const std::runtime_error& e) {
+        std::cout << "\"" << e.what() << "\"\n";
+        continue;
+      }
+      test_damage(path.string(), (path.parent_path() / ("damaged_" + path.filename().string())).string());
+    }
+    return boost::report_errors();
+  }
+  const fs::path data = argc > 1 ? argv[1] : "data", directory = argc > 2 ? argv[2] : ".";
+  fs::create_directories(directory);
+  test_errors(directory);
+  test_hand_written(directory);
+  test_round_trips(data, directory);
+  return boost::report_errors();
+}
