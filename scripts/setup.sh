@@ -3,7 +3,7 @@
 #
 # Installs the Debian packages that are missing for the purposes named:
 #
-#   scripts/setup.sh [build] [pictures] [tests]
+#   scripts/setup.sh [build] [pictures] [tests] [image]
 #
 # When nothing is missing, apt is not called. The other scripts source this
 # file for its two functions, install_packages and build_jobs.
@@ -24,8 +24,10 @@ packages_for() {
     # VTK opens an X display even to render off-screen: Xvfb and Mesa's software renderer provide it.
     pictures) echo python3-vtk9 xvfb libgl1-mesa-dri ;;
     # Peers that read back the files that we write.
-    tests) echo python3-gmsh python3-nibabel python3-vtk9 ;;
-    *) fail "unknown purpose '$1': expected build, pictures or tests" ;;
+    tests) echo python3-getfem python3-gmsh python3-nibabel python3-vtk9 ;;
+    # An MRI image of a brain, of which data/brain.off is the surface.
+    image) echo mricron-data ;;
+    *) fail "unknown purpose '$1': expected build, pictures, tests or image" ;;
   esac
 }
 
@@ -75,6 +77,6 @@ build_jobs() {
 }
 
 if [[ ${BASH_SOURCE[0]} == "$0" ]]; then
-  [[ $# -gt 0 ]] || set -- build pictures tests
+  [[ $# -gt 0 ]] || set -- build pictures tests image
   install_packages "$@"
 fi

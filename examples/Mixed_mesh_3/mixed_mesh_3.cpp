@@ -187,7 +187,7 @@ void set_up(CLI::App& app, Options& o)
     ->type_name("FILE.json");
   app.add_option("--base-level", o.base_level,
                  "Octree level of the whole domain; cells are 2^L times smaller than the root "
-                 "(default: 3, or what the budget allows)")
+                 "(default: 3; coarser or finer as the budget says)")
     ->check(CLI::Range(0, 10))
     ->type_name("L");
   CLI::Option* no_fit = app.add_flag("--no-fit", o.no_fit, "Leave boundary vertices where the octree has them");

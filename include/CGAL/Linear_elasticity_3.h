@@ -41,8 +41,9 @@ namespace CGAL {
 \brief Small-strain linear elasticity on a mixed mesh: factored once, solved for many load cases.
 
 Elements are isoparametric; those of the four kinds fit together. What resists a change of volume is the mean
-dilatation of a hexahedron, prism or pyramid, and that of a patch of tetrahedra, so that nearly incompressible
-materials do not lock.
+dilatation of a hexahedron or pyramid, of two prisms, and of a patch of tetrahedra, so that nearly incompressible
+materials do not lock. In a patch, as much of the bulk modulus as twice the shear modulus counts in each element
+by itself.
 
 Units: millimetres, kilopascals, kilograms, seconds. So forces are in millinewtons (kPa mm^2), and forces by
 volume in mN/mm^3.
@@ -54,7 +55,7 @@ The order of use:
    order, and again as often as wanted;
 -# `solve()`, and read `displacements()`.
 
-After a resection, `remove_elements()` takes the place of `factor()`: supports, loads and control points stay.
+After a resection, `remove_elements()`: supports, loads, control points and the factorisation stay.
 
 Supports may leave rigid motions free, as long as the control points hold these: the mesh can be held by control
 points alone.
@@ -122,11 +123,14 @@ public:
     std::vector<Vec3> normals(m_mesh.number_of_vertices(), Vec3{});
     for(const auto& face : Mixed_meshes_3::boundary_faces(m_mesh)) {
       const auto v = face_vertices(m_mesh.element(face.element), face.local_face);
-      const bool is_triangle = v[3] == no_vertex;
-      const Vec3 area = is_triangle ? cross(m_points[v[1]] - m_points[v[0]], m_points[v[2]] - m_points[v[0]])
-                                    : cross(m_points[v[2]] - m_points[v[0]], m_points[v[3]] - m_points[v[1]]);
-      for(int i = 0; i < (is_triangle ? 3 : 4); ++i)
-        normals[v[i]] = normals[v[i]] + (is_triangle ? 1. / 6 : 1. / 8) * area;
+      const int n = v[3] == no_vertex ? 3 : 4;
+      const auto corner = [&](int i) {
+        const Vec3& p = m_points[v[i]];
+        return cross(m_points[v[(i + 1) % n]] - p, m_points[v[(i + n - 1) % n]] - p);
+      };
+      for(int i = 0; i < n; ++i)
+        normals[v[i]] = normals[v[i]]
+                        + (n == 3 ? (1. / 6) * corner(i) : (1. / 12) * (corner(i) + (corner(1) + corner(3))));
     }
     for(Vertex_index v = 0; v < normals.size(); ++v)
       if(norm(normals[v]) > 0 && is_sliding(v))
@@ -163,6 +167,7 @@ public:
     std::vector<std::vector<Vertex_index>> patch_vertices;
     m_patch_of.assign(m_mesh.number_of_elements(), no_patch);
     for(std::size_t i = 0; i < m_patches.size(); ++i) {
+      remove_removed(m_patches[i]);
       patch_vertices.push_back(vertices_of(m_patches[i]));
       for(Element_index e : m_patches[i])
         m_patch_of[e] = i;
@@ -174,56 +179,66 @@ public:
         add_element(e, 1);
     for(std::size_t i = 0; i < m_patches.size(); ++i)
       add_patch(i, 1);
+    find_parts();
     return factor_system();
   }
 
   /*!
-  Removes elements, after a resection for example (see `Mixed_meshes_3::resect()`), and factors what is left.
-  Supports, loads and control points stay; vertices without an element have no displacement. If a control point
-  was in an element removed, `set_control_points()` has to be called again.
+  Removes elements, after a resection for example (see `Mixed_meshes_3::resect()`). Supports, loads and control
+  points stay; vertices without an element have no displacement.
 
-  Only what changed is assembled; the order of elimination and the symbolic factorisation are kept. The
-  numbers are factored anew: at the sizes that this class is for, that is faster than updating a factor, as a
-  resection changes more columns than it leaves; see the manual.
+  The factorisation stays as well. From here on `solve()` iterates: conjugate gradients for the stiffness K' that
+  is left, with the factor of the former stiffness K as the preconditioner. On the vertices that are left, K is
+  K' plus the Schur complement of what was removed. Both resist the displacement of their common interface alike,
+  so that the number of iterations hardly depends on the mesh, and is small. A new `factor()`, when there is
+  time, makes `solve()` direct again.
+
+  It is factored at once if that does not do: if a part or a rigid motion comes free, if a control point was in an
+  element removed (it is located anew then), or if control points have a compliance.
 
   \param is_removed for each element; those removed before stay removed
+  \return as `factor()` and `set_control_points()`
   \pre `factor()` was successful
+  \cost linear; that of `factor()` if it is factored
   */
   Result remove_elements(const std::vector<bool>& is_removed)
   {
     CGAL_precondition(is_factored() && is_removed.size() == m_is_removed.size());
-    std::vector<std::size_t> changed_patches;
-    std::vector<Element_index> removed;
-    for(Element_index e = 0; e < is_removed.size(); ++e)
-      if(is_removed[e] && !m_is_removed[e]) {
-        removed.push_back(e);
-        if(m_patch_of[e] != no_patch)
-          changed_patches.push_back(m_patch_of[e]);
-      }
-    std::sort(changed_patches.begin(), changed_patches.end());
-    changed_patches.erase(std::unique(changed_patches.begin(), changed_patches.end()), changed_patches.end());
-    for(std::size_t i : changed_patches)
-      add_patch(i, -1);
-    for(Element_index e : removed) {
-      add_element(e, -1);
-      m_is_removed[e] = true;
-    }
-    for(std::size_t i : changed_patches) {
-      std::vector<Element_index>& patch = m_patches[i];
-      patch.erase(std::remove_if(patch.begin(), patch.end(), [this](Element_index e) { return m_is_removed[e]; }),
-                  patch.end());
-      add_patch(i, 1);
-    }
+    subtract_elements(is_removed);
     m_locator.reset();
     if(is_all_removed()) {
       m_system.reset();
       return failed(Status::NO_ELEMENTS);
     }
-    Result result = factor_system();
-    if(result.is_success() && !m_control_points.empty())
-      result = set_control_points(std::vector<Vector>(m_control_points), m_largest_distance, m_compliance);
-    return result;
+    const auto numbers_of_motions = [this] {
+      std::vector<std::size_t> n;
+      for(const Part& part : m_parts)
+        n.push_back(part.modes.size());
+      return n;
+    };
+    const std::vector<std::size_t> before = numbers_of_motions();
+    find_parts();
+    m_is_loaded = false;
+    m_is_iterative =
+      numbers_of_motions() == before && m_compliance == 0
+      && std::none_of(m_control_elements.begin(), m_control_elements.end(),
+                      [this](Element_index e) { return m_is_removed[e]; });
+    if(m_is_iterative)
+      return Result();
+    return factor_system();
   }
+
+  /// How exact `solve()` is after `remove_elements()`: the error in the energy norm, relative to that of the
+  /// solution. Default: 1e-3, well below what the mesh makes wrong. Each power of ten takes about five iterations.
+  /// \pre positive
+  void set_iteration_tolerance(double tolerance)
+  {
+    CGAL_precondition(tolerance > 0);
+    m_iteration_tolerance = tolerance;
+  }
+
+  /// Whether `solve()` iterates, as elements have been removed since `factor()`.
+  bool is_iterative() const { return m_is_iterative; }
 
   bool is_factored() const { return m_system.has_value(); }
 
@@ -271,8 +286,13 @@ public:
     CGAL_precondition(is_factored() && compliance >= 0);
     m_compliance = compliance;
     m_control_points.clear();
+    m_control_elements.clear();
     m_controls.reset();
     m_largest_distance = largest_distance;
+    if(m_is_iterative)
+      if(const Result result = factor_system(); !result.is_success())
+        return result;
+    std::vector<Element_index> elements;
     std::vector<Mixed_meshes_3::internal::Control_weights> weights;
     std::vector<Vector> positions;
     for(const auto& p : points) {
@@ -285,13 +305,15 @@ public:
         return failed(Status::CONTROL_POINT_OUTSIDE, result);
       }
       Mixed_meshes_3::internal::Control_weights w;
-      const auto element = m_mesh.element(location.element);
+      const auto element = m_kept_mesh.element(location.element); // the locator's number
       for(int i = 0; i < element.size(); ++i)
         if(location.weights[i] != 0)
           w.emplace_back(element[i], location.weights[i]);
       weights.push_back(std::move(w));
+      elements.push_back(m_kept_elements[location.element]);
     }
     m_control_points = std::move(positions);
+    m_control_elements = std::move(elements);
     return prepare_controls(std::move(weights));
   }
   /// @}
@@ -303,7 +325,8 @@ public:
   \return `FREE_RIGID_MOTION`, `CONTRADICTORY_CONTROL_POINTS`, `SOLVER_FAILED` or `SUCCESS`; `displacements()` has
           the solution if successful, else it is as before
   \cost for new displacements of the same control points: linear, in vertices times control points. For new
-        loads or displacements of supports, one solution of the system besides.
+        loads or displacements of supports, one solution of the system besides. After `remove_elements()`, about
+        ten solutions of the system.
   \pre `factor()` was successful
   */
   template <class Displacements>
@@ -326,6 +349,10 @@ public:
     Result result = m_controls->solve(m_loaded, m_load, wanted, m_modes, solution);
     if(!result.is_success())
       return result;
+    if(m_is_iterative && !iterate(wanted, solution)) {
+      result = factor_system();
+      return result.is_success() ? solve(control_displacements) : result;
+    }
     m_control_forces = solution.forces;
     m_displacements.assign(m_points.size(), Vector{});
     using namespace Mixed_meshes_3::internal;
@@ -364,6 +391,8 @@ public:
 
   const Mesh& mesh() const { return m_mesh; }
   const std::vector<bool>& removed_elements() const { return m_is_removed; }
+  /// Of the last `solve()`; 0 if it was direct.
+  int number_of_iterations() const { return m_is_iterative ? m_number_of_iterations : 0; }
   std::size_t number_of_control_points() const { return m_control_points.size(); }
   /// The solver, to set its parameters before `factor()`.
   SolverTraits& solver() { return m_solver; }
@@ -372,6 +401,8 @@ private:
   using Vec3 = Mixed_meshes_3::internal::Vec3;
   using Matrix = typename SolverTraits::Matrix;
   static constexpr std::size_t no_patch = std::size_t(-1);
+  // Of iterations after a removal: when to factor instead.
+  static constexpr int largest_number_of_iterations = 100, largest_number_of_rises = 20;
 
   const Elastic_material& material(Element_index e) const
   {
@@ -410,12 +441,44 @@ private:
     return vertices;
   }
 
+  void remove_removed(std::vector<Element_index>& elements) const
+  {
+    elements.erase(
+      std::remove_if(elements.begin(), elements.end(), [this](Element_index e) { return m_is_removed[e]; }),
+      elements.end());
+  }
+
+  // From the stiffness; patches that lose some of their elements become those of the others.
+  void subtract_elements(const std::vector<bool>& is_removed)
+  {
+    std::vector<std::size_t> changed_patches;
+    std::vector<Element_index> removed;
+    for(Element_index e = 0; e < is_removed.size(); ++e)
+      if(is_removed[e] && !m_is_removed[e]) {
+        removed.push_back(e);
+        if(m_patch_of[e] != no_patch)
+          changed_patches.push_back(m_patch_of[e]);
+      }
+    std::sort(changed_patches.begin(), changed_patches.end());
+    changed_patches.erase(std::unique(changed_patches.begin(), changed_patches.end()), changed_patches.end());
+    for(std::size_t i : changed_patches)
+      add_patch(i, -1);
+    for(Element_index e : removed) {
+      add_element(e, -1);
+      m_is_removed[e] = true;
+    }
+    for(std::size_t i : changed_patches) {
+      remove_removed(m_patches[i]);
+      add_patch(i, 1);
+    }
+  }
+
   void add_element(Element_index e, double factor)
   {
     using Mixed_meshes_3::internal::Dilatation;
     Elastic_material m = material(e);
     m.young_modulus *= factor;
-    m_system->add(e, m, m_points, m_points, m_patch_of[e] == no_patch ? Dilatation::MEAN : Dilatation::NONE);
+    m_system->add(e, m, m_points, m_points, m_patch_of[e] == no_patch ? Dilatation::MEAN : Dilatation::PATCH);
   }
 
   void add_patch(std::size_t i, double factor)
@@ -429,16 +492,20 @@ private:
     double volume = 0;
     for(Element_index e : patch) {
       const auto element = m_mesh.element(e);
-      const Strain_operator s = strain_operator(
-        TETRAHEDRON, relative_points(element, [this](Vertex_index v) { return m_points[v]; }), 0);
-      volume += s.volume;
-      for(int a = 0; a < 4; ++a) {
-        Vec3& g = gradients[std::size_t(std::lower_bound(vertices.begin(), vertices.end(), element[a])
-                                        - vertices.begin())];
-        g = g + s.volume * s.gradients[a];
+      const auto points = relative_points(element, [this](Vertex_index v) { return m_points[v]; });
+      for(int q = 0; q < quadrature_rule(element.kind()).number_of_points; ++q) {
+        const Strain_operator s = strain_operator(element.kind(), points, q);
+        volume += s.volume;
+        for(int a = 0; a < element.size(); ++a) {
+          Vec3& g = gradients[std::size_t(std::lower_bound(vertices.begin(), vertices.end(), element[a])
+                                          - vertices.begin())];
+          g = g + s.volume * s.gradients[a];
+        }
       }
     }
-    m_system->add_patch(vertices, gradients, factor * material(patch.front()).bulk_modulus() / volume, m_points);
+    const Elastic_material& m = material(patch.front());
+    const double mean = (1 - pointwise_share(m)) * m.bulk_modulus();
+    m_system->add_patch(vertices, gradients, factor * mean / volume, m_points);
   }
 
   // K u, with the stiffness of all vertices.
@@ -457,32 +524,45 @@ private:
     return f;
   }
 
-  // The vertices that have unknowns, at first: they keep their numbers when elements are removed.
+  struct Part
+  {
+    std::vector<Vertex_index> vertices;
+    std::vector<Mixed_meshes_3::internal::Rigid_mode> modes; // that the supports leave free
+  };
+
+  void find_parts()
+  {
+    using namespace Mixed_meshes_3::internal;
+    m_parts.clear();
+    m_is_kept.assign(m_points.size(), false);
+    for(std::vector<Vertex_index>& vertices : connected_vertices(
+          m_mesh.elements(), m_points.size(), [this](Element_index e) { return !m_is_removed[e]; })) {
+      for(Vertex_index v : vertices)
+        m_is_kept[v] = true;
+      std::vector<Rigid_mode> modes = free_rigid_modes(vertices, m_points, m_supports);
+      m_parts.push_back({std::move(vertices), std::move(modes)});
+    }
+  }
+
   Result factor_system()
   {
     using namespace Mixed_meshes_3::internal;
-    m_is_loaded = false;
+    m_is_loaded = m_is_iterative = false;
     m_controls.reset();
-    m_is_kept.assign(m_points.size(), false);
     m_modes.clear();
-    const auto parts = connected_vertices(m_mesh.elements(), m_points.size(),
-                                          [this](Element_index e) { return !m_is_removed[e]; });
     const double largest = *std::max_element(m_system->values().begin(), m_system->values().end());
     std::vector<double> springs(3 * m_points.size(), 0); // to be added to the diagonal
-    for(const std::vector<Vertex_index>& part : parts) {
-      for(Vertex_index v : part)
-        m_is_kept[v] = true;
-      const std::vector<Rigid_mode> modes = free_rigid_modes(part, m_points, m_supports);
-      for(std::size_t unknown : springs_for(part, modes))
+    for(const Part& part : m_parts) {
+      for(std::size_t unknown : springs_for(part.vertices, part.modes))
         springs[unknown] = m_system->values()[m_system->starts()[unknown]];
-      for(const Rigid_mode& mode : modes)
-        m_modes.push_back({mode, part});
+      for(const Rigid_mode& mode : part.modes)
+        m_modes.push_back({mode, part.vertices});
     }
 
     // K on the directions that are free, P K P, with something positive on those that are not. As springs hold
     // just as many unknowns as there are motions free, they bear nothing if the loads are in equilibrium.
     std::vector<Vertex_index> number(m_points.size(), no_vertex);
-    if(m_matrix == nullptr) {
+    if(m_matrix == nullptr) { // else the numbers stay, so that the symbolic factorisation does
       m_unknowns.clear();
       for(Vertex_index v = 0; v < m_points.size(); ++v)
         if(m_is_kept[v] && m_supports[v].size < 3)
@@ -509,14 +589,29 @@ private:
       values[std::size_t(starts[starts.size() - 2])] += springs[3 * v + 2];
     }
     project(starts, rows, values, largest);
-    m_matrix = std::make_unique<Matrix>(make_matrix<Matrix>(starts, rows, values));
+    if(!m_unknowns.empty()) // CGAL's matrices are not
+      m_matrix = std::make_unique<Matrix>(make_matrix<Matrix>(starts, rows, values));
     typename SolverTraits::NT denominator = 1;
-    if(!m_unknowns.empty() && !m_solver.factor(*m_matrix, denominator)) {
+    if(!m_unknowns.empty() && (!m_solver.factor(*m_matrix, denominator) || is_nearly_singular(largest))) {
       m_system.reset();
       m_matrix.reset();
       return failed(Status::SOLVER_FAILED);
     }
-    return Result();
+    return m_control_points.empty()
+             ? Result()
+             : set_control_points(std::vector<Vector>(m_control_points), m_largest_distance, m_compliance);
+  }
+
+  // Hinges make a matrix that is singular but for rounding, so that it may have been factored. Forces of no
+  // pattern move them without bound.
+  bool is_nearly_singular(double scale)
+  {
+    constexpr double largest_condition = 1e13;
+    Eigen::MatrixXd b(3 * Eigen::Index(m_unknowns.size()), 1), x;
+    for(Eigen::Index i = 0; i < b.rows(); ++i)
+      b(i, 0) = std::fmod(0.618033988749895 * double(i), 1) - 0.5;
+    return !Mixed_meshes_3::internal::solve_columns(m_solver, b, x)
+           || !(scale * x.norm() < largest_condition * b.norm());
   }
 
   // As many unknowns of a part as motions are free, such that holding these holds the part: rows of the matrix
@@ -648,6 +743,7 @@ private:
         if(!m_is_removed[e])
           add_body_force(e, force);
     }
+    m_force = force;
     if(is_supported)
       force -= product(supported);
     m_load = force;
@@ -678,6 +774,68 @@ private:
     }
   }
 
+  // Conjugate gradients in the space of displacements that are zero at the control points (N. I. M. Gould,
+  // M. E. Hribar, J. Nocedal: "On the solution of equality constrained quadratic programming problems arising in
+  // optimization", SIAM J. Sci. Comput. 23, 2001). The solution for the former stiffness is where they start.
+  bool iterate(const Eigen::VectorXd& wanted, Mixed_meshes_3::internal::Control_solution& solution)
+  {
+    using Mixed_meshes_3::internal::Control_solution;
+    Eigen::VectorXd& u = solution.displacements;
+    const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(Eigen::Index(3 * m_control_points.size()));
+    solution.forces = nothing;
+    Control_solution step;
+    const auto precondition = [&](Eigen::VectorXd& r) {
+      Eigen::MatrixXd z;
+      if(!solve_system(r, z)
+         || !m_controls->solve(z.col(0), r, nothing, m_modes, step).is_success())
+        return false;
+      m_controls->add_forces(step.forces, r); // so that rounding errors do not grow
+      r = free_part(std::move(r));
+      solution.forces += step.forces;
+      return true;
+    };
+    Eigen::VectorXd r = free_part(m_force - product(u));
+    if(!precondition(r))
+      return false;
+    Eigen::VectorXd p = step.displacements;
+    double rz = r.dot(p);
+    const double bound = m_iteration_tolerance * m_iteration_tolerance * u.dot(product(u));
+    double least = rz;
+    int rises = 0; // since rounding errors may be all that is left
+    for(m_number_of_iterations = 0; m_number_of_iterations < largest_number_of_iterations;
+        ++m_number_of_iterations) {
+      if(!(rz > bound))
+        return m_controls->is_satisfied(u, wanted);
+      rises = rz < least ? 0 : rises + 1;
+      least = (std::min)(least, rz);
+      if(rises > largest_number_of_rises)
+        return false;
+      const Eigen::VectorXd q = free_part(product(p));
+      const double alpha = rz / p.dot(q);
+      u += alpha * p;
+      r -= alpha * q;
+      if(!std::isfinite(alpha) || !precondition(r))
+        return false;
+      const double next = r.dot(step.displacements);
+      p = step.displacements + (next / rz) * p;
+      rz = next;
+    }
+    return false;
+  }
+
+  // The components in directions that are free, of vertices that are left.
+  Eigen::VectorXd free_part(Eigen::VectorXd f) const
+  {
+    for(Vertex_index v = 0; v < m_points.size(); ++v) {
+      Vec3 x{};
+      if(m_is_kept[v])
+        x = m_supports[v].free_part({f[3 * Eigen::Index(v)], f[3 * Eigen::Index(v) + 1], f[3 * Eigen::Index(v) + 2]});
+      for(int k = 0; k < 3; ++k)
+        f[3 * Eigen::Index(v) + k] = x[k];
+    }
+    return f;
+  }
+
   Result prepare_controls(std::vector<Mixed_meshes_3::internal::Control_weights> weights)
   {
     m_controls.emplace(std::move(weights), m_compliance, m_modes, m_points, m_supports,
@@ -692,11 +850,14 @@ private:
   {
     if(!m_locator) {
       m_kept_mesh.clear();
+      m_kept_elements.clear();
       for(const auto& p : m_mesh.points())
         m_kept_mesh.add_vertex(p);
       for(Element_index e = 0; e < m_mesh.number_of_elements(); ++e)
-        if(!m_is_removed[e])
+        if(!m_is_removed[e]) {
           m_kept_mesh.add_element(m_mesh.element(e).kind(), m_mesh.element(e).begin());
+          m_kept_elements.push_back(e);
+        }
       m_locator.emplace(m_kept_mesh);
     }
     return *m_locator;
@@ -715,15 +876,21 @@ private:
   std::vector<Vertex_index> m_unknowns;                // the vertices of the system that is factored
   std::unique_ptr<Matrix> m_matrix;                    // the solver refers to it
   SolverTraits m_solver;
-  std::vector<Mixed_meshes_3::internal::Free_motion> m_modes;
+  std::vector<Part> m_parts;
+  std::vector<Mixed_meshes_3::internal::Free_motion> m_modes; // of the parts when the system was factored
 
   Vector m_body_force{}, m_gravity{};
   bool m_is_loaded = false; // whether m_load and m_loaded are up to date
-  Eigen::VectorXd m_load, m_loaded;
+  Eigen::VectorXd m_force, m_load, m_loaded; // body forces; these and what supports cause; and the solution
+  bool m_is_iterative = false;
+  double m_iteration_tolerance = 1e-3;
+  int m_number_of_iterations = 0;
 
   Mesh m_kept_mesh;
+  std::vector<Element_index> m_kept_elements; // the number of each of its elements in m_mesh
   std::optional<Mixed_meshes_3::Element_locator_3<Mesh>> m_locator; // of m_kept_mesh
   std::vector<Vector> m_control_points;
+  std::vector<Element_index> m_control_elements; // that contain them
   double m_largest_distance = 0, m_compliance = 0;
   std::optional<Mixed_meshes_3::internal::Control_constraints> m_controls;
   Eigen::VectorXd m_control_forces;

@@ -36,8 +36,9 @@ public:
   std::size_t maximal_number_of_vertices() const { return m_maximal_number_of_vertices; }
 
   /// The octree level to which the whole domain is refined; cells of level `l` are 2^l times smaller
-  /// than the root. Default: 3; coarser, down to 1, if the budget is too small for it; finer, up to 6, if
-  /// no octree vertex would be inside a thin domain, or more than 5 % of its cells would be lost.
+  /// than the root. Default: 3; coarser, down to 1, if the budget is too small for it; finer, up to 6, if it
+  /// takes at most half of the budget and there is no tolerance, or if no octree vertex would be inside a thin
+  /// domain, or more than 5 % of its cells would be lost.
   /// \pre `automatic`, or from 0 to 10
   Mixed_mesh_criteria_3& base_level(int level)
   {

@@ -129,9 +129,18 @@ using Conjugate_gradient_solver_traits =
 using Simplicial_solver_traits = Symmetric_solver_traits<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>;
 
 #ifdef CGAL_MIXED_MESH_3_USE_CHOLMOD
+namespace internal {
+
+// Says nothing: a matrix that is not positive definite is told by the status.
+struct Quiet_cholmod : Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>
+{
+  Quiet_cholmod() { this->cholmod().print = 0; }
+};
+
+} // namespace internal
+
 /// The supernodal factorisation of CHOLMOD. The fastest direct solver for large systems, with a good BLAS.
-using Cholmod_solver_traits =
-  Symmetric_solver_traits<Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>>;
+using Cholmod_solver_traits = Symmetric_solver_traits<internal::Quiet_cholmod>;
 /// The fastest direct solver there is.
 using Direct_solver_traits = Cholmod_solver_traits;
 #else

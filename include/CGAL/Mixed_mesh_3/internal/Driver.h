@@ -36,6 +36,8 @@ inline constexpr int default_base_level = 3;
 inline constexpr int coarsest_automatic_base_level = 1;
 inline constexpr int finest_automatic_base_level = 6;
 inline constexpr double tolerated_share_of_lost_cells = 0.05;
+// What may be spent outside the region: beyond, elements there are not what limits the solution.
+inline constexpr double largest_share_for_base_level = 0.5;
 
 // Towards the tolerance: rounds of splitting, the share of the budget they may take, how gently a coarse mesh
 // is fitted for that, and, where too many places are too far, multiples of the tolerance to begin with.
@@ -121,10 +123,22 @@ private:
     return c;
   }
 
+  // The default, or a finer one if the budget is large: with elements as coarse as for a small one, the
+  // solution would not gain from more vertices in the region. With a tolerance, that says where to be finer.
   int first_base_level() const
   {
-    return m_criteria.base_level() == Mixed_mesh_criteria_3::automatic ? default_base_level
-                                                                        : m_criteria.base_level();
+    if(m_criteria.base_level() != Mixed_mesh_criteria_3::automatic)
+      return m_criteria.base_level();
+    const double limit = largest_share_for_base_level * double(budget());
+    int level = 0;
+    for(Octree_ octree = m_octree; m_criteria.tolerance() == 0 && level < finest_automatic_base_level; ++level) {
+      if(8 * double(octree.number_of_cells_inside()) > limit)
+        break;
+      octree.refine(octree.leaves_to_refine(level, false));
+      if(double(octree.number_of_cells()) > limit) // about as many as vertices
+        break;
+    }
+    return (std::max)(level, default_base_level);
   }
 
   // One level more around each far point, outside the region, round by round.

@@ -119,7 +119,7 @@ public:
     }
     const Vector equilibrium = -(m_motions.transpose() * load);
     Vector right = wanted - at_points(loaded) + m_augmentation * (m_g * equilibrium);
-    Vector s = m_factor.matrixL().rows() > 0 ? m_factor.solve(pick(right)).eval() : Vector();
+    Vector s = m_independent.empty() ? Vector() : m_factor.solve(pick(right)).eval();
     Vector c = Vector::Zero(m_motions.cols());
     if(c.size() > 0) {
       c = m_schur.solve(m_g_independent.transpose() * s - equilibrium);
@@ -135,8 +135,7 @@ public:
       solution.displacements += m_motions * c;
 
     const Vector missed = at_points(solution.displacements) + m_compliance * solution.forces - wanted;
-    const double bound = miss * ((std::max)(wanted.size() > 0 ? wanted.lpNorm<Eigen::Infinity>() : 0,
-                                            loaded.size() > 0 ? loaded.lpNorm<Eigen::Infinity>() : 0));
+    const double bound = tolerance(solution.displacements, wanted);
     for(std::size_t p = 0; p < m_weights.size(); ++p) {
       const double distance = missed.segment<3>(3 * Index(p)).norm();
       if(distance > bound && distance > result.distance) {
@@ -148,7 +147,28 @@ public:
     return result;
   }
 
+  /// Whether displacements are those wanted, up to rounding. \pre no compliance
+  bool is_satisfied(const Vector& u, const Vector& wanted) const
+  {
+    return wanted.size() == 0
+           || (at_points(u) - wanted).lpNorm<Eigen::Infinity>() <= tolerance(u, wanted);
+  }
+
+  /// Adds B^T s.
+  void add_forces(const Vector& s, Vector& f) const
+  {
+    for(std::size_t p = 0; p < m_weights.size(); ++p)
+      for(const auto& [v, w] : m_weights[p])
+        f.segment<3>(3 * Index(v)) += w * s.segment<3>(3 * Index(p));
+  }
+
 private:
+  static double tolerance(const Vector& u, const Vector& wanted)
+  {
+    const auto largest = [](const Vector& x) { return x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0; };
+    return miss * (std::max)(largest(u), largest(wanted));
+  }
+
   // B u, for each column.
   Matrix at_points(const Matrix& u) const
   {
@@ -203,11 +223,18 @@ private:
     }
   }
 
-  // Cholesky's factorisation with pivots, as long as these are not negligible.
+  // Cholesky's factorisation, which as a rule shows that all constraints are independent; else with pivots, as
+  // long as these are not negligible.
   void find_independent(Matrix s)
   {
     const Index n = s.rows();
     const double bound = n > 0 ? dependence * s.diagonal().maxCoeff() : 0;
+    const Eigen::LLT<Matrix> factor(s);
+    if(n == 0 || (factor.info() == Eigen::Success && factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() > bound)) {
+      for(Index i = 0; i < n; ++i)
+        m_independent.push_back(i);
+      return;
+    }
     for(Index step = 0; step < n; ++step) {
       Index pivot = 0;
       const double largest = s.diagonal().maxCoeff(&pivot);

@@ -3,14 +3,15 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Tetrahedra in patches of which each has one dilatation, against volumetric locking: E. A. de Souza Neto,
-// F. M. Andrade Pires, D. R. J. Owen: "F-bar-based linear triangles and tetrahedra for finite strain analysis of
-// nearly incompressible solids. Part I", Int. J. Numer. Meth. Engng 62, 2005.
+// Tetrahedra and prisms in patches of which each has one dilatation, against volumetric locking:
+// E. A. de Souza Neto, F. M. Andrade Pires, D. R. J. Owen: "F-bar-based linear triangles and tetrahedra for finite
+// strain analysis of nearly incompressible solids. Part I", Int. J. Numer. Meth. Engng 62, 2005.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_DILATATION_PATCHES_H
 #define CGAL_MIXED_MESH_3_INTERNAL_DILATATION_PATCHES_H
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -27,7 +28,12 @@ A partition of the tetrahedra: stars of vertices, the largest first, as far as t
 yet. What is left in smaller stars joins the smallest patch around it. A linear tetrahedron alone has a third of
 the displacements that its constraint of volume takes; a patch of `wanted_size` or more has enough.
 
-\param is_together `bool(e, f)`: whether two elements may have one dilatation: they are of one material
+Then prisms in pairs with a common quadrilateral: a prism alone has half of the displacements that a hexahedron
+has for its constraint, and bent in the plane of its triangles it locks as these do. What finds no partner is in
+no patch.
+
+\param is_together `bool(e, f)`: whether two elements may have one dilatation: they are of one material. For
+       `e == f`, whether it may be in a patch at all
 \cost linear
 */
 template <class Is_together>
@@ -38,7 +44,7 @@ Patches dilatation_patches(const Element_list& elements, std::size_t number_of_v
   std::vector<std::vector<Element_index>> stars(number_of_vertices);
   std::size_t largest = 0;
   for(Element_index e = 0; e < elements.size(); ++e)
-    if(elements[e].kind() == TETRAHEDRON)
+    if(elements[e].kind() == TETRAHEDRON && is_together(e, e))
       for(Vertex_index v : elements[e]) {
         stars[v].push_back(e);
         largest = (std::max)(largest, stars[v].size());
@@ -82,6 +88,20 @@ Patches dilatation_patches(const Element_list& elements, std::size_t number_of_v
         join(e, patch);
       vertices_by_size[size].push_back(v); // for what is left of it in other materials
     }
+
+  for_each_face(elements, number_of_vertices, [](Vertex_index) { return true; },
+                [&](const Face_handle* f, std::size_t n) {
+                  if(n != 2)
+                    return;
+                  const Element_index a = f[0].element, b = f[1].element;
+                  if(elements[a].kind() == PRISM && elements[b].kind() == PRISM
+                     && reference_elements[PRISM].faces[f[0].local_face].size == 4 && patch_of[a] == no_patch
+                     && patch_of[b] == no_patch && is_together(a, b)) {
+                    patches.emplace_back();
+                    join(a, patches.size() - 1);
+                    join(b, patches.size() - 1);
+                  }
+                });
   return patches;
 }
 

@@ -126,9 +126,18 @@ using Matrix_3x3 = std::array<Vec3, 3>; // rows
 using Element_stiffness = std::array<std::array<Matrix_3x3, 8>, 8>;
 
 /// What resists a change of volume: the dilatation at each point of the quadrature, or its mean over the
-/// element (Nagtegaal, Parks, Rice, 1974; Hughes' B-bar), or nothing: the mean over several elements is added
-/// apart. Pointwise, hexahedra, prisms and pyramids lock if the material is nearly incompressible.
-enum class Dilatation { POINTWISE, MEAN, NONE };
+/// element (Nagtegaal, Parks, Rice, 1974; Hughes' B-bar), or for an element of a patch some pointwise and the rest
+/// by the mean over the patch, which is added apart. Only pointwise, all kinds lock if the material is nearly
+/// incompressible.
+enum class Dilatation { POINTWISE, MEAN, PATCH };
+
+/// The share of the bulk modulus that is pointwise in a patch: as much as does not lock. Without any, the elements
+/// of a patch could change their volumes against each other too easily.
+inline double pointwise_share(const Elastic_material& material)
+{
+  constexpr double largest_multiple_of_mu = 2;
+  return (std::min)(1., largest_multiple_of_mu * material.mu() / material.bulk_modulus());
+}
 
 /// The integral of the divergence over an element, by the displacement of each node; and the volume.
 struct Dilatation_operator
@@ -161,7 +170,10 @@ inline Dilatation_operator compute_element_stiffness(Element_kind kind, const st
     }
   }
   const double mu = material.mu();
-  const double lambda = dilatation == Dilatation::POINTWISE ? material.lambda() : -2 * mu / 3;
+  const double pointwise = dilatation == Dilatation::POINTWISE ? 1
+                           : dilatation == Dilatation::PATCH   ? pointwise_share(material)
+                                                               : 0;
+  const double lambda = pointwise * material.bulk_modulus() - 2 * mu / 3;
   const double mean = dilatation == Dilatation::MEAN ? material.bulk_modulus() / whole.volume : 0;
   for(int a = 0; a < n; ++a)
     for(int b = 0; b <= a; ++b) {

@@ -1,0 +1,115 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Brain shift in six steps, from three surfaces and four measured points to the brain after the resection of
+// a tumour: section 6.2 of Lobos, Bucki, Hitschfeld, Payan: "Mixed-element mesh for an intra-operative
+// modeling of the brain tumor extraction". All lengths are in mm.
+//
+//   brain_shift_of_a_brain [VERTICES]
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Linear_elasticity_3.h>
+#include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
+#include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
+#include <CGAL/Mixed_mesh_3/resect.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/make_mixed_mesh_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace mm3 = CGAL::Mixed_meshes_3;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
+using Mesh = CGAL::Mixed_mesh_3<Kernel>;
+using Elasticity = CGAL::Linear_elasticity_3<Mesh>;
+using Vector = std::array<double, 3>;
+
+Surface read(const std::string& name)
+{
+  Surface surface;
+  mm3::IO::read_closed_surface(MIXED_MESH_3_DATA_DIR "/" + name, surface);
+  return surface;
+}
+
+void check(const CGAL::Linear_elasticity_result_3& result)
+{
+  if(!result.is_success())
+    throw std::runtime_error(result.description());
+}
+
+double largest(const std::vector<Vector>& displacements)
+{
+  double length = 0;
+  for(const Vector& u : displacements)
+    length = (std::max)(length, std::hypot(u[0], u[1], u[2]));
+  return length;
+}
+
+int main(int argc, char** argv)
+try {
+  // 1. The mesh: fine on the path from the opening in the skull to the tumour.
+  const Surface brain = read("brain.off"), path = read("region.off"), tumour = read("tumour.off");
+  Mesh mesh;
+  if(!CGAL::make_mixed_mesh_3(brain, path, argc > 1 ? std::stoul(argv[1]) : 2000, mesh).has_mesh())
+    throw std::runtime_error("no mesh with so few vertices");
+  std::cout << "mesh: " << mesh.number_of_vertices() << " vertices, " << mesh.number_of_elements()
+            << " elements\n";
+
+  // 2. The boundary conditions: the brain rests on the base of the skull; elsewhere its surface is free.
+  //    Young's modulus is 1 kPa, Poisson's ratio 0.45: the defaults.
+  Elasticity elasticity(mesh);
+  const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(brain);
+  for(const auto& face : mesh.boundary_faces())
+    for(mm3::Vertex_index v : mm3::internal::face_vertices(mesh.element(face.element), face.local_face))
+      if(v != mm3::internal::no_vertex && mesh.point(v).z() < box.zmin() + 0.3 * (box.zmax() - box.zmin()))
+        elasticity.prescribe(v);
+
+  // 3. The factorisation: before surgery, all that depends on the mesh.
+  check(elasticity.factor());
+
+  // 4. Surgery: the skull is open. Four points of the cortex are measured before and after, here 10 mm
+  //    inwards on the way to the tumour. They need not be vertices; up to 5 mm outside the mesh will do. The
+  //    first call is for the points; the second, for their displacements, can be repeated as these change, at
+  //    next to no cost.
+  const std::vector<Vector> points{
+    {43.633, 24.044, 49.096}, {35.245, 31.664, 49.283}, {29.646, 24.914, 57.660}, {38.404, 17.573, 58.562}};
+  const std::vector<Vector> measured(points.size(), Vector{-3.132, -2.349, -9.202});
+  check(elasticity.set_control_points(points, 5));
+  check(elasticity.solve(measured));
+  const std::vector<Vector> shift = elasticity.displacements();
+  std::cout << "shift: up to " << largest(shift) << " mm\n";
+
+  // 5. The resection: elements in the tumour go, and the mesh is factored without them. Supports and control
+  //    points stay.
+  const mm3::Resection_3 resection = mm3::resect(mesh, tumour);
+  if(resection.status != mm3::Resection_status::SUCCESS)
+    throw std::runtime_error(mm3::description(resection.status));
+  check(elasticity.remove_elements(resection.is_removed));
+  check(elasticity.solve(measured));
+  std::cout << "resection: " << resection.volume / 1000 << " ml; shift: up to "
+            << largest(elasticity.displacements()) << " mm\n";
+
+  // 6. For ParaView: displacements of vertices, and which elements are gone.
+  std::vector<double> displacements, is_removed(resection.is_removed.begin(), resection.is_removed.end());
+  for(const Vector& u : elasticity.displacements())
+    displacements.insert(displacements.end(), u.begin(), u.end());
+  mm3::IO::Write_options data;
+  data.vertex_data = {{"displacement", &displacements, 3}};
+  data.element_data = {{"resected", &is_removed}};
+  if(const auto error = mm3::IO::write_mixed_mesh("brain_shift_of_a_brain.vtu", mesh, data))
+    throw std::runtime_error(*error);
+  return EXIT_SUCCESS;
+} catch(const std::exception& e) {
+  std::cerr << e.what() << '\n';
+  return EXIT_FAILURE;
+}
