@@ -38,7 +38,7 @@ mkdir -p "$out"
   --output "$out/brain.vtu"
 
 "$build/bin/brain_shift" "$out/brain.vtu" --control-points "$root/data/control_points.csv" \
-  --tumour "$root/data/tumour.off" --image "$IMAGE" --output "$out/brain_shift.vtu" \
+  --control-radius 8 --tumour "$root/data/tumour.off" --image "$IMAGE" --output "$out/brain_shift.vtu" \
   --output-deformed "$out/brain_deformed.vtu" --output-image "$out/brain_shift" --report "$out/brain_shift.json"
 
 # Debian's Python, which has Debian's VTK, whatever other Python the PATH leads to.

@@ -18,7 +18,7 @@ build=${BUILD_DIR:-$root/build/test}
 install_packages build pictures tests
 
 if [[ ! -f $build/build.ninja ]]; then
-  cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON -DMIXED_MESH_3_BUILD_BENCHMARKS=ON
+  cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON
 fi
 cmake --build "$build" --parallel "$(build_jobs)"
 ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$(nproc)" "$@"

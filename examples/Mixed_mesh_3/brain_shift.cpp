@@ -79,7 +79,7 @@ struct Options
   std::string mesh, control_points, tumour, image, output_image, report, up = "z", gravity = "0,0,0";
   std::vector<std::string> outputs, deformed_outputs;
   double fixed_below = 0.3, slide_below = 0, slide_beyond = std::numeric_limits<double>::infinity();
-  double max_distance = 5, compliance = 0;
+  double max_distance = 5, compliance = 0, control_radius = 0;
   mm3::Elastic_material material;
   bool quiet = false;
 
@@ -149,6 +149,12 @@ void set_up(CLI::App& app, Options& o)
     ->capture_default_str();
   app.add_option("--max-distance", o.max_distance,
                  "Control points up to so far outside the mesh are taken to its boundary")
+    ->check(not_negative)
+    ->type_name("MM")
+    ->capture_default_str();
+  app.add_option("--control-radius", o.control_radius,
+                 "A control point has the mean displacement of the boundary within so far, mm; 0: that of the "
+                 "point itself, which a force then dents, the deeper the finer the mesh")
     ->check(not_negative)
     ->type_name("MM")
     ->capture_default_str();
@@ -520,7 +526,7 @@ Shift shift_of(const Elasticity& elasticity, const std::vector<Control_point>& p
     warnings.push_back(when + ": " + counted(inverted.size(), "element is", "elements are")
                        + " inverted, the first near "
                        + place(mm3::internal::to_vec3(mesh.point(mesh.element(inverted.front())[0])))
-                       + ": too much is asked of the elements there; more control points, or "
+                       + ": too much is asked of the elements there; --control-radius, or "
                          "--control-compliance, would spread it");
 
   const std::vector<Vector> forces = elasticity.control_forces();
@@ -612,7 +618,8 @@ Json parameters_of(const Options& o)
           {"slide below", quantity(o.slide_below, "height")},
           {"slide beyond", quantity(std::isfinite(o.slide_beyond) ? Json(o.slide_beyond) : Json(), "mm")},
           {"largest distance of control points", quantity(o.max_distance, "mm")},
-          {"compliance of control points", quantity(o.compliance, "mm/mN")}};
+          {"compliance of control points", quantity(o.compliance, "mm/mN")},
+          {"radius of control points", quantity(o.control_radius, "mm")}};
 }
 
 /// All that is computed, before it is written.
@@ -664,12 +671,12 @@ void resect(Elasticity& elasticity, const Options& o, const mm3::Resection_3& re
   }
   if(left.size() != story.points.size())
     log("control points", [&] {
-      check(elasticity.set_control_points(positions, o.max_distance, o.compliance), o, left);
+      check(elasticity.set_control_points(positions, o.max_distance, o.compliance, o.control_radius), o, left);
     });
   log("remove elements", [&] { check(elasticity.remove_elements(resection.is_removed), o, left); });
   log("solve after resection", [&] { check(elasticity.solve(displacements_of(left)), o, left); });
   story.after = log("checks", [&] {
-    return shift_of(elasticity, story.points, locations, is_used, "shift after resection", o.compliance == 0,
+    return shift_of(elasticity, story.points, locations, is_used, "shift after resection", o.compliance == 0 && o.control_radius == 0,
                     warnings);
   });
 }
@@ -764,12 +771,12 @@ void run(const Options& o)
   log("factor", [&] { check(elasticity.factor(), o, story.points); });
   elasticity.set_gravity(o.acceleration);
   log("control points", [&] {
-    check(elasticity.set_control_points(positions, o.max_distance, o.compliance), o, story.points);
+    check(elasticity.set_control_points(positions, o.max_distance, o.compliance, o.control_radius), o, story.points);
   });
   log("solve", [&] { check(elasticity.solve(displacements_of(story.points)), o, story.points); });
   story.before = log("checks", [&] {
     return shift_of(elasticity, story.points, locations, std::vector<bool>(story.points.size(), true),
-                    "shift", o.compliance == 0, warnings);
+                    "shift", o.compliance == 0 && o.control_radius == 0, warnings);
   });
   report["shift"] = story.before.report;
 

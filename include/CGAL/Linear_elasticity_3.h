@@ -167,7 +167,6 @@ public:
     std::vector<std::vector<Vertex_index>> patch_vertices;
     m_patch_of.assign(m_mesh.number_of_elements(), no_patch);
     for(std::size_t i = 0; i < m_patches.size(); ++i) {
-      remove_removed(m_patches[i]);
       patch_vertices.push_back(vertices_of(m_patches[i]));
       for(Element_index e : m_patches[i])
         m_patch_of[e] = i;
@@ -221,6 +220,7 @@ public:
     m_is_loaded = false;
     m_is_iterative =
       numbers_of_motions() == before && m_compliance == 0
+      && (!m_controls || m_controls->is_on(m_is_kept))
       && std::none_of(m_control_elements.begin(), m_control_elements.end(),
                       [this](Element_index e) { return m_is_removed[e]; });
     if(m_is_iterative)
@@ -276,15 +276,20 @@ public:
   \param largest_distance points outside the mesh up to so far, in mm, stand for the nearest point of its boundary
   \param compliance in mm/mN: a spring between each point and its displacement gives way so much. With 0, the
          displacements are exact; measured ones that are many to an element, and noisy, contradict each other then
+  \param radius in mm: what is given is the mean displacement, by area, of the boundary's vertices within so far
+         from each point; of the point itself if there are fewer than three. The force on a single point makes a
+         dent that is the deeper, the finer the mesh
   \return `CONTROL_POINT_OUTSIDE`: none of them is used; or `SOLVER_FAILED` or `SUCCESS`
   \pre `factor()` was successful
   \cost three solutions of the system a point, and 72 bytes a vertex and point
   */
   template <class Points>
-  Result set_control_points(const Points& points, double largest_distance = 0, double compliance = 0)
+  Result set_control_points(const Points& points, double largest_distance = 0, double compliance = 0,
+                            double radius = 0)
   {
     CGAL_precondition(is_factored() && compliance >= 0);
     m_compliance = compliance;
+    m_radius = radius;
     m_control_points.clear();
     m_control_elements.clear();
     m_controls.reset();
@@ -309,6 +314,8 @@ public:
       for(int i = 0; i < element.size(); ++i)
         if(location.weights[i] != 0)
           w.emplace_back(element[i], location.weights[i]);
+      if(radius > 0)
+        spread(positions.back(), radius, w);
       weights.push_back(std::move(w));
       elements.push_back(m_kept_elements[location.element]);
     }
@@ -409,7 +416,10 @@ private:
     return m_materials.size() == 1 ? m_materials.front() : m_materials[e];
   }
 
-  bool is_all_removed() const { return std::find(m_is_removed.begin(), m_is_removed.end(), false) == m_is_removed.end(); }
+  bool is_all_removed() const
+  {
+    return std::find(m_is_removed.begin(), m_is_removed.end(), false) == m_is_removed.end();
+  }
 
   static Result failed(Status status, Result result = Result())
   {
@@ -599,7 +609,8 @@ private:
     }
     return m_control_points.empty()
              ? Result()
-             : set_control_points(std::vector<Vector>(m_control_points), m_largest_distance, m_compliance);
+             : set_control_points(std::vector<Vector>(m_control_points), m_largest_distance, m_compliance,
+                                  m_radius);
   }
 
   // Hinges make a matrix that is singular but for rounding, so that it may have been factored. Forces of no
@@ -827,11 +838,10 @@ private:
   Eigen::VectorXd free_part(Eigen::VectorXd f) const
   {
     for(Vertex_index v = 0; v < m_points.size(); ++v) {
-      Vec3 x{};
-      if(m_is_kept[v])
-        x = m_supports[v].free_part({f[3 * Eigen::Index(v)], f[3 * Eigen::Index(v) + 1], f[3 * Eigen::Index(v) + 2]});
+      const Eigen::Index i = 3 * Eigen::Index(v);
+      const Vec3 x = m_is_kept[v] ? m_supports[v].free_part({f[i], f[i + 1], f[i + 2]}) : Vec3{};
       for(int k = 0; k < 3; ++k)
-        f[3 * Eigen::Index(v) + k] = x[k];
+        f[i + k] = x[k];
     }
     return f;
   }
@@ -846,11 +856,43 @@ private:
     return failed(Status::SOLVER_FAILED);
   }
 
+  // The weights of the boundary around a point, unless there are too few vertices.
+  void spread(const Vector& p, double radius, Mixed_meshes_3::internal::Control_weights& weights)
+  {
+    using namespace Mixed_meshes_3::internal;
+    if(m_boundary_areas.empty()) {
+      m_boundary_areas.assign(m_points.size(), 0);
+      for(const auto& face : Mixed_meshes_3::boundary_faces(m_kept_mesh)) {
+        const auto v = face_vertices(m_kept_mesh.element(face.element), face.local_face);
+        const int n = v[3] == no_vertex ? 3 : 4;
+        const auto triangle = [&](int b, int c) {
+          return norm(cross(m_points[v[b]] - m_points[v[0]], m_points[v[c]] - m_points[v[0]])) / 2;
+        };
+        const double area = triangle(1, 2) + (n == 4 ? triangle(2, 3) : 0);
+        for(int i = 0; i < n; ++i)
+          m_boundary_areas[v[i]] += area / n;
+      }
+    }
+    Control_weights around;
+    double sum = 0;
+    for(Vertex_index v = 0; v < m_points.size(); ++v)
+      if(m_boundary_areas[v] > 0 && norm(m_points[v] - p) <= radius) {
+        around.emplace_back(v, m_boundary_areas[v]);
+        sum += m_boundary_areas[v];
+      }
+    if(around.size() < 3)
+      return;
+    for(auto& [v, w] : around)
+      w /= sum;
+    weights = std::move(around);
+  }
+
   const Mixed_meshes_3::Element_locator_3<Mesh>& locator()
   {
     if(!m_locator) {
       m_kept_mesh.clear();
       m_kept_elements.clear();
+      m_boundary_areas.clear();
       for(const auto& p : m_mesh.points())
         m_kept_mesh.add_vertex(p);
       for(Element_index e = 0; e < m_mesh.number_of_elements(); ++e)
@@ -887,11 +929,12 @@ private:
   int m_number_of_iterations = 0;
 
   Mesh m_kept_mesh;
+  std::vector<double> m_boundary_areas;       // of its vertices, when needed
   std::vector<Element_index> m_kept_elements; // the number of each of its elements in m_mesh
   std::optional<Mixed_meshes_3::Element_locator_3<Mesh>> m_locator; // of m_kept_mesh
   std::vector<Vector> m_control_points;
   std::vector<Element_index> m_control_elements; // that contain them
-  double m_largest_distance = 0, m_compliance = 0;
+  double m_largest_distance = 0, m_compliance = 0, m_radius = 0;
   std::optional<Mixed_meshes_3::internal::Control_constraints> m_controls;
   Eigen::VectorXd m_control_forces;
   std::vector<Vector> m_displacements;

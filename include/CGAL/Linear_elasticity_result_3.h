@@ -20,7 +20,7 @@ enum class Linear_elasticity_status {
   SUCCESS,
   NO_ELEMENTS,                  ///< nothing is there, or nothing is left
   INVERTED_ELEMENT,             ///< the Jacobian of `element` is not positive at a point of the quadrature
-  FREE_RIGID_MOTION,            ///< supports and control points leave `number_of_free_motions` free, `motion` among them
+  FREE_RIGID_MOTION,            ///< `number_of_free_motions` are neither supported nor controlled, such as `motion`
   CONTROL_POINT_OUTSIDE,        ///< `control_point` is `distance` outside the mesh
   CONTRADICTORY_CONTROL_POINTS, ///< the displacement of `control_point` cannot be had together with the others
   SOLVER_FAILED                 ///< the system is not positive definite: elements hang together by hinges only

@@ -909,6 +909,31 @@ void test_control_points(int kind)
                || result.description().find("rotation about the axis through") != std::string::npos);
   }
 
+  // The mean over the boundary around a point, by area; around a point with few neighbours, that of the point.
+  for(double radius : {0.8, 1e-9}) {
+    const std::vector<Vec3> middle{{0.5, 0.5, 1}};
+    BOOST_TEST(is_success(problem.set_control_points(middle, 0.2, 0, radius)));
+    BOOST_TEST(is_success(problem.solve(Field{{0, 0.01, -0.02}})));
+    Vec3 mean{};
+    double area = 0;
+    for(const auto& face : boundary_faces(mesh)) {
+      const auto v = face_vertices(mesh.element(face.element), face.local_face);
+      const int n = v[3] == no_vertex ? 3 : 4;
+      const auto at = [&](int i) { return to_vec3(mesh.point(v[i])); };
+      const auto triangle = [&](int i, int j) { return norm(cross(at(i) - at(0), at(j) - at(0))) / 2; };
+      for(int i = 0; i < n; ++i)
+        if(norm(at(i) - middle[0]) <= radius) {
+          const double share = (triangle(1, 2) + (n == 4 ? triangle(2, 3) : 0)) / n;
+          mean = mean + share * problem.displacements()[v[i]];
+          area += share;
+        }
+    }
+    if(radius > 1e-3)
+      BOOST_TEST_LT(norm((1 / area) * mean - Vec3{0, 0.01, -0.02}), 1e-12);
+    else
+      BOOST_TEST_LT(norm(interpolated(mesh, problem.displacements(), middle[0]) - Vec3{0, 0.01, -0.02}), 1e-9);
+  }
+
   // Outside.
   auto result = problem.set_control_points(std::vector<Vec3>{a, {0.5, 0.5, 2}});
   BOOST_TEST(result.status == Status::CONTROL_POINT_OUTSIDE);

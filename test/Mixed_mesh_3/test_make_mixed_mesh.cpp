@@ -195,7 +195,7 @@ void test_budgets(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& do
     BOOST_TEST_GE(double(mesh.number_of_vertices()), 0.97 * double(n));
     BOOST_TEST(find_defects(mesh).none());
     BOOST_TEST_EQ(result.number_of_boundary_vertices_inserted, 0u);
-    BOOST_TEST_EQ(result.base_level, 3);
+    BOOST_TEST_EQ(result.base_level, n < 10000 ? 3 : 4); // at most half of the budget
     BOOST_TEST(result.optimization.status == CGAL::Mixed_mesh_optimization_status::EMPTY);
     BOOST_TEST_EQ(result.number_of_vertices_for_tolerance, 0u);
     check_sides(mesh, result, domain);

@@ -147,6 +147,16 @@ public:
     return result;
   }
 
+  /// Whether the control points move vertices of a set only.
+  bool is_on(const std::vector<bool>& vertices) const
+  {
+    for(const Control_weights& weights : m_weights)
+      for(const auto& weight : weights)
+        if(!vertices[weight.first])
+          return false;
+    return true;
+  }
+
   /// Whether displacements are those wanted, up to rounding. \pre no compliance
   bool is_satisfied(const Vector& u, const Vector& wanted) const
   {
@@ -230,7 +240,8 @@ private:
     const Index n = s.rows();
     const double bound = n > 0 ? dependence * s.diagonal().maxCoeff() : 0;
     const Eigen::LLT<Matrix> factor(s);
-    if(n == 0 || (factor.info() == Eigen::Success && factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() > bound)) {
+    if(n == 0
+       || (factor.info() == Eigen::Success && factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() > bound)) {
       for(Index i = 0; i < n; ++i)
         m_independent.push_back(i);
       return;
