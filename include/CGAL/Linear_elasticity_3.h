@@ -518,18 +518,34 @@ private:
     m_system->add_patch(vertices, gradients, factor * mean / volume, m_points);
   }
 
-  // K u, with the stiffness of all vertices.
+  // K u, with the stiffness of all vertices. The columns of a vertex are three, two and one entry on the diagonal,
+  // then three rows a neighbour, the same in each.
   Eigen::VectorXd product(const Eigen::VectorXd& u) const
   {
-    const std::vector<int>&starts = m_system->starts(), &rows = m_system->rows();
-    const std::vector<double>& values = m_system->values();
     Eigen::VectorXd f = Eigen::VectorXd::Zero(u.size());
-    for(int j = 0; j < int(u.size()); ++j) {
-      f[j] += values[starts[j]] * u[j];
-      for(int k = starts[j] + 1; k < starts[j + 1]; ++k) {
-        f[rows[k]] += values[k] * u[j];
-        f[j] += values[k] * u[rows[k]];
+    for(std::size_t v = 0; v < m_points.size(); ++v) {
+      const int* start = &m_system->starts()[3 * v];
+      const double* const columns[3] = {&m_system->values()[start[0]], &m_system->values()[start[1]] - 1,
+                                        &m_system->values()[start[2]] - 2};
+      const double* const x = u.data() + 3 * v;
+      Vec3 sum{};
+      for(int k = 0; k < 3; ++k)
+        for(int row = 0; row < 3; ++row)
+          sum[row] += columns[(std::min)(row, k)][(std::max)(row, k)] * x[k];
+      for(int i = 3; i < start[1] - start[0]; i += 3) {
+        const int neighbour = m_system->rows()[start[0] + i];
+        const double* const y = u.data() + neighbour;
+        double* const g = f.data() + neighbour;
+        for(int k = 0; k < 3; ++k) {
+          const double* const block = columns[k] + i;
+          for(int row = 0; row < 3; ++row) {
+            g[row] += block[row] * x[k];
+            sum[k] += block[row] * y[row];
+          }
+        }
       }
+      for(int k = 0; k < 3; ++k)
+        f[Eigen::Index(3 * v) + k] += sum[k];
     }
     return f;
   }
