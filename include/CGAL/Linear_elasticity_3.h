@@ -109,6 +109,7 @@ public:
 
   /// Lets a vertex slide without friction, orthogonally to a direction; on an edge or in a corner of such planes
   /// when called again. A vertex that is prescribed stays so.
+  /// \param v the vertex
   /// \param normal of any length but zero
   void slide(Vertex_index v, const Vector& normal) { m_supports[v].add(normal); }
 
