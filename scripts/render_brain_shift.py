@@ -20,7 +20,8 @@ import sys
 
 sys.dont_write_bytecode = True  # no files beside the scripts
 import render_mesh
-from render_mesh import GREY, INK, Canvas, counted, mesh_title, number, read_off, start_display, vtk
+from render_mesh import (GREY, INK, Canvas, cells, counted, mesh_title, number, read_off, skin_of, start_display,
+                         vtk)
 
 TISSUE_COLOR = (0.93, 0.86, 0.80)
 TUMOUR_COLOR = (0.80, 0.10, 0.16)
@@ -119,25 +120,6 @@ class View:
         self.plane.SetNormal(self.normal)
 
 
-def cells(mesh, keep):
-    """The cells for which `keep(i)` holds."""
-    ids = vtk.vtkIdTypeArray()
-    for i in range(mesh.GetNumberOfCells()):
-        if keep(i):
-            ids.InsertNextValue(i)
-    node = vtk.vtkSelectionNode()
-    node.SetFieldType(vtk.vtkSelectionNode.CELL)
-    node.SetContentType(vtk.vtkSelectionNode.INDICES)
-    node.SetSelectionList(ids)
-    selection = vtk.vtkSelection()
-    selection.AddNode(node)
-    extract = vtk.vtkExtractSelection()
-    extract.SetInputData(0, mesh)
-    extract.SetInputData(1, selection)
-    extract.Update()
-    return extract.GetOutput()
-
-
 def displaced(mesh, array):
     """The mesh moved by an array of its points."""
     moved = vtk.vtkUnstructuredGrid()
@@ -147,13 +129,6 @@ def displaced(mesh, array):
     warp.SetInputData(moved)
     warp.Update()
     return warp.GetOutput()
-
-
-def skin_of(mesh):
-    skin = vtk.vtkDataSetSurfaceFilter()
-    skin.SetInputData(mesh)
-    skin.Update()
-    return skin.GetOutput()
 
 
 def cut_open(mesh, plane):

@@ -156,29 +156,39 @@ def cut_plane(surface, region):
     return plane
 
 
+def cells(mesh, keep):
+    """The cells for which `keep(i)` holds."""
+    ids = vtk.vtkIdTypeArray()
+    for i in range(mesh.GetNumberOfCells()):
+        if keep(i):
+            ids.InsertNextValue(i)
+    node = vtk.vtkSelectionNode()
+    node.SetFieldType(vtk.vtkSelectionNode.CELL)
+    node.SetContentType(vtk.vtkSelectionNode.INDICES)
+    node.SetSelectionList(ids)
+    selection = vtk.vtkSelection()
+    selection.AddNode(node)
+    extract = vtk.vtkExtractSelection()
+    extract.SetInputData(0, mesh)
+    extract.SetInputData(1, selection)
+    extract.Update()
+    return extract.GetOutput()
+
+
+def skin_of(mesh):
+    skin = vtk.vtkDataSetSurfaceFilter()
+    skin.SetInputData(mesh)
+    skin.Update()
+    return skin.GetOutput()
+
+
 def cells_behind(plane, mesh):
     """Skin of the cells whose centre is behind the plane: whole cells only."""
     centers = vtk.vtkCellCenters()
     centers.SetInputData(mesh)
     centers.Update()
     centers = centers.GetOutput()
-    behind = vtk.vtkIdTypeArray()
-    for i in range(mesh.GetNumberOfCells()):
-        if plane.EvaluateFunction(centers.GetPoint(i)) < 0:
-            behind.InsertNextValue(i)
-    node = vtk.vtkSelectionNode()
-    node.SetFieldType(vtk.vtkSelectionNode.CELL)
-    node.SetContentType(vtk.vtkSelectionNode.INDICES)
-    node.SetSelectionList(behind)
-    selection = vtk.vtkSelection()
-    selection.AddNode(node)
-    extract = vtk.vtkExtractSelection()
-    extract.SetInputData(0, mesh)
-    extract.SetInputData(1, selection)
-    skin = vtk.vtkDataSetSurfaceFilter()
-    skin.SetInputConnection(extract.GetOutputPort())
-    skin.Update()
-    return skin.GetOutput()
+    return skin_of(cells(mesh, lambda i: plane.EvaluateFunction(centers.GetPoint(i)) < 0))
 
 
 # Drawing

@@ -10,6 +10,7 @@
 // written; 2 wrong use.
 
 #include "Stage_log.h"
+#include "command_line.h"
 #include "read_control_points.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -44,9 +45,7 @@
 #include <cstddef>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iomanip>
 #include <iostream>
 #include <limits>
 #include <new>
@@ -85,19 +84,10 @@ struct Options
 
   // of the two texts
   Vector up_direction{}, acceleration{};
-};
 
-// Accepts numbers for which `is_valid` holds, NaN never.
-CLI::Validator number(const std::string& wanted, const std::function<bool(double)>& is_valid)
-{
-  return CLI::Validator(
-    [=](const std::string& text) {
-      double x;
-      return CLI::detail::lexical_cast(text, x) && is_valid(x) && std::isfinite(x)
-               ? std::string() : "expected a number " + wanted + ", not " + text;
-    },
-    "");
-}
+  // Whether a control point itself has just the displacement asked for.
+  bool is_exact() const { return compliance == 0 && control_radius == 0; }
+};
 
 void set_up(CLI::App& app, Options& o)
 {
@@ -221,14 +211,6 @@ void check_use(Options& o)
     throw CLI::ValidationError("--image", "this program was built without nifti_clib");
 }
 
-// A number as a message shows it.
-std::string rounded(double x)
-{
-  std::ostringstream text;
-  text << std::setprecision(3) << x;
-  return text.str();
-}
-
 std::string place(const Vector& p)
 {
   std::ostringstream text;
@@ -280,21 +262,10 @@ void check_feasible(const Options& o)
   }
 }
 
-// Physical memory, or the limit of the control group if that is less. Unknown: infinite.
-double available_memory()
-{
-  const double pages = double(sysconf(_SC_PHYS_PAGES)), page = double(sysconf(_SC_PAGE_SIZE));
-  double bytes = pages > 0 && page > 0 ? pages * page : std::numeric_limits<double>::infinity(), limit;
-  if(std::ifstream("/sys/fs/cgroup/memory.max") >> limit && limit > 0)
-    bytes = (std::min)(bytes, limit);
-  return bytes;
-}
-
 // The response of each vertex and control point to each control point: 3 x 3 numbers.
 void check_memory(const Options& o, const Mesh& mesh, std::size_t number_of_points)
 {
   const double n = double(number_of_points), needed = 72 * n * (double(mesh.number_of_vertices()) + 2 * n);
-  const auto gibibytes = [](double bytes) { return std::to_string(std::size_t(bytes / (1 << 30)) + 1); };
   if(needed > available_memory())
     throw std::runtime_error(o.control_points + ": " + std::to_string(number_of_points)
                              + " control points would need about " + gibibytes(needed) + " GiB of memory, of "
@@ -651,6 +622,14 @@ std::vector<Vector> displacements_of(const std::vector<Control_point>& points)
   return displacements;
 }
 
+void set_control_points(Elasticity& elasticity, const Options& o, const std::vector<Control_point>& points)
+{
+  std::vector<Vector> positions;
+  for(const Control_point& point : points)
+    positions.push_back(point.position);
+  check(elasticity.set_control_points(positions, o.max_distance, o.compliance, o.control_radius), o, points);
+}
+
 // What is removed, and how the rest moves then.
 void resect(Elasticity& elasticity, const Options& o, const mm3::Resection_3& resection,
             const Locations& locations, Story& story, Stage_log& log, std::vector<std::string>& warnings)
@@ -658,26 +637,21 @@ void resect(Elasticity& elasticity, const Options& o, const mm3::Resection_3& re
   // Points in tissue that is removed move nothing.
   std::vector<Control_point> left;
   std::vector<bool> is_used;
-  std::vector<Vector> positions;
   for(std::size_t i = 0; i < story.points.size(); ++i) {
     is_used.push_back(!resection.is_removed[locations[i].element]);
     if(is_used.back()) {
       left.push_back(story.points[i]);
-      positions.push_back(left.back().position);
     } else {
       warnings.push_back(o.control_points + ": line " + std::to_string(story.points[i].line)
                          + ": the control point is in tissue removed: it is not used after the resection");
     }
   }
   if(left.size() != story.points.size())
-    log("control points", [&] {
-      check(elasticity.set_control_points(positions, o.max_distance, o.compliance, o.control_radius), o, left);
-    });
+    log("control points", [&] { set_control_points(elasticity, o, left); });
   log("remove elements", [&] { check(elasticity.remove_elements(resection.is_removed), o, left); });
   log("solve after resection", [&] { check(elasticity.solve(displacements_of(left)), o, left); });
   story.after = log("checks", [&] {
-    return shift_of(elasticity, story.points, locations, is_used, "shift after resection", o.compliance == 0 && o.control_radius == 0,
-                    warnings);
+    return shift_of(elasticity, story.points, locations, is_used, "shift after resection", o.is_exact(), warnings);
   });
 }
 
@@ -755,28 +729,23 @@ void run(const Options& o)
 
   Elasticity elasticity(story.mesh, o.material);
   report["supports"] = set_supports(elasticity, o, story.points);
-  std::vector<Vector> positions;
   Json controls = Json::array();
-  for(std::size_t i = 0; i < story.points.size(); ++i) {
-    positions.push_back(story.points[i].position);
+  for(std::size_t i = 0; i < story.points.size(); ++i)
     controls.push_back({{"line", story.points[i].line},
                         {"position", story.points[i].position},
                         {"displacement", story.points[i].displacement},
                         {"element", locations[i].element},
                         {"distance to the mesh", locations[i].distance}});
-  }
   report["control points"] = controls;
 
   // Before surgery the mesh is factored; then each measurement is a matter of milliseconds.
   log("factor", [&] { check(elasticity.factor(), o, story.points); });
   elasticity.set_gravity(o.acceleration);
-  log("control points", [&] {
-    check(elasticity.set_control_points(positions, o.max_distance, o.compliance, o.control_radius), o, story.points);
-  });
+  log("control points", [&] { set_control_points(elasticity, o, story.points); });
   log("solve", [&] { check(elasticity.solve(displacements_of(story.points)), o, story.points); });
   story.before = log("checks", [&] {
     return shift_of(elasticity, story.points, locations, std::vector<bool>(story.points.size(), true),
-                    "shift", o.compliance == 0 && o.control_radius == 0, warnings);
+                    "shift", o.is_exact(), warnings);
   });
   report["shift"] = story.before.report;
 

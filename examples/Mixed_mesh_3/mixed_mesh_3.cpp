@@ -8,6 +8,7 @@
 // written; 2 wrong use; 3 the mesh failed a check (nothing is written).
 
 #include "Stage_log.h"
+#include "command_line.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
@@ -39,7 +40,6 @@
 #include <cstddef>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iomanip>
 #include <iostream>
@@ -101,18 +101,6 @@ struct Invalid_mesh : std::runtime_error
 {
   using std::runtime_error::runtime_error;
 };
-
-// Accepts numbers for which `is_valid` holds, NaN never.
-CLI::Validator number(const std::string& wanted, const std::function<bool(double)>& is_valid)
-{
-  return CLI::Validator(
-    [=](const std::string& text) {
-      double x;
-      return CLI::detail::lexical_cast(text, x) && is_valid(x) && std::isfinite(x)
-               ? std::string() : "expected a number " + wanted + ", not " + text;
-    },
-    "");
-}
 
 // The options of the paper's way onto the surface; they need --no-optimize.
 void set_up_algorithm_1(CLI::App& app, Options& o, CLI::Option* no_optimize)
@@ -225,14 +213,6 @@ void set_up(CLI::App& app, Options& o)
              "  mixed_mesh_3 data/brain.off --region data/region.off --vertices 660 --output brain.vtu");
 }
 
-// A number as a message shows it.
-std::string rounded(double x)
-{
-  std::ostringstream text;
-  text << std::setprecision(3) << x;
-  return text.str();
-}
-
 template <class Point>
 std::string place(const Point& p)
 {
@@ -250,16 +230,6 @@ void check_built_with(const Options& o)
   if(o.solver == Solver::CHOLMOD)
     throw CLI::ValidationError("--solver cholmod", "this program was built without CHOLMOD");
 #endif
-}
-
-// Physical memory, or the limit of the control group if that is less. Unknown: infinite.
-double available_memory()
-{
-  const double pages = double(sysconf(_SC_PHYS_PAGES)), page = double(sysconf(_SC_PAGE_SIZE));
-  double bytes = pages > 0 && page > 0 ? pages * page : std::numeric_limits<double>::infinity(), limit;
-  if(std::ifstream("/sys/fs/cgroup/memory.max") >> limit && limit > 0)
-    bytes = (std::min)(bytes, limit);
-  return bytes;
 }
 
 // Before anything takes time: what can not be written, or not fit into memory.
@@ -286,7 +256,6 @@ void check_feasible(const Options& o)
   // More than measured with 100,000 and 200,000 vertices; a direct solver takes more.
   const double bytes_per_vertex = o.fit() == Fit::ALGORITHM_1 ? 3000 : o.tetrahedra ? 1500 : 1100;
   const double needed = double(o.vertices) * bytes_per_vertex, available = available_memory();
-  const auto gibibytes = [](double bytes) { return std::to_string(std::size_t(bytes / (1 << 30)) + 1); };
   if(needed > available)
     throw std::runtime_error("--vertices " + std::to_string(o.vertices) + ": would need about "
                              + gibibytes(needed) + " GiB of memory, of " + gibibytes(available) + " GiB");

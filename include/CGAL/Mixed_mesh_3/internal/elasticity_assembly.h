@@ -139,30 +139,24 @@ inline double pointwise_share(const Elastic_material& material)
   return (std::min)(1., largest_multiple_of_mu * material.mu() / material.bulk_modulus());
 }
 
-/// The integral of the divergence over an element, by the displacement of each node; and the volume.
-struct Dilatation_operator
-{
-  std::array<Vec3, 8> gradients{};
-  double volume = 0;
-};
-
 /// \cost constant: 8 points and 36 blocks for a hexahedron, 1 point and 10 blocks for a tetrahedron
-inline Dilatation_operator compute_element_stiffness(Element_kind kind, const std::array<Vec3, 8>& points,
-                                                     const Elastic_material& material, Dilatation dilatation,
-                                                     Element_stiffness& stiffness)
+inline void compute_element_stiffness(Element_kind kind, const std::array<Vec3, 8>& points,
+                                      const Elastic_material& material, Dilatation dilatation,
+                                      Element_stiffness& stiffness)
 {
   const int n = reference_elements[kind].number_of_vertices;
-  Dilatation_operator whole;
+  double volume = 0;
+  std::array<Vec3, 8> divergence{}; // its integral, by the displacement of each node
   for(int a = 0; a < n; ++a)
     for(int b = 0; b <= a; ++b)
       stiffness[a][b] = Matrix_3x3{};
   // first the integrals of the dyadic products of gradients, which do not depend on the material
   for(int q = 0; q < quadrature_rule(kind).number_of_points; ++q) {
     const Strain_operator s = strain_operator(kind, points, q);
-    whole.volume += s.volume;
+    volume += s.volume;
     for(int a = 0; a < n; ++a) {
       const Vec3 ga = s.volume * s.gradients[a];
-      whole.gradients[a] = whole.gradients[a] + ga;
+      divergence[a] = divergence[a] + ga;
       for(int b = 0; b <= a; ++b)
         for(int i = 0; i < 3; ++i)
           for(int j = 0; j < 3; ++j)
@@ -174,7 +168,7 @@ inline Dilatation_operator compute_element_stiffness(Element_kind kind, const st
                            : dilatation == Dilatation::PATCH   ? pointwise_share(material)
                                                                : 0;
   const double lambda = pointwise * material.bulk_modulus() - 2 * mu / 3;
-  const double mean = dilatation == Dilatation::MEAN ? material.bulk_modulus() / whole.volume : 0;
+  const double mean = dilatation == Dilatation::MEAN ? material.bulk_modulus() / volume : 0;
   for(int a = 0; a < n; ++a)
     for(int b = 0; b <= a; ++b) {
       const Matrix_3x3 d = stiffness[a][b];
@@ -182,9 +176,8 @@ inline Dilatation_operator compute_element_stiffness(Element_kind kind, const st
       for(int i = 0; i < 3; ++i)
         for(int j = 0; j < 3; ++j)
           stiffness[a][b][i][j] = lambda * d[i][j] + mu * d[j][i] + (i == j ? shear : 0)
-                                  + mean * whole.gradients[a][i] * whole.gradients[b][j];
+                                  + mean * divergence[a][i] * divergence[b][j];
     }
-  return whole;
 }
 
 /*!
@@ -246,20 +239,17 @@ public:
   /// \param points positions of all nodes
   /// \param displacements of all nodes; those of the free ones are ignored
   /// \pre the element has a free node
-  Dilatation_operator add(Element_index e, const Elastic_material& material, const std::vector<Vec3>& points,
-                          const std::vector<Vec3>& displacements,
-                          Dilatation dilatation = Dilatation::POINTWISE)
+  void add(Element_index e, const Elastic_material& material, const std::vector<Vec3>& points,
+           const std::vector<Vec3>& displacements, Dilatation dilatation = Dilatation::POINTWISE)
   {
     const Element_view element = m_elements[e];
     std::array<Vec3, 8> p{};
     for(int a = 1; a < element.size(); ++a)
       p[a] = points[element[a]] - points[element[0]];
-    const Dilatation_operator whole =
-      compute_element_stiffness(element.kind(), p, material, dilatation, m_element_stiffness);
+    compute_element_stiffness(element.kind(), p, material, dilatation, m_element_stiffness);
     for(int a = 0; a < element.size(); ++a)
       for(int b = 0; b <= a; ++b)
         add(element[a], element[b], m_element_stiffness[a][b], displacements);
-    return whole;
   }
 
   /// Adds resistance to the mean dilatation over several elements.
