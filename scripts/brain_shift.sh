@@ -38,12 +38,12 @@ mkdir -p "$out"
   --output "$out/brain.vtu"
 
 "$build/bin/brain_shift" "$out/brain.vtu" --control-points "$root/data/control_points.csv" \
-  --control-radius 8 --tumour "$root/data/tumour.off" --image "$IMAGE" --output "$out/brain_shift.vtu" \
+  --control-radius 8 --tumor "$root/data/tumour.off" --image "$IMAGE" --output "$out/brain_shift.vtu" \
   --output-deformed "$out/brain_deformed.vtu" --output-image "$out/brain_shift" --report "$out/brain_shift.json"
 
 # Debian's Python, which has Debian's VTK, whatever other Python the PATH leads to.
-timeout --foreground 600 /usr/bin/python3 "$root/scripts/render_brain_shift.py" "$out/brain_shift.vtu" \
-  --tumour "$root/data/tumour.off" --control-points "$root/data/control_points.csv" \
+timeout --foreground 600 /usr/bin/python3 "$root/scripts/pictures/render_brain_shift.py" "$out/brain_shift.vtu" \
+  --tumor "$root/data/tumour.off" --control-points "$root/data/control_points.csv" \
   --image "$IMAGE" --warped-image "$out/brain_shift.nii.gz" --output-prefix "$out/brain_shift"
 
 cat << END

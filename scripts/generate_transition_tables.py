@@ -5,7 +5,7 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-"""Generates include/CGAL/Mixed_mesh_3/internal/transition_tables.h.
+"""Generates include/CGAL/Mixed_mesh_3/internal/transitions/transition_tables.h.
 
 Usage:  generate_transition_tables.py [--solver cbc|glpsol] [--jobs N] [--output FILE]
 
@@ -14,7 +14,7 @@ package coinor-cbc; the committed table comes from it) or glpsol (glpk-utils).
 
 The problem.  A cell of a 2:1-balanced octree is the lattice {0,1,2}^3.  Its 8 corners are vertices;
 each of its 12 edge midpoints may be one (4096 patterns); a face with four split edges also has its
-centre as a vertex.  The split of a face is fixed and depends on its four bits only, see
+center as a vertex.  The split of a face is fixed and depends on its four bits only, see
 face_pieces().  A template fills the cell with tetrahedra, pyramids, prisms and hexahedra that meet
 face to face and show exactly those pieces on the cell's boundary.
 
@@ -33,7 +33,7 @@ The method, for one representative of each of the 144 classes of patterns modulo
    everywhere in the cube.  verify() nevertheless checks the outcome exactly.
 3. Goals, in this order: the smallest bound >= 2.0 on the aspect-ratio coefficient (ARC); fewest
    elements; smallest sum of ARC (rounded to 0.001, and only to choose among equals).
-4. If there is no solution, the cell centre becomes available as a vertex, and the same program is
+4. If there is no solution, the cell center becomes available as a vertex, and the same program is
    solved again.
 
 Determinism: candidates are sorted, the solver runs with one thread, and of the images of the
@@ -50,10 +50,10 @@ import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-OUTPUT = os.path.join(ROOT, "include/CGAL/Mixed_mesh_3/internal/transition_tables.h")
+OUTPUT = os.path.join(ROOT, "include/CGAL/Mixed_mesh_3/internal/transitions/transition_tables.h")
 
 ARC_GOAL = 2.0     # a bound below this is not worth more elements
-CENTRE = 13        # lattice index of the cell centre
+CENTER = 13        # lattice index of the cell center
 
 KIND_NAMES = ("tetrahedron", "pyramid", "prism", "hexahedron")
 KIND_PLURALS = ("tetrahedra", "pyramids", "prisms", "hexahedra")
@@ -137,7 +137,7 @@ CORNERS = tuple(i for i, p in enumerate(POINTS) if all(x != 1 for x in p))
 
 def face_cycle(face):
     """The 8 boundary points of face 0..5 (x-, x+, y-, ...), counter-clockwise from outside,
-    beginning at a corner, and its centre."""
+    beginning at a corner, and its center."""
     axis, side = face // 2, face % 2
     u, v = ((axis + 1) % 3, (axis + 2) % 3) if side else ((axis + 2) % 3, (axis + 1) % 3)
     cycle = []
@@ -151,7 +151,7 @@ def face_cycle(face):
 FACE_CYCLES = tuple(face_cycle(face) for face in range(6))
 
 # Pieces of a face for its split sides, up to rotation.  Side i joins corners 2i and 2i+2; its
-# midpoint is 2i+1; 8 is the centre.
+# midpoint is 2i+1; 8 is the center.
 FACE_SPLITS = {
     (0, 0, 0, 0): ((0, 2, 4, 6),),
     (1, 0, 0, 0): ((0, 1, 6), (1, 2, 4), (1, 4, 6)),
@@ -164,12 +164,12 @@ FACE_SPLITS = {
 
 def face_pieces(mask, face):
     """The pieces of a face in pattern `mask`, counter-clockwise seen from outside."""
-    cycle, centre = FACE_CYCLES[face]
+    cycle, center = FACE_CYCLES[face]
     split = [mask >> BIT_OF_MIDPOINT[cycle[2 * i + 1]] & 1 for i in range(4)]
     for r in range(4):
         pieces = FACE_SPLITS.get(tuple(split[r:] + split[:r]))
         if pieces is not None:
-            return [tuple(centre if i == 8 else cycle[(i + 2 * r) % 8] for i in piece)
+            return [tuple(center if i == 8 else cycle[(i + 2 * r) % 8] for i in piece)
                     for piece in pieces]
     raise AssertionError("every pattern of a face is a rotation of one of the six")
 
@@ -371,9 +371,9 @@ class Candidates:
             edges = [(e[i], e[j]) for i, j in EDGES[KIND_OF_SIZE[len(e)]]]
             self.boundary_edges.append([bitset(edge) for edge in edges if on_one_cube_face(edge)])
 
-    def of_pattern(self, mask, with_centre, arc_limit):
+    def of_pattern(self, mask, with_center, arc_limit):
         """Indices of the candidates that a solution for this pattern can contain."""
-        available = bitset(boundary_vertices(mask)) | (1 << CENTRE if with_centre else 0)
+        available = bitset(boundary_vertices(mask)) | (1 << CENTER if with_center else 0)
         pieces = boundary_pieces(mask)
         faces = {bitset(p) for p in pieces}
         edges = {bitset((p[i], p[i - 1])) for p in pieces for i in range(len(p))}
@@ -446,9 +446,9 @@ def run_solver(solver, columns, right_hand_sides):
     raise RuntimeError(f"{solver}: no verdict\n{log}")
 
 
-def solve_program(candidates, solver, mask, with_centre, arc_limit):
+def solve_program(candidates, solver, mask, with_center, arc_limit):
     """The best template with all ARC <= arc_limit, as a list of candidates, or None."""
-    chosen, boundary = candidates.of_pattern(mask, with_centre, arc_limit)
+    chosen, boundary = candidates.of_pattern(mask, with_center, arc_limit)
     rows, right_hand_sides, columns = {}, [], []
     for face in sorted(boundary):
         rows[face] = len(rows)
@@ -476,12 +476,12 @@ def solve_program(candidates, solver, mask, with_centre, arc_limit):
     return result
 
 
-def solve_pattern(candidates, solver, mask, with_centre):
+def solve_pattern(candidates, solver, mask, with_center):
     """The template of smallest ARC bound (but not below ARC_GOAL), then fewest elements."""
-    best = solve_program(candidates, solver, mask, with_centre, ARC_GOAL)
+    best = solve_program(candidates, solver, mask, with_center, ARC_GOAL)
     if best is not None:
         return best
-    best = solve_program(candidates, solver, mask, with_centre, float("inf"))
+    best = solve_program(candidates, solver, mask, with_center, float("inf"))
     if best is None:
         return None
     limits = sorted({arc for arc in candidates.arcs if arc > ARC_GOAL})
@@ -489,20 +489,20 @@ def solve_pattern(candidates, solver, mask, with_centre):
     low, high = 0, limits.index(worst)                   # limits[high] is feasible
     while low < high:
         middle = (low + high) // 2
-        trial = solve_program(candidates, solver, mask, with_centre, limits[middle])
+        trial = solve_program(candidates, solver, mask, with_center, limits[middle])
         if trial is None:
             low = middle + 1
         else:
             best, high = trial, limits.index(max(candidates.arcs[i] for i in trial))
     # The last trial may have had a wider limit: fewest elements for exactly this one.
-    return solve_program(candidates, solver, mask, with_centre, limits[high])
+    return solve_program(candidates, solver, mask, with_center, limits[high])
 
 
 def sorted_template(elements):
     return sorted((canonical(e) for e in elements), key=lambda e: (-len(e), e))
 
 
-def verify(mask, template, with_centre):
+def verify(mask, template, with_center):
     """Exact check: a tiling of the cube, face to face, with the prescribed boundary."""
     def cyclic(face):
         i = face.index(min(face))
@@ -516,7 +516,7 @@ def verify(mask, template, with_centre):
         assert (face in pieces) != (opposite in faces)
     assert pieces <= set(faces)
     assert all(six_volume(e) > 0 and is_strictly_convex(e) for e in template)
-    available = boundary_vertices(mask) | ({CENTRE} if with_centre else set())
+    available = boundary_vertices(mask) | ({CENTER} if with_center else set())
     assert {v for e in template for v in e} <= available
 
 
@@ -524,17 +524,17 @@ CANDIDATES = None      # built before the workers fork
 
 
 def solve_class(arguments):
-    """(mask, template, has_centre) of one representative."""
+    """(mask, template, has_center) of one representative."""
     mask, solver = arguments
-    for with_centre in (False, True):
-        solution = solve_pattern(CANDIDATES, solver, mask, with_centre)
+    for with_center in (False, True):
+        solution = solve_pattern(CANDIDATES, solver, mask, with_center)
         if solution is not None:
             elements = [CANDIDATES.elements[i] for i in solution]
             template = min(sorted_template([tuple(s[v] for v in e) for e in elements])
                            for s in SYMMETRIES if image_of_mask(mask, s) == mask)
-            verify(mask, template, with_centre)
-            return mask, template, with_centre
-    raise RuntimeError(f"pattern {mask:#05x}: no template even with the centre")
+            verify(mask, template, with_center)
+            return mask, template, with_center
+    raise RuntimeError(f"pattern {mask:#05x}: no template even with the center")
 
 
 # ------------------------------------------------------------------------------------------------
@@ -561,9 +561,9 @@ namespace internal {
 //
 // A class is: mask, number of elements, elements.  An element is: kind (0 tetrahedron, 1 pyramid,
 // 2 prism, 3 hexahedron), then its 4, 5, 6 or 8 lattice indices.
-// Comments: mask, elements of each kind, worst ARC, "centre" if the cell centre (13) is a vertex.
-// %(free)d classes do without the centre (worst ARC %(arc_free).3f),
-// %(centred)d have it (worst ARC %(arc_centred).3f).
+// Comments: mask, elements of each kind, worst ARC, "center" if the cell center (13) is a vertex.
+// %(free)d classes do without the center (worst ARC %(arc_free).3f),
+// %(centered)d have it (worst ARC %(arc_centered).3f).
 
 inline constexpr int number_of_transition_classes = %(classes)d;
 
@@ -585,8 +585,8 @@ def worst_arc(template):
     return max(aspect_ratio(e) for e in template)
 
 
-def uses_centre(template):
-    return any(CENTRE in e for e in template)
+def uses_center(template):
+    return any(CENTER in e for e in template)
 
 
 def counts_text(template):
@@ -596,15 +596,15 @@ def counts_text(template):
 
 
 def write_header(path, templates):
-    free = [t for _, t in templates if not uses_centre(t)]
-    centred = [t for _, t in templates if uses_centre(t)]
+    free = [t for _, t in templates if not uses_center(t)]
+    centered = [t for _, t in templates if uses_center(t)]
     with open(path, "w") as out:
-        out.write(HEADER % dict(classes=len(templates), free=len(free), centred=len(centred),
+        out.write(HEADER % dict(classes=len(templates), free=len(free), centered=len(centered),
                                 arc_free=max(map(worst_arc, free)),
-                                arc_centred=max(map(worst_arc, centred))))
+                                arc_centered=max(map(worst_arc, centered))))
         for mask, template in templates:
             out.write(f"  // {mask:#05x}: {counts_text(template)}; {worst_arc(template):.2f}"
-                      f"{'; centre' if uses_centre(template) else ''}\n")
+                      f"{'; center' if uses_center(template) else ''}\n")
             line = f"  {mask:#05x},{len(template)},"
             for e in template:
                 word = f" {KIND_OF_SIZE[len(e)]}," + ",".join(map(str, e)) + ","
@@ -633,10 +633,10 @@ def main():
         for mask, template, _ in pool.map(solve_class, [(m, arguments.solver) for m in masks]):
             templates.append((mask, template))
             print(f"{mask:#05x}: {counts_text(template)}; {worst_arc(template):.3f}"
-                  f"{'; centre' if uses_centre(template) else ''}", flush=True)
+                  f"{'; center' if uses_center(template) else ''}", flush=True)
     write_header(arguments.output, templates)
-    free = sum(not uses_centre(t) for _, t in templates)
-    print(f"{len(templates)} classes, {free} without the centre, "
+    free = sum(not uses_center(t) for _, t in templates)
+    print(f"{len(templates)} classes, {free} without the center, "
           f"{sum(len(t) for _, t in templates)} elements")
 
 

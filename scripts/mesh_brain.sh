@@ -31,9 +31,9 @@ mkdir -p "$out"
   --output "$out/brain.vtu" --output "$out/brain.msh" --report "$out/brain.json"
 
 # Debian's Python, which has Debian's VTK, whatever other Python the PATH leads to.
-timeout --foreground 600 /usr/bin/python3 "$root/scripts/render_mesh.py" "$out/brain.vtu" \
+timeout --foreground 600 /usr/bin/python3 "$root/scripts/pictures/render_mesh.py" "$out/brain.vtu" \
   --surface "$root/data/brain.off" --region "$root/data/region.off" --output-prefix "$out/brain"
-timeout --foreground 600 /usr/bin/python3 "$root/scripts/plot_quality.py" "$out/brain.json" "$out/brain_quality.png"
+timeout --foreground 600 /usr/bin/python3 "$root/scripts/pictures/plot_quality.py" "$out/brain.json" "$out/brain_quality.png"
 
 cat << END
 

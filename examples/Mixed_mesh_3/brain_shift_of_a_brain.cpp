@@ -4,7 +4,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Brain shift in six steps, from three surfaces and four measured points to the brain after the resection of
-// a tumour: section 6.2 of Lobos, Bucki, Hitschfeld, Payan: "Mixed-element mesh for an intra-operative
+// a tumor: section 6.2 of Lobos, Bucki, Hitschfeld, Payan: "Mixed-element mesh for an intra-operative
 // modeling of the brain tumor extraction". All lengths are in mm.
 //
 //   brain_shift_of_a_brain [VERTICES]
@@ -57,8 +57,8 @@ double largest(const std::vector<Vector>& displacements)
 
 int main(int argc, char** argv)
 try {
-  // 1. The mesh: fine on the path from the opening in the skull to the tumour.
-  const Surface brain = read("brain.off"), path = read("region.off"), tumour = read("tumour.off");
+  // 1. The mesh: fine on the path from the opening in the skull to the tumor.
+  const Surface brain = read("brain.off"), path = read("region.off"), tumor = read("tumour.off");
   Mesh mesh;
   if(!CGAL::make_mixed_mesh_3(brain, path, argc > 1 ? std::stoul(argv[1]) : 2000, mesh).has_mesh())
     throw std::runtime_error("no mesh with so few vertices");
@@ -74,11 +74,11 @@ try {
       if(v != mm3::internal::no_vertex && mesh.point(v).z() < box.zmin() + 0.3 * (box.zmax() - box.zmin()))
         elasticity.prescribe(v);
 
-  // 3. The factorisation: before surgery, all that depends on the mesh.
+  // 3. The factorization: before surgery, all that depends on the mesh.
   check(elasticity.factor());
 
   // 4. Surgery: the skull is open. Four points of the cortex are measured before and after, here 10 mm
-  //    inwards on the way to the tumour. They need not be vertices; up to 5 mm outside the mesh will do. The
+  //    inwards on the way to the tumor. They need not be vertices; up to 5 mm outside the mesh will do. The
   //    first call is for the points; the second, for their displacements, can be repeated as these change, at
   //    next to no cost.
   const std::vector<Vector> points{
@@ -89,9 +89,9 @@ try {
   const std::vector<Vector> shift = elasticity.displacements();
   std::cout << "shift: up to " << largest(shift) << " mm\n";
 
-  // 5. The resection: elements in the tumour go, and the mesh is factored without them. Supports and control
+  // 5. The resection: elements in the tumor go, and the mesh is factored without them. Supports and control
   //    points stay.
-  const mm3::Resection_3 resection = mm3::resect(mesh, tumour);
+  const mm3::Resection_3 resection = mm3::resect(mesh, tumor);
   if(resection.status != mm3::Resection_status::SUCCESS)
     throw std::runtime_error(mm3::description(resection.status));
   check(elasticity.remove_elements(resection.is_removed));

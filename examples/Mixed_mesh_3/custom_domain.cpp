@@ -48,7 +48,7 @@ public:
   {
     const CGAL::Bbox_3 b = cell.bbox();
     const double radius = std::hypot(b.x_span(), b.y_span(), b.z_span()) / 2;
-    const double d = signed_distance(cell.centre());
+    const double d = signed_distance(cell.center());
     return d > radius    ? CGAL::ON_UNBOUNDED_SIDE
            : d < -radius ? CGAL::ON_BOUNDED_SIDE
                          : CGAL::ON_BOUNDARY;

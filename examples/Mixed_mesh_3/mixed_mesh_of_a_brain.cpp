@@ -26,7 +26,7 @@ using Mesh = CGAL::Mixed_mesh_3<Kernel>;
 
 int main(int argc, char** argv)
 try {
-  // The domain, and the path from the skull opening to the tumour. Both have to be closed; the reader
+  // The domain, and the path from the skull opening to the tumor. Both have to be closed; the reader
   // mends what is harmless, and throws an exception that says what is not.
   Surface brain, path;
   mm3::IO::read_closed_surface(argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR "/brain.off", brain);

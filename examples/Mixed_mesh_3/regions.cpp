@@ -55,11 +55,11 @@ try {
   const CGAL::Union_mixed_mesh_region_3 region(CGAL::Polyhedral_mixed_mesh_region_3(path_surface),
                                                CGAL::Ball_mixed_mesh_region_3({-30, -20, 30}, 12));
 
-  // From the tumour to the skull opening; the frame of the cells is exactly orthogonal, its third
+  // From the tumor to the skull opening; the frame of the cells is exactly orthogonal, its third
   // axis within a few degrees of the wanted one.
-  const Kernel::Point_3 tumour(28, 18, 24), opening(45, 30, 76);
+  const Kernel::Point_3 tumor(28, 18, 24), opening(45, 30, 76);
   const mm3::Axis_aligned_octree_cell_traits_3 aligned(brain.bbox());
-  const mm3::Rotated_octree_cell_traits_3 rotated(brain_surface.points(), opening - tumour);
+  const mm3::Rotated_octree_cell_traits_3 rotated(brain_surface.points(), opening - tumor);
 
   return mesh_and_report(brain, region, aligned, "axis_aligned")
              && mesh_and_report(brain, region, rotated, "along_the_path")

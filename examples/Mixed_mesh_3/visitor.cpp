@@ -46,7 +46,7 @@ public:
       std::cout << "  " << seconds() << " s: " << mm3::stage_names[int(stage)] << '\n';
   }
 
-  // Asked for each mesh that is tried, and in each round of the optimisation.
+  // Asked for each mesh that is tried, and in each round of the optimization.
   bool go_on() { return seconds() < m_limit; }
 };
 

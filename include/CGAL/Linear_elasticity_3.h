@@ -9,17 +9,17 @@
 #ifndef CGAL_LINEAR_ELASTICITY_3_H
 #define CGAL_LINEAR_ELASTICITY_3_H
 
-#include <CGAL/Linear_elasticity_result_3.h>
+#include <CGAL/Linear_elasticity_3/Linear_elasticity_result_3.h>
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
 #include <CGAL/Mixed_mesh_3/Element_locator_3.h>
 #include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
-#include <CGAL/Mixed_mesh_3/internal/control_constraints.h>
-#include <CGAL/Mixed_mesh_3/internal/dilatation_patches.h>
-#include <CGAL/Mixed_mesh_3/internal/elasticity_assembly.h>
-#include <CGAL/Mixed_mesh_3/internal/element_measures.h>
-#include <CGAL/Mixed_mesh_3/internal/rigid_modes.h>
+#include <CGAL/Linear_elasticity_3/internal/control_constraints.h>
+#include <CGAL/Linear_elasticity_3/internal/dilatation_patches.h>
+#include <CGAL/Mixed_mesh_3/internal/fem/elasticity_assembly.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/element_measures.h>
+#include <CGAL/Linear_elasticity_3/internal/rigid_modes.h>
 
 #include <CGAL/assertions.h>
 
@@ -45,7 +45,7 @@ dilatation of a hexahedron or pyramid, of two prisms, and of a patch of tetrahed
 materials do not lock. In a patch, as much of the bulk modulus as twice the shear modulus counts in each element
 by itself.
 
-Units: millimetres, kilopascals, kilograms, seconds. So forces are in millinewtons (kPa mm^2), and forces by
+Units: millimeters, kilopascals, kilograms, seconds. So forces are in millinewtons (kPa mm^2), and forces by
 volume in mN/mm^3.
 
 The order of use:
@@ -55,7 +55,7 @@ The order of use:
    order, and again as often as wanted;
 -# `solve()`, and read `displacements()`.
 
-After a resection, `remove_elements()`: supports, loads, control points and the factorisation stay.
+After a resection, `remove_elements()`: supports, loads, control points and the factorization stay.
 
 Supports may leave rigid motions free, as long as the control points hold these: the mesh can be held by control
 points alone.
@@ -73,7 +73,8 @@ public:
   using Element_index = Mixed_meshes_3::Element_index;
   using Elastic_material = Mixed_meshes_3::Elastic_material;
   /// A displacement in mm, a force in mN, a point.
-  using Vector = std::array<double, 3>;
+  using Vec3 = Mixed_meshes_3::Vec3;
+  using Vector = Vec3;
   using Result = Linear_elasticity_result_3;
   using Status = Linear_elasticity_status;
 
@@ -92,7 +93,7 @@ public:
       CGAL_precondition(m.young_modulus > 0 && m.poisson_ratio >= 0 && m.poisson_ratio < 0.5 && m.density >= 0);
     m_points.reserve(mesh.number_of_vertices());
     for(const auto& p : mesh.points())
-      m_points.push_back(Mixed_meshes_3::internal::to_vec3(p));
+      m_points.push_back(Mixed_meshes_3::to_vec3(p));
   }
 
   /// \name Supports
@@ -144,7 +145,7 @@ public:
 
   \return `NO_ELEMENTS`, `INVERTED_ELEMENT`, `SOLVER_FAILED` or `SUCCESS`. It is a success if supports leave rigid
           motions free: control points may hold them, `solve()` will tell.
-  \cost that of the sparse factorisation: with nested dissection O(n^2) operations and O(n^(4/3)) memory for n
+  \cost that of the sparse factorization: with nested dissection O(n^2) operations and O(n^(4/3)) memory for n
         vertices
   */
   Result factor()
@@ -187,7 +188,7 @@ public:
   Removes elements, after a resection for example (see `Mixed_meshes_3::resect()`). Supports, loads and control
   points stay; vertices without an element have no displacement.
 
-  The factorisation stays as well. From here on `solve()` iterates: conjugate gradients for the stiffness K' that
+  The factorization stays as well. From here on `solve()` iterates: conjugate gradients for the stiffness K' that
   is left, with the factor of the former stiffness K as the preconditioner. On the vertices that are left, K is
   K' plus the Schur complement of what was removed. Both resist the displacement of their common interface alike,
   so that the number of iterations hardly depends on the mesh, and is small. A new `factor()`, when there is
@@ -260,7 +261,7 @@ public:
     m_is_loaded = false;
   }
 
-  /// Another displacement of a vertex that was prescribed, in mm. No new factorisation.
+  /// Another displacement of a vertex that was prescribed, in mm. No new factorization.
   /// \pre `prescribe()` was called for the vertex
   void set_support_displacement(Vertex_index v, const Vector& displacement)
   {
@@ -406,7 +407,6 @@ public:
   SolverTraits& solver() { return m_solver; }
 
 private:
-  using Vec3 = Mixed_meshes_3::internal::Vec3;
   using Matrix = typename SolverTraits::Matrix;
   static constexpr std::size_t no_patch = std::size_t(-1);
   // Of iterations after a removal: when to factor instead.
@@ -520,7 +520,7 @@ private:
   }
 
   // K u, with the stiffness of all vertices. The columns of a vertex are three, two and one entry on the diagonal,
-  // then three rows a neighbour, the same in each.
+  // then three rows a neighbor, the same in each.
   Eigen::VectorXd product(const Eigen::VectorXd& u) const
   {
     Eigen::VectorXd f = Eigen::VectorXd::Zero(u.size());
@@ -534,9 +534,9 @@ private:
         for(int row = 0; row < 3; ++row)
           sum[row] += columns[(std::min)(row, k)][(std::max)(row, k)] * x[k];
       for(int i = 3; i < start[1] - start[0]; i += 3) {
-        const int neighbour = m_system->rows()[start[0] + i];
-        const double* const y = u.data() + neighbour;
-        double* const g = f.data() + neighbour;
+        const int neighbor = m_system->rows()[start[0] + i];
+        const double* const y = u.data() + neighbor;
+        double* const g = f.data() + neighbor;
         for(int k = 0; k < 3; ++k) {
           const double* const block = columns[k] + i;
           for(int row = 0; row < 3; ++row) {
@@ -589,7 +589,7 @@ private:
     // K on the directions that are free, P K P, with something positive on those that are not. As springs hold
     // just as many unknowns as there are motions free, they bear nothing if the loads are in equilibrium.
     std::vector<Vertex_index> number(m_points.size(), no_vertex);
-    if(m_matrix == nullptr) { // else the numbers stay, so that the symbolic factorisation does
+    if(m_matrix == nullptr) { // else the numbers stay, so that the symbolic factorization does
       m_unknowns.clear();
       for(Vertex_index v = 0; v < m_points.size(); ++v)
         if(m_is_kept[v] && m_supports[v].size < 3)
@@ -701,9 +701,9 @@ private:
     for(std::size_t j = 0; j < m_unknowns.size(); ++j) {
       const Vertex_index v = m_unknowns[j];
       const int* column = &starts[3 * j];
-      // the columns are three, two and one entry on the diagonal, then three rows a neighbour
-      const int neighbours = (column[1] - column[0] - 3) / 3;
-      for(int i = -1; i < neighbours; ++i) {
+      // the columns are three, two and one entry on the diagonal, then three rows a neighbor
+      const int neighbors = (column[1] - column[0] - 3) / 3;
+      for(int i = -1; i < neighbors; ++i) {
         const Vertex_index w = i < 0 ? v : m_unknowns[std::size_t(rows[column[0] + 3 + 3 * i]) / 3];
         if(is_plain(v) && is_plain(w))
           continue;

@@ -75,7 +75,7 @@ public:
   }
   Mixed_meshes_3::Boundary_mode boundary_mode() const { return m_boundary_mode; }
 
-  /// Whether the boundary is carried onto the surface and the elements are optimised, as
+  /// Whether the boundary is carried onto the surface and the elements are optimized, as
   /// `optimize_mixed_mesh_3()` does. If not, boundary vertices stay where the octree has them, outside the
   /// domain or on its surface. Default: yes.
   Mixed_mesh_criteria_3& fit_to_surface(bool fit)

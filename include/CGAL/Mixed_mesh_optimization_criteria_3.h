@@ -13,7 +13,7 @@
 namespace CGAL {
 
 /*!
-\brief How a mixed mesh is optimised. Each setter returns the object, so that calls can be chained.
+\brief How a mixed mesh is optimized. Each setter returns the object, so that calls can be chained.
 */
 class Mixed_mesh_optimization_criteria_3
 {

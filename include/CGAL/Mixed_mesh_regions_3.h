@@ -8,7 +8,7 @@
 #ifndef CGAL_MIXED_MESH_REGIONS_3_H
 #define CGAL_MIXED_MESH_REGIONS_3_H
 
-#include <CGAL/Mixed_mesh_3/internal/Surface_oracle_3.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Named_function_parameters.h>
@@ -51,7 +51,7 @@ public:
 \brief The region where a function is positive.
 
 The function must not change faster than the distance (for example, a signed distance, positive
-inside), so that its value at the centre of a cell tells where the cell can not be.
+inside), so that its value at the center of a cell tells where the cell can not be.
 
 \cgalModels{MixedMeshRegion_3}
 */
@@ -73,7 +73,7 @@ public:
   {
     const Bbox_3 b = cell.bbox();
     const double radius = std::hypot(b.x_span(), b.y_span(), b.z_span()) / 2;
-    const double d = depth(cell.centre());
+    const double d = depth(cell.center());
     return d > radius ? ON_BOUNDED_SIDE : d < -radius ? ON_UNBOUNDED_SIDE : ON_BOUNDARY;
   }
 
@@ -91,10 +91,10 @@ private:
 class Ball_mixed_mesh_region_3 : public Implicit_mixed_mesh_region_3
 {
 public:
-  /// \param centre,radius in the unit of the domain. \pre `radius > 0`
-  Ball_mixed_mesh_region_3(const Point_3& centre, double radius)
-    : Implicit_mixed_mesh_region_3([centre, radius](const Point_3& p) {
-        return radius - std::sqrt(CGAL::squared_distance(p, centre));
+  /// \param center,radius in the unit of the domain. \pre `radius > 0`
+  Ball_mixed_mesh_region_3(const Point_3& center, double radius)
+    : Implicit_mixed_mesh_region_3([center, radius](const Point_3& p) {
+        return radius - std::sqrt(CGAL::squared_distance(p, center));
       })
   {
     CGAL_precondition(radius > 0);

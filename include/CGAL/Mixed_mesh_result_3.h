@@ -40,7 +40,7 @@ struct Mixed_mesh_result_3
   std::size_t number_of_vertices_needed = 0;
   std::size_t number_of_transition_vertices = 0;         ///< inserted by the transition templates
   std::size_t number_of_boundary_vertices_inserted = 0;  ///< inserted by the boundary stage
-  std::size_t number_of_relabelled_vertices = 0;         ///< to make the boundary a manifold
+  std::size_t number_of_relabeled_vertices = 0;         ///< to make the boundary a manifold
   std::size_t number_of_trials = 0;                      ///< octrees tried in search of the budget
   /// Cells that meet the domain, but are more than a cell away from the mesh: parts of the domain
   /// thinner than a cell that no octree vertex is inside of.
@@ -50,7 +50,7 @@ struct Mixed_mesh_result_3
   /// What the coarse mesh (as fine as the tolerance asks for, without the region) takes of the budget; 0
   /// without a tolerance.
   std::size_t number_of_vertices_for_tolerance = 0;
-  /// What fitting and optimisation did; its status is `EMPTY` if they did not run.
+  /// What fitting and optimization did; its status is `EMPTY` if they did not run.
   Mixed_mesh_optimization_result_3 optimization;
 
   /// Whether there is a mesh, and it is what was asked for or as close to it as possible.

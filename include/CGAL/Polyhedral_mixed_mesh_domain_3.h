@@ -6,7 +6,7 @@
 #ifndef CGAL_POLYHEDRAL_MIXED_MESH_DOMAIN_3_H
 #define CGAL_POLYHEDRAL_MIXED_MESH_DOMAIN_3_H
 
-#include <CGAL/Mixed_mesh_3/internal/Surface_oracle_3.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3.h>
 
 #include <CGAL/Named_function_parameters.h>
 

@@ -9,11 +9,11 @@
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Default_visitor.h>
 #include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
-#include <CGAL/Mixed_mesh_3/internal/Working_mesh.h>
-#include <CGAL/Mixed_mesh_3/internal/boundary_surface.h>
-#include <CGAL/Mixed_mesh_3/internal/relax_to_surface.h>
-#include <CGAL/Mixed_mesh_3/internal/surface_targets.h>
-#include <CGAL/Mixed_mesh_3/internal/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/manifold_defects.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/relax_to_surface.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_fit_criteria_3.h>
 #include <CGAL/Mixed_mesh_fit_result_3.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>

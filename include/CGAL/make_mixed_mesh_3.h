@@ -9,8 +9,8 @@
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Default_visitor.h>
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
-#include <CGAL/Mixed_mesh_3/internal/Driver.h>
-#include <CGAL/Mixed_mesh_3/internal/place_lattice.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/Driver.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/place_lattice.h>
 #include <CGAL/Mixed_mesh_criteria_3.h>
 #include <CGAL/Mixed_mesh_regions_3.h>
 #include <CGAL/Mixed_mesh_result_3.h>
@@ -32,7 +32,7 @@ namespace CGAL {
 The octree of the domain is split in the region only (single cells around it apart, where a small budget
 would be left over), balanced across faces and edges, and made conforming by transition templates;
 elements at the surface are split so that they can follow it (Lobos, Bucki, Hitschfeld, Payan: sections
-5.1 and 5.2). Then the boundary is carried onto the surface and the elements are optimised, as
+5.1 and 5.2). Then the boundary is carried onto the surface and the elements are optimized, as
 `optimize_mixed_mesh_3()` does; with `criteria.fit_to_surface(false)` boundary vertices stay where the octree
 has them, all outside or on the surface.
 

@@ -10,7 +10,7 @@
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
 #include <CGAL/Mixed_mesh_3/Default_visitor.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
-#include <CGAL/Mixed_mesh_3/internal/Surface_optimiser.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Surface_optimizer.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 
@@ -67,7 +67,7 @@ optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Domain& domain, cons
     result.status = Mixed_mesh_optimization_status::INVALID_MESH;
     return result;
   }
-  return Mixed_meshes_3::internal::Surface_optimiser(mesh, domain, criteria, quality)(
+  return Mixed_meshes_3::internal::Surface_optimizer(mesh, domain, criteria, quality)(
     [&] { return visitor.go_on(); });
 }
 

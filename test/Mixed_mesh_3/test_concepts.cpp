@@ -63,7 +63,7 @@ template <class Cell>
 constexpr bool is_cell()
 {
   return converts<decltype(a<Cell>().bbox()), CGAL::Bbox_3>
-         && converts<decltype(a<Cell>().centre()), Point_3>
+         && converts<decltype(a<Cell>().center()), Point_3>
          && converts<decltype(a<Cell>().do_intersect(a<Triangle_3>())), bool>;
 }
 
@@ -169,7 +169,7 @@ struct Cell_archetype : Archetype
   using Archetype::Archetype;
   double x, y, z, side;
   CGAL::Bbox_3 bbox() const { return {x, y, z, x + side, y + side, z + side}; }
-  Point_3 centre() const { return {x + side / 2, y + side / 2, z + side / 2}; }
+  Point_3 center() const { return {x + side / 2, y + side / 2, z + side / 2}; }
   bool do_intersect(const Triangle_3& t) const { return CGAL::do_intersect(t, bbox()); }
 };
 
@@ -210,7 +210,7 @@ struct Domain_archetype : Archetype
   {
     const CGAL::Bbox_3 b = cell.bbox();
     const double radius = std::hypot(b.x_span(), b.y_span(), b.z_span()) / 2;
-    const double d = norm(cell.centre()) - 1;
+    const double d = norm(cell.center()) - 1;
     return d > radius    ? CGAL::ON_UNBOUNDED_SIDE
            : d < -radius ? CGAL::ON_BOUNDED_SIDE
                          : CGAL::ON_BOUNDARY;
@@ -406,7 +406,7 @@ static_assert(are_element_traits<mm3::PRISM> && are_element_traits<mm3::HEXAHEDR
 
 constexpr double volume_of_ball = 4 * 3.14159265358979 / 3;
 
-// How far the boundary vertices are from the centre: the least and the largest distance.
+// How far the boundary vertices are from the center: the least and the largest distance.
 template <class Mesh>
 std::pair<double, double> radii_of_boundary(const Mesh& mesh)
 {
@@ -463,7 +463,7 @@ void test_archetypes()
 }
 
 // The archetypes where the stages are called one by one.
-void test_optimisation()
+void test_optimization()
 {
   const Domain_archetype domain(0);
   CGAL::Mixed_mesh_3<Mesh_traits_archetype> start;
@@ -477,10 +477,10 @@ void test_optimisation()
   for(double tolerance : {0., 0.1}) {
     auto mesh = start;
     Visitor_archetype visitor(0);
-    const auto optimised = CGAL::optimize_mixed_mesh_3(
+    const auto optimized = CGAL::optimize_mixed_mesh_3(
       mesh, domain, Quality_archetype(0), CGAL::Mixed_mesh_optimization_criteria_3().tolerance(tolerance),
       CGAL::parameters::visitor(std::ref(visitor)));
-    BOOST_TEST(optimised.status == CGAL::Mixed_mesh_optimization_status::SUCCESS);
+    BOOST_TEST(optimized.status == CGAL::Mixed_mesh_optimization_status::SUCCESS);
     test_mesh(result, mesh, 700);
   }
 }
@@ -549,7 +549,7 @@ void test_visitor()
 int main()
 {
   test_archetypes();
-  test_optimisation();
+  test_optimization();
   test_models();
   test_visitor();
   return boost::report_errors();

@@ -25,14 +25,11 @@
 namespace {
 
 using namespace CGAL::Mixed_meshes_3;
-using CGAL::Mixed_meshes_3::internal::Vec3;
-using CGAL::Mixed_meshes_3::internal::cross;
-using CGAL::Mixed_meshes_3::internal::determinant;
-using CGAL::Mixed_meshes_3::internal::dot;
-using CGAL::Mixed_meshes_3::internal::norm;
-using CGAL::Mixed_meshes_3::internal::operator+;
-using CGAL::Mixed_meshes_3::internal::operator-;
-using CGAL::Mixed_meshes_3::internal::operator*;
+using CGAL::Mixed_meshes_3::Vec3;
+using CGAL::Mixed_meshes_3::cross;
+using CGAL::Mixed_meshes_3::determinant;
+using CGAL::Mixed_meshes_3::dot;
+using CGAL::Mixed_meshes_3::norm;
 
 // No kernel is needed to look at elements.
 struct Plain_traits
@@ -144,7 +141,7 @@ void test_table(Element_kind kind)
   BOOST_TEST(edges == table_edges);
   BOOST_TEST_EQ(r.number_of_vertices - r.number_of_edges + r.number_of_faces, 2);
 
-  // Corners: a vertex with its three neighbours, each vertex of three edges once. For tetrahedra the
+  // Corners: a vertex with its three neighbors, each vertex of three edges once. For tetrahedra the
   // first one stands for all.
   std::set<int> with_corner;
   for(int c = 0; c < r.number_of_corners; ++c) {
@@ -336,7 +333,7 @@ void test_sum_of_volumes()
           continue;
         Vec3 q[4];
         for(int i = 0; i < 4; ++i)
-          q[i] = internal::to_vec3(mesh.point(element[element.reference().faces[f].vertices[i]]));
+          q[i] = to_vec3(mesh.point(element[element.reference().faces[f].vertices[i]]));
         six_fluxes += (determinant(q[0], q[1], q[2]) + determinant(q[0], q[2], q[3])
                        + determinant(q[0], q[1], q[3]) + determinant(q[1], q[2], q[3])) / 2;
       }

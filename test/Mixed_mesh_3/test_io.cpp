@@ -133,13 +133,13 @@ Mesh one_of_each_kind()
 }
 
 // A grid of n^3 cells: hexahedra, cells of 6 pyramids, columns of prisms, and a top layer of cells
-// with a centre, joined to the prisms by tetrahedra. Vertices are numbered at random.
+// with a center, joined to the prisms by tetrahedra. Vertices are numbered at random.
 Mesh grid(int n, unsigned int seed, double noise)
 {
   std::mt19937 random(seed);
   const auto uniform = [&random] { return double(random()) / 4294967296. - 0.5; };
-  const int centres = (n + 1) * (n + 1) * (n + 1);
-  std::vector<Vertex_index> number(std::size_t(centres + n * n * n));
+  const int centers = (n + 1) * (n + 1) * (n + 1);
+  std::vector<Vertex_index> number(std::size_t(centers + n * n * n));
   for(std::size_t i = 0; i < number.size(); ++i) {
     number[i] = Vertex_index(i);
     std::swap(number[i], number[random() % (i + 1)]);
@@ -171,8 +171,8 @@ Mesh grid(int n, unsigned int seed, double noise)
           const auto& c = reference_elements[HEXAHEDRON].coordinates[i];
           v[i] = lattice(x + (c[0] > 0), y + (c[1] > 0), z + (c[2] > 0));
         }
-        const int centre = centres + (z * n + y) * n + x;
-        points[number[std::size_t(centre)]]
+        const int center = centers + (z * n + y) * n + x;
+        points[number[std::size_t(center)]]
           = affine(x + 0.5 + noise * uniform(), y + 0.5 + noise * uniform(), z + 0.5);
         const bool is_prism_column = (x + 2 * y) % 3 == 0;
         if(z + 1 < n && is_prism_column) {
@@ -184,10 +184,10 @@ Mesh grid(int n, unsigned int seed, double noise)
           for(int f = 0; f < 6; ++f) {
             const auto& w = reference_elements[HEXAHEDRON].faces[f].vertices;
             if(f == 4 && is_prism_column) { // the bottom
-              add(TETRAHEDRON, {v[0], v[1], v[2], centre});
-              add(TETRAHEDRON, {v[0], v[2], v[3], centre});
+              add(TETRAHEDRON, {v[0], v[1], v[2], center});
+              add(TETRAHEDRON, {v[0], v[2], v[3], center});
             } else {
-              add(PYRAMID, {v[w[3]], v[w[2]], v[w[1]], v[w[0]], centre});
+              add(PYRAMID, {v[w[3]], v[w[2]], v[w[1]], v[w[0]], center});
             }
           }
         }

@@ -108,9 +108,9 @@ def check_vtu(path, expected):
         # The Jacobian of VTK's own shape functions: positive in Gmsh's order, so negative for a
         # wedge in VTK's documented order. If this fails, then VTK has changed its mind on wedges.
         m = cell.GetNumberOfPoints()
-        derivatives, centre = [0.0] * (3 * m), [0.0] * 3
-        cell.GetParametricCenter(centre)
-        cell.InterpolationDerivs(centre, derivatives)
+        derivatives, center = [0.0] * (3 * m), [0.0] * 3
+        cell.GetParametricCenter(center)
+        cell.InterpolationDerivs(center, derivatives)
         jacobian = np.linalg.det(np.array(derivatives).reshape(3, m) @ q)
         check(jacobian * (-1 if KINDS[kinds[e]] == "prism" else 1) > 0, path, "cell", e,
               KINDS[kinds[e]], "Jacobian of VTK's shape functions", jacobian)
@@ -212,10 +212,10 @@ def check_elements(path, expected, points, elements, parts):
     check(len(parts) == sum(expected["kinds"]), path, "number of parts")
     points = np.asarray(points)
     # The corner at vertex 0.
-    neighbours = [(0, 1, 2, 3), (0, 1, 3, 4), (0, 1, 2, 3), (0, 1, 3, 4)]
+    neighbors = [(0, 1, 2, 3), (0, 1, 3, 4), (0, 1, 2, 3), (0, 1, 3, 4)]
     for kind, some in enumerate(elements):
         for e in some:
-            check(tet_volume(points[np.asarray(e)[list(neighbours[kind])]]) > 0, path, KINDS[kind])
+            check(tet_volume(points[np.asarray(e)[list(neighbors[kind])]]) > 0, path, KINDS[kind])
 
 
 def check_medit(path, expected):

@@ -142,7 +142,7 @@ void check_sides(const Mesh& mesh, const Mixed_mesh_result_3& result,
   for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v) {
     const bool is_inside = domain.bounded_side(mesh.point(v)) == CGAL::ON_BOUNDED_SIDE;
     BOOST_TEST(!is_inside || !is_boundary[v]);
-    BOOST_TEST(is_inside || is_boundary[v] || result.number_of_relabelled_vertices > 0);
+    BOOST_TEST(is_inside || is_boundary[v] || result.number_of_relabeled_vertices > 0);
   }
 }
 
@@ -207,7 +207,7 @@ void test_budgets(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& do
     for(const auto& row : quality_statistics(mesh))
       BOOST_TEST(n < 10000 || row.count > 0); // all four kinds
     std::cout << n << ": " << mesh.number_of_vertices() << " vertices, " << result.number_of_trials
-              << " trials, " << result.number_of_relabelled_vertices << " relabelled" << std::endl;
+              << " trials, " << result.number_of_relabeled_vertices << " relabeled" << std::endl;
 
     // The same vertices, moved onto the surface.
     if(n > 2000) // see test_optimize
@@ -320,7 +320,7 @@ void test_criteria(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& d
   check_sides(mesh, result, domain);
 
   result = run(domain, region,
-               unfitted(1500).transition_templates(Transition_templates_choice::CENTRED),
+               unfitted(1500).transition_templates(Transition_templates_choice::CENTERED),
                mesh);
   BOOST_TEST(result.status == Status::SUCCESS);
   BOOST_TEST_GT(result.number_of_transition_vertices, expected.number_of_transition_vertices);
@@ -364,14 +364,14 @@ void test_criteria(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& d
 void test_regions(const Polyhedral_mixed_mesh_domain_3& domain, const Surface& region_surface)
 {
   const CGAL::Bbox_3 b = domain.bbox();
-  const Point_3 centre((b.xmin() + b.xmax()) / 2, (b.ymin() + b.ymax()) / 2, (b.zmin() + b.zmax()) / 2);
+  const Point_3 center((b.xmin() + b.xmax()) / 2, (b.ymin() + b.ymax()) / 2, (b.zmin() + b.zmax()) / 2);
   const Mixed_mesh_criteria_3 criteria = unfitted(1500);
   Mesh ball, same, everywhere, united;
   const double radius = 15;
-  BOOST_TEST(run(domain, Ball_mixed_mesh_region_3(centre, radius), criteria, ball).status
+  BOOST_TEST(run(domain, Ball_mixed_mesh_region_3(center, radius), criteria, ball).status
              == Status::SUCCESS);
   run(domain, Implicit_mixed_mesh_region_3([=](const Point_3& p) {
-        return radius - std::sqrt(CGAL::squared_distance(p, centre));
+        return radius - std::sqrt(CGAL::squared_distance(p, center));
       }), criteria, same);
   BOOST_TEST(content(ball) == content(same));
 
@@ -382,7 +382,7 @@ void test_regions(const Polyhedral_mixed_mesh_domain_3& domain, const Surface& r
 
   using Union = Union_mixed_mesh_region_3<Polyhedral_mixed_mesh_region_3, Ball_mixed_mesh_region_3>;
   const auto result = run(domain, Union(Polyhedral_mixed_mesh_region_3(region_surface),
-                                        Ball_mixed_mesh_region_3(centre, radius)), criteria, united);
+                                        Ball_mixed_mesh_region_3(center, radius)), criteria, united);
   BOOST_TEST(result.status == Status::SUCCESS);
   const Polyhedral_mixed_mesh_region_3 alone(region_surface);
   // elements of the union belong to one of the two
@@ -391,13 +391,13 @@ void test_regions(const Polyhedral_mixed_mesh_domain_3& domain, const Surface& r
     if(united.is_in_region(e))
       for(Vertex_index v : united.element(e)) {
         has_first = has_first || alone.depth(united.point(v)) > 0;
-        has_second = has_second || CGAL::squared_distance(united.point(v), centre) < radius * radius;
+        has_second = has_second || CGAL::squared_distance(united.point(v), center) < radius * radius;
       }
   BOOST_TEST(has_first && has_second);
 
   // away from the domain
   Mesh none;
-  none.add_vertex(centre);
+  none.add_vertex(center);
   const Point_3 away(b.xmax() + 1000, 0, 0);
   BOOST_TEST(run(domain, Ball_mixed_mesh_region_3(away, 10), criteria, none).status
              == Status::REGION_NOT_MET);

@@ -4,10 +4,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The octree, its balance and its edge patterns, against brute force over all nodes: nothing here
-// uses neighbour() but to test it.
+// uses neighbor() but to test it.
 
-#include <CGAL/Mixed_mesh_3/internal/Octree.h>
-#include <CGAL/Mixed_mesh_3/internal/balance.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/balance.h>
 
 #include <boost/core/lightweight_test.hpp>
 
@@ -30,7 +30,7 @@ using CGAL::Mixed_meshes_3::internal::Octree;
 using CGAL::Mixed_meshes_3::internal::balance;
 using CGAL::Mixed_meshes_3::internal::edge_patterns;
 using CGAL::Mixed_meshes_3::internal::lattice_key;
-using CGAL::Mixed_meshes_3::internal::neighbour_directions;
+using CGAL::Mixed_meshes_3::internal::neighbor_directions;
 
 using Node_index = Octree::Node_index;
 
@@ -167,10 +167,10 @@ void test_structure(const Octree& octree)
   BOOST_TEST_EQ(volume, std::uint64_t(1) << 3 * (Octree::max_level + 1));
 }
 
-void test_neighbours(const Octree& octree)
+void test_neighbors(const Octree& octree)
 {
   for(Node_index n = 0; n < octree.size(); ++n)
-    for(const auto& d : neighbour_directions(Adjacency::VERTEX)) {
+    for(const auto& d : neighbor_directions(Adjacency::VERTEX)) {
       std::array<std::int64_t, 3> p;
       bool is_in_root = true;
       for(int k = 0; k < 3; ++k) {
@@ -185,7 +185,7 @@ void test_neighbours(const Octree& octree)
              && (expected == Octree::no_node || octree.level(m) > octree.level(expected)))
             expected = m;
       }
-      BOOST_TEST_EQ(octree.neighbour(n, d), expected);
+      BOOST_TEST_EQ(octree.neighbor(n, d), expected);
     }
 }
 
@@ -270,8 +270,8 @@ bool is_balanced(const std::vector<Cell>& cells, Adjacency adjacency)
   return true;
 }
 
-// The coarsest balanced refinement: a cell that is too large for one of its neighbours is so for
-// whatever refinement the neighbour undergoes, so that it has to be split in any of them.
+// The coarsest balanced refinement: a cell that is too large for one of its neighbors is so for
+// whatever refinement the neighbor undergoes, so that it has to be split in any of them.
 std::vector<Cell> naively_balanced(std::vector<Cell> cells, Adjacency adjacency)
 {
   for(bool changed = true; changed;) {
@@ -375,14 +375,14 @@ int main()
     std::mt19937 random(seed);
     for(const Octree& octree : random_octrees(seed)) {
       test_structure(octree);
-      test_neighbours(octree);
+      test_neighbors(octree);
       test_vertices(octree);
       number_unbalanced += test_balance(octree, random);
       const Octree by_edges = balanced(octree, Adjacency::EDGE);
       test_structure(by_edges);
       test_vertices(by_edges);
       if(by_edges.size() < 1500)
-        test_neighbours(by_edges);
+        test_neighbors(by_edges);
       most_patterns = (std::max)(most_patterns, test_edge_patterns(by_edges));
       test_edge_patterns(balanced(octree, Adjacency::VERTEX));
     }

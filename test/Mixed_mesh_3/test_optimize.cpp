@@ -54,7 +54,7 @@ using CGAL::Polyhedral_mixed_mesh_region_3;
 using CGAL::make_mixed_mesh_3;
 using CGAL::optimize_mixed_mesh_3;
 using CGAL::Mixed_meshes_3::internal::Element_points;
-using CGAL::Mixed_meshes_3::internal::Vec3;
+using CGAL::Mixed_meshes_3::Vec3;
 using Criteria = CGAL::Mixed_mesh_optimization_criteria_3;
 using Status = CGAL::Mixed_mesh_optimization_status;
 
@@ -115,7 +115,7 @@ void test_gradients(const Quality& quality, double height_of_pyramid, double ide
       for(int c = 0; c < reference_elements[kind].number_of_corners; ++c) {
         const auto& k = reference_elements[kind].corners[c];
         is_positive = is_positive
-                      && internal::determinant(internal::operator-(p[k[1]], p[k[0]]),
+                      && determinant(internal::operator-(p[k[1]], p[k[0]]),
                                                internal::operator-(p[k[2]], p[k[0]]),
                                                internal::operator-(p[k[3]], p[k[0]])) > 0;
       }
@@ -508,17 +508,17 @@ void test_statuses()
   // no valid start
   for(Element_kind kind : element_kinds) {
     Mesh mesh = grid(2, kind);
-    const Vertex_index centre = 13;
+    const Vertex_index center = 13;
     for(const Test_point& bad : {Test_point(1.1, 0.5, 0.5), Test_point(1, 0.5, 0.5),
                                  Test_point(std::numeric_limits<double>::quiet_NaN(), 0, 0)}) {
-      mesh.points()[centre] = bad;
+      mesh.points()[center] = bad;
       Mesh after = mesh;
-      after.points()[centre] = mesh.points()[centre] = bad;
+      after.points()[center] = mesh.points()[center] = bad;
       const auto result = optimize_mixed_mesh_3(after, surface);
       BOOST_TEST(result.status == Status::INVALID_MESH);
       BOOST_TEST(after.elements().connectivity() == mesh.elements().connectivity());
       for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
-        BOOST_TEST(v == centre || after.point(v) == mesh.point(v));
+        BOOST_TEST(v == center || after.point(v) == mesh.point(v));
     }
   }
   Mesh nameless = grid(1, HEXAHEDRON);

@@ -44,13 +44,10 @@
 namespace {
 
 using namespace CGAL::Mixed_meshes_3;
-using CGAL::Mixed_meshes_3::internal::Vec3;
-using CGAL::Mixed_meshes_3::internal::cross;
-using CGAL::Mixed_meshes_3::internal::dot;
-using CGAL::Mixed_meshes_3::internal::norm;
-using CGAL::Mixed_meshes_3::internal::operator+;
-using CGAL::Mixed_meshes_3::internal::operator-;
-using CGAL::Mixed_meshes_3::internal::operator*;
+using CGAL::Mixed_meshes_3::Vec3;
+using CGAL::Mixed_meshes_3::cross;
+using CGAL::Mixed_meshes_3::dot;
+using CGAL::Mixed_meshes_3::norm;
 
 using Mesh = CGAL::Mixed_mesh_3<Test_kernel>;
 using Points = std::vector<Vec3>;
@@ -180,10 +177,10 @@ void test_distorted_elements()
   BOOST_TEST(is_close(value(quad_warp, HEXAHEDRON, points), degrees(std::acos(0.8)), 1e-12));
   // a prism twisted: its triangles stay plane
   points = prism(1);
-  const Vec3 centre{0.5, std::sqrt(3.) / 6, 0};
+  const Vec3 center{0.5, std::sqrt(3.) / 6, 0};
   for(int i = 3; i < 6; ++i) {
-    const Vec3 r = points[i] - centre;
-    points[i] = centre + Vec3{std::cos(0.3) * r[0] - std::sin(0.3) * r[1],
+    const Vec3 r = points[i] - center;
+    points[i] = center + Vec3{std::cos(0.3) * r[0] - std::sin(0.3) * r[1],
                               std::sin(0.3) * r[0] + std::cos(0.3) * r[1], 1};
   }
   BOOST_TEST_GT(value(quad_warp, PRISM, points), 10.);
@@ -319,12 +316,12 @@ void test_statistics_and_histogram()
 }
 
 // A mesh whose boundary is the surface: tetrahedra around a point from which all of it is seen.
-Mesh solid(const Test_surface& surface, const Test_point& centre)
+Mesh solid(const Test_surface& surface, const Test_point& center)
 {
   Mesh mesh;
   for(auto v : vertices(surface))
     mesh.add_vertex(surface.point(v));
-  const Vertex_index c = mesh.add_vertex(centre);
+  const Vertex_index c = mesh.add_vertex(center);
   for(auto f : faces(surface)) {
     std::vector<Vertex_index> v{c};
     for(auto u : vertices_around_face(halfedge(f, surface), surface))
@@ -439,18 +436,18 @@ void test_hausdorff_distance()
     }
   }
 
-  // Concentric spheres. Of the outer one the vertices are farthest, of the octahedron within the centres
+  // Concentric spheres. Of the outer one the vertices are farthest, of the octahedron within the centers
   // of its faces.
-  const Test_point centre(0.5, 0.5, 0.5);
-  d = check_hausdorff(sphere(centre, 1, 8), sphere(centre, 2, 8), 4);
+  const Test_point center(0.5, 0.5, 0.5);
+  d = check_hausdorff(sphere(center, 1, 8), sphere(center, 2, 8), 4);
   BOOST_TEST(is_close(d.from_surface.distance, 1, 1e-14));
-  d = check_hausdorff(sphere(centre, 1, 2), sphere(centre, 1, 12), 6);
+  d = check_hausdorff(sphere(center, 1, 2), sphere(center, 1, 12), 6);
   BOOST_TEST(is_close(d.from_mesh.distance, 1 - std::sqrt(1. / 3), 0.02));
 
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-0.1, 0.1);
   for(int repeat = 0; repeat < 5; ++repeat) {
-    Test_surface a = sphere(centre, 1, 5), b = sphere(centre, 1.1, 6);
+    Test_surface a = sphere(center, 1, 5), b = sphere(center, 1.1, 6);
     for(Test_surface* s : {&a, &b})
       for(auto v : vertices(*s))
         s->point(v) = s->point(v) + Test_kernel::Vector_3(uniform(random), uniform(random), uniform(random));
@@ -463,7 +460,7 @@ void test_hausdorff_distance()
       for(Test_surface* s : {&c, &e})
         for(auto v : vertices(*s))
           s->point(v) = CGAL::ORIGIN + scale * (s->point(v) - CGAL::ORIGIN);
-      const Test_kernel::Vector_3 middle = scale * (centre - CGAL::ORIGIN);
+      const Test_kernel::Vector_3 middle = scale * (center - CGAL::ORIGIN);
       BOOST_TEST_EQ(hausdorff_distance(solid(c, CGAL::ORIGIN + middle), e).distance(), scale * d.distance());
     }
     Test_surface c = a, e = b;
@@ -471,7 +468,7 @@ void test_hausdorff_distance()
     for(Test_surface* s : {&c, &e})
       for(auto v : vertices(*s))
         s->point(v) = s->point(v) + far;
-    BOOST_TEST(is_close(hausdorff_distance(solid(c, centre + far), e).distance(), d.distance(), 5e-4));
+    BOOST_TEST(is_close(hausdorff_distance(solid(c, center + far), e).distance(), d.distance(), 5e-4));
   }
 
   // A triangle without area in the surface.
@@ -482,7 +479,7 @@ void test_hausdorff_distance()
   tetrahedron.add_face(a, m, e), tetrahedron.add_face(m, b, e), tetrahedron.add_face(b, m, a);
   tetrahedron.add_face(a, c, b), tetrahedron.add_face(b, c, e), tetrahedron.add_face(a, e, c);
   BOOST_TEST(CGAL::is_closed(tetrahedron));
-  d = hausdorff_distance(solid(unit, centre), tetrahedron);
+  d = hausdorff_distance(solid(unit, center), tetrahedron);
   BOOST_TEST(is_close(d.from_mesh.distance, std::sqrt(1. / 3), 1e-12)); // the corner (1, 1, 1)
   BOOST_TEST(is_close(d.from_surface.distance, 1, 1e-12));              // the vertices at 2
 
@@ -511,7 +508,7 @@ void test_hausdorff_distance()
 void test_vertices_off_surface()
 {
   const Test_surface surface = sphere({0, 0, 0}, 1, 10);
-  Mesh mesh = solid(surface, {0, 0, 0}); // the vertex at the centre is not on the boundary
+  Mesh mesh = solid(surface, {0, 0, 0}); // the vertex at the center is not on the boundary
   BOOST_TEST_EQ(number_of_vertices_off_surface(mesh, surface), 0u);
   const double diagonal = 2 * std::sqrt(3.);
   const auto lift = [&](Vertex_index v, double by) {

@@ -297,7 +297,7 @@ void test_two_cubes()
   options.already_removed = set_of(mesh, {cell(2, 3, 1)});
   result = check(mesh, set_of(mesh, {cell(1, 2, 1)}), options);
   BOOST_TEST(result.status == Resection_status::EVERYTHING_RESTORED);
-  // If both have, the resections before were not ours: a neighbour goes.
+  // If both have, the resections before were not ours: a neighbor goes.
   options.already_removed = set_of(mesh, {cell(2, 3, 1), cell(1, 2, 1)});
   result = check(mesh, set_of(mesh, {cell(3, 0, 3)}), options);
   BOOST_TEST(result.status == Resection_status::SUCCESS);
@@ -513,32 +513,32 @@ Set elements_inside(const Mesh& mesh, const Test_surface& surface)
 }
 
 // What a surgeon would do.
-void test_tumours(const Mesh& mesh, const Test_surface& brain, int repeats)
+void test_tumors(const Mesh& mesh, const Test_surface& brain, int repeats)
 {
   std::mt19937 random(5);
   const CGAL::Polyhedral_mixed_mesh_domain_3 domain(brain);
   const CGAL::Bbox_3 bbox = domain.bbox();
   const double whole = volume(mesh);
   const Tally before = tally;
-  std::vector<Test_point> centres;
+  std::vector<Test_point> centers;
   for(const auto& f : mesh.boundary_faces()) // at the boundary
-    if(centres.size() < std::size_t(repeats) / 3 && f.element % 17 == 0)
-      centres.push_back(mesh.point(mesh.element(f.element)[0]));
-  while(centres.size() < std::size_t(repeats))
-    centres.push_back(random_point(random, bbox));
+    if(centers.size() < std::size_t(repeats) / 3 && f.element % 17 == 0)
+      centers.push_back(mesh.point(mesh.element(f.element)[0]));
+  while(centers.size() < std::size_t(repeats))
+    centers.push_back(random_point(random, bbox));
 
   Resection_options sequence;
   std::size_t number_of_resections = 0;
-  for(const Test_point& centre : centres) {
+  for(const Test_point& center : centers) {
     const double radius = 5 * std::pow(10., std::uniform_real_distribution<double>(0, 1)(random));
-    const Test_surface tumour = sphere(centre, radius, 12);
-    const Set asked = elements_inside(mesh, tumour);
+    const Test_surface tumor = sphere(center, radius, 12);
+    const Set asked = elements_inside(mesh, tumor);
     const Resection_3 result = check(mesh, asked);
-    BOOST_TEST(resect(mesh, tumour).is_removed == result.is_removed);
-    BOOST_TEST_EQ(resect(mesh, tumour).number_of_asked_elements, count(asked));
+    BOOST_TEST(resect(mesh, tumor).is_removed == result.is_removed);
+    BOOST_TEST_EQ(resect(mesh, tumor).number_of_asked_elements, count(asked));
     // one after the other, until half is gone
     const Resection_3 next = check(mesh, asked, sequence);
-    BOOST_TEST(resect(mesh, tumour, sequence).is_removed == next.is_removed);
+    BOOST_TEST(resect(mesh, tumor, sequence).is_removed == next.is_removed);
     number_of_resections += next.status == Resection_status::SUCCESS;
     sequence.already_removed = next.is_removed;
     if(volume_of(mesh, next.is_removed) > whole / 2)
@@ -546,7 +546,7 @@ void test_tumours(const Mesh& mesh, const Test_surface& brain, int repeats)
     // two at once
     check(mesh, united(asked, elements_inside(mesh, sphere(random_point(random, bbox), radius, 8))));
   }
-  BOOST_TEST_GT(number_of_resections, centres.size() / 4);
+  BOOST_TEST_GT(number_of_resections, centers.size() / 4);
 
   // The repair changes little.
   const double asked = tally.asked_volume - before.asked_volume,
@@ -588,8 +588,8 @@ void test_tumours(const Mesh& mesh, const Test_surface& brain, int repeats)
   BOOST_TEST(result.status == Resection_status::EVERYTHING_REMOVED);
   BOOST_TEST(!result.has_mesh() && count(result.is_removed) == mesh.number_of_elements());
   BOOST_TEST(is_close(result.volume, whole, whole));
-  for(const Test_surface& tumour : {sphere(mesh.point(0), 1e-3, 4), sphere({1000, 0, 0}, 50, 8)}) {
-    result = resect(mesh, tumour);
+  for(const Test_surface& tumor : {sphere(mesh.point(0), 1e-3, 4), sphere({1000, 0, 0}, 50, 8)}) {
+    result = resect(mesh, tumor);
     BOOST_TEST(result.status == Resection_status::NOTHING_REMOVED);
     BOOST_TEST(result.has_mesh() && count(result.is_removed) == 0 && result.volume == 0);
   }
@@ -605,7 +605,7 @@ void test_brain(const std::string& data)
     BOOST_TEST(CGAL::make_mixed_mesh_3(brain, region, budget, mesh).has_mesh());
     BOOST_TEST(find_defects(mesh).none());
     const Tally before = tally;
-    test_tumours(mesh, brain, budget == 660 ? 150 : 60);
+    test_tumors(mesh, brain, budget == 660 ? 150 : 60);
     BOOST_TEST_GT(tally.repaired - before.repaired, 50u);
     test_random_sets(mesh, budget == 660 ? 12 : 4, unsigned(budget));
   }

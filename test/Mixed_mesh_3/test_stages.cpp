@@ -11,11 +11,11 @@
 
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 
-#include <CGAL/Mixed_mesh_3/internal/Boundary_stage.h>
-#include <CGAL/Mixed_mesh_3/internal/Located_octree.h>
-#include <CGAL/Mixed_mesh_3/internal/apply_transitions.h>
-#include <CGAL/Mixed_mesh_3/internal/assemble_mesh.h>
-#include <CGAL/Mixed_mesh_3/internal/place_lattice.h>
+#include <CGAL/Mixed_mesh_3/internal/boundary/Boundary_stage.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
+#include <CGAL/Mixed_mesh_3/internal/transitions/apply_transitions.h>
+#include <CGAL/Mixed_mesh_3/internal/boundary/assemble_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/place_lattice.h>
 #include <CGAL/Mixed_mesh_3/validation.h>
 #include <CGAL/Mixed_mesh_regions_3.h>
 
@@ -154,7 +154,7 @@ void test_lattice(const Traits& traits)
                - u[0][1] * (u[1][0] * u[2][2] - u[1][2] * u[2][0])
                + u[0][2] * (u[1][0] * u[2][1] - u[1][1] * u[2][0]) > 0);
 
-  // Cells: centre, box, length, and which triangles they meet; those through lattice points touch.
+  // Cells: center, box, length, and which triangles they meet; those through lattice points touch.
   for(int repeat = 0; repeat < 60; ++repeat) {
     const int level = int(random() % 6);
     const std::uint32_t side = Octree::side_at(level);
@@ -163,7 +163,7 @@ void test_lattice(const Traits& traits)
     };
     const Lattice_point corner{multiple(side), multiple(side), multiple(side)};
     const auto cell = traits.cell(corner, side);
-    BOOST_TEST(cell.centre()
+    BOOST_TEST(cell.center()
                == traits.point({corner[0] + side / 2, corner[1] + side / 2, corner[2] + side / 2}));
     Bbox_3 box;
     double shortest = std::numeric_limits<double>::infinity();
@@ -288,10 +288,10 @@ void walk(const Polyhedral_mixed_mesh_domain_3& domain, const Surface& surface, 
     if(cell.do_intersect(t))
       met.push_back(std::uint32_t(f));
   }
-  BOOST_TEST_EQ(located, met.empty() ? side_of(cell.centre()) : CGAL::ON_BOUNDARY);
+  BOOST_TEST_EQ(located, met.empty() ? side_of(cell.center()) : CGAL::ON_BOUNDARY);
   BOOST_TEST(part.facets == met);
 
-  // all points that the stages ask for: corners, midpoints, centres, and some others
+  // all points that the stages ask for: corners, midpoints, centers, and some others
   const std::uint32_t half = side / 2;
   for(std::uint32_t i = 0; i < 27; ++i) {
     const Point_3 p = traits.point({corner[0] + i % 3 * half, corner[1] + i / 3 % 3 * half,
@@ -685,14 +685,14 @@ void test_all_transitions()
       for(int base_level : {1, 2}) {
         const Analytic_octree octree = random_octree(domain, t, ++seed, base_level, 3);
         test_transitions(octree, Transition_templates_choice::FEWEST_VERTICES);
-        test_transitions(octree, Transition_templates_choice::CENTRED);
+        test_transitions(octree, Transition_templates_choice::CENTERED);
         BOOST_TEST_LT(
           apply_transitions(octree, Transition_templates_choice::FEWEST_VERTICES).vertices.size(),
-          apply_transitions(octree, Transition_templates_choice::CENTRED).vertices.size());
+          apply_transitions(octree, Transition_templates_choice::CENTERED).vertices.size());
       }
 }
 
-// The centre of a face on the border of the root, inserted since its four edges are split, is on the
+// The center of a face on the border of the root, inserted since its four edges are split, is on the
 // rim like the others.
 void test_inserted_on_rim()
 {
@@ -759,14 +759,14 @@ void test_is_balanced()
 
 // ---- the rim of the region ---------------------------------------------------------------------
 
-// Few leaves at the rim of the region are left out: their centres are outside, but that of one of 26
-// neighbours is inside. By all pairs.
+// Few leaves at the rim of the region are left out: their centers are outside, but that of one of 26
+// neighbors is inside. By all pairs.
 void test_rim()
 {
   const Aligned_traits traits({0, 0, 0, 1, 1, 1});
   const Analytic_domain domain([](const Point_3&) { return 9.; });
   std::size_t number_left_out = 0, number_kept_outside = 0;
-  // the last one is smaller than a cell, and contains no centre
+  // the last one is smaller than a cell, and contains no center
   for(const auto& region : {CGAL::Ball_mixed_mesh_region_3({0.4, 0.5, 0.6}, 0.3),
                             CGAL::Ball_mixed_mesh_region_3({0, 0, 0}, 0.5),
                             CGAL::Ball_mixed_mesh_region_3({0.5, 0.5, 0.5}, 0.02)}) {
@@ -780,7 +780,7 @@ void test_rim()
       const std::int64_t side = Octree::side_at(level);
       std::vector<std::uint8_t> is_core;
       for(Octree::Node_index n : all)
-        is_core.push_back(region.depth(traits.cell(octree.octree().corner(n), Octree::side_at(level)).centre()) >= 0);
+        is_core.push_back(region.depth(traits.cell(octree.octree().corner(n), Octree::side_at(level)).center()) >= 0);
       std::vector<Octree::Node_index> expected;
       for(std::size_t i = 0; i < all.size(); ++i) {
         bool is_at_rim = false;
@@ -901,7 +901,7 @@ void test_boundary(const Analytic_octree& located, Transition_templates_choice c
   const Lattice_mesh before = mesh;
 
   // Before: elements that reach out and are not tetrahedra. With every vertex on the rim nothing can
-  // be relabelled: the pinched places of the first round are left.
+  // be relabeled: the pinched places of the first round are left.
   std::size_t n_reaching_out = 0;
   for(std::size_t e = 0; e < before.elements.size(); ++e) {
     const Element_view element = before.elements[e];
@@ -913,7 +913,7 @@ void test_boundary(const Analytic_octree& located, Transition_templates_choice c
   Lattice_mesh fixed = before;
   std::fill(fixed.is_on_rim.begin(), fixed.is_on_rim.end(), std::uint8_t(1));
   const Boundary_pieces first = split_boundary(located, fixed, mode);
-  BOOST_TEST_EQ(first.number_of_relabelled_vertices, 0u);
+  BOOST_TEST_EQ(first.number_of_relabeled_vertices, 0u);
   BOOST_TEST(fixed.sides.size() >= before.sides.size()
              && std::equal(before.sides.begin(), before.sides.end(), fixed.sides.begin()));
   const Element_list first_kept = kept_elements(fixed, first);
@@ -926,16 +926,16 @@ void test_boundary(const Analytic_octree& located, Transition_templates_choice c
   }(), mode, 3);
   BOOST_TEST(again.pieces.connectivity() == boundary.pieces.connectivity());
 
-  // Relabelled: only outside vertices, to inside.
-  std::size_t n_relabelled = 0;
+  // Relabeled: only outside vertices, to inside.
+  std::size_t n_relabeled = 0;
   for(std::size_t v = 0; v < before.sides.size(); ++v)
     if(mesh.sides[v] != before.sides[v]) {
       BOOST_TEST(before.sides[v] != 1 && mesh.sides[v] == 1);
-      ++n_relabelled;
+      ++n_relabeled;
     }
-  BOOST_TEST_EQ(boundary.number_of_relabelled_vertices, n_relabelled);
-  BOOST_TEST(n_relabelled == 0 || !first.defects.empty());
-  BOOST_TEST(n_relabelled > 0 || first.defects.empty() || !has_margin);
+  BOOST_TEST_EQ(boundary.number_of_relabeled_vertices, n_relabeled);
+  BOOST_TEST(n_relabeled == 0 || !first.defects.empty());
+  BOOST_TEST(n_relabeled > 0 || first.defects.empty() || !has_margin);
   number_with_first_defects += !first.defects.empty();
   number_of_repaired += !first.defects.empty() && boundary.defects.empty();
 
@@ -1035,7 +1035,7 @@ void test_boundary_stage()
     const Analytic_octree octree = random_octree(one.domain, traits, ++seed, one.base_level, one.rounds);
     for(Boundary_mode mode : {Boundary_mode::VERTEX_ORDER, Boundary_mode::PAPER})
       test_boundary(octree, Transition_templates_choice::FEWEST_VERTICES, mode, true);
-    test_boundary(octree, Transition_templates_choice::CENTRED, Boundary_mode::VERTEX_ORDER, true);
+    test_boundary(octree, Transition_templates_choice::CENTERED, Boundary_mode::VERTEX_ORDER, true);
   }
   BOOST_TEST_GT(number_of_repaired, 5u);
 
@@ -1200,15 +1200,15 @@ void test_find_defects()
   BOOST_TEST_EQ(expect(mesh).nonconforming_faces, 1u);
 
   // Two cubes side by side that share no vertex; -0 is 0.
-  const auto neighbour = [](double zero) {
+  const auto neighbor = [](double zero) {
     Mesh two = cube({{1, zero, zero}, {2, 0, 0}, {2, 1, 0}, {1, 1, zero},
                      {1, zero, 1}, {2, 0, 1}, {2, 1, 1}, {1, 1, 1}});
     two.add_element(HEXAHEDRON, {8, 9, 10, 11, 12, 13, 14, 15});
     return two;
   };
   for(double zero : {0., -0.}) {
-    check(neighbour(zero), DUPLICATE);
-    BOOST_TEST_EQ(find_defects(neighbour(zero)).duplicate_vertices, 4u);
+    check(neighbor(zero), DUPLICATE);
+    BOOST_TEST_EQ(find_defects(neighbor(zero)).duplicate_vertices, 4u);
   }
   // three at one place count twice
   mesh = cube({{0, 0, 0}, {0, 0, 0}});

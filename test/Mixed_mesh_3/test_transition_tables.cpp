@@ -8,7 +8,7 @@
 // from the code under test but the elements: lattice, face splits, element faces, symmetries and
 // aspect ratios are defined here a second time, as plainly as possible.
 
-#include <CGAL/Mixed_mesh_3/internal/transition_templates.h>
+#include <CGAL/Mixed_mesh_3/internal/transitions/transition_templates.h>
 
 #include <boost/core/lightweight_test.hpp>
 
@@ -92,7 +92,7 @@ int common_face(const Polygon& polygon)
 std::set<Vertex_set> expected_pieces(unsigned int mask, int face)
 {
   std::vector<int> corners, split, unsplit;
-  int centre = -1;
+  int center = -1;
   for (int i = 0; i < 27; ++i)
     if (is_on_face(i, face))
     {
@@ -103,7 +103,7 @@ std::set<Vertex_set> expected_pieces(unsigned int mask, int face)
       else if (ones == 1)
         (is_split(mask, i) ? split : unsplit).push_back(i);
       else
-        centre = i;
+        center = i;
     }
   const auto distance = [](int i, int j)   // 1-norm
   {
@@ -183,7 +183,7 @@ std::set<Vertex_set> expected_pieces(unsigned int mask, int face)
   std::set<Vertex_set> result;
   for (int c : corners)
   {
-    Vertex_set square = { c, centre };
+    Vertex_set square = { c, center };
     for (int m : split)
       if (distance(m, c) == 1)
         square.insert(m);
@@ -224,7 +224,7 @@ Polygon reversed(Polygon polygon)
 
 int six_volume(const Template_element& e)
 {
-  // Cones from the cell's centre; any apex would do, as all faces are planar.
+  // Cones from the cell's center; any apex would do, as all faces are planar.
   int result = 0;
   for (const Polygon& face : faces(e))
     for (std::size_t i = 2; i < face.size(); ++i)
@@ -360,7 +360,7 @@ double worst_aspect_ratio(const Elements& elements)
 
 Elements elements_of(const Transition_template& t) { return Elements(t.begin(), t.end()); }
 
-bool uses_centre(const Elements& elements)
+bool uses_center(const Elements& elements)
 {
   for (const Template_element& e : elements)
     if (std::find(e.vertices, e.vertices + e.size, 13) != e.vertices + e.size)
@@ -378,7 +378,7 @@ std::array<int, 4> counts(const Elements& elements)
 }
 
 // What is wrong with a template of a pattern; empty if nothing is.
-std::string defect(unsigned int mask, const Elements& elements, bool may_have_centre)
+std::string defect(unsigned int mask, const Elements& elements, bool may_have_center)
 {
   std::set<Vertex_set> pieces;
   Vertex_set available;
@@ -388,7 +388,7 @@ std::string defect(unsigned int mask, const Elements& elements, bool may_have_ce
       pieces.insert(piece);
       available.insert(piece.begin(), piece.end());
     }
-  if (may_have_centre)
+  if (may_have_center)
     available.insert(13);
 
   int volume = 0;
@@ -467,34 +467,34 @@ unsigned int edges_of_face(int face)
 void test_templates()
 {
   const Transition_templates& templates = Transition_templates::get();
-  double worst_without = 0, worst_with = 0, worst_centred = 0;
+  double worst_without = 0, worst_with = 0, worst_centered = 0;
   for (unsigned int mask = 0; mask < 4096; ++mask)
   {
     const Elements elements = elements_of(templates[mask]);
-    const bool has_centre = templates.has_centre(mask);
-    BOOST_TEST_EQ(uses_centre(elements), has_centre);
-    BOOST_TEST_EQ(defect(mask, elements, has_centre), std::string());
-    double& worst = (has_centre ? worst_with : worst_without);
+    const bool has_center = templates.has_center(mask);
+    BOOST_TEST_EQ(uses_center(elements), has_center);
+    BOOST_TEST_EQ(defect(mask, elements, has_center), std::string());
+    double& worst = (has_center ? worst_with : worst_without);
     worst = std::max(worst, worst_aspect_ratio(elements));
 
-    const Elements centred = elements_of(templates.centred(mask));
-    BOOST_TEST_EQ(uses_centre(centred), mask != 0);
-    BOOST_TEST_EQ(defect(mask, centred, mask != 0), std::string());
-    worst_centred = std::max(worst_centred, worst_aspect_ratio(centred));
-    BOOST_TEST(elements.size() <= centred.size());
+    const Elements centered = elements_of(templates.centered(mask));
+    BOOST_TEST_EQ(uses_center(centered), mask != 0);
+    BOOST_TEST_EQ(defect(mask, centered, mask != 0), std::string());
+    worst_centered = std::max(worst_centered, worst_aspect_ratio(centered));
+    BOOST_TEST(elements.size() <= centered.size());
     if (mask != 0)
     {
       std::size_t pieces = 0;
       for (int face = 0; face < 6; ++face)
         pieces += expected_pieces(mask, face).size();
-      BOOST_TEST_EQ(centred.size(), pieces);
+      BOOST_TEST_EQ(centered.size(), pieces);
     }
   }
-  std::cout << "worst ARC: " << worst_without << " without centre, " << worst_with
-            << " with centre, " << worst_centred << " always-centre\n";
+  std::cout << "worst ARC: " << worst_without << " without center, " << worst_with
+            << " with center, " << worst_centered << " always-center\n";
   BOOST_TEST(worst_without <= 3.1925);   // 3.19 in the design
   BOOST_TEST(worst_with <= 2.0 + 1e-9);
-  BOOST_TEST(worst_centred <= 2.0 + 1e-9);
+  BOOST_TEST(worst_centered <= 2.0 + 1e-9);
 }
 
 // defect() must notice when something is wrong.
@@ -538,7 +538,7 @@ void test_face_splits()
         ++number;
         const Polygon polygon(piece.vertices, piece.vertices + piece.size);
         pieces.insert(Vertex_set(polygon.begin(), polygon.end()));
-        // Strictly convex, and counter-clockwise from outside: every turn leaves the cell's centre
+        // Strictly convex, and counter-clockwise from outside: every turn leaves the cell's center
         // below.
         for (std::size_t k = 0; k < polygon.size(); ++k)
           BOOST_TEST(det(polygon[k], polygon[(k + 1) % polygon.size()],
@@ -550,7 +550,7 @@ void test_face_splits()
 }
 
 // Two cells that share a face show the same pieces there, from opposite sides.
-void test_neighbours()
+void test_neighbors()
 {
   const Transition_templates& templates = Transition_templates::get();
   for (int variant = 0; variant < 2; ++variant)
@@ -572,7 +572,7 @@ void test_neighbours()
                   bits |= 1u << low;
               }
           std::set<Polygon> pieces =
-            shown(elements_of(variant == 0 ? templates[mask] : templates.centred(mask)), face);
+            shown(elements_of(variant == 0 ? templates[mask] : templates.centered(mask)), face);
           if (side == 1)
           {
             std::set<Polygon> opposite;
@@ -609,13 +609,13 @@ void test_classes()
     return result;
   };
   std::vector<bool> is_visited(4096, false);
-  int classes = 0, without_centre = 0, elements = 0;
+  int classes = 0, without_center = 0, elements = 0;
   for (unsigned int seed = 0; seed < 4096; ++seed)
   {
     if (is_visited[seed])
       continue;
     ++classes;
-    without_centre += !templates.has_centre(seed);
+    without_center += !templates.has_center(seed);
     elements += int(templates[seed].size());
     std::vector<unsigned int> stack(1, seed);
     is_visited[seed] = true;
@@ -623,7 +623,7 @@ void test_classes()
     {
       const unsigned int mask = stack.back();
       stack.pop_back();
-      BOOST_TEST_EQ(templates.has_centre(mask), templates.has_centre(seed));
+      BOOST_TEST_EQ(templates.has_center(mask), templates.has_center(seed));
       BOOST_TEST(counts(elements_of(templates[mask])) == counts(elements_of(templates[seed])));
       for (int generator = 0; generator < 3; ++generator)
       {
@@ -637,7 +637,7 @@ void test_classes()
     }
   }
   BOOST_TEST_EQ(classes, 144);
-  BOOST_TEST_EQ(without_centre, 118);
+  BOOST_TEST_EQ(without_center, 118);
   BOOST_TEST_EQ(elements, 1626);
 }
 
@@ -645,12 +645,12 @@ void test_classes()
 void test_named_cases()
 {
   const Transition_templates& templates = Transition_templates::get();
-  const auto check = [&](unsigned int mask, bool has_centre, int hexahedra, int prisms,
+  const auto check = [&](unsigned int mask, bool has_center, int hexahedra, int prisms,
                          int pyramids, int tetrahedra)
   {
     const std::array<int, 4> expected = { { hexahedra, prisms, pyramids, tetrahedra } };
     BOOST_TEST(counts(elements_of(templates[mask])) == expected);
-    BOOST_TEST_EQ(templates.has_centre(mask), has_centre);
+    BOOST_TEST_EQ(templates.has_center(mask), has_center);
   };
   check(0, false, 1, 0, 0, 0);
   check(0xFFF, true, 8, 0, 0, 0);
@@ -692,7 +692,7 @@ int main()
   test_face_splits();
   test_templates();
   test_checker();
-  test_neighbours();
+  test_neighbors();
   test_classes();
   test_named_cases();
   return boost::report_errors();

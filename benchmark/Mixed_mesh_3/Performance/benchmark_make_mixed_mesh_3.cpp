@@ -7,9 +7,9 @@
 //
 //   benchmark_make_mixed_mesh_3 SURFACE.off REGION.off VERTICES [THREADS [optimize|relax|none]]
 //
-// The boundary gets onto the surface by the optimisation, by Algorithm 1 alone, or not at all.
+// The boundary gets onto the surface by the optimization, by Algorithm 1 alone, or not at all.
 
-#include "Stage_log.h"
+#include "common/Stage_log.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3/quality.h>

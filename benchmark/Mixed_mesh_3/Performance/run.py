@@ -63,7 +63,7 @@ def main():
                         default=[660, 2000, 10000, 50000, 200000, 500000, 2000000])
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--path", choices=["optimize", "relax", "none"], default="optimize",
-                        help="how the boundary gets onto the surface: optimisation, Algorithm 1, not at all")
+                        help="how the boundary gets onto the surface: optimization, Algorithm 1, not at all")
     parser.add_argument("--save", help="also write the medians as JSON")
     parser.add_argument("--compare", nargs=2, metavar=("OLD.json", "NEW.json"))
     options = parser.parse_args()

@@ -10,11 +10,11 @@
 // - Sizes bound the circumradii of boundary facets and of tetrahedra alike: by h in the region of interest,
 //   by min(h + growth d, largest) at the distance d from it. A search finds the h that gives the wanted
 //   number of vertices.
-// - Facets are at most `facet_distance` away from the surface (in the sense of Mesh_3: the circumcentre
-//   from the centre of the surface Delaunay ball); in the region, sizes are far below it.
+// - Facets are at most `facet_distance` away from the surface (in the sense of Mesh_3: the circumcenter
+//   from the center of the surface Delaunay ball); in the region, sizes are far below it.
 // - Growth, largest size and facet distance: of some twenty combinations tried with 660 vertices (and exact
 //   distances from the region), the one with the smallest Hausdorff distance, 5.1 mm, among those with more
-//   than a quarter of the vertices in the region. It varies by half a millimetre between like settings.
+//   than a quarter of the vertices in the region. It varies by half a millimeter between like settings.
 // - Facet angles of 25 degrees and a radius-edge ratio of 2: with 660 vertices, 15 to 30 degrees and 1.6 to 3
 //   have Hausdorff distances of 5.1 to 8.1 mm, and a mean ARC within 0.01.
 // - Perturbation and exudation have no time limit, and go on as long as they improve the worst angle.
@@ -59,7 +59,7 @@ using Triangulation = CGAL::Mesh_triangulation_3<Domain>::type;
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
 using Mesh_criteria = CGAL::Mesh_criteria_3<Triangulation>;
 
-/// The defaults are for the bundled brain, in millimetres.
+/// The defaults are for the bundled brain, in millimeters.
 struct Sizes
 {
   double in_region = 0;

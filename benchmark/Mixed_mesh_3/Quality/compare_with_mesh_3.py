@@ -7,7 +7,7 @@
 DIRECTORY holds the programs benchmark_mesh_3 and measure_mesh. Times are CPU seconds of one thread, from
 surfaces in memory to a mesh; medians of runs that are processes of their own, the meshers taking turns.
 Mesh_3's search for the size that gives the wanted number of vertices is not timed. Lengths are in the
-unit of the surface (the bundled brain: millimetres).
+unit of the surface (the bundled brain: millimeters).
 """
 
 import argparse

@@ -12,7 +12,7 @@
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
-#include <CGAL/Mixed_mesh_3/internal/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 
 #include <CGAL/AABB_tree.h>
@@ -39,12 +39,12 @@ using Point = Kernel::Point_3;
 using Surface = CGAL::Surface_mesh<Point>;
 using Side_of_surface = CGAL::Side_of_triangle_mesh<Surface, Kernel>;
 using Tree = Side_of_surface::AABB_tree; // its traits have another name in each CGAL version
-using CGAL::Mixed_meshes_3::internal::Vec3;
+using CGAL::Mixed_meshes_3::Vec3;
 
 template <class P>
 Point to_point(const P& p)
 {
-  const Vec3 q = CGAL::Mixed_meshes_3::internal::to_vec3(p);
+  const Vec3 q = CGAL::Mixed_meshes_3::to_vec3(p);
   return {q[0], q[1], q[2]};
 }
 
@@ -92,14 +92,14 @@ inline std::vector<Sample> samples(const Surface& surface, double step)
 inline void measure_distances(std::vector<Sample>& samples, const Tree& tree)
 {
   Point hint = samples.empty() ? Point(0, 0, 0) : tree.closest_point(samples.front().point);
-  for(Sample& s : samples) { // neighbours follow each other: the last answer is a good start
+  for(Sample& s : samples) { // neighbors follow each other: the last answer is a good start
     hint = tree.closest_point(s.point, hint);
     s.distance = std::sqrt(CGAL::squared_distance(s.point, hint));
   }
 }
 
 /// The boundary of a mesh as a set of triangles that do not share vertices; a quadrilateral as the four
-/// triangles around the centre of its bilinear patch.
+/// triangles around the center of its bilinear patch.
 template <class Mesh>
 Surface boundary_triangles(const Mesh& mesh)
 {
@@ -117,9 +117,9 @@ Surface boundary_triangles(const Mesh& mesh)
     if(size == 3) {
       add(p[0], p[1], p[2]);
     } else {
-      const Point centre = CGAL::centroid(p[0], p[1], p[2], p[3]);
+      const Point center = CGAL::centroid(p[0], p[1], p[2], p[3]);
       for(int i = 0; i < 4; ++i)
-        add(p[i], p[(i + 1) % 4], centre);
+        add(p[i], p[(i + 1) % 4], center);
     }
   }
   return result;
@@ -218,7 +218,7 @@ the region's surface count as inside it.
 
 \param mesh a `CGAL::Mixed_mesh_3`
 \param surface, region_surface the domain's and the region's surface. \pre closed and triangulated
-\param step of the samples, in the unit of the surface; 1 is meant for millimetres
+\param step of the samples, in the unit of the surface; 1 is meant for millimeters
 */
 template <class Mesh>
 nlohmann::ordered_json measure(const Mesh& mesh, const Surface& surface, const Surface& region_surface,

@@ -26,7 +26,7 @@ and must not throw then.
 \cgalHasModels{CGAL::Polyhedral_mixed_mesh_domain_3}
 \cgalHasModelsEnd
 
-The optimisation asks for closest points and for samples of the surface only: `Point_3`,
+The optimization asks for closest points and for samples of the surface only: `Point_3`,
 `closest_point(p, hint)`, `closest_point(p)` and `surface_samples(spacing)` are all that
 `CGAL::optimize_mixed_mesh_3()` needs.
 
@@ -74,7 +74,7 @@ public:
   CGAL::Bounded_side locate(const Cell& cell, const Surface_part& parent, Surface_part& part) const;
 
   /// The side of a point.
-  /// \param p a vertex of a cell, or the centre of a face or of a cell
+  /// \param p a vertex of a cell, or the center of a face or of a cell
   /// \param part that of a cell which contains `p`, and for which `locate()` answered `ON_BOUNDARY`
   CGAL::Bounded_side bounded_side(const Point_3& p, const Surface_part& part) const;
 
@@ -100,6 +100,6 @@ public:
 
   /// Points of the surface, such that none of its points is much farther than `spacing` from one of them.
   /// Asked for only if there is a tolerance; its distance from the surface is measured there. The result
-  /// is a range of points, in a fixed order; neighbours in that order should be near to each other.
+  /// is a range of points, in a fixed order; neighbors in that order should be near to each other.
   std::vector<Point_3> surface_samples(double spacing) const;
 };

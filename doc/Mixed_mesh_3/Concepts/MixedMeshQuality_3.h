@@ -8,7 +8,7 @@
 \cgalConcept
 
 The concept `MixedMeshQuality_3` says how bad an element is, and in which direction it gets worse. The
-optimisation minimises sums of powers of it.
+optimization minimizes sums of powers of it.
 
 The cost has to be continuous where the element is positive; it may have kinks, as the largest of several
 measures has. It should not depend on the position of the element. If it depends on its size, so does the
@@ -54,6 +54,6 @@ public:
                     std::array<double, 3>& gradient) const;
 
   /// Whether an element of that cost is good enough for Algorithm 1 of the paper, which stiffens those that
-  /// are not. The optimisation does not ask.
+  /// are not. The optimization does not ask.
   bool is_acceptable(double cost) const;
 };

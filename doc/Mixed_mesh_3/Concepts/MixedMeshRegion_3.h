@@ -51,7 +51,7 @@ public:
   CGAL::Bounded_side locate(const Cell& cell, const Surface_part& parent, Surface_part& part) const;
 
   /// How deep a point is in the region; negative outside, and the less so the nearer it is. Of two
-  /// cells of one size, that with the deeper centre is refined first; where there are thousands, cells
+  /// cells of one size, that with the deeper center is refined first; where there are thousands, cells
   /// share the depth of an ancestor. Of equally deep ones, those at the domain's surface come first.
   /// Cells outside the region come last, to use up a small budget.
   ///

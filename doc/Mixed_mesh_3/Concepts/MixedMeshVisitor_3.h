@@ -51,7 +51,7 @@ public:
   void progress(std::size_t number_of_vertices, std::size_t budget);
 
   /// Whether to go on. Asked for each mesh that is tried, when its octree is there and its elements are
-  /// not, and before each round of the optimisation. After `false` it is not asked again, and the result
+  /// not, and before each round of the optimization. After `false` it is not asked again, and the result
   /// has the status `STOPPED`. The mesh of `CGAL::make_mixed_mesh_3()` is empty then, that of other
   /// functions valid, as far as it went.
   bool go_on();

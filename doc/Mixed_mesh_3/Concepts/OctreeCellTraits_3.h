@@ -11,7 +11,7 @@ The concept `OctreeCellTraits_3` puts an octree into space: it maps lattice poin
 integers, to points.
 
 The lattice is \f$ [0, 2^{21}]^3 \f$; the root cell is the whole of it. A cell of level `l` has the
-lattice side \f$ 2^{21-l} \f$, and `l` is at most 20, so that centres of cells are lattice points
+lattice side \f$ 2^{21-l} \f$, and `l` is at most 20, so that centers of cells are lattice points
 too.
 
 The map shall be affine, and keep orientation, so that cells are parallelepipeds and elements, which
@@ -45,9 +45,9 @@ public:
     /// A box that contains the cell.
     CGAL::Bbox_3 bbox() const;
 
-    /// The centre of the cell, a lattice point.
+    /// The center of the cell, a lattice point.
     /// \return a `CGAL::Mixed_meshes_3::Predicates_kernel::Point_3`
-    unspecified_type centre() const;
+    unspecified_type center() const;
 
     /// Whether the closed cell and the triangle have a point in common; must be exact. Used by
     /// polyhedral domains and regions only.

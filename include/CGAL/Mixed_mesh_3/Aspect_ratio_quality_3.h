@@ -3,15 +3,15 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The cost of an element that the fitting and the optimisation work with: the aspect-ratio coefficient
+// The cost of an element that the fitting and the optimization work with: the aspect-ratio coefficient
 // of the paper, that of the corners, and the warp of the faces.
 
 #ifndef CGAL_MIXED_MESH_3_ASPECT_RATIO_QUALITY_3_H
 #define CGAL_MIXED_MESH_3_ASPECT_RATIO_QUALITY_3_H
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
-#include <CGAL/Mixed_mesh_3/internal/element_measures.h>
-#include <CGAL/Mixed_mesh_3/internal/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/element_measures.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <array>
 #include <cmath>
@@ -67,7 +67,6 @@ the normals of the two triangles of a quadrilateral face, along either diagonal.
 */
 class Aspect_ratio_quality_3
 {
-  using Vec3 = internal::Vec3;
   using Points = std::array<Vec3, 8>;
 
   double m_acceptable = 7;
@@ -162,7 +161,7 @@ private:
   template <int n>
   struct Mean
   {
-    internal::Vec3 point{};
+    Vec3 point{};
     double weight = 0;
 
     template <class Index>

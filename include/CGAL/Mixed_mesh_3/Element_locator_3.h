@@ -8,7 +8,7 @@
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
-#include <CGAL/Mixed_mesh_3/internal/Isoparametric_map_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/Isoparametric_map_3.h>
 
 #include <CGAL/assertions.h>
 
@@ -137,7 +137,6 @@ The mesh must outlive the locator and not change. Points are whatever has `p[0]`
 template <class Mesh>
 class Element_locator_3
 {
-  using Vec3 = internal::Vec3;
 
   struct Box
   {
@@ -179,8 +178,7 @@ class Element_locator_3
         b.lower[k] = (std::min)(b.lower[k], m_points[vertices[i]][k]);
         b.upper[k] = (std::max)(b.upper[k], m_points[vertices[i]][k]);
       }
-    using internal::operator-;
-    const double margin = 1e-8 * internal::norm(b.upper - b.lower);
+    const double margin = 1e-8 * norm(b.upper - b.lower);
     for(int k = 0; k < 3; ++k) {
       b.lower[k] -= margin;
       b.upper[k] += margin;
@@ -280,7 +278,7 @@ public:
   {
     m_points.reserve(mesh.number_of_vertices());
     for(const auto& p : mesh.points())
-      m_points.push_back(internal::to_vec3(p));
+      m_points.push_back(to_vec3(p));
     prepare();
   }
 
@@ -319,9 +317,6 @@ public:
   template <class Point>
   Element_location_3 nearest(const Point& point) const
   {
-    using internal::operator+;
-    using internal::operator-;
-    using internal::operator*;
     CGAL_precondition(!m_mesh.is_empty());
     if(const auto location = locate(point))
       return *location;
@@ -341,7 +336,7 @@ public:
       Vec3 offset{};
       for(int i = 0; i < face.size; ++i)
         offset = offset + weights[i] * corners[i];
-      const double distance = internal::norm(offset);
+      const double distance = norm(offset);
       if(!(distance < best.distance))
         continue;
       // On a face only its own vertices count, with the weights of the face.

@@ -57,7 +57,7 @@ struct Reference_element
   std::uint8_t edges[12][2];
   int number_of_faces;
   Element_face faces[6];
-  /// Corner tetrahedra: a vertex with its three neighbours (of the apex of a pyramid there are
+  /// Corner tetrahedra: a vertex with its three neighbors (of the apex of a pyramid there are
   /// four, so it has none of its own; the four at the base cover the pyramid).
   int number_of_corners;
   std::uint8_t corners[8][4];

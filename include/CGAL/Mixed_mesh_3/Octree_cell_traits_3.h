@@ -8,11 +8,11 @@
 #ifndef CGAL_MIXED_MESH_3_OCTREE_CELL_TRAITS_3_H
 #define CGAL_MIXED_MESH_3_OCTREE_CELL_TRAITS_3_H
 
-#include <CGAL/Mixed_mesh_3/internal/Octree.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Lattice_point.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/assertions.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <algorithm>
 #include <array>
@@ -21,9 +21,6 @@
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
-
-/// The kernel that decides geometry: exact predicates on doubles, whatever kernel the user has.
-using Predicates_kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 /// The shape of the root cell of axis-aligned octrees.
 enum class Root_cell {
@@ -44,7 +41,7 @@ inline double lattice_granularity(double largest_coordinate)
 // bits, fewer very far from the origin.
 inline double lattice_unit(double root_side, double granularity)
 {
-  const double unit = root_side / Octree::root_side;
+  const double unit = root_side / lattice_root_side;
   const double g = (std::max)(granularity, std::ldexp(1., std::ilogb(unit) - 19));
   return (std::max)(1., std::ceil(unit / g)) * g;
 }
@@ -66,12 +63,12 @@ public:
   class Cell
   {
     Bbox_3 m_bbox;
-    Point_3 m_centre;
+    Point_3 m_center;
 
   public:
-    Cell(const Bbox_3& bbox, const Point_3& centre) : m_bbox(bbox), m_centre(centre) {}
+    Cell(const Bbox_3& bbox, const Point_3& center) : m_bbox(bbox), m_center(center) {}
     const Bbox_3& bbox() const { return m_bbox; }
-    const Point_3& centre() const { return m_centre; }
+    const Point_3& center() const { return m_center; }
     /// Whether the closed cell meets the triangle; exact.
     bool do_intersect(const Triangle_3& t) const { return CGAL::do_intersect(t, m_bbox); }
   };
@@ -93,13 +90,13 @@ public:
     const double granularity = internal::lattice_granularity(largest);
     for(int k = 0; k < 3; ++k) {
       const double extent = (bbox.max)(k) - (bbox.min)(k);
-      const double centre = (bbox.min)(k) + extent / 2;
+      const double center = (bbox.min)(k) + extent / 2;
       // Without a margin, the rounded root may miss the box by a digit: then take a larger unit.
       for(double side = root == Root_cell::CUBE ? cube_side : extent;; side *= 1 + std::ldexp(1., -18)) {
         m_unit[k] = internal::lattice_unit(side, granularity);
-        m_origin[k] = std::floor((centre - m_unit[k] * (internal::Octree::root_side / 2)) / granularity)
+        m_origin[k] = std::floor((center - m_unit[k] * (internal::lattice_root_side / 2)) / granularity)
                       * granularity;
-        if(m_origin[k] <= (bbox.min)(k) && coordinate(k, internal::Octree::root_side) >= (bbox.max)(k))
+        if(m_origin[k] <= (bbox.min)(k) && coordinate(k, internal::lattice_root_side) >= (bbox.max)(k))
           break;
       }
     }
@@ -135,7 +132,7 @@ private:
 
 /*!
 \brief Model of `OctreeCellTraits_3`: cubes whose third axis has a given direction, for example that
-from the tumour to the skull opening.
+from the tumor to the skull opening.
 
 The frame comes from a quaternion of small integers, so that it is exactly orthogonal and lattice
 points are exact doubles; its axis is within 4 degrees of the wanted one.
@@ -149,18 +146,18 @@ public:
   class Cell
   {
     std::array<Point_3, 8> m_vertices;
-    Point_3 m_centre;
+    Point_3 m_center;
     Bbox_3 m_bbox;
 
   public:
-    Cell(const std::array<Point_3, 8>& vertices, const Point_3& centre)
-      : m_vertices(vertices), m_centre(centre)
+    Cell(const std::array<Point_3, 8>& vertices, const Point_3& center)
+      : m_vertices(vertices), m_center(center)
     {
       for(const Point_3& p : m_vertices)
         m_bbox += p.bbox();
     }
     const Bbox_3& bbox() const { return m_bbox; }
-    const Point_3& centre() const { return m_centre; }
+    const Point_3& center() const { return m_center; }
     bool do_intersect(const Triangle_3& t) const
     {
       if(!CGAL::do_overlap(m_bbox, t.bbox()))
@@ -205,11 +202,11 @@ public:
     const double granularity = internal::lattice_granularity(largest + 2 * longest / m_norm);
     m_unit = internal::lattice_unit(longest / (m_norm * m_norm), granularity);
     for(int k = 0; k < 3; ++k) {
-      double centre = 0;
+      double center = 0;
       for(int a = 0; a < 3; ++a)
-        centre += m_axes[a][k] * (lower[a] + upper[a]) / 2 / (m_norm * m_norm);
-      const double half = m_unit * (internal::Octree::root_side / 2);
-      m_origin[k] = std::floor((centre - half * (m_axes[0][k] + m_axes[1][k] + m_axes[2][k]))
+        center += m_axes[a][k] * (lower[a] + upper[a]) / 2 / (m_norm * m_norm);
+      const double half = m_unit * (internal::lattice_root_side / 2);
+      m_origin[k] = std::floor((center - half * (m_axes[0][k] + m_axes[1][k] + m_axes[2][k]))
                                / granularity) * granularity;
     }
   }

@@ -7,7 +7,7 @@
 #define CGAL_MIXED_MESH_3_SCALED_JACOBIAN_QUALITY_3_H
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
-#include <CGAL/Mixed_mesh_3/internal/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <array>
 #include <cmath>
@@ -26,7 +26,6 @@ faces counts only by the angles at its corners. See `scaled_jacobian`.
 */
 class Scaled_jacobian_quality_3
 {
-  using Vec3 = internal::Vec3;
   using Points = std::array<Vec3, 8>;
 
   double m_acceptable;

@@ -32,7 +32,7 @@ namespace Mixed_meshes_3 {
 /*!
 \brief Solves symmetric positive definite systems with a solver of Eigen.
 
-Where `CGAL::Eigen_solver_traits` starts again at each `factor()`, this class keeps the symbolic factorisation
+Where `CGAL::Eigen_solver_traits` starts again at each `factor()`, this class keeps the symbolic factorization
 as long as the pattern of the matrix is the same. An iterative solver starts from the `X` that it is given.
 
 \cgalModels{SparseLinearAlgebraWithFactorTraits_d}
@@ -118,14 +118,14 @@ private:
     std::is_base_of_v<Eigen::IterativeSolverBase<EigenSolver>, EigenSolver>;
 
   std::shared_ptr<EigenSolver> m_solver = std::make_shared<EigenSolver>(); // solvers cannot be copied
-  std::vector<int> m_starts, m_rows; // the pattern that was analysed
+  std::vector<int> m_starts, m_rows; // the pattern that was analyzed
 };
 
 /// Conjugate gradients with Jacobi's preconditioner. The fastest where few layers of vertices move.
 using Conjugate_gradient_solver_traits =
   Symmetric_solver_traits<Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower>>;
 
-/// Eigen's simplicial factorisation.
+/// Eigen's simplicial factorization.
 using Simplicial_solver_traits = Symmetric_solver_traits<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>;
 
 #ifdef CGAL_MIXED_MESH_3_USE_CHOLMOD
@@ -139,7 +139,7 @@ struct Quiet_cholmod : Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>
 
 } // namespace internal
 
-/// The supernodal factorisation of CHOLMOD. The fastest direct solver for large systems, with a good BLAS.
+/// The supernodal factorization of CHOLMOD. The fastest direct solver for large systems, with a good BLAS.
 using Cholmod_solver_traits = Symmetric_solver_traits<internal::Quiet_cholmod>;
 /// The fastest direct solver there is.
 using Direct_solver_traits = Cholmod_solver_traits;

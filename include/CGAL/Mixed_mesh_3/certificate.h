@@ -12,7 +12,7 @@
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
-#include <CGAL/Mixed_mesh_3/internal/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Interval_nt.h>
@@ -282,7 +282,7 @@ inline Jacobian_sign jacobian_sign(Element_kind kind, const std::array<std::arra
 template <class Position>
 Jacobian_sign jacobian_sign(const Element_view& element, const Position& position)
 {
-  std::array<internal::Vec3, 8> points{};
+  std::array<std::array<double, 3>, 8> points{};
   for(int i = 0; i < element.size(); ++i)
     points[std::size_t(i)] = position(element[i]);
   return jacobian_sign(element.kind(), points);
@@ -292,7 +292,7 @@ Jacobian_sign jacobian_sign(const Element_view& element, const Position& positio
 template <class Mesh>
 Jacobian_sign jacobian_sign(const Mesh& mesh, std::size_t e)
 {
-  return jacobian_sign(mesh.element(e), [&](Vertex_index v) { return internal::to_vec3(mesh.point(v)); });
+  return jacobian_sign(mesh.element(e), [&](Vertex_index v) { return to_vec3(mesh.point(v)); });
 }
 
 } // namespace Mixed_meshes_3

@@ -9,13 +9,13 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
-/// Across what neighbouring leaves may differ by one level only.
+/// Across what neighboring leaves may differ by one level only.
 enum class Adjacency { FACE = 1, EDGE = 2, VERTEX = 3 };
 
 /// How cells with hanging vertices are decomposed.
 enum class Transition_templates_choice {
-  FEWEST_VERTICES, ///< 118 of 144 templates need no vertex at the cell's centre
-  CENTRED          ///< every such cell is coned from its centre
+  FEWEST_VERTICES, ///< 118 of 144 templates need no vertex at the cell's center
+  CENTERED          ///< every such cell is coned from its center
 };
 
 /// How elements at the surface are split.

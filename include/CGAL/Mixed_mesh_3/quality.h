@@ -9,7 +9,7 @@
 #define CGAL_MIXED_MESH_3_QUALITY_H
 
 #include <CGAL/Mixed_mesh_3.h>
-#include <CGAL/Mixed_mesh_3/internal/element_measures.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/element_measures.h>
 
 #include <CGAL/assertions.h>
 
@@ -65,7 +65,7 @@ Aspect-ratio coefficient (ARC): 1 is ideal, infinity degenerate. Section 5.3 of 
 Payan: "Mixed-element mesh for an intra-operative modeling of the brain tumor extraction".
 
 - tetrahedron: `(sum l_i^2 / 6)^(3/2) / (8.47867 V)` over the six edge lengths;
-- hexahedron: longest / shortest segment between centres of opposite faces;
+- hexahedron: longest / shortest segment between centers of opposite faces;
 - pyramid: longest / shortest of the two segments between midpoints of opposite base edges, and the
   height over the base's mean plane;
 - prism: for a quadrilateral face its two midpoint segments and the height of the mean triangle;
@@ -83,7 +83,7 @@ value for the ideal element: the regular tetrahedron, the pyramid and the prism 
 - tetrahedron: over its four corners;
 - pyramid: of the tetrahedra at the four corners of its base, over their four corners; a value `1 + x`
   becomes `1 - x`. Unlike Verdict's, it is not cut off at 0;
-- prism, hexahedron: over all corners; Verdict has the centre of the hexahedron too.
+- prism, hexahedron: over all corners; Verdict has the center of the hexahedron too.
 */
 inline constexpr internal::Element_measure<internal::scaled_jacobian> scaled_jacobian{};
 

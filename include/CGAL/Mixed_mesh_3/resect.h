@@ -3,15 +3,15 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Resection: which elements are removed with a tumour, and the mesh that is left.
+// Resection: which elements are removed with a tumor, and the mesh that is left.
 
 #ifndef CGAL_MIXED_MESH_3_RESECT_H
 #define CGAL_MIXED_MESH_3_RESECT_H
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
-#include <CGAL/Mixed_mesh_3/internal/Resection_repair.h>
-#include <CGAL/Mixed_mesh_3/internal/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/resection/Resection_repair.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 
@@ -92,11 +92,11 @@ struct Resection_3
 namespace internal {
 
 // What has parts of a surface is a model of `MixedMeshDomain_3`; what has none is a surface.
-template <class Tumour, class = void>
+template <class Tumor, class = void>
 struct Is_domain : std::false_type {};
 
-template <class Tumour>
-struct Is_domain<Tumour, std::void_t<typename Tumour::Surface_part>> : std::true_type {};
+template <class Tumor>
+struct Is_domain<Tumor, std::void_t<typename Tumor::Surface_part>> : std::true_type {};
 
 // The concept wants a part of the surface with the point. Ours find the side of a point sooner without.
 template <class Domain, class = void>
@@ -194,41 +194,39 @@ Resection_3 resect(const Mesh& mesh, const std::vector<bool>& is_asked,
 }
 
 /*!
-\brief Removes the elements in a tumour: those whose centroid, the mean of their vertices, is inside.
+\brief Removes the elements in a tumor: those whose centroid, the mean of their vertices, is inside.
 
 A centroid on the surface is not inside. The answer is exact on the centroid, rounded to double, as far as
 that of the domain is.
 
 \tparam Mesh a `Mixed_mesh_3`
-\tparam Tumour a model of `MixedMeshDomain_3`, of which the inside test is used only, or a model of
+\tparam Tumor a model of `MixedMeshDomain_3`, of which the inside test is used only, or a model of
         `FaceListGraph` with points of any CGAL kernel
 \param mesh the mesh, as above
-\param tumour what to remove, in the coordinates of the mesh. \pre a surface is closed and triangulated
+\param tumor what to remove, in the coordinates of the mesh. \pre a surface is closed and triangulated
 \param options as above
 \return what is removed, and why
 \cost as above, plus an inside test for each element
 */
-template <class Mesh, class Tumour>
-Resection_3 resect(const Mesh& mesh, const Tumour& tumour,
+template <class Mesh, class Tumor>
+Resection_3 resect(const Mesh& mesh, const Tumor& tumor,
                    const Resection_options& options = Resection_options())
 {
-  if constexpr(!internal::Is_domain<Tumour>::value) {
-    return resect(mesh, Polyhedral_mixed_mesh_domain_3(tumour), options);
+  if constexpr(!internal::Is_domain<Tumor>::value) {
+    return resect(mesh, Polyhedral_mixed_mesh_domain_3(tumor), options);
   } else {
-    using internal::operator+;
-    using internal::operator*;
     CGAL_precondition(options.already_removed.empty()
                       || options.already_removed.size() == mesh.number_of_elements());
-    const internal::Side_of_domain<Tumour> side{tumour};
+    const internal::Side_of_domain<Tumor> side{tumor};
     std::vector<bool> is_inside(mesh.number_of_elements(), false);
     for(std::size_t e = 0; e < is_inside.size(); ++e) {
       if(!options.already_removed.empty() && options.already_removed[e])
         continue;
-      internal::Vec3 centroid{};
+      Vec3 centroid{};
       for(Vertex_index v : mesh.element(e))
-        centroid = centroid + internal::to_vec3(mesh.point(v));
+        centroid = centroid + to_vec3(mesh.point(v));
       centroid = (1. / mesh.element(e).size()) * centroid;
-      is_inside[e] = side(typename Tumour::Point_3(centroid[0], centroid[1], centroid[2])) == ON_BOUNDED_SIDE;
+      is_inside[e] = side(typename Tumor::Point_3(centroid[0], centroid[1], centroid[2])) == ON_BOUNDED_SIDE;
     }
     return resect(mesh, is_inside, options);
   }

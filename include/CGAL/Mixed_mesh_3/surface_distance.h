@@ -9,8 +9,8 @@
 #define CGAL_MIXED_MESH_3_SURFACE_DISTANCE_H
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
-#include <CGAL/Mixed_mesh_3/internal/hausdorff_distance.h>
-#include <CGAL/Mixed_mesh_3/internal/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/hausdorff_distance.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Named_function_parameters.h>

@@ -12,9 +12,9 @@
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
-#include <CGAL/Mixed_mesh_3/internal/Lattice_mesh.h>
-#include <CGAL/Mixed_mesh_3/internal/balance.h>
-#include <CGAL/Mixed_mesh_3/internal/boundary_surface.h>
+#include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/balance.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/manifold_defects.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 
 #include <algorithm>
@@ -35,12 +35,12 @@ namespace Mixed_meshes_3 {
 inline bool is_balanced(const internal::Octree& octree, Adjacency adjacency)
 {
   using internal::Octree;
-  // A leaf finds a coarser neighbour by looking for one of its own size.
-  const auto directions = internal::neighbour_directions(adjacency);
+  // A leaf finds a coarser neighbor by looking for one of its own size.
+  const auto directions = internal::neighbor_directions(adjacency);
   for(Octree::Node_index n = 0; n < octree.size(); ++n)
     if(octree.is_leaf(n))
       for(const auto& d : directions) {
-        const Octree::Node_index m = octree.neighbour(n, d);
+        const Octree::Node_index m = octree.neighbor(n, d);
         if(m != Octree::no_node && octree.level(m) + 1 < octree.level(n))
           return false;
       }

@@ -51,7 +51,7 @@ bool write_FEB(std::ostream& stream, const Mesh& mesh)
       << "    <Nodes name=\"all\">\n";
   for(std::size_t v = 0; v < mesh.number_of_vertices(); ++v) {
     out << "      <node id=\"" << v + 1 << "\">";
-    write_point(out, Mixed_meshes_3::internal::to_vec3(mesh.points()[v]), ",");
+    write_point(out, Mixed_meshes_3::to_vec3(mesh.points()[v]), ",");
     out << "</node>\n";
   }
   out << "    </Nodes>\n";

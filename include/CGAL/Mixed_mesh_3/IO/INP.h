@@ -39,7 +39,7 @@ bool write_INP(std::ostream& stream, const Mesh& mesh)
   out << "*HEADING\nMixed-element mesh written by Mixed_mesh_3\n*NODE\n";
   for(std::size_t v = 0; v < mesh.number_of_vertices(); ++v) {
     out << v + 1 << ", ";
-    write_point(out, Mixed_meshes_3::internal::to_vec3(mesh.points()[v]), ", ");
+    write_point(out, Mixed_meshes_3::to_vec3(mesh.points()[v]), ", ");
     out << '\n';
   }
 

@@ -39,7 +39,7 @@ bool write_MEDIT(std::ostream& stream, const Mesh& mesh)
   // Version 2 means coordinates in double precision.
   out << "MeshVersionFormatted 2\n\nDimension\n3\n\nVertices\n" << mesh.number_of_vertices() << '\n';
   for(const auto& p : mesh.points()) {
-    write_point(out, Mixed_meshes_3::internal::to_vec3(p), " ");
+    write_point(out, Mixed_meshes_3::to_vec3(p), " ");
     out << " 0\n";
   }
 

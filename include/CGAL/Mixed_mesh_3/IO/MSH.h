@@ -34,7 +34,7 @@ struct MSH_entity
   std::size_t number_of_elements = 0;
   std::size_t number_of_vertices = 0; // those on no entity listed before
   bool is_on_boundary = false;        // a volume with boundary faces
-  Mixed_meshes_3::internal::Vec3 lower{}, upper{};
+  Mixed_meshes_3::Vec3 lower{}, upper{};
 };
 
 inline int gmsh_face_type(int size) { return size == 3 ? 2 : 3; }
@@ -52,7 +52,7 @@ class MSH_model
   {
     MSH_entity& e = m_entities[std::size_t(entity)];
     for(Vertex_index v : vertices) {
-      const auto p = Mixed_meshes_3::internal::to_vec3(mesh.point(v));
+      const auto p = Mixed_meshes_3::to_vec3(mesh.point(v));
       const bool is_first = e.number_of_elements == 0 && v == *vertices.begin();
       for(int i = 0; i < 3; ++i) {
         e.lower[i] = is_first ? p[i] : (std::min)(e.lower[i], p[i]);
@@ -135,7 +135,7 @@ void write_MSH_4_1_nodes(Buffered_output& out, const Mesh& mesh, const MSH_model
         out << v + 1 << '\n';
     for(std::size_t v = 0; v < n; ++v)
       if(model.is_vertex_on(v, i)) {
-        write_point(out, Mixed_meshes_3::internal::to_vec3(mesh.points()[v]), " ");
+        write_point(out, Mixed_meshes_3::to_vec3(mesh.points()[v]), " ");
         out << '\n';
       }
   }
@@ -190,7 +190,7 @@ void write_MSH_2_2_nodes_and_elements(Buffered_output& out, const Mesh& mesh)
   out << "$Nodes\n" << mesh.number_of_vertices() << '\n';
   for(std::size_t v = 0; v < mesh.number_of_vertices(); ++v) {
     out << v + 1 << ' ';
-    write_point(out, Mixed_meshes_3::internal::to_vec3(mesh.points()[v]), " ");
+    write_point(out, Mixed_meshes_3::to_vec3(mesh.points()[v]), " ");
     out << '\n';
   }
   out << "$EndNodes\n$Elements\n"

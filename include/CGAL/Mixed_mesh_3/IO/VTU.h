@@ -175,7 +175,7 @@ bool write_VTU(std::ostream& stream, const Mesh& mesh, const VTU_options& option
   const VTU_array points = {"Points", vtk_type_name<double>(), 3, n * 3 * sizeof(double),
                             [&mesh](Buffered_output& out) {
                               for(const auto& p : mesh.points())
-                                out.write_binary(Mixed_meshes_3::internal::to_vec3(p));
+                                out.write_binary(Mixed_meshes_3::to_vec3(p));
                             }};
 
   // Both are VTK's own types of indices; the small one halves the file.

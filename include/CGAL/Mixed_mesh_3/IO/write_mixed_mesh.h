@@ -175,7 +175,7 @@ template <class Mesh>
         return error("data \"" + array.name + "\" does not have the size of the mesh");
     }
   for(std::size_t v = 0; v < mesh.number_of_vertices(); ++v)
-    for(double x : Mixed_meshes_3::internal::to_vec3(mesh.points()[v]))
+    for(double x : Mixed_meshes_3::to_vec3(mesh.points()[v]))
       if(!std::isfinite(x))
         return error("the mesh's vertex " + std::to_string(v) + " has no finite position");
 

@@ -10,7 +10,7 @@
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_MESH_INPUT_H
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
-#include <CGAL/Mixed_mesh_3/internal/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <cerrno>
 #include <charconv>
@@ -34,7 +34,7 @@ namespace internal {
 /// A mesh as it is in a file: indices are in range, all else is to be checked.
 struct Mesh_input
 {
-  std::vector<Mixed_meshes_3::internal::Vec3> points;
+  std::vector<Mixed_meshes_3::Vec3> points;
   Element_list elements;
   std::vector<std::uint8_t> in_region;
 };

@@ -228,7 +228,7 @@ class MSH_reader
   {
     if(!std::is_sorted(m_node_tags.begin(), m_node_tags.end())) {
       std::vector<std::int64_t> tags;
-      std::vector<Mixed_meshes_3::internal::Vec3> points;
+      std::vector<Mixed_meshes_3::Vec3> points;
       for(std::size_t i : sorting_order(m_node_tags)) {
         tags.push_back(m_node_tags[i]);
         points.push_back(m_mesh.points[i]);

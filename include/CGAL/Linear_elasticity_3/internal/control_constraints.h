@@ -1,0 +1,283 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Given displacements at points of an elastic body, as constraints on a system that is factored without them.
+
+#ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_CONTROL_CONSTRAINTS_H
+#define CGAL_LINEAR_ELASTICITY_3_INTERNAL_CONTROL_CONSTRAINTS_H
+
+#include <CGAL/Linear_elasticity_3/Linear_elasticity_result_3.h>
+#include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Linear_elasticity_3/internal/rigid_modes.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// The vertices whose displacements a control point has the weighted mean of.
+using Control_weights = std::vector<std::pair<Vertex_index, double>>;
+
+/// A rigid motion that supports leave free, and the vertices that it moves.
+struct Free_motion
+{
+  Rigid_mode mode;
+  std::vector<Vertex_index> vertices;
+};
+
+struct Control_solution
+{
+  Eigen::VectorXd displacements, forces; // three for each vertex; three for each control point
+};
+
+/*!
+With the stiffness K, the weights B of the control points and the free rigid motions R (K R = 0), displacements u
+and the forces s on the control points satisfy
+
+    K u = f + B^T s,   B u + compliance s = d,   R^T (f + B^T s) = 0.
+
+K is held by as many springs as there are free motions, which bear nothing as loads are in equilibrium: so
+u = K^-1 f + W s + R c with W = K^-1 B^T, and what remains is a dense system for s and c, with S = B W and
+G = B R. It is solved as if by augmented Lagrangians, with S + g G G^T for S, which is positive definite but for
+constraints that depend on others. These are left out, and must be satisfied by themselves.
+*/
+class Control_constraints
+{
+  using Matrix = Eigen::MatrixXd;
+  using Vector = Eigen::VectorXd;
+  using Index = Eigen::Index;
+
+  static constexpr double dependence = 1e-10, miss = 1e-6; // relative
+  static constexpr Index columns_at_once = 24;
+
+  std::vector<Control_weights> m_weights;
+  double m_compliance;
+  bool m_is_solved = true;
+  Matrix m_response, m_motions;    // W, R
+  Matrix m_g, m_kernel;            // G; combinations of motions that the control points do not hold
+  double m_augmentation = 0;       // g
+  std::vector<Index> m_independent;
+  Eigen::LLT<Matrix> m_factor;     // of the augmented S, rows and columns m_independent
+  Matrix m_g_independent, m_eliminated;
+  Eigen::LDLT<Matrix> m_schur;
+
+public:
+  /// \param solve `bool(forces, displacements)`: K^-1, for several columns
+  template <class Solve>
+  Control_constraints(std::vector<Control_weights> weights, double compliance,
+                      const std::vector<Free_motion>& motions, const std::vector<Vec3>& points,
+                      const std::vector<Support>& supports, const Solve& solve)
+    : m_weights(std::move(weights)), m_compliance(compliance)
+  {
+    const Index n = 3 * Index(points.size()), rows = 3 * Index(m_weights.size());
+    m_motions = Matrix::Zero(n, Index(motions.size()));
+    for(std::size_t m = 0; m < motions.size(); ++m)
+      for(Vertex_index v : motions[m].vertices) {
+        const Vec3 u = supports[v].free_part(motions[m].mode(points[v]));
+        for(int k = 0; k < 3; ++k)
+          m_motions(3 * Index(v) + k, Index(m)) = u[k];
+      }
+    m_response.resize(n, rows);
+    for(Index first = 0; first < rows; first += columns_at_once) {
+      const Index size = (std::min)(columns_at_once, rows - first);
+      Matrix forces = Matrix::Zero(n, size), u;
+      for(Index c = 0; c < size; ++c)
+        for(const auto& [v, w] : m_weights[std::size_t(first + c) / 3])
+          forces(3 * Index(v) + (first + c) % 3, c) = w;
+      m_is_solved = solve(forces, u);
+      if(!m_is_solved)
+        return;
+      m_response.middleCols(first, size) = u;
+    }
+    eliminate();
+  }
+
+  bool is_solved() const { return m_is_solved; }
+
+  /// \param loaded the solution for the load without control points
+  /// \param load the right-hand side f of that
+  /// \param wanted displacements of the control points
+  Linear_elasticity_result_3 solve(const Vector& loaded, const Vector& load, const Vector& wanted,
+                                   const std::vector<Free_motion>& motions, Control_solution& solution) const
+  {
+    Linear_elasticity_result_3 result;
+    if(m_kernel.cols() > 0) {
+      result.status = Linear_elasticity_status::FREE_RIGID_MOTION;
+      result.number_of_free_motions = int(m_kernel.cols());
+      result.motion = combination(motions, m_kernel.col(0));
+      return result;
+    }
+    const Vector equilibrium = -(m_motions.transpose() * load);
+    Vector right = wanted - at_points(loaded) + m_augmentation * (m_g * equilibrium);
+    Vector s = m_independent.empty() ? Vector() : m_factor.solve(pick(right)).eval();
+    Vector c = Vector::Zero(m_motions.cols());
+    if(c.size() > 0) {
+      c = m_schur.solve(m_g_independent.transpose() * s - equilibrium);
+      s -= m_eliminated * c;
+    }
+    solution.forces = Vector::Zero(wanted.size());
+    for(std::size_t i = 0; i < m_independent.size(); ++i)
+      solution.forces[m_independent[i]] = s[Index(i)];
+    solution.displacements = loaded;
+    if(wanted.size() > 0)
+      solution.displacements += m_response * solution.forces;
+    if(c.size() > 0)
+      solution.displacements += m_motions * c;
+
+    const Vector missed = at_points(solution.displacements) + m_compliance * solution.forces - wanted;
+    const double bound = tolerance(solution.displacements, wanted);
+    for(std::size_t p = 0; p < m_weights.size(); ++p) {
+      const double distance = missed.segment<3>(3 * Index(p)).norm();
+      if(distance > bound && distance > result.distance) {
+        result.status = Linear_elasticity_status::CONTRADICTORY_CONTROL_POINTS;
+        result.control_point = p;
+        result.distance = distance;
+      }
+    }
+    return result;
+  }
+
+  /// Whether the control points move vertices of a set only.
+  bool is_on(const std::vector<bool>& vertices) const
+  {
+    for(const Control_weights& weights : m_weights)
+      for(const auto& weight : weights)
+        if(!vertices[weight.first])
+          return false;
+    return true;
+  }
+
+  /// Whether displacements are those wanted, up to rounding. \pre no compliance
+  bool is_satisfied(const Vector& u, const Vector& wanted) const
+  {
+    return wanted.size() == 0
+           || (at_points(u) - wanted).lpNorm<Eigen::Infinity>() <= tolerance(u, wanted);
+  }
+
+  /// Adds B^T s.
+  void add_forces(const Vector& s, Vector& f) const
+  {
+    for(std::size_t p = 0; p < m_weights.size(); ++p)
+      for(const auto& [v, w] : m_weights[p])
+        f.segment<3>(3 * Index(v)) += w * s.segment<3>(3 * Index(p));
+  }
+
+private:
+  static double tolerance(const Vector& u, const Vector& wanted)
+  {
+    const auto largest = [](const Vector& x) { return x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0; };
+    return miss * (std::max)(largest(u), largest(wanted));
+  }
+
+  // B u, for each column.
+  Matrix at_points(const Matrix& u) const
+  {
+    Matrix at = Matrix::Zero(3 * Index(m_weights.size()), u.cols());
+    for(std::size_t p = 0; p < m_weights.size(); ++p)
+      for(const auto& [v, w] : m_weights[p])
+        at.middleRows<3>(3 * Index(p)) += w * u.middleRows<3>(3 * Index(v));
+    return at;
+  }
+
+  Vector pick(const Vector& x) const
+  {
+    Vector y(Index(m_independent.size()));
+    for(std::size_t i = 0; i < m_independent.size(); ++i)
+      y[Index(i)] = x[m_independent[i]];
+    return y;
+  }
+
+  void eliminate()
+  {
+    const Index rows = 3 * Index(m_weights.size()), motions = m_motions.cols();
+    m_g = at_points(m_motions);
+    Matrix s = at_points(m_response);
+    s = (0.5 * (s + s.transpose())).eval();
+    s.diagonal().array() += m_compliance;
+    if(motions > 0) {
+      const Matrix held = m_g.transpose() * m_g;
+      const Eigen::SelfAdjointEigenSolver<Matrix> eigen(held);
+      Index free = 0;
+      while(free < motions && eigen.eigenvalues()[free] <= dependence * held.trace())
+        ++free;
+      m_kernel = eigen.eigenvectors().leftCols(free);
+      if(free > 0)
+        return;
+      m_augmentation = s.trace() > 0 ? s.trace() / held.trace() : 1;
+      s += m_augmentation * m_g * m_g.transpose();
+    }
+    find_independent(s);
+    const Index size = Index(m_independent.size());
+    Matrix independent(size, size);
+    m_g_independent.resize(size, motions);
+    for(Index i = 0; i < size; ++i) {
+      for(Index j = 0; j < size; ++j)
+        independent(i, j) = s(m_independent[std::size_t(i)], m_independent[std::size_t(j)]);
+      m_g_independent.row(i) = m_g.row(m_independent[std::size_t(i)]);
+    }
+    if(rows > 0 && size > 0)
+      m_factor.compute(independent);
+    if(motions > 0) {
+      m_eliminated = m_factor.solve(m_g_independent);
+      m_schur.compute(m_g_independent.transpose() * m_eliminated);
+    }
+  }
+
+  // Cholesky's factorization, which as a rule shows that all constraints are independent; else with pivots, as
+  // long as these are not negligible.
+  void find_independent(Matrix s)
+  {
+    const Index n = s.rows();
+    const double bound = n > 0 ? dependence * s.diagonal().maxCoeff() : 0;
+    const Eigen::LLT<Matrix> factor(s);
+    if(n == 0
+       || (factor.info() == Eigen::Success && factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() > bound)) {
+      for(Index i = 0; i < n; ++i)
+        m_independent.push_back(i);
+      return;
+    }
+    for(Index step = 0; step < n; ++step) {
+      Index pivot = 0;
+      const double largest = s.diagonal().maxCoeff(&pivot);
+      if(!(largest > bound))
+        break;
+      m_independent.push_back(pivot);
+      const Vector column = s.col(pivot) / std::sqrt(largest);
+      s.noalias() -= column * column.transpose();
+      s.row(pivot).setZero();
+      s.col(pivot).setZero();
+    }
+    std::sort(m_independent.begin(), m_independent.end());
+  }
+
+  // The motion of the part of the body that moves most.
+  static Rigid_motion_3 combination(const std::vector<Free_motion>& motions, const Vector& factors)
+  {
+    Index most = 0;
+    factors.cwiseAbs().maxCoeff(&most);
+    const Vec3 center = motions[std::size_t(most)].mode.center;
+    Vec3 translation{}, rotation{};
+    for(std::size_t m = 0; m < motions.size(); ++m)
+      if(motions[m].vertices == motions[std::size_t(most)].vertices) {
+        translation = translation + factors[Index(m)] * motions[m].mode.translation;
+        rotation = rotation + factors[Index(m)] * motions[m].mode.rotation;
+      }
+    return {translation, rotation, center};
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_LINEAR_ELASTICITY_3_INTERNAL_CONTROL_CONSTRAINTS_H

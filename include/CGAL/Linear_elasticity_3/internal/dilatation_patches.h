@@ -1,0 +1,112 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Tetrahedra and prisms in patches of which each has one dilatation, against volumetric locking:
+// E. A. de Souza Neto, F. M. Andrade Pires, D. R. J. Owen: "F-bar-based linear triangles and tetrahedra for finite
+// strain analysis of nearly incompressible solids. Part I", Int. J. Numer. Meth. Engng 62, 2005.
+
+#ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_DILATATION_PATCHES_H
+#define CGAL_LINEAR_ELASTICITY_3_INTERNAL_DILATATION_PATCHES_H
+
+#include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+using Patches = std::vector<std::vector<Element_index>>;
+
+/*!
+A partition of the tetrahedra: stars of vertices, the largest first, as far as their tetrahedra are not taken
+yet. What is left in smaller stars joins the smallest patch around it. A linear tetrahedron alone has a third of
+the displacements that its constraint of volume takes; a patch of `wanted_size` or more has enough.
+
+Then prisms in pairs with a common quadrilateral: a prism alone has half of the displacements that a hexahedron
+has for its constraint, and bent in the plane of its triangles it locks as these do. What finds no partner is in
+no patch.
+
+\param is_together `bool(e, f)`: whether two elements may have one dilatation: they are of one material. For
+       `e == f`, whether it may be in a patch at all
+\cost linear
+*/
+template <class Is_together>
+Patches dilatation_patches(const Element_list& elements, std::size_t number_of_vertices,
+                           const Is_together& is_together)
+{
+  constexpr std::size_t wanted_size = 8, no_patch = std::size_t(-1);
+  std::vector<std::vector<Element_index>> stars(number_of_vertices);
+  std::size_t largest = 0;
+  for(Element_index e = 0; e < elements.size(); ++e)
+    if(elements[e].kind() == TETRAHEDRON && is_together(e, e))
+      for(Vertex_index v : elements[e]) {
+        stars[v].push_back(e);
+        largest = (std::max)(largest, stars[v].size());
+      }
+  std::vector<std::vector<Vertex_index>> vertices_by_size(largest + 1);
+  for(Vertex_index v = 0; v < number_of_vertices; ++v)
+    vertices_by_size[stars[v].size()].push_back(v);
+
+  Patches patches;
+  std::vector<std::size_t> patch_of(elements.size(), no_patch);
+  const auto join = [&](Element_index e, std::size_t patch) {
+    patch_of[e] = patch;
+    patches[patch].push_back(e);
+  };
+  std::vector<Element_index> left;
+  for(std::size_t size = largest; size > 0; --size)
+    for(std::size_t i = 0; i < vertices_by_size[size].size(); ++i) {
+      const Vertex_index v = vertices_by_size[size][i];
+      const std::vector<Element_index>& star = stars[v];
+      left.clear();
+      for(Element_index e : star)
+        if(patch_of[e] == no_patch && (left.empty() || is_together(left.front(), e)))
+          left.push_back(e);
+      if(left.empty())
+        continue;
+      if(left.size() < size) { // some have been taken since: later, among its equals
+        vertices_by_size[left.size()].push_back(v);
+        continue;
+      }
+      std::size_t patch = no_patch;
+      if(size < wanted_size)
+        for(Element_index e : star)
+          if(patch_of[e] != no_patch && is_together(left.front(), e)
+             && (patch == no_patch || patches[patch_of[e]].size() < patches[patch].size()))
+            patch = patch_of[e];
+      if(patch == no_patch) {
+        patch = patches.size();
+        patches.emplace_back();
+      }
+      for(Element_index e : left)
+        join(e, patch);
+      vertices_by_size[size].push_back(v); // for what is left of it in other materials
+    }
+
+  for_each_face(elements, number_of_vertices, [](Vertex_index) { return true; },
+                [&](const Face_handle* f, std::size_t n) {
+                  if(n != 2)
+                    return;
+                  const Element_index a = f[0].element, b = f[1].element;
+                  if(elements[a].kind() == PRISM && elements[b].kind() == PRISM
+                     && reference_elements[PRISM].faces[f[0].local_face].size == 4 && patch_of[a] == no_patch
+                     && patch_of[b] == no_patch && is_together(a, b)) {
+                    patches.emplace_back();
+                    join(a, patches.size() - 1);
+                    join(b, patches.size() - 1);
+                  }
+                });
+  return patches;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_LINEAR_ELASTICITY_3_INTERNAL_DILATATION_PATCHES_H

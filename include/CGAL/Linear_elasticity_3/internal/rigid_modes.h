@@ -1,0 +1,135 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which rigid motions the supports of a body leave free.
+
+#ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_RIGID_MODES_H
+#define CGAL_LINEAR_ELASTICITY_3_INTERNAL_RIGID_MODES_H
+
+#include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// What holds a vertex: orthonormal directions in which its displacement is given, and that displacement.
+struct Support
+{
+  int size = 0;
+  std::array<Vec3, 3> directions{};
+  Vec3 displacement{}; // zero in the other directions
+
+  /// Holds the vertex in one direction more, unless it is held there already.
+  void add(Vec3 d)
+  {
+    const double length = norm(d);
+    for(int i = 0; i < size; ++i)
+      d = d - dot(directions[i], d) * directions[i];
+    if(size < 3 && norm(d) > 1e-8 * length)
+      directions[size++] = (1 / norm(d)) * d;
+  }
+
+  /// The part of a vector in the directions that are free.
+  Vec3 free_part(Vec3 u) const
+  {
+    for(int i = 0; i < size; ++i)
+      u = u - dot(directions[i], u) * directions[i];
+    return u;
+  }
+};
+
+/// A rigid motion: displacement `translation + rotation x (p - center)` at `p`.
+struct Rigid_mode
+{
+  Vec3 translation, rotation, center;
+  Vec3 operator()(const Vec3& p) const { return translation + cross(rotation, p - center); }
+};
+
+/// The vertices of each connected part of some elements: connected by common vertices.
+template <class Is_kept>
+std::vector<std::vector<Vertex_index>> connected_vertices(const Element_list& elements,
+                                                          std::size_t number_of_vertices, const Is_kept& is_kept)
+{
+  std::vector<Vertex_index> parent(number_of_vertices);
+  std::iota(parent.begin(), parent.end(), Vertex_index(0));
+  const auto root = [&](Vertex_index v) {
+    while(parent[v] != v)
+      v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  std::vector<bool> is_used(number_of_vertices, false);
+  for(Element_index e = 0; e < elements.size(); ++e)
+    if(is_kept(e))
+      for(Vertex_index v : elements[e]) {
+        is_used[v] = true;
+        const Vertex_index a = root(v), b = root(elements[e][0]);
+        parent[(std::max)(a, b)] = (std::min)(a, b);
+      }
+  std::vector<std::vector<Vertex_index>> parts;
+  std::vector<std::size_t> part_of(number_of_vertices, 0);
+  for(Vertex_index v = 0; v < number_of_vertices; ++v)
+    if(is_used[v]) {
+      if(root(v) == v) {
+        part_of[v] = parts.size();
+        parts.emplace_back();
+      }
+      parts[part_of[root(v)]].push_back(v);
+    }
+  return parts;
+}
+
+/*!
+A basis of the rigid motions of a body that its supports allow.
+
+The motions that a support forbids have a component in its directions; the squares of these make a 6x6 matrix,
+whose kernel is what is free. Rotations are scaled by the size of the body, so that all entries are lengths.
+*/
+inline std::vector<Rigid_mode> free_rigid_modes(const std::vector<Vertex_index>& vertices,
+                                                const std::vector<Vec3>& points,
+                                                const std::vector<Support>& supports)
+{
+  constexpr double tolerance = 1e-11; // of the kernel, relative to the trace
+  Vec3 center{};
+  for(Vertex_index v : vertices)
+    center = center + (1 / double(vertices.size())) * points[v];
+  double size = 0;
+  for(Vertex_index v : vertices)
+    size = (std::max)(size, norm(points[v] - center));
+
+  using Vector_6 = Eigen::Matrix<double, 6, 1>;
+  Eigen::Matrix<double, 6, 6> held = Eigen::Matrix<double, 6, 6>::Zero();
+  for(Vertex_index v : vertices)
+    for(int i = 0; i < supports[v].size; ++i) {
+      const Vec3& d = supports[v].directions[i];
+      const Vec3 moment = (1 / size) * cross(points[v] - center, d);
+      Vector_6 row;
+      row << d[0], d[1], d[2], moment[0], moment[1], moment[2];
+      held += row * row.transpose();
+    }
+  std::vector<Rigid_mode> modes;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(held);
+  const double bound = tolerance * held.trace();
+  for(int i = 0; i < 6; ++i)
+    if(solver.eigenvalues()[i] <= bound) {
+      const Vector_6 m = solver.eigenvectors().col(i);
+      modes.push_back({{m[0], m[1], m[2]}, {m[3] / size, m[4] / size, m[5] / size}, center});
+    }
+  return modes;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_LINEAR_ELASTICITY_3_INTERNAL_RIGID_MODES_H

@@ -1,0 +1,66 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Plain doubles for measures (lengths, volumes, quality). Decisions use the kernel's predicates.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_BASE_VECTOR_3_H
+#define CGAL_MIXED_MESH_3_INTERNAL_BASE_VECTOR_3_H
+
+#include <CGAL/double.h>
+#include <CGAL/number_utils.h>
+
+#include <array>
+#include <cmath>
+
+namespace CGAL {
+
+template <class ET>
+class Lazy_exact_nt;
+
+namespace Mixed_meshes_3 {
+
+/// A vector, or a position, in doubles. A type of our own, so that its operators are found by argument-dependent
+/// lookup.
+struct Vec3 : std::array<double, 3>
+{
+  Vec3() = default; // `Vec3{}` is zero
+  constexpr Vec3(double x, double y, double z) : std::array<double, 3>{x, y, z} {}
+  constexpr Vec3(const std::array<double, 3>& a) : std::array<double, 3>(a) {}
+};
+
+// A lazy number rounds to a double that depends on what was asked of it before, unless it is made exact.
+template <class FT>
+double rounded(const FT& x)
+{
+  return CGAL::to_double(x);
+}
+
+template <class ET>
+double rounded(const CGAL::Lazy_exact_nt<ET>& x)
+{
+  return CGAL::to_double(x.exact());
+}
+
+template <class Point>
+Vec3 to_vec3(const Point& p)
+{
+  return {rounded(p.x()), rounded(p.y()), rounded(p.z())};
+}
+
+inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline Vec3 operator*(double s, const Vec3& a) { return {s * a[0], s * a[1], s * a[2]}; }
+inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
+inline Vec3 cross(const Vec3& a, const Vec3& b)
+{
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline double determinant(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(cross(a, b), c); }
+
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_BASE_VECTOR_3_H

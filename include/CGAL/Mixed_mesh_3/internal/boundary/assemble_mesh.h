@@ -1,0 +1,68 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// From lattice to points: the last stage.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_ASSEMBLE_MESH_H
+#define CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_ASSEMBLE_MESH_H
+
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/boundary/Boundary_stage.h>
+#include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// Puts kept elements and pieces together, numbers the vertices in the order of their first use.
+template <class Octree_, class Mesh>
+void assemble_mesh(const Octree_& octree, const Lattice_mesh& lattice, const Boundary_pieces& boundary,
+                   Mesh& mesh)
+{
+  using Point_3 = typename Mesh::Point_3;
+  std::vector<Vertex_index> numbers(lattice.vertices.size(), Vertex_index(-1));
+  std::vector<Point_3> points;
+  Element_list elements;
+  std::vector<std::uint8_t> in_region, is_inner;
+  points.reserve(boundary.number_of_vertices);
+  elements.reserve(lattice.elements.size(), lattice.elements.connectivity().size());
+  in_region.reserve(lattice.elements.size());
+
+  const auto add = [&](const Element_view& element, Element_index origin) {
+    Vertex_index v[8];
+    for(int i = 0; i < element.size(); ++i) {
+      Vertex_index& number = numbers[element[i]];
+      if(number == Vertex_index(-1)) {
+        number = Vertex_index(points.size());
+        const auto p = octree.point(lattice.vertices[element[i]]);
+        points.emplace_back(p.x(), p.y(), p.z());
+        is_inner.push_back(lattice.is_inside(element[i]) && !lattice.is_on_rim[element[i]]);
+      }
+      v[i] = number;
+    }
+    elements.add(element.kind(), &v[0]);
+    in_region.push_back(octree.is_in_region(lattice.cells[origin]));
+  };
+  std::size_t piece = 0;
+  for(Element_index e = 0; e < lattice.elements.size(); ++e) {
+    if(!boundary.is_replaced[e])
+      add(lattice.elements[e], e);
+    for(; piece < boundary.pieces.size() && boundary.origins[piece] == e; ++piece)
+      add(boundary.pieces[piece], e);
+  }
+  mesh.assign(std::move(points), std::move(elements), std::move(in_region));
+  mesh.set_boundary_faces(boundary_faces(mesh, [&](Vertex_index v) { return !is_inner[v]; }));
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_ASSEMBLE_MESH_H

@@ -1,0 +1,59 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What octree meshes lose: parts of the domain that no octree vertex is inside of.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_LOST_CELLS_H
+#define CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_LOST_CELLS_H
+
+#include <CGAL/Mixed_mesh_3/internal/boundary/Boundary_stage.h>
+#include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/balance.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// The leaves that meet the domain while neither they nor their neighbors have elements: the domain is
+/// thinner there than a cell.
+template <class Octree_>
+std::vector<Octree::Node_index> lost_cells(const Octree_& located, const Lattice_mesh& mesh,
+                                           const Boundary_pieces& boundary)
+{
+  const Octree& octree = located.octree();
+  std::vector<std::uint8_t> is_meshed(octree.size(), 0);
+  for(std::size_t e = 0; e < mesh.cells.size(); ++e)
+    if(!boundary.is_replaced[e])
+      is_meshed[mesh.cells[e]] = 1;
+  for(Element_index e : boundary.origins)
+    is_meshed[mesh.cells[e]] = 1;
+  for(Octree::Node_index n = Octree::Node_index(octree.size()) - 1; n > 0; --n)
+    if(is_meshed[n])
+      is_meshed[octree.parent(n)] = 1;
+
+  const auto directions = neighbor_directions(Adjacency::VERTEX);
+  std::vector<Octree::Node_index> lost;
+  for(Octree::Node_index n = 0; n < octree.size(); ++n)
+    if(octree.is_leaf(n) && located.is_alive(n) && !is_meshed[n]
+       && std::none_of(directions.begin(), directions.end(), [&](const std::array<int, 3>& d) {
+            const Octree::Node_index m = octree.neighbor(n, d);
+            return m != Octree::no_node && is_meshed[m];
+          }))
+      lost.push_back(n);
+  return lost;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_LOST_CELLS_H

@@ -1,0 +1,96 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The boundary of a set of elements as a surface: is it a closed 2-manifold, and where is it not.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_MANIFOLD_DEFECTS_H
+#define CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_MANIFOLD_DEFECTS_H
+
+#include <CGAL/Mixed_mesh_3/Element_list.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// A polygon of three or four vertices in the cyclic order of its orientation.
+struct Boundary_polygon
+{
+  std::array<Vertex_index, 4> vertices;
+  int size;
+};
+
+/// Where a set of oriented polygons is not a closed oriented 2-manifold.
+struct Manifold_defects
+{
+  std::vector<std::array<Vertex_index, 2>> edges; ///< not once in each direction
+  std::vector<Vertex_index> vertices;             ///< with more than one fan of polygons around
+  bool empty() const { return edges.empty() && vertices.empty(); }
+};
+
+/// \cost O(n log n) for n polygons
+inline Manifold_defects manifold_defects(const std::vector<Boundary_polygon>& polygons)
+{
+  Manifold_defects defects;
+
+  // Each edge once in each direction.
+  std::vector<std::array<Vertex_index, 3>> edges; // smaller, larger, is reversed
+  for(const Boundary_polygon& p : polygons)
+    for(int i = 0; i < p.size; ++i) {
+      const Vertex_index a = p.vertices[i], b = p.vertices[(i + 1) % p.size];
+      edges.push_back({(std::min)(a, b), (std::max)(a, b), a > b});
+    }
+  std::sort(edges.begin(), edges.end());
+  for(std::size_t i = 0, j; i < edges.size(); i = j) {
+    for(j = i; j < edges.size() && edges[j][0] == edges[i][0] && edges[j][1] == edges[i][1];)
+      ++j;
+    if(j - i != 2 || edges[i][2] == edges[i + 1][2])
+      defects.edges.push_back({edges[i][0], edges[i][1]});
+  }
+
+  // Around each vertex, the links (predecessor to successor in each polygon) form one cycle.
+  struct Link
+  {
+    Vertex_index vertex, from, to;
+    bool operator<(const Link& l) const
+    {
+      return std::tie(vertex, from, to) < std::tie(l.vertex, l.from, l.to);
+    }
+  };
+  std::vector<Link> links;
+  for(const Boundary_polygon& p : polygons)
+    for(int i = 0; i < p.size; ++i)
+      links.push_back({p.vertices[i], p.vertices[(i + 1) % p.size],
+                       p.vertices[(i + p.size - 1) % p.size]});
+  std::sort(links.begin(), links.end());
+  for(auto first = links.begin(), last = first; first != links.end(); first = last) {
+    while(last != links.end() && last->vertex == first->vertex)
+      ++last;
+    std::ptrdiff_t length = 0;
+    Vertex_index v = first->from;
+    do {
+      const auto next = std::lower_bound(first, last, Link{first->vertex, v, 0});
+      if(next == last || next->from != v)
+        break;
+      v = next->to;
+      ++length;
+    } while(v != first->from && length <= last - first);
+    if(v != first->from || length != last - first)
+      defects.vertices.push_back(first->vertex);
+  }
+  return defects;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_MANIFOLD_DEFECTS_H

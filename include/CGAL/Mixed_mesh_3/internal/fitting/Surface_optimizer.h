@@ -1,0 +1,246 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The optimization as a whole: the boundary arrives on the surface, then moves and flips alternate.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_OPTIMIZER_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_OPTIMIZER_H
+
+#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/flips.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/surface_attraction.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_optimizer.h>
+#include <CGAL/Mixed_mesh_optimization_criteria_3.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/*!
+\tparam Domain has `Point_3`, `closest_point(p)`, `closest_point(p, hint)` and `surface_samples(spacing)`
+\tparam Quality a model of `MixedMeshQuality_3`
+*/
+template <class Mesh, class Domain, class Quality>
+class Surface_optimizer
+{
+  using Project = Surface_projection<Domain>;
+  using Moves = Vertex_optimizer<Quality, Project>;
+  using Attraction_ = Surface_attraction<Project>;
+
+  Mesh& m_mesh;
+  const Domain& m_domain;
+  const Mixed_mesh_optimization_criteria_3& m_criteria;
+  const Quality m_quality;
+  Project m_project;
+  std::vector<Boundary_polygon> m_boundary;
+  Working_mesh m_working;
+  Moves m_moves;
+  std::vector<Vec3> m_samples;
+  Attraction_ m_attraction;
+  std::vector<std::pair<Vertex_index, Vec3>> m_travelers; // not on the surface yet, with their targets
+  std::vector<std::uint8_t> m_is_arrived;
+  Mixed_mesh_optimization_result_3 m_result;
+
+  // While the boundary arrives, elements may become that bad; in each round more, as what does not go
+  // gently shall go nevertheless.
+  static constexpr double acceptable_at_first = 4, acceptable_growth = 1.25, acceptable_at_most = 100,
+                          acceptable_late = 10;
+  static constexpr int arrival_rounds = 40, arrival_sweeps = 2, rounds_until_new_target = 8;
+  static constexpr int retreat_rounds = 24;
+  static constexpr double retreat_cost = 1000;
+  // The fourth power serves all elements, the eighth the worst ones: vertices whose elements are all
+  // better than that stay then, and tetrahedra are not flipped.
+  static constexpr double good_enough[2] = {1.02, 1.4}, worth_flipping[2] = {1.2, 1.4};
+  static constexpr double share_of_first_power = 0.6;
+
+public:
+  Surface_optimizer(Mesh& mesh, const Domain& domain, const Mixed_mesh_optimization_criteria_3& criteria,
+                    const Quality& quality)
+    : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality), m_project(domain),
+      m_boundary(boundary_polygons(mesh)), m_working(mesh, m_boundary),
+      m_moves(m_working, m_quality, m_project, criteria.sliding_threshold()),
+      m_samples(surface_samples()),
+      m_attraction(m_working, m_project, m_samples, criteria.tolerance()),
+      m_is_arrived(m_working.points.size(), 0)
+  {
+    m_attraction.set_boundary(m_boundary);
+  }
+
+  template <class Go_on>
+  Mixed_mesh_optimization_result_3 operator()(const Go_on& go_on)
+  {
+    using Status = Mixed_mesh_optimization_status;
+    const std::vector<Vec3> start = m_working.points;
+    const bool is_stopped = !arrive(go_on) || !alternate(go_on);
+    retreat_from_self_intersections(start);
+    if(m_criteria.tolerance() > 0) {
+      m_attraction.measure();
+      m_result.largest_distance = m_attraction.largest_distance();
+    }
+    m_working.store(m_mesh);
+    const bool is_fitted = m_result.number_of_arrived_vertices == m_result.number_of_boundary_vertices
+                           && m_result.is_boundary_simple;
+    m_result.status = is_stopped   ? Status::STOPPED
+                      : !is_fitted ? Status::NOT_ALL_ARRIVED
+                      : m_result.largest_distance > m_criteria.tolerance() ? Status::TOLERANCE_NOT_REACHED
+                                                                           : Status::SUCCESS;
+    return m_result;
+  }
+
+  /// Points of the surface that are farther from the boundary than a multiple of the tolerance.
+  std::vector<Vec3> far_points(double multiple) const { return m_attraction.far_points(multiple); }
+
+private:
+  // Closer ones than twice the tolerance would rarely be farther off; much closer ones than the boundary's
+  // vertices could not draw these to different places.
+  std::vector<Vec3> surface_samples() const
+  {
+    std::vector<Vec3> samples;
+    if(m_criteria.tolerance() > 0)
+      for(const auto& p :
+          m_domain.surface_samples((std::max)(2 * m_criteria.tolerance(), mean_edge_length() / 6)))
+        samples.push_back(to_vec3(p));
+    return samples;
+  }
+
+  double mean_edge_length() const
+  {
+    double sum = 0;
+    std::size_t count = 0;
+    for(const Boundary_polygon& p : m_boundary)
+      for(int i = 0; i < p.size; ++i, ++count)
+        sum += norm(m_working.points[p.vertices[i]] - m_working.points[p.vertices[(i + 1) % p.size]]);
+    return count > 0 ? sum / double(count) : 0;
+  }
+
+  // Each boundary vertex goes to its target, all the way or part of it, as far as validity and quality
+  // allow; then the inner vertices give way, and the next round follows.
+  template <class Go_on>
+  bool arrive(const Go_on& go_on)
+  {
+    const Surface_targets targets = surface_targets(m_boundary, m_working.points, m_domain);
+    m_result.number_of_boundary_vertices = targets.vertices.size();
+    for(std::size_t i = 0; i < targets.vertices.size(); ++i) {
+      // what is on the surface stays, even if its faces are folded
+      const Vec3& p = m_working.points[targets.vertices[i]];
+      const Vec3 q = m_project(p, targets.positions[i]);
+      const bool is_there = norm(q - p) <= 1e-14 * (norm(p) + norm(targets.positions[i] - p));
+      m_travelers.emplace_back(targets.vertices[i], is_there ? p : targets.positions[i]);
+    }
+    double acceptable = acceptable_at_first;
+    for(int round = 0; round < arrival_rounds && !m_travelers.empty(); ++round) {
+      if(!go_on())
+        return false;
+      advance(acceptable);
+      m_moves.run(4, good_enough[0], arrival_sweeps);
+      acceptable = (std::min)(acceptable_growth * acceptable, acceptable_at_most);
+      if(round % rounds_until_new_target == rounds_until_new_target - 1)
+        choose_new_targets();
+    }
+    return true;
+  }
+
+  // Where the surface comes near to itself, faces between its vertices may meet. Their vertices go back
+  // towards where they came from, where no faces met, until none meet.
+  void retreat_from_self_intersections(const std::vector<Vec3>& start)
+  {
+    std::vector<Vertex_index> crossing = vertices_of_self_intersections(m_working.points, m_boundary);
+    for(int round = 0; round < retreat_rounds && !crossing.empty(); ++round) {
+      const double share = round < retreat_rounds / 2 ? 0.25 : 1;
+      for(Vertex_index v : crossing)
+        if(m_moves.try_move(v, m_working.points[v] + share * (start[v] - m_working.points[v]), retreat_cost)) {
+          m_moves.fix(v);
+          m_result.number_of_arrived_vertices -= m_is_arrived[v];
+          m_is_arrived[v] = 0;
+        }
+      m_moves.run(8, good_enough[1], arrival_sweeps);
+      crossing = vertices_of_self_intersections(m_working.points, m_boundary);
+    }
+    m_result.is_boundary_simple = crossing.empty();
+  }
+
+  // The boundary vertices that are not on the surface go on.
+  void advance(double acceptable)
+  {
+    m_travelers.erase(std::remove_if(m_travelers.begin(), m_travelers.end(),
+                                      [&](const auto& t) { return move_to(t.first, t.second, acceptable); }),
+                       m_travelers.end());
+  }
+
+  // What can not get to its target may get to the surface where it has come near to it.
+  void choose_new_targets()
+  {
+    for(auto& [v, target] : m_travelers)
+      target = m_project(m_working.points[v], target);
+  }
+
+  bool move_to(Vertex_index v, const Vec3& target, double acceptable)
+  {
+    if(m_moves.try_move(v, target, acceptable)) {
+      m_moves.release(v);
+      m_is_arrived[v] = 1;
+      ++m_result.number_of_arrived_vertices;
+      return true;
+    }
+    const Vec3 p = m_working.points[v];
+    for(double share : {0.5, 0.25, 0.1})
+      if(m_moves.try_move(v, p + share * (target - p), acceptable))
+        break;
+    return false;
+  }
+
+  std::size_t flip(Tetrahedron_flipper<Quality>& flipper, double power, double worst)
+  {
+    const std::size_t removals = flipper.number_of_removals();
+    const std::size_t flips = flipper.run(power, worst, [&](Vertex_index v) { m_moves.activate(v); });
+    if(flipper.number_of_removals() != removals) {
+      m_boundary = m_working.boundary_polygons();
+      m_attraction.set_boundary(m_boundary);
+    }
+    return flips;
+  }
+
+  template <class Go_on>
+  bool alternate(const Go_on& go_on)
+  {
+    const bool has_tolerance = m_criteria.tolerance() > 0;
+    const int rounds = m_criteria.number_of_rounds(), first = int(share_of_first_power * rounds + 0.5);
+    const int sweeps = has_tolerance ? 3 : 8, rounds_to_flip = has_tolerance ? 3 : 1;
+    Tetrahedron_flipper<Quality> flipper(m_working, m_quality);
+    for(int round = 0; round < rounds; ++round) {
+      if(!go_on())
+        return false;
+      const int phase = round < first ? 0 : 1;
+      const double power = phase == 0 ? 4 : 8;
+      if(m_criteria.flips() && round % rounds_to_flip == 0)
+        m_result.number_of_flips += flip(flipper, power, worth_flipping[phase]);
+      choose_new_targets();
+      advance(acceptable_late);
+      if(round == 0 || round == first)
+        m_moves.activate_all();
+      if(has_tolerance) {
+        m_attraction.measure();
+        m_moves.attract(m_attraction.attractions(phase == 0 ? 1 : 16));
+      }
+      m_moves.run(power, good_enough[phase], sweeps);
+      ++m_result.number_of_rounds;
+    }
+    return true;
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_OPTIMIZER_H

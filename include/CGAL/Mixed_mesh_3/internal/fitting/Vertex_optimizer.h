@@ -1,0 +1,251 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Moves vertices, one by one, to where the elements around them are best.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_VERTEX_OPTIMIZER_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_VERTEX_OPTIMIZER_H
+
+#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// What draws a boundary vertex to a place: `weight` times the squared distance adds to what is minimized.
+struct Attraction
+{
+  Vec3 place{};
+  double weight = 0;
+};
+
+/*!
+Descends, vertex after vertex, on the sum of the powers of the costs of the elements around it. A move is made
+only if that sum falls and all these elements are proved positive, so validity is never left.
+
+Boundary vertices slide on the surface, and only where an element is bad (free sliding would lose volume) or
+an attraction draws them.
+
+\tparam Quality a model of `MixedMeshQuality_3`
+\tparam Project `Vec3(Vec3 p, Vec3 hint)`: a point of the surface near p; the hint is on the surface
+*/
+template <class Quality, class Project>
+class Vertex_optimizer
+{
+  Working_mesh& m_mesh;
+  const Quality& m_quality;
+  const Project& m_project;
+  const double m_worth_sliding;
+  std::vector<double> m_radii;            // of the next trial step of each vertex; 0: not known
+  std::vector<std::uint8_t> m_is_active;  // whether it may have something to gain
+  std::vector<std::uint8_t> m_is_fixed;
+  std::vector<Attraction> m_attractions;  // one for each vertex, or none
+  std::vector<double> m_costs;            // of each element; negative: not known
+  std::vector<double> m_trial_costs;      // of the elements around the vertex that is moved
+  double m_power = 4;
+  double m_good_enough = 1;
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  // The first trial step, as a share of the shortest edge; steps grow and shrink by how they succeed.
+  static constexpr double first_step = 0.1, growth = 1.5, shrinkage = 0.4, smallest_step = 0.01;
+  // A gain that wakes the neighbors, as a share of the sum.
+  static constexpr double notable_gain = 3e-3;
+
+public:
+  /// \param worth_sliding boundary vertices slide if an element has a larger cost
+  Vertex_optimizer(Working_mesh& mesh, const Quality& quality, const Project& project, double worth_sliding)
+    : m_mesh(mesh), m_quality(quality), m_project(project), m_worth_sliding(worth_sliding),
+      m_radii(mesh.points.size(), 0), m_is_active(mesh.points.size(), 0), m_is_fixed(mesh.is_on_boundary)
+  {}
+
+  /// Boundary vertices are fixed until they are on the surface.
+  void release(Vertex_index v) { m_is_fixed[v] = 0; }
+  void fix(Vertex_index v) { m_is_fixed[v] = 1; }
+
+  void activate(Vertex_index v) { m_is_active[v] = 1; }
+  void activate_all() { std::fill(m_is_active.begin(), m_is_active.end(), 1); }
+
+  void activate_around(Vertex_index v)
+  {
+    for(Element_index e : m_mesh.incident[v])
+      for(Vertex_index u : m_mesh.elements[e])
+        m_is_active[u] = 1;
+  }
+
+  /// Replaces the attractions.
+  void attract(std::vector<Attraction> attractions)
+  {
+    m_attractions = std::move(attractions);
+    for(Vertex_index v = 0; v < m_attractions.size(); ++v)
+      if(m_attractions[v].weight > 0)
+        activate_around(v);
+  }
+
+  /// Sweeps over the active vertices, until none is or often enough.
+  /// \param good_enough vertices stay where no element has a larger cost
+  void run(double power, double good_enough, int sweeps)
+  {
+    m_power = power;
+    m_good_enough = good_enough;
+    bool moved = true;
+    for(int sweep = 0; sweep < sweeps && moved; ++sweep) {
+      moved = false;
+      for(Vertex_index v = 0; v < m_mesh.points.size(); ++v)
+        if(m_is_active[v]) {
+          m_is_active[v] = 0;
+          moved = improve(v) || moved;
+        }
+    }
+  }
+
+  /// Moves a vertex if all elements around it stay positive, and none gets worse than `acceptable`, or than
+  /// the worst of them is.
+  bool try_move(Vertex_index v, const Vec3& p, double acceptable)
+  {
+    double limit = acceptable;
+    for(Element_index e : m_mesh.incident[v])
+      limit = (std::max)(limit, known_cost(e));
+    const Vec3 old = m_mesh.points[v];
+    m_mesh.points[v] = p;
+    m_trial_costs.clear();
+    for(Element_index e : m_mesh.incident[v]) {
+      m_trial_costs.push_back(cost(e));
+      if(!(m_trial_costs.back() <= limit)) {
+        m_mesh.points[v] = old;
+        return false;
+      }
+    }
+    if(!is_valid(v)) {
+      m_mesh.points[v] = old;
+      return false;
+    }
+    accept(v);
+    activate_around(v);
+    return true;
+  }
+
+private:
+  double cost(Element_index e) const
+  {
+    return m_quality(m_mesh.elements[e].kind, m_mesh.relative_points(m_mesh.elements[e]));
+  }
+
+  // Flips add elements.
+  double known_cost(Element_index e)
+  {
+    if(e >= m_costs.size())
+      m_costs.resize(m_mesh.elements.size(), -1);
+    if(m_costs[e] < 0)
+      m_costs[e] = cost(e);
+    return m_costs[e];
+  }
+
+  // The trial position is the new one.
+  void accept(Vertex_index v)
+  {
+    for(std::size_t i = 0; i < m_trial_costs.size(); ++i)
+      m_costs[m_mesh.incident[v][i]] = m_trial_costs[i];
+  }
+
+  bool is_valid(Vertex_index v) const
+  {
+    return std::all_of(m_mesh.incident[v].begin(), m_mesh.incident[v].end(), [&](Element_index e) {
+      return m_mesh.is_positive(m_mesh.elements[e]);
+    });
+  }
+
+  // Of the attraction; where there is none the weight is 0.
+  Attraction attraction(Vertex_index v) const
+  {
+    return m_attractions.empty() ? Attraction() : m_attractions[v];
+  }
+
+  double attraction_energy(Vertex_index v) const
+  {
+    const Attraction a = attraction(v);
+    const Vec3 d = m_mesh.points[v] - a.place;
+    return a.weight * dot(d, d);
+  }
+
+  // Infinity if it is not less than the limit.
+  double energy(Vertex_index v, double limit)
+  {
+    double sum = attraction_energy(v);
+    m_trial_costs.clear();
+    for(Element_index e : m_mesh.incident[v]) {
+      m_trial_costs.push_back(cost(e));
+      sum += power(m_trial_costs.back(), m_power);
+      if(!(sum < limit))
+        return infinity;
+    }
+    return sum;
+  }
+
+  bool improve(Vertex_index v)
+  {
+    if(m_is_fixed[v])
+      return false;
+    const bool slides = m_mesh.is_on_boundary[v];
+    const Attraction a = attraction(v);
+    double sum = attraction_energy(v), worst = 0;
+    for(Element_index e : m_mesh.incident[v]) {
+      worst = (std::max)(worst, known_cost(e));
+      sum += power(m_costs[e], m_power);
+    }
+    if(a.weight == 0 && worst <= (slides ? (std::max)(m_worth_sliding, m_good_enough) : m_good_enough))
+      return false;
+
+    const Vec3 old = m_mesh.points[v];
+    Vec3 gradient = (2 * a.weight) * (old - a.place);
+    double shortest = infinity;
+    for(Element_index e : m_mesh.incident[v]) {
+      const Working_mesh::Element& element = m_mesh.elements[e];
+      const Element_points p = m_mesh.relative_points(element);
+      const int position = element.position(v);
+      Vec3 g{};
+      const double q = m_quality(element.kind, p, position, g);
+      gradient = gradient + (m_power * power(q, m_power) / q) * g;
+      if(m_radii[v] == 0)
+        for(int i = 0; i < element.reference().number_of_vertices; ++i)
+          if(i != position)
+            shortest = (std::min)(shortest, norm(p[i] - p[position]));
+    }
+    const double slope = norm(gradient);
+    if(!(slope > 0 && slope < infinity))
+      return false;
+    if(m_radii[v] == 0)
+      m_radii[v] = first_step * shortest;
+    for(double radius = m_radii[v]; radius > smallest_step * m_radii[v]; radius *= shrinkage) {
+      Vec3 p = old - (radius / slope) * gradient;
+      if(slides)
+        p = m_project(p, old);
+      m_mesh.points[v] = p;
+      const double now = energy(v, sum);
+      if(now < sum && is_valid(v)) {
+        accept(v);
+        m_radii[v] = radius == m_radii[v] ? growth * radius : radius;
+        if(sum - now > notable_gain * sum)
+          activate_around(v);
+        return true;
+      }
+    }
+    m_mesh.points[v] = old;
+    m_radii[v] *= 10 * smallest_step;
+    return false;
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_VERTEX_OPTIMIZER_H

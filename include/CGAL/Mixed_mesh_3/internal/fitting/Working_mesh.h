@@ -1,0 +1,182 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A mixed mesh while vertices move and tetrahedra are flipped: with the elements around each vertex, and
+// elements that can be removed.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_WORKING_MESH_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_WORKING_MESH_H
+
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/certificate.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/manifold_defects.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/element_measures.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// Whether elements name vertices that exist, at finite positions, and none is inverted.
+template <class Mesh>
+bool is_valid_start(const Mesh& mesh)
+{
+  for(const auto& p : mesh.points())
+    if(!std::isfinite(norm(to_vec3(p))))
+      return false;
+  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
+    const Element_view element = mesh.element(e);
+    if(std::any_of(element.begin(), element.end(),
+                   [&](Vertex_index v) { return v >= mesh.number_of_vertices(); })
+       || jacobian_sign(mesh, e) != Jacobian_sign::POSITIVE)
+      return false;
+  }
+  return true;
+}
+
+/// The costs of elements are raised to powers of 4 and 8, mostly.
+inline double power(double q, double exponent)
+{
+  const double q2 = q * q, q4 = q2 * q2;
+  return exponent == 4 ? q4 : exponent == 8 ? q4 * q4 : std::pow(q, exponent);
+}
+
+struct Working_mesh
+{
+  struct Element
+  {
+    Element_kind kind;
+    std::uint8_t is_in_region;
+    bool is_removed;
+    std::array<Vertex_index, 8> vertices;
+
+    const Reference_element& reference() const { return reference_elements[kind]; }
+    const Vertex_index* begin() const { return vertices.data(); }
+    const Vertex_index* end() const { return vertices.data() + reference().number_of_vertices; }
+    operator Element_view() const { return {kind, begin()}; }
+    int position(Vertex_index v) const { return int(std::find(begin(), end(), v) - begin()); }
+  };
+
+  std::vector<Vec3> points;
+  std::vector<Element> elements;
+  std::vector<std::vector<Element_index>> incident; ///< for each vertex, its elements, in any fixed order
+  std::vector<std::uint8_t> is_on_boundary;         ///< for each vertex
+
+  /// \param boundary the faces on the boundary, as polygons
+  template <class Mesh, class Polygons>
+  Working_mesh(const Mesh& mesh, const Polygons& boundary)
+    : incident(mesh.number_of_vertices()), is_on_boundary(mesh.number_of_vertices(), 0)
+  {
+    points.reserve(mesh.number_of_vertices());
+    for(const auto& p : mesh.points())
+      points.push_back(to_vec3(p));
+    elements.reserve(mesh.number_of_elements());
+    for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
+      const Element_view element = mesh.element(e);
+      Element mine{element.kind(), mesh.is_in_region(e), false, {}};
+      std::copy(element.begin(), element.end(), mine.vertices.begin());
+      add(mine);
+    }
+    for(const auto& polygon : boundary)
+      for(int i = 0; i < polygon.size; ++i)
+        is_on_boundary[polygon.vertices[i]] = 1;
+  }
+
+  /// The boundary, which changes when elements on it are removed.
+  std::vector<Boundary_polygon> boundary_polygons() const
+  {
+    const Element_list list = element_list();
+    std::vector<Boundary_polygon> polygons;
+    for_each_face(list, points.size(), [this](Vertex_index v) { return is_on_boundary[v] != 0; },
+                  [&](const Face_handle* f, std::size_t n) {
+                    const Element_view element = list[f->element];
+                    if(n == 1)
+                      polygons.push_back({face_vertices(element, f->local_face),
+                                          element.reference().faces[f->local_face].size});
+                  });
+    return polygons;
+  }
+
+  Element_index add(const Element& element)
+  {
+    const Element_index e = Element_index(elements.size());
+    elements.push_back(element);
+    for(Vertex_index v : element)
+      incident[v].push_back(e);
+    return e;
+  }
+
+  void remove(Element_index e)
+  {
+    elements[e].is_removed = true;
+    for(Vertex_index v : elements[e])
+      incident[v].erase(std::find(incident[v].begin(), incident[v].end(), e));
+  }
+
+  /// Where a vertex is, as a function object.
+  auto position() const
+  {
+    return [this](Vertex_index v) -> const Vec3& { return points[v]; };
+  }
+
+  /// Positions relative to the first vertex.
+  Element_points relative_points(const Element_view& element) const
+  {
+    return internal::relative_points(element, position());
+  }
+
+  /// Whether the Jacobian is proved positive on the whole element.
+  bool is_positive(const Element_view& element) const
+  {
+    return jacobian_sign(element, position()) == Jacobian_sign::POSITIVE;
+  }
+
+  /// Writes back what has changed. Boundary faces are found again if elements have.
+  template <class Mesh>
+  void store(Mesh& mesh) const
+  {
+    using Point_3 = typename Mesh::Point_3;
+    std::vector<Point_3> new_points;
+    new_points.reserve(points.size());
+    for(std::size_t v = 0; v < points.size(); ++v)
+      new_points.push_back(to_vec3(mesh.points()[v]) == points[v]
+                             ? mesh.points()[v] : Point_3(points[v][0], points[v][1], points[v][2]));
+    if(std::none_of(elements.begin(), elements.end(), [](const Element& e) { return e.is_removed; })) {
+      mesh.points() = std::move(new_points);
+      return;
+    }
+    std::vector<std::uint8_t> in_region;
+    for(const Element& element : elements)
+      if(!element.is_removed)
+        in_region.push_back(element.is_in_region);
+    mesh.assign(std::move(new_points), element_list(), std::move(in_region));
+    mesh.set_boundary_faces(
+      boundary_faces(mesh, [this](Vertex_index v) { return is_on_boundary[v] != 0; }));
+  }
+
+  /// The elements that are not removed.
+  Element_list element_list() const
+  {
+    Element_list list;
+    for(const Element& element : elements)
+      if(!element.is_removed)
+        list.add(element.kind, element.vertices.data());
+    return list;
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_WORKING_MESH_H

@@ -1,0 +1,295 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Replaces tetrahedra by others between the same vertices, where these are better: 2-3 flips, the removal of
+// an edge with its ring of tetrahedra, and the removal of flat tetrahedra that lie on the boundary.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_FLIPS_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_FLIPS_H
+
+#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <limits>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/*!
+Flips tetrahedra where the sum of the powers of their costs falls. The new ones fill what the old ones did,
+and are positive by exact orientation, so conformity and validity stay; the boundary does not change, but
+where flat tetrahedra with two faces on it are removed.
+
+\tparam Quality a model of `MixedMeshQuality_3`
+*/
+template <class Quality>
+class Tetrahedron_flipper
+{
+  using Tetrahedron = std::array<Vertex_index, 4>;
+
+  Working_mesh& m_mesh;
+  const Quality& m_quality;
+  double m_power = 4;
+  std::size_t m_number_of_removals = 0;
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr int largest_ring = 7;
+  // Of tetrahedra on the boundary, those are removed that cost more and can not be flipped.
+  static constexpr double worth_removing = 3;
+  // Flips that gain less are not worth the trouble, and might go round in circles.
+  static constexpr double least_gain = 1e-6;
+
+public:
+  Tetrahedron_flipper(Working_mesh& mesh, const Quality& quality) : m_mesh(mesh), m_quality(quality) {}
+
+  /// Tries all tetrahedra of a cost above `worst`; the new ones too. Calls `changed(v)` for the vertices
+  /// of new and removed ones, and returns the number of flips.
+  template <class Changed>
+  std::size_t run(double exponent, double worst, const Changed& changed)
+  {
+    m_power = exponent;
+    const double least = power(worst, exponent);
+    std::size_t flips = 0;
+    for(Element_index e = 0; e < m_mesh.elements.size(); ++e)
+      if(is_tetrahedron(e) && cost(m_mesh.elements[e].vertices.data()) > least) {
+        const std::size_t first_new = m_mesh.elements.size();
+        const std::array<Vertex_index, 8> vertices = m_mesh.elements[e].vertices;
+        if(!try_edges(e) && !try_faces(e)) {
+          if(!remove_from_boundary(e))
+            continue;
+          std::for_each_n(vertices.begin(), 4, changed);
+        }
+        ++flips;
+        for(std::size_t n = first_new; n < m_mesh.elements.size(); ++n)
+          for(Vertex_index v : m_mesh.elements[n])
+            changed(v);
+      }
+    return flips;
+  }
+
+  /// Of tetrahedra on the boundary.
+  std::size_t number_of_removals() const { return m_number_of_removals; }
+
+private:
+  bool is_tetrahedron(Element_index e) const
+  {
+    return !m_mesh.elements[e].is_removed && m_mesh.elements[e].kind == TETRAHEDRON;
+  }
+
+  double cost(const Vertex_index* v) const
+  {
+    return power(m_quality(TETRAHEDRON, m_mesh.relative_points(Element_view(TETRAHEDRON, v))), m_power);
+  }
+
+  double cost(const Tetrahedron& t) const { return cost(t.data()); }
+
+  // Replaces elements if the new tetrahedra are positive.
+  bool replace(const std::vector<Element_index>& old, const std::vector<Tetrahedron>& tetrahedra)
+  {
+    std::uint8_t in_region = 0;
+    for(Element_index e : old)
+      in_region |= m_mesh.elements[e].is_in_region;
+    std::vector<Working_mesh::Element> elements;
+    for(const Tetrahedron& t : tetrahedra) {
+      Working_mesh::Element element{TETRAHEDRON, in_region, false, {}};
+      std::copy(t.begin(), t.end(), element.vertices.begin());
+      if(!m_mesh.is_positive(element))
+        return false;
+      elements.push_back(element);
+    }
+    for(Element_index e : old)
+      m_mesh.remove(e);
+    for(const Working_mesh::Element& element : elements)
+      m_mesh.add(element);
+    return true;
+  }
+
+  bool try_edges(Element_index e)
+  {
+    const auto v = m_mesh.elements[e].vertices;
+    for(int i = 0; i < 4; ++i)
+      for(int j = i + 1; j < 4; ++j)
+        if(remove_edge(v[i], v[j]))
+          return true;
+    return false;
+  }
+
+  // The tetrahedra around an edge, and their vertices off it, in order such that (a, b, r[i], r[i + 1])
+  // is positive. Empty unless the edge is inside and all its elements are tetrahedra.
+  std::vector<Vertex_index> ring_of(Vertex_index a, Vertex_index b, std::vector<Element_index>& elements) const
+  {
+    std::vector<std::array<Vertex_index, 2>> links;
+    for(Element_index e : m_mesh.incident[a]) {
+      const auto& element = m_mesh.elements[e];
+      const int j = element.position(b);
+      if(element.begin() + j == element.end())
+        continue;
+      if(element.kind != TETRAHEDRON || links.size() == std::size_t(largest_ring))
+        return {};
+      // (a, b, c, d) with the sign of the element
+      const int i = element.position(a);
+      int k = 0;
+      while(k == i || k == j)
+        ++k;
+      const int l = 6 - i - j - k;
+      const bool is_even = ((i < j) + (i < k) + (i < l) + (j < k) + (j < l) + (k < l)) % 2 == 0;
+      const Vertex_index c = element.vertices[std::size_t(k)], d = element.vertices[std::size_t(l)];
+      links.push_back(is_even ? std::array<Vertex_index, 2>{c, d} : std::array<Vertex_index, 2>{d, c});
+      elements.push_back(e);
+    }
+    if(links.size() < 3)
+      return {};
+    std::vector<Vertex_index> ring{links[0][0]};
+    while(ring.size() <= links.size()) {
+      const auto next = std::find_if(links.begin(), links.end(),
+                                     [&](const auto& l) { return l[0] == ring.back(); });
+      if(next == links.end())
+        return {}; // the edge is on the boundary
+      if((*next)[1] == ring.front())
+        return ring.size() == links.size() ? ring : std::vector<Vertex_index>();
+      ring.push_back((*next)[1]);
+    }
+    return {};
+  }
+
+  // The best triangulation of the ring (Klincsek), each triangle with a tetrahedron to either end.
+  bool remove_edge(Vertex_index a, Vertex_index b)
+  {
+    std::vector<Element_index> old;
+    const std::vector<Vertex_index> ring = ring_of(a, b, old);
+    const int n = int(ring.size());
+    if(n < 3)
+      return false;
+    double before = 0;
+    for(Element_index e : old)
+      before += cost(m_mesh.elements[e].vertices.data());
+    const double limit = (1 - least_gain) * before;
+    std::array<std::array<double, largest_ring>, largest_ring> best{};
+    std::array<std::array<int, largest_ring>, largest_ring> middle{};
+    for(int length = 2; length < n; ++length)
+      for(int i = 0; i + length < n; ++i) {
+        const int k = i + length;
+        best[i][k] = infinity;
+        for(int j = i + 1; j < k; ++j) {
+          double sum = best[i][j] + best[j][k];
+          if(sum < limit)
+            sum += cost({ring[i], ring[j], ring[k], b});
+          if(sum < limit)
+            sum += cost({ring[k], ring[j], ring[i], a});
+          if(sum < limit && sum < best[i][k]) {
+            best[i][k] = sum;
+            middle[i][k] = j;
+          }
+        }
+      }
+    if(!(best[0][n - 1] < limit))
+      return false;
+    std::vector<Tetrahedron> tetrahedra;
+    const auto collect = [&](const auto& self, int i, int k) -> void {
+      if(k - i < 2)
+        return;
+      const int j = middle[i][k];
+      tetrahedra.push_back({ring[i], ring[j], ring[k], b});
+      tetrahedra.push_back({ring[k], ring[j], ring[i], a});
+      self(self, i, j);
+      self(self, j, k);
+    };
+    collect(collect, 0, n - 1);
+    return replace(old, tetrahedra);
+  }
+
+  // Whether all of some vertices are of another element too.
+  bool is_shared(Element_index e, std::initializer_list<Vertex_index> vertices) const
+  {
+    const std::vector<Element_index>& around = m_mesh.incident[*vertices.begin()];
+    return std::any_of(around.begin(), around.end(), [&](Element_index other) {
+      const Working_mesh::Element& element = m_mesh.elements[other];
+      return other != e && std::all_of(vertices.begin(), vertices.end(), [&](Vertex_index v) {
+        return std::find(element.begin(), element.end(), v) != element.end();
+      });
+    });
+  }
+
+  // Whether the edge is one of a face that belongs to one element only.
+  bool is_edge_of_boundary(Vertex_index a, Vertex_index b) const
+  {
+    for(Element_index e : m_mesh.incident[a]) {
+      const Working_mesh::Element& element = m_mesh.elements[e];
+      const Reference_element& reference = element.reference();
+      for(int f = 0; f < reference.number_of_faces; ++f) {
+        const Element_face& face = reference.faces[f];
+        const auto v = [&](int i) { return element.vertices[face.vertices[i % face.size]]; };
+        for(int i = 0; i < face.size; ++i)
+          if(((v(i) == a && v(i + 1) == b) || (v(i) == b && v(i + 1) == a)) && !is_shared(e, {v(0), v(1), v(2)}))
+            return true;
+      }
+    }
+    return false;
+  }
+
+  // A tetrahedron with two faces on the boundary, which meet in the edge ab: its other two faces take their
+  // place. That keeps the boundary a manifold if the edge between them is not on it yet.
+  bool remove_from_boundary(Element_index e)
+  {
+    if(cost(m_mesh.elements[e].vertices.data()) < power(worth_removing, m_power))
+      return false;
+    const std::array<Vertex_index, 8> v = m_mesh.elements[e].vertices;
+    constexpr int edges[6][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};
+    for(const auto& k : edges) {
+      const Vertex_index a = v[k[0]], b = v[k[1]], c = v[k[2]], d = v[k[3]];
+      if(m_mesh.is_on_boundary[a] && m_mesh.is_on_boundary[b] && m_mesh.is_on_boundary[c]
+         && m_mesh.is_on_boundary[d] && !is_shared(e, {a, b}) && is_shared(e, {a, c, d})
+         && is_shared(e, {b, c, d}) && !is_edge_of_boundary(c, d)) {
+        m_mesh.remove(e);
+        ++m_number_of_removals;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  bool try_faces(Element_index e)
+  {
+    const Reference_element& reference = reference_elements[TETRAHEDRON];
+    for(int i = 0; i < 4; ++i) {
+      const auto v = m_mesh.elements[e].vertices;
+      // the face opposite to vertex 3 - i
+      const auto& f = reference.faces[i].vertices;
+      const Vertex_index a = v[f[0]], b = v[f[1]], c = v[f[2]];
+      const Vertex_index d = v[std::size_t(6 - f[0] - f[1] - f[2])];
+      for(Element_index other : m_mesh.incident[a])
+        if(other != e && is_tetrahedron(other)) {
+          const auto& o = m_mesh.elements[other];
+          if(o.position(b) == 4 || o.position(c) == 4)
+            continue;
+          const Vertex_index apex = o.vertices[std::size_t(6 - o.position(a) - o.position(b) - o.position(c))];
+          // (a, b, c) is seen counter-clockwise from outside, where the apex is
+          const std::vector<Tetrahedron> tetrahedra{{a, b, d, apex}, {b, c, d, apex}, {c, a, d, apex}};
+          const double limit = (1 - least_gain)
+                               * (cost(v.data()) + cost(o.vertices.data()));
+          double sum = 0;
+          for(const Tetrahedron& t : tetrahedra)
+            if(sum < limit)
+              sum += cost(t);
+          if(sum < limit && replace({e, other}, tetrahedra))
+            return true;
+          break;
+        }
+    }
+    return false;
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_FLIPS_H

@@ -1,0 +1,206 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Where the boundary of a mesh is far from the surface, and where its vertices should slide to come nearer.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_ATTRACTION_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_ATTRACTION_H
+
+#include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/base/compatibility.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_optimizer.h>
+
+#include <CGAL/AABB_tree.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/*!
+Measures the distance between boundary and surface at sample points of both, and tells each boundary vertex
+where to slide: samples that are too far draw the boundary face nearest to them, and so its vertices, as in
+the iterative-closest-point method. The farther a sample is, the more it counts; and what has drawn in vain
+draws stronger.
+
+\tparam Project `Vec3(Vec3 p, Vec3 hint)`: a point of the surface near p; the hint is on the surface
+*/
+template <class Project>
+class Surface_attraction
+{
+  using Triangle = std::array<Vertex_index, 3>;
+
+  const Working_mesh& m_mesh;
+  const Project& m_project;
+  const std::vector<Vec3>& m_samples; // of the surface
+  const double m_tolerance;
+  std::vector<Triangle> m_triangles;  // of the boundary
+  std::vector<double> m_stiffness;    // of each vertex: how often it was drawn in vain
+  std::vector<Vec3> m_shifts;         // of each vertex, the mean of what draws it, weighted
+  std::vector<double> m_weights;
+  std::vector<std::pair<double, Vec3>> m_far_points; // with their distances
+  double m_largest_distance = 0;
+
+  // Samples nearer than this share of the tolerance draw nothing.
+  static constexpr double tolerated_share = 0.5;
+  // In the unit of costs to the fourth power, at a shift as long as the edges around the vertex.
+  static constexpr double weight = 100, stiffening = 1.5, stiffest = 300;
+
+public:
+  /// \param samples of the surface; may be empty
+  Surface_attraction(const Working_mesh& mesh, const Project& project, const std::vector<Vec3>& samples,
+                     double tolerance)
+    : m_mesh(mesh), m_project(project), m_samples(samples), m_tolerance(tolerance),
+      m_stiffness(mesh.points.size(), 1)
+  {}
+
+  void set_boundary(const std::vector<Boundary_polygon>& polygons)
+  {
+    m_triangles.clear();
+    for(const auto& polygon : polygons)
+      for(int i = 2; i < polygon.size; ++i)
+        m_triangles.push_back({polygon.vertices[0], polygon.vertices[i - 1], polygon.vertices[i]});
+  }
+
+  /// Of the last measurement.
+  double largest_distance() const { return m_largest_distance; }
+  /// Points of the surface, at the last measurement, farther from the boundary than a multiple (at least 1)
+  /// of the tolerance, and those next to places of the boundary that are.
+  std::vector<Vec3> far_points(double multiple) const
+  {
+    std::vector<Vec3> result;
+    for(const auto& [distance, point] : m_far_points)
+      if(distance > multiple * m_tolerance)
+        result.push_back(point);
+    return result;
+  }
+
+  /// Measures all distances.
+  /// \cost a query to an AABB tree for each sample of the surface, and of the boundary
+  void measure()
+  {
+    m_shifts.assign(m_mesh.points.size(), Vec3{});
+    m_weights.assign(m_mesh.points.size(), 0);
+    m_far_points.clear();
+    m_largest_distance = 0;
+    measure_from_surface();
+    measure_from_boundary();
+  }
+
+  /// What draws the vertices, by the last measurement.
+  /// \param scale of the weights; 1 where costs to the fourth power are minimized
+  std::vector<Attraction> attractions(double scale)
+  {
+    std::vector<Attraction> result(m_mesh.points.size());
+    for(Vertex_index v = 0; v < m_mesh.points.size(); ++v) {
+      if(!(m_weights[v] > 0))
+        continue;
+      const Vec3& p = m_mesh.points[v];
+      const double length = mean_edge_length(v);
+      result[v] = {m_project(p + (1 / m_weights[v]) * m_shifts[v], p),
+                   scale * weight * m_stiffness[v] / (length * length)};
+      m_stiffness[v] = (std::min)(stiffening * m_stiffness[v], stiffest);
+    }
+    return result;
+  }
+
+private:
+  double mean_edge_length(Vertex_index v) const
+  {
+    double sum = 0;
+    int count = 0;
+    for(Element_index e : m_mesh.incident[v])
+      for(Vertex_index u : m_mesh.elements[e])
+        if(u != v) {
+          sum += norm(m_mesh.points[u] - m_mesh.points[v]);
+          ++count;
+        }
+    return sum / count;
+  }
+
+  // The point of the triangle with barycentric coordinates b should be at `where`, a point of the surface.
+  void add(const Triangle& t, const std::array<double, 3>& b, const Vec3& shift, const Vec3& where, double share)
+  {
+    const double distance = norm(shift), excess = distance - 0.7 * tolerated_share * m_tolerance;
+    m_largest_distance = (std::max)(m_largest_distance, distance);
+    if(distance > m_tolerance)
+      m_far_points.emplace_back(distance, where);
+    if(distance < tolerated_share * m_tolerance)
+      return;
+    for(int i = 0; i < 3; ++i)
+      if(b[i] > 0) {
+        const double w = share * b[i] * excess * excess;
+        m_shifts[t[i]] = m_shifts[t[i]] + w * shift;
+        m_weights[t[i]] += w * b[i];
+      }
+  }
+
+  void measure_from_surface()
+  {
+    using Kernel = Predicates_kernel;
+    using Traits = AABB_triangle_traits<Kernel, std::vector<Kernel::Triangle_3>::const_iterator>;
+    const auto point = [](const Vec3& p) { return Kernel::Point_3(p[0], p[1], p[2]); };
+    if(m_samples.empty() || m_triangles.empty())
+      return;
+    std::vector<Kernel::Triangle_3> triangles;
+    for(const Triangle& t : m_triangles)
+      triangles.emplace_back(point(m_mesh.points[t[0]]), point(m_mesh.points[t[1]]),
+                             point(m_mesh.points[t[2]]));
+    CGAL::AABB_tree<Traits> tree(triangles.begin(), triangles.end());
+    tree.do_not_accelerate_distance_queries(); // the last triangle is a good hint, as samples are in order
+    tree.build();
+    auto nearest = std::make_pair(triangles[0][0], triangles.cbegin());
+    for(const Vec3& s : m_samples) {
+      nearest = tree.closest_point_and_primitive(point(s), nearest);
+      const Triangle& t = m_triangles[std::size_t(nearest.second - triangles.cbegin())];
+      const Vec3 p = to_vec3(nearest.first);
+      add(t, barycentric_coordinates(t, p), s - p, s, 1);
+    }
+  }
+
+  std::array<double, 3> barycentric_coordinates(const Triangle& t, const Vec3& p) const
+  {
+    const Vec3 a = m_mesh.points[t[0]] - p, b = m_mesh.points[t[1]] - p, c = m_mesh.points[t[2]] - p;
+    const Vec3 normal = cross(b - a, c - a);
+    const double area = dot(normal, normal);
+    if(!(area > 0))
+      return {0, 0, 0};
+    return {dot(normal, cross(b, c)) / area, dot(normal, cross(c, a)) / area, dot(normal, cross(a, b)) / area};
+  }
+
+  // On a grid, the finer the larger the triangle is.
+  void measure_from_boundary()
+  {
+    constexpr double largest_number_of_steps = 8;
+    for(const Triangle& t : m_triangles) {
+      double longest = 0;
+      for(int i = 0; i < 3; ++i)
+        longest = (std::max)(longest, norm(m_mesh.points[t[i]] - m_mesh.points[t[(i + 1) % 3]]));
+      const int n = int((std::min)((std::max)(std::ceil(longest / m_tolerance), 2.), largest_number_of_steps));
+      const double share = 4. / ((n + 1) * (n + 2) / 2 - 3); // as if it were four samples
+      for(int i = 0; i <= n; ++i)
+        for(int j = 0; i + j <= n; ++j)
+          if((i > 0) + (j > 0) + (i + j < n) > 1) { // not at a vertex
+            const std::array<double, 3> b{1 - double(i + j) / n, double(i) / n, double(j) / n};
+            const Vec3 p = b[0] * m_mesh.points[t[0]] + (b[1] * m_mesh.points[t[1]] + b[2] * m_mesh.points[t[2]]);
+            const Vec3 q = m_project(p, m_mesh.points[t[0]]);
+            add(t, b, q - p, q, share);
+          }
+    }
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_ATTRACTION_H

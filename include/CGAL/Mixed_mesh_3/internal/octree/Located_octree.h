@@ -1,0 +1,276 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The octree of a domain: each node knows where it is relative to the domain and to the region.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_OCTREE_LOCATED_OCTREE_H
+#define CGAL_MIXED_MESH_3_INTERNAL_OCTREE_LOCATED_OCTREE_H
+
+#include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/balance.h>
+
+#include <CGAL/enum.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/*!
+A balanced octree whose nodes are located in the domain and in the region of interest. Children of a
+node that is off a surface inherit its side; those of a node that meets it look at the parent's part
+of the surface only.
+
+Copies share the domain, the region and the cell traits, which must outlive them.
+*/
+template <class Domain, class Region, class CellTraits>
+class Located_octree
+{
+public:
+  using Node_index = Octree::Node_index;
+  using Cell_traits = CellTraits;
+  using Surface_part = typename Domain::Surface_part;
+
+  Located_octree(const Domain& domain, const Region& region, const CellTraits& traits)
+    : m_domain(&domain), m_region(&region), m_traits(&traits)
+  {
+    add_part(m_domain_parts, domain.surface_part());
+    add_part(m_region_parts, region.surface_part());
+    m_locations.push_back({ON_BOUNDARY, ON_BOUNDARY, 0, 0});
+    const auto p = traits.point({0, 0, 0}),
+               q = traits.point({Octree::root_side, Octree::root_side, Octree::root_side});
+    m_scale = std::ldexp(1., 24) / std::hypot(q.x() - p.x(), q.y() - p.y(), q.z() - p.z());
+    locate(Octree::root(), m_locations[0]);
+  }
+
+  const Octree& octree() const { return m_octree; }
+  const Domain& domain() const { return *m_domain; }
+
+  /// `ON_BOUNDARY`: the cell meets the surface of the domain; else the side of all its points.
+  Bounded_side side(Node_index n) const { return Bounded_side(m_locations[n].domain); }
+  /// Whether the cell meets the domain. Only such cells are refined or become elements.
+  bool is_alive(Node_index n) const { return side(n) != ON_UNBOUNDED_SIDE; }
+  bool is_in_region(Node_index n) const { return m_locations[n].region != ON_UNBOUNDED_SIDE; }
+  /// Whether a lattice point of a leaf is in the region.
+  bool is_in_region(const Lattice_point& p, Node_index leaf) const
+  {
+    return m_locations[leaf].region == ON_BOUNDED_SIDE
+           || (m_locations[leaf].region == ON_BOUNDARY && m_region->depth(m_traits->point(p)) >= 0);
+  }
+  /// The part of the domain's surface that meets the cell; a default one if none does.
+  const Surface_part& surface_part(Node_index n) const
+  {
+    return *(side(n) == ON_BOUNDARY ? m_domain_parts[m_locations[n].domain_part] : m_no_part);
+  }
+
+  typename Domain::Point_3 point(const Lattice_point& p) const { return m_traits->point(p); }
+
+  /// The number of leaves that meet the domain.
+  std::size_t number_of_cells() const
+  {
+    std::size_t count = 0;
+    for(Node_index n = 0; n < m_octree.size(); ++n)
+      count += m_octree.is_leaf(n) && is_alive(n);
+    return count;
+  }
+
+  /// The number of leaves that are inside the domain and do not meet its surface.
+  std::size_t number_of_cells_inside() const
+  {
+    std::size_t count = 0;
+    for(Node_index n = 0; n < m_octree.size(); ++n)
+      count += m_octree.is_leaf(n) && side(n) == ON_BOUNDED_SIDE;
+    return count;
+  }
+
+  /// A length in units of 2^-24 of the root, rounded: lengths that are equal but for rounding rarely
+  /// differ, so that symmetric input does not depend on it.
+  double quantized(double length) const { return std::floor(length * m_scale + 0.3); }
+
+  /// The leaf around a point of the root.
+  template <class Point>
+  Node_index leaf_at(const Point& q) const
+  {
+    Node_index n = Octree::root();
+    while(!m_octree.is_leaf(n)) {
+      // the child with the nearest center, whatever the frame of the cells
+      Node_index nearest = n;
+      double least = std::numeric_limits<double>::infinity();
+      const Node_index first = m_octree.child(n, 0);
+      for(Node_index c = first; c < first + 8; ++c) {
+        const auto p = m_traits->cell(m_octree.corner(c), m_octree.side(c)).center();
+        const double d = CGAL::squared_distance(p, q);
+        if(d < least) {
+          least = d;
+          nearest = c;
+        }
+      }
+      n = nearest;
+    }
+    return n;
+  }
+
+  /// Splits leaves, then balances across faces and edges.
+  template <class NodeRange>
+  void refine(const NodeRange& nodes)
+  {
+    std::vector<Node_index> refined(std::begin(nodes), std::end(nodes));
+    for(Node_index n : refined)
+      split(n);
+    balance(m_octree, refined, Adjacency::EDGE, [this](Node_index n) { split(n); });
+  }
+
+  /// The leaves of a level that meet the domain, and the region too if asked for. Of few cells, those at
+  /// the region's rim are left out: they meet it, but their centers are outside, while that of a neighbor
+  /// is inside. They would take much of a small budget to where it is not wanted.
+  std::vector<Node_index> leaves_to_refine(int level, bool in_region_only) const
+  {
+    std::vector<Node_index> leaves;
+    for(Node_index n = 0; n < m_octree.size(); ++n)
+      if(m_octree.level(n) == level && m_octree.is_leaf(n) && is_alive(n)
+         && (!in_region_only || is_in_region(n)))
+        leaves.push_back(n);
+    if(in_region_only && leaves.size() <= large_number_of_cells)
+      remove_rim(leaves);
+    return leaves;
+  }
+
+  /// Sorts leaves of one level by the depth of their center in the region, deepest first. Where
+  /// there are many, they share the depth of an ancestor.
+  void sort_by_depth(std::vector<Node_index>& leaves) const
+  {
+    if(leaves.empty())
+      return;
+    int level = m_octree.level(leaves.front());
+    for(std::size_t queries = leaves.size(); queries > large_number_of_cells && level > 0; queries /= 8)
+      --level;
+    const std::uint32_t side = Octree::side_at(level), mask = ~(side - 1);
+    // Of equally deep ones, those at the surface first: there they serve the shape, too.
+    std::vector<std::tuple<double, bool, Node_index>> keys;
+    Lattice_point last{Octree::root_side, 0, 0};
+    double depth = 0;
+    for(Node_index n : leaves) {
+      Lattice_point p = m_octree.corner(n);
+      for(std::uint32_t& c : p)
+        c &= mask;
+      if(p != last) {
+        depth = m_region->depth(m_traits->point({p[0] + side / 2, p[1] + side / 2, p[2] + side / 2}));
+        last = p;
+      }
+      keys.emplace_back(-quantized(depth), this->side(n) != ON_BOUNDARY, n);
+    }
+    std::sort(keys.begin(), keys.end());
+    for(std::size_t i = 0; i < leaves.size(); ++i)
+      leaves[i] = std::get<2>(keys[i]);
+  }
+
+private:
+  // So many queries on the region take no notable time.
+  static constexpr std::size_t large_number_of_cells = 4000;
+
+  // Leaves of one level.
+  void remove_rim(std::vector<Node_index>& leaves) const
+  {
+    std::vector<Lattice_point> core; // corners of those with the center in the region
+    std::vector<std::uint8_t> is_core(leaves.size(), 0);
+    const std::uint32_t side = leaves.empty() ? 0 : m_octree.side(leaves.front());
+    for(std::size_t i = 0; i < leaves.size(); ++i) {
+      const Lattice_point p = m_octree.corner(leaves[i]);
+      is_core[i] = m_region->depth(m_traits->point({p[0] + side / 2, p[1] + side / 2, p[2] + side / 2})) >= 0;
+      if(is_core[i])
+        core.push_back(p);
+    }
+    std::sort(core.begin(), core.end());
+    const auto is_beside_core = [&](const Lattice_point& p) {
+      for(std::uint32_t n = 0; n < 27; ++n) { // wraps around below 0, where there is no cell
+        const Lattice_point q{p[0] + (n % 3 - 1) * side, p[1] + (n / 3 % 3 - 1) * side,
+                              p[2] + (n / 9 - 1) * side};
+        if(std::binary_search(core.begin(), core.end(), q))
+          return true;
+      }
+      return false;
+    };
+    std::size_t kept = 0;
+    for(std::size_t i = 0; i < leaves.size(); ++i)
+      if(is_core[i] || !is_beside_core(m_octree.corner(leaves[i])))
+        leaves[kept++] = leaves[i];
+    leaves.resize(kept);
+  }
+
+  struct Location
+  {
+    std::int8_t domain, region; // Bounded_side
+    std::uint32_t domain_part, region_part; // 0: none (or, for the root, the whole)
+  };
+
+  void split(Node_index n)
+  {
+    const Node_index first = m_octree.split(n);
+    for(Node_index c = first; c < first + 8; ++c) {
+      m_locations.push_back(m_locations[n]);
+      locate(c, m_locations.back());
+    }
+  }
+
+  // Replaces the location of the parent by that of the cell.
+  void locate(Node_index n, Location& l)
+  {
+    const auto cell = m_traits->cell(m_octree.corner(n), m_octree.side(n));
+    l.domain = locate(*m_domain, cell, l.domain, l.domain_part, m_domain_parts);
+    l.region = locate(*m_region, cell, l.region, l.region_part, m_region_parts);
+  }
+
+  // Parts never change, so that copies of the octree share them.
+  template <class Part>
+  using Parts = std::vector<std::shared_ptr<const Part>>;
+
+  template <class Part>
+  static void add_part(Parts<Part>& parts, Part part)
+  {
+    parts.push_back(std::make_shared<const Part>(std::move(part)));
+  }
+
+  template <class Oracle, class Cell, class Part>
+  static std::int8_t locate(const Oracle& oracle, const Cell& cell, std::int8_t parent_side,
+                            std::uint32_t& part, Parts<Part>& parts)
+  {
+    if(parent_side != ON_BOUNDARY)
+      return parent_side;
+    Part mine;
+    const Bounded_side side = oracle.locate(cell, *parts[part], mine);
+    part = 0;
+    if(side == ON_BOUNDARY) {
+      part = std::uint32_t(parts.size());
+      add_part(parts, std::move(mine));
+    }
+    return std::int8_t(side);
+  }
+
+  const Domain* m_domain;
+  const Region* m_region;
+  const CellTraits* m_traits;
+  Octree m_octree;
+  double m_scale;
+  std::vector<Location> m_locations;
+  Parts<Surface_part> m_domain_parts;
+  Parts<typename Region::Surface_part> m_region_parts;
+  std::shared_ptr<const Surface_part> m_no_part = std::make_shared<const Surface_part>();
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_OCTREE_LOCATED_OCTREE_H

@@ -1,0 +1,233 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Exact queries on a closed triangulated surface, made cheap by locality: the part of the surface
+// that meets a cell is handed down to its children, and the side of a point follows from a point of
+// known side in the same cell.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SURFACE_ORACLE_3_H
+#define CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SURFACE_ORACLE_3_H
+
+#include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/assertions.h>
+#include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/named_params_helper.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+class Surface_oracle_3
+{
+public:
+  using Kernel = Predicates_kernel;
+  using Point_3 = Kernel::Point_3;
+  using Triangle_3 = Kernel::Triangle_3;
+
+  /// The facets that meet a cell, and a point of the cell with its side.
+  struct Surface_part
+  {
+    std::vector<std::uint32_t> facets;
+    Point_3 reference;
+    Bounded_side reference_side = ON_UNBOUNDED_SIDE;
+  };
+
+  template <class FaceListGraph, class NamedParameters>
+  Surface_oracle_3(const FaceListGraph& surface, const NamedParameters& np)
+    : m_data(std::make_unique<Data>())
+  {
+    CGAL_precondition(CGAL::is_triangle_mesh(surface));
+    CGAL_precondition(CGAL::is_closed(surface));
+    // A copy in doubles: predicates are exact on it, and the user's surface need not outlive us.
+    auto vpm = parameters::choose_parameter(
+      parameters::get_parameter(np, internal_np::vertex_point),
+      get_const_property_map(CGAL::vertex_point, surface));
+    std::unordered_map<typename boost::graph_traits<FaceListGraph>::vertex_descriptor,
+                       Surface::Vertex_index> copy;
+    Surface& s = m_data->surface;
+    for(auto v : vertices(surface)) {
+      const auto& p = get(vpm, v);
+      copy[v] = s.add_vertex(Point_3(rounded(p.x()), rounded(p.y()), rounded(p.z())));
+    }
+    for(auto f : faces(surface)) {
+      std::array<Surface::Vertex_index, 3> v;
+      int i = 0;
+      for(auto u : vertices_around_face(halfedge(f, surface), surface))
+        v[i++] = copy[u];
+      s.add_face(v[0], v[1], v[2]);
+      m_data->triangles.emplace_back(s.point(v[0]), s.point(v[1]), s.point(v[2]));
+      m_data->boxes.push_back(m_data->triangles.back().bbox());
+      m_data->bbox += m_data->boxes.back();
+    }
+    m_data->tree.insert(faces(s).first, faces(s).second, s, get(CGAL::vertex_point, std::as_const(s)));
+    m_data->tree.do_not_accelerate_distance_queries(); // hints serve better
+    m_data->tree.build();
+    m_data->side_of_surface.emplace(m_data->tree);
+  }
+
+  const Bbox_3& bbox() const { return m_data->bbox; }
+  std::size_t number_of_facets() const { return m_data->triangles.size(); }
+
+  /// The whole surface, with a point outside as reference: the paper's P_out.
+  Surface_part surface_part() const
+  {
+    Surface_part part;
+    part.facets.resize(number_of_facets());
+    std::iota(part.facets.begin(), part.facets.end(), 0);
+    const Bbox_3& b = bbox();
+    part.reference = Point_3((b.xmax)() + 0.7 * b.x_span() + 0.1, (b.ymax)() + 0.9 * b.y_span() + 0.1,
+                             (b.zmax)() + b.z_span() + 0.1);
+    return part;
+  }
+
+  /// Where a cell is: `ON_BOUNDARY` iff it meets the surface, else the side of all its points.
+  /// \param parent the part for a cell that contains this one
+  /// \param part filled if the cell meets the surface
+  template <class Cell>
+  Bounded_side locate(const Cell& cell, const Surface_part& parent, Surface_part& part) const
+  {
+    part.facets.clear();
+    for(std::uint32_t f : parent.facets)
+      if(CGAL::do_overlap(m_data->boxes[f], cell.bbox()) && cell.do_intersect(m_data->triangles[f]))
+        part.facets.push_back(f);
+    part.reference = cell.center();
+    part.reference_side = bounded_side(cell.center(), parent);
+    return part.facets.empty() ? part.reference_side : ON_BOUNDARY;
+  }
+
+  /// The side of a point of the cell of `part`: parity of the facets between the reference and it.
+  Bounded_side bounded_side(const Point_3& p, const Surface_part& part) const
+  {
+    if(part.facets.empty())
+      return part.reference_side;
+    if(part.reference_side == ON_BOUNDARY)
+      return bounded_side(p);
+    const Point_3& q = part.reference;
+    const Bbox_3 segment = p.bbox() + q.bbox();
+    bool odd = false;
+    for(std::uint32_t f : part.facets) {
+      if(!CGAL::do_overlap(segment, m_data->boxes[f]))
+        continue;
+      const Triangle_3& t = m_data->triangles[f];
+      const Orientation side_p = orientation(t[0], t[1], t[2], p);
+      const Orientation side_q = orientation(t[0], t[1], t[2], q);
+      if(side_p == side_q && side_p != COPLANAR)
+        continue;
+      const Orientation o0 = orientation(p, q, t[0], t[1]), o1 = orientation(p, q, t[1], t[2]);
+      if(o0 * o1 == -1)
+        continue;
+      const Orientation o2 = orientation(p, q, t[2], t[0]);
+      if(o0 * o2 == -1 || o1 * o2 == -1)
+        continue;
+      if(side_p == COPLANAR || side_q == COPLANAR || o0 == COPLANAR || o1 == COPLANAR
+         || o2 == COPLANAR)
+        return bounded_side(p); // the segment touches an edge or a vertex, or ends on the surface
+      odd = !odd;
+    }
+    return odd ? opposite(part.reference_side) : part.reference_side;
+  }
+
+  /// The side of any point, by a ray through the AABB tree.
+  Bounded_side bounded_side(const Point_3& p) const { return (*m_data->side_of_surface)(p); }
+
+  /// The closest point of the surface; faster if `part` has facets near `p`, but it need not.
+  Point_3 closest_point(const Point_3& p, const Surface_part& part) const
+  {
+    Point_3 hint = m_data->triangles.front()[0];
+    double nearest = std::numeric_limits<double>::infinity();
+    for(std::uint32_t f : part.facets)
+      for(int i = 0; i < 3; ++i) {
+        const Point_3& q = m_data->triangles[f][i];
+        const double d = CGAL::squared_distance(p, q);
+        if(d < nearest) {
+          nearest = d;
+          hint = q;
+        }
+      }
+    return closest_point(p, hint);
+  }
+
+  /// The closest point of the surface; faster if `hint`, a point of the surface, is near.
+  Point_3 closest_point(const Point_3& p, const Point_3& hint) const
+  {
+    return m_data->tree.closest_point(p, hint);
+  }
+
+  /// The closest point of the surface, by a search that starts anywhere.
+  Point_3 closest_point(const Point_3& p) const
+  {
+    return closest_point(p, m_data->triangles.front()[0]);
+  }
+
+  /// Points of the surface, such that none of its points is farther than about `spacing` from one of them:
+  /// all vertices, and a grid on larger triangles.
+  std::vector<Point_3> surface_samples(double spacing) const
+  {
+    std::vector<Point_3> samples;
+    const Surface& s = m_data->surface;
+    std::vector<std::uint8_t> is_seen(s.number_of_vertices(), 0);
+    for(const auto f : faces(s)) {
+      std::array<Point_3, 3> p;
+      double longest = 0;
+      int k = 0;
+      for(const auto v : vertices_around_face(halfedge(f, s), s)) {
+        p[k++] = s.point(v);
+        if(!is_seen[v])
+          samples.push_back(s.point(v));
+        is_seen[v] = 1;
+      }
+      for(int i = 0; i < 3; ++i)
+        longest = (std::max)(longest, std::sqrt(CGAL::squared_distance(p[i], p[(i + 1) % 3])));
+      const int n = int((std::min)(std::ceil(longest / spacing), 1000.));
+      for(int i = 0; i <= n; ++i)
+        for(int j = 0; i + j <= n; ++j)
+          if((i > 0) + (j > 0) + (i + j < n) > 1) // not at a vertex
+            samples.push_back(p[0] + (double(i) / n) * (p[1] - p[0]) + (double(j) / n) * (p[2] - p[0]));
+    }
+    return samples;
+  }
+
+private:
+  using Surface = CGAL::Surface_mesh<Point_3>;
+  using Side_of_surface = CGAL::Side_of_triangle_mesh<Surface, Kernel>;
+  using Tree = Side_of_surface::AABB_tree; // its traits have another name in each CGAL version
+
+  static Bounded_side opposite(Bounded_side side) { return Bounded_side(-int(side)); }
+
+  struct Data
+  {
+    Surface surface;
+    std::vector<Triangle_3> triangles;
+    std::vector<Bbox_3> boxes;
+    Bbox_3 bbox;
+    Tree tree;
+    std::optional<Side_of_surface> side_of_surface;
+  };
+  std::unique_ptr<Data> m_data; // the tree keeps the address of the surface
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SURFACE_ORACLE_3_H

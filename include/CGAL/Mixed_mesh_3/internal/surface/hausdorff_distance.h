@@ -1,0 +1,194 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The Hausdorff distance between sets of triangles, by branch and bound. Not CGAL's
+// bounded_error_Hausdorff_distance(): that of CGAL 5.5 fails an assertion where surfaces coincide, which
+// fitted meshes do, and no version is documented to tell the place.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_SURFACE_HAUSDORFF_DISTANCE_H
+#define CGAL_MIXED_MESH_3_INTERNAL_SURFACE_HAUSDORFF_DISTANCE_H
+
+#include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+
+#include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <queue>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+struct Triangle_soup
+{
+  std::vector<Predicates_kernel::Point_3> points;
+  std::vector<std::array<std::size_t, 3>> triangles;
+};
+
+/// Nearest points on the triangles of a soup.
+class Nearest_triangle
+{
+  using Kernel = Predicates_kernel;
+  using Point_3 = Kernel::Point_3;
+  using Surface = CGAL::Surface_mesh<Point_3>;
+  using Tree = CGAL::Side_of_triangle_mesh<Surface, Kernel>::AABB_tree; // see Surface_oracle_3
+
+  Surface m_surface;
+  std::vector<Kernel::Triangle_3> m_triangles;
+  Tree m_tree;
+  Tree::Point_and_primitive_id m_start;
+
+public:
+  using Hint = Tree::Point_and_primitive_id;
+
+  /// A point, the nearest point of the soup, and where that is.
+  struct Query
+  {
+    Point_3 point;
+    Hint nearest;
+    double distance;
+    std::size_t triangle() const { return std::size_t(nearest.second); }
+  };
+
+  explicit Nearest_triangle(const Triangle_soup& soup)
+  {
+    // Without connectivity, so that any set of triangles is a surface.
+    for(const auto& t : soup.triangles) {
+      const Point_3 &a = soup.points[t[0]], &b = soup.points[t[1]], &c = soup.points[t[2]];
+      m_surface.add_face(m_surface.add_vertex(a), m_surface.add_vertex(b), m_surface.add_vertex(c));
+      m_triangles.emplace_back(a, b, c);
+    }
+    m_tree.insert(faces(m_surface).first, faces(m_surface).second, m_surface,
+                  get(CGAL::vertex_point, std::as_const(m_surface)));
+    m_tree.do_not_accelerate_distance_queries(); // hints serve better
+    m_tree.build();
+    m_start = {m_triangles.front()[0], *faces(m_surface).first};
+  }
+  Nearest_triangle(const Nearest_triangle&) = delete; // the tree keeps the address of the surface
+  Nearest_triangle& operator=(const Nearest_triangle&) = delete;
+
+  const Hint& start() const { return m_start; }
+
+  /// \param hint a point of the soup; faster if it is near
+  Query operator()(const Point_3& p, const Hint& hint) const
+  {
+    const Hint nearest = m_tree.closest_point_and_primitive(p, hint);
+    return {p, nearest, std::sqrt(CGAL::squared_distance(p, nearest.first))};
+  }
+
+  double distance(const Point_3& p, std::size_t triangle) const
+  {
+    return std::sqrt(CGAL::squared_distance(p, m_triangles[triangle]));
+  }
+};
+
+} // namespace internal
+
+/// How far a surface is from another one.
+struct One_sided_distance
+{
+  double distance = 0; ///< of `from`, the farthest point found
+  double error = 0;    ///< no point is farther than `distance + error`
+  Predicates_kernel::Point_3 from; ///< a point of the surface
+  Predicates_kernel::Point_3 to;   ///< the point of the other one nearest to it
+};
+
+namespace internal {
+
+/*!
+The point of `soup` that is farthest from `target`.
+
+The distance to one triangle is convex: on a piece of a triangle it is largest at a vertex. So the distance
+of a piece is at most the largest one of its vertices to any one triangle, and those nearest to its vertices
+are good ones to try. The piece with the largest bound is halved, until none exceeds the farthest vertex by
+more than `maximal_error`. Where large triangles coincide with small ones that takes very many pieces, so
+their number is limited.
+*/
+inline One_sided_distance one_sided_distance(const Triangle_soup& soup, const Nearest_triangle& target,
+                                             double maximal_error)
+{
+  constexpr std::size_t maximal_number_of_halvings = 500000; // some seconds
+  using Query = Nearest_triangle::Query;
+  using Vertices = std::array<std::size_t, 3>;
+  std::vector<Query> queries;
+  std::size_t farthest = 0;
+  const auto add = [&](const Predicates_kernel::Point_3& p, const Nearest_triangle::Hint& hint) {
+    queries.push_back(target(p, hint));
+    if(queries.back().distance > queries[farthest].distance)
+      farthest = queries.size() - 1;
+    return queries.size() - 1;
+  };
+
+  struct Piece
+  {
+    double bound;
+    Vertices vertices;
+    bool operator<(const Piece& p) const
+    {
+      return bound != p.bound ? bound < p.bound : vertices < p.vertices;
+    }
+  };
+  std::priority_queue<Piece> pieces;
+  const auto limit = [&] { return queries[farthest].distance + maximal_error; };
+  const auto add_piece = [&](const Vertices& v, double bound) {
+    for(std::size_t i : v) {
+      double largest = 0;
+      for(std::size_t j : v) {
+        const bool is_nearest = queries[j].triangle() == queries[i].triangle();
+        largest = (std::max)(largest, is_nearest ? queries[j].distance
+                                                 : target.distance(queries[j].point, queries[i].triangle()));
+      }
+      bound = (std::min)(bound, largest);
+    }
+    if(bound > limit())
+      pieces.push({bound, v});
+  };
+
+  constexpr std::size_t none = std::size_t(-1);
+  std::vector<std::size_t> query_of_point(soup.points.size(), none);
+  for(const Vertices& t : soup.triangles)
+    for(std::size_t v : t)
+      if(query_of_point[v] == none)
+        query_of_point[v] = add(soup.points[v], queries.empty() ? target.start() : queries.back().nearest);
+  for(const Vertices& t : soup.triangles)
+    add_piece({query_of_point[t[0]], query_of_point[t[1]], query_of_point[t[2]]},
+              std::numeric_limits<double>::infinity());
+
+  for(std::size_t n = 0; n < maximal_number_of_halvings && !pieces.empty() && pieces.top().bound > limit();
+      ++n) {
+    const Piece piece = pieces.top();
+    pieces.pop();
+    auto [a, b, c] = piece.vertices;
+    const auto squared_length = [&](std::size_t i, std::size_t j) {
+      return CGAL::squared_distance(queries[i].point, queries[j].point);
+    };
+    if(squared_length(b, c) > squared_length(a, b))
+      std::swap(a, c);
+    if(squared_length(a, c) > squared_length(a, b))
+      std::swap(b, c);
+    const std::size_t m = add(CGAL::midpoint(queries[a].point, queries[b].point), queries[a].nearest);
+    add_piece({a, m, c}, piece.bound);
+    add_piece({m, b, c}, piece.bound);
+  }
+  const Query& q = queries[farthest];
+  // Pieces left out are within the limit there was, which has only grown.
+  const double bound = pieces.empty() ? limit() : (std::max)(limit(), pieces.top().bound);
+  return {q.distance, bound - q.distance, q.point, q.nearest.first};
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_SURFACE_HAUSDORFF_DISTANCE_H

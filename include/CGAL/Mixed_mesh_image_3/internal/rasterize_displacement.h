@@ -1,0 +1,325 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Fields of a mesh on the voxels of an image: in the elements, and fading outside.
+
+#ifndef CGAL_MIXED_MESH_IMAGE_3_INTERNAL_RASTERIZE_DISPLACEMENT_H
+#define CGAL_MIXED_MESH_IMAGE_3_INTERNAL_RASTERIZE_DISPLACEMENT_H
+
+#include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/Isoparametric_map_3.h>
+
+#include <CGAL/assertions.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+// The voxels `first <= i < last` in each direction.
+struct Voxel_range
+{
+  std::array<std::ptrdiff_t, 3> first, last;
+  bool is_empty() const { return first[0] >= last[0] || first[1] >= last[1] || first[2] >= last[2]; }
+};
+
+// Indices between two bounds, wider by `margin`, in the grid.
+inline Voxel_range voxel_range(const Voxel_grid_3& grid, const Vec3& lower, const Vec3& upper,
+                               const Vec3& margin)
+{
+  Voxel_range range;
+  for(int k = 0; k < 3; ++k) {
+    const double size = double(grid.size[k]);
+    range.first[k] = std::ptrdiff_t((std::max)(0., (std::min)(size, std::ceil(lower[k] - margin[k]))));
+    range.last[k] = std::ptrdiff_t((std::max)(0., (std::min)(size, std::floor(upper[k] + margin[k]) + 1)));
+  }
+  return range;
+}
+
+/*!
+Calls `visit(offset, r)` for the voxels whose centers are in an element, with reference coordinates.
+
+Row by row: where a row is in all half-spaces that contain the element, the map is inverted, each voxel
+starting from the result for the one before.
+\param points positions of the element's vertices, in indices of the grid
+\param is_wanted `bool(offset)`: whether to look at a voxel
+*/
+template <Element_kind Kind, class Is_wanted, class Visitor>
+void for_each_voxel(const Vec3* points, const Voxel_grid_3& grid, const Is_wanted& is_wanted,
+                    const Visitor& visit)
+{
+  constexpr double margin = 1e-7, accuracy = 1e-6; // fields are floats
+  Vec3 lower = points[0], upper = points[0];
+  for(int i = 1; i < reference_elements[Kind].number_of_vertices; ++i)
+    for(int k = 0; k < 3; ++k) {
+      lower[k] = (std::min)(lower[k], points[i][k]);
+      upper[k] = (std::max)(upper[k], points[i][k]);
+    }
+  const Voxel_range range = voxel_range(grid, lower, upper, {margin, margin, margin});
+  if(range.is_empty())
+    return;
+  const Isoparametric_map_3<Kind> map(points);
+  const Half_spaces& faces = map.necessary_half_spaces();
+  const Vec3 step = map.linear_inverse_of_vector({1, 0, 0});
+  double slopes[6];
+  for(int f = 0; f < faces.size; ++f)
+    slopes[f] = dot(faces.rows[f].b, step);
+
+  for(std::ptrdiff_t k = range.first[2]; k < range.last[2]; ++k)
+    for(std::ptrdiff_t j = range.first[1]; j < range.last[1]; ++j) {
+      const Vec3 start = map.linear_inverse({0, double(j), double(k)});
+      double from = double(range.first[0]), to = double(range.last[0] - 1);
+      for(int f = 0; f < faces.size; ++f) {
+        const double value = faces.rows[f](start) + reference_tolerance;
+        if(slopes[f] > 0)
+          from = (std::max)(from, -value / slopes[f]);
+        else if(slopes[f] < 0)
+          to = (std::min)(to, -value / slopes[f]);
+        else if(!(value >= 0))
+          to = from - 1;
+      }
+      if(!(from <= to))
+        continue;
+      Vec3 r{};
+      bool is_near = false; // r belongs to the voxel before
+      for(std::size_t i = std::size_t(std::ceil(from)); double(i) <= to; ++i) {
+        const std::size_t offset = grid.offset(i, std::size_t(j), std::size_t(k));
+        if(!is_wanted(offset)) {
+          is_near = false;
+          continue;
+        }
+        r = is_near ? r + step : start + double(i) * step;
+        const auto found = map.inverse({double(i), double(j), double(k)}, r, accuracy);
+        is_near = found && !map.is_affine();
+        if(found) {
+          r = *found;
+          visit(offset, r);
+        }
+      }
+    }
+}
+
+/*!
+The field of the displacement on the voxels in the mesh.
+
+\param elements the elements
+\param is_used `bool(Element_index)`: elements to leave out
+\param indices positions of the vertices, in indices of the field's grid
+\param displacements at the vertices, in millimeters
+\param field vectors of the voxels in an element are set (the first of several elements), and their
+       `is_in_mesh`
+*/
+template <class Is_used>
+void rasterize_displacement(const Element_list& elements, const Is_used& is_used,
+                            const std::vector<Vec3>& indices, const std::vector<Vec3>& displacements,
+                            Displacement_field_3& field)
+{
+  const auto is_free = [&field](std::size_t offset) { return field.is_in_mesh[offset] == 0; };
+  for(std::size_t e = 0; e < elements.size(); ++e) {
+    if(!is_used(Element_index(e)))
+      continue;
+    const Element_view element = elements[e];
+    Vec3 points[8], values[8];
+    for(int i = 0; i < element.size(); ++i) {
+      points[i] = indices[element[i]];
+      values[i] = displacements[element[i]];
+    }
+    with_kind(element.kind(), [&](auto kind) {
+      const Element_field<kind.value> displacement(values);
+      for_each_voxel<kind.value>(points, field.grid, is_free, [&](std::size_t offset, const Vec3& r) {
+        const Vec3 u = displacement(r);
+        field.vectors[offset] = {float(u[0]), float(u[1]), float(u[2])};
+        field.is_in_mesh[offset] = 1;
+      });
+    });
+  }
+}
+
+/*!
+For each line of values g, the place q with the least `(spacing (i - q))^2 + g(q)`: the lower envelope of
+parabolas (Felzenszwalb, Huttenlocher: "Distance transforms of sampled functions", 2012).
+*/
+class Lower_envelope
+{
+  std::vector<std::ptrdiff_t> m_places;
+  std::vector<double> m_values, m_starts; // parabola n is lowest from m_starts[n] on
+  double m_squared_spacing;
+
+public:
+  explicit Lower_envelope(double spacing) : m_squared_spacing(spacing * spacing) {}
+
+  void clear()
+  {
+    m_places.clear();
+    m_values.clear();
+    m_starts.clear();
+  }
+
+  bool is_empty() const { return m_places.empty(); }
+
+  // Places in ascending order.
+  void add(std::ptrdiff_t place, double value)
+  {
+    double start = -std::numeric_limits<double>::infinity();
+    while(!m_places.empty()) {
+      const double last = double(m_places.back()), p = double(place);
+      start = (p + last) / 2 + (value - m_values.back()) / (2 * m_squared_spacing * (p - last));
+      if(start > m_starts.back())
+        break;
+      m_places.pop_back();
+      m_values.pop_back();
+      m_starts.pop_back();
+      start = -std::numeric_limits<double>::infinity();
+    }
+    m_places.push_back(place);
+    m_values.push_back(value);
+    m_starts.push_back(start);
+  }
+
+  /// Calls `visit(i, place, value)` for `first <= i < last` with the least value.
+  template <class Visitor>
+  void for_each(std::ptrdiff_t first, std::ptrdiff_t last, const Visitor& visit) const
+  {
+    std::size_t n = 0;
+    for(std::ptrdiff_t i = first; i < last; ++i) {
+      while(n + 1 < m_starts.size() && m_starts[n + 1] < double(i))
+        ++n;
+      const double d = double(i - m_places[n]);
+      visit(i, m_places[n], m_squared_spacing * d * d + m_values[n]);
+    }
+  }
+};
+
+/*!
+Gives each voxel outside the mesh the vector of the nearest voxel in the mesh, times a factor that falls
+smoothly from 1 to 0 over a distance.
+
+Distances are measured along the axes of the grid as if these were at right angles.
+\pre fewer than 2^32 voxels
+\cost linear in the number of voxels in a box around the mesh
+*/
+inline void fade_displacement(double distance, Displacement_field_3& field)
+{
+  const Voxel_grid_3& grid = field.grid;
+  CGAL_precondition(grid.number_of_voxels() <= std::numeric_limits<std::uint32_t>::max());
+  Vec3 spacing, margin;
+  for(int k = 0; k < 3; ++k) {
+    const Affine_map_3& m = grid.index_to_world;
+    spacing[k] = norm({m[0][k], m[1][k], m[2][k]});
+    margin[k] = distance / spacing[k];
+  }
+  Vec3 lower, upper;
+  lower.fill(std::numeric_limits<double>::infinity());
+  upper.fill(-std::numeric_limits<double>::infinity());
+  const auto extend = [&](int axis, std::size_t i) {
+    lower[axis] = (std::min)(lower[axis], double(i));
+    upper[axis] = (std::max)(upper[axis], double(i));
+  };
+  for(std::size_t k = 0; k < grid.size[2]; ++k)
+    for(std::size_t j = 0; j < grid.size[1]; ++j) {
+      const auto row = field.is_in_mesh.begin() + std::ptrdiff_t(grid.offset(0, j, k));
+      const auto end = row + std::ptrdiff_t(grid.size[0]), first = std::find(row, end, 1);
+      if(first == end)
+        continue;
+      auto last = end;
+      while(*--last == 0) {}
+      extend(0, std::size_t(first - row));
+      extend(0, std::size_t(last - row));
+      extend(1, j);
+      extend(2, k);
+    }
+  const Voxel_range range = voxel_range(grid, lower, upper, margin);
+  if(!(distance > 0) || range.is_empty())
+    return;
+
+  // For each voxel the nearest one in the mesh: in its row, then in its plane, then anywhere.
+  struct Nearest
+  {
+    float squared_distance;
+    std::uint32_t offset;
+  };
+  const std::ptrdiff_t n[3] = {range.last[0] - range.first[0], range.last[1] - range.first[1],
+                               range.last[2] - range.first[2]};
+  const float far = std::numeric_limits<float>::infinity();
+  const double limit = distance * distance;
+  std::vector<Nearest> nearest(std::size_t(n[0] * n[1] * n[2]), Nearest{far, 0});
+  const auto at = [&](std::ptrdiff_t i, std::ptrdiff_t j, std::ptrdiff_t k) -> Nearest& {
+    return nearest[std::size_t(i + n[0] * (j + n[1] * k))];
+  };
+  for(std::ptrdiff_t k = 0; k < n[2]; ++k)
+    for(std::ptrdiff_t j = 0; j < n[1]; ++j) {
+      const std::size_t start = grid.offset(std::size_t(range.first[0]), std::size_t(range.first[1] + j),
+                                            std::size_t(range.first[2] + k));
+      Nearest* const row = &at(0, j, k);
+      for(int direction = 0; direction < 2; ++direction) {
+        std::ptrdiff_t seed = -1;
+        for(std::ptrdiff_t a = 0; a < n[0]; ++a) {
+          const std::ptrdiff_t i = direction == 0 ? a : n[0] - 1 - a;
+          if(field.is_in_mesh[start + std::size_t(i)])
+            seed = i;
+          const double d = spacing[0] * double(i - seed);
+          if(seed >= 0 && d * d < row[i].squared_distance && d * d <= limit)
+            row[i] = {float(d * d), std::uint32_t(start + std::size_t(seed))};
+        }
+      }
+    }
+  const auto sweep = [&](int axis) {
+    const int other = 3 - axis; // of j and k
+    const std::ptrdiff_t stride = axis == 1 ? n[0] : n[0] * n[1];
+    Lower_envelope envelope(spacing[axis]);
+    std::vector<Nearest> line(static_cast<std::size_t>(n[axis]));
+    for(std::ptrdiff_t b = 0; b < n[other]; ++b)
+      for(std::ptrdiff_t i = 0; i < n[0]; ++i) {
+        Nearest* const first = axis == 1 ? &at(i, 0, b) : &at(i, b, 0);
+        for(std::ptrdiff_t a = 0; a < n[axis]; ++a)
+          line[std::size_t(a)] = first[a * stride];
+        const auto value = [&line](std::ptrdiff_t a) { return line[std::size_t(a)].squared_distance; };
+        // Between voxels of the mesh nothing changes, and what is there is not nearest to others.
+        envelope.clear();
+        for(std::ptrdiff_t a = 0; a < n[axis]; ++a)
+          if(value(a) < far
+             && !(value(a) == 0 && a > 0 && a + 1 < n[axis] && value(a - 1) == 0 && value(a + 1) == 0))
+            envelope.add(a, value(a));
+        if(envelope.is_empty())
+          continue;
+        envelope.for_each(0, n[axis], [&](std::ptrdiff_t a, std::ptrdiff_t place, double d) {
+          if(d < value(a))
+            first[a * stride] = d <= limit ? Nearest{float(d), line[std::size_t(place)].offset}
+                                           : Nearest{far, 0};
+        });
+      }
+  };
+  sweep(1);
+  sweep(2);
+
+  for(std::ptrdiff_t k = 0; k < n[2]; ++k)
+    for(std::ptrdiff_t j = 0; j < n[1]; ++j) {
+      const std::size_t start = grid.offset(std::size_t(range.first[0]), std::size_t(range.first[1] + j),
+                                            std::size_t(range.first[2] + k));
+      for(std::ptrdiff_t i = 0; i < n[0]; ++i) {
+        const Nearest& found = at(i, j, k);
+        if(found.squared_distance == 0 || found.squared_distance == far)
+          continue;
+        const double t = (std::min)(1., std::sqrt(double(found.squared_distance)) / distance);
+        const float weight = float(1 - t * t * (3 - 2 * t));
+        const std::array<float, 3>& u = field.vectors[found.offset];
+        field.vectors[start + std::size_t(i)] = {weight * u[0], weight * u[1], weight * u[2]};
+      }
+    }
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_IMAGE_3_INTERNAL_RASTERIZE_DISPLACEMENT_H

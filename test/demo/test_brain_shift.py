@@ -1,0 +1,473 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""brain_shift as a user meets it: a run from the mesh to the image, bad input, determinism.
+
+  test_brain_shift.py MESHER BRAIN_SHIFT DATA_DIRECTORY WORK_DIRECTORY
+"""
+
+import gzip
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import unittest
+
+MESHER, PROGRAM, DATA, WORK = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
+
+try:
+    import nibabel
+    import numpy as np
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+except ImportError as error:
+    print("skipped:", error)
+    sys.exit(77)
+
+HEADER = "x,y,z,dx,dy,dz\n"
+POINTS = (DATA / "control_points.csv").read_text()
+ROWS = [line for line in POINTS.splitlines() if line and line[0] not in "#x"]
+VALUES = np.array([[float(x) for x in row.split(",")] for row in ROWS])
+CUBE = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+TRIANGLES = [t for a, b, c, d in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2),
+                                  (1, 3, 7, 5)) for t in ((a, b, c), (a, c, d))]
+
+
+def off(points, faces):
+    lines = ["OFF", f"{len(points)} {len(faces)} 0"]
+    lines += [" ".join(map(str, p)) for p in points] + [" ".join(map(str, (len(f), *f))) for f in faces]
+    return "\n".join(lines) + "\n"
+
+
+def cube_off(center, width, faces=TRIANGLES):
+    return off([tuple(c + width * (x - 0.5) for c, x in zip(center, p)) for p in CUBE], faces)
+
+
+def with_value(row, column, text):
+    """The control points with one number replaced; and its line in the file, from 1."""
+    cells = ROWS[row].split(",")
+    cells[column] = text
+    return HEADER + "\n".join(ROWS[:row] + [",".join(cells)] + ROWS[row + 1:]) + "\n"
+
+
+def msh(points, elements):
+    """A mesh of Gmsh: elements by type and vertices."""
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", str(len(points))]
+    lines += [" ".join(map(str, (i + 1, *p))) for i, p in enumerate(points)]
+    lines += ["$EndNodes", "$Elements", str(len(elements))]
+    lines += [" ".join(map(str, (i + 1, kind, 2, 0, 1, *(v + 1 for v in e)))) for i, (kind, e) in enumerate(elements)]
+    return "\n".join(lines + ["$EndElements"]) + "\n"
+
+
+HEXAHEDRON = (0, 1, 3, 2, 4, 5, 7, 6)  # of CUBE
+
+# name of the file, contents, words that the error must have
+BAD_POINTS = [
+    ("empty.csv", "", "is empty"),
+    ("comments_only.csv", "# nothing\n\n", "is empty"),
+    ("header_only.csv", HEADER, "has no control points"),
+    ("no_header.csv", "\n".join(ROWS) + "\n", "line 1: expected the header x,y,z,dx,dy,dz"),
+    ("other_header.csv", "x,y,z,u,v,w\n" + "\n".join(ROWS), "line 1: expected the header"),
+    ("semicolons.csv", POINTS.replace(",", ";"), "expected the header"),
+    ("five_columns.csv", HEADER + "\n\n# comment\n1,2,3,4,5\n", "line 5: expected 6 columns, x,y,z,dx,dy,dz, not 5"),
+    ("seven_columns.csv", HEADER + ROWS[0] + ",\n", "line 2: expected 6 columns, x,y,z,dx,dy,dz, not 7"),
+    ("word.csv", with_value(1, 4, "much"), 'line 3: "much" is not a number'),
+    ("two_numbers.csv", with_value(2, 0, "1 2"), 'line 4: "1 2" is not a number'),
+    ("hexadecimal.csv", with_value(2, 0, "0x10"), 'line 4: "0x10" is not a number'),
+    ("signs.csv", with_value(0, 0, "+-1"), 'line 2: "+-1" is not a number'),
+    ("nothing.csv", with_value(0, 5, " "), "line 2: a number is missing"),
+    ("nan.csv", with_value(3, 2, "nan"), 'line 5: "nan" is not a finite number'),
+    ("infinite.csv", with_value(3, 3, "-inf"), 'line 5: "-inf" is not a finite number'),
+    ("overflow.csv", with_value(3, 3, "1e999"), 'line 5: "1e999" is out of range'),
+    ("kilometers.csv", with_value(3, 3, "1e7"), "line 5: \"1e7\" mm is more than a kilometer"),
+    ("binary.csv", "\x00\x01\x02\xff\r\n\n", "expected the header"),
+    ("control_characters.csv", HEADER + "1,2,3,4,5,\x1b[2J\n", 'line 2: "?[2J" is not a number'),
+]
+
+
+class BrainShift(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        shutil.rmtree(WORK, ignore_errors=True)
+        WORK.mkdir(parents=True)
+        cls.mesh, cls.tumor = WORK / "brain.vtu", DATA / "tumour.off"
+        subprocess.run([MESHER, DATA / "brain.off", "--region", DATA / "region.off", "--vertices", "660", "--quiet",
+                        "--output", cls.mesh], check=True)
+        cls.points = cls.file("points.csv", POINTS)
+        # A synthetic image, linear in space, of 3 mm: not along the axes, first index to the left.
+        cls.affine = np.array([[-3, 0, 0, 90], [0, 3, 0, -126], [0, 0, 3, -72], [0, 0, 0, 1.]])
+        cls.gradient = np.array([1.5, -0.5, 2.])
+        world = cls.affine[:3, :3] @ np.indices((61, 73, 61)).reshape(3, -1) + cls.affine[:3, 3:]
+        cls.values = (1000 + cls.gradient @ world).reshape(61, 73, 61).astype(np.float32)
+        cls.image = WORK / "image.nii.gz"
+        image = nibabel.Nifti1Image(cls.values, cls.affine)
+        image.header.set_xyzt_units("mm")
+        nibabel.save(image, cls.image)
+
+    @classmethod
+    def file(cls, name, contents):
+        path = WORK / name
+        path.write_bytes(contents if isinstance(contents, bytes) else contents.encode("latin-1"))
+        return path
+
+    def shift(self, *arguments):
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+
+    def fails(self, *arguments, names, status=1, words=""):
+        """One line on stderr that names the culprit, no output, nothing left behind."""
+        before = sorted(WORK.iterdir())
+        run = self.shift(*arguments, "--output", WORK / "no.vtu", "--report", WORK / "no.json")
+        self.assertEqual(run.returncode, status, run.stderr)
+        if status == 1:
+            self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
+            self.assertTrue(run.stderr.startswith("brain_shift: error: "), run.stderr)
+        self.assertIn(str(names), run.stderr)
+        self.assertIn(words, run.stderr)
+        self.assertEqual(run.stdout, "")
+        self.assertEqual(sorted(WORK.iterdir()), before)
+
+    def fails_with(self, points, *arguments, words, names=None):
+        path = self.file("these.csv", points)
+        self.fails(self.mesh, "--control-points", path, *arguments, names=names or path, words=words)
+
+    def succeeds(self, *arguments):
+        """The report, and what was printed."""
+        run = self.shift(*arguments, "--report", WORK / "report.json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return json.loads((WORK / "report.json").read_text()), run
+
+    def read(self, path):
+        reader = vtk.vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(path))
+        reader.Update()
+        return reader.GetOutput()
+
+    def probe(self, grid, points, name):
+        """Values of point data of a mesh at points; nan outside."""
+        cloud = vtk.vtkPoints()
+        for p in points:
+            cloud.InsertNextPoint(p)
+        data = vtk.vtkPolyData()
+        data.SetPoints(cloud)
+        probe = vtk.vtkProbeFilter()
+        probe.SetInputData(data)
+        probe.SetSourceData(grid)
+        probe.Update()
+        output = probe.GetOutput().GetPointData()
+        values = vtk_to_numpy(output.GetArray(name)).copy()
+        values[vtk_to_numpy(output.GetArray("vtkValidPointMask")) == 0] = np.nan
+        return values
+
+    # Runs from the mesh to the image
+
+    def test_all_of_it(self):
+        told, run = self.succeeds(self.mesh, "--control-points", self.points, "--tumor", self.tumor, "--image",
+                                  self.image, "--output", WORK / "all.vtu", "--output-deformed", WORK / "left.vtu",
+                                  "--output-deformed", WORK / "left.msh", "--output-image", WORK / "all")
+        self.assertIn("wrote", run.stdout)
+        grid, left = self.read(WORK / "all.vtu"), self.read(WORK / "left.vtu")
+        displacement = vtk_to_numpy(grid.GetPointData().GetArray("displacement"))
+        before = vtk_to_numpy(grid.GetPointData().GetArray("displacement_before_resection"))
+        resected = vtk_to_numpy(grid.GetCellData().GetArray("resected"))
+        positions = vtk_to_numpy(grid.GetPoints().GetData())
+        self.assertEqual(displacement.shape, (told["inputs"]["mesh"]["vertices"], 3))
+        self.assertEqual(set(resected), {0, 1})
+        for key, field in (("shift", before), ("shift after resection", displacement)):
+            self.assertAlmostEqual(told[key]["largest displacement"], np.linalg.norm(field, axis=1).max(), 9)
+            self.assertTrue(8 < told[key]["largest displacement"] < 20)
+            self.assertGreater(told[key]["energy"], 0)
+            for control, value in zip(told[key]["control points"], VALUES):
+                self.assertTrue(np.allclose(control["displacement"], value[3:], atol=1e-6))
+                self.assertGreater(np.dot(control["force"], value[3:]), 0)
+        # fixed: as many as are told, below 30 % of the height
+        moved = np.linalg.norm(before, axis=1) > 0
+        height = (positions[:, 2] - positions[:, 2].min()) / np.ptp(positions[:, 2])
+        self.assertEqual(np.count_nonzero(~moved), told["supports"]["fixed"])
+        self.assertLess(height[~moved].max(), 0.3)
+
+        resection = told["resection"]
+        self.assertEqual(resection["status"], "success")
+        self.assertEqual(resection["elements removed"], np.count_nonzero(resected))
+        self.assertEqual(left.GetNumberOfCells(), len(resected) - np.count_nonzero(resected))
+        self.assertEqual(left.GetNumberOfPoints(), resection["vertices left"])
+        self.assertTrue(0.7 < resection["cavity volume"] / told["inputs"]["tumor"]["volume"] < 1.3)
+        self.assertGreater(resection["cavity area"], (36 * np.pi * resection["cavity volume"]**2)**(1 / 3))
+        is_left = np.zeros(len(positions), bool)
+        for i in np.nonzero(resected == 0)[0]:
+            is_left[[grid.GetCell(i).GetPointId(k) for k in range(grid.GetCell(i).GetNumberOfPoints())]] = True
+        self.assertTrue(np.allclose(vtk_to_numpy(left.GetPoints().GetData()), (positions + displacement)[is_left],
+                                    atol=1e-12))
+
+        # what a programme needs of the report
+        stages = {stage["stage"]: stage["ms"] for stage in told["stages"]}
+        for name in ("read mesh", "factor", "control points", "solve", "resect", "remove elements",
+                     "solve after resection", "warp image"):
+            self.assertGreater(stages[name], 0)
+        self.assertEqual(told["parameters"]["Young's modulus"], {"value": 1, "unit": "kPa"})
+        self.assertEqual(told["inputs"]["image"]["share of the mesh's vertices inside"], 1)
+        self.assertEqual([p["line"] for p in told["control points"]], [4, 5, 6, 7])
+        self.assertTrue(all(0 <= p["distance to the mesh"] < 5 for p in told["control points"]))
+        for warning in told["warnings"]:
+            self.assertIn("inverted", warning)
+        self.assertEqual(len(run.stderr.splitlines()), len(told["warnings"]))
+
+        # the image moves as the mesh does
+        warped, mask = nibabel.load(WORK / "all.nii.gz"), nibabel.load(WORK / "all_mask.nii.gz")
+        self.assertTrue(np.allclose(warped.affine, self.affine))
+        mask, values = np.asarray(mask.dataobj), warped.get_fdata()
+        self.assertEqual(set(np.unique(mask)), {0, 1, 2})
+        self.assertEqual(told["image"], {"voxels of tissue": int((mask == 1).sum()),
+                                         "voxels resected": int((mask == 2).sum())})
+        self.assertTrue(np.all(values[mask == 2] == 0))
+        voxels = np.argwhere(mask == 1)[::7]
+        world = voxels @ self.affine[:3, :3].T + self.affine[:3, 3]
+        left_with_data = vtk.vtkUnstructuredGrid()
+        left_with_data.DeepCopy(left)
+        array = vtk.vtkDoubleArray()
+        array.SetName("displacement")
+        array.SetNumberOfComponents(3)
+        for u in displacement[is_left]:
+            array.InsertNextTuple3(*u)
+        left_with_data.GetPointData().AddArray(array)
+        u = self.probe(left_with_data, world, "displacement")  # VTK finds the voxels in the deformed elements
+        found = ~np.isnan(u[:, 0])
+        self.assertGreater(np.count_nonzero(found), 0.98 * len(voxels))
+        expected = 1000 + (world - u) @ self.gradient
+        error = np.abs(values[tuple(voxels.T)] - expected)[found]
+        # VTK splits warped faces elsewhere; inverted elements cover a point several times
+        self.assertLess(np.quantile(error, 0.99), 0.2)
+        self.assertGreater(np.abs(u[found] @ self.gradient).max(), 8)
+        # a field takes a voxel where it came from
+        backward = np.asarray(nibabel.load(WORK / "all_backward.nii.gz").dataobj)[:, :, :, 0][tuple(voxels.T)]
+        self.assertTrue(np.allclose(1000 + (world + backward) @ self.gradient, values[tuple(voxels.T)], atol=1e-2))
+
+    def test_rigid_motion_is_exact(self):
+        # All control points move alike, nothing is fixed: everything follows.
+        points = self.file("translation.csv", HEADER + "".join(
+            ",".join(map(str, (*p[:3], 3, -6, 1.5))) + "\n" for p in VALUES))
+        told, run = self.succeeds(self.mesh, "--control-points", points, "--fixed-below", 0, "--image", self.image,
+                                  "--output-image", WORK / "rigid", "--output", WORK / "rigid.vtu")
+        self.assertEqual(run.stderr, "")
+        self.assertEqual(told["supports"]["fixed"], 0)
+        self.assertIsNone(told["resection"])
+        u = vtk_to_numpy(self.read(WORK / "rigid.vtu").GetPointData().GetArray("displacement"))
+        self.assertTrue(np.allclose(u, [3, -6, 1.5], atol=1e-8))
+        self.assertLess(abs(told["shift"]["energy"]), 1e-8)
+        self.assertTrue(np.allclose([p["force"] for p in told["shift"]["control points"]], 0, atol=1e-6))
+        mask = np.asarray(nibabel.load(WORK / "rigid_mask.nii.gz").dataobj)
+        values = nibabel.load(WORK / "rigid.nii.gz").get_fdata()
+        difference = (values - self.values)[mask == 1]
+        self.assertTrue(np.allclose(difference, -np.dot(self.gradient, [3, -6, 1.5]), atol=1e-3))
+
+    def test_supports_and_loads(self):
+        base, _ = self.succeeds(self.mesh, "--control-points", self.points)
+        at = lambda told: told["shift"]["largest displacement"]
+        stiff, _ = self.succeeds(self.mesh, "--control-points", self.points, "--young-modulus", 3)
+        self.assertAlmostEqual(at(stiff), at(base), 8)
+        forces = [np.array([p["force"] for p in told["shift"]["control points"]]) for told in (base, stiff)]
+        self.assertTrue(np.allclose(3 * forces[0], forces[1]))
+        told, _ = self.succeeds(self.mesh, "--control-points", self.points, "--slide-beyond", 40)
+        self.assertGreater(told["supports"]["sliding"], 0)
+        self.assertEqual(told["supports"]["fixed"], base["supports"]["fixed"])
+        below, _ = self.succeeds(self.mesh, "--control-points", self.points, "--slide-below", 0.6)
+        self.assertTrue(0 < below["supports"]["sliding"] < below["supports"]["boundary vertices"])
+        upside_down, _ = self.succeeds(self.mesh, "--control-points", self.points, "--up", "-z", "--fixed-below", 0.05)
+        self.assertEqual(upside_down["parameters"]["up"]["value"], [0, 0, -1])
+        self.assertNotEqual(upside_down["supports"], base["supports"])
+        heavy, _ = self.succeeds(self.mesh, "--control-points", self.points, "--gravity", "0,0,-981")
+        self.assertNotEqual(heavy["shift"]["energy"], base["shift"]["energy"])
+        self.assertAlmostEqual(heavy["shift"]["control points missed by at most"], 0, 6)
+        soft, _ = self.succeeds(self.mesh, "--control-points", self.points, "--control-compliance", 0.02)
+        misses = [p["missed by"] for p in soft["shift"]["control points"]]
+        expected = [0.02 * np.linalg.norm(p["force"]) for p in soft["shift"]["control points"]]
+        self.assertTrue(np.allclose(misses, expected) and max(misses) > 0.01)
+        # spread over the boundary, the points move more of it
+        spread, run = self.succeeds(self.mesh, "--control-points", self.points, "--control-radius", 8)
+        self.assertEqual(spread["shift"]["inverted elements"], 0)
+        self.assertGreater(spread["shift"]["energy"], base["shift"]["energy"])
+        self.assertEqual(run.stderr, "")
+        other, _ = self.succeeds(self.mesh, "--control-points", self.points, "--poisson-ratio", 0.3)
+        self.assertNotEqual(at(other), at(base))
+
+    def test_harmless_points(self):
+        self.succeeds(self.mesh, "--control-points", self.points, "--output", WORK / "plain.vtu")
+        wanted = (WORK / "plain.vtu").read_bytes()
+        for name, contents in (("crlf.csv", POINTS.replace("\n", "\r\n")),
+                               ("blank.csv", "\n \n" + POINTS.replace("\n", "\n\n \t\n")),
+                               ("spaces.csv", POINTS.replace(",", " ,\t").replace("\n", "  \n")),
+                               ("no_newline.csv", POINTS.rstrip("\n")),
+                               ("bom.csv", b"\xef\xbb\xbf" + POINTS.encode()),
+                               ("plus.csv", POINTS.replace("\n4", "\n+4").replace("\n3", "\n  +3")),
+                               ("comment.csv", POINTS + "# more\n  # and more")):
+            with self.subTest(name):
+                path = self.file(name, contents)
+                self.succeeds(self.mesh, "--control-points", path, "--output", WORK / "same.vtu")
+                self.assertEqual((WORK / "same.vtu").read_bytes(), wanted)
+
+    def test_points_in_the_tumor_are_not_used_after_it(self):
+        points = self.file("inside.csv", POINTS + "28,18,28,0,0,-3\n")
+        told, run = self.succeeds(self.mesh, "--control-points", points, "--tumor", self.tumor)
+        self.assertIn("inside.csv: line 8: the control point is in tissue removed", run.stderr)
+        self.assertEqual([p["used"] for p in told["shift after resection"]["control points"]], [True] * 4 + [False])
+        self.assertEqual([p["used"] for p in told["shift"]["control points"]], [True] * 5)
+
+    def test_same_bytes(self):
+        outputs = []
+        for name in ("a", "b"):
+            self.succeeds(self.mesh, "--control-points", self.points, "--tumor", self.tumor, "--image", self.image,
+                          "--output", WORK / f"{name}.vtu", "--output-deformed", WORK / f"{name}.msh",
+                          "--output-image", WORK / f"{name}")
+            outputs.append([(WORK / (name + end)).read_bytes() for end in (
+                ".vtu", ".msh", ".nii.gz", "_forward.nii.gz", "_backward.nii.gz", "_mask.nii.gz")])
+        self.assertEqual(outputs[0], outputs[1])
+
+    def test_pictures(self):
+        if shutil.which("Xvfb") is None:
+            self.skipTest("no Xvfb")
+        self.succeeds(self.mesh, "--control-points", self.points, "--tumor", self.tumor, "--image", self.image,
+                      "--output", WORK / "drawn.vtu", "--output-image", WORK / "drawn")
+        script = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "pictures" / "render_brain_shift.py"
+        subprocess.run(["/usr/bin/python3", script, WORK / "drawn.vtu", "--tumor", self.tumor, "--control-points",
+                        self.points, "--image", self.image, "--warped-image", WORK / "drawn.nii.gz", "--output-prefix",
+                        WORK / "drawn", "--size", "400x300"], check=True, timeout=120)
+        for name, height in (("before", 300), ("shifted", 300), ("resected", 300), ("image", 200)):
+            reader = vtk.vtkPNGReader()
+            reader.SetFileName(str(WORK / f"drawn_{name}.png"))
+            reader.Update()
+            self.assertEqual(reader.GetOutput().GetDimensions(), (400, height, 1))
+            pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
+            self.assertGreater(len(np.unique(pixels, axis=0)), 200, name)
+
+    def test_image_beside_the_mesh(self):
+        affine = self.affine.copy()
+        affine[2, 3] += 60
+        nibabel.save(nibabel.Nifti1Image(self.values, affine), WORK / "partial.nii")
+        told, run = self.succeeds(self.mesh, "--control-points", self.points, "--image", WORK / "partial.nii",
+                                  "--output-image", WORK / "partial_after")
+        self.assertIn("partial.nii: only ", run.stderr)
+        self.assertTrue(0 < told["inputs"]["image"]["share of the mesh's vertices inside"] < 1)
+
+    # Bad input
+
+    def test_bad_points(self):
+        for name, contents, words in BAD_POINTS:
+            with self.subTest(name):
+                path = self.file(name, contents)
+                self.fails(self.mesh, "--control-points", path, names=path, words=words)
+        self.fails(self.mesh, "--control-points", WORK / "none.csv", names="none.csv", words="No such file")
+        self.fails(self.mesh, "--control-points", WORK, names=WORK, words="is a directory")
+
+    def test_points_that_cannot_be_used(self):
+        far = with_value(2, 2, "157")
+        self.fails_with(far, words="line 4: the control point is 86.2 mm outside " + str(self.mesh))
+        self.fails_with(far, "--max-distance", 86, words="; --max-distance is 86 mm")
+        self.fails_with(POINTS, "--max-distance", 0, words="the control point is 0.")
+        twice = HEADER + ROWS[0] + "\n" + ",".join(ROWS[0].split(",")[:3]) + ",0,0,0\n"
+        self.fails_with(twice, words="contradicts")
+        self.fails_with(twice, words="line ")
+        self.fails_with(POINTS, "--fixed-below", 1, words="contradicts")
+
+    def test_free_rigid_motion(self):
+        self.fails_with(HEADER + ROWS[0] + "\n", "--fixed-below", 0, names=self.mesh,
+                        words="leave 3 rigid motions free, among them rotation about the axis through")
+        self.fails_with(HEADER + "\n".join(ROWS[:2]) + "\n", "--fixed-below", 0, names=self.mesh,
+                        words="1 rigid motion free: rotation about the axis through")
+
+    def test_bad_tumors(self):
+        for name, contents, words in (
+                ("outside.off", cube_off((200, 200, 200), 5), "nothing removed: no element is inside"),
+                ("tiny.off", cube_off((28, 18, 28), 1e-3), "nothing removed: no element is inside"),
+                ("all.off", cube_off((0, 0, 0), 1000), "everything removed: no element is left"),
+                ("open.off", cube_off((28, 18, 28), 20, TRIANGLES[:-1]), "not closed: 3 border edges"),
+                ("empty.off", "", "cannot be read"),
+                ("tumor.txt", cube_off((28, 18, 28), 20), "unknown format")):
+            with self.subTest(name):
+                path = self.file(name, contents)
+                self.fails(self.mesh, "--control-points", self.points, "--tumor", path, names=path, words=words)
+        self.fails(self.mesh, "--control-points", self.points, "--tumor", WORK / "none.off", names="none.off",
+                   words="No such file")
+        # what is above the plane goes, with all that control points hold
+        self.fails(self.mesh, "--control-points", self.points, "--fixed-below", 0, "--tumor",
+                   self.file("above.off", cube_off((0, 0, 500 + 45), 1000)), names=self.mesh, words="free")
+
+    def test_bad_meshes(self):
+        with open(self.mesh, "rb") as file:
+            bytes_of_mesh = file.read()
+        inverted = msh(CUBE, [(5, HEXAHEDRON[4:] + HEXAHEDRON[:4])])
+        second = [(x + 1, y + 1, z) for x, y, z in CUBE]  # has an edge of the first cube
+        two = CUBE + [p for p in second if p not in CUBE]
+        for name, contents, words in (
+                ("empty.vtu", "", ""),
+                ("truncated.vtu", bytes_of_mesh[:len(bytes_of_mesh) // 2], ""),
+                ("text.msh", "no mesh\n", ""),
+                ("mesh.off", cube_off((0, 0, 0), 1), "unknown format"),
+                ("inverted.msh", inverted, "1 element is inverted, the first is element 0"),
+                ("flat.msh", msh([(x, y, 0) for x, y, _ in CUBE], [(5, HEXAHEDRON)]), "1 element is inverted"),
+                ("hinge.msh", msh(two, [(5, HEXAHEDRON), (5, [two.index(second[v]) for v in HEXAHEDRON])]),
+                 "not a manifold")):
+            with self.subTest(name):
+                path = self.file(name, contents)
+                self.fails(path, "--control-points", self.points, names=path, words=words)
+        self.fails(WORK / "none.vtu", "--control-points", self.points, names="none.vtu")
+
+    def test_bad_images(self):
+        far = self.affine.copy()
+        far[0, 3] += 1000
+        nibabel.save(nibabel.Nifti1Image(self.values, far), WORK / "far.nii")
+        whole = self.image.read_bytes()
+        nan = self.values.copy()
+        nan[1, 2, 3] = np.nan
+        nibabel.save(nibabel.Nifti1Image(nan, self.affine), WORK / "nan.nii")
+        self.file("truncated.nii.gz", whole[:len(whole) // 2])
+        self.file("text.nii", "no image")
+        self.file("damaged.nii", gzip.decompress(whole)[:1000])
+        for name, words in (("far.nii", "does not overlap the mesh " + str(self.mesh)),
+                            ("nan.nii", "voxel (1, 2, 3) is not a finite number"), ("truncated.nii.gz", ""),
+                            ("text.nii", ""), ("damaged.nii", ""), ("none.nii", ""), ("points.csv", "unknown format")):
+            with self.subTest(name):
+                self.fails(self.mesh, "--control-points", self.points, "--image", WORK / name, "--output-image",
+                           WORK / "no", names=WORK / name, words=words)
+
+    def test_outputs_that_cannot_be_written(self):
+        arguments = [self.mesh, "--control-points", self.points]
+        (WORK / "directory.vtu").mkdir(exist_ok=True)
+        for option, path, words in (("--output", WORK / "none" / "a.vtu", "No such file"),
+                                    ("--output", WORK / "directory.vtu", "is a directory"),
+                                    ("--output", WORK / "a.msh", ".vtu only"),
+                                    ("--output", WORK / "no.vtu", "twice"),
+                                    ("--output", self.mesh, "twice"),
+                                    ("--output-deformed", WORK / "a.txt", "unknown extension"),
+                                    ("--output-deformed", WORK / "none" / "a.msh", "No such file"),
+                                    ("--output-deformed", self.points, "")):
+            with self.subTest(option=option, path=path):
+                self.fails(*arguments, option, path, names=path, words=words)
+        self.fails(*arguments, "--image", self.image, "--output-image", WORK / "none" / "a", names="a.nii.gz",
+                   words="No such file")
+        self.fails(*arguments, "--image", self.image, "--output-image", WORK / "image", names=self.image,
+                   words="twice")
+
+    def test_wrong_use(self):
+        arguments = [self.mesh, "--control-points", self.points]
+        for more, words in (([], "--control-points"),
+                            (["--fixed-below", 1.1], "--fixed-below"), (["--fixed-below", "nan"], "--fixed-below"),
+                            (["--slide-below", -1], "--slide-below"),
+                            (["--slide-below", 0.5, "--slide-beyond", 10], "excludes"),
+                            (["--young-modulus", 0], "--young-modulus: expected a number greater than 0"),
+                            (["--young-modulus", "inf"], "--young-modulus"),
+                            (["--poisson-ratio", 0.5], "--poisson-ratio: expected a number of at least 0"),
+                            (["--gravity", "1,2"], "--gravity: expected three numbers"),
+                            (["--gravity", "0,0,nan"], "--gravity"), (["--up", "w"], "--up"),
+                            (["--up", "0,0,0"], "--up"), (["--max-distance", -1], "--max-distance"),
+                            (["--control-compliance", -1], "--control-compliance"),
+                            (["--image", self.image], "--output-image"),
+                            (["--output-image", WORK / "no"], "--image")):
+            with self.subTest(more):
+                self.fails(*(arguments if more else arguments[:1]), *more, names=words, status=2)
+        run = self.shift("--version")
+        self.assertEqual((run.returncode, run.stdout[:11]), (0, "brain_shift"))
+        quiet = self.shift(*arguments, "--quiet")
+        self.assertEqual((quiet.returncode, quiet.stdout), (0, ""))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

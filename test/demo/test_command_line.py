@@ -1,0 +1,390 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command-line mesher as a user meets it: bad input, warnings, outputs, determinism.
+
+  test_command_line.py MESHER DATA_DIRECTORY WORK_DIRECTORY
+"""
+
+import hashlib
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import unittest
+
+MESHER, DATA, WORK = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+
+CUBE = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+QUADS = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+TRIANGLES = [t for a, b, c, d in QUADS for t in ((a, b, c), (a, c, d))]
+# The projective plane with six vertices: closed, but not orientable.
+PROJECTIVE_PLANE = [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5), (0, 5, 1), (1, 2, 4), (2, 3, 5), (3, 4, 1),
+                    (4, 5, 2), (5, 1, 3)]
+
+
+def off(points, faces):
+    lines = ["OFF", f"{len(points)} {len(faces)} 0"]
+    lines += [" ".join(map(str, p)) for p in points]
+    lines += [" ".join(map(str, (len(f), *f))) for f in faces]
+    return "\n".join(lines) + "\n"
+
+
+def moved(points, scale=1, shift=(0, 0, 0)):
+    return [tuple(scale * x + s for x, s in zip(p, shift)) for p in points]
+
+
+def shifted(faces, n):
+    return [tuple(v + n for v in f) for f in faces]
+
+
+def stl(points, faces):
+    lines = ["facet normal 0 0 0\nouter loop\n" + "".join("vertex {} {} {}\n".format(*points[v]) for v in f)
+             + "endloop\nendfacet" for f in faces]
+    return "\n".join(["solid x", *lines, "endsolid x"]) + "\n"
+
+
+CUBE_OFF = off(CUBE, TRIANGLES)
+# The edge 0-1 is 0-8-9-1 in the front face; two triangles without area are between them.
+NEEDLES = CUBE + [(0.25, 0, 0), (0.5, 0, 0)]
+NEEDLE_TRIANGLES = [f for f in TRIANGLES if f != (0, 1, 5)] + [(0, 8, 5), (8, 9, 5), (9, 1, 5), (0, 1, 9),
+                                                               (0, 9, 8)]
+# Two cubes, with a corner in common.
+PINCHED_TRIANGLES = TRIANGLES + [tuple(7 if v == 0 else v + 7 for v in f) for f in TRIANGLES]
+PINCHED = CUBE + moved(CUBE, 1, (1, 1, 1))[1:]
+
+# name of the file, contents, words that the error must have
+BAD_SURFACES = [
+    ("empty.off", "", "cannot be read"),
+    ("header_only.off", "OFF\n", "cannot be read"),
+    ("no_faces.off", "OFF\n0 0 0\n", "no faces"),
+    ("truncated.off", CUBE_OFF[:len(CUBE_OFF) // 2], "cannot be read"),
+    ("truncated_last_face.off", "\n".join(CUBE_OFF.split("\n")[:-2]) + "\n", ""),
+    ("garbage.off", "\x00\x01garbage\xff" * 50, "cannot be read"),
+    ("huge_count.off", "OFF\n99999999999 99999999999 0\n0 0 0\n", "cannot be read"),
+    ("not_a_number.off", CUBE_OFF.replace("1 1 1\n", "nan 1 1\n"), ""),
+    ("infinite.off", CUBE_OFF.replace("1 1 1\n", "inf 1 1\n"), ""),
+    ("overflow.off", CUBE_OFF.replace("1 1 1\n", "1e999 1 1\n"), ""),
+    ("index_too_large.off", off(CUBE, TRIANGLES[:-1] + [(1, 7, 99)]), ""),
+    ("index_negative.off", off(CUBE, TRIANGLES[:-1] + [(1, 7, -1)]), ""),
+    ("face_of_two_vertices.off", off(CUBE, TRIANGLES[:-1] + [(1, 7)]), "fewer than three"),
+    ("open.off", off(CUBE, TRIANGLES[:-1]), "3 border edges"),
+    ("edge_of_four_faces.off", off(CUBE + moved(CUBE, 1, (1, 1, 0)),
+                                   TRIANGLES + shifted(TRIANGLES, 8)), "more than two faces"),
+    ("not_orientable.off", off([(0, 0, 3), (1, 0, 0), (0.3, 1, 0.2), (-0.8, 0.6, 0), (-0.8, -0.6, 0.4),
+                                (0.3, -1, 0)], PROJECTIVE_PLANE), "orient"),
+    ("flat.off", off(CUBE, TRIANGLES).replace(" 1\n", " 0\n"), ""),
+    ("zero_volume.off", off([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
+                            [(0, 1, 2), (0, 2, 1)]), ""),
+    ("large_coordinates.off", off(moved(CUBE, 1e200), TRIANGLES), "overflow"),
+    ("small_coordinates.off", off(moved(CUBE, 1e-200), TRIANGLES), "underflow"),
+    ("far_away.off", off(moved(CUBE, 1e-6, (1e8, 0, 0)), TRIANGLES), ""),
+    ("self_intersecting.off", off(CUBE + moved(CUBE, 1, (0.5, 0.4, 0.3)),
+                                  TRIANGLES + shifted(TRIANGLES, 8)), "of faces, for example near ("),
+    # a corner in common, but the second cube goes into the first
+    ("pinched_and_crossing.off", off(CUBE + [(1 - (5 * x + 2 * y + 3 * z) / 10, 1 - (3 * x + 5 * y + 4 * z) / 10,
+                                              1 - (2 * x + 3 * y + 20 * z) / 10) for x, y, z in CUBE][1:],
+                                     PINCHED_TRIANGLES), "intersects itself"),
+    ("unknown_format.xyz", CUBE_OFF, "unknown format"),
+    ("cut.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0", ""),
+    ("cut.ply", "ply\nformat ascii 1.0\nelement vertex 8\nproperty double x\n", ""),
+    ("empty.obj", "", ""),
+]
+
+# name, contents, words of the warning
+HARMLESS_SURFACES = [
+    ("inside_out.off", off(CUBE, [f[::-1] for f in TRIANGLES]), "oriented inwards"),
+    ("mixed_orientation.off", off(CUBE, [TRIANGLES[0][::-1]] + TRIANGLES[1:]), "oriented the faces"),
+    ("quadrilaterals.off", off(CUBE, QUADS), "triangulated 6 polygons"),
+    ("duplicate_points.off", off(CUBE + [CUBE[7]], [tuple(8 if v == 7 and i % 2 else v for v in f)
+                                                    for i, f in enumerate(TRIANGLES)]), "merged 1"),
+    ("unused_point.off", off(CUBE + [(9, 9, 9)], TRIANGLES), "1 unused point"),
+    ("degenerate_face.off", off(CUBE, TRIANGLES + [(0, 1, 1)]), "degenerate"),
+    ("needles.off", off(NEEDLES, NEEDLE_TRIANGLES), "removed 2 degenerate faces"),
+    ("needles.stl", stl(NEEDLES, NEEDLE_TRIANGLES), "removed 2 degenerate faces"),
+    ("pinched.off", off(PINCHED, PINCHED_TRIANGLES), "pinched at 1 point"),
+    ("pinched.stl", stl(PINCHED, PINCHED_TRIANGLES), "pinched at 1 point"),
+    ("two_components.off", off(CUBE + moved(CUBE, 1, (3, 0, 0)),
+                               TRIANGLES + shifted(TRIANGLES, 8)), "2 components"),
+    ("cavity.off", off(CUBE + moved(CUBE, 0.4, (0.3, 0.3, 0.3)),
+                       TRIANGLES + shifted(TRIANGLES, 8)), "2 components"),
+]
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        shutil.rmtree(WORK, ignore_errors=True)
+        WORK.mkdir(parents=True)
+        self.good = self.file("good.off", CUBE_OFF)
+        self.output = WORK / "mesh.vtu"
+
+    def file(self, name, contents):
+        path = WORK / name
+        path.write_bytes(contents.encode("latin-1"))
+        return path
+
+    def mesher(self, *arguments):
+        return subprocess.run([MESHER, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+
+    def fails(self, *arguments, names, status=1, words=""):
+        """One line on stderr that names the culprit, no output, nothing left behind."""
+        before = sorted(WORK.iterdir())
+        run = self.mesher(*arguments)
+        self.assertEqual(run.returncode, status, run.stderr)
+        if status == 1:
+            self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
+        self.assertIn(str(names), run.stderr)
+        self.assertIn(words, run.stderr)
+        self.assertEqual(run.stdout, "")
+        self.assertEqual(sorted(WORK.iterdir()), before)
+
+    def test_bad_surfaces(self):
+        for name, contents, words in BAD_SURFACES:
+            with self.subTest(name):
+                path = self.file(name, contents)
+                self.fails(path, "--vertices", 500, "--output", self.output, names=path, words=words)
+                self.fails(self.good, "--region", path, "--vertices", 500, "--output", self.output,
+                           names=path, words=words)
+
+    def test_files_that_cannot_be_read(self):
+        self.fails(WORK / "none.off", "--vertices", 500, names=WORK / "none.off", words="No such file")
+        (WORK / "directory.off").mkdir()
+        self.fails(WORK / "directory.off", "--vertices", 500, names="directory.off", words="directory")
+
+    def test_bad_budgets(self):
+        for n in ("0", "-5", "many", "1.5", ""):
+            with self.subTest(n):
+                self.fails(self.good, "--vertices", n, names="--vertices", status=2)
+        self.fails(self.good, "--vertices", 1, "--output", self.output, names="--vertices 1",
+                   words="has at least 7 vertices")
+        self.fails(self.good, "--vertices", 10**12, names="--vertices", words="GiB")
+        self.fails(self.good, "--vertices", 100, "--base-level", 5, names="--vertices", words="base level 5")
+        self.fails(self.good, "--vertices", 100, "--base-level", 10, names="--vertices", words="at least")
+        self.fails(self.good, "--vertices", 100, "--base-level", 11, names="--base-level", status=2)
+        self.fails(self.good, "--vertices", 100, "--mode", "fast", names="--mode", status=2)
+        self.fails("--vertices", 100, names="SURFACE", status=2)
+        self.fails(self.good, names="--vertices", status=2)
+
+    def test_region_off_the_domain(self):
+        region = self.file("off_the_domain.off", off(moved(CUBE, 1, (5, 5, 5)), TRIANGLES))
+        self.fails(self.good, "--region", region, "--vertices", 500, "--output", self.output,
+                   names=region, words="does not meet")
+
+    def test_outputs_that_cannot_be_written(self):
+        for path in (WORK / "none" / "mesh.vtu", WORK / "good.off" / "mesh.vtu", WORK / "mesh.txt"):
+            self.fails(self.good, "--vertices", 500, "--output", path, names=path)
+        self.fails(self.good, "--vertices", 500, "--report", WORK / "none" / "r.json", names="r.json")
+        self.fails(self.good, "--vertices", 500, "--report", self.good, names="good.off", words="twice")
+        self.fails(self.good, "--vertices", 500, "--output", self.output, "--output", self.output,
+                   names=self.output, words="twice")
+        # what is there stays when the run fails
+        self.output.write_text("precious")
+        self.fails(self.file("open2.off", off(CUBE, TRIANGLES[:-1])), "--vertices", 500, "--output",
+                   self.output, names="open2.off")
+        self.assertEqual(self.output.read_text(), "precious")
+
+    def test_harmless_surfaces(self):
+        for name, contents, words in HARMLESS_SURFACES:
+            with self.subTest(name):
+                path = self.file(name, contents)
+                report = WORK / "report.json"
+                run = self.mesher(path, "--vertices", 2000, "--output", self.output, "--report", report)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertTrue(all(line.startswith("warning: ") for line in run.stderr.splitlines()))
+                self.assertIn(words, run.stderr)
+                told = json.loads(report.read_text())
+                self.assertTrue(any(words in w for w in told["warnings"]))
+                self.assertTrue(all(told["checks"].values()))
+                self.assertGreaterEqual(told["mesh"]["vertices"], 0.97 * 2000)
+                volume = told["inputs"]["surface"]["volume"]
+                self.assertGreater(told["mesh"]["volume"], 0.93 * volume)  # two cubes lose most, at edges
+                self.assertLess(told["mesh"]["volume"], 1.05 * volume)
+                self.assertEqual(told["surface"]["boundary vertices not on surface"], 0)
+
+    def test_lost_parts_are_reported(self):
+        # a body, and a plate between two planes of the octree
+        plate = [(2 + x, y, 0.55 + 0.01 * z) for x, y, z in CUBE]
+        path = self.file("plate.off", off(CUBE + plate, TRIANGLES + shifted(TRIANGLES, 8)))
+        report = WORK / "report.json"
+        run = self.mesher(path, "--vertices", 500, "--output", self.output, "--report", report)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("parts thinner than a cell are lost", run.stderr)
+        self.assertGreater(json.loads(report.read_text())["octree"]["cells lost"], 0)
+        # alone, in the middle plane of the octree, its cells are much thicker
+        path = self.file("plate_alone.off", off([(100 * x, 100 * y, z) for x, y, z in plate], TRIANGLES))
+        run = self.mesher(path, "--vertices", 100, "--no-fit", "--output", self.output)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("times the surface's volume", run.stderr)
+
+    def brain(self, *arguments, vertices=660):
+        """The report on a mesh of the brain, and what was printed."""
+        report = WORK / "brain.json"
+        run = self.mesher(DATA / "brain.off", "--region", DATA / "region.off", "--vertices", vertices, *arguments,
+                          "--report", report)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return json.loads(report.read_text()), run
+
+    def test_all_outputs_and_report(self):
+        outputs = [WORK / ("brain" + e) for e in (".vtu", ".msh", ".mesh", ".inp", ".feb", ".msh2")]
+        told, run = self.brain(*(x for path in outputs for x in ("--output", path)))
+        self.assertEqual(run.stderr, "")
+        for words in ("vertices of 660", "ARC mean", "Hausdorff distance", "times the surface's volume",
+                      "all checks hold"):
+            self.assertIn(words, run.stdout)
+        self.assertTrue(all(path.stat().st_size > 10000 for path in outputs))
+        self.assertEqual(told["status"], "success")
+        self.assertTrue(640 <= told["mesh"]["vertices"] <= 660)
+        self.assertTrue(0 < told["mesh"]["vertices in region"] < 660)
+        self.assertEqual(told["vertices inserted"]["by boundary stage"], 0)
+        self.assertTrue(all(told["checks"].values()) and len(told["checks"]) == 7)
+        kinds = ("tetrahedra", "pyramids", "prisms", "hexahedra")
+        self.assertEqual(sum(told["mesh"][k] for k in kinds), told["mesh"]["elements"])
+        stages = [s["stage"] for s in told["stages"]]
+        for stage in ("read surface", "octree", "transitions", "boundary", "assembly", "optimization", "checks"):
+            self.assertIn(stage, stages)
+        quiet = self.mesher(DATA / "brain.off", "--vertices", 660, "--quiet")
+        self.assertEqual((quiet.returncode, quiet.stdout, quiet.stderr), (0, "", ""))
+
+    def test_quality(self):
+        told, _ = self.brain()
+        quality = told["quality"]
+        before, after = quality["before"], quality["after"]
+        self.assertLessEqual(after["all"]["ARC mean"], 1.5)
+        self.assertLessEqual(after["all"]["ARC max"], 2.6)
+        self.assertEqual(after["all"]["share of ARC <= 7"], 1)
+        self.assertGreater(before["all"]["ARC mean"], after["all"]["ARC mean"])
+        self.assertEqual(before["hexahedra"]["elements"], after["hexahedra"]["elements"])
+        histogram = quality["histograms"]["ARC"]
+        for when in ("before", "after"):
+            self.assertEqual(len(histogram[when]), len(histogram["edges"]) + 1)
+            self.assertEqual(sum(histogram[when]), quality[when]["all"]["elements"])
+            self.assertEqual(sum(quality[when][k]["elements"] for k in quality[when]),
+                             2 * quality[when]["all"]["elements"])
+            for row in quality[when].values():
+                if row["elements"] == 0:
+                    self.assertIsNone(row["ARC mean"])
+                else:
+                    self.assertTrue(1 <= row["ARC min"] <= row["ARC mean"] <= row["ARC max"])
+        self.assertTrue(0 < quality["scaled Jacobian"]["all"]["min"] < quality["scaled Jacobian"]["all"]["max"] <= 1)
+        self.assertTrue(0 < quality["smallest dihedral angle"]["all"]["min"] < 60)
+        self.assertTrue(90 < quality["largest dihedral angle"]["all"]["max"] < 180)
+        self.assertTrue(0 < quality["quad warp"]["hexahedra"]["max"] <= quality["quad warp"]["all"]["max"] < 20)
+
+    def test_surface(self):
+        told, _ = self.brain()
+        surface = told["surface"]
+        self.assertEqual(surface["boundary vertices not on surface"], 0)
+        self.assertEqual(surface["boundary self-intersections"], 0)
+        self.assertTrue(0.95 < surface["ratio of volumes"] < 1.05)
+        self.assertAlmostEqual(surface["volume of mesh"] / surface["volume of surface"], surface["ratio of volumes"])
+        distance = surface["Hausdorff distance"]
+        for way in ("from mesh to surface", "from surface to mesh"):
+            self.assertTrue(0 < distance[way]["distance"] <= distance["distance"] < 20)
+            apart = sum((a - b) ** 2 for a, b in zip(distance[way]["at"], distance[way]["nearest"])) ** 0.5
+            self.assertAlmostEqual(apart, distance[way]["distance"])
+        self.assertEqual(told["fitting"]["method"], "optimization")
+        self.assertEqual(told["fitting"]["arrived"], told["fitting"]["boundary vertices"])
+        self.assertEqual(told["fitting"]["boundary vertices"], surface["boundary vertices"])
+
+    def test_no_fit(self):
+        told, _ = self.brain("--no-fit")
+        self.assertEqual((told["status"], told["fitting"]), ("success", {"method": "none"}))
+        self.assertGreater(told["surface"]["boundary vertices not on surface"], 100)
+        self.assertNotIn("before", told["quality"])
+        fitted, _ = self.brain()
+        self.assertEqual(told["quality"]["after"], fitted["quality"]["before"])
+
+    def test_no_optimize(self):
+        if "without Eigen" in self.mesher(self.good, "--vertices", 100, "--no-optimize").stderr:
+            self.fails(self.good, "--vertices", 100, "--no-optimize", names="--no-optimize", status=2)
+            self.skipTest("the mesher was built without Eigen")
+        told, run = self.brain("--no-optimize")
+        self.assertEqual(run.stderr, "")
+        self.assertEqual(told["status"], "success")
+        self.assertEqual((told["fitting"]["method"], told["fitting"]["status"]), ("Algorithm 1", "success"))
+        self.assertEqual(told["fitting"]["arrived"], told["fitting"]["boundary vertices"])
+        self.assertGreaterEqual(told["fitting"]["solves"], 4)
+        self.assertEqual(told["surface"]["boundary vertices not on surface"], 0)
+        self.assertEqual(told["quality"]["before"]["all"]["elements"], told["quality"]["after"]["all"]["elements"])
+        self.assertEqual(told["options"]["Algorithm 1"]["solver"], "cg")
+        for arguments in (["--steps", 2], ["--poisson-ratio", 0.45], ["--layers", 1], ["--solver", "ldlt"],
+                          ["--acceptable-quality", 1.5, "--stiffness-factor", 4], ["--tetrahedra"],
+                          ["--mode", "paper"]):
+            with self.subTest(arguments):
+                other, _ = self.brain("--no-optimize", *arguments)
+                self.assertEqual(other["surface"]["boundary vertices not on surface"], 0)
+                self.assertNotEqual(other["quality"]["after"], told["quality"]["after"])
+        # an element is not acceptable, and may not be stiffened
+        told, run = self.brain("--no-optimize", "--acceptable-quality", 2, "--max-stiffness", 1)
+        self.assertEqual((told["status"], told["fitting"]["status"]), ("success", "cap reached"))
+        self.assertGreater(told["fitting"]["elements not acceptable at the cap"], 0)
+        self.assertIn("elements have an aspect-ratio coefficient above 2", run.stderr)
+
+    def test_tolerance(self):
+        loose, _ = self.brain()
+        told, run = self.brain("--tolerance", 8)
+        self.assertEqual((told["status"], run.stderr), ("success", ""))
+        self.assertTrue(told["tolerance"]["reached"])
+        self.assertTrue(0 < told["tolerance"]["largest distance"] <= 8)
+        self.assertEqual(told["tolerance"]["largest distance"], told["surface"]["Hausdorff distance"]["distance"])
+        self.assertGreater(loose["surface"]["Hausdorff distance"]["distance"], 8)
+        self.assertTrue(0 < told["tolerance"]["vertices of the mesh as coarse as it allows"] <= 660)
+        told, run = self.brain("--tolerance", 1, vertices=300)
+        self.assertEqual(told["status"], "tolerance not reached")
+        self.assertFalse(told["tolerance"]["reached"])
+        self.assertRegex(run.stderr, r"^warning: --tolerance 1: not reached, .*\(.*, .*, .*\) is .* away from .*")
+        self.fails(DATA / "brain.off", "--vertices", 660, "--tolerance", 1e-6, "--output", self.output,
+                   names="--tolerance 1e-06", words="too small")
+
+    def test_wrong_use(self):
+        for arguments, words in (
+                (["--steps", 3], "--steps requires --no-optimize"),
+                (["--solver", "ldlt"], "--solver requires --no-optimize"),
+                (["--layers", 2], "--layers requires --no-optimize"),
+                (["--max-stiffness", 2, "--no-fit"], "--max-stiffness requires --no-optimize"),
+                (["--no-fit", "--no-optimize"], "excludes"),
+                (["--no-fit", "--tolerance", 1], "excludes"),
+                (["--no-optimize", "--tolerance", 1], "excludes"),
+                (["--no-optimize", "--steps", 0], "--steps"),
+                (["--no-optimize", "--poisson-ratio", 0.5], "--poisson-ratio: expected a number of at least 0"),
+                (["--no-optimize", "--poisson-ratio", "nan"], "--poisson-ratio"),
+                (["--no-optimize", "--stiffness-factor", 1], "--stiffness-factor"),
+                (["--no-optimize", "--max-stiffness", 0.5], "--max-stiffness"),
+                (["--no-optimize", "--acceptable-quality", "inf"], "--acceptable-quality"),
+                (["--no-optimize", "--layers", -1], "--layers"),
+                (["--no-optimize", "--solver", "lu"], "--solver"),
+                (["--tolerance", 0], "--tolerance: expected a number greater than 0"),
+                (["--tolerance", "nan"], "--tolerance"),
+                (["--tolerance", "much"], "--tolerance")):
+            with self.subTest(arguments):
+                self.fails(self.good, "--vertices", 100, *arguments, "--output", self.output, names=words, status=2)
+        run = self.mesher(self.good, "--vertices", 500, "--no-optimize", "--solver", "cholmod")
+        self.assertIn(run.returncode, (0, 2))
+        if run.returncode == 2:
+            self.assertRegex(run.stderr, "built without (CHOLMOD|Eigen)")
+
+    def test_same_bytes(self):
+        for arguments in ([], ["--no-optimize"], ["--tolerance", 12], ["--no-fit"]):
+            if arguments == ["--no-optimize"] and self.mesher(self.good, "--vertices", 100, *arguments).returncode:
+                continue  # built without Eigen
+            hashes = set()
+            for i, threads in enumerate((1, 5) if "--tolerance" in arguments else (1, 1, 1, 2, 5)):
+                path = WORK / f"{i}.vtu"
+                run = self.mesher(DATA / "brain.off", "--region", DATA / "region.off", "--vertices",
+                                  300 if "--tolerance" in arguments else 660, *arguments, "--threads", threads,
+                                  "--output", path)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                hashes.add(hashlib.sha256(path.read_bytes()).hexdigest())
+            self.assertEqual(len(hashes), 1, arguments)
+
+    def test_modes(self):
+        for arguments in (["--mode", "paper"], ["--root", "box"], ["--templates", "centered"], ["--no-fit"],
+                          ["--tetrahedra"], ["--base-level", "2"], ["--msh2"]):
+            with self.subTest(arguments):
+                run = self.mesher(DATA / "brain.off", "--region", DATA / "region.off", "--vertices", 1000,
+                                  *arguments, "--output", WORK / "mesh.msh")
+                self.assertEqual((run.returncode, run.stderr), (0, ""))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
