@@ -6,13 +6,13 @@
 #ifndef CGAL_MIXED_MESH_3_H
 #define CGAL_MIXED_MESH_3_H
 
+#include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
 
 #include <CGAL/assertions.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <initializer_list>
 #include <utility>
 #include <vector>
@@ -37,33 +37,33 @@ public:
   using Vertex_index = Mixed_meshes_3::Vertex_index;
   using Element_index = Mixed_meshes_3::Element_index;
   using Element_kind = Mixed_meshes_3::Element_kind;
+  using Subdomain_index = Mixed_meshes_3::Subdomain_index;
+  using Element_attributes = Mixed_meshes_3::Element_attributes;
   using Element = Mixed_meshes_3::Element_view;
   using Elements = Mixed_meshes_3::Element_list;
-
-  /// A face on the boundary: vertices counter-clockwise seen from outside, and where it belongs.
-  struct Boundary_face
-  {
-    Element_index element;
-    int local_face; ///< position in the element's `Reference_element::faces`
-  };
 
   std::size_t number_of_vertices() const { return m_points.size(); }
   std::size_t number_of_elements() const { return m_elements.size(); }
   bool is_empty() const { return m_elements.empty(); }
 
   const Point_3& point(Vertex_index v) const { return m_points[v]; }
-  Element element(std::size_t e) const { return m_elements[e]; }
+  Element element(Element_index e) const { return m_elements[e]; }
 
+  const Element_attributes& attributes(Element_index e) const { return m_attributes[e]; }
   /// Whether the element meets the region of interest.
-  bool is_in_region(std::size_t e) const { return m_in_region[e] != 0; }
+  bool is_in_region(Element_index e) const { return m_attributes[e].is_in_region; }
+  /// The label of the element, for example its material.
+  Subdomain_index subdomain_index(Element_index e) const { return m_attributes[e].subdomain_index; }
+  /// \pre positive: 0 is outside
+  void set_subdomain_index(Element_index e, Subdomain_index index)
+  {
+    CGAL_precondition(index > 0);
+    m_attributes[e].subdomain_index = index;
+  }
 
   const std::vector<Point_3>& points() const { return m_points; }
   std::vector<Point_3>& points() { return m_points; }
   const Elements& elements() const { return m_elements; }
-
-  /// Faces that belong to one element only, in the order of the elements.
-  const std::vector<Boundary_face>& boundary_faces() const { return m_boundary_faces; }
-  void set_boundary_faces(std::vector<Boundary_face> faces) { m_boundary_faces = std::move(faces); }
 
   /// \name Construction
   /// @{
@@ -74,27 +74,26 @@ public:
   }
 
   template <class Vertices>
-  Element_index add_element(Element_kind kind, const Vertices& vertices, bool in_region = false)
+  Element_index add_element(Element_kind kind, const Vertices& vertices, const Element_attributes& attributes = {})
   {
     m_elements.add(kind, vertices);
-    m_in_region.push_back(in_region);
+    m_attributes.push_back(attributes);
     return Element_index(m_elements.size() - 1);
   }
 
   Element_index add_element(Element_kind kind, std::initializer_list<Vertex_index> vertices,
-                            bool in_region = false)
+                            const Element_attributes& attributes = {})
   {
-    return add_element<std::initializer_list<Vertex_index>>(kind, vertices, in_region);
+    return add_element<std::initializer_list<Vertex_index>>(kind, vertices, attributes);
   }
 
-  /// Takes whole arrays over. \pre `in_region.size() == elements.size()`
-  void assign(std::vector<Point_3> points, Elements elements, std::vector<std::uint8_t> in_region)
+  /// Takes whole arrays over. \pre `attributes.size() == elements.size()`
+  void assign(std::vector<Point_3> points, Elements elements, std::vector<Element_attributes> attributes)
   {
-    CGAL_precondition(in_region.size() == elements.size());
+    CGAL_precondition(attributes.size() == elements.size());
     m_points = std::move(points);
     m_elements = std::move(elements);
-    m_in_region = std::move(in_region);
-    m_boundary_faces.clear();
+    m_attributes = std::move(attributes);
   }
 
   void clear() { *this = Mixed_mesh_3(); }
@@ -103,8 +102,7 @@ public:
 private:
   std::vector<Point_3> m_points;
   Elements m_elements;
-  std::vector<std::uint8_t> m_in_region;
-  std::vector<Boundary_face> m_boundary_faces;
+  std::vector<Element_attributes> m_attributes;
 };
 
 } // namespace CGAL

@@ -9,8 +9,8 @@
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Default_visitor.h>
 #include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
-#include <CGAL/Mixed_mesh_3/internal/elements/manifold_defects.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/relax_to_surface.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
@@ -45,7 +45,7 @@ Mixed_mesh_fit_result_3 fit(Mesh& mesh, const Domain& domain, const Quality& qua
   points.reserve(mesh.number_of_vertices());
   for(const auto& p : mesh.points())
     points.push_back(to_vec3(p));
-  const std::vector<Boundary_polygon> boundary = boundary_polygons(mesh);
+  const std::vector<Face> boundary = boundary_faces(mesh);
   for(int attempt = 0; attempt < maximal_number_of_attempts; ++attempt) {
     const Surface_targets targets = surface_targets(boundary, points, domain);
     Surface_relaxation relaxation(mesh.elements(), targets, criteria, quality, solver, go_on, points);

@@ -6,6 +6,7 @@
 #ifndef CGAL_MIXED_MESH_3_ELEMENT_LIST_H
 #define CGAL_MIXED_MESH_3_ELEMENT_LIST_H
 
+#include <CGAL/Mixed_mesh_3/Index.h>
 #include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
 
 #include <CGAL/assertions.h>
@@ -20,9 +21,6 @@
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
-
-using Vertex_index = std::uint32_t;
-using Element_index = std::uint32_t;
 
 /// An element as seen in a list: a kind and its vertices. Valid as long as the list is not changed.
 class Element_view
@@ -65,7 +63,7 @@ public:
   std::size_t size() const { return m_kinds.size(); }
   bool empty() const { return m_kinds.empty(); }
 
-  Element_view operator[](std::size_t e) const
+  Element_view operator[](Element_index e) const
   {
     return {m_kinds[e], m_vertices.data() + m_offsets[e]};
   }

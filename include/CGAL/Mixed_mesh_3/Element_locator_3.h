@@ -159,7 +159,7 @@ class Element_locator_3
 
   const Mesh& m_mesh;
   std::vector<Vec3> m_points;
-  std::vector<Face_handle> m_boundary;
+  std::vector<Face> m_boundary;
   // A uniform grid: the elements whose boxes meet cell c are
   // m_elements[m_ends[c]] ... m_elements[m_ends[c + 1] - 1], in ascending order.
   Box m_box{{1, 1, 1}, {0, 0, 0}}; // of all elements; of none if there are none
@@ -267,8 +267,7 @@ class Element_locator_3
   void prepare()
   {
     make_grid();
-    for(const auto& face : boundary_faces(m_mesh))
-      m_boundary.push_back({face.element, std::uint8_t(face.local_face)});
+    m_boundary = boundary_faces(m_mesh);
   }
 
 public:
@@ -323,10 +322,10 @@ public:
     const Vec3 p = internal::components(point);
     Element_location_3 best;
     best.distance = std::numeric_limits<double>::infinity();
-    for(const Face_handle& handle : m_boundary) {
-      const Element_view element = m_mesh.element(handle.element);
-      const Element_face& face = element.reference().faces[handle.local_face];
-      const auto vertices = internal::face_vertices(element, handle.local_face);
+    for(const Face& boundary_face : m_boundary) {
+      const Element_view element = m_mesh.element(boundary_face.element());
+      const Element_face& face = element.reference().faces[boundary_face.local_index()];
+      const Face_vertices& vertices = boundary_face.vertices();
       if(box(vertices, face.size).squared_distance(p) > best.distance * best.distance)
         continue;
       Vec3 corners[4];
@@ -341,7 +340,7 @@ public:
         continue;
       // On a face only its own vertices count, with the weights of the face.
       best = {};
-      best.element = handle.element;
+      best.element = boundary_face.element();
       best.distance = distance;
       for(int i = 0; i < face.size; ++i) {
         const int v = face.vertices[i];

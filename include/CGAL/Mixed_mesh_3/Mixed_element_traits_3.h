@@ -31,8 +31,7 @@ struct Element_face
 };
 
 /*!
-A row of the table of element kinds: combinatorics, reference coordinates, and the names other
-programs give to the kind.
+A row of the table of element kinds: combinatorics and reference coordinates.
 
 Vertex order (positive Jacobian; the order of Gmsh, Abaqus, Medit and FEBio):
 
@@ -44,9 +43,6 @@ Vertex order (positive Jacobian; the order of Gmsh, Abaqus, Medit and FEBio):
       \  |  /        0-------1             | / \ |            |/      |/
        \ | /                               |/   \|            0-------1
          1                                 0-----1
-
-VTK's linear wedge is the mirror image of this prism: `vtk_order` lists, for each VTK position, the
-vertex of ours to write there.
 */
 struct Reference_element
 {
@@ -64,12 +60,6 @@ struct Reference_element
   /// Coordinates of the vertices of the reference element; the barycentric tetrahedron and
   /// triangle, [-1,1] in the other directions, height 1 for the pyramid.
   std::int8_t coordinates[8][3];
-  int vtk_type;
-  std::uint8_t vtk_order[8];
-  int gmsh_type;
-  const char* medit_keyword;
-  const char* abaqus_type;
-  const char* febio_type;
 };
 
 inline constexpr Reference_element reference_elements[number_of_element_kinds] = {
@@ -77,20 +67,17 @@ inline constexpr Reference_element reference_elements[number_of_element_kinds] =
    6, {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}},
    4, {{3, {1, 2, 3}}, {3, {0, 3, 2}}, {3, {0, 1, 3}}, {3, {0, 2, 1}}},
    1, {{0, 1, 2, 3}},
-   {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-   10, {0, 1, 2, 3}, 4, "Tetrahedra", "C3D4", "tet4"},
+   {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
   {"pyramid", "pyramids", 5,
    8, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}},
    5, {{4, {0, 3, 2, 1}}, {3, {0, 1, 4}}, {3, {1, 2, 4}}, {3, {2, 3, 4}}, {3, {3, 0, 4}}},
    4, {{0, 1, 3, 4}, {1, 2, 0, 4}, {2, 3, 1, 4}, {3, 0, 2, 4}},
-   {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}},
-   14, {0, 1, 2, 3, 4}, 7, "Pyramids", "C3D5", "pyra5"},
+   {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}}},
   {"prism", "prisms", 6,
    9, {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}},
    5, {{3, {0, 2, 1}}, {3, {3, 4, 5}}, {4, {0, 1, 4, 3}}, {4, {1, 2, 5, 4}}, {4, {2, 0, 3, 5}}},
    6, {{0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5}, {3, 5, 4, 0}, {4, 3, 5, 1}, {5, 4, 3, 2}},
-   {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
-   13, {0, 2, 1, 3, 5, 4}, 6, "Prisms", "C3D6", "penta6"},
+   {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}},
   {"hexahedron", "hexahedra", 8,
    12, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6},
         {3, 7}},
@@ -99,8 +86,7 @@ inline constexpr Reference_element reference_elements[number_of_element_kinds] =
    8, {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7}, {4, 7, 5, 0}, {5, 4, 6, 1},
        {6, 5, 7, 2}, {7, 6, 4, 3}},
    {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1},
-    {-1, 1, 1}},
-   12, {0, 1, 2, 3, 4, 5, 6, 7}, 5, "Hexahedra", "C3D8", "hex8"}};
+    {-1, 1, 1}}}};
 
 namespace internal {
 

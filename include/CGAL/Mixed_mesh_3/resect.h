@@ -235,7 +235,7 @@ Resection_3 resect(const Mesh& mesh, const Tumor& tumor,
 /*!
 \brief The mesh that is left: without the elements removed, and without the vertices that only they had.
 
-Elements and vertices keep their order, elements their region flags; boundary faces are set.
+Elements and vertices keep their order, elements their attributes.
 
 \param mesh the mesh
 \param is_removed true for each element that is removed. \pre one for each element
@@ -271,48 +271,37 @@ Mesh remaining_mesh(const Mesh& mesh, const std::vector<bool>& is_removed,
       std::vector<Vertex_index> v;
       for(Vertex_index u : element)
         v.push_back(numbers[u]);
-      remaining.add_element(element.kind(), v, mesh.is_in_region(e));
+      remaining.add_element(element.kind(), v, mesh.attributes(e));
       if(element_map != nullptr)
         element_map->push_back(e);
     }
-  remaining.set_boundary_faces(boundary_faces(remaining));
   return remaining;
 }
 
 /*!
-The surface of the cavity: the boundary faces of `remaining_mesh(mesh, is_removed)` that were inner faces of
-`mesh`, in the numbers of the elements left, in their order.
+The surface of the cavity: the faces of elements that are left against elements that are removed, in the numbers
+of `mesh`, in the order of the elements left.
 
 \param mesh the mesh
 \param is_removed true for each element that is removed. \pre one for each element
 \cost linear in the number of elements
 */
 template <class Mesh>
-std::vector<typename Mesh::Boundary_face> cavity_faces(const Mesh& mesh, const std::vector<bool>& is_removed)
+std::vector<Face> cavity_faces(const Mesh& mesh, const std::vector<bool>& is_removed)
 {
   CGAL_precondition(is_removed.size() == mesh.number_of_elements());
-  std::vector<Element_index> numbers;
-  Element_index number_of_elements_left = 0;
   std::vector<bool> is_at_cavity(mesh.number_of_vertices(), false);
-  for(Element_index e = 0; e < is_removed.size(); ++e) {
-    numbers.push_back(number_of_elements_left);
-    number_of_elements_left += !is_removed[e];
+  for(Element_index e = 0; e < is_removed.size(); ++e)
     if(is_removed[e])
       for(Vertex_index v : mesh.element(e))
         is_at_cavity[v] = true;
-  }
-  std::vector<typename Mesh::Boundary_face> faces;
+  std::vector<Face> faces;
   internal::for_each_face(mesh.elements(), mesh.number_of_vertices(),
-                          [&](Vertex_index v) { return is_at_cavity[v]; },
-                          [&](const Face_handle* f, std::size_t n) {
-                            if(n != 2 || is_removed[f[0].element] == is_removed[f[1].element])
-                              return;
-                            const Face_handle& left = is_removed[f[0].element] ? f[1] : f[0];
-                            faces.push_back({numbers[left.element], left.local_face});
-                          });
-  std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) {
-    return std::make_pair(a.element, a.local_face) < std::make_pair(b.element, b.local_face);
+                          [&](Vertex_index v) { return is_at_cavity[v]; }, [&](const auto& group) {
+    if(group.size() == 2 && is_removed[group.element(0)] != is_removed[group.element(1)])
+      faces.push_back(group[is_removed[group.element(0)] ? 1 : 0]);
   });
+  std::sort(faces.begin(), faces.end());
   return faces;
 }
 

@@ -36,19 +36,12 @@ diagonals, and tetrahedra of a valid but badly shaped element can have a negativ
 template <class Mesh>
 Mesh split_to_tetrahedra(const Mesh& mesh, std::vector<Element_index>* origins = nullptr)
 {
-  const auto bit = [](int i) { return std::uint32_t(1) << i; };
-
-  std::vector<std::uint8_t> boundary(mesh.number_of_elements());
-  for(const auto& face : mesh.boundary_faces())
-    boundary[face.element] |= std::uint8_t(bit(face.local_face));
-
   Mesh result;
-  std::vector<typename Mesh::Boundary_face> boundary_faces;
   result.points() = mesh.points();
   if(origins != nullptr)
     origins->clear();
 
-  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
     const Element_view element = mesh.element(e);
     const Reference_element& reference = element.reference();
     int apex = 0;
@@ -56,48 +49,25 @@ Mesh split_to_tetrahedra(const Mesh& mesh, std::vector<Element_index>* origins =
       if(element[i] < element[apex])
         apex = i;
 
-    const auto vertices_of = [&](const Element_face& face) {
-      std::uint32_t bits = 0;
-      for(int i = 0; i < face.size; ++i)
-        bits |= bit(face.vertices[i]);
-      return bits;
-    };
-    // The element's face that has the three vertices is unique. Is it on the boundary?
-    const auto is_on_boundary = [&](std::uint32_t triangle) {
-      for(int f = 0; f < reference.number_of_faces; ++f)
-        if((triangle & ~vertices_of(reference.faces[f])) == 0)
-          return (boundary[e] & bit(f)) != 0;
-      return false;
-    };
-
     for(int f = 0; f < reference.number_of_faces; ++f) {
       const Element_face& face = reference.faces[f];
-      if((vertices_of(face) & bit(apex)) != 0)
+      if(std::find(face.vertices, face.vertices + face.size, apex) != face.vertices + face.size)
         continue;
       int first = 0;
       for(int i = 1; i < face.size; ++i)
         if(element[face.vertices[i]] < element[face.vertices[first]])
           first = i;
       for(int i = 1; i + 1 < face.size; ++i) {
-        const int local[4] = {apex, face.vertices[first], face.vertices[(first + i) % face.size],
-                              face.vertices[(first + i + 1) % face.size]};
-        const Element_index tetrahedron = result.add_element(
-          TETRAHEDRON, {element[local[0]], element[local[1]], element[local[2]], element[local[3]]},
-          mesh.is_in_region(e));
+        result.add_element(TETRAHEDRON,
+                           {element[apex], element[face.vertices[first]],
+                            element[face.vertices[(first + i) % face.size]],
+                            element[face.vertices[(first + i + 1) % face.size]]},
+                           mesh.attributes(e));
         if(origins != nullptr)
-          origins->push_back(Element_index(e));
-        if(boundary[e] == 0)
-          continue;
-        const Reference_element& tetrahedra = reference_elements[TETRAHEDRON];
-        for(int g = 0; g < tetrahedra.number_of_faces; ++g) {
-          const auto& v = tetrahedra.faces[g].vertices;
-          if(is_on_boundary(bit(local[v[0]]) | bit(local[v[1]]) | bit(local[v[2]])))
-            boundary_faces.push_back({tetrahedron, g});
-        }
+          origins->push_back(e);
       }
     }
   }
-  result.set_boundary_faces(std::move(boundary_faces));
   return result;
 }
 

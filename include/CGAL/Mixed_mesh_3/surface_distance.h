@@ -43,13 +43,12 @@ inline Predicates_kernel::Point_3 rounded_point(const Vec3& p) { return {p[0], p
 template <class Mesh>
 Triangle_soup boundary_triangles(const Mesh& mesh)
 {
-  CGAL_precondition(!mesh.boundary_faces().empty());
   Triangle_soup soup;
   constexpr std::size_t none = std::size_t(-1);
   std::vector<std::size_t> index(mesh.number_of_vertices(), none);
-  for(const auto& f : mesh.boundary_faces()) {
-    auto v = face_vertices(mesh.element(f.element), f.local_face);
-    const auto size = v[3] == no_vertex ? 3 : 4;
+  for(const Face& face : boundary_faces(mesh)) {
+    std::array<Vertex_index, 4> v = face.vertices().padded();
+    const int size = face.vertices().size();
     std::rotate(v.begin(), std::min_element(v.begin(), v.begin() + size), v.begin() + size);
     for(int i = 0; i < size; ++i)
       if(index[v[i]] == none) {
@@ -113,7 +112,7 @@ two triangles, through their vertex of smallest index.
 
 \tparam Mesh a `Mixed_mesh_3`
 \tparam FaceListGraph a model of `FaceListGraph`, with points of any CGAL kernel
-\param mesh the mesh. \pre its boundary faces are set, and not empty
+\param mesh the mesh. \pre not empty
 \param surface the surface. \pre triangulated, and not empty
 \param relative_error how much a distance may be too small, relative to the diagonal of the box of
        `surface`. Where large triangles coincide with thousands of small ones the error can be larger;
@@ -135,7 +134,7 @@ Hausdorff_distance hausdorff_distance(const Mesh& mesh, const FaceListGraph& sur
 }
 
 /// Number of vertices on the boundary of a mesh that are not on a surface.
-/// \param mesh the mesh. \pre its boundary faces are set, and not empty
+/// \param mesh the mesh. \pre not empty
 /// \param surface a model of `FaceListGraph`. \pre triangulated, and not empty
 /// \param relative_tolerance the distance beyond which a vertex is not on the surface, relative to the
 ///        diagonal of the box of `surface`
@@ -162,7 +161,7 @@ std::size_t number_of_vertices_off_surface(const Mesh& mesh, const FaceListGraph
 /// Number of pairs of triangles of the boundary that intersect other than in a common edge or vertex, by
 /// exact predicates. A degenerate triangle counts as a pair with itself; where the boundary is not a
 /// manifold, what touches counts as well.
-/// \param mesh the mesh. \pre its boundary faces are set, and not empty
+/// \param mesh the mesh. \pre not empty
 template <class Mesh>
 std::size_t number_of_boundary_self_intersections(const Mesh& mesh)
 {

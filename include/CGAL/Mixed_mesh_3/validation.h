@@ -10,10 +10,11 @@
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
-#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/balance.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/for_each_face.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/manifold_defects.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 
@@ -57,7 +58,6 @@ struct Mesh_defects
   std::size_t nonpositive_corners = 0;  ///< corner tetrahedra whose orientation is not positive, exactly
   std::size_t nonpositive_elements = 0; ///< whose Jacobian is not positive everywhere, exactly
   std::size_t undecided_elements = 0;   ///< of which that could be neither proved nor disproved
-  std::size_t wrong_boundary_faces = 0; ///< missing in, or too many in `mesh.boundary_faces()`
   std::size_t unused_vertices = 0;
   std::size_t duplicate_vertices = 0;   ///< with the coordinates of an earlier one
   std::size_t nonfinite_vertices = 0;
@@ -66,8 +66,7 @@ struct Mesh_defects
   bool conforming() const { return nonconforming_faces == 0 && invalid_elements == 0; }
   bool closed_manifold_boundary() const
   {
-    return nonmanifold_boundary_edges == 0 && nonmanifold_boundary_vertices == 0
-           && wrong_boundary_faces == 0 && invalid_elements == 0;
+    return nonmanifold_boundary_edges == 0 && nonmanifold_boundary_vertices == 0 && invalid_elements == 0;
   }
   bool positive() const
   {
@@ -87,7 +86,7 @@ template <class Mesh>
 void find_invalid_elements(const Mesh& mesh, Mesh_defects& defects)
 {
   std::vector<std::uint8_t> is_used(mesh.number_of_vertices(), 0);
-  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
     const Element_view element = mesh.element(e);
     bool is_valid = true;
     for(int i = 0; i < element.size(); ++i) {
@@ -136,7 +135,7 @@ void find_bad_vertices(const Mesh& mesh, Mesh_defects& defects)
 template <class Mesh>
 void find_nonpositive_elements(const Mesh& mesh, Mesh_defects& defects)
 {
-  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
     const Jacobian_sign sign = jacobian_sign(mesh, e);
     if(sign == Jacobian_sign::POSITIVE)
       continue;
@@ -156,12 +155,11 @@ void find_nonpositive_elements(const Mesh& mesh, Mesh_defects& defects)
 }
 
 // Whether two faces with the same vertices have opposite orientations.
-inline bool are_opposite(std::array<Vertex_index, 4> a, std::array<Vertex_index, 4> b)
+inline bool are_opposite(const Face_vertices& a, const Face_vertices& b)
 {
-  const int size = a[3] == no_vertex ? 3 : 4;
-  const auto in_b = std::find(b.begin(), b.begin() + size, a[0]) - b.begin();
-  for(int i = 0; i < size; ++i)
-    if(a[i] != b[(in_b + size - i) % size])
+  const int in_b = int(std::find(b.begin(), b.end(), a[0]) - b.begin());
+  for(int i = 0; i < a.size(); ++i)
+    if(a[i] != b[(in_b + a.size() - i) % a.size()])
       return false;
   return true;
 }
@@ -169,42 +167,25 @@ inline bool are_opposite(std::array<Vertex_index, 4> a, std::array<Vertex_index,
 template <class Mesh>
 void find_nonconforming_faces(const Mesh& mesh, Mesh_defects& defects)
 {
-  const auto vertices = [&](const Face_handle& f) {
-    return face_vertices(mesh.element(f.element), f.local_face);
-  };
-  std::vector<Boundary_polygon> boundary;
-  std::vector<std::pair<Element_index, int>> boundary_faces, listed_faces;
-  const auto all = [](Vertex_index) { return true; };
-  for_each_face(mesh.elements(), mesh.number_of_vertices(), all,
-                [&](const Face_handle* f, std::size_t n) {
-    if(n == 1) {
-      const auto v = vertices(f[0]);
-      boundary.push_back({v, v[3] == no_vertex ? 3 : 4});
-      boundary_faces.emplace_back(f[0].element, f[0].local_face);
-    } else if(n > 2 || !are_opposite(vertices(f[0]), vertices(f[1]))) {
+  std::vector<Face_vertices> boundary;
+  for_each_face(mesh.elements(), mesh.number_of_vertices(), [&](const auto& group) {
+    if(group.size() == 1)
+      boundary.push_back(group[0].vertices());
+    else if(group.size() > 2 || !are_opposite(group[0].vertices(), group[1].vertices()))
       ++defects.nonconforming_faces;
-    }
   });
-  for(const auto& f : mesh.boundary_faces()) // none: nobody asked for them
-    listed_faces.emplace_back(f.element, f.local_face);
-  std::sort(boundary_faces.begin(), boundary_faces.end());
-  std::sort(listed_faces.begin(), listed_faces.end());
-  std::vector<std::pair<Element_index, int>> wrong;
-  std::set_symmetric_difference(boundary_faces.begin(), boundary_faces.end(), listed_faces.begin(),
-                                listed_faces.end(), std::back_inserter(wrong));
-  defects.wrong_boundary_faces = listed_faces.empty() ? 0 : wrong.size();
   // A quadrilateral against two triangles leaves all three on the "boundary".
   std::vector<std::array<Vertex_index, 4>> triangles;
-  for(const Boundary_polygon& p : boundary)
-    if(p.size == 3) {
-      triangles.push_back(p.vertices);
+  for(const Face_vertices& p : boundary)
+    if(p.size() == 3) {
+      triangles.push_back(p.padded());
       sort_vertices(triangles.back());
     }
   std::sort(triangles.begin(), triangles.end());
-  for(const Boundary_polygon& p : boundary)
-    if(p.size == 4)
-      for(int i = 0; i < 4; ++i) {
-        std::array<Vertex_index, 4> t = p.vertices;
+  for(const Face_vertices& p : boundary)
+    if(p.size() == 4)
+      for(std::size_t i = 0; i < 4; ++i) {
+        std::array<Vertex_index, 4> t = p.padded();
         t[i] = no_vertex;
         sort_vertices(t);
         if(std::binary_search(triangles.begin(), triangles.end(), t)) {
@@ -250,7 +231,7 @@ inline Mesh_defects find_defects(const internal::Lattice_mesh& lattice)
   for(const Lattice_point& p : lattice.vertices)
     points.emplace_back(p[0], p[1], p[2]);
   Mixed_mesh_3<Predicates_kernel> mesh;
-  mesh.assign(std::move(points), lattice.elements, std::vector<std::uint8_t>(lattice.elements.size()));
+  mesh.assign(std::move(points), lattice.elements, std::vector<Element_attributes>(lattice.elements.size()));
   return find_defects(mesh);
 }
 

@@ -7,9 +7,12 @@
 #define CGAL_MIXED_MESH_3_IO_FEB_H
 
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
 #include <cstddef>
 #include <ostream>
+#include <string>
 #include <vector>
 
 namespace CGAL {
@@ -19,9 +22,10 @@ namespace IO {
 /*!
 \brief Writes a mesh as model of FEBio (`.feb`), version 4.0.
 
-The mesh: node set `all`, element sets such as `region_hex8` and `rest_tet4`, surface `boundary`
-(counter-clockwise seen from outside). FEBio takes no mesh without materials: there are two, `region`
-and `rest`, with numbers to be replaced (neo-Hookean, Young's modulus 1, Poisson's ratio 0.45).
+The mesh: node set `all`, element sets such as `region_hex8` and `rest_tet4` (of other subdomains than 1
+`subdomain_2_rest_tet4` and so on), surface `boundary` (counter-clockwise seen from outside). FEBio takes no mesh
+without materials: there are `region` and `rest`, and those of other subdomains, with numbers to be replaced
+(neo-Hookean, Young's modulus 1, Poisson's ratio 0.45).
 There are no boundary conditions, loads or steps. The numbers of nodes and elements are the indices
 plus 1.
 
@@ -31,10 +35,10 @@ template <class Mesh>
 bool write_FEB(std::ostream& stream, const Mesh& mesh)
 {
   using namespace internal;
-  const std::vector<Element_block> blocks = element_blocks(mesh);
+  const Element_blocks blocks(mesh);
   Buffered_output out(stream);
-  const auto write_name = [&out](const Element_block& block) {
-    out << block.part() << '_' << block.reference().febio_type;
+  const auto name = [&blocks](const Element_block& block) {
+    return blocks.parts()[block.part].name() + '_' + block.names().febio_type;
   };
 
   out << "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n"
@@ -42,7 +46,11 @@ bool write_FEB(std::ostream& stream, const Mesh& mesh)
       << "  <Module type=\"solid\"/>\n"
       << "  <Material>\n";
   int material = 0;
-  for(const char* name : {"region", "rest"})
+  std::vector<std::string> materials{"region", "rest"};
+  for(const Part& part : blocks.parts())
+    if(part.attributes.subdomain_index != 1)
+      materials.push_back(part.name());
+  for(const std::string& name : materials)
     out << "    <material id=\"" << ++material << "\" name=\"" << name
         << "\" type=\"neo-Hookean\">\n"
         << "      <density>1</density>\n      <E>1</E>\n      <v>0.45</v>\n    </material>\n";
@@ -57,27 +65,23 @@ bool write_FEB(std::ostream& stream, const Mesh& mesh)
   out << "    </Nodes>\n";
 
   for(const Element_block& block : blocks) {
-    out << "    <Elements type=\"" << block.reference().febio_type << "\" name=\"";
-    write_name(block);
-    out << "\">\n";
-    for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
-      if(block.has(mesh, e)) {
-        out << "      <elem id=\"" << e + 1 << "\">";
-        write_vertices(out, mesh.element(e), ',');
-        out << "</elem>\n";
-      }
+    out << "    <Elements type=\"" << block.names().febio_type << "\" name=\"" << name(block) << "\">\n";
+    for(Element_index e : block) {
+      out << "      <elem id=\"" << e + 1 << "\">";
+      write_vertices(out, mesh.element(e), ',');
+      out << "</elem>\n";
+    }
     out << "    </Elements>\n";
   }
 
   // FEBio does not accept empty sections.
-  if(!mesh.boundary_faces().empty()) {
+  if(!mesh.is_empty()) {
     out << "    <Surface name=\"boundary\">\n";
     std::size_t number = 0;
-    for(const auto& face : mesh.boundary_faces()) {
-      const Face_vertices vertices(mesh, face);
-      const char* const type = vertices.size() == 3 ? "tri3" : "quad4";
+    for(const Face& face : boundary_faces(mesh)) {
+      const char* const type = face.vertices().size() == 3 ? "tri3" : "quad4";
       out << "      <" << type << " id=\"" << ++number << "\">";
-      write_vertices(out, vertices, ',');
+      write_vertices(out, face.vertices(), ',');
       out << "</" << type << ">\n";
     }
     out << "    </Surface>\n";
@@ -86,9 +90,8 @@ bool write_FEB(std::ostream& stream, const Mesh& mesh)
   out << "  </Mesh>\n"
       << "  <MeshDomains>\n";
   for(const Element_block& block : blocks) {
-    out << "    <SolidDomain name=\"";
-    write_name(block);
-    out << "\" mat=\"" << block.part() << "\"/>\n";
+    out << "    <SolidDomain name=\"" << name(block) << "\" mat=\"" << blocks.parts()[block.part].name()
+        << "\"/>\n";
   }
   out << "  </MeshDomains>\n"
       << "</febio_spec>\n";

@@ -7,10 +7,12 @@
 #define CGAL_MIXED_MESH_3_IO_INP_H
 
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
 #include <cstddef>
 #include <ostream>
-#include <vector>
+#include <string>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -19,8 +21,9 @@ namespace IO {
 /*!
 \brief Writes a mesh as input of Abaqus (`.inp`): nodes, elements and sets, no analysis.
 
-Element sets: `REGION` and `REST` for the elements in the region and the others, each made of one set
-for each type, such as `REGION_C3D8`. Node set: `BOUNDARY`, the vertices of the boundary faces. The
+Element sets: `REGION` and `REST` for the elements of subdomain 1 in the region and the others,
+`SUBDOMAIN_2_REGION` and so on for those of other subdomains, each made of one set for each type, such as
+`REGION_C3D8`. Node set: `BOUNDARY`, the vertices of the boundary faces. The
 numbers of nodes and elements are the indices plus 1.
 
 \note CalculiX has no pyramids, and Gmsh 4.8 drops them when it reads this format: see
@@ -32,8 +35,13 @@ template <class Mesh>
 bool write_INP(std::ostream& stream, const Mesh& mesh)
 {
   using namespace internal;
-  const auto set_name = [](bool in_region) { return in_region ? "REGION" : "REST"; };
-  const std::vector<Element_block> blocks = element_blocks(mesh);
+  const Element_blocks blocks(mesh);
+  const auto set_name = [&blocks](std::size_t part) {
+    std::string name = blocks.parts()[part].name();
+    for(char& c : name)
+      c = c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
+    return name;
+  };
 
   Buffered_output out(stream);
   out << "*HEADING\nMixed-element mesh written by Mixed_mesh_3\n*NODE\n";
@@ -44,39 +52,29 @@ bool write_INP(std::ostream& stream, const Mesh& mesh)
   }
 
   for(const Element_block& block : blocks) {
-    out << "*ELEMENT, TYPE=" << block.reference().abaqus_type
-        << ", ELSET=" << set_name(block.in_region) << '_' << block.reference().abaqus_type << '\n';
-    for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
-      if(block.has(mesh, e)) {
-        out << e + 1 << ',';
-        write_vertices(out, mesh.element(e), ',');
-        out << '\n';
-      }
+    out << "*ELEMENT, TYPE=" << block.names().abaqus_type
+        << ", ELSET=" << set_name(block.part) << '_' << block.names().abaqus_type << '\n';
+    for(Element_index e : block) {
+      out << e + 1 << ',';
+      write_vertices(out, mesh.element(e), ',');
+      out << '\n';
+    }
   }
 
   // A set of sets: no second list of all elements.
-  for(bool in_region : {true, false}) {
-    bool is_empty = true;
+  for(std::size_t part = 0; part < blocks.parts().size(); ++part) {
+    out << "*ELSET, ELSET=" << set_name(part) << '\n';
     for(const Element_block& block : blocks)
-      if(block.in_region == in_region) {
-        if(is_empty)
-          out << "*ELSET, ELSET=" << set_name(in_region) << '\n';
-        is_empty = false;
-        out << set_name(in_region) << '_' << block.reference().abaqus_type << '\n';
-      }
+      if(block.part == part)
+        out << set_name(part) << '_' << block.names().abaqus_type << '\n';
   }
 
-  std::vector<bool> is_on_boundary(mesh.number_of_vertices());
-  for(const auto& face : mesh.boundary_faces())
-    for(Vertex_index v : Face_vertices(mesh, face))
-      is_on_boundary[v] = true;
   int on_line = 0;
-  for(std::size_t v = 0; v < mesh.number_of_vertices(); ++v)
-    if(is_on_boundary[v]) {
-      // Abaqus allows 16 numbers on a line.
-      out << (on_line == 0 ? "*NSET, NSET=BOUNDARY\n" : on_line % 16 == 0 ? ",\n" : ", ") << v + 1;
-      ++on_line;
-    }
+  for(Vertex_index v : boundary_vertices(mesh)) {
+    // Abaqus allows 16 numbers on a line.
+    out << (on_line == 0 ? "*NSET, NSET=BOUNDARY\n" : on_line % 16 == 0 ? ",\n" : ", ") << v + 1;
+    ++on_line;
+  }
   if(on_line != 0)
     out << '\n';
   return out.finish();

@@ -7,10 +7,14 @@
 #define CGAL_MIXED_MESH_3_IO_MEDIT_H
 
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <ostream>
+#include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -19,8 +23,9 @@ namespace IO {
 /*!
 \brief Writes a mesh in the format of Medit (`.mesh`), as text.
 
-References: 1 for the elements in the region, 2 for the others, 3 for the boundary faces (which are
-counter-clockwise seen from outside), 0 for the vertices.
+References: of subdomain 1, 1 for the elements in the region and 2 for the others; 3 for the boundary faces (which
+are counter-clockwise seen from outside); from 4 on for the same of other subdomains, as they occur; 0 for the
+vertices.
 
 \note Gmsh 4.8 drops prisms and pyramids when it reads this format.
 
@@ -43,26 +48,31 @@ bool write_MEDIT(std::ostream& stream, const Mesh& mesh)
     out << " 0\n";
   }
 
+  const std::vector<Face> faces = boundary_faces(mesh);
   for(int size : {3, 4}) {
-    const std::size_t n = number_of_boundary_faces(mesh, size);
+    const auto has_size = [size](const Face& face) { return face.vertices().size() == size; };
+    const std::ptrdiff_t n = std::count_if(faces.begin(), faces.end(), has_size);
     if(n == 0)
       continue;
     out << (size == 3 ? "\nTriangles\n" : "\nQuadrilaterals\n") << n << '\n';
-    for(const auto& face : mesh.boundary_faces()) {
-      const Face_vertices vertices(mesh, face);
-      if(vertices.size() == size)
-        write_line(vertices, boundary_tag);
-    }
+    for(const Face& face : faces)
+      if(has_size(face))
+        write_line(face.vertices(), boundary_tag);
   }
 
+  const Element_blocks blocks(mesh);
+  std::vector<int> tags(mesh.number_of_elements());
+  for(const Element_block& block : blocks)
+    for(Element_index e : block)
+      tags[e] = blocks.tag(block.part);
   const std::array<std::size_t, number_of_element_kinds> counts = mesh.elements().counts();
   for(Element_kind kind : element_kinds) {
     if(counts[kind] == 0)
       continue;
-    out << '\n' << reference_elements[kind].medit_keyword << '\n' << counts[kind] << '\n';
-    for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
+    out << '\n' << element_names[kind].medit_keyword << '\n' << counts[kind] << '\n';
+    for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
       if(mesh.element(e).kind() == kind)
-        write_line(mesh.element(e), mesh.is_in_region(e) ? region_tag : rest_tag);
+        write_line(mesh.element(e), tags[e]);
   }
   out << "\nEnd\n";
   return out.finish();

@@ -7,13 +7,13 @@
 #define CGAL_MIXED_MESH_3_IO_MSH_H
 
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <cstdint>
-#include <limits>
 #include <ostream>
+#include <string>
 #include <vector>
 
 namespace CGAL {
@@ -28,7 +28,7 @@ namespace internal {
 // Gmsh wants each mesh vertex and element on an entity of a model, here also a physical group.
 struct MSH_entity
 {
-  const char* name;
+  std::string name;
   int dimension;
   int tag;
   std::size_t number_of_elements = 0;
@@ -41,16 +41,17 @@ inline int gmsh_face_type(int size) { return size == 3 ? 2 : 3; }
 
 class MSH_model
 {
-  static constexpr std::uint8_t no_entity = 255;
-  std::array<MSH_entity, 3> m_entities = {
-    {{"boundary", 2, boundary_tag}, {"region", 3, region_tag}, {"rest", 3, rest_tag}}};
-  std::vector<std::uint8_t> m_vertex_entity;
+  static constexpr std::size_t no_entity = std::size_t(-1);
+  std::vector<MSH_entity> m_entities; // the boundary, then the parts
+  std::vector<std::size_t> m_vertex_entity;
+  Element_blocks m_blocks;
+  std::vector<Face> m_boundary_faces;
 
   // An entity's box has all its vertices, but each vertex is on the first entity only.
   template <class Mesh, class Vertices>
-  void add(const Mesh& mesh, int entity, const Vertices& vertices)
+  void add(const Mesh& mesh, std::size_t entity, const Vertices& vertices)
   {
-    MSH_entity& e = m_entities[std::size_t(entity)];
+    MSH_entity& e = m_entities[entity];
     for(Vertex_index v : vertices) {
       const auto p = Mixed_meshes_3::to_vec3(mesh.point(v));
       const bool is_first = e.number_of_elements == 0 && v == *vertices.begin();
@@ -58,28 +59,39 @@ class MSH_model
         e.lower[i] = is_first ? p[i] : (std::min)(e.lower[i], p[i]);
         e.upper[i] = is_first ? p[i] : (std::max)(e.upper[i], p[i]);
       }
-      m_vertex_entity[v] = (std::min)(m_vertex_entity[v], std::uint8_t(entity));
+      m_vertex_entity[v] = (std::min)(m_vertex_entity[v], entity);
     }
     ++e.number_of_elements;
   }
 
 public:
   template <class Mesh>
-  explicit MSH_model(const Mesh& mesh) : m_vertex_entity(mesh.number_of_vertices(), no_entity)
+  explicit MSH_model(const Mesh& mesh)
+    : m_vertex_entity(mesh.number_of_vertices(), no_entity), m_blocks(mesh), m_boundary_faces(Mixed_meshes_3::boundary_faces(mesh))
   {
-    for(const auto& face : mesh.boundary_faces()) {
-      add(mesh, 0, Face_vertices(mesh, face));
-      m_entities[mesh.is_in_region(face.element) ? 1 : 2].is_on_boundary = true;
+    m_entities.push_back({"boundary", 2, boundary_tag});
+    std::vector<std::size_t> entity_of(mesh.number_of_elements());
+    for(std::size_t part = 0; part < m_blocks.parts().size(); ++part)
+      m_entities.push_back({m_blocks.parts()[part].name(), 3, m_blocks.tag(part)});
+    for(const Element_block& block : m_blocks)
+      for(Element_index e : block)
+        entity_of[e] = 1 + block.part;
+    for(const Face& face : m_boundary_faces) {
+      add(mesh, 0, face.vertices());
+      m_entities[entity_of[face.element()]].is_on_boundary = true;
     }
-    for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
-      add(mesh, mesh.is_in_region(e) ? 1 : 2, mesh.element(e));
-    for(std::uint8_t entity : m_vertex_entity)
+    for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
+      add(mesh, entity_of[e], mesh.element(e));
+    for(std::size_t entity : m_vertex_entity)
       if(entity != no_entity)
         ++m_entities[entity].number_of_vertices;
   }
 
-  const std::array<MSH_entity, 3>& entities() const { return m_entities; }
-  bool is_vertex_on(std::size_t v, int entity) const { return m_vertex_entity[v] == entity; }
+  const std::vector<MSH_entity>& entities() const { return m_entities; }
+  bool is_vertex_on(std::size_t v, std::size_t entity) const { return m_vertex_entity[v] == entity; }
+  const Element_blocks& blocks() const { return m_blocks; }
+  int tag(const Element_block& block) const { return m_blocks.tag(block.part); }
+  const std::vector<Face>& boundary_faces() const { return m_boundary_faces; }
 };
 
 inline void write_MSH_physical_names(Buffered_output& out, const MSH_model& model)
@@ -98,8 +110,7 @@ inline void write_MSH_entities(Buffered_output& out, const MSH_model& model)
 {
   const auto& entities = model.entities();
   const bool has_boundary = entities[0].number_of_elements != 0;
-  out << "$Entities\n0 0 " << int(has_boundary) << ' '
-      << (entities[1].number_of_elements != 0) + (entities[2].number_of_elements != 0) << '\n';
+  out << "$Entities\n0 0 " << int(has_boundary) << ' ' << entities.size() - 1 << '\n';
   for(const MSH_entity& e : entities)
     if(e.number_of_elements != 0) {
       out << e.tag << ' ';
@@ -125,8 +136,8 @@ void write_MSH_4_1_nodes(Buffered_output& out, const Mesh& mesh, const MSH_model
   }
   const std::size_t n = mesh.number_of_vertices();
   out << "$Nodes\n" << blocks << ' ' << vertices << " 1 " << n << '\n';
-  for(int i = 0; i < 3; ++i) {
-    const MSH_entity& e = model.entities()[std::size_t(i)];
+  for(std::size_t i = 0; i < model.entities().size(); ++i) {
+    const MSH_entity& e = model.entities()[i];
     if(e.number_of_vertices == 0)
       continue;
     out << e.dimension << ' ' << e.tag << " 0 " << e.number_of_vertices << '\n';
@@ -143,34 +154,32 @@ void write_MSH_4_1_nodes(Buffered_output& out, const Mesh& mesh, const MSH_model
 }
 
 template <class Mesh>
-void write_MSH_4_1_elements(Buffered_output& out, const Mesh& mesh)
+void write_MSH_4_1_elements(Buffered_output& out, const Mesh& mesh, const MSH_model& model)
 {
-  const std::vector<Element_block> blocks = element_blocks(mesh);
-  const std::size_t faces[] = {number_of_boundary_faces(mesh, 3), number_of_boundary_faces(mesh, 4)};
+  std::size_t faces[] = {0, 0}; // triangles, quadrilaterals
+  for(const Face& face : model.boundary_faces())
+    ++faces[face.vertices().size() - 3];
   const std::size_t m = mesh.number_of_elements(), total = m + faces[0] + faces[1];
   out << "$Elements\n"
-      << blocks.size() + (faces[0] != 0) + (faces[1] != 0) << ' ' << total << " 1 " << total << '\n';
-  for(const Element_block& block : blocks) {
-    out << "3 " << (block.in_region ? region_tag : rest_tag) << ' '
-        << block.reference().gmsh_type << ' ' << block.size << '\n';
-    for(std::size_t e = 0; e < m; ++e)
-      if(block.has(mesh, e)) {
-        out << e + 1 << ' ';
-        write_vertices(out, mesh.element(e), ' ');
-        out << '\n';
-      }
+      << model.blocks().blocks().size() + (faces[0] != 0) + (faces[1] != 0) << ' ' << total << " 1 " << total << '\n';
+  for(const Element_block& block : model.blocks()) {
+    out << "3 " << model.tag(block) << ' ' << block.names().gmsh_type << ' ' << block.size() << '\n';
+    for(Element_index e : block) {
+      out << e + 1 << ' ';
+      write_vertices(out, mesh.element(e), ' ');
+      out << '\n';
+    }
   }
   for(int size : {3, 4}) {
     if(faces[size - 3] == 0)
       continue;
     out << "2 " << boundary_tag << ' ' << gmsh_face_type(size) << ' ' << faces[size - 3] << '\n';
     std::size_t number = m;
-    for(const auto& face : mesh.boundary_faces()) {
-      const Face_vertices vertices(mesh, face);
+    for(const Face& face : model.boundary_faces()) {
       ++number;
-      if(vertices.size() == size) {
+      if(face.vertices().size() == size) {
         out << number << ' ';
-        write_vertices(out, vertices, ' ');
+        write_vertices(out, face.vertices(), ' ');
         out << '\n';
       }
     }
@@ -179,7 +188,7 @@ void write_MSH_4_1_elements(Buffered_output& out, const Mesh& mesh)
 }
 
 template <class Mesh>
-void write_MSH_2_2_nodes_and_elements(Buffered_output& out, const Mesh& mesh)
+void write_MSH_2_2_nodes_and_elements(Buffered_output& out, const Mesh& mesh, const MSH_model& model)
 {
   const auto write_element = [&out](std::size_t number, int type, int tag, const auto& vertices) {
     out << number << ' ' << type << " 2 " << tag << ' ' << tag << ' ';
@@ -194,15 +203,13 @@ void write_MSH_2_2_nodes_and_elements(Buffered_output& out, const Mesh& mesh)
     out << '\n';
   }
   out << "$EndNodes\n$Elements\n"
-      << mesh.number_of_elements() + mesh.boundary_faces().size() << '\n';
-  std::size_t number = 0;
-  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
-    write_element(++number, mesh.element(e).reference().gmsh_type,
-                  mesh.is_in_region(e) ? region_tag : rest_tag, mesh.element(e));
-  for(const auto& face : mesh.boundary_faces()) {
-    const Face_vertices vertices(mesh, face);
-    write_element(++number, gmsh_face_type(vertices.size()), boundary_tag, vertices);
-  }
+      << mesh.number_of_elements() + model.boundary_faces().size() << '\n';
+  for(const Element_block& block : model.blocks())
+    for(Element_index e : block)
+      write_element(e + 1, block.names().gmsh_type, model.tag(block), mesh.element(e));
+  std::size_t number = mesh.number_of_elements();
+  for(const Face& face : model.boundary_faces())
+    write_element(++number, gmsh_face_type(face.vertices().size()), boundary_tag, face.vertices());
   out << "$EndElements\n";
 }
 
@@ -211,10 +218,10 @@ void write_MSH_2_2_nodes_and_elements(Buffered_output& out, const Mesh& mesh)
 /*!
 \brief Writes a mesh in the format of Gmsh, as text.
 
-Physical groups: the volumes "region" (1) and "rest" (2) for the elements in the region and the
-others, and the surface "boundary" (3) for the boundary faces, counter-clockwise seen from outside.
-Vertices and elements keep their order: their numbers are the indices plus 1; boundary faces are
-numbered after the elements.
+Physical groups: the volumes "region" (1) and "rest" (2) for the elements of subdomain 1 in the region and the
+others, the surface "boundary" (3) for the boundary faces, counter-clockwise seen from outside, and from 4 on
+"subdomain_2_region", "subdomain_2_rest" and so on, as they occur. The numbers of vertices and elements are the
+indices plus 1; boundary faces are numbered after the elements. Elements are written by group and kind.
 
 \return whether the stream took everything.
 */
@@ -230,9 +237,9 @@ bool write_MSH(std::ostream& stream, const Mesh& mesh, MSH_version version = MSH
   if(version == MSH_version::V4_1) {
     write_MSH_entities(out, model);
     write_MSH_4_1_nodes(out, mesh, model);
-    write_MSH_4_1_elements(out, mesh);
+    write_MSH_4_1_elements(out, mesh, model);
   } else {
-    write_MSH_2_2_nodes_and_elements(out, mesh);
+    write_MSH_2_2_nodes_and_elements(out, mesh, model);
   }
   return out.finish();
 }

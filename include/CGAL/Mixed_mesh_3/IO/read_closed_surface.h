@@ -6,6 +6,9 @@
 #ifndef CGAL_MIXED_MESH_3_IO_READ_CLOSED_SURFACE_H
 #define CGAL_MIXED_MESH_3_IO_READ_CLOSED_SURFACE_H
 
+#include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+
 #include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -20,16 +23,13 @@
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/IO/polygon_soup_io.h>
-#include <CGAL/Kernel_traits.h>
 #include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/enum.h>
 #include <CGAL/number_utils.h>
-
-#include <boost/graph/graph_traits.hpp>
-#include <boost/property_map/property_map.hpp>
 
 #include <algorithm>
 #include <array>
@@ -46,8 +46,8 @@
 #include <locale>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -65,11 +65,6 @@ struct Surface_input
 };
 
 namespace internal {
-
-[[noreturn]] inline void refuse(const std::string& path, const std::string& defect)
-{
-  throw std::runtime_error(path + ": " + defect);
-}
 
 inline std::string counted(std::size_t n, const char* one, const char* many)
 {
@@ -109,8 +104,7 @@ inline Edge_counts count_edges(const std::vector<std::vector<std::size_t>>& poly
 }
 
 // What stands in a file may be anything: numbers first, then topology.
-template <class Point>
-void check_soup(const std::string& path, const std::vector<Point>& points,
+inline void check_soup(const std::string& path, const std::vector<Predicates_kernel::Point_3>& points,
                 const std::vector<std::vector<std::size_t>>& polygons)
 {
   if(points.empty() || polygons.empty())
@@ -145,34 +139,28 @@ void check_soup(const std::string& path, const std::vector<Point>& points,
     refuse(path, "it is so small, and so far from the origin, that its coordinates have no digits left");
 }
 
-template <class Mesh>
-using Point_of = typename boost::property_traits<
-  typename boost::property_map<Mesh, CGAL::vertex_point_t>::type>::value_type;
+/// What is read: predicates on it are exact.
+using Surface = CGAL::Surface_mesh<Predicates_kernel::Point_3>;
 
-template <class Mesh>
-using Face_of = typename boost::graph_traits<Mesh>::face_descriptor;
-
-template <class Mesh>
 struct Triangle_view
 {
-  std::array<typename boost::graph_traits<Mesh>::vertex_descriptor, 3> vertices;
-  std::array<Point_of<Mesh>, 3> points;
+  std::array<Surface::Vertex_index, 3> vertices;
+  std::array<Surface::Point, 3> points;
 
-  Triangle_view(Face_of<Mesh> face, const Mesh& mesh)
+  Triangle_view(Surface::Face_index face, const Surface& mesh)
   {
-    auto h = halfedge(face, mesh);
-    for(std::size_t i = 0; i < 3; ++i, h = next(h, mesh)) {
-      vertices[i] = target(h, mesh);
-      points[i] = get(get(CGAL::vertex_point, mesh), vertices[i]);
+    auto h = mesh.halfedge(face);
+    for(std::size_t i = 0; i < 3; ++i, h = mesh.next(h)) {
+      vertices[i] = mesh.target(h);
+      points[i] = mesh.point(vertices[i]);
     }
   }
 };
 
 // "(1, 2, 3)": the place of a face, in the coordinates of the file; its number is ours, not the file's.
-template <class Mesh>
-std::string place_of(Face_of<Mesh> face, const Mesh& mesh)
+inline std::string place_of(Surface::Face_index face, const Surface& mesh)
 {
-  const auto p = Triangle_view<Mesh>(face, mesh).points[0];
+  const auto p = Triangle_view(face, mesh).points[0];
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out.precision(7);
@@ -182,16 +170,14 @@ std::string place_of(Face_of<Mesh> face, const Mesh& mesh)
 }
 
 // Whether two faces meet in nothing but the point of two different vertices: a pinched point.
-template <class Mesh>
-bool meet_in_pinched_point(Face_of<Mesh> f, Face_of<Mesh> g, const Mesh& mesh)
+inline bool meet_in_pinched_point(Surface::Face_index f, Surface::Face_index g, const Surface& mesh)
 {
-  using Kernel = typename Kernel_traits<Point_of<Mesh>>::Kernel;
-  using Segment = typename Kernel::Segment_3;
-  using Triangle = typename Kernel::Triangle_3;
-  const Triangle_view<Mesh> a(f, mesh), b(g, mesh);
+  using Segment = Predicates_kernel::Segment_3;
+  using Triangle = Predicates_kernel::Triangle_3;
+  const Triangle_view a(f, mesh), b(g, mesh);
   const auto& p = a.points;
   const auto& q = b.points;
-  const auto do_intersect = Kernel().do_intersect_3_object();
+  const auto do_intersect = Predicates_kernel().do_intersect_3_object();
   for(std::size_t i = 0; i < 3; ++i)
     for(std::size_t j = 0; j < 3; ++j)
       if(p[i] == q[j] && a.vertices[i] != b.vertices[j])
@@ -201,11 +187,10 @@ bool meet_in_pinched_point(Face_of<Mesh> f, Face_of<Mesh> g, const Mesh& mesh)
 }
 
 // Removes triangles whose vertices are on a line, or refuses.
-template <class Mesh>
-void remove_degenerate_faces(const std::string& path, Mesh& mesh, Surface_input& input)
+inline void remove_degenerate_faces(const std::string& path, Surface& mesh, Surface_input& input)
 {
   namespace PMP = CGAL::Polygon_mesh_processing;
-  std::vector<Face_of<Mesh>> degenerate;
+  std::vector<Surface::Face_index> degenerate;
   PMP::degenerate_faces(mesh, std::back_inserter(degenerate));
   if(degenerate.empty())
     return;
@@ -232,16 +217,15 @@ void remove_degenerate_faces(const std::string& path, Mesh& mesh, Surface_input&
     refuse(path, "has " + counted(n, "degenerate face", "degenerate faces")
                    + " (three vertices on a line), the first near " + place);
   input.warnings.push_back("removed " + counted(n, "degenerate face", "degenerate faces"));
-  Mesh compact; // without the places of removed faces
+  Surface compact; // without the places of removed faces
   CGAL::copy_face_graph(mesh, compact);
   clear(mesh);
   CGAL::copy_face_graph(compact, mesh);
 }
 
-template <class Mesh>
-void refuse_self_intersections(const std::string& path, const Mesh& mesh)
+inline void refuse_self_intersections(const std::string& path, const Surface& mesh)
 {
-  std::vector<std::pair<Face_of<Mesh>, Face_of<Mesh>>> crossings;
+  std::vector<std::pair<Surface::Face_index, Surface::Face_index>> crossings;
   CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(crossings));
   crossings.erase(std::remove_if(crossings.begin(), crossings.end(),
                                  [&mesh](const auto& pair) {
@@ -266,14 +250,13 @@ void refuse_self_intersections(const std::string& path, const Mesh& mesh)
 // Orients the components such that the solid is on their inner side; returns the number of components.
 // PMP::orient_to_bound_a_volume() looks at one vertex of a component only; where components touch, that
 // vertex may be in both.
-template <class Mesh>
-std::size_t orient_components(Mesh& mesh, std::size_t& number_of_reversed)
+inline std::size_t orient_components(Surface& mesh, std::size_t& number_of_reversed)
 {
   namespace PMP = CGAL::Polygon_mesh_processing;
-  using Side = CGAL::Side_of_triangle_mesh<Mesh, typename Kernel_traits<Point_of<Mesh>>::Kernel>;
+  using Side = CGAL::Side_of_triangle_mesh<Surface, Predicates_kernel>;
   struct Component
   {
-    std::vector<Face_of<Mesh>> faces;
+    std::vector<Surface::Face_index> faces;
     Bbox_3 bbox;
     double volume = 0;
     bool is_cavity = false;
@@ -281,12 +264,12 @@ std::size_t orient_components(Mesh& mesh, std::size_t& number_of_reversed)
 
   const auto component_map = get(CGAL::dynamic_face_property_t<std::size_t>(), mesh);
   std::vector<Component> components(PMP::connected_components(mesh, component_map));
-  for(Face_of<Mesh> face : faces(mesh))
+  for(Surface::Face_index face : faces(mesh))
     components[get(component_map, face)].faces.push_back(face);
   for(Component& c : components) {
-    const Point_of<Mesh> origin = Triangle_view<Mesh>(c.faces.front(), mesh).points[0];
-    for(Face_of<Mesh> face : c.faces) {
-      const Triangle_view<Mesh> t(face, mesh);
+    const Surface::Point origin = Triangle_view(c.faces.front(), mesh).points[0];
+    for(Surface::Face_index face : c.faces) {
+      const Triangle_view t(face, mesh);
       for(const auto& p : t.points)
         c.bbox += p.bbox();
       c.volume += CGAL::to_double(CGAL::volume(origin, t.points[0], t.points[1], t.points[2]));
@@ -304,13 +287,13 @@ std::size_t orient_components(Mesh& mesh, std::size_t& number_of_reversed)
     }
     if(candidates.empty())
       continue;
-    const typename Side::AABB_tree tree(outer.faces.begin(), outer.faces.end(), mesh,
+    const Side::AABB_tree tree(outer.faces.begin(), outer.faces.end(), mesh,
                                         get(CGAL::vertex_point, mesh));
     const Side side(tree);
     for(Component* c : candidates) {
       Bounded_side s = ON_BOUNDARY;
       for(std::size_t i = 0; i < c->faces.size() && s == ON_BOUNDARY; ++i)
-        for(const auto& p : Triangle_view<Mesh>(c->faces[i], mesh).points)
+        for(const auto& p : Triangle_view(c->faces[i], mesh).points)
           if(s == ON_BOUNDARY)
             s = side(p);
       c->is_cavity ^= s == ON_BOUNDED_SIDE;
@@ -325,31 +308,10 @@ std::size_t orient_components(Mesh& mesh, std::size_t& number_of_reversed)
   return components.size();
 }
 
-} // namespace internal
-
-/*!
-Reads a closed surface from an OFF, OBJ, STL or PLY file, and mends what is harmless: duplicate points
-and faces, unused points, polygons (triangulated), faces whose vertices are on a line, inconsistent or
-inward orientation. A surface may touch itself in points: it gets a vertex for each sheet there.
-
-\tparam Mesh a model of `MutableFaceGraph` and `FaceListGraph` with an internal vertex point map, for
-        example `Surface_mesh` or `Polyhedron_3`
-\param path the file; its format follows from the extension
-\param mesh the result: triangulated, closed, not self-intersecting, oriented outwards
-\return what was read, with a warning for everything mended
-\throw std::runtime_error a line naming the file and the defect, if the file cannot be read or is not
-       the surface of a solid
-\cost O(n log n)
-*/
-template <class Mesh>
-Surface_input read_closed_surface(const std::string& path, Mesh& mesh)
+// Reads a surface and mends it, or refuses.
+inline void read_surface(const std::string& path, Surface& mesh, Surface_input& input)
 {
   namespace PMP = CGAL::Polygon_mesh_processing;
-  using Point = internal::Point_of<Mesh>;
-  using internal::counted;
-  using internal::refuse;
-
-  Surface_input input;
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return char(std::tolower(c)); });
@@ -361,7 +323,7 @@ Surface_input read_closed_surface(const std::string& path, Mesh& mesh)
   if(!std::ifstream(path))
     refuse(path, std::string("cannot be opened: ") + std::strerror(errno));
 
-  std::vector<Point> points;
+  std::vector<Surface::Point> points;
   std::vector<std::vector<std::size_t>> polygons;
   bool is_read = false;
   try {
@@ -370,7 +332,7 @@ Surface_input read_closed_surface(const std::string& path, Mesh& mesh)
   }
   if(!is_read)
     refuse(path, "cannot be read: not a complete " + extension.substr(1) + " file");
-  internal::check_soup(path, points, polygons);
+  check_soup(path, points, polygons);
   input.number_of_points = points.size();
   input.number_of_polygons = polygons.size();
 
@@ -397,7 +359,7 @@ Surface_input read_closed_surface(const std::string& path, Mesh& mesh)
   if(polygons.empty())
     refuse(path, "all its faces are degenerate");
 
-  const internal::Edge_counts edges = internal::count_edges(polygons);
+  const Edge_counts edges = count_edges(polygons);
   if(edges.open != 0)
     refuse(path, "the surface is not closed: " + counted(edges.open, "border edge", "border edges"));
   if(edges.crowded != 0)
@@ -408,13 +370,13 @@ Surface_input read_closed_surface(const std::string& path, Mesh& mesh)
     // Duplicates pinched points, and those of edges that it has to cut, as in a Moebius band.
     const std::size_t n = points.size();
     PMP::orient_polygon_soup(points, polygons);
-    if(internal::count_edges(polygons).open != 0)
+    if(count_edges(polygons).open != 0)
       refuse(path, "the surface cannot be oriented");
     if(!PMP::is_polygon_soup_a_polygon_mesh(polygons))
       refuse(path, "the faces do not form a surface");
     if(!edges.is_oriented)
       input.warnings.push_back("oriented the faces consistently");
-    const std::set<Point> pinched(points.begin() + std::ptrdiff_t(n), points.end());
+    const std::set<Surface::Point> pinched(points.begin() + std::ptrdiff_t(n), points.end());
     if(!pinched.empty())
       input.warnings.push_back("the surface is pinched at " + counted(pinched.size(), "point", "points"));
   }
@@ -432,19 +394,54 @@ Surface_input read_closed_surface(const std::string& path, Mesh& mesh)
   const double box = b.x_span() * b.y_span() * b.z_span();
   if(!(box > 0))
     refuse(path, "the surface is flat: it encloses no volume");
-  internal::remove_degenerate_faces(path, mesh, input);
-  internal::refuse_self_intersections(path, mesh);
+  remove_degenerate_faces(path, mesh, input);
+  refuse_self_intersections(path, mesh);
   std::size_t number_of_reversed;
-  input.number_of_components = internal::orient_components(mesh, number_of_reversed);
+  input.number_of_components = orient_components(mesh, number_of_reversed);
   if(input.number_of_components > 1)
     input.warnings.push_back("has " + std::to_string(input.number_of_components)
                              + " components: one inside another is a cavity");
   else if(number_of_reversed == 1)
     input.warnings.push_back("turned the surface inside out: it was oriented inwards");
-  input.volume = CGAL::to_double(PMP::volume(mesh));
+  input.volume = PMP::volume(mesh);
   if(!(input.volume > 1e-12 * box))
     refuse(path, "the surface encloses no volume");
-  return input;
+}
+
+} // namespace internal
+
+/*!
+Reads a closed surface from an OFF, OBJ, STL or PLY file, and mends what is harmless: duplicate points
+and faces, unused points, polygons (triangulated), faces whose vertices are on a line, inconsistent or
+inward orientation. A surface may touch itself in points: it gets a vertex for each sheet there.
+
+\tparam Mesh a model of `MutableFaceGraph` and `FaceListGraph` with an internal vertex point map, for
+        example `Surface_mesh` or `Polyhedron_3`
+\param path the file; its format follows from the extension
+\param mesh the result: triangulated, closed, not self-intersecting, oriented outwards
+\param error if not null, receives a line that names the file and the defect, if the file cannot be read or is
+       not the surface of a solid
+\param input if not null, receives what was read, with a warning for everything mended
+\return whether all went well; if not, `mesh` is as it was
+\cost O(n log n)
+*/
+template <class Mesh>
+[[nodiscard]] bool read_closed_surface(const std::string& path, Mesh& mesh, std::string* error = nullptr,
+                                       Surface_input* input = nullptr)
+{
+  return internal::is_read(path, error, [&] {
+    Surface_input read;
+    internal::Surface surface;
+    internal::read_surface(path, surface, read);
+    if constexpr(std::is_same_v<Mesh, internal::Surface>) {
+      mesh = std::move(surface);
+    } else {
+      clear(mesh);
+      CGAL::copy_face_graph(surface, mesh);
+    }
+    if(input != nullptr)
+      *input = std::move(read);
+  });
 }
 
 } // namespace IO

@@ -9,13 +9,10 @@
 #include <CGAL/Mixed_mesh_3/IO/internal/Mesh_input.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/read_MSH.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/read_VTU.h>
-#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <new>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,29 +35,30 @@ What `write_mixed_mesh()` writes in these formats is read back as it was, except
 element and no boundary face, which it does not write to Gmsh 4.1. All vertices in the file are kept, and none
 are merged: vertices and elements have the order of the file or, in Gmsh's formats, of the numbers that the
 file gives them. Elements of lower dimension are skipped. An element is in the region if the cell data
-`in_region` (VTK) are not 0, or if it is in a physical volume called "region" (Gmsh). Boundary faces are
-computed.
+`in_region` (VTK) are not 0, or if it is in a physical volume called "region" (Gmsh); cell data `subdomain`, and
+names such as "subdomain_2_rest", tell the subdomain, else it is 1. `write_mixed_mesh()` sorts the elements of a
+`.vtu` file by kind.
 
 The file is checked, but not the mesh: elements may be inverted, or not fit together; see `find_defects()`.
 
 \tparam Mesh a `Mixed_mesh_3`
 \param file the file
-\param mesh the result; as it was if an exception is thrown
-\throw std::runtime_error a line naming the file and the defect, if the file cannot be read or has no element
+\param mesh the result; as it was if the file cannot be read or has no element
+\param error if not null, receives then a line that names the file and the defect
+\return whether all went well
 \cost O(n log n); memory for the file and twice the mesh
 */
 template <class Mesh>
-void read_mixed_mesh(const std::string& file, Mesh& mesh)
+[[nodiscard]] bool read_mixed_mesh(const std::string& file, Mesh& mesh, std::string* error = nullptr)
 {
-  using internal::refuse_mesh;
-  std::string extension = std::filesystem::path(file).extension().string();
-  for(char& c : extension)
-    if(c >= 'A' && c <= 'Z')
-      c = char(c - 'A' + 'a');
-  if(extension != ".vtu" && extension != ".msh" && extension != ".msh2")
-    refuse_mesh(file, "unknown format; expected .vtu, .msh or .msh2");
-
-  try {
+  using internal::refuse;
+  return internal::is_read(file, error, [&] {
+    std::string extension = std::filesystem::path(file).extension().string();
+    for(char& c : extension)
+      if(c >= 'A' && c <= 'Z')
+        c = char(c - 'A' + 'a');
+    if(extension != ".vtu" && extension != ".msh" && extension != ".msh2")
+      refuse(file, "unknown format; expected .vtu, .msh or .msh2");
     internal::Mesh_input input;
     {
       const std::string bytes = internal::read_mesh_file(file);
@@ -71,21 +69,16 @@ void read_mixed_mesh(const std::string& file, Mesh& mesh)
     for(const auto& p : input.points) {
       for(double x : p)
         if(!std::isfinite(x))
-          refuse_mesh(file, "vertex " + std::to_string(points.size())
-                              + " has a coordinate that is not a finite number");
+          refuse(file, "vertex " + std::to_string(points.size())
+                         + " has a coordinate that is not a finite number");
       points.emplace_back(p[0], p[1], p[2]);
     }
     if(input.elements.empty())
-      refuse_mesh(file, "has no hexahedra, prisms, pyramids or tetrahedra");
+      refuse(file, "has no hexahedra, prisms, pyramids or tetrahedra");
     Mesh result;
-    result.assign(std::move(points), std::move(input.elements), std::move(input.in_region));
-    result.set_boundary_faces(boundary_faces(result));
+    result.assign(std::move(points), std::move(input.elements), std::move(input.attributes));
     mesh = std::move(result);
-  } catch(const std::bad_alloc&) {
-    refuse_mesh(file, "does not fit into the memory");
-  } catch(const std::length_error&) {
-    refuse_mesh(file, "does not fit into the memory");
-  }
+  });
 }
 
 } // namespace IO

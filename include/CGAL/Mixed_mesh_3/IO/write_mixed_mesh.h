@@ -12,6 +12,7 @@
 #include <CGAL/Mixed_mesh_3/IO/MSH.h>
 #include <CGAL/Mixed_mesh_3/IO/VTU.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Output_file.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
 #include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
 
 #include <cmath>
@@ -31,9 +32,6 @@ namespace IO {
 
 /// The formats that can be written.
 enum class Format { VTU, MSH_4_1, MSH_2_2, MEDIT, INP, FEB };
-
-/// Says in one line which file could not be written and why; empty if all went well.
-using Write_error = std::optional<std::string>;
 
 struct Write_options
 {
@@ -89,13 +87,12 @@ inline std::optional<Format> format_of(const std::string& path)
   return std::nullopt;
 }
 
-/// Checks whether any file can be written to a path: its directory must exist and be writable.
-[[nodiscard]] inline Write_error check_output_directory(const std::string& path)
+/// Whether any file can be written to a path: its directory must exist and be writable.
+/// \param path the file
+/// \param error if not null, receives a line that names the file and says what is wrong, if anything is
+[[nodiscard]] inline bool check_output_directory(const std::string& path, std::string* error = nullptr)
 {
-  const internal::Output_file file(path);
-  if(!file.error().empty())
-    return path + ": " + file.error();
-  return std::nullopt;
+  return internal::is_success(internal::with_path(path, internal::Output_file(path).error()), error);
 }
 
 /*!
@@ -112,29 +109,27 @@ public:
   /// Writes a file.
   /// \param path the file, once committed
   /// \param write called as `bool(std::ostream&)`; returns whether all went well
+  /// \param error if not null, receives a line that names the file and says what went wrong
+  /// \return whether all went well
   template <class Write>
-  [[nodiscard]] Write_error write(const std::string& path, const Write& write)
+  [[nodiscard]] bool write(const std::string& path, const Write& write, std::string* error = nullptr)
   {
     internal::Output_file& file = m_files.emplace_back(std::piecewise_construct, std::make_tuple(path),
                                                        std::make_tuple(path)).second;
     std::string reason = file.error();
     if(reason.empty())
       reason = file.write(write);
-    if(!reason.empty())
-      return path + ": " + reason;
-    return std::nullopt;
+    return internal::is_success(internal::with_path(path, reason), error);
   }
 
-  /// Gives all files written their names.
-  [[nodiscard]] Write_error commit()
+  /// Gives all files written their names; `write()` says what parameter and result are.
+  [[nodiscard]] bool commit(std::string* error = nullptr)
   {
-    for(auto& [path, file] : m_files) {
-      const std::string reason = file.commit();
-      if(!reason.empty())
-        return path + ": " + reason;
-    }
+    for(auto& [path, file] : m_files)
+      if(!internal::is_success(internal::with_path(path, file.commit()), error))
+        return false;
     m_files.clear();
-    return std::nullopt;
+    return true;
   }
 };
 
@@ -143,41 +138,45 @@ public:
 
 The extension must be known, the directory exist and be writable. An existing file is not touched; a
 temporary one is created beside it and removed.
+
+\param path the file
+\param error if not null, receives a line that names the file and says what is wrong, if anything is
 */
-[[nodiscard]] inline Write_error check_output_path(const std::string& path)
+[[nodiscard]] inline bool check_output_path(const std::string& path, std::string* error = nullptr)
 {
-  if(!format_of(path)) {
-    std::string known;
-    for(const internal::Extension& extension : internal::extensions)
-      known += std::string(" ") + extension.name;
-    return path + ": unknown extension, known are" + known;
-  }
-  return check_output_directory(path);
+  if(format_of(path))
+    return check_output_directory(path, error);
+  std::string known;
+  for(const internal::Extension& extension : internal::extensions)
+    known += std::string(" ") + extension.name;
+  return internal::is_success(path + ": unknown extension, known are" + known, error);
 }
 
 /// Writes a mesh to one of several files that shall appear together, as the function below does to one.
 template <class Mesh>
-[[nodiscard]] Write_error write_mixed_mesh(Output_files& files, const std::string& path, const Mesh& mesh,
-                                           const Write_options& options = Write_options())
+[[nodiscard]] bool write_mixed_mesh(Output_files& files, const std::string& path, const Mesh& mesh,
+                                    const Write_options& options = Write_options(), std::string* error = nullptr)
 {
   const std::optional<Format> format = format_of(path);
   if(!format)
-    return check_output_path(path);
+    return check_output_path(path, error);
 
-  const auto error = [&path](const std::string& reason) { return path + ": " + reason; };
+  const auto refused = [&](const std::string& reason) {
+    return internal::is_success(internal::with_path(path, reason), error);
+  };
   const std::size_t sizes[] = {mesh.number_of_vertices(), mesh.number_of_elements()};
   const std::vector<Data_array>* const data[] = {&options.vertex_data, &options.element_data};
   for(int i = 0; i < 2; ++i)
     for(const Data_array& array : *data[i]) {
       if(*format != Format::VTU)
-        return error("data \"" + array.name + "\" can be written to .vtu only");
+        return refused("data \"" + array.name + "\" can be written to .vtu only");
       if(!array.has_size(sizes[i]))
-        return error("data \"" + array.name + "\" does not have the size of the mesh");
+        return refused("data \"" + array.name + "\" does not have the size of the mesh");
     }
   for(std::size_t v = 0; v < mesh.number_of_vertices(); ++v)
     for(double x : Mixed_meshes_3::to_vec3(mesh.points()[v]))
       if(!std::isfinite(x))
-        return error("the mesh's vertex " + std::to_string(v) + " has no finite position");
+        return refused("the mesh's vertex " + std::to_string(v) + " has no finite position");
 
   if(options.tetrahedra) {
     std::vector<Element_index> origins;
@@ -195,13 +194,13 @@ template <class Mesh>
       values.push_back(std::move(split_values));
       array.values = &values.back();
     }
-    return write_mixed_mesh(files, path, tetrahedra, new_options);
+    return write_mixed_mesh(files, path, tetrahedra, new_options, error);
   }
   const Format used = options.msh_2_2 && *format == Format::MSH_4_1 ? Format::MSH_2_2 : *format;
 
   return files.write(path, [&](std::ostream& stream) {
     return internal::write(stream, mesh, used, options);
-  });
+  }, error);
 }
 
 /*!
@@ -219,16 +218,18 @@ template <class Mesh>
 The file appears when it is complete: it is written under another name in the same directory, which
 is removed when something goes wrong. An existing file stays until it is replaced.
 
-\return the error, or `std::nullopt`: `if(const auto error = write_mixed_mesh(path, mesh)) ...`
+\param path the file
+\param mesh the mesh
+\param options what else to write
+\param error if not null, receives a line that names the file and says what went wrong
+\return whether all went well
 */
 template <class Mesh>
-[[nodiscard]] Write_error write_mixed_mesh(const std::string& path, const Mesh& mesh,
-                                           const Write_options& options = Write_options())
+[[nodiscard]] bool write_mixed_mesh(const std::string& path, const Mesh& mesh,
+                                    const Write_options& options = Write_options(), std::string* error = nullptr)
 {
   Output_files files;
-  if(auto error = write_mixed_mesh(files, path, mesh, options))
-    return error;
-  return files.commit();
+  return write_mixed_mesh(files, path, mesh, options, error) && files.commit(error);
 }
 
 } // namespace IO

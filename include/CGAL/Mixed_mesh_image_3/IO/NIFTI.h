@@ -65,11 +65,6 @@ bool with_voxel_type(int type, const F& f)
   return false;
 }
 
-[[noreturn]] inline void refuse_image(const std::string& path, const std::string& defect)
-{
-  throw std::runtime_error(path + ": " + defect);
-}
-
 // Reads plain and compressed files.
 class Input_file
 {
@@ -85,7 +80,7 @@ class Input_file
     int error = Z_OK;
     gzerror(m_file.get(), &error);
     if(error != Z_OK && error != Z_BUF_ERROR) // which is the end of the file
-      refuse_image(m_path, "is damaged: its compressed data are not valid");
+      refuse(m_path, "is damaged: its compressed data are not valid");
     return error;
   }
 
@@ -93,11 +88,11 @@ public:
   explicit Input_file(const std::string& path) : m_path(path)
   {
     if(std::filesystem::is_directory(path))
-      refuse_image(path, "is a directory");
+      refuse(path, "is a directory");
     errno = 0;
     m_file.reset(gzopen(path.c_str(), "rb"));
     if(!m_file)
-      refuse_image(path, std::string("cannot be opened: ") + std::strerror(errno));
+      refuse(path, std::string("cannot be opened: ") + std::strerror(errno));
     gzbuffer(m_file.get(), 1 << 17);
   }
 
@@ -177,20 +172,20 @@ Nifti_header read_header(const std::string& path, Input_file& file, std::int32_t
   Header header;
   std::memcpy(&header, &first, sizeof(first));
   if(!file.read(reinterpret_cast<char*>(&header) + sizeof(first), sizeof(header) - sizeof(first)))
-    refuse_image(path, unknown);
+    refuse(path, unknown);
   if(std::memcmp(header.magic, magic, 4) != 0)
-    refuse_image(path, std::memcmp(header.magic, "ni", 2) == 0
+    refuse(path, std::memcmp(header.magic, "ni", 2) == 0
                          ? "cannot be read: its voxels are in another file" : unknown);
   Header native = header;
   if(native.sizeof_hdr != int(sizeof(Header)))
     swap_nifti_header(&native, version);
   const std::string defect = header_defect(native);
   if(!defect.empty())
-    refuse_image(path, defect);
+    refuse(path, defect);
   nifti_set_debug_level(0); // or it prints
   Nifti_header result(convert(header));
   if(!result)
-    refuse_image(path, unknown);
+    refuse(path, unknown);
   return result;
 }
 
@@ -206,7 +201,7 @@ inline Nifti_header read_header(const std::string& path, Input_file& file)
       return nifti_convert_n2hdr2nim(header, nullptr);
     });
   if(size != 348 && swapped_size != 348)
-    refuse_image(path, "cannot be read: not a NIfTI image");
+    refuse(path, "cannot be read: not a NIfTI image");
   return read_header<nifti_1_header>(path, file, size, 1, "n+1", [](const nifti_1_header& header) {
     return nifti_convert_n1hdr2nim(header, nullptr);
   });
@@ -230,11 +225,11 @@ inline Voxel_grid_3 read_grid(const std::string& path, const nifti_image& header
       length = std::hypot(length, grid.index_to_world[i][j]);
     }
     if(!(length < 1e15))
-      refuse_image(path, "its orientation has entries that are not finite numbers");
+      refuse(path, "its orientation has entries that are not finite numbers");
     scale *= j < 3 ? length : 1;
   }
   if(!(std::abs(Mixed_meshes_3::determinant(grid.index_to_world)) > 1e-6 * scale))
-    refuse_image(path, std::string("its ") + (has_sform ? "sform" : "qform") + " is singular");
+    refuse(path, std::string("its ") + (has_sform ? "sform" : "qform") + " is singular");
   return grid;
 }
 
@@ -247,10 +242,10 @@ inline std::vector<char> read_voxel_bytes(const std::string& path, Input_file& f
                                 + std::to_string(header.ny) + " x " + std::to_string(header.nz)
                                 + " voxels expected";
   if(count * header.nbyper > file.largest_size()) // before memory is asked for
-    refuse_image(path, truncated);
+    refuse(path, truncated);
   std::vector<char> bytes(std::size_t(count) * std::size_t(header.nbyper));
   if(!file.skip_to(header.iname_offset) || !file.read(bytes.data(), bytes.size()) || !file.has_end())
-    refuse_image(path, truncated);
+    refuse(path, truncated);
   if(header.byteorder != nifti_short_order() && header.nbyper > 1)
     nifti_swap_Nbytes(std::int64_t(count), header.nbyper, bytes.data());
   return bytes;
@@ -399,6 +394,43 @@ void write_as(Compressed_output& output, const Voxel_image_3& image, double slop
   }
 }
 
+inline Voxel_image_3 read_image(const std::string& path)
+{
+  if(!ends_with(path, ".nii") && !ends_with(path, ".nii.gz"))
+    refuse(path, "unknown format; expected .nii or .nii.gz");
+  Input_file input(path);
+  const Nifti_header owner = read_header(path, input);
+  const nifti_image& header = *owner;
+  Voxel_image_3 image;
+  image.grid = read_grid(path, header);
+  image.type = Voxel_type(header.datatype);
+  if(header.scl_slope != 0) {
+    image.slope = header.scl_slope;
+    image.intercept = header.scl_inter;
+  }
+  if(!std::isfinite(image.slope) || !std::isfinite(image.intercept))
+    refuse(path, "its slope or intercept is not a finite number");
+
+  const std::size_t count = image.grid.number_of_voxels();
+  with_voxel_type(header.datatype, [&](auto zero) {
+    using T = decltype(zero);
+    const std::vector<char> bytes = read_voxel_bytes(path, input, header);
+    image.values.resize(count);
+    for(std::size_t i = 0; i < count; ++i) {
+      T x;
+      std::memcpy(&x, bytes.data() + i * sizeof(T), sizeof(T));
+      image.values[i] = float(image.slope * double(x) + image.intercept);
+      if(!std::isfinite(image.values[i])) {
+        const auto& size = image.grid.size;
+        refuse(path, "voxel (" + std::to_string(i % size[0]) + ", "
+                             + std::to_string(i / size[0] % size[1]) + ", "
+                             + std::to_string(i / size[0] / size[1]) + ") is not a finite number");
+      }
+    }
+  });
+  return image;
+}
+
 } // namespace internal
 
 /*!
@@ -409,46 +441,14 @@ millimeters, whatever the unit of the file. The file's slope and intercept are a
 integers beyond 2^24 lose digits. Not for several threads at once.
 
 \param path the file
-\return the image
-\throw std::runtime_error a line naming the file and the defect, if it cannot be read, is truncated or
-       damaged, does not have three dimensions, or has voxels that are not finite real numbers
+\param image the result; as it was if the file cannot be read, is truncated or damaged, does not have three
+       dimensions, or has voxels that are not finite real numbers
+\param error if not null, receives then a line that names the file and the defect
+\return whether all went well
 */
-inline Voxel_image_3 read_NIFTI(const std::string& path)
+[[nodiscard]] inline bool read_NIFTI(const std::string& path, Voxel_image_3& image, std::string* error = nullptr)
 {
-  using internal::refuse_image;
-  if(!internal::ends_with(path, ".nii") && !internal::ends_with(path, ".nii.gz"))
-    refuse_image(path, "unknown format; expected .nii or .nii.gz");
-  internal::Input_file input(path);
-  const internal::Nifti_header owner = internal::read_header(path, input);
-  const nifti_image& header = *owner;
-  Voxel_image_3 image;
-  image.grid = internal::read_grid(path, header);
-  image.type = Voxel_type(header.datatype);
-  if(header.scl_slope != 0) {
-    image.slope = header.scl_slope;
-    image.intercept = header.scl_inter;
-  }
-  if(!std::isfinite(image.slope) || !std::isfinite(image.intercept))
-    refuse_image(path, "its slope or intercept is not a finite number");
-
-  const std::size_t count = image.grid.number_of_voxels();
-  internal::with_voxel_type(header.datatype, [&](auto zero) {
-    using T = decltype(zero);
-    const std::vector<char> bytes = internal::read_voxel_bytes(path, input, header);
-    image.values.resize(count);
-    for(std::size_t i = 0; i < count; ++i) {
-      T x;
-      std::memcpy(&x, bytes.data() + i * sizeof(T), sizeof(T));
-      image.values[i] = float(image.slope * double(x) + image.intercept);
-      if(!std::isfinite(image.values[i])) {
-        const auto& size = image.grid.size;
-        refuse_image(path, "voxel (" + std::to_string(i % size[0]) + ", "
-                             + std::to_string(i / size[0] % size[1]) + ", "
-                             + std::to_string(i / size[0] / size[1]) + ") is not a finite number");
-      }
-    }
-  });
-  return image;
+  return internal::is_read(path, error, [&] { image = internal::read_image(path); });
 }
 
 /*!
@@ -460,14 +460,15 @@ are written as sform, and as qform if the axes are at right angles.
 \param files the files
 \param path the file, once committed: `.nii` or `.nii.gz`
 \param image the image
-\return the error, or `std::nullopt`
+\param error if not null, receives a line that names the file and says what went wrong
+\return whether all went well
 */
-[[nodiscard]] inline Write_error write_NIFTI(Output_files& files, const std::string& path,
-                                             const Voxel_image_3& image)
+[[nodiscard]] inline bool write_NIFTI(Output_files& files, const std::string& path, const Voxel_image_3& image,
+                                      std::string* error = nullptr)
 {
-  const std::string error = internal::image_output_error(path, image.grid, image.values.size());
-  if(!error.empty())
-    return path + ": " + error;
+  const std::string defect = internal::image_output_error(path, image.grid, image.values.size());
+  if(!internal::is_success(internal::with_path(path, defect), error))
+    return false;
   return files.write(path, [&](std::ostream& stream) {
     nifti_1_header header = internal::make_header(image.grid);
     const double slope = image.slope != 0 ? image.slope : 1;
@@ -483,17 +484,17 @@ are written as sform, and as qform if the axes are at right angles.
       internal::write_as<decltype(zero)>(output, image, slope);
     });
     return output.finish() && is_known;
-  });
+  }, error);
 }
 
 /// As above, a field: a vector image (five dimensions, `NIFTI_INTENT_DISPVECT`) of floats in millimeters,
 /// components in the directions of the image's world: right, front, up.
-[[nodiscard]] inline Write_error write_NIFTI(Output_files& files, const std::string& path,
-                                             const Displacement_field_3& field)
+[[nodiscard]] inline bool write_NIFTI(Output_files& files, const std::string& path, const Displacement_field_3& field,
+                                      std::string* error = nullptr)
 {
-  const std::string error = internal::image_output_error(path, field.grid, field.vectors.size());
-  if(!error.empty())
-    return path + ": " + error;
+  const std::string defect = internal::image_output_error(path, field.grid, field.vectors.size());
+  if(!internal::is_success(internal::with_path(path, defect), error))
+    return false;
   return files.write(path, [&](std::ostream& stream) {
     nifti_1_header header = internal::make_header(field.grid);
     header.dim[0] = 5;
@@ -514,17 +515,15 @@ are written as sform, and as qform if the axes are at right angles.
         output.write(block.data(), block.size() * sizeof(float));
       }
     return output.finish();
-  });
+  }, error);
 }
 
 /// Writes an image or a field to a file, which appears when it is complete.
 template <class Image>
-[[nodiscard]] Write_error write_NIFTI(const std::string& path, const Image& image)
+[[nodiscard]] bool write_NIFTI(const std::string& path, const Image& image, std::string* error = nullptr)
 {
   Output_files files;
-  if(auto error = write_NIFTI(files, path, image))
-    return error;
-  return files.commit();
+  return write_NIFTI(files, path, image, error) && files.commit(error);
 }
 
 /*!
@@ -537,20 +536,18 @@ Writes what `warp_image()` returns, beside each other: for `brain.nii.gz`
 | `brain_backward.nii.gz` | the field at points after it: where they come from |
 | `brain_mask.nii.gz` | 0 outside, 1 tissue, 2 resected: after the deformation |
 
-\return the error, or `std::nullopt`
+\param error if not null, receives a line that names the file and says what went wrong
+\return whether all went well
 */
-[[nodiscard]] inline Write_error write_warped_image(Output_files& files, const std::string& path,
-                                                    const Warped_image_3& warped)
+[[nodiscard]] inline bool write_warped_image(Output_files& files, const std::string& path,
+                                             const Warped_image_3& warped, std::string* error = nullptr)
 {
   const std::string extension = internal::ends_with(path, ".gz") ? ".nii.gz" : ".nii";
   const std::string stem = path.substr(0, path.size() - (std::min)(path.size(), extension.size()));
-  if(auto error = write_NIFTI(files, path, warped.image))
-    return error;
-  if(auto error = write_NIFTI(files, stem + "_forward" + extension, warped.forward))
-    return error;
-  if(auto error = write_NIFTI(files, stem + "_backward" + extension, warped.backward))
-    return error;
-  return write_NIFTI(files, stem + "_mask" + extension, warped.mask);
+  return write_NIFTI(files, path, warped.image, error)
+         && write_NIFTI(files, stem + "_forward" + extension, warped.forward, error)
+         && write_NIFTI(files, stem + "_backward" + extension, warped.backward, error)
+         && write_NIFTI(files, stem + "_mask" + extension, warped.mask, error);
 }
 
 } // namespace IO

@@ -9,7 +9,9 @@
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_MESH_INPUT_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_MESH_INPUT_H
 
+#include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <cerrno>
@@ -20,7 +22,6 @@
 #include <filesystem>
 #include <fstream>
 #include <ios>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -36,16 +37,11 @@ struct Mesh_input
 {
   std::vector<Mixed_meshes_3::Vec3> points;
   Element_list elements;
-  std::vector<std::uint8_t> in_region;
+  std::vector<Element_attributes> attributes;
 };
 
 // Vertices and elements are counted in 32 bits, with one value to spare.
 constexpr std::uint64_t largest_mesh_size = 0xfffffffe;
-
-[[noreturn]] inline void refuse_mesh(const std::string& path, const std::string& defect)
-{
-  throw std::runtime_error(path + ": " + defect);
-}
 
 /// A part of a file for a message: short, and on one line.
 inline std::string in_quotes(std::string_view text)
@@ -63,22 +59,22 @@ inline std::string read_mesh_file(const std::string& path)
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if(fs::is_directory(status))
-    refuse_mesh(path, "is a directory");
+    refuse(path, "is a directory");
   if(fs::exists(status) && !fs::is_regular_file(status)) // a pipe or device may never end
-    refuse_mesh(path, "is not a regular file");
+    refuse(path, "is not a regular file");
   errno = 0;
   std::ifstream in(path, std::ios_base::binary);
   if(!in)
-    refuse_mesh(path, std::string("cannot be opened: ") + std::strerror(errno));
+    refuse(path, std::string("cannot be opened: ") + std::strerror(errno));
   const std::uintmax_t size = fs::file_size(path, error);
   if(error)
-    refuse_mesh(path, "cannot be read: " + error.message());
+    refuse(path, "cannot be read: " + error.message());
   if(size == 0)
-    refuse_mesh(path, "is empty");
+    refuse(path, "is empty");
   std::string bytes(std::size_t(size), '\0');
   in.read(bytes.data(), std::streamsize(size));
   if(std::uintmax_t(in.gcount()) != size)
-    refuse_mesh(path, "cannot be read to its end");
+    refuse(path, "cannot be read to its end");
   return bytes;
 }
 

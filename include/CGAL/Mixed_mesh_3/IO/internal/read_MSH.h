@@ -8,6 +8,7 @@
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_READ_MSH_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_READ_MSH_H
 
+#include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Mesh_input.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
-#include <set>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -42,13 +43,13 @@ class MSH_reader
   Text_input m_in;
   std::string m_section; // with its $
   bool m_is_version_4 = false, m_is_binary = false, m_has_nodes = false, m_has_elements = false;
-  std::set<std::int64_t> m_region_groups;  // physical groups of volumes, called "region"
-  std::set<std::int32_t> m_region_volumes; // the volumes in them; version 4 only
+  std::map<std::int64_t, Element_attributes> m_groups;  // of physical groups of volumes with names of ours
+  std::map<std::int32_t, Element_attributes> m_volumes; // version 4 only
   std::vector<std::int64_t> m_node_tags;   // increasing
   std::vector<std::int64_t> m_element_tags;
   Mesh_input m_mesh;
 
-  [[noreturn]] void refuse(const std::string& defect) const { refuse_mesh(m_path, defect); }
+  [[noreturn]] void refuse(const std::string& defect) const { internal::refuse(m_path, defect); }
 
   // ---- words and numbers --------------------------------------------------------------------
 
@@ -141,16 +142,20 @@ class MSH_reader
       const std::size_t end = rest.substr(0, 1) == "\"" ? rest.find('"', 1) : std::string_view::npos;
       if(end == std::string_view::npos)
         refuse("is damaged or truncated in " + m_section);
-      if(dimension == 3 && rest.substr(1, end - 1) == "region")
-        m_region_groups.insert(tag);
+      if(const auto part = Part::named(rest.substr(1, end - 1)); part && dimension == 3)
+        m_groups.emplace(tag, part->attributes);
       m_in.skip(end + 1);
     }
   }
 
-  // Tags are negative for what is against the orientation of the group.
-  bool is_region_group(std::int64_t tag) const
+  // What a physical group says of its elements. Tags are negative for what is against the orientation of the group.
+  void add_group(std::int64_t tag, Element_attributes& attributes) const
   {
-    return m_region_groups.count(tag) != 0 || m_region_groups.count(-tag) != 0;
+    const auto group = m_groups.find(tag < 0 ? -tag : tag);
+    if(group == m_groups.end())
+      return;
+    attributes.is_in_region = attributes.is_in_region || group->second.is_in_region;
+    attributes.subdomain_index = (std::max)(attributes.subdomain_index, group->second.subdomain_index);
   }
 
   void read_entities()
@@ -164,11 +169,11 @@ class MSH_reader
         const std::int32_t tag = get_int();
         for(int i = 0; i < (dimension == 0 ? 3 : 6); ++i) // a point or a box
           get<double>();
-        for(std::size_t groups = checked(get_tag(), 1); groups != 0; --groups) {
-          const bool is_region = is_region_group(get_int());
-          if(dimension == 3 && is_region)
-            m_region_volumes.insert(tag);
-        }
+        Element_attributes attributes;
+        for(std::size_t groups = checked(get_tag(), 1); groups != 0; --groups)
+          add_group(get_int(), attributes);
+        if(dimension == 3)
+          m_volumes[tag] = attributes;
         if(dimension != 0) // what bounds it
           for(std::size_t entities = checked(get_tag(), 1); entities != 0; --entities)
             get_int();
@@ -271,19 +276,19 @@ class MSH_reader
            + "); expected linear hexahedra, prisms, pyramids and tetrahedra");
   }
 
-  void read_element_nodes(std::int64_t tag, std::int32_t type, bool in_region)
+  void read_element_nodes(std::int64_t tag, std::int32_t type, const Element_attributes& attributes)
   {
     std::array<Vertex_index, 8> vertices{};
     const int size = size_of_type(type);
     for(int i = 0; i < size; ++i)
       vertices[std::size_t(i)] = get_vertex();
     for(Element_kind kind : element_kinds)
-      if(reference_elements[kind].gmsh_type == type) {
+      if(element_names[kind].gmsh_type == type) {
         if(m_element_tags.size() == largest_mesh_size)
           refuse("has more than 2^32 elements");
         m_element_tags.push_back(tag);
         m_mesh.elements.add(kind, vertices.data());
-        m_mesh.in_region.push_back(in_region);
+        m_mesh.attributes.push_back(attributes);
       }
   }
 
@@ -301,13 +306,13 @@ class MSH_reader
       for(std::size_t i = 0; i < size; ++i) {
         if(m_is_binary)
           number = get_tag();
-        bool in_region = false;
+        Element_attributes attributes;
         for(std::size_t t = 0; t < tags; ++t) {
-          const bool is_region = is_region_group(get_int());
+          const std::int32_t tag = get_int();
           if(t == 0) // the other tags are not of groups
-            in_region = is_region;
+            add_group(tag, attributes);
         }
-        read_element_nodes(number, type, in_region);
+        read_element_nodes(number, type, attributes);
       }
       n -= size;
     }
@@ -324,11 +329,13 @@ class MSH_reader
     for(; blocks != 0; --blocks) {
       const std::int32_t dimension = get_int(), entity = get_int(), type = get_int();
       const std::size_t size = checked(get_tag(), 2);
-      const bool in_region = dimension == 3 && m_region_volumes.count(entity) != 0;
+      const auto volume = m_volumes.find(entity);
+      const Element_attributes attributes =
+        dimension == 3 && volume != m_volumes.end() ? volume->second : Element_attributes();
       size_of_type(type); // is it known?
       for(std::size_t i = 0; i < size; ++i) {
         const std::int64_t tag = get_tag();
-        read_element_nodes(tag, type, in_region);
+        read_element_nodes(tag, type, attributes);
       }
       found += size;
     }
@@ -351,10 +358,10 @@ class MSH_reader
     Mesh_input sorted;
     for(std::size_t e : sorting_order(m_element_tags)) {
       sorted.elements.add(m_mesh.elements[e].kind(), m_mesh.elements[e].begin());
-      sorted.in_region.push_back(m_mesh.in_region[e]);
+      sorted.attributes.push_back(m_mesh.attributes[e]);
     }
     m_mesh.elements = std::move(sorted.elements);
-    m_mesh.in_region = std::move(sorted.in_region);
+    m_mesh.attributes = std::move(sorted.attributes);
   }
 
   void skip_section()
@@ -404,7 +411,8 @@ public:
 };
 
 /// Reads what an `.msh` file holds. Vertices and elements are ordered by their tags, which need not be dense;
-/// elements of lower dimension are skipped. In the region is what is in a physical volume called "region".
+/// elements of lower dimension are skipped. Attributes are those that the names of physical volumes
+/// tell, see `Part`.
 inline Mesh_input read_MSH(const std::string& path, const std::string& bytes)
 {
   return MSH_reader(path, bytes).read();

@@ -10,6 +10,7 @@
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_READ_VTU_H
 
 #include <CGAL/Mixed_mesh_3/IO/internal/Mesh_input.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/element_names.h>
 
 #include <CGAL/config.h>
 
@@ -22,6 +23,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -51,7 +53,7 @@ class XML_input
 
   [[noreturn]] void refuse_tag(std::size_t begin) const
   {
-    refuse_mesh(m_path, "is damaged: no valid XML at " + in_quotes(m_text.substr(begin)));
+    internal::refuse(m_path, "is damaged: no valid XML at " + in_quotes(m_text.substr(begin)));
   }
 
   // The position after `end`.
@@ -133,7 +135,7 @@ public:
       const std::size_t end = rest.empty() || (rest[0] != '"' && rest[0] != '\'')
                                 ? std::string_view::npos : rest.find(rest[0], 1);
       if(end == std::string_view::npos)
-        refuse_mesh(m_path, "is damaged: no valid attributes of " + in_quotes(tag.name));
+        internal::refuse(m_path, "is damaged: no valid attributes of " + in_quotes(tag.name));
       if(found == name)
         return rest.substr(1, end - 1);
       in.skip(end + 1);
@@ -229,7 +231,7 @@ class VTU_reader
   struct Piece
   {
     std::uint64_t number_of_points = 0, number_of_cells = 0;
-    std::optional<Array> points, connectivity, offsets, types, in_region;
+    std::optional<Array> points, connectivity, offsets, types, in_region, subdomain;
   };
 
   // Deflate shrinks to no less than that.
@@ -244,7 +246,7 @@ class VTU_reader
   bool m_has_appended = false;
   std::size_t m_bytes_read = 0;
 
-  [[noreturn]] void refuse(const std::string& defect) const { refuse_mesh(m_path, defect); }
+  [[noreturn]] void refuse(const std::string& defect) const { internal::refuse(m_path, defect); }
 
   [[noreturn]] void refuse_array(const Array& array, const std::string& defect) const
   {
@@ -303,7 +305,8 @@ class VTU_reader
                                           std::make_tuple("Cells", "connectivity", &Piece::connectivity),
                                           std::make_tuple("Cells", "offsets", &Piece::offsets),
                                           std::make_tuple("Cells", "types", &Piece::types),
-                                          std::make_tuple("CellData", "in_region", &Piece::in_region)})
+                                          std::make_tuple("CellData", "in_region", &Piece::in_region),
+                                          std::make_tuple("CellData", "subdomain", &Piece::subdomain)})
       if(section == of && array.name == name)
         place = &(piece.*member);
     if(place == nullptr || *place)
@@ -536,7 +539,7 @@ class VTU_reader
 
   // ---- cells --------------------------------------------------------------------------------
 
-  // How VTK numbers a cell: `order` as `Reference_element::vtk_order`.
+  // How VTK numbers a cell: `order` as `Element_names::vtk_order`.
   struct Cell_type
   {
     Element_kind kind;
@@ -549,8 +552,8 @@ class VTU_reader
     static constexpr std::uint8_t voxel_order[8] = {0, 1, 3, 2, 4, 5, 7, 6};
     constexpr int voxel = 11, last_of_low_dimension = 9;
     for(Element_kind kind : element_kinds)
-      if(reference_elements[kind].vtk_type == type)
-        return Cell_type{kind, reference_elements[kind].vtk_order};
+      if(element_names[kind].vtk_type == type)
+        return Cell_type{kind, element_names[kind].vtk_order};
     if(type == voxel)
       return Cell_type{HEXAHEDRON, voxel_order};
     if(type < 0 || type > last_of_low_dimension) {
@@ -576,8 +579,11 @@ class VTU_reader
       refuse("its array \"offsets\" is not increasing");
     const std::vector<std::int64_t> connectivity =
         values<std::int64_t>(piece.connectivity, "connectivity", std::uint64_t(size));
-    const std::vector<double> in_region =
-        piece.in_region ? values<double>(piece.in_region, "in_region", m) : std::vector<double>();
+    const auto cell_data = [&](const std::optional<Array>& array, const char* name) {
+      return array ? values<double>(array, name, m) : std::vector<double>();
+    };
+    const std::vector<double> in_region = cell_data(piece.in_region, "in_region"),
+                              subdomain = cell_data(piece.subdomain, "subdomain");
 
     for(std::size_t v = 0; v < n; ++v)
       mesh.points.push_back({coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]});
@@ -602,7 +608,15 @@ class VTU_reader
           vertices[type->order[i]]
             = Vertex_index(first + std::uint64_t(connectivity[std::size_t(begin + i)]));
         mesh.elements.add(type->kind, vertices.data());
-        mesh.in_region.push_back(!in_region.empty() && in_region[e] != 0);
+        Element_attributes attributes;
+        attributes.is_in_region = !in_region.empty() && in_region[e] != 0;
+        if(!subdomain.empty()) {
+          constexpr double largest = (std::numeric_limits<Subdomain_index>::max)();
+          if(!(subdomain[e] >= 1 && subdomain[e] <= largest))
+            refuse("cell " + std::to_string(e) + " has a \"subdomain\" that is not a positive integer");
+          attributes.subdomain_index = Subdomain_index(subdomain[e]);
+        }
+        mesh.attributes.push_back(attributes);
       }
       begin = end;
     }

@@ -167,28 +167,24 @@ private:
   }
 
   // Every vertex inside has all its elements, so the boundary is among the faces with none.
-  std::vector<Boundary_polygon> boundary_polygons() const
+  std::vector<Face_vertices> boundary_polygons() const
   {
-    std::vector<std::pair<std::array<Vertex_index, 3>, Boundary_polygon>> faces;
+    std::vector<std::pair<std::array<Vertex_index, 3>, Face_vertices>> faces;
     for(std::size_t i = 0; i < pieces.size(); ++i) {
       const Element_view piece = pieces[i];
       for(int f = 0; f < piece.reference().number_of_faces; ++f) {
-        const Element_face& face = piece.reference().faces[f];
-        Boundary_polygon polygon{{}, face.size};
-        for(int k = 0; k < face.size; ++k)
-          polygon.vertices[k] = piece[face.vertices[k]];
-        if(std::none_of(polygon.vertices.begin(), polygon.vertices.begin() + face.size, inside())) {
-          CGAL_assertion(face.size == 3);
-          std::array<Vertex_index, 3> key{polygon.vertices[0], polygon.vertices[1],
-                                          polygon.vertices[2]};
+        const Face_vertices vertices = Face(pieces, Element_index(i), f).vertices();
+        if(std::none_of(vertices.begin(), vertices.end(), inside())) {
+          CGAL_assertion(vertices.size() == 3);
+          std::array<Vertex_index, 3> key{vertices[0], vertices[1], vertices[2]};
           std::sort(key.begin(), key.end());
-          faces.emplace_back(key, polygon);
+          faces.emplace_back(key, vertices);
         }
       }
     }
     std::sort(faces.begin(), faces.end(),
               [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::vector<Boundary_polygon> polygons;
+    std::vector<Face_vertices> polygons;
     for(std::size_t i = 0; i < faces.size(); ++i)
       if((i == 0 || faces[i - 1].first != faces[i].first)
          && (i + 1 == faces.size() || faces[i + 1].first != faces[i].first))

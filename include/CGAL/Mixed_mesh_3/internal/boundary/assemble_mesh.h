@@ -8,7 +8,7 @@
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_ASSEMBLE_MESH_H
 #define CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_ASSEMBLE_MESH_H
 
-#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/Boundary_stage.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
 
@@ -30,10 +30,10 @@ void assemble_mesh(const Octree_& octree, const Lattice_mesh& lattice, const Bou
   std::vector<Vertex_index> numbers(lattice.vertices.size(), Vertex_index(-1));
   std::vector<Point_3> points;
   Element_list elements;
-  std::vector<std::uint8_t> in_region, is_inner;
+  std::vector<Element_attributes> attributes;
   points.reserve(boundary.number_of_vertices);
   elements.reserve(lattice.elements.size(), lattice.elements.connectivity().size());
-  in_region.reserve(lattice.elements.size());
+  attributes.reserve(lattice.elements.size());
 
   const auto add = [&](const Element_view& element, Element_index origin) {
     Vertex_index v[8];
@@ -43,12 +43,11 @@ void assemble_mesh(const Octree_& octree, const Lattice_mesh& lattice, const Bou
         number = Vertex_index(points.size());
         const auto p = octree.point(lattice.vertices[element[i]]);
         points.emplace_back(p.x(), p.y(), p.z());
-        is_inner.push_back(lattice.is_inside(element[i]) && !lattice.is_on_rim[element[i]]);
       }
       v[i] = number;
     }
     elements.add(element.kind(), &v[0]);
-    in_region.push_back(octree.is_in_region(lattice.cells[origin]));
+    attributes.push_back({1, octree.is_in_region(lattice.cells[origin])});
   };
   std::size_t piece = 0;
   for(Element_index e = 0; e < lattice.elements.size(); ++e) {
@@ -57,8 +56,7 @@ void assemble_mesh(const Octree_& octree, const Lattice_mesh& lattice, const Bou
     for(; piece < boundary.pieces.size() && boundary.origins[piece] == e; ++piece)
       add(boundary.pieces[piece], e);
   }
-  mesh.assign(std::move(points), std::move(elements), std::move(in_region));
-  mesh.set_boundary_faces(boundary_faces(mesh, [&](Vertex_index v) { return !is_inner[v]; }));
+  mesh.assign(std::move(points), std::move(elements), std::move(attributes));
 }
 
 } // namespace internal

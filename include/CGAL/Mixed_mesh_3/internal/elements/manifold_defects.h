@@ -8,7 +8,7 @@
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_MANIFOLD_DEFECTS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_MANIFOLD_DEFECTS_H
 
-#include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/Face.h>
 
 #include <algorithm>
 #include <array>
@@ -21,13 +21,6 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// A polygon of three or four vertices in the cyclic order of its orientation.
-struct Boundary_polygon
-{
-  std::array<Vertex_index, 4> vertices;
-  int size;
-};
-
 /// Where a set of oriented polygons is not a closed oriented 2-manifold.
 struct Manifold_defects
 {
@@ -37,15 +30,15 @@ struct Manifold_defects
 };
 
 /// \cost O(n log n) for n polygons
-inline Manifold_defects manifold_defects(const std::vector<Boundary_polygon>& polygons)
+inline Manifold_defects manifold_defects(const std::vector<Face_vertices>& polygons)
 {
   Manifold_defects defects;
 
   // Each edge once in each direction.
   std::vector<std::array<Vertex_index, 3>> edges; // smaller, larger, is reversed
-  for(const Boundary_polygon& p : polygons)
-    for(int i = 0; i < p.size; ++i) {
-      const Vertex_index a = p.vertices[i], b = p.vertices[(i + 1) % p.size];
+  for(const Face_vertices& p : polygons)
+    for(int i = 0; i < p.size(); ++i) {
+      const Vertex_index a = p[i], b = p[(i + 1) % p.size()];
       edges.push_back({(std::min)(a, b), (std::max)(a, b), a > b});
     }
   std::sort(edges.begin(), edges.end());
@@ -66,10 +59,9 @@ inline Manifold_defects manifold_defects(const std::vector<Boundary_polygon>& po
     }
   };
   std::vector<Link> links;
-  for(const Boundary_polygon& p : polygons)
-    for(int i = 0; i < p.size; ++i)
-      links.push_back({p.vertices[i], p.vertices[(i + 1) % p.size],
-                       p.vertices[(i + p.size - 1) % p.size]});
+  for(const Face_vertices& p : polygons)
+    for(int i = 0; i < p.size(); ++i)
+      links.push_back({p[i], p[(i + 1) % p.size()], p[(i + p.size() - 1) % p.size()]});
   std::sort(links.begin(), links.end());
   for(auto first = links.begin(), last = first; first != links.end(); first = last) {
     while(last != links.end() && last->vertex == first->vertex)

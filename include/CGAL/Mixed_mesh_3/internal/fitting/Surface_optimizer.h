@@ -42,7 +42,7 @@ class Surface_optimizer
   const Mixed_mesh_optimization_criteria_3& m_criteria;
   const Quality m_quality;
   Project m_project;
-  std::vector<Boundary_polygon> m_boundary;
+  std::vector<Face> m_boundary;
   Working_mesh m_working;
   Moves m_moves;
   std::vector<Vec3> m_samples;
@@ -67,7 +67,7 @@ public:
   Surface_optimizer(Mesh& mesh, const Domain& domain, const Mixed_mesh_optimization_criteria_3& criteria,
                     const Quality& quality)
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality), m_project(domain),
-      m_boundary(boundary_polygons(mesh)), m_working(mesh, m_boundary),
+      m_boundary(boundary_faces(mesh)), m_working(mesh, m_boundary),
       m_moves(m_working, m_quality, m_project, criteria.sliding_threshold()),
       m_samples(surface_samples()),
       m_attraction(m_working, m_project, m_samples, criteria.tolerance()),
@@ -117,9 +117,11 @@ private:
   {
     double sum = 0;
     std::size_t count = 0;
-    for(const Boundary_polygon& p : m_boundary)
-      for(int i = 0; i < p.size; ++i, ++count)
-        sum += norm(m_working.points[p.vertices[i]] - m_working.points[p.vertices[(i + 1) % p.size]]);
+    for(const Face& face : m_boundary) {
+      const Face_vertices& v = face.vertices();
+      for(int i = 0; i < v.size(); ++i, ++count)
+        sum += norm(m_working.points[v[i]] - m_working.points[v[(i + 1) % v.size()]]);
+    }
     return count > 0 ? sum / double(count) : 0;
   }
 
@@ -204,7 +206,7 @@ private:
     const std::size_t removals = flipper.number_of_removals();
     const std::size_t flips = flipper.run(power, worst, [&](Vertex_index v) { m_moves.activate(v); });
     if(flipper.number_of_removals() != removals) {
-      m_boundary = m_working.boundary_polygons();
+      m_boundary = m_working.boundary_faces();
       m_attraction.set_boundary(m_boundary);
     }
     return flips;

@@ -9,9 +9,10 @@
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_WORKING_MESH_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_WORKING_MESH_H
 
-#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/Element_attributes.h>
+#include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
-#include <CGAL/Mixed_mesh_3/internal/elements/manifold_defects.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/for_each_face.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/element_measures.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
@@ -35,10 +36,10 @@ bool is_valid_start(const Mesh& mesh)
     if(!std::isfinite(norm(to_vec3(p))))
       return false;
   for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
-    const Element_view element = mesh.element(e);
+    const Element_view element = mesh.element(Element_index(e));
     if(std::any_of(element.begin(), element.end(),
                    [&](Vertex_index v) { return v >= mesh.number_of_vertices(); })
-       || jacobian_sign(mesh, e) != Jacobian_sign::POSITIVE)
+       || jacobian_sign(mesh, Element_index(e)) != Jacobian_sign::POSITIVE)
       return false;
   }
   return true;
@@ -56,7 +57,7 @@ struct Working_mesh
   struct Element
   {
     Element_kind kind;
-    std::uint8_t is_in_region;
+    Element_attributes attributes;
     bool is_removed;
     std::array<Vertex_index, 8> vertices;
 
@@ -72,9 +73,9 @@ struct Working_mesh
   std::vector<std::vector<Element_index>> incident; ///< for each vertex, its elements, in any fixed order
   std::vector<std::uint8_t> is_on_boundary;         ///< for each vertex
 
-  /// \param boundary the faces on the boundary, as polygons
-  template <class Mesh, class Polygons>
-  Working_mesh(const Mesh& mesh, const Polygons& boundary)
+  /// \param boundary the faces on the boundary
+  template <class Mesh>
+  Working_mesh(const Mesh& mesh, const std::vector<Face>& boundary)
     : incident(mesh.number_of_vertices()), is_on_boundary(mesh.number_of_vertices(), 0)
   {
     points.reserve(mesh.number_of_vertices());
@@ -82,29 +83,26 @@ struct Working_mesh
       points.push_back(to_vec3(p));
     elements.reserve(mesh.number_of_elements());
     for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
-      const Element_view element = mesh.element(e);
-      Element mine{element.kind(), mesh.is_in_region(e), false, {}};
+      const Element_view element = mesh.element(Element_index(e));
+      Element mine{element.kind(), mesh.attributes(Element_index(e)), false, {}};
       std::copy(element.begin(), element.end(), mine.vertices.begin());
       add(mine);
     }
-    for(const auto& polygon : boundary)
-      for(int i = 0; i < polygon.size; ++i)
-        is_on_boundary[polygon.vertices[i]] = 1;
+    for(const Face& face : boundary)
+      for(Vertex_index v : face.vertices())
+        is_on_boundary[v] = 1;
   }
 
   /// The boundary, which changes when elements on it are removed.
-  std::vector<Boundary_polygon> boundary_polygons() const
+  std::vector<Face> boundary_faces() const
   {
-    const Element_list list = element_list();
-    std::vector<Boundary_polygon> polygons;
-    for_each_face(list, points.size(), [this](Vertex_index v) { return is_on_boundary[v] != 0; },
-                  [&](const Face_handle* f, std::size_t n) {
-                    const Element_view element = list[f->element];
-                    if(n == 1)
-                      polygons.push_back({face_vertices(element, f->local_face),
-                                          element.reference().faces[f->local_face].size});
+    std::vector<Face> faces;
+    for_each_face(element_list(), points.size(), [this](Vertex_index v) { return is_on_boundary[v] != 0; },
+                  [&](const auto& group) {
+                    if(group.size() == 1)
+                      faces.push_back(group[0]);
                   });
-    return polygons;
+    return faces;
   }
 
   Element_index add(const Element& element)
@@ -141,7 +139,7 @@ struct Working_mesh
     return jacobian_sign(element, position()) == Jacobian_sign::POSITIVE;
   }
 
-  /// Writes back what has changed. Boundary faces are found again if elements have.
+  /// Writes back what has changed.
   template <class Mesh>
   void store(Mesh& mesh) const
   {
@@ -155,13 +153,11 @@ struct Working_mesh
       mesh.points() = std::move(new_points);
       return;
     }
-    std::vector<std::uint8_t> in_region;
+    std::vector<Element_attributes> attributes;
     for(const Element& element : elements)
       if(!element.is_removed)
-        in_region.push_back(element.is_in_region);
-    mesh.assign(std::move(new_points), element_list(), std::move(in_region));
-    mesh.set_boundary_faces(
-      boundary_faces(mesh, [this](Vertex_index v) { return is_on_boundary[v] != 0; }));
+        attributes.push_back(element.attributes);
+    mesh.assign(std::move(new_points), element_list(), std::move(attributes));
   }
 
   /// The elements that are not removed.

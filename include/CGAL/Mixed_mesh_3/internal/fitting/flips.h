@@ -94,12 +94,16 @@ private:
   // Replaces elements if the new tetrahedra are positive.
   bool replace(const std::vector<Element_index>& old, const std::vector<Tetrahedron>& tetrahedra)
   {
-    std::uint8_t in_region = 0;
-    for(Element_index e : old)
-      in_region |= m_mesh.elements[e].is_in_region;
+    Element_attributes attributes = m_mesh.elements[old.front()].attributes;
+    for(Element_index e : old) {
+      const Element_attributes& a = m_mesh.elements[e].attributes;
+      if(a.subdomain_index != attributes.subdomain_index)
+        return false; // an interface stays
+      attributes.is_in_region = attributes.is_in_region || a.is_in_region;
+    }
     std::vector<Working_mesh::Element> elements;
     for(const Tetrahedron& t : tetrahedra) {
-      Working_mesh::Element element{TETRAHEDRON, in_region, false, {}};
+      Working_mesh::Element element{TETRAHEDRON, attributes, false, {}};
       std::copy(t.begin(), t.end(), element.vertices.begin());
       if(!m_mesh.is_positive(element))
         return false;

@@ -63,12 +63,12 @@ public:
       m_stiffness(mesh.points.size(), 1)
   {}
 
-  void set_boundary(const std::vector<Boundary_polygon>& polygons)
+  void set_boundary(const std::vector<Face>& faces)
   {
     m_triangles.clear();
-    for(const auto& polygon : polygons)
-      for(int i = 2; i < polygon.size; ++i)
-        m_triangles.push_back({polygon.vertices[0], polygon.vertices[i - 1], polygon.vertices[i]});
+    for(const Face& face : faces)
+      for(int i = 2; i < face.vertices().size(); ++i)
+        m_triangles.push_back({face.vertices()[0], face.vertices()[i - 1], face.vertices()[i]});
   }
 
   /// Of the last measurement.

@@ -11,7 +11,6 @@
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_TARGETS_H
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
-#include <CGAL/Mixed_mesh_3/internal/elements/manifold_defects.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <algorithm>
@@ -24,24 +23,6 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
-
-/// The boundary faces of a mesh as polygons, counter-clockwise seen from outside.
-template <class Mesh>
-std::vector<Boundary_polygon> boundary_polygons(const Mesh& mesh)
-{
-  std::vector<Boundary_polygon> polygons;
-  const auto add = [&](const auto& faces) {
-    for(const auto& f : faces) {
-      const auto element = mesh.element(f.element);
-      polygons.push_back({face_vertices(element, f.local_face), element.reference().faces[f.local_face].size});
-    }
-  };
-  if(mesh.boundary_faces().empty())
-    add(boundary_faces(mesh));
-  else
-    add(mesh.boundary_faces());
-  return polygons;
-}
 
 /// The point of a domain's surface that is closest to a given one.
 template <class Domain>
@@ -104,14 +85,12 @@ public:
   static constexpr double least_quality = 0.3;
 
   /// \param polygons the boundary, in positions of `points`
-  Boundary_folds(const std::vector<Boundary_polygon>& polygons, const std::vector<Vec3>& points)
+  Boundary_folds(const std::vector<Face_vertices>& polygons, const std::vector<Vec3>& points)
   {
     std::vector<Vec3> vertex_normals(points.size(), Vec3{});
-    for(const Boundary_polygon& polygon : polygons) {
-      const auto& v = polygon.vertices;
-      for(int i = 0; i < (polygon.size == 3 ? 1 : 4); ++i)
-        m_triangles.push_back({v[i], v[(i + 1) % polygon.size], v[(i + 2) % polygon.size]});
-    }
+    for(const Face_vertices& v : polygons)
+      for(int i = 0; i < (v.size() == 3 ? 1 : 4); ++i)
+        m_triangles.push_back({v[i], v[(i + 1) % v.size()], v[(i + 2) % v.size()]});
     for(const auto& t : m_triangles)
       for(std::size_t v : t)
         vertex_normals[v] = vertex_normals[v] + area(points, t);
@@ -145,13 +124,13 @@ public:
 };
 
 /// The edges of polygons, as the neighbors of each vertex.
-inline std::vector<std::vector<std::size_t>> neighbors(const std::vector<Boundary_polygon>& polygons,
-                                                        std::size_t number_of_vertices)
+inline std::vector<std::vector<std::size_t>> neighbors(const std::vector<Face_vertices>& polygons,
+                                                       std::size_t number_of_vertices)
 {
   std::vector<std::vector<std::size_t>> result(number_of_vertices);
-  for(const Boundary_polygon& p : polygons)
-    for(int i = 0; i < p.size; ++i) {
-      const Vertex_index a = p.vertices[i], b = p.vertices[(i + 1) % p.size];
+  for(const Face_vertices& p : polygons)
+    for(int i = 0; i < p.size(); ++i) {
+      const Vertex_index a = p[i], b = p[(i + 1) % p.size()];
       result[a].push_back(b);
       result[b].push_back(a);
     }
@@ -165,13 +144,13 @@ inline std::vector<std::vector<std::size_t>> neighbors(const std::vector<Boundar
 /*!
 The target of each boundary vertex.
 
-\param polygons the boundary
+\param boundary the boundary faces
 \param points positions of all vertices
 \param oracle has `closest_point(p)` and `closest_point(p, hint)`
 \cost one query per boundary vertex, and one for each vertex of a folded face in each round
 */
 template <class Oracle>
-Surface_targets surface_targets(std::vector<Boundary_polygon> polygons, const std::vector<Vec3>& points,
+Surface_targets surface_targets(const std::vector<Face>& boundary, const std::vector<Vec3>& points,
                                 const Oracle& oracle)
 {
   constexpr int maximal_number_of_rounds = 100, rounds_until_wider = 10;
@@ -180,17 +159,15 @@ Surface_targets surface_targets(std::vector<Boundary_polygon> polygons, const st
   // Number the boundary vertices.
   Surface_targets result;
   std::vector<Vertex_index> numbers(points.size(), no_vertex);
-  for(const Boundary_polygon& p : polygons)
-    for(int i = 0; i < p.size; ++i)
-      numbers[p.vertices[i]] = 0;
-  for(Vertex_index v = 0; v < points.size(); ++v)
-    if(numbers[v] != no_vertex) {
-      numbers[v] = Vertex_index(result.vertices.size());
-      result.vertices.push_back(v);
-    }
-  for(Boundary_polygon& p : polygons)
-    for(int i = 0; i < p.size; ++i)
-      p.vertices[i] = numbers[p.vertices[i]];
+  result.vertices = vertices_of(boundary);
+  for(std::size_t i = 0; i < result.vertices.size(); ++i)
+    numbers[result.vertices[i]] = Vertex_index(i);
+  std::vector<Face_vertices> polygons;
+  for(const Face& face : boundary) {
+    polygons.push_back(face.vertices());
+    for(int i = 0; i < polygons.back().size(); ++i)
+      polygons.back()[i] = numbers[polygons.back()[i]];
+  }
   const std::size_t n = result.vertices.size();
   const auto neighbors_of = neighbors(polygons, n);
   std::vector<Vec3> sources;

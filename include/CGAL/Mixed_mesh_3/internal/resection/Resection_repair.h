@@ -9,7 +9,8 @@
 #define CGAL_MIXED_MESH_3_INTERNAL_RESECTION_RESECTION_REPAIR_H
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
-#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/Face.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/for_each_face.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/manifold_defects.h>
 
 #include <algorithm>
@@ -23,7 +24,6 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-constexpr Element_index no_element = Element_index(-1);
 
 /// The elements around each vertex, and across each face.
 class Element_adjacency
@@ -48,13 +48,12 @@ public:
     std::array<Element_index, 6> none;
     none.fill(no_element);
     m_neighbors.assign(elements.size(), none);
-    for_each_face(elements, number_of_vertices, [](Vertex_index) { return true; },
-                  [this](const Face_handle* f, std::size_t n) {
-                    if(n == 2) {
-                      m_neighbors[f[0].element][f[0].local_face] = f[1].element;
-                      m_neighbors[f[1].element][f[1].local_face] = f[0].element;
-                    }
-                  });
+    for_each_face(elements, number_of_vertices, [this](const auto& group) {
+      if(group.size() == 2) {
+        m_neighbors[group.element(0)][std::size_t(group.local_index(0))] = group.element(1);
+        m_neighbors[group.element(1)][std::size_t(group.local_index(1))] = group.element(0);
+      }
+    });
   }
 
   /// In increasing order.
@@ -217,12 +216,12 @@ public:
   /// \cost O(n log n) for n boundary faces
   std::size_t number_of_pinched_vertices() const
   {
-    std::vector<Boundary_polygon> polygons;
+    std::vector<Face_vertices> polygons;
     for(Element_index e = 0; e < m_elements.size(); ++e)
       for(int f = 0; is_kept(e) && f < m_elements[e].reference().number_of_faces; ++f) {
         const Element_index neighbor = m_adjacency.neighbor(e, f);
         if(neighbor == no_element || !is_kept(neighbor))
-          polygons.push_back({face_vertices(m_elements[e], f), m_elements[e].reference().faces[f].size});
+          polygons.push_back(Face(m_elements, e, f).vertices());
       }
     Manifold_defects defects = manifold_defects(polygons);
     for(const auto& edge : defects.edges)

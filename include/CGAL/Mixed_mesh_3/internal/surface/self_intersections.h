@@ -9,7 +9,7 @@
 #define CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SELF_INTERSECTIONS_H
 
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
-#include <CGAL/Mixed_mesh_3/internal/elements/manifold_defects.h>
+#include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <CGAL/Box_intersection_d/Box_with_info_d.h>
@@ -56,10 +56,10 @@ inline bool is_crossing(const std::array<Vertex_index, 3>& s, const std::array<V
 }
 
 /// The vertices of faces that meet in more than the vertices and edges they share, ascending. Exact.
-/// \param polygons triangles, and quadrilaterals as two of them
+/// \param faces triangles, and quadrilaterals as two of them
 /// \cost O(n log n) for n faces, if few meet
 inline std::vector<Vertex_index> vertices_of_self_intersections(const std::vector<Vec3>& positions,
-                                                                const std::vector<Boundary_polygon>& polygons)
+                                                                const std::vector<Face>& faces)
 {
   using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
   std::vector<Predicates_kernel::Point_3> points;
@@ -68,9 +68,9 @@ inline std::vector<Vertex_index> vertices_of_self_intersections(const std::vecto
     points.emplace_back(p[0], p[1], p[2]);
   std::vector<std::array<Vertex_index, 3>> triangles;
   std::vector<Box> boxes;
-  for(const Boundary_polygon& p : polygons)
-    for(int i = 2; i < p.size; ++i) {
-      triangles.push_back({p.vertices[0], p.vertices[std::size_t(i) - 1], p.vertices[std::size_t(i)]});
+  for(const Face& face : faces)
+    for(int i = 2; i < face.vertices().size(); ++i) {
+      triangles.push_back({face.vertices()[0], face.vertices()[i - 1], face.vertices()[i]});
       const auto& t = triangles.back();
       boxes.emplace_back(points[t[0]].bbox() + points[t[1]].bbox() + points[t[2]].bbox(), boxes.size());
     }

@@ -1,0 +1,31 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_ELEMENT_ATTRIBUTES_H
+#define CGAL_MIXED_MESH_3_ELEMENT_ATTRIBUTES_H
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+
+/// What an element is part of: a material, for example a tumor. 0 is what is outside, as in CGAL's labeled domains.
+using Subdomain_index = int;
+
+/// What is known of an element besides its kind and vertices; every stage hands it on.
+struct Element_attributes
+{
+  Subdomain_index subdomain_index = 1; ///< positive
+  bool is_in_region = false;           ///< whether the element meets the region of interest
+};
+
+inline bool operator==(const Element_attributes& a, const Element_attributes& b)
+{
+  return a.subdomain_index == b.subdomain_index && a.is_in_region == b.is_in_region;
+}
+inline bool operator!=(const Element_attributes& a, const Element_attributes& b) { return !(a == b); }
+
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_ELEMENT_ATTRIBUTES_H

@@ -1,0 +1,45 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What other programs call the kinds of elements, and how they order the vertices.
+
+#ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_ELEMENT_NAMES_H
+#define CGAL_MIXED_MESH_3_IO_INTERNAL_ELEMENT_NAMES_H
+
+#include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
+
+#include <cstdint>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace IO {
+namespace internal {
+
+/// Gmsh, Abaqus, Medit and FEBio order vertices as we do. VTK's linear wedge is the mirror image of our prism:
+/// `vtk_order` lists, for each VTK position, the vertex of ours to write there.
+struct Element_names
+{
+  int vtk_type;
+  std::uint8_t vtk_order[8];
+  int gmsh_type;
+  const char* medit_keyword;
+  const char* abaqus_type;
+  const char* febio_type;
+};
+
+inline constexpr Element_names element_names[] = {
+  {10, {0, 1, 2, 3}, 4, "Tetrahedra", "C3D4", "tet4"},
+  {14, {0, 1, 2, 3, 4}, 7, "Pyramids", "C3D5", "pyra5"},
+  {13, {0, 2, 1, 3, 5, 4}, 6, "Prisms", "C3D6", "penta6"},
+  {12, {0, 1, 2, 3, 4, 5, 6, 7}, 5, "Hexahedra", "C3D8", "hex8"}};
+static_assert(sizeof(element_names) / sizeof(element_names[0]) == number_of_element_kinds,
+              "a name for each kind, in the order of Element_kind");
+
+} // namespace internal
+} // namespace IO
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_IO_INTERNAL_ELEMENT_NAMES_H

@@ -1,0 +1,63 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How readers and writers say what is wrong: within, by an exception or a line of text; to the caller, by `false`
+// and the line where it was asked for.
+
+#ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_ERRORS_H
+#define CGAL_MIXED_MESH_3_IO_INTERNAL_ERRORS_H
+
+#include <new>
+#include <stdexcept>
+#include <string>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace IO {
+namespace internal {
+
+/// Ends the reading of a file.
+[[noreturn]] inline void refuse(const std::string& path, const std::string& defect)
+{
+  throw std::runtime_error(path + ": " + defect);
+}
+
+/// A defect with the name of its file; nothing if there is none.
+inline std::string with_path(const std::string& path, const std::string& defect)
+{
+  return defect.empty() ? defect : path + ": " + defect;
+}
+
+/// Whether there is no defect; hands it over otherwise.
+inline bool is_success(const std::string& defect, std::string* error)
+{
+  if(!defect.empty() && error != nullptr)
+    *error = defect;
+  return defect.empty();
+}
+
+/// Whether `read()` ends without an exception; hands over what it says otherwise.
+template <class Read>
+bool is_read(const std::string& path, std::string* error, const Read& read)
+{
+  const std::string too_large = path + ": does not fit into the memory";
+  try {
+    read();
+    return true;
+  } catch(const std::bad_alloc&) {
+    return is_success(too_large, error);
+  } catch(const std::length_error&) {
+    return is_success(too_large, error);
+  } catch(const std::runtime_error& e) {
+    return is_success(e.what(), error);
+  }
+}
+
+} // namespace internal
+} // namespace IO
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_IO_INTERNAL_ERRORS_H

@@ -1,0 +1,55 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_INDEX_H
+#define CGAL_MIXED_MESH_3_INDEX_H
+
+#include <cstdint>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+
+/// A number of 32 bits that counts one kind of thing: it is made of integers and gives them back, but an index
+/// of another kind does not convert to it, so that `prescribe(element)` does not compile.
+template <class Tag>
+class Index
+{
+  std::uint32_t m_value;
+
+public:
+  Index() = default; // `Index{}` is 0
+  constexpr Index(std::uint32_t value) : m_value(value) {}
+  template <class Other>
+  Index(const Index<Other>&) = delete;
+
+  constexpr operator std::uint32_t() const { return m_value; }
+
+  Index& operator++()
+  {
+    ++m_value;
+    return *this;
+  }
+  Index operator++(int)
+  {
+    const Index old = *this;
+    ++m_value;
+    return old;
+  }
+  Index& operator--()
+  {
+    --m_value;
+    return *this;
+  }
+};
+
+/// The number of a vertex of a mesh.
+using Vertex_index = Index<struct Vertex_index_tag>;
+/// The number of an element of a mesh.
+using Element_index = Index<struct Element_index_tag>;
+
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INDEX_H

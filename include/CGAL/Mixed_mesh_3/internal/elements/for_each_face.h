@@ -1,0 +1,135 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The one place where faces are found: which faces of the elements are the same.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_FOR_EACH_FACE_H
+#define CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_FOR_EACH_FACE_H
+
+#include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/Face.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+// Three or four numbers: cheaper than std::sort.
+inline void sort_vertices(std::array<Vertex_index, 4>& v)
+{
+  const auto order = [&v](std::size_t i, std::size_t j) {
+    if(v[j] < v[i])
+      std::swap(v[i], v[j]);
+  };
+  order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);
+}
+
+/// The faces of all elements, sorted so that those with the same vertices are side by side.
+class Face_table
+{
+  // Within a bucket by the smallest vertex.
+  struct Entry
+  {
+    std::uint64_t second_and_third;
+    Vertex_index fourth;
+    Element_index element;
+    std::uint8_t local_index;
+    bool operator<(const Entry& e) const
+    {
+      return second_and_third != e.second_and_third ? second_and_third < e.second_and_third
+                                                    : fourth < e.fourth;
+    }
+  };
+
+public:
+  /// Faces with the same vertices: one on the boundary, two inside, in a conforming mesh.
+  class Group
+  {
+    const Element_list& m_elements;
+    const Entry* m_first;
+    std::size_t m_size;
+
+  public:
+    Group(const Element_list& elements, const Entry* first, std::size_t size)
+      : m_elements(elements), m_first(first), m_size(size)
+    {}
+
+    std::size_t size() const { return m_size; }
+    Element_index element(std::size_t i) const { return m_first[i].element; }
+    int local_index(std::size_t i) const { return m_first[i].local_index; }
+    Face operator[](std::size_t i) const { return Face(m_elements, element(i), local_index(i)); }
+  };
+
+  /// See `for_each_face()`.
+  template <class Is_candidate, class Visitor>
+  static void visit(const Element_list& elements, std::size_t number_of_vertices,
+                    const Is_candidate& is_candidate, const Visitor& visit)
+  {
+    const auto for_each = [&](const auto& f) {
+      for(Element_index e = 0; e < elements.size(); ++e) {
+        const Element_view element = elements[e];
+        for(int i = 0; i < element.reference().number_of_faces; ++i) {
+          const Element_face& face = element.reference().faces[i];
+          std::array<Vertex_index, 4> v{no_vertex, no_vertex, no_vertex, no_vertex};
+          for(int k = 0; k < face.size; ++k)
+            v[std::size_t(k)] = element[face.vertices[k]];
+          if(!std::all_of(v.begin(), v.begin() + face.size, is_candidate))
+            continue;
+          sort_vertices(v);
+          f(v, e, i);
+        }
+      }
+    };
+    std::vector<std::size_t> ends(number_of_vertices + 1, 0);
+    for_each([&](const std::array<Vertex_index, 4>& v, Element_index, int) { ++ends[v[0] + 1]; });
+    for(std::size_t v = 0; v < number_of_vertices; ++v)
+      ends[v + 1] += ends[v];
+    std::vector<Entry> entries(ends.back());
+    for_each([&](const std::array<Vertex_index, 4>& v, Element_index e, int i) {
+      entries[ends[v[0]]++] = {std::uint64_t(v[1]) << 32 | v[2], v[3], e, std::uint8_t(i)};
+    });
+    auto first = entries.begin();
+    for(std::size_t v = 0; v < number_of_vertices; ++v) {
+      const auto last = entries.begin() + std::ptrdiff_t(ends[v]);
+      std::sort(first, last);
+      while(first != last) {
+        auto next = first;
+        while(next != last && !(*first < *next))
+          ++next;
+        visit(Group(elements, &*first, std::size_t(next - first)));
+        first = next;
+      }
+    }
+  }
+};
+
+/// Calls `visit(group)` with a `Face_table::Group` for each set of vertices that is a face, among the faces all
+/// of whose vertices satisfy `is_candidate`.
+/// \cost linear in the number of elements, if vertices have boundedly many; 24 bytes per face
+template <class Is_candidate, class Visitor>
+void for_each_face(const Element_list& elements, std::size_t number_of_vertices,
+                   const Is_candidate& is_candidate, const Visitor& visit)
+{
+  Face_table::visit(elements, number_of_vertices, is_candidate, visit);
+}
+
+/// As above, for all faces.
+template <class Visitor>
+void for_each_face(const Element_list& elements, std::size_t number_of_vertices, const Visitor& visit)
+{
+  for_each_face(elements, number_of_vertices, [](Vertex_index) { return true; }, visit);
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_FOR_EACH_FACE_H
