@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <initializer_list>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,8 @@ class Mixed_mesh_3
 public:
   using Geom_traits = GeomTraits;
   using Point_3 = typename Geom_traits::Point_3;
+  static_assert(!std::is_same_v<std::decay_t<decltype(std::declval<const Point_3&>().x())>, float>,
+                "positions are doubles: float would round them, and elements proved valid could be inverted");
   using Vertex_index = Mixed_meshes_3::Vertex_index;
   using Element_index = Mixed_meshes_3::Element_index;
   using Element_kind = Mixed_meshes_3::Element_kind;

@@ -23,10 +23,14 @@ class Mixed_mesh_criteria_3
 {
 public:
   static constexpr int automatic = -1;
+  /// The share of the budget that is to be used; else the status tells. Single cells take 7 to 20 vertices: with the
+  /// smallest budgets that make sense, a few hundred, some 3 % may be left over.
+  static constexpr double full_share = 0.97;
 
+  /// A number is a vertex budget with the default settings.
   /// \param maximal_number_of_vertices the vertex budget: the mesh has at most that many vertices,
   ///        those of transitions and of the boundary included. \pre at least 1, at most 2^32 - 2
-  explicit Mixed_mesh_criteria_3(std::size_t maximal_number_of_vertices)
+  Mixed_mesh_criteria_3(std::size_t maximal_number_of_vertices)
     : m_maximal_number_of_vertices(maximal_number_of_vertices)
   {
     CGAL_precondition(maximal_number_of_vertices > 0

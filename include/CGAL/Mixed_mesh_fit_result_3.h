@@ -22,6 +22,21 @@ enum class Mixed_mesh_fit_status {
 };
 
 /// What `fit_mixed_mesh_to_surface()` did.
+/// The status in a few words.
+inline const char* description(Mixed_mesh_fit_status status)
+{
+  switch(status) {
+  case Mixed_mesh_fit_status::SUCCESS: return "success";
+  case Mixed_mesh_fit_status::CAP_REACHED: return "cap reached";
+  case Mixed_mesh_fit_status::NOT_ALL_ARRIVED: return "not all arrived";
+  case Mixed_mesh_fit_status::SOLVER_FAILED: return "solver failed";
+  case Mixed_mesh_fit_status::STOPPED: return "stopped";
+  case Mixed_mesh_fit_status::INVALID_MESH: return "invalid mesh";
+  case Mixed_mesh_fit_status::EMPTY: return "empty";
+  }
+  return "";
+}
+
 struct Mixed_mesh_fit_result_3
 {
   Mixed_mesh_fit_status status = Mixed_mesh_fit_status::EMPTY;

@@ -14,7 +14,7 @@
 
 namespace CGAL {
 
-/// How `make_mixed_mesh_3()` ended.
+/// How `make_mixed_mesh_3()` ended. In the order of precedence: if several are true, the last of them is given.
 enum class Mixed_mesh_status {
   SUCCESS,            ///< the budget is filled to at least 97 %, and the boundary is where it should be
   BUDGET_NOT_FILLED,  ///< valid, but below 97 %: each cell tried would exceed the budget
@@ -22,12 +22,47 @@ enum class Mixed_mesh_status {
   PARTS_LOST,         ///< valid, but parts of the domain thinner than a cell are not meshed
   NOT_ALL_ARRIVED,    ///< valid, but some boundary vertices stay off the surface: elements would be inverted,
                       ///< or faces of the boundary would cut each other
-  BUDGET_TOO_SMALL,   ///< no mesh: the coarsest one has more vertices than the budget
-  EMPTY,              ///< no mesh: no octree vertex is inside the domain
-  REGION_NOT_MET,     ///< no mesh: the region does not meet the domain
   BOUNDARY_NOT_MANIFOLD, ///< the boundary is pinched where no further cell can be added
+  REGION_NOT_MET,     ///< no mesh: the region does not meet the domain
+  EMPTY,              ///< no mesh: no octree vertex is inside the domain
+  BUDGET_TOO_SMALL,   ///< no mesh: the coarsest one has more vertices than the budget
   STOPPED             ///< no mesh: the visitor said so
 };
+
+/// The one of two statuses that has precedence: what every function of the package decides by.
+inline Mixed_mesh_status worse(Mixed_mesh_status a, Mixed_mesh_status b) { return a < b ? b : a; }
+
+/// What the end of the optimization means for the whole.
+inline Mixed_mesh_status status_of(Mixed_mesh_optimization_status status)
+{
+  switch(status) {
+  case Mixed_mesh_optimization_status::SUCCESS: return Mixed_mesh_status::SUCCESS;
+  case Mixed_mesh_optimization_status::TOLERANCE_NOT_REACHED: return Mixed_mesh_status::TOLERANCE_NOT_REACHED;
+  case Mixed_mesh_optimization_status::NOT_ALL_ARRIVED: return Mixed_mesh_status::NOT_ALL_ARRIVED;
+  case Mixed_mesh_optimization_status::STOPPED: return Mixed_mesh_status::STOPPED;
+  case Mixed_mesh_optimization_status::INVALID_MESH:
+  case Mixed_mesh_optimization_status::EMPTY: break;
+  }
+  return Mixed_mesh_status::EMPTY;
+}
+
+/// The status in a few words.
+inline const char* description(Mixed_mesh_status status)
+{
+  switch(status) {
+  case Mixed_mesh_status::SUCCESS: return "success";
+  case Mixed_mesh_status::BUDGET_NOT_FILLED: return "budget not filled";
+  case Mixed_mesh_status::TOLERANCE_NOT_REACHED: return "tolerance not reached";
+  case Mixed_mesh_status::PARTS_LOST: return "parts lost";
+  case Mixed_mesh_status::NOT_ALL_ARRIVED: return "not all arrived";
+  case Mixed_mesh_status::BOUNDARY_NOT_MANIFOLD: return "boundary not manifold";
+  case Mixed_mesh_status::REGION_NOT_MET: return "region not met";
+  case Mixed_mesh_status::EMPTY: return "empty";
+  case Mixed_mesh_status::BUDGET_TOO_SMALL: return "budget too small";
+  case Mixed_mesh_status::STOPPED: return "stopped";
+  }
+  return "";
+}
 
 /// What `make_mixed_mesh_3()` did.
 struct Mixed_mesh_result_3
@@ -54,13 +89,7 @@ struct Mixed_mesh_result_3
   Mixed_mesh_optimization_result_3 optimization;
 
   /// Whether there is a mesh, and it is what was asked for or as close to it as possible.
-  bool has_mesh() const
-  {
-    return status == Mixed_mesh_status::SUCCESS || status == Mixed_mesh_status::BUDGET_NOT_FILLED
-           || status == Mixed_mesh_status::TOLERANCE_NOT_REACHED
-           || status == Mixed_mesh_status::NOT_ALL_ARRIVED || status == Mixed_mesh_status::PARTS_LOST
-           || status == Mixed_mesh_status::BOUNDARY_NOT_MANIFOLD;
-  }
+  bool has_mesh() const { return status <= Mixed_mesh_status::BOUNDARY_NOT_MANIFOLD; }
 };
 
 } // namespace CGAL

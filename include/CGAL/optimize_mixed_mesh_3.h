@@ -8,17 +8,18 @@
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
-#include <CGAL/Mixed_mesh_3/Default_visitor.h>
-#include <CGAL/Mixed_mesh_3/certificate.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_optimizer.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/arguments.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
-#include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 
 #include <CGAL/Named_function_parameters.h>
 
 namespace CGAL {
 
 /*!
+\ingroup PkgMixedMesh3Ref
+
 \brief Brings the boundary of a mixed mesh onto a surface, moves vertices and flips tetrahedra to improve elements.
 
 Boundary vertices that are not on the surface yet are brought there, each as far at a time as its elements
@@ -35,67 +36,77 @@ unless `is_boundary_simple` says so; hexahedra, prisms and pyramids stay, no ver
 the boundary's faces stay but where a flat tetrahedron on it is removed; the same input gives the same mesh.
 
 \tparam GeomTraits a model of `MixedMeshTraits_3`
-\tparam Domain has `closest_point(p)`, `closest_point(p, hint)` and `surface_samples(spacing)` as
-        `Polyhedral_mixed_mesh_domain_3`
+\tparam Surface a model of `MixedMeshSurface_3`, or of `FaceListGraph`
 \tparam Quality a model of `MixedMeshQuality_3`
+\tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
 \param mesh its points and tetrahedra are changed
-\param domain its surface is where boundary vertices are to be
+\param surface where boundary vertices are to be. \pre a `FaceListGraph` is closed and triangulated
 \param quality the cost of an element
 \param criteria what to reach
-\param np an optional sequence of named parameters: `visitor(std::ref(v))` with `v` a model of
-       `MixedMeshVisitor_3`, asked `go_on()` before each round (default: `Mixed_meshes_3::Default_visitor`)
+\param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those below
+
+\cgalNamedParamsBegin
+  \cgalParamNBegin{visitor}
+    \cgalParamDescription{asked `go_on()` before each round}
+    \cgalParamType{a model of `MixedMeshVisitor_3`, as `std::ref(visitor)`}
+    \cgalParamDefault{`Mixed_meshes_3::Default_visitor`}
+  \cgalParamNEnd
+  \cgalParamNBegin{vertex_point_map}
+    \cgalParamDescription{the points of `surface`, if that is a `FaceListGraph`}
+    \cgalParamType{a model of `ReadablePropertyMap` with the vertices as keys and points as values}
+    \cgalParamDefault{`get_const_property_map(CGAL::vertex_point, surface)`}
+  \cgalParamNEnd
+\cgalNamedParamsEnd
+
 \return the status and what was done
 \cost proportional to the number of elements whose cost can be improved, times the rounds
 */
-template <class GeomTraits, class Domain, class Quality,
+template <class GeomTraits, class Surface, class Quality,
           class NamedParameters = parameters::Default_named_parameters>
 Mixed_mesh_optimization_result_3
-optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Domain& domain, const Quality& quality,
+optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface, const Quality& quality,
                       const Mixed_mesh_optimization_criteria_3& criteria,
                       const NamedParameters& np = parameters::default_values())
 {
-  using Default_visitor = Mixed_meshes_3::Default_visitor;
-  using Visitor = typename internal_np::Lookup_named_param_def<internal_np::visitor_t, NamedParameters,
-                                                               Default_visitor>::reference;
-  Default_visitor default_visitor;
-  Visitor visitor = parameters::choose_parameter(
-    parameters::get_parameter_reference(np, internal_np::visitor), default_visitor);
+  namespace mm3 = Mixed_meshes_3::internal;
   Mixed_mesh_optimization_result_3 result;
   if(mesh.is_empty())
     return result;
-  if(!Mixed_meshes_3::internal::is_valid_start(mesh)) {
+  if(!mm3::is_valid_start(mesh)) {
     result.status = Mixed_mesh_optimization_status::INVALID_MESH;
     return result;
   }
-  return Mixed_meshes_3::internal::Surface_optimizer(mesh, domain, criteria, quality)(
-    [&] { return visitor.go_on(); });
-}
-
-/// As above, with the aspect-ratio coefficient as the cost of an element.
-template <class GeomTraits, class Domain, class NamedParameters = parameters::Default_named_parameters>
-Mixed_mesh_optimization_result_3
-optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Domain& domain,
-                      const Mixed_mesh_optimization_criteria_3& criteria,
-                      const NamedParameters& np = parameters::default_values())
-{
-  return optimize_mixed_mesh_3(mesh, domain, Mixed_meshes_3::Aspect_ratio_quality_3(), criteria, np);
+  const auto& s = mm3::as_surface(surface, np);
+  return mm3::with_visitor(np, [&](auto& visitor) {
+    return mm3::Surface_optimizer(mesh, s, criteria, quality)([&] { return visitor.go_on(); });
+  });
 }
 
 /*!
-As above, with a closed triangulated surface and the default criteria.
+\ingroup PkgMixedMesh3Ref
 
-\tparam Surface a model of `FaceListGraph`, with points of any CGAL kernel
-\param mesh its points and tetrahedra are changed
-\param surface where boundary vertices are to be. \pre closed and triangulated
-\param np an optional sequence of named parameters: that above, and `vertex_point_map` of the surface
+As above, with the aspect-ratio coefficient as the cost of an element.
+*/
+template <class GeomTraits, class Surface, class NamedParameters = parameters::Default_named_parameters>
+Mixed_mesh_optimization_result_3
+optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface,
+                      const Mixed_mesh_optimization_criteria_3& criteria,
+                      const NamedParameters& np = parameters::default_values())
+{
+  return optimize_mixed_mesh_3(mesh, surface, Mixed_meshes_3::Aspect_ratio_quality_3(), criteria, np);
+}
+
+/*!
+\ingroup PkgMixedMesh3Ref
+
+As above, with the default criteria.
 */
 template <class Surface, class GeomTraits, class NamedParameters = parameters::Default_named_parameters>
 Mixed_mesh_optimization_result_3
 optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface,
                       const NamedParameters& np = parameters::default_values())
 {
-  return optimize_mixed_mesh_3(mesh, Polyhedral_mixed_mesh_domain_3(surface, np),
-                               Mixed_mesh_optimization_criteria_3(), np);
+  return optimize_mixed_mesh_3(mesh, surface, Mixed_mesh_optimization_criteria_3(), np);
 }
 
 } // namespace CGAL

@@ -1,0 +1,61 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Algorithm 1 as a whole: targets, relaxation, new targets for what stays behind.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_FIT_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_FIT_H
+
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/relax_to_surface.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
+#include <CGAL/Mixed_mesh_fit_criteria_3.h>
+#include <CGAL/Mixed_mesh_fit_result_3.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// Targets, and Algorithm 1; vertices that stay behind get new targets, those nearest to where they have come.
+template <class Domain, class Mesh, class Quality, class Solver, class Go_on>
+Mixed_mesh_fit_result_3 fit(Mesh& mesh, const Domain& domain, const Quality& quality,
+                            const Mixed_mesh_fit_criteria_3& criteria, Solver& solver, const Go_on& go_on)
+{
+  constexpr int maximal_number_of_attempts = 3;
+  Mixed_mesh_fit_result_3 result;
+  if(mesh.is_empty())
+    return result;
+  if(!is_valid_start(mesh)) {
+    result.status = Mixed_mesh_fit_status::INVALID_MESH;
+    return result;
+  }
+  std::vector<Vec3> points;
+  points.reserve(mesh.number_of_vertices());
+  for(const auto& p : mesh.points())
+    points.push_back(to_vec3(p));
+  const std::vector<Face> boundary = boundary_faces(mesh);
+  for(int attempt = 0; attempt < maximal_number_of_attempts; ++attempt) {
+    const Surface_targets targets = surface_targets(boundary, points, domain);
+    Surface_relaxation relaxation(mesh.elements(), targets, criteria, quality, solver, go_on, points);
+    result = relaxation(result);
+    if(result.status != Mixed_mesh_fit_status::NOT_ALL_ARRIVED)
+      break;
+  }
+  for(std::size_t v = 0; v < points.size(); ++v)
+    if(to_vec3(mesh.points()[v]) != points[v])
+      mesh.points()[v] = typename Mesh::Point_3(points[v][0], points[v][1], points[v][2]);
+  return result;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_FIT_H

@@ -1,0 +1,59 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_CANDIDATE_H
+#define CGAL_MIXED_MESH_3_INTERNAL_MESHING_CANDIDATE_H
+
+#include <CGAL/Mixed_mesh_3/internal/boundary/Boundary_stage.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
+#include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/transitions/apply_transitions.h>
+#include <CGAL/Mixed_mesh_criteria_3.h>
+
+#include <cstddef>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// The mesh of one octree on the way to the budget, on the lattice.
+struct Candidate
+{
+  std::size_t number_of_vertices = 0;
+  bool is_stopped = false; // by the visitor
+  Lattice_mesh mesh;
+  Boundary_pieces boundary;
+
+  bool is_manifold() const { return boundary.defects.empty(); }
+};
+
+/// The stages that follow the octree. To be called in the stage `OCTREE`.
+template <class Octree_, class Visitor>
+Candidate make_candidate(const Octree_& octree, const Mixed_mesh_criteria_3& criteria, Visitor& visitor)
+{
+  using Scope = Stage_scope<Visitor>;
+  Candidate c;
+  const Stage_pause<Visitor> pause(visitor, Stage::OCTREE);
+  c.is_stopped = !visitor.go_on();
+  if(c.is_stopped)
+    return c;
+  {
+    const Scope scope(visitor, Stage::TRANSITIONS);
+    c.mesh = apply_transitions(octree, criteria.transition_templates(), criteria.number_of_threads());
+  }
+  {
+    const Scope scope(visitor, Stage::BOUNDARY);
+    c.boundary = split_boundary(octree, c.mesh, criteria.boundary_mode(), criteria.number_of_threads());
+  }
+  c.number_of_vertices = c.boundary.number_of_vertices;
+  visitor.progress(c.number_of_vertices, criteria.maximal_number_of_vertices());
+  return c;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_MESHING_CANDIDATE_H

@@ -1,0 +1,104 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the entry functions take: models of the concepts, or surfaces, of which they make models.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_ARGUMENTS_H
+#define CGAL_MIXED_MESH_3_INTERNAL_MESHING_ARGUMENTS_H
+
+#include <CGAL/Mixed_mesh_3/Default_visitor.h>
+#include <CGAL/Mixed_mesh_regions_3.h>
+#include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
+
+#include <CGAL/Named_function_parameters.h>
+
+#include <type_traits>
+#include <utility>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+template <class T, class = void>
+struct Is_face_graph : std::false_type
+{};
+// `boost::graph_traits` of what is no graph does not compile: a function tells.
+template <class T>
+struct Is_face_graph<T, std::void_t<decltype(faces(std::declval<const T&>()))>> : std::true_type
+{};
+
+template <class T, class = void>
+struct Is_surface_model : std::false_type
+{};
+template <class T>
+struct Is_surface_model<T, std::void_t<typename T::Point_3, decltype(std::declval<const T&>().closest_point(
+                                                               std::declval<const typename T::Point_3&>()))>>
+  : std::true_type
+{};
+
+template <class T, class = void>
+struct Is_region_model : std::false_type
+{};
+template <class T>
+struct Is_region_model<T, std::void_t<typename T::Surface_part, decltype(std::declval<const T&>().surface_part())>>
+  : std::true_type
+{};
+
+/// A domain as it is, or that inside a surface.
+template <class T, class NamedParameters>
+decltype(auto) as_domain(const T& domain, [[maybe_unused]] const NamedParameters& np)
+{
+  static_assert(Is_face_graph<T>::value || (Is_surface_model<T>::value && Is_region_model<T>::value),
+                "the domain must be a closed triangulated surface (a model of FaceListGraph, its header included) or a "
+                "model of MixedMeshDomain_3");
+  if constexpr(Is_face_graph<T>::value)
+    return Polyhedral_mixed_mesh_domain_3(domain, np);
+  else
+    return (domain);
+}
+
+/// A surface of a concept as it is, or made of a triangulated one.
+template <class T, class NamedParameters>
+decltype(auto) as_surface(const T& surface, [[maybe_unused]] const NamedParameters& np)
+{
+  static_assert(Is_face_graph<T>::value || Is_surface_model<T>::value,
+                "the surface must be closed and triangulated (a model of FaceListGraph, its header included) or a "
+                "model of MixedMeshSurface_3");
+  if constexpr(Is_face_graph<T>::value)
+    return Polyhedral_mixed_mesh_domain_3(surface, np);
+  else
+    return (surface);
+}
+
+/// A region as it is, or that inside a surface.
+template <class T, class NamedParameters>
+decltype(auto) as_region(const T& region, [[maybe_unused]] const NamedParameters& np)
+{
+  static_assert(Is_face_graph<T>::value || Is_region_model<T>::value,
+                "the region must be a closed triangulated surface (a model of FaceListGraph, its header included) or a "
+                "model of MixedMeshRegion_3");
+  if constexpr(Is_face_graph<T>::value)
+    return Polyhedral_mixed_mesh_region_3(region, np);
+  else
+    return (region);
+}
+
+/// Calls `f(visitor)` with the visitor among the named parameters, or the default one.
+template <class NamedParameters, class Function>
+decltype(auto) with_visitor(const NamedParameters& np, const Function& f)
+{
+  using Visitor =
+    typename internal_np::Lookup_named_param_def<internal_np::visitor_t, NamedParameters, Default_visitor>::reference;
+  Default_visitor default_visitor;
+  Visitor visitor =
+    parameters::choose_parameter(parameters::get_parameter_reference(np, internal_np::visitor), default_visitor);
+  return f(visitor);
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_MESHING_ARGUMENTS_H
