@@ -10,6 +10,7 @@
 #define CGAL_MIXED_MESH_3_ASPECT_RATIO_QUALITY_3_H
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/aspect_ratio.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/element_measures.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
@@ -20,40 +21,6 @@
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
-
-namespace internal {
-
-// A length and its derivative by the position of one vertex.
-struct Length
-{
-  double value;
-  Vec3 gradient;
-};
-
-// The square of the ARC of the tetrahedron of four points: without roots.
-inline double squared_tetrahedron_arc(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
-{
-  const Vec3 ab = b - a, ac = c - a, ad = d - a, bc = c - b, bd = d - b, cd = d - c;
-  const double six_volumes = determinant(ab, ac, ad);
-  if(!(six_volumes > 0))
-    return std::numeric_limits<double>::infinity();
-  const double l2 =
-    (dot(ab, ab) + dot(ac, ac) + dot(ad, ad) + dot(bc, bc) + dot(bd, bd) + dot(cd, cd)) / 6;
-  constexpr double factor = 36 / (tetrahedron_arc_factor * tetrahedron_arc_factor);
-  return factor * l2 * l2 * l2 / (six_volumes * six_volumes);
-}
-
-// The logarithmic gradient of the ARC, by the position of x, where x, u, v, w is an even permutation.
-inline Vec3 tetrahedron_arc_gradient(const Vec3& x, const Vec3& u, const Vec3& v, const Vec3& w)
-{
-  const Vec3 xu = u - x, xv = v - x, xw = w - x, uv = v - u, uw = w - u, vw = w - v;
-  const double sum =
-    dot(xu, xu) + dot(xv, xv) + dot(xw, xw) + dot(uv, uv) + dot(uw, uw) + dot(vw, vw);
-  const Vec3 area = cross(uw, uv); // of the face opposite to x, inwards, times 2
-  return (-3 / sum) * (xu + xv + xw) - (1 / determinant(xu, xv, xw)) * area;
-}
-
-} // namespace internal
 
 /*!
 \brief The aspect-ratio coefficient as the cost of an element, with a penalty for warped faces.
@@ -143,118 +110,6 @@ private:
       if(c[o[0]] == v)
         return internal::tetrahedron_arc_gradient(p[c[o[0]]], p[c[o[1]]], p[c[o[2]]], p[c[o[3]]]);
     return Vec3{};
-  }
-
-  struct Extremes
-  {
-    internal::Length longest, shortest;
-    void add(const internal::Length& l)
-    {
-      if(l.value > longest.value)
-        longest = l;
-      if(l.value < shortest.value)
-        shortest = l;
-    }
-  };
-
-  // The means of some vertices, and the weight that vertex v has in it.
-  template <int n>
-  struct Mean
-  {
-    Vec3 point{};
-    double weight = 0;
-
-    template <class Index>
-    Mean(const Points& p, const Index (&vertices)[n], int v)
-    {
-      using namespace internal;
-      for(int i : vertices) {
-        point = point + p[i];
-        weight += i == v;
-      }
-      point = (1. / n) * point;
-      weight /= n;
-    }
-  };
-
-  template <bool with_gradient, int n>
-  static internal::Length segment(const Mean<n>& a, const Mean<n>& b)
-  {
-    using namespace internal;
-    const Vec3 d = a.point - b.point;
-    const double length = norm(d);
-    if constexpr(with_gradient)
-      return {length, ((a.weight - b.weight) / length) * d};
-    else
-      return {length, {}};
-  }
-
-  // The two lengths whose ratio is the ARC.
-  template <bool with_gradient>
-  static Extremes extreme_lengths(Element_kind kind, const Points& p, int v)
-  {
-    Extremes e{{0, {}}, {std::numeric_limits<double>::infinity(), {}}};
-    const auto add_segment = [&](Extremes& extremes, const auto& a, const auto& b) {
-      extremes.add(segment<with_gradient>(Mean(p, a, v), Mean(p, b, v)));
-    };
-    constexpr int pyramid[4][2] = {{2, 3}, {0, 1}, {1, 2}, {3, 0}};
-    if(kind == HEXAHEDRON) {
-      const auto& faces = reference_elements[kind].faces; // opposite ones side by side
-      for(int i = 0; i < 6; i += 2)
-        add_segment(e, faces[i + 1].vertices, faces[i].vertices);
-    } else if(kind == PYRAMID) {
-      for(int i = 0; i < 4; i += 2)
-        add_segment(e, pyramid[i], pyramid[i + 1]);
-      e.add(pyramid_height(p, v));
-    } else {
-      Extremes worst = e;
-      double worst_ratio = 0;
-      for(int i = 0; i < 3; ++i) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        const int at_i[2] = {i, i + 3}, at_j[2] = {j, j + 3}, at_k[2] = {k, k + 3};
-        const int bottom[2] = {i, j}, top[2] = {i + 3, j + 3};
-        Extremes face = e;
-        add_segment(face, at_j, at_i);
-        add_segment(face, top, bottom);
-        face.add(triangle_height(Mean(p, at_i, v), Mean(p, at_j, v), Mean(p, at_k, v)));
-        const double ratio = face.longest.value / face.shortest.value;
-        if(ratio > worst_ratio) {
-          worst_ratio = ratio;
-          worst = face;
-        }
-      }
-      return worst;
-    }
-    return e;
-  }
-
-  // Of the apex over the base's mean plane.
-  static internal::Length pyramid_height(const Points& p, int v)
-  {
-    using namespace internal;
-    const Vec3 a = p[2] - p[0], b = p[3] - p[1], n = cross(a, b);
-    const double area = norm(n);
-    const Vec3 unit = (1 / area) * n, w = p[4] - 0.25 * (p[0] + p[1] + p[2] + p[3]);
-    const double height = dot(unit, w);
-    if(v == 4)
-      return {height, unit};
-    const Vec3 tilt = (1 / area) * (w - height * unit);
-    const Vec3 turn = v % 2 == 0 ? cross(b, tilt) : cross(tilt, a);
-    return {height, (v >= 2 ? 1. : -1.) * turn - 0.25 * unit};
-  }
-
-  // Of c over ab.
-  static internal::Length triangle_height(const Mean<2>& a, const Mean<2>& b, const Mean<2>& c)
-  {
-    using namespace internal;
-    const Vec3 u = b.point - a.point, w = c.point - a.point, n = cross(u, w);
-    const double width = norm(u), area = norm(n);
-    if(!(width > 0 && area > 0))
-      return {0, {}};
-    const Vec3 unit = (1 / area) * n;
-    const double wu = b.weight - a.weight, ww = c.weight - a.weight;
-    const Vec3 area_gradient = wu * cross(w, unit) + ww * cross(unit, u);
-    return {area / width, (1 / width) * area_gradient - (wu * area / (width * width * width)) * u};
   }
 
   // 1 - cos of the largest warp.

@@ -132,6 +132,7 @@ struct Mixed_element_traits_3
       for(int i = 0; i < 6; ++i)
         n[i] = l[i % 3] * (1 + reference.coordinates[i][2] * t) / 2;
     } else {
+      static_assert(Kind == HEXAHEDRON, "the shape functions of this kind are missing");
       for(int i = 0; i < 8; ++i) {
         const auto& c = reference.coordinates[i];
         n[i] = (1 + c[0] * r) * (1 + c[1] * s) * (1 + c[2] * t) / 8;
@@ -163,6 +164,7 @@ struct Mixed_element_traits_3
         g[i] = {dl[i % 3][0] * h, dl[i % 3][1] * h, l[i % 3] * c / 2};
       }
     } else {
+      static_assert(Kind == HEXAHEDRON, "the shape functions of this kind are missing");
       for(int i = 0; i < 8; ++i) {
         const auto& c = reference.coordinates[i];
         const double a = 1 + c[0] * r, b = 1 + c[1] * s, e = 1 + c[2] * t;

@@ -155,7 +155,8 @@ Calls `f(polynomial)` for polynomials on the unit cube that are positive iff the
 template <class NT, class F>
 void for_each_jacobian_polynomial(Element_kind kind, const std::array<Vector<NT>, 8>& p, const F& f)
 {
-  if(kind == HEXAHEDRON) {
+  switch(kind) {
+  case HEXAHEDRON: {
     static constexpr int corner[2][2][2] = {{{0, 4}, {3, 7}}, {{1, 5}, {2, 6}}}; // by r, s, t
     Vector<NT> dr[2][2], ds[2][2], dt[2][2];
     for(int i = 0; i < 2; ++i)
@@ -177,8 +178,9 @@ void for_each_jacobian_polynomial(Element_kind kind, const std::array<Vector<NT>
                                      * NT(product_weight(i) * product_weight(j) * product_weight(k));
               }
           }
-    f(jacobian);
-  } else if(kind == PRISM) {
+    return f(jacobian);
+  }
+  case PRISM: {
     Vector<NT> dr[2], ds[2];
     for(int t = 0; t < 2; ++t) {
       dr[t] = difference(p[3 * t + 1], p[3 * t]);
@@ -193,7 +195,9 @@ void for_each_jacobian_polynomial(Element_kind kind, const std::array<Vector<NT>
             scalar_product(cross_product(dr[t1], ds[t2]), dt) * NT(product_weight(t1 + t2));
       f(jacobian);
     }
-  } else if(kind == PYRAMID) {
+    return;
+  }
+  case PYRAMID: {
     static constexpr int corner[2][2] = {{0, 3}, {1, 2}}; // by u, v
     Bernstein_polynomial<NT> jacobian({2, 2, 0});
     for(int v1 = 0; v1 < 2; ++v1)
@@ -207,12 +211,14 @@ void for_each_jacobian_polynomial(Element_kind kind, const std::array<Vector<NT>
                                  * NT(product_weight(i) * product_weight(j));
           }
       }
-    f(jacobian);
-  } else {
+    return f(jacobian);
+  }
+  case TETRAHEDRON: {
     Bernstein_polynomial<NT> jacobian({0, 0, 0});
     jacobian(0, 0, 0) = scalar_product(cross_product(difference(p[1], p[0]), difference(p[2], p[0])),
                                        difference(p[3], p[0]));
-    f(jacobian);
+    return f(jacobian);
+  }
   }
 }
 

@@ -9,6 +9,7 @@
 #define CGAL_MIXED_MESH_3_QUALITY_H
 
 #include <CGAL/Mixed_mesh_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/aspect_ratio.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/element_measures.h>
 
 #include <CGAL/assertions.h>

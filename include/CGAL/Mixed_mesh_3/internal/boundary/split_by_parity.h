@@ -191,15 +191,18 @@ private:
   void split(Element_index e, const Add& add)
   {
     const Element_view element = m_mesh.elements[e];
-    if(element.kind() == TETRAHEDRON)
-      return add(e, TETRAHEDRON, element.begin());
-    if(element.kind() == HEXAHEDRON) {
+    switch(element.kind()) {
+    case TETRAHEDRON: return add(e, TETRAHEDRON, element.begin());
+    case HEXAHEDRON:
       if(!split_into_five(e, add))
         add_cone(e, center(e), add);
       return;
+    case PYRAMID:
+    case PRISM: {
+      const auto [missing, apex] = best_apex(element);
+      return add_cone(e, missing == 0 ? apex : center(e), add);
     }
-    const auto [missing, apex] = best_apex(element);
-    add_cone(e, missing == 0 ? apex : center(e), add);
+    }
   }
 
   // Where the six diagonals make a tetrahedron.

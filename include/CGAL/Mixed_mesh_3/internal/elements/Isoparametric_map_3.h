@@ -10,6 +10,7 @@
 
 #include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/with_kind.h>
 
 #include <algorithm>
 #include <array>
@@ -20,18 +21,6 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
-
-/// Calls `f(std::integral_constant<Element_kind, kind>())`: a kind known at run time, as a type.
-template <class F>
-decltype(auto) with_kind(Element_kind kind, const F& f)
-{
-  switch(kind) {
-  case TETRAHEDRON: return f(std::integral_constant<Element_kind, TETRAHEDRON>());
-  case PYRAMID: return f(std::integral_constant<Element_kind, PYRAMID>());
-  case PRISM: return f(std::integral_constant<Element_kind, PRISM>());
-  default: return f(std::integral_constant<Element_kind, HEXAHEDRON>());
-  }
-}
 
 // The reference element is where `a + b . (r,s,t) >= 0` for all of these, one for each face.
 struct Half_space
@@ -78,6 +67,7 @@ for the hexahedron: at most 1 each in the reference element.
 template <Element_kind Kind>
 struct Element_field
 {
+  static_assert(Kind == TETRAHEDRON || Kind == PYRAMID || Kind == PRISM || Kind == HEXAHEDRON, "add the new kind");
   static constexpr int size = Kind == TETRAHEDRON ? 0 : Kind == PYRAMID ? 1 : Kind == PRISM ? 2 : 4;
   std::array<Vec3, 4 + size> c;
 
@@ -124,7 +114,7 @@ struct Element_field
       return r[2] < 1 ? x + r[0] * r[1] / (1 - r[2]) * c[4] : x;
     else if constexpr(Kind == PRISM)
       return x + r[2] * (r[0] * c[4] + r[1] * c[5]);
-    else
+    else if constexpr(Kind == HEXAHEDRON)
       return x + r[0] * r[1] * c[4] + r[1] * r[2] * c[5] + r[2] * r[0] * c[6] + r[0] * r[1] * r[2] * c[7];
   }
 
@@ -138,7 +128,7 @@ struct Element_field
       return {c[1] + b * c[4], c[2] + a * c[4], c[3] + a * b * c[4]};
     } else if constexpr(Kind == PRISM) {
       return {c[1] + r[2] * c[4], c[2] + r[2] * c[5], c[3] + r[0] * c[4] + r[1] * c[5]};
-    } else {
+    } else if constexpr(Kind == HEXAHEDRON) {
       return {c[1] + r[1] * c[4] + r[2] * c[6] + r[1] * r[2] * c[7],
               c[2] + r[0] * c[4] + r[2] * c[5] + r[2] * r[0] * c[7],
               c[3] + r[1] * c[5] + r[0] * c[6] + r[0] * r[1] * c[7]};

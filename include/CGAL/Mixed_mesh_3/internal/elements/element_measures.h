@@ -11,6 +11,7 @@
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/element_points.h>
 
 #include <CGAL/number_utils.h>
 
@@ -23,28 +24,6 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
-
-using Element_points = std::array<Vec3, 8>;
-
-// Positions relative to the element's first vertex, so that no digits are lost far from the origin.
-/// \param position `Vec3(Vertex_index)`
-template <class Position>
-Element_points relative_points(const Element_view& element, const Position& position)
-{
-  Element_points p{};
-  const Vec3 origin = position(element[0]);
-  for(int i = 1; i < element.size(); ++i)
-    p[i] = position(element[i]) - origin;
-  return p;
-}
-
-template <class Mesh>
-Element_points element_points(const Mesh& mesh, const Element_view& element)
-{
-  return relative_points(element, [&](Vertex_index v) { return to_vec3(mesh.point(v)); });
-}
-
-inline Vec3 middle(const Vec3& a, const Vec3& b) { return 0.5 * (a + b); }
 
 // A quadrilateral as a bilinear patch: its flux is the mean of the two triangulations'.
 inline double volume(Element_kind kind, const Element_points& p)
@@ -63,64 +42,6 @@ inline double volume(Element_kind kind, const Element_points& p)
     }
   }
   return six_volumes / 6;
-}
-
-// The paper's, so that the ARC of the regular tetrahedron is 1, nearly: it should be 6 sqrt(2).
-inline constexpr double tetrahedron_arc_factor = 8.47867;
-
-inline double ratio_of_longest_to_shortest(double a, double b, double c)
-{
-  const double shortest = (std::min)({a, b, c});
-  return shortest > 0 ? (std::max)({a, b, c}) / shortest
-                      : std::numeric_limits<double>::infinity();
-}
-
-inline double aspect_ratio_coefficient(Element_kind kind, const Element_points& p)
-{
-  const Reference_element& reference = reference_elements[kind];
-  switch(kind) {
-  case TETRAHEDRON: {
-    double sum = 0;
-    for(const auto& e : reference.edges)
-      if(e[0] != e[1]) {
-        const Vec3 d = p[e[1]] - p[e[0]];
-        sum += dot(d, d);
-      }
-    const double v = volume(kind, p), l2 = sum / 6;
-    return v > 0 ? l2 * std::sqrt(l2) / (tetrahedron_arc_factor * v) : std::numeric_limits<double>::infinity();
-  }
-  case PYRAMID: {
-    const Vec3 normal = cross(p[2] - p[0], p[3] - p[1]);
-    const Vec3 center = 0.25 * (p[0] + p[1] + p[2] + p[3]);
-    const double area = norm(normal);
-    const double height = area > 0 ? dot(normal, p[4] - center) / area : 0;
-    return ratio_of_longest_to_shortest(norm(middle(p[2], p[3]) - middle(p[0], p[1])),
-                                        norm(middle(p[1], p[2]) - middle(p[3], p[0])), height);
-  }
-  case PRISM: {
-    double worst = 1;
-    for(int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3, k = (i + 2) % 3;
-      const Vec3 mi = middle(p[i], p[i + 3]), mj = middle(p[j], p[j + 3]),
-                 mk = middle(p[k], p[k + 3]);
-      const double width = norm(mj - mi);
-      const double length = norm(middle(p[i + 3], p[j + 3]) - middle(p[i], p[j]));
-      const double height = width > 0 ? norm(cross(mj - mi, mk - mi)) / width : 0;
-      worst = (std::max)(worst, ratio_of_longest_to_shortest(width, length, height));
-    }
-    return worst;
-  }
-  default: {
-    Vec3 centers[6];
-    for(int f = 0; f < 6; ++f) {
-      const auto& v = reference.faces[f].vertices;
-      centers[f] = 0.25 * (p[v[0]] + p[v[1]] + p[v[2]] + p[v[3]]);
-    }
-    return ratio_of_longest_to_shortest(norm(centers[1] - centers[0]),
-                                        norm(centers[3] - centers[2]),
-                                        norm(centers[5] - centers[4]));
-  }
-  }
 }
 
 // Verdict's tet_scaled_jacobian: at each of the four corners the determinant is the same.
@@ -146,11 +67,14 @@ inline double scaled_jacobian(Element_kind kind, const Element_points& p)
     const double lengths = norm(a) * norm(b) * norm(c);
     smallest = (std::min)(smallest, lengths > 0 ? determinant(a, b, c) / lengths : 0);
   }
-  if(kind == PRISM)
-    return smallest * 2 / std::sqrt(3.);
-  if(kind == PYRAMID) {
+  switch(kind) {
+  case TETRAHEDRON:
+  case HEXAHEDRON: break;
+  case PRISM: return smallest * 2 / std::sqrt(3.);
+  case PYRAMID: {
     const double scaled = smallest * std::sqrt(2.);
     return (std::min)(scaled, 2 - scaled); // some pyramids not so regular reach 1.14
+  }
   }
   return smallest;
 }

@@ -17,6 +17,7 @@
 #include <CGAL/Mixed_mesh_3/internal/fem/elasticity_assembly.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/aspect_ratio.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/Mixed_mesh_fit_criteria_3.h>
 #include <CGAL/Mixed_mesh_fit_result_3.h>
