@@ -13,6 +13,7 @@
 #include <CGAL/Linear_elasticity_3.h>
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/resect.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/make_mixed_mesh_3.h>
@@ -69,10 +70,9 @@ try {
   //    Young's modulus is 1 kPa, Poisson's ratio 0.45: the defaults.
   Elasticity elasticity(mesh);
   const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(brain);
-  for(const auto& face : mesh.boundary_faces())
-    for(mm3::Vertex_index v : mm3::internal::face_vertices(mesh.element(face.element), face.local_face))
-      if(v != mm3::internal::no_vertex && mesh.point(v).z() < box.zmin() + 0.3 * (box.zmax() - box.zmin()))
-        elasticity.prescribe(v);
+  for(mm3::Vertex_index v : mm3::boundary_vertices(mesh))
+    if(mesh.point(v).z() < box.zmin() + 0.3 * (box.zmax() - box.zmin()))
+      elasticity.prescribe(v);
 
   // 3. The factorization: before surgery, all that depends on the mesh.
   check(elasticity.factor());

@@ -3,10 +3,11 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A domain without a surface mesh: a solid ring, given by its signed distance.
+// A domain without a surface mesh, by a class of one's own: a solid ring, given by its signed distance.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/make_mixed_mesh_3.h>
 #include <CGAL/number_utils.h>
 
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
-#include <set>
 #include <vector>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
@@ -77,7 +77,8 @@ public:
   std::vector<Point_3> surface_samples(double spacing) const
   {
     std::vector<Point_3> samples;
-    const int m = int(std::ceil(2 * CGAL_PI * (R + r) / spacing)), n = int(std::ceil(2 * CGAL_PI * r / spacing));
+    const int m = int(std::ceil(2 * CGAL_PI * (R + r) / spacing));
+    const int n = int(std::ceil(2 * CGAL_PI * r / spacing));
     for(int i = 0; i < m; ++i)
       for(int j = 0; j < n; ++j) {
         const double a = 2 * CGAL_PI * i / m, b = 2 * CGAL_PI * j / n, d = R + r * std::cos(b);
@@ -98,12 +99,7 @@ int main()
     return EXIT_FAILURE;
 
   // Is the hole there? The boundary consists of triangles; its Euler characteristic is 0 for a torus.
-  std::set<mm3::Vertex_index> boundary_vertices;
-  for(const Mesh::Boundary_face& face : mesh.boundary_faces()) {
-    const mm3::Element_face& local = mesh.element(face.element).reference().faces[face.local_face];
-    for(int i = 0; i < local.size; ++i)
-      boundary_vertices.insert(mesh.element(face.element)[local.vertices[i]]);
-  }
+  const std::vector<mm3::Vertex_index> boundary_vertices = mm3::boundary_vertices(mesh);
   double farthest = 0; // from the surface, of the boundary's vertices
   for(mm3::Vertex_index v : boundary_vertices)
     farthest = (std::max)(farthest, std::abs(ring.signed_distance(mesh.point(v))));

@@ -134,6 +134,23 @@ std::vector<typename Mesh::Boundary_face> boundary_faces(const Mesh& mesh)
   return boundary_faces(mesh, [](Vertex_index) { return true; });
 }
 
+/// The vertices of the boundary faces of a mesh, each once, in increasing order.
+/// \param mesh the mesh. \pre its boundary faces are set
+template <class Mesh>
+std::vector<Vertex_index> boundary_vertices(const Mesh& mesh)
+{
+  std::vector<Vertex_index> vertices;
+  for(const auto& face : mesh.boundary_faces()) {
+    const Element_view element = mesh.element(face.element);
+    const Element_face& local = element.reference().faces[face.local_face];
+    for(int i = 0; i < local.size; ++i)
+      vertices.push_back(element[local.vertices[i]]);
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
 } // namespace Mixed_meshes_3
 } // namespace CGAL
 
