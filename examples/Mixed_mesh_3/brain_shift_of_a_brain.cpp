@@ -13,6 +13,7 @@
 #include <CGAL/Linear_elasticity_3.h>
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/resect.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/make_mixed_mesh_3.h>
@@ -37,7 +38,9 @@ using Vector = std::array<double, 3>;
 Surface read(const std::string& name)
 {
   Surface surface;
-  mm3::IO::read_closed_surface(MIXED_MESH_3_DATA_DIR "/" + name, surface);
+  std::string error;
+  if(!mm3::IO::read_closed_surface(MIXED_MESH_3_DATA_DIR "/" + name, surface, &error))
+    throw std::runtime_error(error);
   return surface;
 }
 
@@ -69,10 +72,9 @@ try {
   //    Young's modulus is 1 kPa, Poisson's ratio 0.45: the defaults.
   Elasticity elasticity(mesh);
   const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(brain);
-  for(const auto& face : mesh.boundary_faces())
-    for(mm3::Vertex_index v : mm3::internal::face_vertices(mesh.element(face.element), face.local_face))
-      if(v != mm3::internal::no_vertex && mesh.point(v).z() < box.zmin() + 0.3 * (box.zmax() - box.zmin()))
-        elasticity.prescribe(v);
+  for(mm3::Vertex_index v : mm3::boundary_vertices(mesh))
+    if(mesh.point(v).z() < box.zmin() + 0.3 * (box.zmax() - box.zmin()))
+      elasticity.prescribe(v);
 
   // 3. The factorization: before surgery, all that depends on the mesh.
   check(elasticity.factor());
@@ -106,8 +108,9 @@ try {
   mm3::IO::Write_options data;
   data.vertex_data = {{"displacement", &displacements, 3}};
   data.element_data = {{"resected", &is_removed}};
-  if(const auto error = mm3::IO::write_mixed_mesh("brain_shift_of_a_brain.vtu", mesh, data))
-    throw std::runtime_error(*error);
+  std::string error;
+  if(!mm3::IO::write_mixed_mesh("brain_shift_of_a_brain.vtu", mesh, data, &error))
+    throw std::runtime_error(error);
   return EXIT_SUCCESS;
 } catch(const std::exception& e) {
   std::cerr << e.what() << '\n';

@@ -3,10 +3,11 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A domain without a surface mesh: a solid ring, given by its signed distance.
+// A domain without a surface mesh, by a class of one's own: a solid ring, given by its signed distance.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/make_mixed_mesh_3.h>
 #include <CGAL/number_utils.h>
 
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
-#include <set>
 #include <vector>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
@@ -77,7 +77,8 @@ public:
   std::vector<Point_3> surface_samples(double spacing) const
   {
     std::vector<Point_3> samples;
-    const int m = int(std::ceil(2 * CGAL_PI * (R + r) / spacing)), n = int(std::ceil(2 * CGAL_PI * r / spacing));
+    const int m = int(std::ceil(2 * CGAL_PI * (R + r) / spacing));
+    const int n = int(std::ceil(2 * CGAL_PI * r / spacing));
     for(int i = 0; i < m; ++i)
       for(int j = 0; j < n; ++j) {
         const double a = 2 * CGAL_PI * i / m, b = 2 * CGAL_PI * j / n, d = R + r * std::cos(b);
@@ -93,28 +94,25 @@ int main()
   const Ring_domain ring;
   const CGAL::Ball_mixed_mesh_region_3 ball({3, 0, 0}, 1.5);
   Mesh mesh;
-  const auto result = CGAL::make_mixed_mesh_3(ring, ball, CGAL::Mixed_mesh_criteria_3(5000), mesh);
+  const auto result = CGAL::make_mixed_mesh_3(ring, ball, 5000, mesh);
   if(result.status != CGAL::Mixed_mesh_status::SUCCESS)
     return EXIT_FAILURE;
 
   // Is the hole there? The boundary consists of triangles; its Euler characteristic is 0 for a torus.
-  std::set<mm3::Vertex_index> boundary_vertices;
-  for(const Mesh::Boundary_face& face : mesh.boundary_faces()) {
-    const mm3::Element_face& local = mesh.element(face.element).reference().faces[face.local_face];
-    for(int i = 0; i < local.size; ++i)
-      boundary_vertices.insert(mesh.element(face.element)[local.vertices[i]]);
-  }
+  const std::vector<mm3::Face> boundary = mm3::boundary_faces(mesh);
+  const std::vector<mm3::Vertex_index> boundary_vertices = mm3::vertices_of(boundary);
   double farthest = 0; // from the surface, of the boundary's vertices
   for(mm3::Vertex_index v : boundary_vertices)
     farthest = (std::max)(farthest, std::abs(ring.signed_distance(mesh.point(v))));
-  const std::size_t triangles = mesh.boundary_faces().size(), edges = triangles * 3 / 2;
+  const std::size_t triangles = boundary.size(), edges = triangles * 3 / 2;
   const long characteristic = long(boundary_vertices.size()) - long(edges) + long(triangles);
   std::cout << mesh.number_of_vertices() << " vertices, " << mesh.number_of_elements()
             << " elements; Euler characteristic of the boundary: " << characteristic
             << "; its vertices are on the surface to " << farthest << '\n';
 
-  if(const auto error = mm3::IO::write_mixed_mesh("custom_domain.vtu", mesh)) {
-    std::cerr << *error << '\n';
+  std::string error;
+  if(!mm3::IO::write_mixed_mesh("custom_domain.vtu", mesh, {}, &error)) {
+    std::cerr << error << '\n';
     return EXIT_FAILURE;
   }
   return characteristic == 0 && farthest < 1e-12 ? EXIT_SUCCESS : EXIT_FAILURE;

@@ -7,6 +7,7 @@
 // summed over its elements and over its boundary, is the same to the last bit.
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/make_mixed_mesh_3.h>
@@ -15,6 +16,7 @@
 #include <cstdlib>
 #include <iostream>
 
+namespace mm3 = CGAL::Mixed_meshes_3;
 using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using Point_3 = Kernel::Point_3;
 using Surface = CGAL::Surface_mesh<Point_3>;
@@ -40,23 +42,22 @@ int main()
   const CGAL::Polyhedral_mixed_mesh_domain_3 domain(surface);
   const CGAL::Ball_mixed_mesh_region_3 tip({0, 0, 0.33}, 0.15);
   Mesh mesh;
-  if(!CGAL::make_mixed_mesh_3(domain, tip, CGAL::Mixed_mesh_criteria_3(1000), mesh).has_mesh())
+  if(!CGAL::make_mixed_mesh_3(domain, tip, 1000, mesh).has_mesh())
     return EXIT_FAILURE;
 
   // Vertices are doubles, so exact arithmetic on them has no error at all.
-  const Mesh tetrahedra = CGAL::Mixed_meshes_3::split_to_tetrahedra(mesh);
+  const Mesh tetrahedra = mm3::split_to_tetrahedra(mesh);
   Kernel::FT inside = 0, through_boundary = 0;
-  for(std::size_t e = 0; e < tetrahedra.number_of_elements(); ++e) {
+  for(mm3::Element_index e = 0; e < tetrahedra.number_of_elements(); ++e) {
     const auto t = tetrahedra.element(e);
     inside += CGAL::volume(tetrahedra.point(t[0]), tetrahedra.point(t[1]), tetrahedra.point(t[2]),
                            tetrahedra.point(t[3]));
     inside.exact(); // no need to remember the sum
   }
-  for(const Mesh::Boundary_face& face : tetrahedra.boundary_faces()) {
-    const auto t = tetrahedra.element(face.element);
-    const auto& v = t.reference().faces[face.local_face].vertices;
-    through_boundary += CGAL::volume(Point_3(0, 0, 0), tetrahedra.point(t[v[0]]),
-                                     tetrahedra.point(t[v[1]]), tetrahedra.point(t[v[2]]));
+  for(const mm3::Face& face : mm3::boundary_faces(tetrahedra)) {
+    const auto& v = face.vertices();
+    through_boundary += CGAL::volume(Point_3(0, 0, 0), tetrahedra.point(v[0]), tetrahedra.point(v[1]),
+                                     tetrahedra.point(v[2]));
     through_boundary.exact();
   }
   std::cout << mesh.number_of_vertices() << " vertices, volume " << inside.exact() << '\n'

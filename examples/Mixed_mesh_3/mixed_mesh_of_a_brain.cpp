@@ -27,18 +27,22 @@ using Mesh = CGAL::Mixed_mesh_3<Kernel>;
 int main(int argc, char** argv)
 try {
   // The domain, and the path from the skull opening to the tumor. Both have to be closed; the reader
-  // mends what is harmless, and throws an exception that says what is not.
+  // mends what is harmless, and says what is not.
   Surface brain, path;
-  mm3::IO::read_closed_surface(argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR "/brain.off", brain);
-  mm3::IO::read_closed_surface(argc > 2 ? argv[2] : MIXED_MESH_3_DATA_DIR "/region.off", path);
+  std::string error;
+  if(!mm3::IO::read_closed_surface(argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR "/brain.off", brain, &error)
+     || !mm3::IO::read_closed_surface(argc > 2 ? argv[2] : MIXED_MESH_3_DATA_DIR "/region.off", path, &error)) {
+    std::cerr << error << '\n';
+    return EXIT_FAILURE;
+  }
 
   // The budget bounds the mesh that comes out, everything included. Its boundary is on the surface.
   const std::size_t budget = argc > 3 ? std::stoul(argv[3]) : 660;
   Mesh mesh;
   const CGAL::Mixed_mesh_result_3 result = CGAL::make_mixed_mesh_3(brain, path, budget, mesh);
   if(!result.has_mesh()) {
-    std::cerr << "no mesh with " << budget << " vertices; one with " << result.number_of_vertices_needed
-              << " has been tried\n";
+    std::cerr << description(result.status) << ": no mesh with " << budget << " vertices; one with "
+              << result.number_of_vertices_needed << " has been tried\n";
     return EXIT_FAILURE;
   }
 
@@ -50,8 +54,8 @@ try {
               << rows[kind].mean << " (at most " << rows[kind].maximum << ")\n";
 
   // For ParaView; the extension tells the format.
-  if(const auto error = mm3::IO::write_mixed_mesh("mixed_mesh_of_a_brain.vtu", mesh)) {
-    std::cerr << *error << '\n';
+  if(!mm3::IO::write_mixed_mesh("mixed_mesh_of_a_brain.vtu", mesh, {}, &error)) {
+    std::cerr << error << '\n';
     return EXIT_FAILURE;
   }
   return EXIT_SUCCESS;

@@ -30,15 +30,16 @@ bool mesh_and_report(const CGAL::Polyhedral_mixed_mesh_domain_3& brain, const Re
 {
   Mesh mesh;
   const auto result =
-    CGAL::make_mixed_mesh_3(brain, region, CGAL::Mixed_mesh_criteria_3(2000), cell_traits, mesh);
+    CGAL::make_mixed_mesh_3(brain, region, 2000, cell_traits, mesh);
   std::size_t in_region = 0;
-  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
+  for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e)
     in_region += mesh.is_in_region(e);
   std::cout << name << ": " << mesh.number_of_vertices() << " vertices, " << mesh.number_of_elements()
             << " elements, " << in_region << " of them meet the region; smallest cells "
             << cell_traits.length(1u << (21 - result.deepest_level)) << " mm\n";
-  if(const auto error = mm3::IO::write_mixed_mesh("regions_" + name + ".vtu", mesh)) {
-    std::cerr << *error << '\n';
+  std::string error;
+  if(!mm3::IO::write_mixed_mesh("regions_" + name + ".vtu", mesh, {}, &error)) {
+    std::cerr << error << '\n';
     return false;
   }
   return result.has_mesh();
@@ -47,8 +48,12 @@ bool mesh_and_report(const CGAL::Polyhedral_mixed_mesh_domain_3& brain, const Re
 int main(int argc, char** argv)
 try {
   Surface brain_surface, path_surface;
-  mm3::IO::read_closed_surface(argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR "/brain.off", brain_surface);
-  mm3::IO::read_closed_surface(argc > 2 ? argv[2] : MIXED_MESH_3_DATA_DIR "/region.off", path_surface);
+  std::string error;
+  if(!mm3::IO::read_closed_surface(argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR "/brain.off", brain_surface, &error)
+     || !mm3::IO::read_closed_surface(argc > 2 ? argv[2] : MIXED_MESH_3_DATA_DIR "/region.off", path_surface, &error)) {
+    std::cerr << error << '\n';
+    return EXIT_FAILURE;
+  }
 
   // Where the budget does not reach the whole region, what is deep in any of its parts comes first.
   const CGAL::Polyhedral_mixed_mesh_domain_3 brain(brain_surface);

@@ -53,8 +53,12 @@ public:
 int main(int argc, char** argv)
 try {
   Surface brain, path;
-  mm3::IO::read_closed_surface(argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR "/brain.off", brain);
-  mm3::IO::read_closed_surface(argc > 2 ? argv[2] : MIXED_MESH_3_DATA_DIR "/region.off", path);
+  std::string error;
+  if(!mm3::IO::read_closed_surface(argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR "/brain.off", brain, &error)
+     || !mm3::IO::read_closed_surface(argc > 2 ? argv[2] : MIXED_MESH_3_DATA_DIR "/region.off", path, &error)) {
+    std::cerr << error << '\n';
+    return EXIT_FAILURE;
+  }
 
   // Enough time for a small mesh, not for a large one.
   bool is_as_expected = true;

@@ -7,7 +7,6 @@
 #define CGAL_MIXED_MESH_CRITERIA_3_H
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
-#include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
 #include <CGAL/Mixed_mesh_3/options.h>
 
 #include <CGAL/assertions.h>

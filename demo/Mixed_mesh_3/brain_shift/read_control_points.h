@@ -5,21 +5,13 @@
 //
 // Points with given displacements, from a table of numbers with commas between them.
 
-#ifndef MIXED_MESH_3_EXAMPLES_READ_CONTROL_POINTS_H
-#define MIXED_MESH_3_EXAMPLES_READ_CONTROL_POINTS_H
+#ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_READ_CONTROL_POINTS_H
+#define MIXED_MESH_3_DEMO_BRAIN_SHIFT_READ_CONTROL_POINTS_H
 
 #include <array>
-#include <cerrno>
-#include <charconv>
-#include <cmath>
 #include <cstddef>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 /// A point that was measured twice.
@@ -31,46 +23,14 @@ struct Control_point
 
 namespace control_points {
 
-inline std::string_view trimmed(std::string_view text)
-{
-  const char* const blanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(blanks);
-  return first == text.npos ? std::string_view()
-                            : text.substr(first, text.find_last_not_of(blanks) + 1 - first);
-}
-
 /// What is between commas, without the blanks around it.
-inline std::vector<std::string_view> columns(std::string_view line)
-{
-  std::vector<std::string_view> result;
-  for(std::size_t comma; (comma = line.find(',')) != line.npos; line.remove_prefix(comma + 1))
-    result.push_back(trimmed(line.substr(0, comma)));
-  result.push_back(trimmed(line));
-  return result;
-}
+std::vector<std::string_view> columns(std::string_view line);
 
 /// As a message can show it: short, and nothing that a terminal would take for more than a character.
-inline std::string quoted(std::string_view text)
-{
-  std::string result = "\"";
-  for(char c : text.substr(0, 30))
-    result += c >= ' ' && c <= '~' ? c : '?';
-  return result + (text.size() > 30 ? "...\"" : "\"");
-}
+std::string quoted(std::string_view text);
 
 /// Reads a number, with a point whatever the locale; returns what is wrong with it, or nothing.
-inline std::string read_number(std::string_view text, double& x)
-{
-  const std::string_view digits = text.substr(!text.empty() && text[0] == '+');
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
-  if(error == std::errc::result_out_of_range)
-    return quoted(text) + " is out of range";
-  if(error != std::errc() || end != digits.data() + digits.size() || (digits != text && digits[0] == '-'))
-    return text.empty() ? "a number is missing" : quoted(text) + " is not a number";
-  if(!std::isfinite(x))
-    return quoted(text) + " is not a finite number";
-  return std::string();
-}
+std::string read_number(std::string_view text, double& x);
 
 } // namespace control_points
 
@@ -80,60 +40,6 @@ lines, and those that start with #, are skipped.
 
 \throw std::runtime_error a line naming the file, the line and the defect
 */
-inline std::vector<Control_point> read_control_points(const std::string& path)
-{
-  using namespace control_points;
-  const auto refuse = [&path](const std::string& defect) { throw std::runtime_error(path + ": " + defect); };
-  if(std::filesystem::is_directory(path))
-    refuse("is a directory");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if(!file)
-    refuse(std::string("cannot be opened: ") + std::strerror(errno));
+std::vector<Control_point> read_control_points(const std::string& path);
 
-  const std::string header = "x,y,z,dx,dy,dz";
-  constexpr double largest = 1e6; // mm: nothing in a body is a kilometer away
-  std::vector<Control_point> points;
-  bool has_header = false;
-  std::string text;
-  for(std::size_t number = 1; std::getline(file, text); ++number) {
-    std::string_view line = text;
-    if(number == 1 && line.substr(0, 3) == "\xEF\xBB\xBF") // the byte-order mark that spreadsheets write
-      line.remove_prefix(3);
-    line = trimmed(line);
-    if(line.empty() || line[0] == '#')
-      continue;
-    const auto refuse_line = [&](const std::string& defect) {
-      refuse("line " + std::to_string(number) + ": " + defect);
-    };
-    const std::vector<std::string_view> cells = columns(line);
-    if(!has_header) {
-      if(cells != columns(header))
-        refuse_line("expected the header " + header + ", not " + quoted(line));
-      has_header = true;
-      continue;
-    }
-    if(cells.size() != 6)
-      refuse_line("expected 6 columns, " + header + ", not " + std::to_string(cells.size()));
-    Control_point point;
-    point.line = number;
-    for(std::size_t i = 0; i < 6; ++i) {
-      double& x = i < 3 ? point.position[i] : point.displacement[i - 3];
-      const std::string defect = read_number(cells[i], x);
-      if(!defect.empty())
-        refuse_line(defect);
-      if(std::abs(x) > largest)
-        refuse_line(quoted(cells[i]) + " mm is more than a kilometer");
-    }
-    points.push_back(point);
-  }
-  if(file.bad())
-    refuse("cannot be read");
-  if(!has_header)
-    refuse("is empty: expected the header " + header);
-  if(points.empty())
-    refuse("has no control points");
-  return points;
-}
-
-#endif // MIXED_MESH_3_EXAMPLES_READ_CONTROL_POINTS_H
+#endif // MIXED_MESH_3_DEMO_BRAIN_SHIFT_READ_CONTROL_POINTS_H

@@ -3,10 +3,10 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Times and memory of stages, and progress on a terminal: the visitor of the command-line mesher.
+// Times and memory of stages, and progress on a terminal: the visitor of the programs.
 
-#ifndef MIXED_MESH_3_EXAMPLES_STAGE_LOG_H
-#define MIXED_MESH_3_EXAMPLES_STAGE_LOG_H
+#ifndef MIXED_MESH_3_DEMO_COMMON_STAGE_LOG_H
+#define MIXED_MESH_3_DEMO_COMMON_STAGE_LOG_H
 
 #include <CGAL/Mixed_mesh_3/Default_visitor.h>
 
@@ -163,4 +163,4 @@ private:
   std::vector<Stage_cost> m_costs;
 };
 
-#endif // MIXED_MESH_3_EXAMPLES_STAGE_LOG_H
+#endif // MIXED_MESH_3_DEMO_COMMON_STAGE_LOG_H

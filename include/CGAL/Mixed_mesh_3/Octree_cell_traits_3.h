@@ -10,6 +10,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/base/Lattice_point.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+#include <CGAL/Mixed_mesh_3/options.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/assertions.h>
@@ -21,12 +22,6 @@
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
-
-/// The shape of the root cell of axis-aligned octrees.
-enum class Root_cell {
-  CUBE, ///< a cube around the bounding box: all cells are cubes, of aspect-ratio coefficient 1
-  BOX   ///< the bounding box itself, as in the paper: cells have its proportions
-};
 
 namespace internal {
 

@@ -71,16 +71,17 @@ Vec3 vector_area(const Mesh& mesh, const Face& face)
   return 0.5 * (face.vertices().size() == 3 ? cross(edge(0, 1), edge(0, 2)) : cross(edge(0, 2), edge(1, 3)));
 }
 
-/// The area of a face; of a quadrilateral, that of its two triangles at its first vertex.
+/// The area of a face; of a quadrilateral, the mean of its two triangulations.
 template <class Mesh>
 double area(const Mesh& mesh, const Face& face)
 {
-  const Vec3 origin = to_vec3(mesh.point(face.vertices()[0]));
-  double sum = 0;
-  for(int i = 2; i < face.vertices().size(); ++i)
-    sum += norm(cross(to_vec3(mesh.point(face.vertices()[i - 1])) - origin,
-                      to_vec3(mesh.point(face.vertices()[i])) - origin)) / 2;
-  return sum;
+  const auto triangle = [&](int i, int j, int k) {
+    const Vec3 p = to_vec3(mesh.point(face.vertices()[i]));
+    return norm(cross(to_vec3(mesh.point(face.vertices()[j])) - p, to_vec3(mesh.point(face.vertices()[k])) - p)) / 2;
+  };
+  return face.vertices().size() == 3
+           ? triangle(0, 1, 2)
+           : (triangle(0, 1, 2) + triangle(0, 2, 3) + triangle(1, 2, 3) + triangle(1, 3, 0)) / 2;
 }
 
 } // namespace Mixed_meshes_3

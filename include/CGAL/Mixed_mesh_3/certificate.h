@@ -296,7 +296,7 @@ Jacobian_sign jacobian_sign(const Element_view& element, const Position& positio
 
 /// The sign of the Jacobian of element `e`.
 template <class Mesh>
-Jacobian_sign jacobian_sign(const Mesh& mesh, std::size_t e)
+Jacobian_sign jacobian_sign(const Mesh& mesh, Element_index e)
 {
   return jacobian_sign(mesh.element(e), [&](Vertex_index v) { return to_vec3(mesh.point(v)); });
 }

@@ -18,6 +18,12 @@ enum class Transition_templates_choice {
   CENTERED          ///< every such cell is coned from its center
 };
 
+/// The shape of the root cell of axis-aligned octrees.
+enum class Root_cell {
+  CUBE, ///< a cube around the bounding box: all cells are cubes, of aspect-ratio coefficient 1
+  BOX   ///< the bounding box itself, as in the paper: cells have its proportions
+};
+
 /// How elements at the surface are split.
 enum class Boundary_mode {
   VERTEX_ORDER, ///< by one order of all vertices: inserts none, keeps pyramids

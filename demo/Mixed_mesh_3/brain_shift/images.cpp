@@ -1,0 +1,115 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "brain_shift/images.h"
+
+#include <stdexcept>
+
+namespace mm3 = CGAL::Mixed_meshes_3;
+
+#if MIXED_MESH_3_HAS_NIFTI
+
+#include "common/messages.h"
+#include "common/resources.h"
+
+#include <CGAL/Mixed_mesh_image_3/IO/NIFTI.h>
+#include <CGAL/Mixed_mesh_image_3/warp_image.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace {
+
+std::size_t number_of_vertices_inside(const Mesh& mesh, const mm3::Voxel_grid_3& grid)
+{
+  const mm3::Affine_map_3 to_index = mm3::inverse(grid.index_to_world);
+  std::size_t inside = 0;
+  for(const auto& p : mesh.points()) {
+    const Vector index = mm3::transform(to_index, mm3::to_vec3(p));
+    bool is_inside = true;
+    for(int k = 0; k < 3; ++k)
+      is_inside = is_inside && index[k] >= -0.5 && index[k] <= double(grid.size[k]) - 0.5;
+    inside += is_inside;
+  }
+  return inside;
+}
+
+[[noreturn]] void refuse(const Options& o, const Mesh& mesh, const mm3::Voxel_grid_3& grid)
+{
+  Vector middle;
+  for(int k = 0; k < 3; ++k)
+    middle[k] = 0.5 * double(grid.size[k] - 1);
+  CGAL::Bbox_3 box;
+  for(const auto& p : mesh.points())
+    box += p.bbox();
+  throw std::runtime_error(o.image + ": the image does not overlap the mesh " + o.mesh
+                           + ": its center is at " + place(mm3::transform(grid.index_to_world, middle))
+                           + ", the mesh's at "
+                           + place({(box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2,
+                                    (box.zmin() + box.zmax()) / 2}) + ", in mm");
+}
+
+} // namespace
+
+mm3::Voxel_image_3 read_image(const Options& o, const Mesh& mesh, Outcome& outcome)
+{
+  mm3::Voxel_image_3 image;
+  require([&](std::string* error) { return mm3::IO::read_NIFTI(o.image, image, error); });
+  const mm3::Voxel_grid_3& grid = image.grid;
+  const std::size_t inside = number_of_vertices_inside(mesh, grid);
+  if(inside == 0)
+    refuse(o, mesh, grid);
+  if(inside != mesh.number_of_vertices())
+    outcome.warnings.push_back(o.image + ": only " + std::to_string(inside) + " of "
+                               + std::to_string(mesh.number_of_vertices()) + " vertices of " + o.mesh
+                               + " are in the image: are both in the same coordinates?");
+  const auto limits = std::minmax_element(image.values.begin(), image.values.end());
+  Image_facts& facts = outcome.image.emplace();
+  facts.voxels = grid.size;
+  facts.volume_of_voxel = std::abs(mm3::determinant(grid.index_to_world));
+  facts.world = grid.world;
+  facts.smallest = *limits.first;
+  facts.largest = *limits.second;
+  facts.share_inside = double(inside) / double(mesh.number_of_vertices());
+  return image;
+}
+
+void write_images(mm3::IO::Output_files& files, const mm3::Voxel_image_3& image, const Mesh& mesh,
+                  const Tumor* tumor, const std::vector<bool>& is_removed, const Options& o, Stage_log& log,
+                  Outcome& outcome)
+{
+  mm3::Warp_options warp;
+  if(tumor != nullptr) {
+    warp.resected_elements = is_removed;
+    warp.is_resected = [tumor](const std::array<double, 3>& p) { return tumor->contains(p); };
+  }
+  const mm3::Warped_image_3 warped = log("warp image", [&] {
+    return mm3::warp_image(image, mesh, outcome.last().displacements, warp);
+  });
+  const std::vector<float>& mask = warped.mask.values;
+  outcome.image->voxels_of_tissue = std::size_t(std::count(mask.begin(), mask.end(), 1.f));
+  outcome.image->voxels_resected = std::size_t(std::count(mask.begin(), mask.end(), 2.f));
+  if(!o.output_image.empty())
+    log("write images", [&] {
+      require([&](std::string* error) {
+        return mm3::IO::write_warped_image(files, o.output_image + ".nii.gz", warped, error);
+      });
+    });
+}
+
+#else
+
+mm3::Voxel_image_3 read_image(const Options&, const Mesh&, Outcome&)
+{
+  throw std::logic_error("checked with the options");
+}
+
+void write_images(mm3::IO::Output_files&, const mm3::Voxel_image_3&, const Mesh&, const Tumor*,
+                  const std::vector<bool>&, const Options&, Stage_log&, Outcome&)
+{}
+
+#endif

@@ -1,0 +1,215 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "brain_shift/options.h"
+
+#include "brain_shift/read_control_points.h"
+#include "common/command_line.h"
+#include "common/resources.h"
+
+#include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
+#include <CGAL/version.h>
+
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+
+namespace mm3 = CGAL::Mixed_meshes_3;
+
+namespace {
+
+// CMakeLists.txt defines it if nifti_clib was found; without, there are no images, and all else works.
+#if MIXED_MESH_3_HAS_NIFTI
+constexpr bool has_nifti = true;
+#else
+constexpr bool has_nifti = false;
+#endif
+
+CLI::Validator fraction() { return number("from 0 to 1", [](double x) { return x >= 0 && x <= 1; }); }
+CLI::Validator not_negative() { return number("of at least 0", [](double x) { return x >= 0; }); }
+
+// Returns the option that those of images need.
+CLI::Option* add_inputs(CLI::App& app, Options& o)
+{
+  app.add_option("MESH", o.mesh, "Mesh of the brain, in mm: .vtu or .msh")->required();
+  app.add_option("--control-points", o.control_points,
+                 "Table of points with given displacements, in mm: a header x,y,z,dx,dy,dz, then a line for "
+                 "each")
+    ->required()
+    ->type_name("FILE.csv");
+  app.add_option("--tumor,--tumour", o.tumor,
+                 "Closed surface: elements whose centroid is inside are removed, after the shift")
+    ->type_name("SURFACE");
+  return app.add_option("--image", o.image, "Image before the shift: .nii or .nii.gz")
+    ->type_name("IMAGE");
+}
+
+void add_supports(CLI::App& app, Options& o)
+{
+  app.add_option("--up", o.up, "Direction of height: x, y, z, -x, -y, -z, or three numbers")
+    ->type_name("X,Y,Z")
+    ->capture_default_str();
+  app.add_option("--fixed-below", o.fixed_below,
+                 "Boundary vertices in that lower part of the height are fixed; 0: none")
+    ->check(fraction())
+    ->type_name("FRACTION")
+    ->capture_default_str();
+  CLI::Option* slide_below =
+    app.add_option("--slide-below", o.slide_below,
+                   "Boundary vertices in that lower part of the height that are not fixed slide along the "
+                   "boundary without friction (default: 0, none)")
+      ->check(fraction())
+      ->type_name("FRACTION");
+  app.add_option("--slide-beyond", o.slide_beyond,
+                 "Boundary vertices farther than that from all control points slide, unless fixed: the skull "
+                 "holds the brain but at the opening (default: none)")
+    ->check(not_negative())
+    ->excludes(slide_below)
+    ->type_name("MM");
+}
+
+void add_physics(CLI::App& app, Options& o)
+{
+  app.add_option("--young-modulus", o.material.young_modulus, "Young's modulus")
+    ->check(number("greater than 0", [](double x) { return x > 0; }))
+    ->type_name("KPA")
+    ->capture_default_str();
+  app.add_option("--poisson-ratio", o.material.poisson_ratio, "Poisson's ratio")
+    ->check(number("of at least 0 and below 0.5", [](double x) { return x >= 0 && x < 0.5; }))
+    ->type_name("NU")
+    ->capture_default_str();
+  app.add_option("--gravity", o.gravity,
+                 "Acceleration in mm/s^2, for example 0,0,-9810; tissue weighs 1 kg/l")
+    ->type_name("X,Y,Z")
+    ->capture_default_str();
+  app.add_option("--max-distance", o.max_distance,
+                 "Control points up to so far outside the mesh are taken to its boundary")
+    ->check(not_negative())
+    ->type_name("MM")
+    ->capture_default_str();
+  app.add_option("--control-radius", o.control_radius,
+                 "A control point has the mean displacement of the boundary within so far, mm; 0: that of "
+                 "the point itself, which a force then dents, the deeper the finer the mesh")
+    ->check(not_negative())
+    ->type_name("MM")
+    ->capture_default_str();
+  app.add_option("--control-compliance", o.compliance,
+                 "How far a control point gives way to a force, for measurements that are noisy, in mm/mN; "
+                 "0: they are exact")
+    ->check(not_negative())
+    ->type_name("C")
+    ->capture_default_str();
+}
+
+void add_outputs(CLI::App& app, Options& o, CLI::Option* image)
+{
+  app.add_option("--output", o.outputs,
+                 "Mesh as it was, with the point data `displacement` and the cell data `resected`: .vtu; can "
+                 "be given several times")
+    ->type_name("FILE.vtu")
+    ->allow_extra_args(false);
+  app.add_option("--output-deformed", o.deformed_outputs,
+                 "Mesh that is left, deformed: .vtu, .msh, .mesh, .inp, .feb; can be given several times")
+    ->type_name("FILE")
+    ->allow_extra_args(false);
+  CLI::Option* output_image =
+    app.add_option("--output-image", o.output_image,
+                   "Start of the names of images: PREFIX.nii.gz (deformed), PREFIX_forward.nii.gz, "
+                   "PREFIX_backward.nii.gz (displacements), PREFIX_mask.nii.gz (1 tissue, 2 resected)")
+      ->needs(image)
+      ->type_name("PREFIX");
+  image->needs(output_image);
+  app.add_option("--report", o.report, "Report with counts, displacements, forces, parameters and times")
+    ->type_name("FILE.json");
+}
+
+void set_up(CLI::App& app, Options& o)
+{
+  CLI::Option* const image = add_inputs(app, o);
+  add_supports(app, o);
+  add_physics(app, o);
+  add_outputs(app, o, image);
+  app.add_flag("--quiet", o.quiet, "Print errors and warnings only");
+  app.set_version_flag("--version", "brain_shift 0.1 (CGAL " CGAL_VERSION_STR ")");
+  app.footer("Lengths are in mm. Example:\n"
+             "  brain_shift brain.vtu --control-points data/control_points.csv --tumor data/tumour.off "
+             "--output shift.vtu");
+}
+
+// Three numbers with commas between them.
+std::array<double, 3> vector_of(const char* option, const std::string& text)
+{
+  const auto columns = control_points::columns(text);
+  std::array<double, 3> v{};
+  bool is_valid = columns.size() == 3;
+  for(std::size_t i = 0; is_valid && i < 3; ++i)
+    is_valid = control_points::read_number(columns[i], v[i]).empty() && std::abs(v[i]) < 1e9;
+  if(!is_valid)
+    throw CLI::ValidationError(option, "expected three numbers with commas between them, not "
+                                         + control_points::quoted(text));
+  return v;
+}
+
+// What the parser does not check.
+void check_use(Options& o)
+{
+  const std::string axes = "xyz";
+  const bool is_downwards = o.up.size() == 2 && o.up[0] == '-';
+  const std::size_t axis = o.up.size() == 1 || is_downwards ? axes.find(o.up.back()) : axes.npos;
+  if(axis != axes.npos)
+    o.up_direction[axis] = is_downwards ? -1 : 1;
+  else
+    o.up_direction = vector_of("--up", o.up);
+  const auto& u = o.up_direction;
+  const double length = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+  if(!(length > 0))
+    throw CLI::ValidationError("--up", "is not a direction");
+  for(double& x : o.up_direction)
+    x *= 1 / length;
+  o.acceleration = vector_of("--gravity", o.gravity);
+  if(!o.image.empty() && !has_nifti)
+    throw CLI::ValidationError("--image", "this program was built without nifti_clib");
+}
+
+} // namespace
+
+std::optional<int> parse_command_line(int argc, char** argv, Options& options)
+{
+  CLI::App app("Computes how a brain shifts from the displacements of some points, before and after a tumor "
+               "is resected, and deforms the image with it. Linear elasticity, small strain.");
+  set_up(app, options);
+  return parse(app, argc, argv, [&] { check_use(options); });
+}
+
+// The names are those of `write_warped_image()`.
+std::vector<std::string> image_outputs(const Options& o)
+{
+  std::vector<std::string> paths;
+  if(!o.output_image.empty())
+    for(const char* name : {"", "_forward", "_backward", "_mask"})
+      paths.push_back(o.output_image + name + ".nii.gz");
+  return paths;
+}
+
+void check_feasible(const Options& o)
+{
+  std::vector<std::string> outputs = o.outputs;
+  for(const std::string& path : o.outputs)
+    if(mm3::IO::format_of(path) != mm3::IO::Format::VTU)
+      throw std::runtime_error(path + ": displacements can be written to .vtu only");
+  for(const std::string& path : o.deformed_outputs) {
+    require([&](std::string* error) { return mm3::IO::check_output_path(path, error); });
+    outputs.push_back(path);
+  }
+  for(const std::string& path : image_outputs(o))
+    outputs.push_back(path);
+  if(!o.report.empty())
+    outputs.push_back(o.report);
+  Output_paths paths({o.mesh, o.control_points, o.tumor, o.image});
+  for(const std::string& path : outputs) {
+    require([&](std::string* error) { return mm3::IO::check_output_directory(path, error); });
+    paths.add(path);
+  }
+}

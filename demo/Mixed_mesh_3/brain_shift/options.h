@@ -1,0 +1,44 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The options of the program.
+
+#ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_OPTIONS_H
+#define MIXED_MESH_3_DEMO_BRAIN_SHIFT_OPTIONS_H
+
+#include <CGAL/Mixed_mesh_3/Elastic_material.h>
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+struct Options
+{
+  std::string mesh, control_points, tumor, image, output_image, report, up = "z", gravity = "0,0,0";
+  std::vector<std::string> outputs, deformed_outputs;
+  double fixed_below = 0.3, slide_below = 0, slide_beyond = std::numeric_limits<double>::infinity();
+  double max_distance = 5, compliance = 0, control_radius = 0;
+  CGAL::Mixed_meshes_3::Elastic_material material;
+  bool quiet = false;
+
+  // of the two texts
+  std::array<double, 3> up_direction{}, acceleration{};
+
+  // Whether a control point itself has just the displacement asked for.
+  bool is_exact() const { return compliance == 0 && control_radius == 0; }
+};
+
+/// Returns the exit status if the program ends with its command line: help, the version, or wrong use.
+std::optional<int> parse_command_line(int argc, char** argv, Options& options);
+
+/// The images that are written.
+std::vector<std::string> image_outputs(const Options& options);
+
+/// Throws if files cannot be written.
+void check_feasible(const Options& options);
+
+#endif // MIXED_MESH_3_DEMO_BRAIN_SHIFT_OPTIONS_H

@@ -1,0 +1,95 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the program found out, as its report and its messages need it: plain data.
+
+#ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_OUTCOME_H
+#define MIXED_MESH_3_DEMO_BRAIN_SHIFT_OUTCOME_H
+
+#include "brain_shift/read_control_points.h"
+#include "common/facts.h"
+
+#include <CGAL/Mixed_mesh_3/Element_locator_3.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+using Vector = CGAL::Mixed_meshes_3::Vec3;
+
+/// Where control points are in the mesh.
+using Locations = std::vector<CGAL::Mixed_meshes_3::Element_location_3>;
+
+struct Image_facts
+{
+  std::array<std::size_t, 3> voxels{};
+  double volume_of_voxel = 0;
+  int world = 0; // NIfTI's number
+  double smallest = 0, largest = 0, share_inside = 0;
+  std::size_t voxels_of_tissue = 0, voxels_resected = 0; // when it is warped
+};
+
+struct Supports
+{
+  std::size_t boundary_vertices = 0, fixed = 0, sliding = 0;
+};
+
+/// What a control point does.
+struct Control
+{
+  bool is_used = false;
+  Vector displacement{}, force{};
+  double miss = 0;
+};
+
+/// A displacement of the mesh, and what is to be said of it.
+struct Shift
+{
+  std::vector<Vector> displacements; // of vertices
+  double largest = 0;
+  Vector at{}; // the largest
+  double energy = 0;
+  std::size_t inverted_elements = 0;
+  std::vector<Control> controls;
+  double largest_miss = 0;
+};
+
+/// What is removed, and what is left.
+struct Resection_facts
+{
+  struct Piece
+  {
+    std::size_t elements;
+    double volume;
+  };
+  std::string status;
+  std::size_t removed = 0, asked = 0, restored = 0, floating = 0, pinch = 0; // elements
+  std::vector<Piece> floating_pieces;
+  double volume = 0, area = 0; // of the cavity
+  Mesh_facts left;
+};
+
+struct Outcome
+{
+  Mesh_facts mesh;
+  double volume = 0; // of the mesh
+  std::vector<Control_point> points;
+  Locations locations;
+  std::optional<Surface_facts> tumor;
+  std::optional<Image_facts> image;
+  Supports supports;
+  Shift before; // the resection
+  std::optional<Resection_facts> resection;
+  std::optional<Shift> after;
+  std::vector<std::string> warnings;
+  double seconds = 0;
+  std::size_t peak_bytes = 0;
+
+  const Shift& last() const { return after ? *after : before; }
+};
+
+#endif // MIXED_MESH_3_DEMO_BRAIN_SHIFT_OUTCOME_H

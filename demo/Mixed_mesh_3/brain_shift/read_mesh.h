@@ -1,0 +1,20 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Meshes that can be computed with.
+
+#ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_READ_MESH_H
+#define MIXED_MESH_3_DEMO_BRAIN_SHIFT_READ_MESH_H
+
+#include "common/types.h"
+
+#include <string>
+#include <vector>
+
+/// \param warnings what is harmless is added to it
+/// \throw std::runtime_error a line naming the file and the defect
+Mesh read_mesh(const std::string& path, std::vector<std::string>& warnings);
+
+#endif // MIXED_MESH_3_DEMO_BRAIN_SHIFT_READ_MESH_H

@@ -1,0 +1,175 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "brain_shift/report.h"
+
+#include "common/messages.h"
+#include "common/report_json.h"
+
+#include <cmath>
+#include <cstddef>
+#include <iostream>
+#include <vector>
+
+namespace {
+
+Json describe_mesh(const Options& o, const Outcome& outcome)
+{
+  Json report = {{"file", o.mesh}, {"vertices", outcome.mesh.vertices}, {"elements", outcome.mesh.elements}};
+  add_kinds(outcome.mesh, report);
+  report["volume"] = outcome.volume;
+  return report;
+}
+
+Json describe(const Surface_facts& s)
+{
+  return {{"file", s.file}, {"triangles", s.triangles}, {"volume", s.volume}};
+}
+
+Json describe(const Image_facts& image, const Options& o)
+{
+  return {{"file", o.image},
+          {"voxels", image.voxels},
+          {"volume of a voxel", image.volume_of_voxel},
+          {"world (NIfTI's number)", image.world},
+          {"smallest value", image.smallest},
+          {"largest value", image.largest},
+          {"share of the mesh's vertices inside", image.share_inside}};
+}
+
+Json parameters_of(const Options& o)
+{
+  const auto quantity = [](const Json& value, const char* unit) {
+    return Json{{"value", value}, {"unit", unit}};
+  };
+  return {{"Young's modulus", quantity(o.material.young_modulus, "kPa")},
+          {"Poisson's ratio", quantity(o.material.poisson_ratio, "1")},
+          {"density", quantity(o.material.density, "kg/mm^3")},
+          {"gravity", quantity(o.acceleration, "mm/s^2")},
+          {"up", quantity(o.up_direction, "1")},
+          {"fixed below", quantity(o.fixed_below, "height")},
+          {"slide below", quantity(o.slide_below, "height")},
+          {"slide beyond", quantity(std::isfinite(o.slide_beyond) ? Json(o.slide_beyond) : Json(), "mm")},
+          {"largest distance of control points", quantity(o.max_distance, "mm")},
+          {"compliance of control points", quantity(o.compliance, "mm/mN")},
+          {"radius of control points", quantity(o.control_radius, "mm")}};
+}
+
+Json describe_points(const Outcome& outcome)
+{
+  Json controls = Json::array();
+  for(std::size_t i = 0; i < outcome.points.size(); ++i)
+    controls.push_back({{"line", outcome.points[i].line},
+                        {"position", outcome.points[i].position},
+                        {"displacement", outcome.points[i].displacement},
+                        {"element", outcome.locations[i].element},
+                        {"distance to the mesh", outcome.locations[i].distance}});
+  return controls;
+}
+
+Json describe(const Shift& shift, const std::vector<Control_point>& points)
+{
+  Json controls = Json::array();
+  for(std::size_t i = 0; i < points.size(); ++i) {
+    const Control& c = shift.controls[i];
+    Json control = {{"line", points[i].line}, {"used", c.is_used}};
+    if(c.is_used) {
+      control["displacement"] = c.displacement;
+      control["missed by"] = c.miss;
+      control["force"] = c.force;
+    }
+    controls.push_back(control);
+  }
+  return {{"largest displacement", shift.largest},
+          {"at", shift.at},
+          {"energy", shift.energy},
+          {"inverted elements", shift.inverted_elements},
+          {"control points", controls},
+          {"control points missed by at most", shift.largest_miss}};
+}
+
+Json describe(const Resection_facts& resection)
+{
+  Json floating = Json::array();
+  for(const Resection_facts::Piece& piece : resection.floating_pieces)
+    floating.push_back({{"elements", piece.elements}, {"volume", piece.volume}});
+  return {{"status", resection.status},
+          {"elements removed", resection.removed},
+          {"elements inside", resection.asked},
+          {"of which stay, or a vertex would be pinched", resection.restored},
+          {"removed besides, as they came loose", resection.floating},
+          {"removed besides, or a vertex would be pinched", resection.pinch},
+          {"floating pieces", floating},
+          {"cavity volume", resection.volume},
+          {"cavity area", resection.area},
+          {"vertices left", resection.left.vertices},
+          {"elements left", resection.left.elements}};
+}
+
+std::vector<std::string> outputs_of(const Options& o)
+{
+  std::vector<std::string> outputs;
+  for(const auto& paths : {o.outputs, o.deformed_outputs, image_outputs(o)})
+    outputs.insert(outputs.end(), paths.begin(), paths.end());
+  if(!o.report.empty())
+    outputs.push_back(o.report);
+  return outputs;
+}
+
+} // namespace
+
+std::string report(const Options& o, const Outcome& outcome, const Stage_log& log)
+{
+  Json report;
+  report["program"] = describe_program("brain_shift");
+  report["inputs"] = {{"mesh", describe_mesh(o, outcome)},
+                      {"control points", {{"file", o.control_points}, {"number", outcome.points.size()}}},
+                      {"tumor", outcome.tumor ? describe(*outcome.tumor) : Json()},
+                      {"image", outcome.image ? describe(*outcome.image, o) : Json()}};
+  report["parameters"] = parameters_of(o);
+  report["units"] = {{"lengths", "mm"}, {"areas", "mm^2"}, {"volumes", "mm^3"}, {"forces", "mN"},
+                     {"energy", "microjoule"}, {"times", "ms"}, {"heights", "height of the mesh"}};
+  report["supports"] = {{"boundary vertices", outcome.supports.boundary_vertices},
+                        {"fixed", outcome.supports.fixed},
+                        {"sliding", outcome.supports.sliding}};
+  report["control points"] = describe_points(outcome);
+  report["shift"] = describe(outcome.before, outcome.points);
+  report["resection"] = outcome.resection ? describe(*outcome.resection) : Json();
+  report["shift after resection"] = outcome.after ? describe(*outcome.after, outcome.points) : Json();
+  if(outcome.image)
+    report["image"] = {{"voxels of tissue", outcome.image->voxels_of_tissue},
+                       {"voxels resected", outcome.image->voxels_resected}};
+  report["outputs"] = outputs_of(o);
+  report["warnings"] = outcome.warnings;
+  report["stages"] = describe_stages(log, "ms", 1000);
+  report["ms"] = 1000 * outcome.seconds;
+  report["peak memory MiB"] = mebibytes(outcome.peak_bytes);
+  return text_of(report);
+}
+
+void print_summary(const Options& o, const Outcome& outcome, const Stage_log& log)
+{
+  const auto ms = [&log](const std::string& stage) {
+    for(const Stage_cost& cost : log.costs())
+      if(cost.name == stage)
+        return rounded(1000 * cost.seconds) + " ms";
+    return std::string();
+  };
+  std::cout << outcome.mesh.vertices << " vertices, " << outcome.mesh.elements << " elements; "
+            << outcome.supports.fixed << " vertices fixed, " << outcome.supports.sliding << " sliding; "
+            << counted(outcome.points.size(), "control point", "control points") << '\n'
+            << "before surgery: factor " << ms("factor") << ", control points " << ms("control points")
+            << '\n'
+            << "shift: up to " << rounded(outcome.before.largest) << " mm; " << ms("solve") << '\n';
+  if(outcome.resection)
+    std::cout << "resection: " << outcome.resection->removed << " elements, "
+              << rounded(outcome.resection->volume / 1000) << " ml; shift up to "
+              << rounded(outcome.after->largest) << " mm; " << ms("remove elements") << " and "
+              << ms("solve after resection") << '\n';
+  if(!o.image.empty())
+    std::cout << "image: " << ms("warp image") << '\n';
+  for(const std::string& path : outputs_of(o))
+    std::cout << "wrote " << path << '\n';
+}

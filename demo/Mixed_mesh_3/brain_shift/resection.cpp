@@ -1,0 +1,68 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "brain_shift/resection.h"
+
+#include "common/messages.h"
+#include "common/read_surface.h"
+
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/resect.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace mm3 = CGAL::Mixed_meshes_3;
+
+struct Tumor::Domain : CGAL::Polyhedral_mixed_mesh_domain_3
+{
+  using Polyhedral_mixed_mesh_domain_3::Polyhedral_mixed_mesh_domain_3;
+};
+
+Tumor::Tumor(const std::string& path, Surface_facts& facts, std::vector<std::string>& warnings)
+  : m_path(path)
+  , m_domain(std::make_unique<const Domain>(read_surface(path, facts, warnings)))
+{}
+
+Tumor::~Tumor() = default;
+
+bool Tumor::contains(const std::array<double, 3>& p) const
+{
+  return m_domain->bounded_side(Kernel::Point_3(p[0], p[1], p[2])) == CGAL::ON_BOUNDED_SIDE;
+}
+
+std::vector<bool> resect(const Mesh& mesh, const Tumor& tumor, Outcome& outcome)
+{
+  const CGAL::Polyhedral_mixed_mesh_domain_3& domain = *tumor.m_domain;
+  const mm3::Resection_3 r = mm3::resect(mesh, domain);
+  if(r.status != mm3::Resection_status::SUCCESS)
+    throw std::runtime_error(tumor.m_path + ": " + mm3::description(r.status));
+  if(!r.floating.empty())
+    outcome.warnings.push_back(tumor.m_path + ": tissue outside comes loose, and is removed: "
+                               + counted(r.floating.size(), "piece", "pieces"));
+  Resection_facts& facts = outcome.resection.emplace();
+  facts.status = mm3::description(r.status);
+  facts.removed = std::size_t(std::count(r.is_removed.begin(), r.is_removed.end(), true));
+  facts.asked = r.number_of_asked_elements;
+  facts.restored = r.number_of_restored_elements;
+  facts.floating = r.number_of_floating_elements;
+  facts.pinch = r.number_of_pinch_elements;
+  for(const mm3::Floating_piece_3& piece : r.floating)
+    facts.floating_pieces.push_back({piece.elements.size(), piece.volume});
+  facts.volume = r.volume;
+  return r.is_removed;
+}
+
+Remaining_mesh remaining_mesh(const Mesh& mesh, const std::vector<bool>& is_removed, Outcome& outcome)
+{
+  Remaining_mesh remaining;
+  remaining.mesh = mm3::remaining_mesh(mesh, is_removed, &remaining.vertices);
+  if(outcome.resection) {
+    for(const auto& face : mm3::cavity_faces(mesh, is_removed))
+      outcome.resection->area += mm3::area(mesh, face);
+    outcome.resection->left = facts_of(remaining.mesh);
+  }
+  return remaining;
+}

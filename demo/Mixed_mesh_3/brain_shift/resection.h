@@ -1,0 +1,50 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The tumor, and the mesh without it.
+
+#ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_RESECTION_H
+#define MIXED_MESH_3_DEMO_BRAIN_SHIFT_RESECTION_H
+
+#include "brain_shift/outcome.h"
+#include "common/types.h"
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// The inside of a closed surface.
+class Tumor
+{
+public:
+  /// Reads the surface.
+  Tumor(const std::string& path, Surface_facts& facts, std::vector<std::string>& warnings);
+  ~Tumor();
+
+  bool contains(const std::array<double, 3>& p) const;
+
+private:
+  friend std::vector<bool> resect(const Mesh&, const Tumor&, Outcome&);
+  struct Domain; // heavy to compile
+  std::string m_path;
+  std::unique_ptr<const Domain> m_domain;
+};
+
+/// Which elements are removed with the tumor, true for each.
+/// \throw std::runtime_error if that leaves nothing to compute with
+std::vector<bool> resect(const Mesh& mesh, const Tumor& tumor, Outcome& outcome);
+
+/// What is left.
+struct Remaining_mesh
+{
+  Mesh mesh;
+  std::vector<Mesh::Vertex_index> vertices; // their numbers before
+};
+
+/// Also says in `outcome` what is left, if there was a resection.
+Remaining_mesh remaining_mesh(const Mesh& mesh, const std::vector<bool>& is_removed, Outcome& outcome);
+
+#endif // MIXED_MESH_3_DEMO_BRAIN_SHIFT_RESECTION_H

@@ -1,0 +1,130 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "brain_shift/run.h"
+
+#include "brain_shift/images.h"
+#include "brain_shift/outcome.h"
+#include "brain_shift/read_control_points.h"
+#include "brain_shift/read_mesh.h"
+#include "brain_shift/report.h"
+#include "brain_shift/resection.h"
+#include "brain_shift/simulate.h"
+#include "common/Stage_log.h"
+#include "common/resources.h"
+#include "common/write_files.h"
+
+#include <CGAL/Mixed_mesh_3/quality.h>
+
+#include <cstddef>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+namespace mm3 = CGAL::Mixed_meshes_3;
+
+namespace {
+
+struct Inputs
+{
+  Mesh mesh;
+  std::unique_ptr<const Tumor> tumor; // null if there is none
+  mm3::Voxel_image_3 image;           // empty if there is none
+};
+
+Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
+{
+  Inputs inputs;
+  outcome.points = read_control_points(o.control_points);
+  inputs.mesh = log("read mesh", [&] { return read_mesh(o.mesh, outcome.warnings); });
+  outcome.mesh = facts_of(inputs.mesh);
+  outcome.volume = mm3::volume(inputs.mesh);
+  // The response of each vertex and control point to each control point: 3 x 3 numbers.
+  const double n = double(outcome.points.size());
+  check_memory(o.control_points + ": " + std::to_string(outcome.points.size()) + " control points",
+               72 * n * (double(outcome.mesh.vertices) + 2 * n));
+  outcome.locations = log("locate control points", [&] { return locate(inputs.mesh, o, outcome.points); });
+  if(!o.tumor.empty())
+    inputs.tumor = log("read tumor", [&] {
+      return std::make_unique<const Tumor>(o.tumor, outcome.tumor.emplace(), outcome.warnings);
+    });
+  if(!o.image.empty())
+    inputs.image = log("read image", [&] { return read_image(o, inputs.mesh, outcome); });
+  return inputs;
+}
+
+std::vector<double> flat(const std::vector<Vector>& vectors)
+{
+  std::vector<double> values;
+  for(const Vector& u : vectors)
+    values.insert(values.end(), u.begin(), u.end());
+  return values;
+}
+
+// The mesh as it was, with displacements.
+void write_meshes(mm3::IO::Output_files& files, const Mesh& mesh, const std::vector<bool>& is_removed,
+                  const Options& o, const Outcome& outcome)
+{
+  const std::vector<double> last = flat(outcome.last().displacements),
+                            before = flat(outcome.before.displacements),
+                            resected(is_removed.begin(), is_removed.end());
+  mm3::IO::Write_options data;
+  data.vertex_data.push_back({"displacement", &last, 3});
+  if(outcome.resection)
+    data.vertex_data.push_back({"displacement_before_resection", &before, 3});
+  data.element_data.push_back({"resected", &resected});
+  for(const std::string& path : o.outputs)
+    write_mesh(files, path, mesh, data);
+}
+
+void write_deformed_meshes(mm3::IO::Output_files& files, const Remaining_mesh& remaining, const Options& o,
+                           const Outcome& outcome)
+{
+  Mesh deformed = remaining.mesh;
+  for(std::size_t v = 0; v < deformed.number_of_vertices(); ++v) {
+    const Vector& u = outcome.last().displacements[remaining.vertices[v]];
+    deformed.points()[v] = deformed.points()[v] + Kernel::Vector_3(u[0], u[1], u[2]);
+  }
+  for(const std::string& path : o.deformed_outputs)
+    write_mesh(files, path, deformed);
+}
+
+void write_files(const Inputs& inputs, const std::vector<bool>& is_removed, const Remaining_mesh& remaining,
+                 const Options& o, Stage_log& log, Outcome& outcome)
+{
+  mm3::IO::Output_files files; // appear together, at the end
+  if(!o.image.empty())
+    write_images(files, inputs.image, inputs.mesh, inputs.tumor.get(), is_removed, o, log, outcome);
+  log("write meshes", [&] {
+    write_meshes(files, inputs.mesh, is_removed, o, outcome);
+    write_deformed_meshes(files, remaining, o, outcome);
+  });
+  outcome.seconds = log.seconds();
+  outcome.peak_bytes = log.peak_bytes();
+  if(!o.report.empty())
+    write_text(files, o.report, report(o, outcome, log));
+  check_write(files.commit());
+}
+
+} // namespace
+
+void run(const Options& o)
+{
+  check_feasible(o);
+  Stage_log log(!o.quiet && isatty(STDERR_FILENO));
+  Outcome outcome;
+  const Inputs inputs = read_inputs(o, log, outcome);
+  const std::vector<bool> is_removed = simulate(inputs.mesh, inputs.tumor.get(), o, log, outcome);
+  const Remaining_mesh remaining = remaining_mesh(inputs.mesh, is_removed, outcome);
+  write_files(inputs, is_removed, remaining, o, log, outcome);
+  log.finish_progress();
+  for(const std::string& warning : outcome.warnings)
+    std::cerr << "warning: " << warning << '\n';
+  if(!o.quiet)
+    print_summary(o, outcome, log);
+}

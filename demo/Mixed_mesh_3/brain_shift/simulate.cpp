@@ -1,0 +1,245 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "brain_shift/simulate.h"
+
+#include "common/messages.h"
+
+#include <CGAL/Linear_elasticity_3.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/certificate.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace mm3 = CGAL::Mixed_meshes_3;
+using Elasticity = CGAL::Linear_elasticity_3<Mesh>;
+using Elasticity_status = CGAL::Linear_elasticity_status;
+
+namespace {
+
+[[noreturn]] void refuse(const CGAL::Linear_elasticity_result_3& result, const Options& o,
+                         const std::vector<Control_point>& points)
+{
+  const auto at_line = [&] {
+    return o.control_points + ": line " + std::to_string(points[result.control_point].line) + ": ";
+  };
+  switch(result.status) {
+  case Elasticity_status::CONTROL_POINT_OUTSIDE:
+    throw std::runtime_error(at_line() + "the control point is " + rounded(result.distance) + " mm outside "
+                             + o.mesh + "; --max-distance is " + rounded(o.max_distance) + " mm");
+  case Elasticity_status::CONTRADICTORY_CONTROL_POINTS:
+    throw std::runtime_error(at_line() + "the displacement contradicts those of other control points, or "
+                             "supports, in the same element: it is missed by " + rounded(result.distance)
+                             + " mm; see --control-compliance, --fixed-below");
+  case Elasticity_status::FREE_RIGID_MOTION:
+    throw std::runtime_error(o.mesh + ": " + result.description()
+                             + ", and the control points do not hold it; see --fixed-below");
+  default:
+    throw std::runtime_error(o.mesh + ": " + result.description());
+  }
+}
+
+void check(const CGAL::Linear_elasticity_result_3& result, const Options& o,
+           const std::vector<Control_point>& points)
+{
+  if(!result.is_success())
+    refuse(result, o, points);
+}
+
+// Says which vertices of the boundary are fixed, and which slide.
+Supports set_supports(Elasticity& elasticity, const Options& o, const std::vector<Control_point>& points)
+{
+  const Mesh& mesh = elasticity.mesh();
+  const std::vector<mm3::Vertex_index> boundary = mm3::boundary_vertices(mesh);
+  const auto position = [&mesh](mm3::Vertex_index v) { return mm3::to_vec3(mesh.point(v)); };
+  const auto height = [&](mm3::Vertex_index v) { return dot(position(v), Vector(o.up_direction)); };
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  for(mm3::Vertex_index v : boundary) {
+    lowest = (std::min)(lowest, height(v));
+    highest = (std::max)(highest, height(v));
+  }
+  const auto is_below = [&](mm3::Vertex_index v, double part) {
+    return height(v) < lowest + part * (highest - lowest);
+  };
+  Supports supports{boundary.size(), 0, 0};
+  for(mm3::Vertex_index v : boundary)
+    if(is_below(v, o.fixed_below)) {
+      elasticity.prescribe(v);
+      ++supports.fixed;
+    }
+  elasticity.slide_along_boundary([&](mm3::Vertex_index v) {
+    double distance = std::numeric_limits<double>::infinity();
+    for(const Control_point& point : points)
+      distance = (std::min)(distance, norm(Vector(point.position) - position(v)));
+    const bool is_sliding =
+      !is_below(v, o.fixed_below) && (is_below(v, o.slide_below) || distance > o.slide_beyond);
+    supports.sliding += is_sliding;
+    return is_sliding;
+  });
+  return supports;
+}
+
+// Elements that the displacement inverts; their Jacobian is zero or negative somewhere.
+std::vector<std::size_t> find_inverted_elements(const Mesh& mesh, const std::vector<Vector>& displacements,
+                                                const std::vector<bool>& is_removed)
+{
+  std::vector<std::size_t> inverted;
+  for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e)
+    if(!is_removed[e]
+       && mm3::jacobian_sign(mesh.element(e), [&](mm3::Vertex_index v) {
+            return mm3::to_vec3(mesh.point(v)) + displacements[v];
+          }) != mm3::Jacobian_sign::POSITIVE)
+      inverted.push_back(e);
+  return inverted;
+}
+
+// The largest displacement.
+void measure(const Mesh& mesh, Shift& shift)
+{
+  mm3::Vertex_index farthest = 0;
+  for(mm3::Vertex_index v = 0; v < mesh.number_of_vertices(); ++v) {
+    const double length = norm(shift.displacements[v]);
+    if(!std::isfinite(length))
+      throw std::runtime_error("the displacement is not finite");
+    if(length > shift.largest) {
+      shift.largest = length;
+      farthest = v;
+    }
+  }
+  shift.at = mm3::to_vec3(mesh.point(farthest));
+}
+
+// \param is_used of each control point
+void measure_controls(const Elasticity& elasticity, const Outcome& outcome, const std::vector<bool>& is_used,
+                      Shift& shift)
+{
+  const std::vector<Vector> forces = elasticity.control_forces();
+  std::size_t used = 0;
+  for(std::size_t i = 0; i < outcome.points.size(); ++i) {
+    Control control;
+    control.is_used = is_used[i];
+    if(control.is_used) {
+      const auto& location = outcome.locations[i];
+      const auto element = elasticity.mesh().element(location.element);
+      for(int k = 0; k < element.size(); ++k)
+        control.displacement = control.displacement + location.weights[k] * shift.displacements[element[k]];
+      control.miss = norm(control.displacement - Vector(outcome.points[i].displacement));
+      shift.largest_miss = (std::max)(shift.largest_miss, control.miss);
+      control.force = forces[used++];
+    }
+    shift.controls.push_back(control);
+  }
+}
+
+Shift shift_of(const Elasticity& elasticity, const Options& o, const std::vector<bool>& is_used,
+               const std::string& when, Outcome& outcome)
+{
+  const Mesh& mesh = elasticity.mesh();
+  Shift shift;
+  shift.displacements = elasticity.displacements();
+  shift.energy = elasticity.energy();
+  measure(mesh, shift);
+  const std::vector<std::size_t> inverted =
+    find_inverted_elements(mesh, shift.displacements, elasticity.removed_elements());
+  shift.inverted_elements = inverted.size();
+  if(!inverted.empty())
+    outcome.warnings.push_back(when + ": " + counted(inverted.size(), "element is", "elements are")
+                               + " inverted, the first near "
+                               + place(mm3::to_vec3(mesh.point(mesh.element(inverted.front())[0])))
+                               + ": too much is asked of the elements there; --control-radius, or "
+                                 "--control-compliance, would spread it");
+  measure_controls(elasticity, outcome, is_used, shift);
+  if(o.is_exact() && shift.largest_miss > 1e-6 * (1 + shift.largest)) // our fault
+    throw std::logic_error(when + ": control points are missed by up to " + rounded(shift.largest_miss)
+                           + " mm");
+  return shift;
+}
+
+std::vector<Vector> displacements_of(const std::vector<Control_point>& points)
+{
+  std::vector<Vector> displacements;
+  for(const Control_point& point : points)
+    displacements.push_back(point.displacement);
+  return displacements;
+}
+
+void set_control_points(Elasticity& elasticity, const Options& o, const std::vector<Control_point>& points)
+{
+  std::vector<Vector> positions;
+  for(const Control_point& point : points)
+    positions.push_back(point.position);
+  check(elasticity.set_control_points(positions, o.max_distance, o.compliance, o.control_radius), o, points);
+}
+
+// How the rest moves when elements are removed.
+void remove(Elasticity& elasticity, const std::vector<bool>& is_removed, const Options& o, Stage_log& log,
+            Outcome& outcome)
+{
+  // Points in tissue that is removed move nothing.
+  std::vector<Control_point> left;
+  std::vector<bool> is_used;
+  for(std::size_t i = 0; i < outcome.points.size(); ++i) {
+    is_used.push_back(!is_removed[outcome.locations[i].element]);
+    if(is_used.back()) {
+      left.push_back(outcome.points[i]);
+    } else {
+      outcome.warnings.push_back(o.control_points + ": line " + std::to_string(outcome.points[i].line)
+                                 + ": the control point is in tissue removed: it is not used after the "
+                                   "resection");
+    }
+  }
+  if(left.size() != outcome.points.size())
+    log("control points", [&] { set_control_points(elasticity, o, left); });
+  log("remove elements", [&] { check(elasticity.remove_elements(is_removed), o, left); });
+  log("solve after resection", [&] { check(elasticity.solve(displacements_of(left)), o, left); });
+  outcome.after =
+    log("checks", [&] { return shift_of(elasticity, o, is_used, "shift after resection", outcome); });
+}
+
+} // namespace
+
+Locations locate(const Mesh& mesh, const Options& o, const std::vector<Control_point>& points)
+{
+  const mm3::Element_locator_3<Mesh> locator(mesh);
+  Locations locations;
+  for(const Control_point& point : points) {
+    locations.push_back(locator.nearest(point.position));
+    if(!(locations.back().distance <= o.max_distance)) {
+      CGAL::Linear_elasticity_result_3 result;
+      result.status = Elasticity_status::CONTROL_POINT_OUTSIDE;
+      result.control_point = locations.size() - 1;
+      result.distance = locations.back().distance;
+      refuse(result, o, points);
+    }
+  }
+  return locations;
+}
+
+std::vector<bool> simulate(const Mesh& mesh, const Tumor* tumor, const Options& o, Stage_log& log,
+                           Outcome& outcome)
+{
+  const std::vector<Control_point>& points = outcome.points;
+  Elasticity elasticity(mesh, o.material);
+  outcome.supports = set_supports(elasticity, o, points);
+
+  // Before surgery the mesh is factored; then each measurement is a matter of milliseconds.
+  log("factor", [&] { check(elasticity.factor(), o, points); });
+  elasticity.set_gravity(o.acceleration);
+  log("control points", [&] { set_control_points(elasticity, o, points); });
+  log("solve", [&] { check(elasticity.solve(displacements_of(points)), o, points); });
+  outcome.before = log("checks", [&] {
+    return shift_of(elasticity, o, std::vector<bool>(points.size(), true), "shift", outcome);
+  });
+  if(tumor == nullptr)
+    return std::vector<bool>(mesh.number_of_elements(), false);
+  const std::vector<bool> is_removed = log("resect", [&] { return resect(mesh, *tumor, outcome); });
+  remove(elasticity, is_removed, o, log, outcome);
+  return is_removed;
+}

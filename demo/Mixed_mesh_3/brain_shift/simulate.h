@@ -1,0 +1,29 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// From control points to displacements.
+
+#ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_SIMULATE_H
+#define MIXED_MESH_3_DEMO_BRAIN_SHIFT_SIMULATE_H
+
+#include "brain_shift/options.h"
+#include "brain_shift/outcome.h"
+#include "brain_shift/resection.h"
+#include "common/Stage_log.h"
+#include "common/types.h"
+
+#include <vector>
+
+/// Where the control points are.
+/// \throw std::runtime_error if one is too far outside
+Locations locate(const Mesh& mesh, const Options& options, const std::vector<Control_point>& points);
+
+/// Computes the shift, and with a tumor its resection and the shift after it.
+/// \param tumor null if there is none
+/// \return which elements are removed, true for each
+std::vector<bool> simulate(const Mesh& mesh, const Tumor* tumor, const Options& options, Stage_log& log,
+                           Outcome& outcome);
+
+#endif // MIXED_MESH_3_DEMO_BRAIN_SHIFT_SIMULATE_H

@@ -1,0 +1,24 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How messages show numbers and points.
+
+#ifndef MIXED_MESH_3_DEMO_COMMON_MESSAGES_H
+#define MIXED_MESH_3_DEMO_COMMON_MESSAGES_H
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+/// A number with three digits.
+std::string rounded(double x);
+
+/// A number and what it counts.
+std::string counted(std::size_t n, const char* one, const char* many);
+
+/// A point, with more digits than a distance: it may be far from the origin.
+std::string place(const std::array<double, 3>& p);
+
+#endif // MIXED_MESH_3_DEMO_COMMON_MESSAGES_H

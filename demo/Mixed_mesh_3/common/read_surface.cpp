@@ -1,0 +1,23 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "common/read_surface.h"
+
+#include "common/resources.h"
+
+#include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
+
+Surface read_surface(const std::string& path, Surface_facts& facts, std::vector<std::string>& warnings)
+{
+  namespace IO = CGAL::Mixed_meshes_3::IO;
+  Surface surface;
+  IO::Surface_input input;
+  require([&](std::string* error) { return IO::read_closed_surface(path, surface, error, &input); });
+  for(const std::string& warning : input.warnings)
+    warnings.push_back(path + ": " + warning);
+  facts = {path, input.number_of_points, input.number_of_polygons, surface.number_of_vertices(),
+           surface.number_of_faces(), input.number_of_components, input.volume};
+  return surface;
+}

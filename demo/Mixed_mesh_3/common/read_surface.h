@@ -1,0 +1,25 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Closed surfaces from files.
+
+#ifndef MIXED_MESH_3_DEMO_COMMON_READ_SURFACE_H
+#define MIXED_MESH_3_DEMO_COMMON_READ_SURFACE_H
+
+#include "common/facts.h"
+#include "common/types.h"
+
+#include <CGAL/Surface_mesh.h>
+
+#include <string>
+#include <vector>
+
+using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
+
+/// \param warnings what was mended is added to it
+/// \throw std::runtime_error a line naming the file and the defect
+Surface read_surface(const std::string& path, Surface_facts& facts, std::vector<std::string>& warnings);
+
+#endif // MIXED_MESH_3_DEMO_COMMON_READ_SURFACE_H

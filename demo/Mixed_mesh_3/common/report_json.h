@@ -1,0 +1,36 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the reports of both programs have in common.
+
+#ifndef MIXED_MESH_3_DEMO_COMMON_REPORT_JSON_H
+#define MIXED_MESH_3_DEMO_COMMON_REPORT_JSON_H
+
+#include "common/Stage_log.h"
+#include "common/facts.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+using Json = nlohmann::ordered_json;
+
+/// The program and what it was built with.
+Json describe_program(const char* name);
+
+/// Adds the number of elements of each kind.
+void add_kinds(const Mesh_facts& mesh, Json& report);
+
+/// What each stage took.
+/// \param unit of the times, as their keys say it: `seconds` or `ms`
+/// \param per_second how many of it are a second
+Json describe_stages(const Stage_log& log, const std::string& unit, double per_second);
+
+double mebibytes(std::size_t bytes);
+
+/// As it is written to a file.
+std::string text_of(const Json& report);
+
+#endif // MIXED_MESH_3_DEMO_COMMON_REPORT_JSON_H

@@ -1,0 +1,45 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Before anything takes time: what cannot be written, or does not fit into memory.
+
+#ifndef MIXED_MESH_3_DEMO_COMMON_RESOURCES_H
+#define MIXED_MESH_3_DEMO_COMMON_RESOURCES_H
+
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// The files that a program is asked to write, each once, and none that it reads.
+class Output_paths
+{
+public:
+  explicit Output_paths(std::vector<std::string> inputs) : m_inputs(std::move(inputs)) {}
+
+  /// \throw std::runtime_error if the file is an input, or an output that was added before
+  void add(const std::string& path);
+
+private:
+  std::vector<std::string> m_inputs;
+  std::set<std::string> m_outputs;
+};
+
+/// Calls `io(&error)`, a function of the library that reads or writes, and throws what it says is wrong.
+template <class Io>
+void require(const Io& io)
+{
+  std::string error;
+  if(!io(&error))
+    throw std::runtime_error(error);
+}
+
+/// Throws if `needed` bytes are more than there are: physical memory, or the limit of the control group if
+/// that is less.
+/// \param what the beginning of the message: what would need them
+void check_memory(const std::string& what, double needed);
+
+#endif // MIXED_MESH_3_DEMO_COMMON_RESOURCES_H

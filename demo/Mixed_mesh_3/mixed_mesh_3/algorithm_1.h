@@ -1,0 +1,22 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The paper's way onto the surface.
+
+#ifndef MIXED_MESH_3_DEMO_MIXED_MESH_3_ALGORITHM_1_H
+#define MIXED_MESH_3_DEMO_MIXED_MESH_3_ALGORITHM_1_H
+
+#include "common/Stage_log.h"
+#include "common/types.h"
+#include "mixed_mesh_3/options.h"
+
+#include <CGAL/Mixed_mesh_fit_result_3.h>
+#include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
+
+/// \pre the program was built with Eigen, and with what solves
+CGAL::Mixed_mesh_fit_result_3 run_algorithm_1(Mesh& mesh, const CGAL::Polyhedral_mixed_mesh_domain_3& domain,
+                                              const Options& options, Stage_log& log);
+
+#endif // MIXED_MESH_3_DEMO_MIXED_MESH_3_ALGORITHM_1_H

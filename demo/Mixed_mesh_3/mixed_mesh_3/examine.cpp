@@ -1,0 +1,89 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "mixed_mesh_3/examine.h"
+
+#include "mixed_mesh_3/verdict.h"
+
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/surface_distance.h>
+#include <CGAL/Mixed_mesh_3/validation.h>
+
+namespace mm3 = CGAL::Mixed_meshes_3;
+
+namespace {
+
+Shapes shapes_of(const Mesh& mesh)
+{
+  return {mm3::quality_statistics(mesh, mm3::scaled_jacobian),
+          mm3::quality_statistics(mesh, mm3::smallest_dihedral_angle),
+          mm3::quality_statistics(mesh, mm3::largest_dihedral_angle),
+          mm3::quality_statistics(mesh, mm3::quad_warp)};
+}
+
+Distance distance_of(const mm3::One_sided_distance& d)
+{
+  return {d.distance, d.error, {d.from.x(), d.from.y(), d.from.z()}, {d.to.x(), d.to.y(), d.to.z()}};
+}
+
+// Needs a boundary that is a closed manifold.
+Fidelity fidelity_of(const Mesh& mesh, const Surface& surface, double volume_of_surface)
+{
+  const mm3::Hausdorff_distance distance = mm3::hausdorff_distance(mesh, surface);
+  Fidelity f;
+  f.from_mesh = distance_of(distance.from_mesh);
+  f.from_surface = distance_of(distance.from_surface);
+  f.volume_of_mesh = mm3::volume(mesh);
+  f.volume_of_surface = volume_of_surface;
+  f.vertices = mm3::boundary_vertices(mesh).size();
+  f.vertices_off = mm3::number_of_vertices_off_surface(mesh, surface, on_surface);
+  f.self_intersections = mm3::number_of_boundary_self_intersections(mesh);
+  return f;
+}
+
+std::vector<Check> checks_of(const mm3::Mesh_defects& d, const Fidelity& fidelity)
+{
+  return {{"conforming", d.conforming()},
+          {"closed manifold boundary", d.closed_manifold_boundary()},
+          {"boundary does not cut itself (exact)", fidelity.self_intersections == 0},
+          {"corner tetrahedra positive (exact)", d.nonpositive_corners == 0},
+          {"Jacobian positive on whole elements (exact)", d.positive()},
+          {"no unused vertex", d.unused_vertices == 0},
+          {"no duplicate vertex", d.duplicate_vertices == 0}};
+}
+
+} // namespace
+
+Aspect_ratios aspect_ratios_of(const Mesh& mesh)
+{
+  return {mm3::quality_statistics(mesh),
+          mm3::quality_statistics(mesh, mm3::aspect_ratio_coefficient, 1.3, 7),
+          mm3::histogram(mesh, mm3::aspect_ratio_coefficient, histogram_edges())};
+}
+
+void examine(const Mesh& mesh, const Surface& surface, const Options& options, Stage_log& log,
+             Outcome& outcome)
+{
+  const mm3::Mesh_defects defects = log("checks", [&] { return mm3::find_defects(mesh); });
+  if(defects.none())
+    outcome.fidelity = log("distance to surface", [&] {
+      return fidelity_of(mesh, surface, outcome.surface.volume);
+    });
+  outcome.checks = checks_of(defects, outcome.fidelity);
+  require_all(outcome.checks, defects.none() ? outcome.fidelity.self_intersections : 0);
+
+  outcome.mesh = facts_of(mesh);
+  outcome.boundary_faces = mm3::boundary_faces(mesh).size();
+  for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e)
+    outcome.elements_in_region += mesh.is_in_region(e);
+  add_warnings(options, outcome);
+  if(options.tolerance > 0 && outcome.result.status == CGAL::Mixed_mesh_status::SUCCESS
+     && outcome.fidelity.distance() > options.tolerance) // between the points that the library looked at
+    outcome.result.status = CGAL::Mixed_mesh_status::TOLERANCE_NOT_REACHED;
+  log("quality", [&] {
+    outcome.after = aspect_ratios_of(mesh);
+    outcome.shapes = shapes_of(mesh);
+  });
+}

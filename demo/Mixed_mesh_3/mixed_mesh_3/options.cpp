@@ -1,0 +1,196 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "mixed_mesh_3/options.h"
+
+#include "common/command_line.h"
+#include "common/resources.h"
+
+#include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
+#include <CGAL/version.h>
+
+#include <map>
+#include <stdexcept>
+
+namespace mm3 = CGAL::Mixed_meshes_3;
+
+namespace {
+
+// CMakeLists.txt defines it if Eigen was found: the paper's Algorithm 1 solves linear systems.
+#if MIXED_MESH_3_HAS_EIGEN
+constexpr bool has_eigen = true;
+#else
+constexpr bool has_eigen = false;
+#endif
+
+void add_files(CLI::App& app, Options& o)
+{
+  app.add_option("SURFACE", o.surface, "Closed surface of the domain: .off, .obj, .stl or .ply")
+    ->required();
+  app.add_option("--region", o.region,
+                 "Closed surface of the region of interest, in the same coordinates (default: refine "
+                 "everywhere)");
+  app.add_option("--vertices", o.vertices, "Vertex budget: the mesh has at most that many vertices")
+    ->required()
+    ->check(CLI::PositiveNumber)
+    ->type_name("N");
+  app.add_option("--output", o.outputs,
+                 "Mesh files: .vtu (VTK, ParaView), .msh (Gmsh), .mesh (Medit), .inp (Abaqus), .feb "
+                 "(FEBio); can be given several times")
+    ->type_name("FILE")
+    ->allow_extra_args(false);
+  app.add_option("--report", o.report, "Report with counts, quality, checks, times and memory")
+    ->type_name("FILE.json");
+}
+
+// Returns the option that those of Algorithm 1 need.
+CLI::Option* add_fit(CLI::App& app, Options& o)
+{
+  app.add_option("--base-level", o.base_level,
+                 "Octree level of the whole domain; cells are 2^L times smaller than the root "
+                 "(default: 3; coarser or finer as the budget says)")
+    ->check(CLI::Range(0, 10))
+    ->type_name("L");
+  CLI::Option* no_fit =
+    app.add_flag("--no-fit", o.no_fit, "Leave boundary vertices where the octree has them");
+  CLI::Option* no_optimize =
+    app.add_flag("--no-optimize", o.no_optimize,
+                 "Carry the boundary onto the surface as the paper does (Algorithm 1), without optimization")
+      ->excludes(no_fit);
+  app.add_option("--tolerance", o.tolerance,
+                 "How far boundary and surface may be from each other, in the unit of SURFACE: part of the "
+                 "budget is spent outside the region for that; takes longer")
+    ->check(number("greater than 0", [](double x) { return x > 0; }))
+    ->type_name("D")
+    ->excludes(no_fit)
+    ->excludes(no_optimize);
+  return no_optimize;
+}
+
+void add_stages(CLI::App& app, Options& o)
+{
+  const std::map<std::string, mm3::Boundary_mode> modes{{"default", mm3::Boundary_mode::VERTEX_ORDER},
+                                                        {"paper", mm3::Boundary_mode::PAPER}};
+  const std::map<std::string, mm3::Root_cell> roots{{"cube", mm3::Root_cell::CUBE},
+                                                    {"box", mm3::Root_cell::BOX}};
+  const std::map<std::string, mm3::Transition_templates_choice> templates{
+    {"fewest", mm3::Transition_templates_choice::FEWEST_VERTICES},
+    {"centered", mm3::Transition_templates_choice::CENTERED}};
+  app.add_option("--mode", o.mode, "Boundary stage: default, or paper (tetrahedra by parity)")
+    ->transform(CLI::CheckedTransformer(modes, CLI::ignore_case).description("{default,paper}"))
+    ->type_name("MODE");
+  app.add_option("--root", o.root, "Root cell: cube (default), or box (the bounding box, as the paper)")
+    ->transform(CLI::CheckedTransformer(roots, CLI::ignore_case).description("{cube,box}"))
+    ->type_name("ROOT");
+  app.add_option("--templates", o.templates,
+                 "Transition templates: fewest (vertices, default), or centered (a vertex in each)")
+    ->transform(CLI::CheckedTransformer(templates, CLI::ignore_case).description("{fewest,centered}"))
+    ->type_name("CHOICE");
+}
+
+// The options of the paper's way onto the surface; they need --no-optimize.
+void add_algorithm_1(CLI::App& app, Options& o, CLI::Option* no_optimize)
+{
+  const std::map<std::string, Solver> solvers{
+    {"cg", Solver::CG}, {"ldlt", Solver::LDLT}, {"cholmod", Solver::CHOLMOD}};
+  const auto at_least_1 = number("of at least 1", [](double x) { return x >= 1; });
+  const auto below_one_half =
+    number("of at least 0 and below 0.5", [](double x) { return x >= 0 && x < 0.5; });
+  std::vector<CLI::Option*> options{
+    app.add_option("--steps", o.steps, "Steps to the surface, the paper's MAX_STEP")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N")
+      ->capture_default_str(),
+    app.add_option("--poisson-ratio", o.poisson_ratio, "Poisson's ratio of the elastic medium")
+      ->check(below_one_half)
+      ->type_name("NU")
+      ->capture_default_str(),
+    app.add_option("--stiffness-factor", o.stiffness_factor,
+                   "By how much an element of bad quality is stiffened at a time")
+      ->check(number("greater than 1", [](double x) { return x > 1; }))
+      ->type_name("F")
+      ->capture_default_str(),
+    app.add_option("--max-stiffness", o.maximal_stiffness,
+                   "Largest stiffness, as a multiple of that at the start, the paper's Y_MAX")
+      ->check(at_least_1)
+      ->type_name("Y")
+      ->capture_default_str(),
+    app.add_option("--acceptable-quality", o.acceptable_quality,
+                   "Elements of a larger aspect-ratio coefficient are stiffened")
+      ->check(at_least_1)
+      ->type_name("ARC")
+      ->capture_default_str(),
+    app.add_option("--solver", o.solver,
+                   "Linear solver: cg (conjugate gradients), ldlt (Eigen's simplicial factorization), or "
+                   "cholmod (SuiteSparse's supernodal one, if built with it)")
+      ->transform(CLI::CheckedTransformer(solvers, CLI::ignore_case).description("{cg,ldlt,cholmod}"))
+      ->type_name("SOLVER")
+      ->default_str("cg")};
+  options.push_back(app.add_option("--layers", o.layers,
+                                   "Only vertices within so many layers of elements from the boundary move "
+                                   "(default: all of a mesh of up to 3,000 vertices, 4 of a larger one)")
+                      ->check(CLI::Range(0, CGAL::Mixed_mesh_fit_criteria_3::all_layers))
+                      ->type_name("L"));
+  for(CLI::Option* option : options)
+    option->needs(no_optimize)->group("Options of --no-optimize");
+}
+
+void set_up(CLI::App& app, Options& o)
+{
+  add_files(app, o);
+  CLI::Option* const no_optimize = add_fit(app, o);
+  add_stages(app, o);
+  app.add_flag("--msh2", o.msh2, "Write .msh files in Gmsh's format 2.2 instead of 4.1");
+  app.add_flag("--tetrahedra", o.tetrahedra,
+               "Split all elements to tetrahedra, for solvers without the other kinds");
+  app.add_flag("--quiet", o.quiet, "Print errors and warnings only");
+  app.add_option("--threads", o.threads, "Threads for queries on the surface; the mesh is the same")
+    ->check(CLI::Range(1, 256))
+    ->type_name("T");
+  add_algorithm_1(app, o, no_optimize);
+  app.set_version_flag("--version", "mixed_mesh_3 0.1 (CGAL " CGAL_VERSION_STR ")");
+  app.footer("Lengths are in the unit of SURFACE. Example:\n"
+             "  mixed_mesh_3 data/brain.off --region data/region.off --vertices 660 --output brain.vtu");
+}
+
+// What this program was built without is wrong use.
+void check_built_with(const Options& o)
+{
+  if(o.no_optimize && !has_eigen)
+    throw CLI::ValidationError("--no-optimize", "this program was built without Eigen");
+#ifndef CGAL_MIXED_MESH_3_USE_CHOLMOD
+  if(o.solver == Solver::CHOLMOD)
+    throw CLI::ValidationError("--solver cholmod", "this program was built without CHOLMOD");
+#endif
+}
+
+} // namespace
+
+std::optional<int> parse_command_line(int argc, char** argv, Options& options)
+{
+  CLI::App app("Makes a mixed-element (hexahedra, prisms, pyramids, tetrahedra) finite-element mesh of the "
+               "domain inside a closed surface, fine in a region of interest, within a vertex budget.");
+  set_up(app, options);
+  return parse(app, argc, argv, [&] { check_built_with(options); });
+}
+
+void check_feasible(const Options& o)
+{
+  Output_paths outputs({o.surface, o.region});
+  for(const std::string& path : o.outputs)
+    require([&](std::string* error) { return mm3::IO::check_output_path(path, error); });
+  if(!o.report.empty())
+    require([&](std::string* error) { return mm3::IO::check_output_directory(o.report, error); });
+  for(const std::string& path : o.outputs)
+    outputs.add(path);
+  if(!o.report.empty())
+    outputs.add(o.report);
+  // More than measured with 100,000 and 200,000 vertices; a direct solver takes more.
+  const double bytes_per_vertex = o.fit() == Fit::ALGORITHM_1 ? 3000 : o.tetrahedra ? 1500 : 1100;
+  check_memory("--vertices " + std::to_string(o.vertices) + ":", double(o.vertices) * bytes_per_vertex);
+  if(o.vertices > 1000000000u || (o.tetrahedra && o.vertices > 500000000u))
+    throw std::runtime_error("--vertices " + std::to_string(o.vertices)
+                             + ": more than the 32-bit indices of the files allow");
+}

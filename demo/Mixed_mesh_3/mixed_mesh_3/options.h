@@ -1,0 +1,58 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The options of the mesher.
+
+#ifndef MIXED_MESH_3_DEMO_MIXED_MESH_3_OPTIONS_H
+#define MIXED_MESH_3_DEMO_MIXED_MESH_3_OPTIONS_H
+
+#include <CGAL/Mixed_mesh_3/options.h>
+#include <CGAL/Mixed_mesh_criteria_3.h>
+#include <CGAL/Mixed_mesh_fit_criteria_3.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// How the boundary gets onto the surface.
+enum class Fit { NONE, OPTIMIZATION, ALGORITHM_1 };
+/// What solves the linear systems of Algorithm 1.
+enum class Solver { CG, LDLT, CHOLMOD };
+
+struct Options
+{
+  using Templates = CGAL::Mixed_meshes_3::Transition_templates_choice;
+
+  std::string surface, region, report;
+  std::vector<std::string> outputs;
+  std::size_t vertices = 0;
+  int base_level = CGAL::Mixed_mesh_criteria_3::automatic;
+  CGAL::Mixed_meshes_3::Boundary_mode mode = CGAL::Mixed_meshes_3::Boundary_mode::VERTEX_ORDER;
+  CGAL::Mixed_meshes_3::Root_cell root = CGAL::Mixed_meshes_3::Root_cell::CUBE;
+  Templates templates = Templates::FEWEST_VERTICES;
+  bool no_fit = false, no_optimize = false, msh2 = false, tetrahedra = false, quiet = false;
+  double tolerance = 0;
+  unsigned threads = 1;
+
+  // of Algorithm 1
+  int steps = CGAL::Mixed_mesh_fit_criteria_3().number_of_steps();
+  int layers = CGAL::Mixed_mesh_fit_criteria_3::automatic;
+  double poisson_ratio = CGAL::Mixed_mesh_fit_criteria_3().poisson_ratio();
+  double stiffness_factor = CGAL::Mixed_mesh_fit_criteria_3().stiffness_factor();
+  double maximal_stiffness = CGAL::Mixed_mesh_fit_criteria_3().maximal_stiffness();
+  double acceptable_quality = CGAL::Mixed_mesh_fit_criteria_3().acceptable_aspect_ratio();
+  Solver solver = Solver::CG;
+
+  Fit fit() const { return no_fit ? Fit::NONE : no_optimize ? Fit::ALGORITHM_1 : Fit::OPTIMIZATION; }
+};
+
+/// Returns the exit status if the program ends with its command line: help, the version, or wrong use.
+std::optional<int> parse_command_line(int argc, char** argv, Options& options);
+
+/// Throws if files cannot be written, or if the mesh would not fit into memory.
+void check_feasible(const Options& options);
+
+#endif // MIXED_MESH_3_DEMO_MIXED_MESH_3_OPTIONS_H

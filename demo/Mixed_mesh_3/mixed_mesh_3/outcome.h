@@ -1,0 +1,95 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the mesher found out, as its report and its messages need it: plain data.
+
+#ifndef MIXED_MESH_3_DEMO_MIXED_MESH_3_OUTCOME_H
+#define MIXED_MESH_3_DEMO_MIXED_MESH_3_OUTCOME_H
+
+#include "common/facts.h"
+
+#include <CGAL/Mixed_mesh_3/quality.h>
+#include <CGAL/Mixed_mesh_fit_result_3.h>
+#include <CGAL/Mixed_mesh_result_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+using Table = CGAL::Mixed_meshes_3::Quality_table;
+
+/// The aspect-ratio coefficients (ARC): the paper's Table 1, and a histogram.
+struct Aspect_ratios
+{
+  Table up_to_7, from_1_3_to_7; // the interval that shares are of
+  std::vector<std::size_t> histogram;
+};
+
+/// Where the bins of the histogram end: the first one has all below 1.1, the last one all from 3 on.
+inline std::vector<double> histogram_edges()
+{
+  std::vector<double> edges;
+  for(int tenths = 11; tenths <= 30; ++tenths)
+    edges.push_back(tenths / 10.);
+  return edges;
+}
+
+/// The other measures.
+struct Shapes
+{
+  Table scaled_jacobian, smallest_dihedral_angle, largest_dihedral_angle, quad_warp;
+};
+
+/// From a surface, at its point that is farthest, to another one.
+struct Distance
+{
+  double distance = 0, error = 0;
+  std::array<double, 3> from{}, to{};
+};
+
+/// How the boundary of the mesh lies to the surface.
+struct Fidelity
+{
+  Distance from_mesh, from_surface;
+  double volume_of_mesh = 0, volume_of_surface = 0;
+  std::size_t vertices = 0;     // on the boundary
+  std::size_t vertices_off = 0; // of which are not on the surface
+  std::size_t self_intersections = 0;
+
+  double distance() const { return (std::max)(from_mesh.distance, from_surface.distance); }
+  double ratio_of_volumes() const { return volume_of_mesh / volume_of_surface; }
+};
+
+constexpr double on_surface = 1e-9; // of the diagonal of the surface's box
+
+/// A property of a valid mesh, in words.
+struct Check
+{
+  const char* name;
+  bool holds;
+};
+
+struct Outcome
+{
+  Surface_facts surface;
+  std::optional<Surface_facts> region;
+  CGAL::Mixed_mesh_result_3 result;
+  CGAL::Mixed_mesh_fit_result_3 algorithm_1;
+  Mesh_facts mesh;
+  std::size_t elements_in_region = 0, boundary_faces = 0;
+  std::optional<Aspect_ratios> before; // the boundary is fitted
+  Aspect_ratios after;
+  Shapes shapes;
+  Fidelity fidelity;
+  std::vector<Check> checks;
+  std::vector<std::string> warnings;
+  double seconds = 0;
+  std::size_t peak_bytes = 0;
+};
+
+#endif // MIXED_MESH_3_DEMO_MIXED_MESH_3_OUTCOME_H

@@ -1,0 +1,254 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "mixed_mesh_3/report.h"
+
+#include "common/report_json.h"
+
+#include <cstddef>
+#include <iomanip>
+#include <iostream>
+#include <vector>
+
+namespace mm3 = CGAL::Mixed_meshes_3;
+
+namespace {
+
+const char* const fit_names[] = {"none", "optimization", "Algorithm 1"};
+const char* const solver_names[] = {"cg", "ldlt", "cholmod"};
+
+Json describe(const Surface_facts& s)
+{
+  return {{"file", s.file},
+          {"points", s.points},
+          {"polygons", s.polygons},
+          {"vertices", s.vertices},
+          {"triangles", s.triangles},
+          {"components", s.components},
+          {"volume", s.volume}};
+}
+
+Json describe(const Options& o)
+{
+  Json report = {{"vertices", o.vertices},
+                 {"base level", o.base_level == CGAL::Mixed_mesh_criteria_3::automatic
+                                  ? Json("automatic") : Json(o.base_level)},
+                 {"mode", o.mode == mm3::Boundary_mode::PAPER ? "paper" : "default"},
+                 {"root", o.root == mm3::Root_cell::BOX ? "box" : "cube"},
+                 {"templates", o.templates == mm3::Transition_templates_choice::CENTERED
+                                 ? "centered" : "fewest"},
+                 {"fit", fit_names[int(o.fit())]},
+                 {"tolerance", o.tolerance > 0 ? Json(o.tolerance) : Json()},
+                 {"tetrahedra", o.tetrahedra},
+                 {"msh version", o.msh2 ? "2.2" : "4.1"},
+                 {"threads", o.threads}};
+  if(o.fit() == Fit::ALGORITHM_1)
+    report["Algorithm 1"] = {{"steps", o.steps},
+                             {"Poisson's ratio", o.poisson_ratio},
+                             {"stiffness factor", o.stiffness_factor},
+                             {"maximal stiffness", o.maximal_stiffness},
+                             {"acceptable quality", o.acceptable_quality},
+                             {"layers", o.layers == CGAL::Mixed_mesh_fit_criteria_3::automatic
+                                          ? Json("automatic") : Json(o.layers)},
+                             {"solver", solver_names[int(o.solver)]}};
+  return report;
+}
+
+const char* row_name(std::size_t row)
+{
+  return row < mm3::number_of_element_kinds ? mm3::reference_elements[row].plural : "all";
+}
+
+// A number, or null for what has none: no element, or infinity.
+Json value(const mm3::Quality_statistics& row, double x) { return row.count == 0 ? Json() : Json(x); }
+
+// The paper's Table 1.
+Json describe(const Aspect_ratios& ratios)
+{
+  const Table& rows = ratios.up_to_7;
+  Json table = Json::object();
+  for(std::size_t i = 0; i < rows.size(); ++i)
+    table[row_name(i)] = {{"elements", rows[i].count},
+                          {"ARC mean", value(rows[i], rows[i].mean)},
+                          {"ARC min", value(rows[i], rows[i].minimum)},
+                          {"ARC max", value(rows[i], rows[i].maximum)},
+                          {"share of ARC <= 7", value(rows[i], rows[i].share)},
+                          {"share of ARC in [1.3, 7]", value(rows[i], ratios.from_1_3_to_7[i].share)}};
+  return table;
+}
+
+Json describe(const Table& rows)
+{
+  Json table = Json::object();
+  for(std::size_t i = 0; i < rows.size(); ++i)
+    table[row_name(i)] = {{"mean", value(rows[i], rows[i].mean)},
+                          {"min", value(rows[i], rows[i].minimum)},
+                          {"max", value(rows[i], rows[i].maximum)}};
+  return table;
+}
+
+// Part of `quality`: `when` is "before" or "after" the boundary is fitted.
+void describe_ratios(const Aspect_ratios& ratios, const char* when, Json& quality)
+{
+  quality[when] = describe(ratios);
+  quality["histograms"]["ARC"]["edges"] = histogram_edges();
+  quality["histograms"]["ARC"][when] = ratios.histogram;
+}
+
+Json describe_quality(const Outcome& outcome)
+{
+  Json quality;
+  if(outcome.before)
+    describe_ratios(*outcome.before, "before", quality);
+  describe_ratios(outcome.after, "after", quality);
+  const Shapes& shapes = outcome.shapes;
+  quality["scaled Jacobian"] = describe(shapes.scaled_jacobian);
+  quality["smallest dihedral angle"] = describe(shapes.smallest_dihedral_angle);
+  quality["largest dihedral angle"] = describe(shapes.largest_dihedral_angle);
+  quality["quad warp"] = describe(shapes.quad_warp);
+  quality["quad warp"].erase("tetrahedra"); // has no quadrilaterals
+  quality["quad warp"]["all"].erase("mean");
+  return quality;
+}
+
+Json describe(const Distance& d)
+{
+  return {{"distance", d.distance}, {"error", d.error}, {"at", d.from}, {"nearest", d.to}};
+}
+
+Json describe(const Fidelity& f)
+{
+  return {{"Hausdorff distance",
+           {{"method",
+             "branch and bound on triangles, not sampled: no point is farther than distance + error"},
+            {"distance", f.distance()},
+            {"from mesh to surface", describe(f.from_mesh)},
+            {"from surface to mesh", describe(f.from_surface)}}},
+          {"volume of mesh", f.volume_of_mesh},
+          {"volume of surface", f.volume_of_surface},
+          {"ratio of volumes", f.ratio_of_volumes()},
+          {"boundary vertices", f.vertices},
+          {"boundary vertices not on surface", f.vertices_off},
+          {"on surface means within, of the diagonal", on_surface},
+          {"boundary self-intersections", f.self_intersections}};
+}
+
+Json describe(const CGAL::Mixed_mesh_optimization_result_3& r)
+{
+  return {{"method", fit_names[int(Fit::OPTIMIZATION)]},
+          {"status", description(r.status)},
+          {"boundary vertices", r.number_of_boundary_vertices},
+          {"arrived", r.number_of_arrived_vertices},
+          {"rounds", r.number_of_rounds},
+          {"flips", r.number_of_flips}};
+}
+
+Json describe(const CGAL::Mixed_mesh_fit_result_3& r)
+{
+  return {{"method", fit_names[int(Fit::ALGORITHM_1)]},
+          {"status", description(r.status)},
+          {"boundary vertices", r.number_of_boundary_vertices},
+          {"arrived", r.number_of_arrived_vertices},
+          {"frozen", r.number_of_frozen_vertices},
+          {"folded boundary faces", r.number_of_folded_faces},
+          {"solves", r.number_of_solves},
+          {"halvings of a step", r.number_of_halvings},
+          {"elements not acceptable at the cap", r.number_of_unacceptable_elements}};
+}
+
+Json describe_fitting(const Options& o, const Outcome& outcome)
+{
+  switch(o.fit()) {
+  case Fit::OPTIMIZATION: return describe(outcome.result.optimization);
+  case Fit::ALGORITHM_1: return describe(outcome.algorithm_1);
+  case Fit::NONE: break;
+  }
+  return {{"method", fit_names[int(Fit::NONE)]}};
+}
+
+Json describe_mesh(const Options& o, const Outcome& outcome)
+{
+  const double vertices = double(outcome.mesh.vertices);
+  const std::size_t in_region = outcome.result.number_of_vertices_in_region;
+  Json report = {{"vertices", outcome.mesh.vertices},
+                 {"share of budget", vertices / double(o.vertices)},
+                 {"vertices in region", in_region},
+                 {"share of vertices in region", double(in_region) / vertices},
+                 {"elements", outcome.mesh.elements},
+                 {"elements in region", outcome.elements_in_region},
+                 {"boundary faces", outcome.boundary_faces},
+                 {"volume", outcome.fidelity.volume_of_mesh}};
+  add_kinds(outcome.mesh, report);
+  return report;
+}
+
+// How the mesh came about.
+void describe_method(const Options& o, const Outcome& outcome, Json& report)
+{
+  const CGAL::Mixed_mesh_result_3& result = outcome.result;
+  report["octree"] = {{"base level", result.base_level},
+                      {"deepest level", result.deepest_level},
+                      {"cells", result.number_of_cells},
+                      {"cells lost", result.number_of_lost_cells},
+                      {"octrees tried", result.number_of_trials}};
+  report["vertices inserted"] = {{"by transition templates", result.number_of_transition_vertices},
+                                 {"by boundary stage", result.number_of_boundary_vertices_inserted}};
+  report["vertices labeled inside for a manifold boundary"] = result.number_of_relabeled_vertices;
+  report["fitting"] = describe_fitting(o, outcome);
+  const double distance = outcome.fidelity.distance();
+  if(o.tolerance > 0)
+    report["tolerance"] = {{"tolerance", o.tolerance},
+                           {"reached", distance <= o.tolerance},
+                           {"largest distance", distance},
+                           {"largest distance at sample points", result.optimization.largest_distance},
+                           {"vertices of the mesh as coarse as it allows",
+                            result.number_of_vertices_for_tolerance}};
+}
+
+} // namespace
+
+std::string report(const Options& o, const Outcome& outcome, const Stage_log& log)
+{
+  Json report;
+  report["program"] = describe_program("mixed_mesh_3");
+  report["inputs"] = {{"surface", describe(outcome.surface)},
+                      {"region", outcome.region ? describe(*outcome.region) : Json()}};
+  report["options"] = describe(o);
+  report["units"] = {{"lengths and distances", "unit of the surface's file"},
+                     {"volumes", "cube of the unit of the surface's file"},
+                     {"angles and quad warp", "degrees"},
+                     {"ARC, scaled Jacobian, shares and ratios", "1"}};
+  report["status"] = description(outcome.result.status);
+  report["mesh"] = describe_mesh(o, outcome);
+  describe_method(o, outcome, report);
+  report["surface"] = describe(outcome.fidelity);
+  report["quality"] = describe_quality(outcome);
+  for(const Check& check : outcome.checks)
+    report["checks"][check.name] = check.holds;
+  report["outputs"] = o.outputs;
+  report["warnings"] = outcome.warnings;
+  report["stages"] = describe_stages(log, "seconds", 1);
+  report["seconds"] = outcome.seconds;
+  report["peak memory MiB"] = mebibytes(outcome.peak_bytes);
+  return text_of(report);
+}
+
+void print_summary(const Options& o, const Outcome& outcome)
+{
+  const Mesh_facts& mesh = outcome.mesh;
+  std::cout << mesh.vertices << " vertices of " << o.vertices << ", " << mesh.elements << " elements (";
+  for(int k = mm3::number_of_element_kinds - 1; k >= 0; --k)
+    std::cout << mesh.elements_of_kind[std::size_t(k)] << ' ' << mm3::reference_elements[k].plural
+              << (k > 0 ? ", " : ")\n");
+  const mm3::Quality_statistics& all = outcome.after.up_to_7.back();
+  std::cout << std::setprecision(3) << "ARC mean " << all.mean << ", max " << all.maximum
+            << "; Hausdorff distance " << outcome.fidelity.distance() << "; "
+            << outcome.fidelity.ratio_of_volumes() << " times the surface's volume\n"
+            << "all checks hold; " << outcome.seconds << " s\n";
+  for(const std::string& path : o.outputs)
+    std::cout << "wrote " << path << '\n';
+  if(!o.report.empty())
+    std::cout << "wrote " << o.report << '\n';
+}

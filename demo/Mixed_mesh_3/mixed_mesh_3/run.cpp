@@ -1,0 +1,181 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "mixed_mesh_3/run.h"
+
+#include "common/Stage_log.h"
+#include "common/messages.h"
+#include "common/read_surface.h"
+#include "common/resources.h"
+#include "common/write_files.h"
+#include "mixed_mesh_3/algorithm_1.h"
+#include "mixed_mesh_3/examine.h"
+#include "mixed_mesh_3/report.h"
+#include "mixed_mesh_3/verdict.h"
+
+#include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
+#include <CGAL/make_mixed_mesh_3.h>
+#include <CGAL/optimize_mixed_mesh_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iostream>
+#include <stdexcept>
+
+#include <unistd.h>
+
+namespace mm3 = CGAL::Mixed_meshes_3;
+using Domain = CGAL::Polyhedral_mixed_mesh_domain_3;
+
+namespace {
+
+// The library looks at points of the surface in a grid of twice the tolerance.
+void check_tolerance(const Options& o, const Surface& surface)
+{
+  constexpr double most = 1e7; // takes an hour
+  double number = 0;
+  for(const auto f : faces(surface)) {
+    double longest = 0;
+    for(const auto h : halfedges_around_face(halfedge(f, surface), surface))
+      longest = (std::max)(longest, CGAL::squared_distance(surface.point(source(h, surface)),
+                                                           surface.point(target(h, surface))));
+    const double n = (std::min)(std::ceil(std::sqrt(longest) / (2 * o.tolerance)), 1000.);
+    number += 0.5 * (n - 1) * n;
+  }
+  if(number > most)
+    throw std::runtime_error("--tolerance " + rounded(o.tolerance) + ": too small for " + o.surface
+                             + ", it would take hours; " + rounded(o.tolerance * std::sqrt(number / most))
+                             + " takes about one");
+}
+
+struct Inputs
+{
+  Surface surface, region; // the latter without faces if there is none
+};
+
+Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
+{
+  Inputs inputs;
+  inputs.surface = log("read surface", [&] {
+    return read_surface(o.surface, outcome.surface, outcome.warnings);
+  });
+  if(o.tolerance > 0)
+    check_tolerance(o, inputs.surface);
+  if(!o.region.empty())
+    inputs.region = log("read region", [&] {
+      return read_surface(o.region, outcome.region.emplace(), outcome.warnings);
+    });
+  return inputs;
+}
+
+Mesh make_mesh(const Domain& domain, const Surface& region_surface, const Options& o, Stage_log& log,
+               CGAL::Mixed_mesh_result_3& result)
+{
+  // With a tolerance, octrees are compared by what their meshes are like when fitted. Without, the boundary
+  // is fitted later, so that the mesh before is seen.
+  const auto criteria = CGAL::Mixed_mesh_criteria_3(o.vertices)
+                          .base_level(o.base_level)
+                          .boundary_mode(o.mode)
+                          .root_cell(o.root)
+                          .transition_templates(o.templates)
+                          .fit_to_surface(o.tolerance > 0)
+                          .tolerance(o.tolerance)
+                          .number_of_threads(o.threads);
+  const auto np = CGAL::parameters::visitor(std::ref(log));
+  Mesh mesh;
+  if(o.region.empty()) {
+    result = CGAL::make_mixed_mesh_3(domain, CGAL::Everywhere_mixed_mesh_region_3(), criteria, mesh, np);
+  } else {
+    const auto region = log("AABB tree of region", [&] {
+      return CGAL::Polyhedral_mixed_mesh_region_3(region_surface);
+    });
+    result = CGAL::make_mixed_mesh_3(domain, region, criteria, mesh, np);
+  }
+  refuse(result, o);
+  if(o.tetrahedra) // now, so that what is fitted, checked and reported is what is written
+    return log("split to tetrahedra", [&] { return mm3::split_to_tetrahedra(mesh); });
+  return mesh;
+}
+
+// Both ways onto the surface return whether all of the boundary is there.
+bool fit_by_algorithm_1(Mesh& mesh, const Domain& domain, const Options& o, Stage_log& log, Outcome& outcome,
+                        bool& is_valid)
+{
+  using Status = CGAL::Mixed_mesh_fit_status;
+  const auto r = log("Algorithm 1", [&] { return run_algorithm_1(mesh, domain, o, log); });
+  outcome.algorithm_1 = r;
+  if(r.status == Status::SOLVER_FAILED)
+    outcome.warnings.push_back("--solver: did not solve a linear system; try another one");
+  if(r.status == Status::CAP_REACHED)
+    outcome.warnings.push_back(
+      std::to_string(r.number_of_unacceptable_elements) + " elements have an aspect-ratio coefficient above "
+      + rounded(o.acceptable_quality)
+      + ": stiffening does not help them, see --max-stiffness; optimization would");
+  is_valid = r.status != Status::INVALID_MESH;
+  return r.is_on_surface();
+}
+
+bool fit_by_optimization(Mesh& mesh, const Domain& domain, Stage_log& log, Outcome& outcome, bool& is_valid)
+{
+  using Status = CGAL::Mixed_mesh_optimization_status;
+  const auto r = log(mm3::stage_names[int(mm3::Stage::OPTIMIZATION)], [&] {
+    return CGAL::optimize_mixed_mesh_3(mesh, domain, CGAL::Mixed_mesh_optimization_criteria_3(),
+                                       CGAL::parameters::visitor(std::ref(log)));
+  });
+  outcome.result.optimization = r;
+  is_valid = r.status != Status::INVALID_MESH;
+  return r.status == Status::SUCCESS;
+}
+
+// Carries the boundary onto the surface; the status becomes what the library would make of it.
+void fit(Mesh& mesh, const Domain& domain, const Options& o, Stage_log& log, Outcome& outcome)
+{
+  bool is_valid = false;
+  const bool is_on_surface = o.fit() == Fit::ALGORITHM_1
+                               ? fit_by_algorithm_1(mesh, domain, o, log, outcome, is_valid)
+                               : fit_by_optimization(mesh, domain, log, outcome, is_valid);
+  if(!is_valid)
+    throw Invalid_mesh("an element of the mesh is inverted before its boundary is fitted");
+  if(!is_on_surface)
+    outcome.result.status = CGAL::Mixed_mesh_status::NOT_ALL_ARRIVED;
+}
+
+void write_files(const Mesh& mesh, const Options& o, Stage_log& log, Outcome& outcome)
+{
+  mm3::IO::Write_options write_options;
+  write_options.msh_2_2 = o.msh2;
+  mm3::IO::Output_files files; // appear together, at the end
+  for(const std::string& path : o.outputs)
+    log("write " + path, [&] { write_mesh(files, path, mesh, write_options); });
+  outcome.seconds = log.seconds();
+  outcome.peak_bytes = log.peak_bytes();
+  if(!o.report.empty())
+    write_text(files, o.report, report(o, outcome, log));
+  check_write(files.commit());
+}
+
+} // namespace
+
+void run(const Options& o)
+{
+  check_feasible(o);
+  Stage_log log(!o.quiet && isatty(STDERR_FILENO));
+  Outcome outcome;
+  const Inputs inputs = read_inputs(o, log, outcome);
+  const Domain domain = log("AABB tree of surface", [&] { return Domain(inputs.surface); });
+  Mesh mesh = make_mesh(domain, inputs.region, o, log, outcome.result);
+  if(o.fit() != Fit::NONE && !(o.tolerance > 0)) {
+    outcome.before = log("quality", [&] { return aspect_ratios_of(mesh); });
+    fit(mesh, domain, o, log, outcome);
+  }
+  examine(mesh, inputs.surface, o, log, outcome);
+  write_files(mesh, o, log, outcome);
+  log.finish_progress();
+  for(const std::string& warning : outcome.warnings)
+    std::cerr << "warning: " << warning << '\n';
+  if(!o.quiet)
+    print_summary(o, outcome);
+}

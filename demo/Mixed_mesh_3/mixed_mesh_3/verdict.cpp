@@ -1,0 +1,98 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "mixed_mesh_3/verdict.h"
+
+#include "common/messages.h"
+
+#include <sstream>
+#include <string>
+
+namespace {
+
+std::string lost_parts(const CGAL::Mixed_mesh_result_3& result, const Options& o)
+{
+  const CGAL::Bbox_3& b = result.lost_cells;
+  std::ostringstream where;
+  where << '[' << b.xmin() << ", " << b.xmax() << "] x [" << b.ymin() << ", " << b.ymax() << "] x ["
+        << b.zmin() << ", " << b.zmax() << ']';
+  return o.surface + ": parts thinner than a cell are lost: " + std::to_string(result.number_of_lost_cells)
+         + " octree cells that they meet are away from the mesh, within " + where.str()
+         + "; try more vertices or a larger --base-level";
+}
+
+std::string missed_tolerance(const Fidelity& f, const Options& o)
+{
+  const bool is_on_mesh = f.from_mesh.distance > f.from_surface.distance;
+  const Distance& d = is_on_mesh ? f.from_mesh : f.from_surface;
+  const std::string at = " at " + place(d.from) + " is " + rounded(d.distance) + " away from ";
+  return "--tolerance " + rounded(o.tolerance) + ": not reached, "
+         + (is_on_mesh ? "the mesh" + at + o.surface : o.surface + at + "the mesh") + "; try more vertices";
+}
+
+} // namespace
+
+void refuse(const CGAL::Mixed_mesh_result_3& result, const Options& o)
+{
+  using Status = CGAL::Mixed_mesh_status;
+  switch(result.status) {
+  case Status::BUDGET_TOO_SMALL:
+    throw std::runtime_error("--vertices " + std::to_string(o.vertices) + ": too small, the coarsest mesh "
+                             "of " + o.surface + " at base level " + std::to_string(result.base_level)
+                             + " has at least " + std::to_string(result.number_of_vertices_needed)
+                             + " vertices");
+  case Status::EMPTY:
+    throw std::runtime_error(o.surface + ": too thin for this budget, no octree vertex is inside; try "
+                             "more vertices or a larger --base-level");
+  case Status::REGION_NOT_MET:
+    throw std::runtime_error(o.region + ": the region does not meet the domain of " + o.surface);
+  case Status::STOPPED:
+    throw std::runtime_error("stopped");
+  case Status::BOUNDARY_NOT_MANIFOLD:
+    throw Invalid_mesh("the boundary is pinched at the border of the root cell; try another --base-level");
+  case Status::BUDGET_NOT_FILLED:
+  case Status::TOLERANCE_NOT_REACHED:
+  case Status::NOT_ALL_ARRIVED:
+  case Status::PARTS_LOST:
+  case Status::SUCCESS:
+    break;
+  }
+}
+
+void require_all(const std::vector<Check>& checks, std::size_t self_intersections)
+{
+  for(const Check& check : checks)
+    if(!check.holds)
+      throw Invalid_mesh(std::string("the mesh failed the check: ") + check.name
+                         + (self_intersections != 0
+                              ? ": " + std::to_string(self_intersections) + " pairs of faces; "
+                                "try more vertices, a larger --base-level, or --no-fit"
+                              : ""));
+}
+
+void add_warnings(const Options& o, Outcome& outcome)
+{
+  std::vector<std::string>& warnings = outcome.warnings;
+  const Fidelity& f = outcome.fidelity;
+  if(double(outcome.mesh.vertices) < 0.97 * double(o.vertices))
+    warnings.push_back("only " + std::to_string(outcome.mesh.vertices) + " of "
+                       + std::to_string(o.vertices) + " vertices used: the region cannot be refined "
+                       "further, or each further cell tried would exceed the budget");
+  if(outcome.result.number_of_lost_cells != 0)
+    warnings.push_back(lost_parts(outcome.result, o));
+  if(o.fit() != Fit::NONE && f.vertices_off != 0)
+    warnings.push_back(std::to_string(f.vertices_off) + " of " + std::to_string(f.vertices)
+                       + " boundary vertices are not on " + o.surface
+                       + ": elements would be inverted, or coordinates are too large to tell");
+  if(o.tolerance > 0 && f.distance() > o.tolerance)
+    warnings.push_back(missed_tolerance(f, o));
+  // Before the boundary is fitted, the cells around it add some volume; corners cut off take some.
+  const bool is_fitted = o.fit() != Fit::NONE;
+  const double ratio = f.ratio_of_volumes();
+  if(ratio < 0.9 || ratio > (is_fitted ? 1.1 : 4))
+    warnings.push_back(o.surface + ": the mesh has " + rounded(ratio) + " times the surface's volume: it is "
+                       "too coarse for the domain; try more vertices or a larger --base-level"
+                       + (o.fit() == Fit::OPTIMIZATION && o.tolerance == 0 ? ", or --tolerance" : ""));
+}

@@ -1,0 +1,34 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the user should know of a mesh, or why there is none.
+
+#ifndef MIXED_MESH_3_DEMO_MIXED_MESH_3_VERDICT_H
+#define MIXED_MESH_3_DEMO_MIXED_MESH_3_VERDICT_H
+
+#include "mixed_mesh_3/options.h"
+#include "mixed_mesh_3/outcome.h"
+
+#include <cstddef>
+#include <stdexcept>
+#include <vector>
+
+/// The mesh failed a check: our fault, not the input's.
+struct Invalid_mesh : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws where there is no mesh.
+void refuse(const CGAL::Mixed_mesh_result_3& result, const Options& options);
+
+/// \param self_intersections pairs of faces of the boundary; 0 if that was not looked at
+/// \throw Invalid_mesh if a check does not hold
+void require_all(const std::vector<Check>& checks, std::size_t self_intersections);
+
+/// Adds what the user should know of a mesh that is valid.
+void add_warnings(const Options& options, Outcome& outcome);
+
+#endif // MIXED_MESH_3_DEMO_MIXED_MESH_3_VERDICT_H
