@@ -9,7 +9,7 @@
 #include "test_cases.h"
 
 #include <CGAL/Mixed_mesh_3/Element_locator_3.h>
-#include <CGAL/Mixed_mesh_3/internal/fem/elasticity_assembly.h>
+#include <CGAL/Mixed_mesh_3/internal/fem/quadrature.h>
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
