@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the tests of Linear_elasticity_3 have in common: grids of cells, mixed ones among them, fields of their
-// vertices, and an elastic energy.
+// What the tests of Linear_elasticity_3 have in common: grids of cells, mixed ones among them, fields of
+// their vertices, and an elastic energy.
 
 #ifndef MIXED_MESH_3_TEST_ELASTICITY_TEST_H
 #define MIXED_MESH_3_TEST_ELASTICITY_TEST_H
@@ -97,7 +97,8 @@ inline Mesh mixed_grid(int n, double noise = 0, Moved moved = Moved::ALL)
         std::array<Vertex_index, 8> v{};
         for(int i = 0; i < 8; ++i) {
           const auto& c = reference_elements[HEXAHEDRON].coordinates[i];
-          v[i] = Vertex_index(x + (c[0] + 1) / 2 + (n + 1) * (y + (c[1] + 1) / 2 + (n + 1) * (z + (c[2] + 1) / 2)));
+          v[i] = Vertex_index(x + (c[0] + 1) / 2
+                              + (n + 1) * (y + (c[1] + 1) / 2 + (n + 1) * (z + (c[2] + 1) / 2)));
         }
         const int layer = 4 * z / n;
         if(layer == 0) {

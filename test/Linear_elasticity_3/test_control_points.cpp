@@ -22,7 +22,9 @@ Vec3 point_in(const Mesh& mesh, Element_index e, int q)
   const Element_view element = mesh.element(e);
   Vec3 p{};
   for(int a = 0; a < element.size(); ++a)
-    p = p + quadrature_rule(element.kind()).values[std::size_t(q)][std::size_t(a)] * position(mesh, element[a]);
+    p = p
+        + quadrature_rule(element.kind()).values[std::size_t(q)][std::size_t(a)]
+              * position(mesh, element[a]);
   return p;
 }
 
@@ -164,7 +166,8 @@ void test_control_points(int kind)
   for(const std::vector<Vec3>& some : {std::vector<Vec3>{a, b}, {a, b, c}}) {
     const auto result = free_motions(some);
     BOOST_TEST_EQ(result.number_of_free_motions, 1);
-    BOOST_TEST_LT(norm(cross(result.motion.rotation, b - a)), 1e-6 * norm(result.motion.rotation) * norm(b - a));
+    BOOST_TEST_LT(norm(cross(result.motion.rotation, b - a)),
+                  1e-6 * norm(result.motion.rotation) * norm(b - a));
     BOOST_TEST(result.description().find("1 rigid motion") == std::string::npos
                || result.description().find("rotation about the axis through") != std::string::npos);
   }
@@ -191,7 +194,8 @@ void test_control_points(int kind)
     if(radius > 1e-3)
       BOOST_TEST_LT(norm((1 / area) * mean - Vec3{0, 0.01, -0.02}), 1e-12);
     else
-      BOOST_TEST_LT(norm(interpolated(mesh, problem.displacements(), middle[0]) - Vec3{0, 0.01, -0.02}), 1e-9);
+      BOOST_TEST_LT(norm(interpolated(mesh, problem.displacements(), middle[0]) - Vec3{0, 0.01, -0.02}),
+                    1e-9);
   }
 
   // Outside.

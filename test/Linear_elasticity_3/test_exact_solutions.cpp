@@ -185,7 +185,8 @@ Exact_solution bending_solution(double nu)
   return {"bending",
           [nu](const Vec3& q) {
             const Vec3 p = q - Vec3{0.5, 0.5, 0.5};
-            return Vec3{p[0] * p[1], -(p[0] * p[0] + nu * (p[1] * p[1] - p[2] * p[2])) / 2, -nu * p[1] * p[2]};
+            return Vec3{p[0] * p[1], -(p[0] * p[0] + nu * (p[1] * p[1] - p[2] * p[2])) / 2,
+                        -nu * p[1] * p[2]};
           },
           [](const Elastic_material&) { return Vec3{}; }};
 }
@@ -242,7 +243,8 @@ Field solved_pointwise(const Mesh& mesh, const Elastic_material& material, const
 
 void test_convergence()
 {
-  std::cout << "errors in % inside and at vertices with 4^3, 8^3 and 12^3 cells, order\n" << std::setprecision(3);
+  std::cout << "errors in % inside and at vertices with 4^3, 8^3 and 12^3 cells, order\n"
+            << std::setprecision(3);
   constexpr int sizes[3] = {4, 8, 12};
   const std::pair<Exact_solution, double> cases[] = {{quadratic_solution(false), 0.3},
                                                      {quadratic_solution(true), 0.45},
@@ -254,7 +256,8 @@ void test_convergence()
       Errors e[3];
       for(int i = 0; i < 3; ++i) {
         const Mesh mesh = any_grid(sizes[i], kind, 0.1);
-        e[i] = errors(mesh, solved(mesh, Elastic_material{1, nu}, exact, is_on_boundary(mesh)), exact.displacement);
+        e[i] = errors(mesh, solved(mesh, Elastic_material{1, nu}, exact, is_on_boundary(mesh)),
+                      exact.displacement);
       }
       std::cout << "  " << exact.name << ", nu " << nu << ", " << name_of(kind) << ":";
       for(const Errors& x : e)
@@ -283,7 +286,8 @@ void test_locking()
       const Elastic_material material{1, nu};
       const Exact_solution exact = bending_solution(nu);
       const double ours = errors(mesh, solved(mesh, material, exact, ends), exact.displacement).inside;
-      const double standard = errors(mesh, solved_pointwise(mesh, material, exact, ends), exact.displacement).inside;
+      const double standard =
+          errors(mesh, solved_pointwise(mesh, material, exact, ends), exact.displacement).inside;
       std::cout << "  nu " << nu << " " << 100 * ours << " (" << 100 * standard << ")";
       if(nu == 0.3) {
         reference = ours;

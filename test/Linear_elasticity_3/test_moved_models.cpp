@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Models of Linear_elasticity_3 that are moved: into a new one, into one that has been used, within a std::vector.
-// The source is destroyed; what follows is as without the move, bit by bit.
+// Models of Linear_elasticity_3 that are moved: into a new one, into one that has been used, within a
+// std::vector. The source is destroyed; what follows is as without the move, bit by bit.
 
 #include "elasticity_test.h"
 
@@ -34,12 +34,13 @@ template <class Solver>
 using Model = CGAL::Linear_elasticity_3<Mesh, Solver>;
 
 template <class Type>
-constexpr bool is_movable = std::is_nothrow_move_constructible_v<Type>&& std::is_nothrow_move_assignable_v<Type>;
+constexpr bool is_movable =
+    std::is_nothrow_move_constructible_v<Type>&& std::is_nothrow_move_assignable_v<Type>;
 template <class Type>
 constexpr bool is_copyable = std::is_copy_constructible_v<Type>&& std::is_copy_assignable_v<Type>;
 
-// A factorization cannot be copied: Eigen's solvers are not copyable. One that copies shared would change under
-// the others with the next `factor()`.
+// A factorization cannot be copied: Eigen's solvers are not copyable. One that copies shared would change
+// under the others with the next `factor()`.
 static_assert(is_movable<Elasticity> && !std::is_copy_constructible_v<Elasticity>
               && !std::is_copy_assignable_v<Elasticity>);
 static_assert(is_movable<Model<Simplicial_solver_traits>> && is_movable<Model<Fixed_solver_traits>>);
@@ -69,8 +70,8 @@ void advance(Problem& problem, Progress progress)
   if(progress >= Progress::SOLVED)
     BOOST_TEST(is_success(problem.solve(wanted)));
   if(progress >= Progress::REMOVED)
-    BOOST_TEST(is_success(
-      problem.remove_elements(elements_where(mesh, [](const Vec3& p) { return p[0] > 0.75 && p[2] > 0.75; }))));
+    BOOST_TEST(is_success(problem.remove_elements(
+        elements_where(mesh, [](const Vec3& p) { return p[0] > 0.75 && p[2] > 0.75; }))));
 }
 
 // What is done after it: all that comes out.

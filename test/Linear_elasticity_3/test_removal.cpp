@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Linear_elasticity_3 after elements have been removed; in pieces, with hinges, with an inverted element; and with
-// each solver.
+// Linear_elasticity_3 after elements have been removed; in pieces, with hinges, with an inverted element; and
+// with each solver.
 
 #include "elasticity_test.h"
 
@@ -41,8 +41,10 @@ void test_removal(int kind)
     problem.set_gravity({0, 1e4, -1e5});
     BOOST_TEST(is_success(problem.set_control_points(points)));
   };
-  const std::vector<bool> first = elements_where(mesh, [](const Vec3& p) { return p[2] > 0.75 && p[0] > 0.3; });
-  const std::vector<bool> second = elements_where(mesh, [](const Vec3& p) { return p[2] > 0.55 && p[1] > 0.5; });
+  const std::vector<bool> first =
+      elements_where(mesh, [](const Vec3& p) { return p[2] > 0.75 && p[0] > 0.3; });
+  const std::vector<bool> second =
+      elements_where(mesh, [](const Vec3& p) { return p[2] > 0.55 && p[1] > 0.5; });
   std::vector<bool> both = first;
   for(Element_index e = 0; e < both.size(); ++e)
     both[e] = first[e] || second[e];
@@ -70,8 +72,8 @@ void test_removal(int kind)
 
   BOOST_TEST_LT(difference(removed({first, second}, 1e-3), u), 1e-2 * largest(u)); // the default
 
-  // Another problem with what is left. Patches keep their tetrahedra and prisms, while those of another problem
-  // are cut anew.
+  // Another problem with what is left. Patches keep their tetrahedra and prisms, while those of another
+  // problem are cut anew.
   std::vector<Vertex_index> vertices;
   const Mesh rest = remaining_mesh(mesh, both, &vertices);
   Elasticity fresh(rest);
@@ -134,17 +136,19 @@ void test_pieces()
   BOOST_TEST(is_success(problem.solve(wanted)));
   BOOST_TEST_LT(difference(problem.displacements(), at_vertices(mesh, rigid_motion)), 1e-9);
 
-  // A hinge: two cubes with a common edge, or a common vertex. The stiffness is singular but for rounding: factors
-  // of it may exist.
+  // A hinge: two cubes with a common edge, or a common vertex. The stiffness is singular but for rounding:
+  // factors of it may exist.
   for(double z : {0., 1.}) {
     Mesh hinge;
     for(const Vec3& origin : {Vec3{0, 0, 0}, Vec3{1, 1, z}}) {
       std::array<Vertex_index, 8> v{};
       for(int i = 0; i < 8; ++i) {
         const auto& c = reference_elements[HEXAHEDRON].coordinates[i];
-        const Test_point p(origin[0] + (c[0] + 1) / 2, origin[1] + (c[1] + 1) / 2, origin[2] + (c[2] + 1) / 2);
+        const Test_point p(origin[0] + (c[0] + 1) / 2, origin[1] + (c[1] + 1) / 2,
+                           origin[2] + (c[2] + 1) / 2);
         const auto found = std::find(hinge.points().begin(), hinge.points().end(), p);
-        v[i] = found == hinge.points().end() ? hinge.add_vertex(p) : Vertex_index(found - hinge.points().begin());
+        v[i] = found == hinge.points().end() ? hinge.add_vertex(p)
+                                             : Vertex_index(found - hinge.points().begin());
       }
       hinge.add_element(HEXAHEDRON, v);
     }
@@ -184,13 +188,15 @@ template <class Solver>
 Field solved_with(const Mesh& mesh)
 {
   CGAL::Linear_elasticity_3<Mesh, Solver> problem(mesh);
-  prescribe(problem, vertices_where(mesh, [](const Vec3& p) { return p[0] < 0.1; }), at_vertices(mesh, linear_field));
+  prescribe(problem, vertices_where(mesh, [](const Vec3& p) { return p[0] < 0.1; }),
+            at_vertices(mesh, linear_field));
   BOOST_TEST(is_success(problem.factor()));
   problem.set_gravity({0, 0, -9810});
   BOOST_TEST(is_success(problem.set_control_points(std::vector<Vec3>{{0.7, 0.6, 0.5}, {0.4, 0.3, 0.8}})));
   BOOST_TEST(is_success(problem.solve(Field{{0.1, 0, 0}, {0, 0.1, 0.1}})));
   problem.set_iteration_tolerance(1e-8);
-  BOOST_TEST(is_success(problem.remove_elements(elements_where(mesh, [](const Vec3& p) { return p[2] < 0.25; }))));
+  BOOST_TEST(is_success(
+      problem.remove_elements(elements_where(mesh, [](const Vec3& p) { return p[2] < 0.25; }))));
   BOOST_TEST(is_success(problem.solve(Field{{0.1, 0, 0}, {0, 0.1, 0.1}})));
   return problem.displacements();
 }
@@ -202,7 +208,9 @@ void test_solvers()
   const double bound = 1e-7 * largest(u); // after a removal, which iterates
   BOOST_TEST(solved_with<Simplicial_solver_traits>(mesh) == u);
   using Matrix = Eigen::SparseMatrix<double>;
-  BOOST_TEST_LT(difference(solved_with<CGAL::Eigen_solver_traits<Eigen::SimplicialLDLT<Matrix>>>(mesh), u), bound);
+  BOOST_TEST_LT(
+      difference(solved_with<CGAL::Eigen_solver_traits<Eigen::SimplicialLDLT<Matrix>>>(mesh), u),
+      bound);
 #ifdef CGAL_MIXED_MESH_3_USE_CHOLMOD
   const Field v = solved_with<Cholmod_solver_traits>(mesh);
   BOOST_TEST_LT(difference(v, u), bound);

@@ -95,7 +95,8 @@ void test_supports(int kind)
     layers.push_back(z < 0.5 ? Elastic_material{1, 0.3, 2e-6} : Elastic_material{4, 0.45, 5e-6});
   }
   const auto modulus = [](const Elastic_material& m) { return m.lambda() + 2 * m.mu(); };
-  const double below = modulus({1, 0.3}), above = modulus({4, 0.45}), stress = 0.1 / (0.5 / below + 0.5 / above);
+  const double below = modulus({1, 0.3}), above = modulus({4, 0.45}),
+               stress = 0.1 / (0.5 / below + 0.5 / above);
   const auto in_series = [&](const Vec3& p) {
     return Vec3{0, 0, -stress * ((std::min)(p[2], 0.5) / below + (std::max)(p[2] - 0.5, 0.) / above)};
   };
@@ -131,7 +132,8 @@ void test_supports(int kind)
     BOOST_TEST(is_success(heavy.solve()));
     const Field expected = at_vertices(column, weighed);
     const double error = difference(heavy.displacements(), expected) / largest(expected);
-    std::cout << "  column of " << n << "^3 cells, " << name_of(kind) << ": largest error " << 100 * error << " %\n";
+    std::cout << "  column of " << n << "^3 cells, " << name_of(kind) << ": largest error "
+              << 100 * error << " %\n";
     if(is_exact)
       BOOST_TEST_LT(error, 1e-10);
     else if(n == 4)
@@ -180,7 +182,8 @@ void test_free_motions()
   auto result = problem.solve();
   BOOST_TEST(result.status == Status::FREE_RIGID_MOTION);
   BOOST_TEST_EQ(result.number_of_free_motions, 3);
-  BOOST_TEST(result.description().find("3 rigid motions free, among them rotation about the axis") != std::string::npos);
+  BOOST_TEST(result.description().find("3 rigid motions free, among them rotation about the axis")
+             != std::string::npos);
   const auto motion = [&](const Vec3& p) {
     return result.motion.translation + cross(result.motion.rotation, p - result.motion.center);
   };
@@ -198,7 +201,8 @@ void test_free_motions()
   BOOST_TEST_LT(difference(problem.displacements(), at_vertices(mesh, turn)), 1e-9);
   BOOST_TEST_LT(problem.energy(), 1e-14);
 
-  // A plane leaves two translations and a rotation; a fixed vertex three rotations; an edge of fixed vertices one.
+  // A plane leaves two translations and a rotation; a fixed vertex three rotations; an edge of fixed vertices
+  // one.
   const Mesh block = any_grid(4, number_of_element_kinds, 0.1, Moved::INNER);
   const auto free_motions = [&](const std::function<void(Elasticity&)>& support) {
     Elasticity held(block);
@@ -223,7 +227,9 @@ void test_free_motions()
         held.slide(v, {0, 0, 1});
   }), 3);
   BOOST_TEST_EQ(free_motions([&](Elasticity& held) { slide_on_sides(held, false, false); }), 0);
-  BOOST_TEST_EQ(free_motions([](Elasticity& held) { held.slide_along_boundary([](Vertex_index) { return true; }); }),
+  BOOST_TEST_EQ(free_motions([](Elasticity& held) {
+                  held.slide_along_boundary([](Vertex_index) { return true; });
+                }),
                 0);
 
   // Along the boundary: the volume stays, to first order, in whatever direction vertices move.

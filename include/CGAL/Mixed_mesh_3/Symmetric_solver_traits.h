@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Sparse solvers of Eigen and, if `CGAL_MIXED_MESH_3_USE_CHOLMOD` is defined, of SuiteSparse. The macro is the
-// user's word that the program is linked with CHOLMOD; the CMake target gives it if CHOLMOD was found.
+// Sparse solvers of Eigen and, if `CGAL_MIXED_MESH_3_USE_CHOLMOD` is defined, of SuiteSparse. The macro is
+// the user's word that the program is linked with CHOLMOD; the CMake target gives it if CHOLMOD was found.
 
 #ifndef CGAL_MIXED_MESH_3_SYMMETRIC_SOLVER_TRAITS_H
 #define CGAL_MIXED_MESH_3_SYMMETRIC_SOLVER_TRAITS_H
@@ -35,8 +35,8 @@ namespace Mixed_meshes_3 {
 Where `CGAL::Eigen_solver_traits` starts again at each `factor()`, this class keeps the symbolic factorization
 as long as the pattern of the matrix is the same. An iterative solver starts from the `X` that it is given.
 
-Solvers of Eigen cannot be copied. As with `CGAL::Eigen_solver_traits`, a copy is the same solver: the matrix that
-was factored last, by any of them, is that of all.
+Solvers of Eigen cannot be copied. As with `CGAL::Eigen_solver_traits`, a copy is the same solver: the matrix
+that was factored last, by any of them, is that of all.
 
 \cgalModels{SparseLinearAlgebraWithFactorTraits_d}
 
@@ -171,7 +171,8 @@ struct Solve_columns
 template <class Solver>
 bool solve_columns(Solver& solver, const Eigen::MatrixXd& b, Eigen::MatrixXd& x)
 {
-  if constexpr(std::is_invocable_v<decltype(Solve_columns()), Solver&, const Eigen::MatrixXd&, Eigen::MatrixXd&>) {
+  if constexpr(std::is_invocable_v<decltype(Solve_columns()), Solver&, const Eigen::MatrixXd&,
+                                   Eigen::MatrixXd&>) {
     return Solve_columns()(solver, b, x);
   } else {
     x.resize(b.rows(), b.cols());
