@@ -7,6 +7,8 @@
 
 #include "elasticity_test.h"
 
+#include <Eigen/Core>
+
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -251,11 +253,45 @@ void test_control_points(int kind)
   BOOST_TEST(is_success(problem.solve(contradictory)));
 }
 
+// Its solutions fail when told to.
+struct Failing_solver_traits : Simplicial_solver_traits
+{
+  bool fails = false;
+  bool linear_solver(const Eigen::MatrixXd& b, Eigen::MatrixXd& x)
+  {
+    return !fails && Simplicial_solver_traits::linear_solver(b, x);
+  }
+};
+
+// Control points that cannot be solved for are none.
+void test_failing_solver()
+{
+  const Mesh mesh = any_grid(2, HEXAHEDRON);
+  const std::vector<Vec3> points{{0.3, 0.4, 0.8}};
+  CGAL::Linear_elasticity_3<Mesh, Failing_solver_traits> problem(mesh);
+  prescribe(problem, vertices_where(mesh, [](const Vec3& p) { return p[2] == 0; }),
+            Field(mesh.number_of_vertices(), Vec3{}));
+  BOOST_TEST(is_success(problem.factor()));
+  BOOST_TEST(is_success(problem.set_control_points(points)));
+  BOOST_TEST_EQ(problem.number_of_control_points(), 1u);
+  problem.solver().fails = true;
+  BOOST_TEST(problem.set_control_points(points).status == Status::SOLVER_FAILED);
+  BOOST_TEST_EQ(problem.number_of_control_points(), 0u);
+  problem.set_gravity({0, 0, -9810});
+  BOOST_TEST(problem.solve().status == Status::SOLVER_FAILED);
+  problem.solver().fails = false;
+  BOOST_TEST(is_success(problem.solve()));
+  BOOST_TEST_GT(largest(problem.displacements()), 0);
+  BOOST_TEST(is_success(problem.set_control_points(points)));
+  BOOST_TEST(is_success(problem.solve(Field{{0, 0, 0.1}})));
+}
+
 } // namespace
 
 int main()
 {
   for(int kind = 0; kind <= number_of_element_kinds; ++kind)
     test_control_points(kind);
+  test_failing_solver();
   return boost::report_errors();
 }
