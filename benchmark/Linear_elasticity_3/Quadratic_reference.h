@@ -9,7 +9,7 @@
 #include "test_cases.h"
 
 #include <CGAL/Mixed_mesh_3/Element_locator_3.h>
-#include <CGAL/Mixed_mesh_3/internal/fem/elasticity_assembly.h>
+#include <CGAL/Mixed_mesh_3/internal/fem/quadrature.h>
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
@@ -95,7 +95,7 @@ private:
       m_elements.push_back(nodes);
     }
     for(const auto& face : mm3::boundary_faces(m_mesh)) {
-      const auto v = face_vertices(m_mesh.element(face.element), face.local_face);
+      const auto& v = face.vertices();
       for(int i = 0; i < 3; ++i)
         m_is_on_boundary[std::size_t(middle(int(v[i]), int(v[(i + 1) % 3])))] = true;
     }

@@ -7,6 +7,8 @@
 // with a new factorization by Eigen's LDLT. Medians, minima and maxima, in milliseconds. One thread, if
 // OMP_NUM_THREADS=1 keeps CHOLMOD to it.
 
+#include "common/resources.h"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Linear_elasticity_3.h>
 #include <CGAL/Mixed_mesh_3.h>
@@ -66,10 +68,9 @@ void fix_lower_part(Elasticity& elasticity, const Mesh& mesh)
     lowest = (std::min)(lowest, p.z());
     highest = (std::max)(highest, p.z());
   }
-  for(const auto& face : mm3::boundary_faces(mesh))
-    for(auto v : mm3::internal::face_vertices(mesh.element(face.element), face.local_face))
-      if(v != mm3::internal::no_vertex && mesh.point(v).z() < lowest + 0.3 * (highest - lowest))
-        elasticity.prescribe(v);
+  for(mm3::Vertex_index v : mm3::boundary_vertices(mesh))
+    if(mesh.point(v).z() < lowest + 0.3 * (highest - lowest))
+      elasticity.prescribe(v);
 }
 
 } // namespace
@@ -87,9 +88,9 @@ int main(int argc, char* argv[])
   CLI11_PARSE(app, argc, argv);
   try {
     Mesh mesh;
-    mm3::IO::read_mixed_mesh(mesh_file, mesh);
+    require([&](std::string* error) { return mm3::IO::read_mixed_mesh(mesh_file, mesh, error); });
     CGAL::Surface_mesh<Kernel::Point_3> tumor;
-    mm3::IO::read_closed_surface(tumor_file, tumor);
+    require([&](std::string* error) { return mm3::IO::read_closed_surface(tumor_file, tumor, error); });
     const std::vector<Vector> points{{43.633, 24.044, 49.096}, {35.245, 31.664, 49.283},
                                      {29.646, 24.914, 57.660}, {38.404, 17.573, 58.562}};
     std::vector<Vector> displacements(points.size(), Vector{-3.132, -2.349, -9.202});

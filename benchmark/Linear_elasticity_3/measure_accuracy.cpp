@@ -6,6 +6,8 @@
 // The error of brain shift in the region of interest, on meshes from files, against quadratic elements on a fine
 // mesh. Prints a JSON object a line. compare_accuracy.py runs it.
 
+#include "common/resources.h"
+
 #include "standard_elasticity.h"
 #include "Quadratic_reference.h"
 #include "test_cases.h"
@@ -126,7 +128,7 @@ int main(int argc, char* argv[])
     const std::vector<Vector> points = brain.points_to_compare(number_of_points, least_depth);
     Mesh fine;
     if(!reference_mesh.empty())
-      mm3::IO::read_mixed_mesh(reference_mesh, fine);
+      require([&](std::string* error) { return mm3::IO::read_mixed_mesh(reference_mesh, fine, error); });
     const std::pair<std::string, Boundary_displacement> cases[] = {{"bump", bump_displacement},
                                                                    {"smooth", smooth_displacement}};
     for(const auto& [name, boundary] : cases) {
@@ -136,7 +138,7 @@ int main(int argc, char* argv[])
       const double size = root_mean_square(exact, std::vector<Vector>(points.size(), Vector{}));
       for(const std::string& file : files) {
         Mesh mesh;
-        mm3::IO::read_mixed_mesh(file, mesh);
+        require([&](std::string* error) { return mm3::IO::read_mixed_mesh(file, mesh, error); });
         const auto [ours, standard] = solve(mesh, brain, boundary, material);
         std::cout << nlohmann::json{{"mesh", file},
                                     {"case", name},

@@ -8,6 +8,8 @@
 #ifndef MIXED_MESH_3_BENCHMARK_TEST_CASES_H
 #define MIXED_MESH_3_BENCHMARK_TEST_CASES_H
 
+#include "common/resources.h"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
@@ -40,8 +42,8 @@ struct Brain
 
   Brain(const std::string& surface_file, const std::string& region_file)
   {
-    mm3::IO::read_closed_surface(surface_file, surface);
-    mm3::IO::read_closed_surface(region_file, region);
+    require([&](std::string* error) { return mm3::IO::read_closed_surface(surface_file, surface, error); });
+    require([&](std::string* error) { return mm3::IO::read_closed_surface(region_file, region, error); });
     for(auto v : surface.vertices()) {
       lowest = (std::min)(lowest, surface.point(v).z());
       highest = (std::max)(highest, surface.point(v).z());
@@ -117,10 +119,8 @@ inline std::optional<Vector> smooth_displacement(const Vector& p, const Brain&)
 inline std::vector<bool> boundary_vertices(const Mesh& mesh)
 {
   std::vector<bool> is_on_boundary(mesh.number_of_vertices(), false);
-  for(const auto& face : mm3::boundary_faces(mesh))
-    for(auto v : mm3::internal::face_vertices(mesh.element(face.element), face.local_face))
-      if(v != mm3::internal::no_vertex)
-        is_on_boundary[v] = true;
+  for(mm3::Vertex_index v : mm3::boundary_vertices(mesh))
+    is_on_boundary[v] = true;
   return is_on_boundary;
 }
 

@@ -10,7 +10,7 @@
 #define MIXED_MESH_3_TEST_STANDARD_ELASTICITY_H
 
 #include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
-#include <CGAL/Mixed_mesh_3/internal/fem/elasticity_assembly.h>
+#include <CGAL/Mixed_mesh_3/internal/fem/Elasticity_system.h>
 
 #include <boost/core/lightweight_test.hpp>
 

@@ -209,7 +209,6 @@ Mesh to_mixed_mesh(const Complex& complex)
     }
     mesh.add_element(mm3::TETRAHEDRON, {v[0], v[1], v[2], v[3]});
   }
-  mesh.set_boundary_faces(mm3::boundary_faces(mesh));
   return mesh;
 }
 
@@ -273,8 +272,8 @@ try {
   CLI11_PARSE(app, argc, argv);
 
   Surface surface, region_surface;
-  mm3::IO::read_closed_surface(surface_file, surface);
-  mm3::IO::read_closed_surface(region_file, region_surface);
+  require([&](std::string* error) { return mm3::IO::read_closed_surface(surface_file, surface, error); });
+  require([&](std::string* error) { return mm3::IO::read_closed_surface(region_file, region_surface, error); });
 
   if(sizes.in_region <= 0)
     sizes.in_region = find_size_in_region(surface, region_surface, sizes, number_of_vertices);

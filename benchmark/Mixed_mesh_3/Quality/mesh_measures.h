@@ -11,6 +11,8 @@
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
+#include "common/resources.h"
+
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
@@ -109,9 +111,9 @@ Surface boundary_triangles(const Mesh& mesh)
     result.add_face(result.add_vertex(a), result.add_vertex(b), result.add_vertex(c));
   };
   for(const auto& face : mm3::boundary_faces(mesh)) {
-    const auto v = mm3::internal::face_vertices(mesh.element(face.element), face.local_face);
+    const auto& v = face.vertices();
     std::array<Point, 4> p;
-    const int size = v[3] == mm3::internal::no_vertex ? 3 : 4;
+    const int size = v.size();
     for(int i = 0; i < size; ++i)
       p[i] = to_point(mesh.point(v[i]));
     if(size == 3) {
@@ -128,16 +130,9 @@ Surface boundary_triangles(const Mesh& mesh)
 template <class Mesh>
 std::vector<Sample> boundary_vertices(const Mesh& mesh)
 {
-  namespace mm3i = CGAL::Mixed_meshes_3::internal;
-  std::vector<char> is_on_boundary(mesh.number_of_vertices(), 0);
-  for(const auto& face : CGAL::Mixed_meshes_3::boundary_faces(mesh))
-    for(const auto v : mm3i::face_vertices(mesh.element(face.element), face.local_face))
-      if(v != mm3i::no_vertex)
-        is_on_boundary[v] = 1;
   std::vector<Sample> result;
-  for(std::size_t v = 0; v < is_on_boundary.size(); ++v)
-    if(is_on_boundary[v])
-      result.push_back({to_point(mesh.points()[v]), 0});
+  for(const auto v : CGAL::Mixed_meshes_3::boundary_vertices(mesh))
+    result.push_back({to_point(mesh.point(v)), 0});
   return result;
 }
 
@@ -307,8 +302,9 @@ void finish(nlohmann::ordered_json line, const Mesh& mesh, const Surface& surfac
   if(!only_time)
     line.update(measure(mesh, surface, region));
   if(!output_file.empty())
-    if(const auto error = CGAL::Mixed_meshes_3::IO::write_mixed_mesh(output_file, mesh))
-      throw std::runtime_error(*error);
+    require([&](std::string* error) {
+      return CGAL::Mixed_meshes_3::IO::write_mixed_mesh(output_file, mesh, {}, error);
+    });
   std::cout << line << '\n';
 }
 

@@ -137,7 +137,6 @@ The mesh must outlive the locator and not change. Points are whatever has `p[0]`
 template <class Mesh>
 class Element_locator_3
 {
-
   struct Box
   {
     Vec3 lower, upper;
@@ -157,7 +156,7 @@ class Element_locator_3
     }
   };
 
-  const Mesh& m_mesh;
+  const Mesh* m_mesh;
   std::vector<Vec3> m_points;
   std::vector<Face> m_boundary;
   // A uniform grid: the elements whose boxes meet cell c are
@@ -213,11 +212,11 @@ class Element_locator_3
 
   void make_grid()
   {
-    const std::size_t n = m_mesh.number_of_elements();
+    const std::size_t n = m_mesh->number_of_elements();
     std::vector<Box> boxes;
     boxes.reserve(n);
     for(std::size_t e = 0; e < n; ++e)
-      boxes.push_back(box(m_mesh.element(e), m_mesh.element(e).size()));
+      boxes.push_back(box(m_mesh->element(e), m_mesh->element(e).size()));
     Vec3 extent{};
     if(n != 0) {
       m_box = boxes.front();
@@ -247,7 +246,7 @@ class Element_locator_3
 
   std::optional<Element_location_3> locate_in(Element_index e, const Vec3& p) const
   {
-    const Element_view element = m_mesh.element(e);
+    const Element_view element = m_mesh->element(e);
     Vec3 points[8];
     for(int i = 0; i < element.size(); ++i)
       points[i] = m_points[element[i]];
@@ -267,13 +266,13 @@ class Element_locator_3
   void prepare()
   {
     make_grid();
-    m_boundary = boundary_faces(m_mesh);
+    m_boundary = boundary_faces(*m_mesh);
   }
 
 public:
   /// For the mesh as it is. \cost O(n log n) in the number of elements
   explicit Element_locator_3(const Mesh& mesh)
-    : m_mesh(mesh)
+    : m_mesh(&mesh)
   {
     m_points.reserve(mesh.number_of_vertices());
     for(const auto& p : mesh.points())
@@ -285,7 +284,7 @@ public:
   /// \param displacements a vector for each vertex, with components `[0]`, `[1]`, `[2]`
   template <class Displacements>
   Element_locator_3(const Mesh& mesh, const Displacements& displacements)
-    : m_mesh(mesh), m_points(internal::displaced_points(mesh, displacements))
+    : m_mesh(&mesh), m_points(internal::displaced_points(mesh, displacements))
   {
     prepare();
   }
@@ -316,14 +315,14 @@ public:
   template <class Point>
   Element_location_3 nearest(const Point& point) const
   {
-    CGAL_precondition(!m_mesh.is_empty());
+    CGAL_precondition(!m_mesh->is_empty());
     if(const auto location = locate(point))
       return *location;
     const Vec3 p = internal::components(point);
     Element_location_3 best;
     best.distance = std::numeric_limits<double>::infinity();
     for(const Face& boundary_face : m_boundary) {
-      const Element_view element = m_mesh.element(boundary_face.element());
+      const Element_view element = m_mesh->element(boundary_face.element());
       const Element_face& face = element.reference().faces[boundary_face.local_index()];
       const Face_vertices& vertices = boundary_face.vertices();
       if(box(vertices, face.size).squared_distance(p) > best.distance * best.distance)

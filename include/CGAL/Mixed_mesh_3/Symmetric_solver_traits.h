@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Sparse solvers of Eigen and, if `CGAL_MIXED_MESH_3_USE_CHOLMOD` is defined, of SuiteSparse. The macro is the
-// user's word that the program is linked with CHOLMOD; the CMake target gives it if CHOLMOD was found.
+// Sparse solvers of Eigen and, if `CGAL_MIXED_MESH_3_USE_CHOLMOD` is defined, of SuiteSparse. The macro is
+// the user's word that the program is linked with CHOLMOD; the CMake target gives it if CHOLMOD was found.
 
 #ifndef CGAL_MIXED_MESH_3_SYMMETRIC_SOLVER_TRAITS_H
 #define CGAL_MIXED_MESH_3_SYMMETRIC_SOLVER_TRAITS_H
@@ -35,6 +35,9 @@ namespace Mixed_meshes_3 {
 Where `CGAL::Eigen_solver_traits` starts again at each `factor()`, this class keeps the symbolic factorization
 as long as the pattern of the matrix is the same. An iterative solver starts from the `X` that it is given.
 
+Solvers of Eigen cannot be copied. As with `CGAL::Eigen_solver_traits`, a copy is the same solver: the matrix
+that was factored last, by any of them, is that of all.
+
 \cgalModels{SparseLinearAlgebraWithFactorTraits_d}
 
 \tparam EigenSolver a sparse solver of Eigen that reads the lower triangle of an
@@ -64,7 +67,7 @@ public:
   };
 
   /// Eigen's solver, to set its parameters.
-  EigenSolver& solver() { return *m_solver; }
+  EigenSolver& solver() { return m_state->solver; }
 
   /// \param matrix must live as long as systems are solved with it
   /// \param denominator set to 1
@@ -75,15 +78,15 @@ public:
     const Eigen::SparseMatrix<double>& a = matrix.eigen_object();
     const int *starts = a.outerIndexPtr(), *rows = a.innerIndexPtr();
     const bool has_same_pattern =
-      std::equal(starts, starts + a.cols() + 1, m_starts.begin(), m_starts.end())
-      && std::equal(rows, rows + a.nonZeros(), m_rows.begin(), m_rows.end());
+      std::equal(starts, starts + a.cols() + 1, m_state->starts.begin(), m_state->starts.end())
+      && std::equal(rows, rows + a.nonZeros(), m_state->rows.begin(), m_state->rows.end());
     if(!has_same_pattern) {
-      m_starts.assign(starts, starts + a.cols() + 1);
-      m_rows.assign(rows, rows + a.nonZeros());
-      m_solver->analyzePattern(a);
+      m_state->starts.assign(starts, starts + a.cols() + 1);
+      m_state->rows.assign(rows, rows + a.nonZeros());
+      solver().analyzePattern(a);
     }
-    m_solver->factorize(a);
-    return m_solver->info() == Eigen::Success;
+    solver().factorize(a);
+    return solver().info() == Eigen::Success;
   }
 
   /// Solves with the matrix given to `factor()`.
@@ -91,21 +94,21 @@ public:
   /// \param x the solution; a guess of it on entry, if it has the dimension of `b`
   bool linear_solver(const Vector& b, Vector& x)
   {
-    CGAL_precondition(!m_starts.empty());
+    CGAL_precondition(!m_state->starts.empty());
     if constexpr(is_iterative)
-      x = x.size() == b.size() ? m_solver->solveWithGuess(b, x.eigen_object()).eval()
-                               : m_solver->solve(b).eval();
+      x = x.size() == b.size() ? solver().solveWithGuess(b, x.eigen_object()).eval()
+                               : solver().solve(b).eval();
     else
-      x = m_solver->solve(b);
-    return m_solver->info() == Eigen::Success;
+      x = solver().solve(b);
+    return solver().info() == Eigen::Success;
   }
 
   /// Solves for several right-hand sides at once, the columns of `b`, which is faster than one by one.
   bool linear_solver(const Eigen::MatrixXd& b, Eigen::MatrixXd& x)
   {
-    CGAL_precondition(!m_starts.empty());
-    x = m_solver->solve(b);
-    return m_solver->info() == Eigen::Success;
+    CGAL_precondition(!m_state->starts.empty());
+    x = solver().solve(b);
+    return solver().info() == Eigen::Success;
   }
 
   bool linear_solver(const Matrix& a, const Vector& b, Vector& x, NT& denominator)
@@ -117,8 +120,13 @@ private:
   static constexpr bool is_iterative =
     std::is_base_of_v<Eigen::IterativeSolverBase<EigenSolver>, EigenSolver>;
 
-  std::shared_ptr<EigenSolver> m_solver = std::make_shared<EigenSolver>(); // solvers cannot be copied
-  std::vector<int> m_starts, m_rows; // the pattern that was analyzed
+  struct State
+  {
+    EigenSolver solver;
+    std::vector<int> starts, rows; // the pattern that it has analyzed
+  };
+
+  std::shared_ptr<State> m_state = std::make_shared<State>();
 };
 
 /// Conjugate gradients with Jacobi's preconditioner. The fastest where few layers of vertices move.
@@ -163,7 +171,8 @@ struct Solve_columns
 template <class Solver>
 bool solve_columns(Solver& solver, const Eigen::MatrixXd& b, Eigen::MatrixXd& x)
 {
-  if constexpr(std::is_invocable_v<decltype(Solve_columns()), Solver&, const Eigen::MatrixXd&, Eigen::MatrixXd&>) {
+  if constexpr(std::is_invocable_v<decltype(Solve_columns()), Solver&, const Eigen::MatrixXd&,
+                                   Eigen::MatrixXd&>) {
     return Solve_columns()(solver, b, x);
   } else {
     x.resize(b.rows(), b.cols());

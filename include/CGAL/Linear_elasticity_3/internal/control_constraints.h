@@ -9,8 +9,8 @@
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_CONTROL_CONSTRAINTS_H
 
 #include <CGAL/Linear_elasticity_3/Linear_elasticity_result_3.h>
-#include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Linear_elasticity_3/internal/rigid_modes.h>
+#include <CGAL/Mixed_mesh_3/Element_list.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -28,28 +28,21 @@ namespace internal {
 /// The vertices whose displacements a control point has the weighted mean of.
 using Control_weights = std::vector<std::pair<Vertex_index, double>>;
 
-/// A rigid motion that supports leave free, and the vertices that it moves.
-struct Free_motion
-{
-  Rigid_mode mode;
-  std::vector<Vertex_index> vertices;
-};
-
 struct Control_solution
 {
   Eigen::VectorXd displacements, forces; // three for each vertex; three for each control point
 };
 
 /*!
-With the stiffness K, the weights B of the control points and the free rigid motions R (K R = 0), displacements u
-and the forces s on the control points satisfy
+With the stiffness K, the weights B of the control points and the free rigid motions R (K R = 0),
+displacements u and the forces s on the control points satisfy
 
     K u = f + B^T s,   B u + compliance s = d,   R^T (f + B^T s) = 0.
 
 K is held by as many springs as there are free motions, which bear nothing as loads are in equilibrium: so
 u = K^-1 f + W s + R c with W = K^-1 B^T, and what remains is a dense system for s and c, with S = B W and
-G = B R. It is solved as if by augmented Lagrangians, with S + g G G^T for S, which is positive definite but for
-constraints that depend on others. These are left out, and must be satisfied by themselves.
+G = B R. It is solved as if by augmented Lagrangians, with S + g G G^T for S, which is positive definite but
+for constraints that depend on others. These are left out, and must be satisfied by themselves.
 */
 class Control_constraints
 {
@@ -233,8 +226,8 @@ private:
     }
   }
 
-  // Cholesky's factorization, which as a rule shows that all constraints are independent; else with pivots, as
-  // long as these are not negligible.
+  // Cholesky's factorization, which as a rule shows that all constraints are independent; else with pivots,
+  // as long as these are not negligible.
   void find_independent(Matrix s)
   {
     const Index n = s.rows();

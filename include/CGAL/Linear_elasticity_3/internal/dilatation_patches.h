@@ -4,14 +4,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Tetrahedra and prisms in patches of which each has one dilatation, against volumetric locking:
-// E. A. de Souza Neto, F. M. Andrade Pires, D. R. J. Owen: "F-bar-based linear triangles and tetrahedra for finite
-// strain analysis of nearly incompressible solids. Part I", Int. J. Numer. Meth. Engng 62, 2005.
+// E. A. de Souza Neto, F. M. Andrade Pires, D. R. J. Owen: "F-bar-based linear triangles and tetrahedra for
+// finite strain analysis of nearly incompressible solids. Part I", Int. J. Numer. Meth. Engng 62, 2005.
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_DILATATION_PATCHES_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_DILATATION_PATCHES_H
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
-#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/for_each_face.h>
+
+#include <CGAL/assertions.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -23,14 +26,28 @@ namespace internal {
 
 using Patches = std::vector<std::vector<Element_index>>;
 
+/// What makes a patch of elements of a kind.
+enum class Patch_form { STAR_OF_VERTEX, PAIR, NONE };
+
+inline Patch_form patch_form(Element_kind kind)
+{
+  switch(kind) {
+  case TETRAHEDRON: return Patch_form::STAR_OF_VERTEX;
+  case PRISM: return Patch_form::PAIR;
+  case PYRAMID:
+  case HEXAHEDRON: return Patch_form::NONE;
+  }
+  CGAL_unreachable();
+}
+
 /*!
 A partition of the tetrahedra: stars of vertices, the largest first, as far as their tetrahedra are not taken
-yet. What is left in smaller stars joins the smallest patch around it. A linear tetrahedron alone has a third of
-the displacements that its constraint of volume takes; a patch of `wanted_size` or more has enough.
+yet. What is left in smaller stars joins the smallest patch around it. A linear tetrahedron alone has a third
+of the displacements that its constraint of volume takes; a patch of `wanted_size` or more has enough.
 
-Then prisms in pairs with a common quadrilateral: a prism alone has half of the displacements that a hexahedron
-has for its constraint, and bent in the plane of its triangles it locks as these do. What finds no partner is in
-no patch.
+Then prisms in pairs with a common quadrilateral: a prism alone has half of the displacements that a
+hexahedron has for its constraint, and bent in the plane of its triangles it locks as these do. What finds no
+partner is in no patch.
 
 \param is_together `bool(e, f)`: whether two elements may have one dilatation: they are of one material. For
        `e == f`, whether it may be in a patch at all
@@ -44,7 +61,7 @@ Patches dilatation_patches(const Element_list& elements, std::size_t number_of_v
   std::vector<std::vector<Element_index>> stars(number_of_vertices);
   std::size_t largest = 0;
   for(Element_index e = 0; e < elements.size(); ++e)
-    if(elements[e].kind() == TETRAHEDRON && is_together(e, e))
+    if(patch_form(elements[e].kind()) == Patch_form::STAR_OF_VERTEX && is_together(e, e))
       for(Vertex_index v : elements[e]) {
         stars[v].push_back(e);
         largest = (std::max)(largest, stars[v].size());
@@ -89,19 +106,18 @@ Patches dilatation_patches(const Element_list& elements, std::size_t number_of_v
       vertices_by_size[size].push_back(v); // for what is left of it in other materials
     }
 
-  for_each_face(elements, number_of_vertices, [](Vertex_index) { return true; },
-                [&](const Face_handle* f, std::size_t n) {
-                  if(n != 2)
-                    return;
-                  const Element_index a = f[0].element, b = f[1].element;
-                  if(elements[a].kind() == PRISM && elements[b].kind() == PRISM
-                     && reference_elements[PRISM].faces[f[0].local_face].size == 4 && patch_of[a] == no_patch
-                     && patch_of[b] == no_patch && is_together(a, b)) {
-                    patches.emplace_back();
-                    join(a, patches.size() - 1);
-                    join(b, patches.size() - 1);
-                  }
-                });
+  for_each_face(elements, number_of_vertices, [&](const auto& faces) {
+    if(faces.size() != 2)
+      return;
+    const Element_index a = faces.element(0), b = faces.element(1);
+    if(patch_form(elements[a].kind()) == Patch_form::PAIR && patch_form(elements[b].kind()) == Patch_form::PAIR
+       && faces[0].vertices().size() == 4 && patch_of[a] == no_patch && patch_of[b] == no_patch
+       && is_together(a, b)) {
+      patches.emplace_back();
+      join(a, patches.size() - 1);
+      join(b, patches.size() - 1);
+    }
+  });
   return patches;
 }
 

@@ -15,6 +15,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <numeric>
 #include <vector>
@@ -56,10 +57,18 @@ struct Rigid_mode
   Vec3 operator()(const Vec3& p) const { return translation + cross(rotation, p - center); }
 };
 
+/// A rigid motion that supports leave free, and the vertices that it moves.
+struct Free_motion
+{
+  Rigid_mode mode;
+  std::vector<Vertex_index> vertices;
+};
+
 /// The vertices of each connected part of some elements: connected by common vertices.
 template <class Is_kept>
 std::vector<std::vector<Vertex_index>> connected_vertices(const Element_list& elements,
-                                                          std::size_t number_of_vertices, const Is_kept& is_kept)
+                                                          std::size_t number_of_vertices,
+                                                          const Is_kept& is_kept)
 {
   std::vector<Vertex_index> parent(number_of_vertices);
   std::iota(parent.begin(), parent.end(), Vertex_index(0));

@@ -14,7 +14,7 @@
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
-#include <CGAL/Mixed_mesh_3/internal/fem/elasticity_assembly.h>
+#include <CGAL/Mixed_mesh_3/internal/fem/Elasticity_system.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/aspect_ratio.h>

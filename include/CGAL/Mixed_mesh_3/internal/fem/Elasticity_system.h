@@ -3,192 +3,38 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Linear elasticity on mixed elements: isoparametric stiffness of the four kinds, and the sparse system of
-// the nodes that are free, those with a prescribed displacement eliminated. In the words of finite elements
-// a vertex is a node.
+// The sparse system of linear elasticity for the nodes that are free, those with a prescribed displacement
+// eliminated.
 
-#ifndef CGAL_MIXED_MESH_3_INTERNAL_FEM_ELASTICITY_ASSEMBLY_H
-#define CGAL_MIXED_MESH_3_INTERNAL_FEM_ELASTICITY_ASSEMBLY_H
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FEM_ELASTICITY_SYSTEM_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FEM_ELASTICITY_SYSTEM_H
 
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
-#include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
-#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
-
-#include <CGAL/assertions.h>
+#include <CGAL/Mixed_mesh_3/internal/fem/element_stiffness.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The points where a stiffness is integrated: weights, and the shape functions and their gradients there.
-struct Quadrature_rule
-{
-  int number_of_points = 0;
-  std::array<double, 8> weights{};
-  std::array<std::array<double, 8>, 8> values{};  // of the shape functions, by point and by node
-  std::array<std::array<Vec3, 8>, 8> gradients{}; // in reference coordinates, by point and by node
-};
-
-template <Element_kind Kind>
-Quadrature_rule make_quadrature_rule()
-{
-  Quadrature_rule rule;
-  const auto add = [&rule](double r, double s, double t, double weight) {
-    const auto gradients = Mixed_element_traits_3<Kind>::shape_gradients(r, s, t);
-    const std::size_t q = std::size_t(rule.number_of_points++);
-    rule.weights[q] = weight;
-    std::copy(gradients.begin(), gradients.end(), rule.gradients[q].begin());
-    const auto values = Mixed_element_traits_3<Kind>::shape_functions(r, s, t);
-    std::copy(values.begin(), values.end(), rule.values[q].begin());
-  };
-  const double gauss = 1 / std::sqrt(3.); // two points on [-1,1], of weight 1
-  if constexpr(Kind == TETRAHEDRON) {
-    add(0.25, 0.25, 0.25, 1. / 6); // gradients are constant
-  } else if constexpr(Kind == PYRAMID) {
-    // Conical product: (r, s) shrink towards the apex, and heights are Gauss-Jacobi points for the weight
-    // (1 - t)^2 on [0,1].
-    const double offset = std::sqrt(10.) / 15, weight_offset = std::sqrt(10.) / 48;
-    for(int k : {-1, 1}) {
-      const double t = 1. / 3 + k * offset, weight = 1. / 6 - k * weight_offset;
-      for(int i : {-1, 1})
-        for(int j : {-1, 1})
-          add(i * gauss * (1 - t), j * gauss * (1 - t), t, weight);
-    }
-  } else if constexpr(Kind == PRISM) {
-    for(int k : {-1, 1})
-      for(int i = 0; i < 3; ++i)
-        add(i == 1 ? 2. / 3 : 1. / 6, i == 2 ? 2. / 3 : 1. / 6, k * gauss, 1. / 6);
-  } else {
-    for(int i : {-1, 1})
-      for(int j : {-1, 1})
-        for(int k : {-1, 1})
-          add(i * gauss, j * gauss, k * gauss, 1);
-  }
-  return rule;
-}
-
-inline const Quadrature_rule& quadrature_rule(Element_kind kind)
-{
-  static const Quadrature_rule rules[number_of_element_kinds] = {
-    make_quadrature_rule<TETRAHEDRON>(), make_quadrature_rule<PYRAMID>(), make_quadrature_rule<PRISM>(),
-    make_quadrature_rule<HEXAHEDRON>()};
-  return rules[kind];
-}
-
-/*!
-The strain operator at a point of an element. The B-matrix of node `a` consists of the components of
-`gradients[a]`: with the displacements \f$ u_a \f$, the gradient of displacement is
-\f$ \sum_a u_a \otimes gradients[a] \f$, and the strain its symmetric part.
-*/
-struct Strain_operator
-{
-  std::array<Vec3, 8> gradients; // of the shape functions, in space
-  double volume;                 // that the point stands for
-};
-
-/// \param points positions of the nodes; they may be relative to any of them
-/// \param q a point of the quadrature rule. \pre the Jacobian is not zero there
-inline Strain_operator strain_operator(Element_kind kind, const std::array<Vec3, 8>& points, int q)
-{
-  const Quadrature_rule& rule = quadrature_rule(kind);
-  const int n = reference_elements[kind].number_of_vertices;
-  const std::array<Vec3, 8>& reference = rule.gradients[std::size_t(q)];
-  Vec3 dr{}, ds{}, dt{}; // columns of the Jacobian matrix
-  for(int a = 0; a < n; ++a) {
-    dr = dr + reference[a][0] * points[a];
-    ds = ds + reference[a][1] * points[a];
-    dt = dt + reference[a][2] * points[a];
-  }
-  const Vec3 st = cross(ds, dt), tr = cross(dt, dr), rs = cross(dr, ds);
-  const double jacobian = dot(dr, st);
-  Strain_operator b;
-  for(int a = 0; a < n; ++a)
-    b.gradients[a] =
-      (1 / jacobian) * (reference[a][0] * st + (reference[a][1] * tr + reference[a][2] * rs));
-  b.volume = rule.weights[std::size_t(q)] * jacobian;
-  return b;
-}
-
-using Matrix_3x3 = std::array<Vec3, 3>; // rows
-
-/// The blocks of pairs of nodes `[a][b]`, `b <= a`; the others are their transposes.
-using Element_stiffness = std::array<std::array<Matrix_3x3, 8>, 8>;
-
-/// What resists a change of volume: the dilatation at each point of the quadrature, or its mean over the
-/// element (Nagtegaal, Parks, Rice, 1974; Hughes' B-bar), or for an element of a patch some pointwise and the rest
-/// by the mean over the patch, which is added apart. Only pointwise, all kinds lock if the material is nearly
-/// incompressible.
-enum class Dilatation { POINTWISE, MEAN, PATCH };
-
-/// The share of the bulk modulus that is pointwise in a patch: as much as does not lock. Without any, the elements
-/// of a patch could change their volumes against each other too easily.
-inline double pointwise_share(const Elastic_material& material)
-{
-  constexpr double largest_multiple_of_mu = 2;
-  return (std::min)(1., largest_multiple_of_mu * material.mu() / material.bulk_modulus());
-}
-
-/// \cost constant: 8 points and 36 blocks for a hexahedron, 1 point and 10 blocks for a tetrahedron
-inline void compute_element_stiffness(Element_kind kind, const std::array<Vec3, 8>& points,
-                                      const Elastic_material& material, Dilatation dilatation,
-                                      Element_stiffness& stiffness)
-{
-  const int n = reference_elements[kind].number_of_vertices;
-  double volume = 0;
-  std::array<Vec3, 8> divergence{}; // its integral, by the displacement of each node
-  for(int a = 0; a < n; ++a)
-    for(int b = 0; b <= a; ++b)
-      stiffness[a][b] = Matrix_3x3{};
-  // first the integrals of the dyadic products of gradients, which do not depend on the material
-  for(int q = 0; q < quadrature_rule(kind).number_of_points; ++q) {
-    const Strain_operator s = strain_operator(kind, points, q);
-    volume += s.volume;
-    for(int a = 0; a < n; ++a) {
-      const Vec3 ga = s.volume * s.gradients[a];
-      divergence[a] = divergence[a] + ga;
-      for(int b = 0; b <= a; ++b)
-        for(int i = 0; i < 3; ++i)
-          for(int j = 0; j < 3; ++j)
-            stiffness[a][b][i][j] += ga[i] * s.gradients[b][j];
-    }
-  }
-  const double mu = material.mu();
-  const double pointwise = dilatation == Dilatation::POINTWISE ? 1
-                           : dilatation == Dilatation::PATCH   ? pointwise_share(material)
-                                                               : 0;
-  const double lambda = pointwise * material.bulk_modulus() - 2 * mu / 3;
-  const double mean = dilatation == Dilatation::MEAN ? material.bulk_modulus() / volume : 0;
-  for(int a = 0; a < n; ++a)
-    for(int b = 0; b <= a; ++b) {
-      const Matrix_3x3 d = stiffness[a][b];
-      const double shear = mu * (d[0][0] + d[1][1] + d[2][2]);
-      for(int i = 0; i < 3; ++i)
-        for(int j = 0; j < 3; ++j)
-          stiffness[a][b][i][j] = lambda * d[i][j] + mu * d[j][i] + (i == j ? shear : 0)
-                                  + mean * divergence[a][i] * divergence[b][j];
-    }
-}
-
 /*!
 The system of linear equations for the displacements of the free nodes.
 
-The matrix is symmetric: its lower triangle is kept in compressed columns, rows ascending. Unknown `3 i + k` is
-coordinate `k` of free node `i`. The pattern is computed once; values are filled in as often as needed.
+The matrix is symmetric: its lower triangle is kept in compressed columns, rows ascending. Unknown `3 i + k`
+is coordinate `k` of free node `i`. The pattern is computed once; values are filled in as often as needed.
 */
 class Elasticity_system
 {
-  const Element_list& m_elements;
+  const Element_list* m_elements;
   std::vector<Element_index> m_active;     // elements with a free node
   std::vector<Vertex_index> m_free;        // the free nodes
   std::vector<Vertex_index> m_unknowns;    // number of each node among the free ones, or no_vertex
@@ -199,12 +45,12 @@ class Elasticity_system
   Element_stiffness m_element_stiffness; // of the element being added
 
 public:
-  /// \param elements kept by reference
+  /// \param elements kept by reference: must outlive the system
   /// \param is_free of each vertex, whether its displacement is unknown
   /// \param patches sets of nodes, besides those of the elements, that `add_patch()` will get
   Elasticity_system(const Element_list& elements, const std::vector<bool>& is_free,
                     const std::vector<std::vector<Vertex_index>>& patches = {})
-    : m_elements(elements), m_unknowns(is_free.size(), no_vertex)
+    : m_elements(&elements), m_unknowns(is_free.size(), no_vertex)
   {
     for(Vertex_index v = 0; v < is_free.size(); ++v)
       if(is_free[v]) {
@@ -235,14 +81,15 @@ public:
     std::fill(m_right_hand_side.begin(), m_right_hand_side.end(), 0.);
   }
 
-  /// Adds an element. An element added before becomes stiffer by that, or softer if Young's modulus is negative.
+  /// Adds an element. An element added before becomes stiffer by that, or softer if Young's modulus is
+  /// negative.
   /// \param points positions of all nodes
   /// \param displacements of all nodes; those of the free ones are ignored
   /// \pre the element has a free node
   void add(Element_index e, const Elastic_material& material, const std::vector<Vec3>& points,
            const std::vector<Vec3>& displacements, Dilatation dilatation = Dilatation::POINTWISE)
   {
-    const Element_view element = m_elements[e];
+    const Element_view element = (*m_elements)[e];
     std::array<Vec3, 8> p{};
     for(int a = 1; a < element.size(); ++a)
       p[a] = points[element[a]] - points[element[0]];
@@ -280,7 +127,7 @@ private:
     };
     const auto for_each_pair = [&](const auto& f) {
       for(Element_index e : m_active)
-        for_each_pair_of(m_elements[e], f);
+        for_each_pair_of((*m_elements)[e], f);
       for(const std::vector<Vertex_index>& patch : patches)
         for_each_pair_of(patch, f);
     };
@@ -371,7 +218,8 @@ private:
 
 /// A symmetric matrix as any model of CGAL's concept takes it, of its lower triangle in compressed columns.
 template <class Matrix>
-Matrix make_matrix(const std::vector<int>& starts, const std::vector<int>& rows, const std::vector<double>& values)
+Matrix make_matrix(const std::vector<int>& starts, const std::vector<int>& rows,
+                   const std::vector<double>& values)
 {
   using Arrays = const std::vector<int>&;
   if constexpr(std::is_constructible_v<Matrix, Arrays, Arrays, const std::vector<double>&>) {
@@ -394,4 +242,4 @@ Matrix make_matrix(const std::vector<int>& starts, const std::vector<int>& rows,
 } // namespace Mixed_meshes_3
 } // namespace CGAL
 
-#endif // CGAL_MIXED_MESH_3_INTERNAL_FEM_ELASTICITY_ASSEMBLY_H
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FEM_ELASTICITY_SYSTEM_H

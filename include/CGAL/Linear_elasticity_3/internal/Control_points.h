@@ -1,0 +1,216 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The control points of an elastic body: in which elements they are, which vertices each has the mean of, and
+// the constraints that this makes.
+
+#ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_CONTROL_POINTS_H
+#define CGAL_LINEAR_ELASTICITY_3_INTERNAL_CONTROL_POINTS_H
+
+#include <CGAL/Linear_elasticity_3/Linear_elasticity_result_3.h>
+#include <CGAL/Linear_elasticity_3/internal/Elastic_body.h>
+#include <CGAL/Linear_elasticity_3/internal/boundary_measures.h>
+#include <CGAL/Linear_elasticity_3/internal/control_constraints.h>
+#include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/Element_locator_3.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+
+#include <CGAL/assertions.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// Those elements of a mesh that are left, and which of them contains a point.
+template <class Mesh>
+class Located_elements
+{
+  std::vector<Element_index> m_elements; // their numbers in the whole mesh
+  Mesh m_mesh;                           // of them, with all vertices
+  Element_locator_3<Mesh> m_locator;     // refers to m_mesh
+  std::vector<double> m_areas;           // of the vertices of its boundary, when needed
+
+public:
+  Located_elements(const Mesh& mesh, const std::vector<bool>& is_removed)
+    : m_mesh(remaining(mesh, is_removed, m_elements)), m_locator(m_mesh)
+  {}
+
+  // The locator would stay with the mesh of the other one.
+  Located_elements(const Located_elements&) = delete;
+  Located_elements& operator=(const Located_elements&) = delete;
+
+  /// The nearest point of what is left. Its element has another number here than in the whole mesh.
+  Element_location_3 nearest(const Vec3& p) const { return m_locator.nearest(p); }
+
+  /// The number in the whole mesh.
+  Element_index element(const Element_location_3& location) const { return m_elements[location.element]; }
+
+  Control_weights weights(const Element_location_3& location) const
+  {
+    Control_weights weights;
+    const Element_view element = m_mesh.element(location.element);
+    for(int i = 0; i < element.size(); ++i)
+      if(location.weights[i] != 0)
+        weights.emplace_back(element[i], location.weights[i]);
+    return weights;
+  }
+
+  /// The weights of the boundary around a point, by area; unchanged if there are too few vertices.
+  void spread(const std::vector<Vec3>& points, const Vec3& p, double radius, Control_weights& weights)
+  {
+    if(m_areas.empty())
+      m_areas = boundary_vertex_areas(m_mesh);
+    Control_weights around;
+    double sum = 0;
+    for(Vertex_index v = 0; v < points.size(); ++v)
+      if(m_areas[v] > 0 && norm(points[v] - p) <= radius) {
+        around.emplace_back(v, m_areas[v]);
+        sum += m_areas[v];
+      }
+    if(around.size() < 3)
+      return;
+    for(auto& [v, w] : around)
+      w /= sum;
+    weights = std::move(around);
+  }
+
+private:
+  static Mesh remaining(const Mesh& mesh, const std::vector<bool>& is_removed,
+                        std::vector<Element_index>& elements)
+  {
+    Mesh rest;
+    for(const auto& p : mesh.points())
+      rest.add_vertex(p);
+    for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
+      if(!is_removed[e]) {
+        rest.add_element(mesh.element(e).kind(), mesh.element(e).begin());
+        elements.push_back(e);
+      }
+    return rest;
+  }
+};
+
+/// How control points act; see `Linear_elasticity_3::set_control_points()`.
+struct Control_options
+{
+  double largest_distance = 0, compliance = 0, radius = 0;
+};
+
+template <class Mesh>
+class Control_points
+{
+  using Result = Linear_elasticity_result_3;
+  using Status = Linear_elasticity_status;
+
+  // On the heap: it cannot be moved.
+  std::unique_ptr<Located_elements<Mesh>> m_located; // when needed
+  Control_options m_options;
+  std::vector<Vec3> m_positions;
+  std::vector<Element_index> m_elements; // that contain them
+  std::optional<Control_constraints> m_constraints;
+
+public:
+  const std::vector<Vec3>& positions() const { return m_positions; }
+  const Control_options& options() const { return m_options; }
+
+  /// To be called when elements have been removed.
+  void forget_elements() { m_located.reset(); }
+  /// To be called before the body is factored.
+  void forget_constraints() { m_constraints.reset(); }
+
+  void clear(const Control_options& options)
+  {
+    m_options = options;
+    m_positions.clear();
+    m_elements.clear();
+    m_constraints.reset();
+  }
+
+  /// Whether they act on what is left of the body only.
+  template <class SolverTraits>
+  bool are_on(const Elastic_body<SolverTraits>& body) const
+  {
+    return (!m_constraints || m_constraints->is_on(body.supports().kept_vertices()))
+           && std::none_of(m_elements.begin(), m_elements.end(),
+                           [&](Element_index e) { return body.stiffness().is_removed(e); });
+  }
+
+  /// Places control points where there are none. There are none either if that fails.
+  /// \pre the body is factored
+  template <class SolverTraits>
+  Result place(const Mesh& mesh, Elastic_body<SolverTraits>& body, std::vector<Vec3> positions)
+  {
+    CGAL_precondition(m_positions.empty());
+    if(!m_located && !positions.empty())
+      m_located = std::make_unique<Located_elements<Mesh>>(mesh, body.stiffness().removed_elements());
+    std::vector<Element_index> elements;
+    std::vector<Control_weights> weights;
+    for(const Vec3& p : positions) {
+      const Element_location_3 location = m_located->nearest(p);
+      if(location.distance > m_options.largest_distance || !std::isfinite(location.distance)) {
+        Result result = failed(Status::CONTROL_POINT_OUTSIDE);
+        result.control_point = weights.size();
+        result.distance = location.distance;
+        return result;
+      }
+      elements.push_back(m_located->element(location));
+      weights.push_back(m_located->weights(location));
+      if(m_options.radius > 0)
+        m_located->spread(body.stiffness().points(), p, m_options.radius, weights.back());
+    }
+    const Result result = constrain(body, std::move(weights));
+    if(result.is_success()) {
+      m_positions = std::move(positions);
+      m_elements = std::move(elements);
+    }
+    return result;
+  }
+
+  /// The constraints, also if there is no control point. \pre the body is factored
+  template <class SolverTraits>
+  Result prepare(Elastic_body<SolverTraits>& body)
+  {
+    return m_constraints ? Result() : constrain(body, {});
+  }
+
+  /// \pre `place()` or `prepare()` was successful
+  const Control_constraints& constraints() const { return *m_constraints; }
+
+private:
+  static Result failed(Status status)
+  {
+    Result result;
+    result.status = status;
+    return result;
+  }
+
+  template <class SolverTraits>
+  Result constrain(Elastic_body<SolverTraits>& body, std::vector<Control_weights> weights)
+  {
+    m_constraints.emplace(std::move(weights), m_options.compliance, body.system().free_motions(),
+                          body.stiffness().points(), body.supports().of_vertices(),
+                          [&](const Eigen::MatrixXd& f, Eigen::MatrixXd& u) { return body.solve(f, u); });
+    if(m_constraints->is_solved())
+      return Result();
+    m_constraints.reset();
+    return failed(Status::SOLVER_FAILED);
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_LINEAR_ELASTICITY_3_INTERNAL_CONTROL_POINTS_H

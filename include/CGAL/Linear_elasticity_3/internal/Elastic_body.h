@@ -1,0 +1,161 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// An elastic body with supports and loads, before any control points: its stiffness, its factored system, and
+// the solution for the loads.
+
+#ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTIC_BODY_H
+#define CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTIC_BODY_H
+
+#include <CGAL/Linear_elasticity_3/internal/Elastic_stiffness.h>
+#include <CGAL/Linear_elasticity_3/internal/Elastic_supports.h>
+#include <CGAL/Linear_elasticity_3/internal/Projected_system.h>
+#include <CGAL/Mixed_mesh_3/Elastic_material.h>
+#include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+
+#include <Eigen/Core>
+
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+template <class SolverTraits>
+class Elastic_body
+{
+  Elastic_stiffness m_stiffness;
+  Elastic_supports m_supports;
+  Projected_system<SolverTraits> m_system;
+  Vec3 m_body_force{}, m_gravity{};
+  bool m_is_loaded = false; // whether the vectors below are up to date
+  Eigen::VectorXd m_force, m_load, m_loaded;
+
+public:
+  /// \param elements kept by reference: must outlive the object
+  Elastic_body(const Element_list& elements, std::vector<Vec3> points,
+               std::vector<Elastic_material> materials)
+    : m_stiffness(elements, std::move(points), std::move(materials)),
+      m_supports(m_stiffness.number_of_vertices())
+  {}
+
+  const Elastic_stiffness& stiffness() const { return m_stiffness; }
+  const Elastic_supports& supports() const { return m_supports; }
+  /// To be changed before `assemble()`.
+  Elastic_supports& supports() { return m_supports; }
+  const Projected_system<SolverTraits>& system() const { return m_system; }
+  SolverTraits& solver() { return m_system.solver(); }
+
+  void set_body_force(const Vec3& force)
+  {
+    m_body_force = force;
+    m_is_loaded = false;
+  }
+
+  void set_gravity(const Vec3& acceleration)
+  {
+    m_gravity = acceleration;
+    m_is_loaded = false;
+  }
+
+  void set_support_displacement(Vertex_index v, const Vec3& displacement)
+  {
+    m_supports.set_displacement(v, displacement);
+    m_is_loaded = false;
+  }
+
+  bool is_assembled() const { return m_stiffness.is_assembled(); }
+
+  void clear()
+  {
+    m_stiffness.clear();
+    m_system.clear();
+  }
+
+  void assemble()
+  {
+    m_stiffness.assemble();
+    m_supports.find_parts(m_stiffness);
+  }
+
+  /// Removes elements from the stiffness; what is factored stays. \pre assembled
+  void subtract(const std::vector<bool>& is_removed) { m_stiffness.subtract(is_removed); }
+
+  /// To be called when elements have been removed.
+  void find_parts()
+  {
+    m_supports.find_parts(m_stiffness);
+    m_is_loaded = false;
+  }
+
+  /// \return whether it is possible; else the body is no longer assembled
+  bool factor()
+  {
+    m_is_loaded = false;
+    if(m_system.factor(m_stiffness, m_supports))
+      return true;
+    m_stiffness.clear();
+    return false;
+  }
+
+  /// Solves for several forces on all vertices.
+  bool solve(const Eigen::MatrixXd& forces, Eigen::MatrixXd& displacements)
+  {
+    return m_system.solve(m_supports, forces, displacements);
+  }
+
+  /// Solves for body forces and supports, unless nothing has changed.
+  bool solve_loads()
+  {
+    if(m_is_loaded)
+      return true;
+    const Eigen::Index n = 3 * Eigen::Index(m_stiffness.number_of_vertices());
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(n), supported = Eigen::VectorXd::Zero(n);
+    bool is_supported = false, has_force = false;
+    for(Vertex_index v = 0; v < m_stiffness.number_of_vertices(); ++v)
+      if(m_supports.is_kept(v))
+        for(int k = 0; k < 3; ++k) {
+          const double u = m_supports.of_vertices()[v].displacement[k];
+          supported[3 * Eigen::Index(v) + k] = u;
+          is_supported = is_supported || u != 0;
+        }
+    if(m_body_force != Vec3{} || m_gravity != Vec3{}) {
+      has_force = true;
+      m_stiffness.add_body_force(m_body_force, m_gravity, force);
+    }
+    m_force = force;
+    if(is_supported)
+      force -= m_stiffness.product(supported);
+    m_load = force;
+    if(has_force || is_supported) {
+      Eigen::MatrixXd solution;
+      if(!solve(force, solution))
+        return false;
+      m_loaded = solution.col(0) + supported;
+    } else {
+      m_loaded = Eigen::VectorXd::Zero(n);
+    }
+    m_is_loaded = true;
+    return true;
+  }
+
+  /// \name What `solve_loads()` finds
+  /// @{
+  /// Body forces.
+  const Eigen::VectorXd& force() const { return m_force; }
+  /// These, and what displacements of supports cause: the right-hand side.
+  const Eigen::VectorXd& load() const { return m_load; }
+  /// The displacements.
+  const Eigen::VectorXd& loaded() const { return m_loaded; }
+  /// @}
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTIC_BODY_H

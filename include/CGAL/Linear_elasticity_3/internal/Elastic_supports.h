@@ -1,0 +1,119 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What holds the vertices of an elastic body, the connected parts of the body, and which motions of these are
+// free.
+
+#ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTIC_SUPPORTS_H
+#define CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTIC_SUPPORTS_H
+
+#include <CGAL/Linear_elasticity_3/internal/Elastic_stiffness.h>
+#include <CGAL/Linear_elasticity_3/internal/rigid_modes.h>
+#include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+
+#include <CGAL/assertions.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// A connected part of a body, and a basis of the rigid motions that its supports leave free.
+struct Elastic_part
+{
+  std::vector<Vertex_index> vertices;
+  std::vector<Rigid_mode> modes;
+};
+
+class Elastic_supports
+{
+  std::vector<Support> m_supports; // of each vertex
+  std::vector<bool> m_is_kept;     // of each vertex, whether an element is left
+  std::vector<Elastic_part> m_parts;
+
+public:
+  explicit Elastic_supports(std::size_t number_of_vertices) : m_supports(number_of_vertices) {}
+
+  void prescribe(Vertex_index v, const Vec3& displacement)
+  {
+    m_supports[v].size = 3;
+    m_supports[v].directions = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    m_supports[v].displacement = displacement;
+  }
+
+  void slide(Vertex_index v, const Vec3& normal) { m_supports[v].add(normal); }
+
+  /// \pre prescribed
+  void set_displacement(Vertex_index v, const Vec3& displacement)
+  {
+    CGAL_precondition(m_supports[v].size == 3);
+    m_supports[v].displacement = displacement;
+  }
+
+  const std::vector<Support>& of_vertices() const { return m_supports; }
+
+  /// To be called when elements have been removed, or supports changed.
+  void find_parts(const Elastic_stiffness& stiffness)
+  {
+    m_parts.clear();
+    m_is_kept.assign(m_supports.size(), false);
+    for(std::vector<Vertex_index>& vertices :
+        connected_vertices(stiffness.elements(), m_supports.size(),
+                           [&](Element_index e) { return !stiffness.is_removed(e); })) {
+      for(Vertex_index v : vertices)
+        m_is_kept[v] = true;
+      std::vector<Rigid_mode> modes = free_rigid_modes(vertices, stiffness.points(), m_supports);
+      m_parts.push_back({std::move(vertices), std::move(modes)});
+    }
+  }
+
+  const std::vector<Elastic_part>& parts() const { return m_parts; }
+
+  /// Of each part.
+  std::vector<std::size_t> numbers_of_free_motions() const
+  {
+    std::vector<std::size_t> n;
+    for(const Elastic_part& part : m_parts)
+      n.push_back(part.modes.size());
+    return n;
+  }
+
+  const std::vector<bool>& kept_vertices() const { return m_is_kept; }
+  bool is_kept(Vertex_index v) const { return m_is_kept[v]; }
+  /// Whether a vertex may move in some direction.
+  bool is_free(Vertex_index v) const { return m_is_kept[v] && m_supports[v].size < 3; }
+  /// Whether it may in all.
+  bool is_unsupported(Vertex_index v) const { return m_supports[v].size == 0 && m_is_kept[v]; }
+
+  /// The component in directions that are free; nothing if no element is left.
+  Vec3 free_part(Vertex_index v, const Vec3& u) const
+  {
+    return m_is_kept[v] ? m_supports[v].free_part(u) : Vec3{};
+  }
+
+  /// As above, for three components of each vertex.
+  Eigen::VectorXd free_part(Eigen::VectorXd f) const
+  {
+    for(Vertex_index v = 0; v < m_supports.size(); ++v) {
+      const Eigen::Index i = 3 * Eigen::Index(v);
+      const Vec3 x = free_part(v, {f[i], f[i + 1], f[i + 2]});
+      for(int k = 0; k < 3; ++k)
+        f[i + k] = x[k];
+    }
+    return f;
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTIC_SUPPORTS_H

@@ -1,0 +1,203 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What Linear_elasticity_3 does, in which order: factor, place control points, remove elements, solve.
+
+#ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTICITY_MODEL_H
+#define CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTICITY_MODEL_H
+
+#include <CGAL/Linear_elasticity_3/Linear_elasticity_result_3.h>
+#include <CGAL/Linear_elasticity_3/internal/Control_points.h>
+#include <CGAL/Linear_elasticity_3/internal/Elastic_body.h>
+#include <CGAL/Linear_elasticity_3/internal/boundary_measures.h>
+#include <CGAL/Linear_elasticity_3/internal/control_constraints.h>
+#include <CGAL/Linear_elasticity_3/internal/removal.h>
+#include <CGAL/Mixed_mesh_3/Elastic_material.h>
+#include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/Element_locator_3.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// Of whatever has components `[0]`, `[1]`, `[2]`.
+template <class Range>
+std::vector<Vec3> vectors(const Range& range)
+{
+  std::vector<Vec3> result;
+  for(const auto& x : range)
+    result.push_back(components(x));
+  return result;
+}
+
+template <class Mesh, class SolverTraits>
+class Elasticity_model
+{
+  using Result = Linear_elasticity_result_3;
+  using Status = Linear_elasticity_status;
+
+  const Mesh* m_mesh;
+  Elastic_body<SolverTraits> m_body;
+  Control_points<Mesh> m_controls;
+  bool m_is_iterative = false; // as elements have been removed since the body was factored
+  double m_iteration_tolerance = 1e-3;
+  int m_number_of_iterations = 0; // of the last solution
+  Eigen::VectorXd m_control_forces;
+  std::vector<Vec3> m_displacements;
+
+public:
+  Elasticity_model(const Mesh& mesh, std::vector<Elastic_material> materials)
+    : m_mesh(&mesh), m_body(mesh.elements(), points_of(mesh), std::move(materials))
+  {}
+
+  const Mesh& mesh() const { return *m_mesh; }
+  Elastic_body<SolverTraits>& body() { return m_body; }
+  const Elastic_body<SolverTraits>& body() const { return m_body; }
+  std::size_t number_of_control_points() const { return m_controls.positions().size(); }
+  bool is_iterative() const { return m_is_iterative; }
+  void set_iteration_tolerance(double tolerance) { m_iteration_tolerance = tolerance; }
+  int number_of_iterations() const { return m_is_iterative ? m_number_of_iterations : 0; }
+
+  template <class Is_sliding>
+  void slide_along_boundary(const Is_sliding& is_sliding)
+  {
+    const std::vector<Vec3> normals = boundary_vertex_normals(*m_mesh, m_body.stiffness().points());
+    for(Vertex_index v = 0; v < normals.size(); ++v)
+      if(norm(normals[v]) > 0 && is_sliding(v))
+        m_body.supports().slide(v, normals[v]);
+  }
+
+  Result factor()
+  {
+    m_body.clear();
+    m_controls.forget_elements();
+    if(m_body.stiffness().is_all_removed())
+      return failed(Status::NO_ELEMENTS);
+    Result result;
+    result.element = m_body.stiffness().find_inverted_element();
+    if(result.element != m_mesh->number_of_elements())
+      return failed(Status::INVERTED_ELEMENT, result);
+    m_body.assemble();
+    return factor_system();
+  }
+
+  Result remove_elements(const std::vector<bool>& is_removed)
+  {
+    m_body.subtract(is_removed);
+    m_controls.forget_elements();
+    if(m_body.stiffness().is_all_removed()) {
+      m_body.clear();
+      return failed(Status::NO_ELEMENTS);
+    }
+    const std::vector<std::size_t> before = m_body.supports().numbers_of_free_motions();
+    m_body.find_parts();
+    m_is_iterative = m_body.supports().numbers_of_free_motions() == before
+                     && m_controls.options().compliance == 0 && m_controls.are_on(m_body);
+    return m_is_iterative ? Result() : factor_system();
+  }
+
+  Result set_control_points(std::vector<Vec3> points, const Control_options& options)
+  {
+    m_controls.clear(options);
+    if(m_is_iterative)
+      if(const Result result = factor_system(); !result.is_success())
+        return result;
+    return m_controls.place(*m_mesh, m_body, std::move(points));
+  }
+
+  /// \param displacements of the control points
+  Result solve(const std::vector<Vec3>& displacements)
+  {
+    Eigen::VectorXd wanted(3 * Eigen::Index(displacements.size()));
+    for(std::size_t i = 0; i < displacements.size(); ++i)
+      for(int k = 0; k < 3; ++k)
+        wanted[Eigen::Index(3 * i) + k] = displacements[i][k];
+    if(!m_body.solve_loads())
+      return failed(Status::SOLVER_FAILED);
+    if(const Result result = m_controls.prepare(m_body); !result.is_success())
+      return result;
+    Control_solution solution;
+    Result result = m_controls.constraints().solve(m_body.loaded(), m_body.load(), wanted,
+                                                   m_body.system().free_motions(), solution);
+    if(!result.is_success())
+      return result;
+    if(m_is_iterative
+       && !solve_after_removal(m_body, m_controls.constraints(), wanted, m_iteration_tolerance, solution,
+                               m_number_of_iterations)) {
+      result = factor_system();
+      return result.is_success() ? solve(displacements) : result;
+    }
+    m_control_forces = solution.forces;
+    m_displacements.assign(m_body.stiffness().number_of_vertices(), Vec3{});
+    for(Vertex_index v = 0; v < m_displacements.size(); ++v)
+      if(m_body.supports().is_kept(v))
+        for(int k = 0; k < 3; ++k)
+          m_displacements[v][k] = solution.displacements[3 * Eigen::Index(v) + k];
+    return result;
+  }
+
+  const std::vector<Vec3>& displacements() const { return m_displacements; }
+
+  std::vector<Vec3> control_forces() const
+  {
+    std::vector<Vec3> forces(std::size_t(m_control_forces.size() / 3));
+    for(std::size_t i = 0; i < forces.size(); ++i)
+      for(int k = 0; k < 3; ++k)
+        forces[i][k] = m_control_forces[Eigen::Index(3 * i) + k];
+    return forces;
+  }
+
+  double energy() const
+  {
+    const std::size_t n = m_body.stiffness().number_of_vertices();
+    Eigen::VectorXd u(3 * Eigen::Index(n));
+    for(std::size_t v = 0; v < n; ++v)
+      for(int k = 0; k < 3; ++k)
+        u[Eigen::Index(3 * v) + k] = m_displacements.empty() ? 0 : m_displacements[v][k];
+    return u.dot(m_body.stiffness().product(u)) / 2;
+  }
+
+private:
+  static std::vector<Vec3> points_of(const Mesh& mesh)
+  {
+    std::vector<Vec3> points;
+    points.reserve(mesh.number_of_vertices());
+    for(const auto& p : mesh.points())
+      points.push_back(to_vec3(p));
+    return points;
+  }
+
+  static Result failed(Status status, Result result = Result())
+  {
+    result.status = status;
+    return result;
+  }
+
+  // Factors the stiffness as it is, and locates the control points anew.
+  Result factor_system()
+  {
+    m_is_iterative = false;
+    m_controls.forget_constraints();
+    if(!m_body.factor())
+      return failed(Status::SOLVER_FAILED);
+    if(m_controls.positions().empty())
+      return Result();
+    const Control_options options = m_controls.options();
+    return set_control_points(m_controls.positions(), options);
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTICITY_MODEL_H

@@ -1,0 +1,250 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The system of linear equations of an elastic body, without its control points: projected on the directions
+// that supports leave free, held by springs where rigid motions are free, and factored.
+
+#ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_PROJECTED_SYSTEM_H
+#define CGAL_LINEAR_ELASTICITY_3_INTERNAL_PROJECTED_SYSTEM_H
+
+#include <CGAL/Linear_elasticity_3/internal/Elastic_stiffness.h>
+#include <CGAL/Linear_elasticity_3/internal/Elastic_supports.h>
+#include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
+#include <CGAL/Mixed_mesh_3/Face.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/fem/Elasticity_system.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// \tparam SolverTraits a model of `SparseLinearAlgebraWithFactorTraits_d`; it need not be movable
+template <class SolverTraits>
+class Projected_system
+{
+  using Matrix = typename SolverTraits::Matrix;
+
+  // On the heap, as the solver refers to the matrix: neither moves when the system is moved.
+  struct Factorization
+  {
+    std::optional<Matrix> matrix;
+    SolverTraits solver;
+  };
+
+  std::unique_ptr<Factorization> m_factorization = std::make_unique<Factorization>();
+  std::vector<Vertex_index> m_unknowns; // the vertices of the system that is factored
+  std::vector<Free_motion> m_motions;   // of the parts when it was factored
+
+public:
+  SolverTraits& solver() { return m_factorization->solver; }
+
+  /// The rigid motions that supports left free when the system was factored.
+  const std::vector<Free_motion>& free_motions() const { return m_motions; }
+
+  /// Forgets the matrix, and with it which vertices are the unknowns.
+  void clear() { m_factorization->matrix.reset(); }
+
+  /// K on the directions that are free, P K P, with something positive on those that are not. As springs hold
+  /// just as many unknowns as there are motions free, they bear nothing if the loads are in equilibrium.
+  /// \return whether the system is not singular
+  bool factor(const Elastic_stiffness& stiffness, const Elastic_supports& supports)
+  {
+    const Elasticity_system& all = stiffness.system();
+    const double largest = *std::max_element(all.values().begin(), all.values().end());
+    const std::vector<double> springs = find_springs(stiffness, supports);
+    std::optional<Matrix>& matrix = m_factorization->matrix;
+    if(!matrix) { // else the numbers stay, so that the symbolic factorization does
+      m_unknowns.clear();
+      for(Vertex_index v = 0; v < stiffness.number_of_vertices(); ++v)
+        if(supports.is_free(v))
+          m_unknowns.push_back(v);
+    }
+    std::vector<int> starts{0}, rows;
+    std::vector<double> values;
+    reduce(all, stiffness.number_of_vertices(), springs, starts, rows, values);
+    project(supports, starts, rows, values, largest);
+    if(m_unknowns.empty())
+      return true; // CGAL's matrices are not
+    matrix.emplace(make_matrix<Matrix>(starts, rows, values));
+    typename SolverTraits::NT denominator = 1;
+    if(solver().factor(*matrix, denominator) && !is_nearly_singular(largest))
+      return true;
+    clear();
+    return false;
+  }
+
+  /// Solves for right-hand sides of all vertices; the solutions are in the free directions.
+  bool solve(const Elastic_supports& supports, const Eigen::MatrixXd& forces, Eigen::MatrixXd& solutions)
+  {
+    const Eigen::Index n = 3 * Eigen::Index(m_unknowns.size());
+    Eigen::MatrixXd b(n, forces.cols()), x;
+    for(Eigen::Index c = 0; c < forces.cols(); ++c)
+      for(std::size_t i = 0; i < m_unknowns.size(); ++i) {
+        const Vertex_index v = m_unknowns[i];
+        const Vec3 f = supports.free_part(v, {forces(3 * v, c), forces(3 * v + 1, c), forces(3 * v + 2, c)});
+        for(int k = 0; k < 3; ++k)
+          b(Eigen::Index(3 * i) + k, c) = f[k];
+      }
+    if(n > 0 && !solve_columns(solver(), b, x))
+      return false;
+    solutions = Eigen::MatrixXd::Zero(forces.rows(), forces.cols());
+    for(Eigen::Index c = 0; c < forces.cols(); ++c)
+      for(std::size_t i = 0; i < m_unknowns.size(); ++i)
+        for(int k = 0; k < 3; ++k)
+          solutions(Eigen::Index(3 * m_unknowns[i]) + k, c) = x(Eigen::Index(3 * i) + k, c);
+    return solutions.allFinite();
+  }
+
+private:
+  // What is to be added to the diagonal; and the motions that are held by it.
+  std::vector<double> find_springs(const Elastic_stiffness& stiffness, const Elastic_supports& supports)
+  {
+    const Elasticity_system& all = stiffness.system();
+    std::vector<double> springs(3 * stiffness.number_of_vertices(), 0);
+    m_motions.clear();
+    for(const Elastic_part& part : supports.parts()) {
+      for(std::size_t unknown : springs_for(part, stiffness.points(), supports))
+        springs[unknown] = all.values()[all.starts()[unknown]];
+      for(const Rigid_mode& mode : part.modes)
+        m_motions.push_back({mode, part.vertices});
+    }
+    return springs;
+  }
+
+  // As many unknowns of a part as motions are free, such that holding these holds the part: rows of the
+  // matrix of modes, by elimination with pivots.
+  static std::vector<std::size_t> springs_for(const Elastic_part& part, const std::vector<Vec3>& points,
+                                              const Elastic_supports& supports)
+  {
+    using Row = std::array<double, 6>;
+    std::vector<std::size_t> chosen;
+    if(part.modes.empty())
+      return chosen;
+    std::vector<std::pair<std::size_t, Row>> table;
+    for(Vertex_index v : part.vertices)
+      for(int k = 0; k < 3; ++k)
+        if(supports.is_free(v)) {
+          Row row{};
+          for(std::size_t m = 0; m < part.modes.size(); ++m)
+            row[m] = supports.free_part(v, part.modes[m](points[v]))[k];
+          table.emplace_back(3 * v + k, row);
+        }
+    const auto dot = [](const Row& a, const Row& b) {
+      double sum = 0;
+      for(int i = 0; i < 6; ++i)
+        sum += a[i] * b[i];
+      return sum;
+    };
+    for(std::size_t m = 0; m < part.modes.size(); ++m) {
+      const auto pivot = *std::max_element(table.begin(), table.end(), [&](const auto& a, const auto& b) {
+        return dot(a.second, a.second) < dot(b.second, b.second);
+      });
+      chosen.push_back(pivot.first);
+      const double square = dot(pivot.second, pivot.second);
+      for(auto& [unknown, row] : table) {
+        const double c = dot(row, pivot.second) / square;
+        for(int i = 0; i < 6; ++i)
+          row[i] -= c * pivot.second[i];
+      }
+    }
+    return chosen;
+  }
+
+  // The rows and columns of the unknowns, with springs: the lower triangle in compressed columns.
+  void reduce(const Elasticity_system& all, std::size_t number_of_vertices,
+              const std::vector<double>& springs, std::vector<int>& starts, std::vector<int>& rows,
+              std::vector<double>& values) const
+  {
+    std::vector<Vertex_index> number(number_of_vertices, no_vertex);
+    for(std::size_t i = 0; i < m_unknowns.size(); ++i)
+      number[m_unknowns[i]] = Vertex_index(i);
+    for(Vertex_index v : m_unknowns) {
+      const std::size_t first = values.size();
+      for(int k = 0; k < 3; ++k) {
+        for(int i = all.starts()[3 * v + k]; i < all.starts()[3 * v + k + 1]; ++i)
+          if(const Vertex_index w = number[std::size_t(all.rows()[i]) / 3]; w != no_vertex) {
+            rows.push_back(int(3 * w) + all.rows()[i] % 3);
+            values.push_back(all.values()[i]);
+          }
+        starts.push_back(int(rows.size()));
+      }
+      values[first] += springs[3 * v];
+      values[std::size_t(starts[starts.size() - 3])] += springs[3 * v + 1];
+      values[std::size_t(starts[starts.size() - 2])] += springs[3 * v + 2];
+    }
+  }
+
+  // Replaces each block (v, w) by P_v (v, w) P_w, for vertices that slide or have no element any more, and
+  // adds `scale` where that leaves nothing.
+  void project(const Elastic_supports& supports, const std::vector<int>& starts, const std::vector<int>& rows,
+               std::vector<double>& values, double scale) const
+  {
+    const auto projector = [&](Vertex_index v) {
+      Matrix_3x3 p{};
+      for(int k = 0; k < 3; ++k) {
+        Vec3 unit{};
+        unit[k] = 1;
+        p[k] = supports.free_part(v, unit);
+      }
+      return p;
+    };
+    for(std::size_t j = 0; j < m_unknowns.size(); ++j) {
+      const Vertex_index v = m_unknowns[j];
+      const int* column = &starts[3 * j];
+      // the columns are three, two and one entry on the diagonal, then three rows a neighbor
+      const int neighbors = (column[1] - column[0] - 3) / 3;
+      for(int i = -1; i < neighbors; ++i) {
+        const Vertex_index w = i < 0 ? v : m_unknowns[std::size_t(rows[column[0] + 3 + 3 * i]) / 3];
+        if(supports.is_unsupported(v) && supports.is_unsupported(w))
+          continue;
+        const auto entry = [&](int row, int k) -> double& {
+          return i < 0 ? values[column[k] + row - k] : values[column[k] + 3 - k + 3 * i + row];
+        };
+        Matrix_3x3 block;
+        for(int row = 0; row < 3; ++row)
+          for(int k = 0; k < 3; ++k)
+            block[row][k] = i < 0 && row < k ? entry(k, row) : entry(row, k);
+        const Matrix_3x3 pv = projector(v), pw = projector(w);
+        for(int k = 0; k < 3; ++k)
+          for(int row = i < 0 ? k : 0; row < 3; ++row) {
+            double sum = i < 0 ? scale * ((row == k) - pv[row][k]) : 0;
+            for(int a = 0; a < 3; ++a)
+              for(int b = 0; b < 3; ++b)
+                sum += pw[row][a] * block[a][b] * pv[b][k];
+            entry(row, k) = sum;
+          }
+      }
+    }
+  }
+
+  // Hinges make a matrix that is singular but for rounding, so that it may have been factored. Forces of no
+  // pattern move them without bound.
+  bool is_nearly_singular(double scale)
+  {
+    constexpr double largest_condition = 1e13;
+    Eigen::MatrixXd b(3 * Eigen::Index(m_unknowns.size()), 1), x;
+    for(Eigen::Index i = 0; i < b.rows(); ++i)
+      b(i, 0) = std::fmod(0.618033988749895 * double(i), 1) - 0.5;
+    return !solve_columns(solver(), b, x) || !(scale * x.norm() < largest_condition * b.norm());
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_LINEAR_ELASTICITY_3_INTERNAL_PROJECTED_SYSTEM_H

@@ -1,0 +1,58 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the boundary of a mesh gives to each of its vertices: a normal, an area.
+
+#ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_BOUNDARY_MEASURES_H
+#define CGAL_LINEAR_ELASTICITY_3_INTERNAL_BOUNDARY_MEASURES_H
+
+#include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// The integral of the normal times the vertex's shape function, zero inside: a flow orthogonal to these
+/// keeps the volume.
+template <class Mesh>
+std::vector<Vec3> boundary_vertex_normals(const Mesh& mesh, const std::vector<Vec3>& points)
+{
+  std::vector<Vec3> normals(points.size(), Vec3{});
+  for(const Face& face : boundary_faces(mesh)) {
+    const Face_vertices& v = face.vertices();
+    const int n = v.size();
+    const auto corner = [&](int i) {
+      const Vec3& p = points[v[i]];
+      return cross(points[v[(i + 1) % n]] - p, points[v[(i + n - 1) % n]] - p);
+    };
+    for(int i = 0; i < n; ++i)
+      normals[v[i]] = normals[v[i]]
+                      + (n == 3 ? (1. / 6) * corner(i) : (1. / 12) * (corner(i) + (corner(1) + corner(3))));
+  }
+  return normals;
+}
+
+/// The equal shares of the areas of the faces around each vertex, zero inside.
+template <class Mesh>
+std::vector<double> boundary_vertex_areas(const Mesh& mesh)
+{
+  std::vector<double> areas(mesh.number_of_vertices(), 0);
+  for(const Face& face : boundary_faces(mesh)) {
+    const double share = area(mesh, face) / face.vertices().size();
+    for(Vertex_index v : face.vertices())
+      areas[v] += share;
+  }
+  return areas;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_LINEAR_ELASTICITY_3_INTERNAL_BOUNDARY_MEASURES_H
