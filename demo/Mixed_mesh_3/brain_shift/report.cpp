@@ -64,7 +64,7 @@ Json describe_points(const Outcome& outcome)
     controls.push_back({{"line", outcome.points[i].line},
                         {"position", outcome.points[i].position},
                         {"displacement", outcome.points[i].displacement},
-                        {"element", outcome.locations[i].element},
+                        {"element", std::uint32_t(outcome.locations[i].element)},
                         {"distance to the mesh", outcome.locations[i].distance}});
   return controls;
 }

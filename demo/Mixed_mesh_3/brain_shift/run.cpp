@@ -108,7 +108,7 @@ void write_files(const Inputs& inputs, const std::vector<bool>& is_removed, cons
   outcome.peak_bytes = log.peak_bytes();
   if(!o.report.empty())
     write_text(files, o.report, report(o, outcome, log));
-  check_write(files.commit());
+  require([&](std::string* error) { return files.commit(error); });
 }
 
 } // namespace

@@ -154,7 +154,7 @@ void write_files(const Mesh& mesh, const Options& o, Stage_log& log, Outcome& ou
   outcome.peak_bytes = log.peak_bytes();
   if(!o.report.empty())
     write_text(files, o.report, report(o, outcome, log));
-  check_write(files.commit());
+  require([&](std::string* error) { return files.commit(error); });
 }
 
 } // namespace
