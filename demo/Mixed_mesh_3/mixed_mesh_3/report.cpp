@@ -6,6 +6,7 @@
 #include "mixed_mesh_3/report.h"
 
 #include "common/report_json.h"
+#include "mixed_mesh_3/status_names.h"
 
 #include <cstddef>
 #include <iomanip>
@@ -18,53 +19,6 @@ namespace {
 
 const char* const fit_names[] = {"none", "optimization", "Algorithm 1"};
 const char* const solver_names[] = {"cg", "ldlt", "cholmod"};
-
-const char* name_of(CGAL::Mixed_mesh_status status)
-{
-  using Status = CGAL::Mixed_mesh_status;
-  switch(status) {
-  case Status::SUCCESS: return "success";
-  case Status::BUDGET_NOT_FILLED: return "budget not filled";
-  case Status::TOLERANCE_NOT_REACHED: return "tolerance not reached";
-  case Status::NOT_ALL_ARRIVED: return "not all arrived";
-  case Status::PARTS_LOST: return "parts lost";
-  case Status::BUDGET_TOO_SMALL: return "budget too small";
-  case Status::EMPTY: return "empty";
-  case Status::REGION_NOT_MET: return "region not met";
-  case Status::BOUNDARY_NOT_MANIFOLD: return "boundary not manifold";
-  case Status::STOPPED: return "stopped";
-  }
-  return "";
-}
-
-const char* name_of(CGAL::Mixed_mesh_fit_status status)
-{
-  using Status = CGAL::Mixed_mesh_fit_status;
-  switch(status) {
-  case Status::SUCCESS: return "success";
-  case Status::CAP_REACHED: return "cap reached";
-  case Status::NOT_ALL_ARRIVED: return "not all arrived";
-  case Status::SOLVER_FAILED: return "solver failed";
-  case Status::STOPPED: return "stopped";
-  case Status::INVALID_MESH: return "invalid mesh";
-  case Status::EMPTY: return "empty";
-  }
-  return "";
-}
-
-const char* name_of(CGAL::Mixed_mesh_optimization_status status)
-{
-  using Status = CGAL::Mixed_mesh_optimization_status;
-  switch(status) {
-  case Status::SUCCESS: return "success";
-  case Status::TOLERANCE_NOT_REACHED: return "tolerance not reached";
-  case Status::NOT_ALL_ARRIVED: return "not all arrived";
-  case Status::STOPPED: return "stopped";
-  case Status::INVALID_MESH: return "invalid mesh";
-  case Status::EMPTY: return "empty";
-  }
-  return "";
-}
 
 Json describe(const Surface_facts& s)
 {
