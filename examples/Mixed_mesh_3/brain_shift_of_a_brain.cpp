@@ -19,7 +19,6 @@
 #include <CGAL/make_mixed_mesh_3.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <exception>
@@ -33,7 +32,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 using Mesh = CGAL::Mixed_mesh_3<Kernel>;
 using Elasticity = CGAL::Linear_elasticity_3<Mesh>;
-using Vector = std::array<double, 3>;
+using Vector = mm3::Vec3;
 
 Surface read(const std::string& name)
 {

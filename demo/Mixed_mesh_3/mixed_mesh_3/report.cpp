@@ -6,6 +6,7 @@
 #include "mixed_mesh_3/report.h"
 
 #include "common/report_json.h"
+#include "mixed_mesh_3/status_names.h"
 
 #include <cstddef>
 #include <iomanip>
