@@ -49,7 +49,7 @@ std::vector<Vector> at_points(const Mesh& mesh, const std::vector<Vector>& displ
   std::vector<Vector> values;
   for(const Vector& p : points) {
     const mm3::Element_location_3 l = locator.nearest(p);
-    Vec3 u{};
+    Vector u{};
     for(int i = 0; i < mesh.element(l.element).size(); ++i)
       u = u + l.weights[i] * displacements[mesh.element(l.element)[i]];
     values.push_back(u);

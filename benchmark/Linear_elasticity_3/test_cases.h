@@ -20,7 +20,6 @@
 #include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -32,7 +31,7 @@
 namespace mm3 = CGAL::Mixed_meshes_3;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Mixed_mesh_3<Kernel>;
-using Vector = std::array<double, 3>;
+using Vector = mm3::Vec3;
 
 /// The bundled brain's; millimeters.
 struct Brain

@@ -232,6 +232,8 @@ inline Vec3 linear_field(const Vec3& p)
   return {0.1 + 0.3 * p[0] - 0.2 * p[1], -0.2 + 0.5 * p[2] + 0.1 * p[1], 0.4 * p[0] - 0.1 * p[2]};
 }
 
+inline Vec3 rigid_motion(const Vec3& p) { return Vec3{0.3, 0.1, -0.2} + cross(Vec3{0.2, -0.5, 0.7}, p); }
+
 inline Vec3 interpolated(const Mesh& mesh, const Field& u, const Vec3& p)
 {
   const Element_location_3 location = Element_locator_3<Mesh>(mesh).nearest(p);

@@ -14,25 +14,25 @@
 
 #include <boost/core/lightweight_test.hpp>
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
 // Displacements of all vertices, for those of some.
 template <class Mesh>
-std::vector<std::array<double, 3>> standard_solution(const Mesh& mesh,
-                                                     const CGAL::Mixed_meshes_3::Elastic_material& material,
-                                                     std::vector<bool> is_prescribed,
-                                                     std::vector<std::array<double, 3>> displacements)
+std::vector<CGAL::Mixed_meshes_3::Vec3>
+standard_solution(const Mesh& mesh, const CGAL::Mixed_meshes_3::Elastic_material& material,
+                  std::vector<bool> is_prescribed,
+                  std::vector<CGAL::Mixed_meshes_3::Vec3> displacements)
 {
   using namespace CGAL::Mixed_meshes_3::internal;
+  using CGAL::Mixed_meshes_3::Vec3;
   using Solver = CGAL::Mixed_meshes_3::Direct_solver_traits;
   is_prescribed.flip();
   Elasticity_system system(mesh.elements(), is_prescribed);
   system.clear();
   std::vector<Vec3> points;
   for(const auto& p : mesh.points())
-    points.push_back(to_vec3(p));
+    points.push_back(CGAL::Mixed_meshes_3::to_vec3(p));
   for(auto e : system.active_elements())
     system.add(e, material, points, displacements, Dilatation::POINTWISE);
   const auto matrix = make_matrix<Solver::Matrix>(system.starts(), system.rows(), system.values());

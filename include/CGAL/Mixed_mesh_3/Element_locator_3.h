@@ -63,13 +63,15 @@ inline std::array<double, 4> nearest_weights_on_quadrilateral(const Vec3* p, dou
     const double length = dot(d, d);
     return length > 0 ? (std::max)(0., (std::min)(1., -dot(a, d) / length)) : 0.;
   };
-  for(int i = 0; i < 200; ++i) {
+  constexpr int largest_number_of_turns = 200; // where they gain little, on warped faces
+  constexpr double settled = 1e-14;            // some tens of roundings of weights, which are at most 1
+  for(int i = 0; i < largest_number_of_turns; ++i) {
     const double new_u = on_segment((1 - v) * p[0] + v * p[3], (1 - v) * p[1] + v * p[2]);
     const double new_v = on_segment((1 - new_u) * p[0] + new_u * p[1], (1 - new_u) * p[3] + new_u * p[2]);
     const double change = (std::max)(std::abs(new_u - u), std::abs(new_v - v));
     u = new_u;
     v = new_v;
-    if(change < 1e-14)
+    if(change < settled)
       break;
   }
   return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
@@ -177,6 +179,7 @@ class Element_locator_3
         b.lower[k] = (std::min)(b.lower[k], m_points[vertices[i]][k]);
         b.upper[k] = (std::max)(b.upper[k], m_points[vertices[i]][k]);
       }
+    // ten times what counts as inside, in reference coordinates; a wider box costs time only
     const double margin = 1e-8 * norm(b.upper - b.lower);
     for(int k = 0; k < 3; ++k) {
       b.lower[k] -= margin;
@@ -190,6 +193,7 @@ class Element_locator_3
     std::array<std::size_t, 3> c;
     for(int k = 0; k < 3; ++k) {
       const double x = (p[k] - m_box.lower[k]) * m_cells_per_unit[k];
+      // 1e9, more than there are cells in a row, so that the conversion does not overflow
       c[k] = x > 0 ? (std::min)(std::size_t((std::min)(x, 1e9)), m_size[k] - 1) : 0;
     }
     return c;
@@ -228,7 +232,8 @@ class Element_locator_3
       for(int k = 0; k < 3; ++k)
         extent[k] = m_box.upper[k] - m_box.lower[k];
     }
-    // About as many cubic cells as elements, and not more than so many of these in a row.
+    // About as many cubic cells as elements; not more than 1000 in a row, for meshes that are nearly flat.
+    // How many there are costs time or memory, and changes no result.
     const double width = std::cbrt(extent[0] * extent[1] * extent[2] / double(n + 1));
     for(int k = 0; k < 3; ++k) {
       m_size[k] = width > 0 ? std::size_t((std::min)(extent[k] / width, 1000.)) + 1 : 1;

@@ -235,7 +235,7 @@ private:
   // pattern move them without bound.
   bool is_nearly_singular(double scale)
   {
-    constexpr double largest_condition = 1e13;
+    constexpr double largest_condition = 1e13; // some hundred roundings from 1 / epsilon
     Eigen::MatrixXd b(3 * Eigen::Index(m_unknowns.size()), 1), x;
     for(Eigen::Index i = 0; i < b.rows(); ++i)
       b(i, 0) = std::fmod(0.618033988749895 * double(i), 1) - 0.5;

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -50,8 +51,10 @@ class Control_constraints
   using Vector = Eigen::VectorXd;
   using Index = Eigen::Index;
 
-  static constexpr double dependence = 1e-10, miss = 1e-6; // relative
-  static constexpr Index columns_at_once = 24;
+  // Relative. A constraint with a smaller pivot depends on others and is left out; it must be satisfied by
+  // itself within `miss` of the largest displacement.
+  static constexpr double dependence = 1e-10, miss = 1e-6;
+  static constexpr Index columns_at_once = 24; // eight points: bounds the memory
 
   std::vector<Control_weights> m_weights;
   double m_compliance;
@@ -60,9 +63,11 @@ class Control_constraints
   Matrix m_g, m_kernel;            // G; combinations of motions that the control points do not hold
   double m_augmentation = 0;       // g
   std::vector<Index> m_independent;
-  Eigen::LLT<Matrix> m_factor;     // of the augmented S, rows and columns m_independent
+  // Of the augmented S, rows and columns m_independent. Factors that are not computed are not there, as they
+  // could not be moved: they have members without a value.
+  std::optional<Eigen::LLT<Matrix>> m_factor;
   Matrix m_g_independent, m_eliminated;
-  Eigen::LDLT<Matrix> m_schur;
+  std::optional<Eigen::LDLT<Matrix>> m_schur;
 
 public:
   /// \param solve `bool(forces, displacements)`: K^-1, for several columns
@@ -112,10 +117,10 @@ public:
     }
     const Vector equilibrium = -(m_motions.transpose() * load);
     Vector right = wanted - at_points(loaded) + m_augmentation * (m_g * equilibrium);
-    Vector s = m_independent.empty() ? Vector() : m_factor.solve(pick(right)).eval();
+    Vector s = m_factor ? m_factor->solve(pick(right)).eval() : Vector();
     Vector c = Vector::Zero(m_motions.cols());
     if(c.size() > 0) {
-      c = m_schur.solve(m_g_independent.transpose() * s - equilibrium);
+      c = m_schur->solve(m_g_independent.transpose() * s - equilibrium);
       s -= m_eliminated * c;
     }
     solution.forces = Vector::Zero(wanted.size());
@@ -192,7 +197,7 @@ private:
 
   void eliminate()
   {
-    const Index rows = 3 * Index(m_weights.size()), motions = m_motions.cols();
+    const Index motions = m_motions.cols();
     m_g = at_points(m_motions);
     Matrix s = at_points(m_response);
     s = (0.5 * (s + s.transpose())).eval();
@@ -218,11 +223,13 @@ private:
         independent(i, j) = s(m_independent[std::size_t(i)], m_independent[std::size_t(j)]);
       m_g_independent.row(i) = m_g.row(m_independent[std::size_t(i)]);
     }
-    if(rows > 0 && size > 0)
-      m_factor.compute(independent);
+    m_eliminated.resize(size, motions);
+    if(size > 0)
+      m_factor.emplace(independent);
     if(motions > 0) {
-      m_eliminated = m_factor.solve(m_g_independent);
-      m_schur.compute(m_g_independent.transpose() * m_eliminated);
+      if(m_factor)
+        m_eliminated = m_factor->solve(m_g_independent);
+      m_schur.emplace(m_g_independent.transpose() * m_eliminated);
     }
   }
 

@@ -57,7 +57,8 @@ template <class Is_together>
 Patches dilatation_patches(const Element_list& elements, std::size_t number_of_vertices,
                            const Is_together& is_together)
 {
-  constexpr std::size_t wanted_size = 8, no_patch = std::size_t(-1);
+  constexpr std::size_t wanted_size = 8; // the star of an inner vertex with six neighbors
+  constexpr std::size_t no_patch = std::size_t(-1);
   std::vector<std::vector<Element_index>> stars(number_of_vertices);
   std::size_t largest = 0;
   for(Element_index e = 0; e < elements.size(); ++e)

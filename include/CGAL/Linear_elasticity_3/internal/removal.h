@@ -39,6 +39,8 @@ bool solve_after_removal(Elastic_body<SolverTraits>& body, const Control_constra
                          const Eigen::VectorXd& wanted, double tolerance, Control_solution& solution,
                          int& number_of_iterations)
 {
+  // When to factor instead, which takes as long as some hundreds of iterations. Ten to fifteen are usual; if
+  // the residual rises so often in a row, nothing but rounding errors may be left of it.
   constexpr int largest_number_of_iterations = 100, largest_number_of_rises = 20;
   const Elastic_stiffness& stiffness = body.stiffness();
   const Elastic_supports& supports = body.supports();
