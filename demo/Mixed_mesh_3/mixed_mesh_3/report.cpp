@@ -6,7 +6,6 @@
 #include "mixed_mesh_3/report.h"
 
 #include "common/report_json.h"
-#include "mixed_mesh_3/status_names.h"
 
 #include <cstddef>
 #include <iomanip>
