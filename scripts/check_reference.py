@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks that the reference manual's list of names, PackageDescription.txt, names what is documented.
+"""Checks that the lists of names in the reference manual name what is documented.
 
-  scripts/check_reference.py PACKAGE_DESCRIPTION TAGFILE      the tag file is doxygen's
+  scripts/check_reference.py TAGFILE PACKAGE_DESCRIPTION...      the tag file is doxygen's
 
 Doxygen does not look into code spans, so a name that has changed would stay there.
 """
@@ -23,17 +23,17 @@ def documented_names(tagfile):
 
 
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) < 3:
         sys.exit(__doc__)
-    description, tagfile = sys.argv[1:]
-    names = documented_names(tagfile)
+    names = documented_names(sys.argv[1])
     missing = 0
-    with open(description, encoding="utf-8") as lines:
-        for number, line in enumerate(lines, 1):
-            for name in re.findall(r"^- `([\w:]+)(?:\(\))?`$", line.rstrip()):
-                if name not in names:
-                    print(f"{description}:{number}: {name} is not documented")
-                    missing += 1
+    for description in sys.argv[2:]:
+        with open(description, encoding="utf-8") as lines:
+            for number, line in enumerate(lines, 1):
+                for name in re.findall(r"^- `([\w:]+)(?:\(\))?`$", line.rstrip()):
+                    if name not in names:
+                        print(f"{description}:{number}: {name} is not documented")
+                        missing += 1
     return 1 if missing else 0
 
 
