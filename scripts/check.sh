@@ -12,10 +12,10 @@
 #   doc         the manual, by doxygen; a warning is an error
 #   headers     every header compiles alone, without a warning
 #   benchmarks  the benchmarks are built
-#   debug       short tests run with CGAL's assertions and preconditions, AddressSanitizer and
-#               UndefinedBehaviorSanitizer
+#   debug       the examples run with CGAL's assertions and preconditions
+#   sanitize    short tests run with these, AddressSanitizer and UndefinedBehaviorSanitizer
 #   cgal61      headers, examples and short tests are built with another CGAL, if CGAL_DIR_61 names the folder
-#               of its include/CGAL/version.h
+#               that has its include/CGAL/version.h
 #
 # A part that fails does not keep the next ones from running. BUILD_DIR overrides where the build directories
 # are, build/check.
@@ -27,11 +27,14 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/scripts/setup.sh"
 
 build=${BUILD_DIR:-$root/build/check}
-parts=(format shell python layers doc headers benchmarks debug cgal61)
+parts=(format shell python layers doc headers benchmarks debug sanitize cgal61)
 
-# The tests that sanitizers run: each stage has one, and what reads files or keeps references. Chosen by their
-# cost, as a test whose surfaces are triangle meshes takes minutes to compile with sanitizers.
-short_tests=(test_octree test_element_traits test_certificate)
+# The tests that sanitizers run. Not those that read a surface or mesh one: with sanitizers, a compiler takes three
+# minutes and 4 GB for CGAL's polygon meshes. `cmake --preset sanitize` and `ctest --preset sanitize` run all.
+short_tests=(
+  test_base test_elements test_elements_traits test_elements_certificate test_elements_locator test_octree
+  test_transitions test_boundary test_image_io
+)
 
 # Prints the files whose names end in one of the ways given, a line each.
 sources() {
@@ -78,45 +81,55 @@ configure() {
     fail "could not configure $directory: see $directory.log"
 }
 
-# Without optimization, as what it builds does not run.
-configure_to_compile() {
+# The build directory of what is compiled without optimization.
+configure_debug() {
   configure "$1" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 \
     -DMIXED_MESH_3_BUILD_BENCHMARKS=ON "${@:2}"
 }
 
-# Builds targets. A compiler takes up to 3 GB with sanitizers, and 1.5 GB without.
+# Builds targets.
 build() {
-  local directory=$1 memory=$2
-  shift 2
-  cmake --build "$directory" --parallel "$(build_jobs "$memory")" --target "$@"
+  local directory=$1
+  shift
+  cmake --build "$directory" --parallel "$(build_jobs 1500)" --target "$@"
+}
+
+# Runs tests of a build directory that must have assertions on; the rest is for ctest.
+run_tests() {
+  local directory=$1
+  shift
+  if grep -qE 'NDEBUG|CGAL_NO_(PRECONDITIONS|ASSERTIONS)' "$directory/build.ninja"; then
+    fail "assertions are off in $directory"
+  fi
+  ctest --test-dir "$directory" --output-on-failure --no-tests=error --parallel "$(nproc)" "$@"
 }
 
 check_doc() {
-  configure_to_compile "$build/compile"
-  build "$build/compile" 1500 doc
+  configure_debug "$build/debug"
+  build "$build/debug" doc
 }
 
 check_headers() {
-  configure_to_compile "$build/compile"
-  build "$build/compile" 1500 test_headers
+  configure_debug "$build/debug"
+  build "$build/debug" test_headers
 }
 
 check_benchmarks() {
-  configure_to_compile "$build/compile"
-  build "$build/compile" 1500 benchmark/all
+  configure_debug "$build/debug"
+  build "$build/debug" benchmark/all
 }
 
 check_debug() {
+  configure_debug "$build/debug"
+  build "$build/debug" examples/Mixed_mesh_3/all
+  run_tests "$build/debug" -R '^example_'
+}
+
+check_sanitize() {
   configure "$build/sanitize" --preset sanitize
-  if grep -qE 'NDEBUG|CGAL_NO_(PRECONDITIONS|ASSERTIONS)' "$build/sanitize/build.ninja"; then
-    fail "assertions are off in $build/sanitize"
-  fi
-  build "$build/sanitize" 3000 "${short_tests[@]}"
-  local names
-  names=$(IFS='|' && echo "${short_tests[*]}")
-  UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=detect_stack_use_after_return=1 \
-    ctest --test-dir "$build/sanitize" --output-on-failure --no-tests=error --parallel "$(nproc)" \
-    -R "^($names)\$"
+  build "$build/sanitize" "${short_tests[@]}"
+  export UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=detect_stack_use_after_return=1
+  run_tests "$build/sanitize" -R "^($(IFS='|' && echo "${short_tests[*]}"))\$"
 }
 
 check_cgal61() {
@@ -127,8 +140,8 @@ check_cgal61() {
   local version=$CGAL_DIR_61/include/CGAL/version.h
   [[ -f $version ]] || fail "there is no $version"
   grep 'define CGAL_VERSION ' "$version"
-  configure_to_compile "$build/cgal61" "-DCMAKE_CXX_FLAGS=-isystem $CGAL_DIR_61/include"
-  build "$build/cgal61" 1500 test_headers examples/Mixed_mesh_3/all "${short_tests[@]}"
+  configure_debug "$build/cgal61" "-DCMAKE_CXX_FLAGS=-isystem $CGAL_DIR_61/include"
+  build "$build/cgal61" test_headers examples/Mixed_mesh_3/all "${short_tests[@]}"
 }
 
 [[ $# -gt 0 ]] || set -- "${parts[@]}"

@@ -9,12 +9,12 @@ if(NOT DOXYGEN OR NOT DEBIAN_PYTHON)
   return()
 endif()
 
-set(doxyfile ${CMAKE_CURRENT_BINARY_DIR}/Doxyfile)
-set(tagfile ${CMAKE_CURRENT_BINARY_DIR}/tags.xml)
+set(doxyfile ${PROJECT_BINARY_DIR}/Doxyfile)
+set(tagfile ${PROJECT_BINARY_DIR}/doc_tags.xml)
 file(WRITE ${doxyfile} "@INCLUDE = Doxyfile.in\nOUTPUT_DIRECTORY = \"${PROJECT_BINARY_DIR}\"\n"
                        "GENERATE_TAGFILE = \"${tagfile}\"\n")
 file(GLOB descriptions CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/doc/*/PackageDescription.txt)
 add_custom_target(doc
   COMMAND ${DOXYGEN} ${doxyfile}
   COMMAND ${DEBIAN_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/check_reference.py ${tagfile} ${descriptions}
-  WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} VERBATIM)
+  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}/doc/Mixed_mesh_3 VERBATIM)
