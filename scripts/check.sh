@@ -26,7 +26,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # shellcheck source=scripts/setup.sh
 source "$root/scripts/setup.sh"
 
-build=${BUILD_DIR:-$root/build/check}
+build=$(realpath -m "${BUILD_DIR:-$root/build/check}")
 parts=(format shell python layers doc headers benchmarks debug sanitize cgal61)
 
 # The tests that sanitizers run. Not those that read a surface or mesh one: with sanitizers, a compiler takes three
