@@ -31,7 +31,7 @@ install_packages "${purposes[@]}"
 if [[ ! -f $build/build.ninja ]]; then
   cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF
 fi
-cmake --build "$build" --target mixed_mesh_3 brain_shift --parallel "$(build_jobs)"
+cmake --build "$build" --target mixed_mesh_3 brain_shift --parallel "$(build_jobs 1500)"
 
 mkdir -p "$out"
 "$build/bin/mixed_mesh_3" "$root/data/brain.off" --region "$root/data/region.off" --vertices "$vertices" \

@@ -24,7 +24,7 @@ install_packages build pictures
 if [[ ! -f $build/build.ninja ]]; then
   cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF
 fi
-cmake --build "$build" --target mixed_mesh_3 --parallel "$(build_jobs)"
+cmake --build "$build" --target mixed_mesh_3 --parallel "$(build_jobs 1500)"
 
 mkdir -p "$out"
 "$build/bin/mixed_mesh_3" "$root/data/brain.off" --region "$root/data/region.off" --vertices "$vertices" \
@@ -33,7 +33,8 @@ mkdir -p "$out"
 # Debian's Python, which has Debian's VTK, whatever other Python the PATH leads to.
 timeout --foreground 600 /usr/bin/python3 "$root/scripts/pictures/render_mesh.py" "$out/brain.vtu" \
   --surface "$root/data/brain.off" --region "$root/data/region.off" --output-prefix "$out/brain"
-timeout --foreground 600 /usr/bin/python3 "$root/scripts/pictures/plot_quality.py" "$out/brain.json" "$out/brain_quality.png"
+timeout --foreground 600 /usr/bin/python3 "$root/scripts/pictures/plot_quality.py" \
+  "$out/brain.json" "$out/brain_quality.png"
 
 cat << END
 

@@ -3,7 +3,7 @@
 #
 # Installs the Debian packages that are missing for the purposes named:
 #
-#   scripts/setup.sh [build] [pictures] [tests] [image]
+#   scripts/setup.sh [build] [pictures] [tests] [image] [checks]
 #
 # When nothing is missing, apt is not called. The other scripts source this
 # file for its two functions, install_packages and build_jobs.
@@ -20,7 +20,8 @@ fail() {
 packages_for() {
   case $1 in
     build) echo g++ cmake ninja-build libcgal-dev libcli11-dev nlohmann-json3-dev \
-                libboost-dev libgmp-dev libmpfr-dev libeigen3-dev libsuitesparse-dev libnifti2-dev zlib1g-dev \
+                libboost-dev libgmp-dev libmpfr-dev libeigen3-dev libsuitesparse-dev libnifti2-dev \
+                zlib1g-dev \
                 libopenblas0-serial ;; # several times faster than the reference BLAS, for CHOLMOD
     # VTK opens an X display even to render off-screen: Xvfb and Mesa's software renderer provide it.
     pictures) echo python3-vtk9 xvfb libgl1-mesa-dri ;;
@@ -28,7 +29,9 @@ packages_for() {
     tests) echo python3-getfem python3-gmsh python3-nibabel python3-vtk9 ;;
     # An MRI image of a brain, of which data/brain.off is the surface.
     image) echo mricron-data ;;
-    *) fail "unknown purpose '$1': expected build, pictures, tests or image" ;;
+    # What scripts/check.sh runs besides the compiler.
+    checks) echo clang-format-14 doxygen pyflakes3 shellcheck ;;
+    *) fail "unknown purpose '$1': expected build, pictures, tests, image or checks" ;;
   esac
 }
 
@@ -63,21 +66,21 @@ install_packages() {
     fail "could not install: ${missing[*]}"
 }
 
-# Prints how many compilers may run at once: one a core, with 1.5 GB of memory each.
+# Prints how many compilers may run at once: one a core, each with the memory given in MB.
 build_jobs() {
-  local cores memory limit jobs
+  local megabytes=$1 cores memory limit jobs
   cores=$(nproc)
   memory=$(awk '/^MemAvailable:/ { print $2 }' /proc/meminfo)
   limit=$(cat /sys/fs/cgroup/memory.max 2> /dev/null || echo max)
   if [[ $limit != max && $((limit / 1024)) -lt $memory ]]; then
     memory=$((limit / 1024))
   fi
-  jobs=$((memory / 1500000))
+  jobs=$((memory / (megabytes * 1000)))
   jobs=$((jobs < cores ? jobs : cores))
   echo $((jobs > 1 ? jobs : 1))
 }
 
 if [[ ${BASH_SOURCE[0]} == "$0" ]]; then
-  [[ $# -gt 0 ]] || set -- build pictures tests image
+  [[ $# -gt 0 ]] || set -- build pictures tests image checks
   install_packages "$@"
 fi

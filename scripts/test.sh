@@ -20,5 +20,6 @@ install_packages build pictures tests
 if [[ ! -f $build/build.ninja ]]; then
   cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON
 fi
-cmake --build "$build" --parallel "$(build_jobs)"
+cmake --build "$build" --parallel "$(build_jobs 1500)"
+echo "built in $((SECONDS / 60)) min $((SECONDS % 60)) s, packages included"
 ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$(nproc)" "$@"

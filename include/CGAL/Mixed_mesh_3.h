@@ -70,12 +70,15 @@ public:
 
   /// \name Construction
   /// @{
+
+  /// Adds a vertex at a point.
   Vertex_index add_vertex(const Point_3& p)
   {
     m_points.push_back(p);
     return Vertex_index(m_points.size() - 1);
   }
 
+  /// Adds an element; its vertices are in the order of `reference_elements`.
   template <class Vertices>
   Element_index add_element(Element_kind kind, const Vertices& vertices, const Element_attributes& attributes = {})
   {
@@ -84,6 +87,7 @@ public:
     return Element_index(m_elements.size() - 1);
   }
 
+  /// As above.
   Element_index add_element(Element_kind kind, std::initializer_list<Vertex_index> vertices,
                             const Element_attributes& attributes = {})
   {
@@ -99,6 +103,7 @@ public:
     m_attributes = std::move(attributes);
   }
 
+  /// Removes all vertices and elements.
   void clear() { *this = Mixed_mesh_3(); }
   /// @}
 

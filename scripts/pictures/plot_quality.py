@@ -15,7 +15,7 @@ import argparse
 import json
 import math
 
-from render_mesh import GREY, INK, Canvas, counted, number, start_display, vtk
+from render_mesh import INK, Canvas, counted, number, start_display, vtk
 
 PROGRAM = "plot_quality.py"
 AFTER_COLOR = (0.42, 0.65, 0.83)

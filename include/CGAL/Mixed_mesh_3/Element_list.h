@@ -122,10 +122,10 @@ public:
   /// For writers and for renumbering: vertices of element `e` are
   /// `connectivity()[offsets()[e]] ... connectivity()[offsets()[e + 1] - 1]`.
   /// @{
-  const std::vector<Element_kind>& kinds() const { return m_kinds; }
-  const std::vector<std::size_t>& offsets() const { return m_offsets; }
-  const std::vector<Vertex_index>& connectivity() const { return m_vertices; }
-  std::vector<Vertex_index>& connectivity() { return m_vertices; }
+  const std::vector<Element_kind>& kinds() const { return m_kinds; }           ///< one an element
+  const std::vector<std::size_t>& offsets() const { return m_offsets; }        ///< one more than elements
+  const std::vector<Vertex_index>& connectivity() const { return m_vertices; } ///< vertices of all elements
+  std::vector<Vertex_index>& connectivity() { return m_vertices; }             ///< vertices of all elements
   /// @}
 };
 

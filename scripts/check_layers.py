@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Checks that the arrows between the folders of include/CGAL run one way (see CONTRIBUTING.md).
+
+A header reaches another if it includes it, or includes one that does: a public header between two stages does
+not hide an arrow. Exits with status 1 and a line for each violation.
+
+  scripts/check_layers.py [ROOT]
+"""
+
+import pathlib
+import re
+import sys
+
+# What each folder may reach, besides itself and the public headers. Stages of Mixed_mesh_3, lowest first.
+STAGES = "Mixed_mesh_3/internal/"
+MAY_REACH = {
+    "base": "",
+    "elements": "base",
+    "surface": "base elements",
+    "octree": "base",
+    "transitions": "base elements octree",
+    "boundary": "base elements octree transitions",
+    "fem": "base elements",
+    "fitting": "base elements surface fem",
+    "meshing": "base elements surface octree transitions boundary fem fitting",
+    "resection": "base elements",
+    "IO": "base elements",
+    "Linear_elasticity_3": "base elements fem",
+    "Mixed_mesh_image_3": "base elements IO",
+}
+# The public headers of Mixed_mesh_3 may reach its stages and its files, and no sibling.
+PUBLIC = "the public headers"
+MAY_REACH[PUBLIC] = " ".join(f for f in MAY_REACH if f not in ("Linear_elasticity_3", "Mixed_mesh_image_3"))
+
+INCLUDE = re.compile(r"^\s*#\s*include\s*[<\"]([^>\"]+)[>\"]", re.MULTILINE)
+
+# (files, what they must not say, files that may, why)
+WORDS = [
+    ("include/**/*.h", r"(?i)nifti|\bznz", "include/CGAL/Mixed_mesh_image_3/",
+     "images are a package of their own"),
+    ("include/**/*.h", r"<zlib\.h>", r"include/CGAL/Mixed_mesh_image_3/|.*/read_VTU\.h",
+     "only files of VTK and images are compressed"),
+    ("include/**/*.h", "CGAL_VERSION_NR", r".*/internal/base/compatibility\.h",
+     "differences of CGAL's versions stand in one header"),
+    ("include/**/*.h", r"std::c(out|err)\b", "$", "the library does not print"),
+    ("examples/**/*.cpp", r"\binternal(::|/)", "$", "a tutorial uses what is documented"),
+]
+
+
+def folder_of(header):
+    """The folder, as named in MAY_REACH, of a header given relative to include/CGAL."""
+    if header.startswith(STAGES):
+        return header[len(STAGES):].split("/")[0]
+    if header.startswith("Mixed_mesh_3/IO/"):
+        return "IO"
+    for package in ("Linear_elasticity_3", "Mixed_mesh_image_3"):
+        if header == package + ".h" or header.startswith(package + "/"):
+            return package
+    return PUBLIC
+
+
+def find_cycle(includes):
+    """A list of headers that include each other in a circle, or None."""
+    done = set()
+
+    def visit(header, path):
+        if header in path:
+            return path[path.index(header):] + [header]
+        if header not in done:
+            for other in includes[header]:
+                cycle = visit(other, path + [header])
+                if cycle:
+                    return cycle
+            done.add(header)
+        return None
+
+    for header in includes:
+        cycle = visit(header, [])
+        if cycle:
+            return cycle
+    return None
+
+
+def chains_from(header, includes):
+    """For each header that this one reaches, the shortest chain of headers to it."""
+    chains = {header: [header]}
+    queue = [header]
+    for one in queue:
+        for other in includes[one]:
+            if other not in chains:
+                chains[other] = chains[one] + [other]
+                queue.append(other)
+    return chains
+
+
+def find_violations(root):
+    top = root / "include" / "CGAL"
+    headers = sorted(str(path.relative_to(top)) for path in top.rglob("*.h"))
+    includes = {}
+    violations = []
+    for header in headers:
+        named = INCLUDE.findall((top / header).read_text())
+        own = [name[len("CGAL/"):] for name in named if name.startswith("CGAL/")]
+        includes[header] = [name for name in own if (top / name).exists()]
+        folder = folder_of(header)
+        if folder not in MAY_REACH:
+            violations.append(f"include/CGAL/{header}: folder {folder} is not in scripts/check_layers.py")
+
+    cycle = find_cycle(includes)
+    if cycle:
+        return violations + ["headers include each other: " + " -> ".join(cycle)]
+
+    for header in headers:
+        folder = folder_of(header)
+        allowed = {folder, PUBLIC, *MAY_REACH.get(folder, "").split()}
+        for other, chain in chains_from(header, includes).items():
+            # Of a chain, its last arrow is the one to mend if all that goes before is public.
+            between = {folder_of(name) for name in chain[1:-1]}
+            if folder_of(other) not in allowed and between <= {PUBLIC}:
+                violations.append(f"{folder} must not reach {folder_of(other)}: " + " -> ".join(chain))
+
+    for files, word, exempt, why in WORDS:
+        for path in sorted(root.glob(files)):
+            name = path.relative_to(root).as_posix()
+            if re.match(exempt, name):
+                continue
+            for number, line in enumerate(path.read_text().splitlines(), 1):
+                if re.search(word, line):
+                    violations.append(f"{name}:{number}: {why}: {line.strip()}")
+    return violations
+
+
+def main():
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent)
+    violations = find_violations(root)
+    print(*violations, sep="\n", end="\n" if violations else "")
+    return 1 if violations else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
