@@ -32,7 +32,12 @@ using CGAL::Mixed_meshes_3::internal::parallel_for;
 void test_vectors()
 {
   std::mt19937 random(3);
-  const auto any = [&] { return Vec3(double(random() % 41) - 20, double(random() % 41) - 20, double(random() % 41) - 20); };
+  const auto any = [&] {
+    Vec3 v;
+    for(double& x : v)
+      x = double(random() % 41) - 20;
+    return v;
+  };
   BOOST_TEST(Vec3{} == Vec3(0, 0, 0));
   for(int repeat = 0; repeat < 100; ++repeat) {
     const Vec3 a = any(), b = any(), c = any();

@@ -101,7 +101,8 @@ void test_split_element()
   }
 }
 
-std::size_t number_reaching_out = 0, number_with_first_defects = 0, number_of_repaired = 0, number_unrepaired = 0;
+std::size_t number_reaching_out = 0, number_with_first_defects = 0, number_of_repaired = 0,
+            number_unrepaired = 0;
 
 // Runs the stage and checks all it promises. `margin` tells that the rim can not be reached.
 void test_boundary(const Analytic_octree& located, Transition_templates_choice choice,
@@ -354,8 +355,9 @@ void test_lost_cells()
   std::size_t number_lost = 0, number_with_none = 0;
   unsigned seed = 500;
   for(const Analytic_domain& domain :
-      {Analytic_domain(plate(0.19, 0.01)), Analytic_domain(united(plate(0.19, 0.01), ball({0.5, 0.5, 0.7}, 0.2))),
-       Analytic_domain(united(plate(0.71, 0.03), ball({0.4, 0.5, 0.6}, 0.3))), Analytic_domain(plate(0.5, 0.4)),
+      {Analytic_domain(plate(0.19, 0.01)), Analytic_domain(plate(0.5, 0.4)),
+       Analytic_domain(united(plate(0.19, 0.01), ball({0.5, 0.5, 0.7}, 0.2))),
+       Analytic_domain(united(plate(0.71, 0.03), ball({0.4, 0.5, 0.6}, 0.3))),
        Analytic_domain(noise(9, 2, 0.1))})
     for(int base_level : {2, 3})
       for(int rounds : {0, 2}) {

@@ -176,13 +176,14 @@ void test_exact()
   BOOST_TEST(jacobian_sign(HEXAHEDRON, h) == Jacobian_sign::POSITIVE);
 }
 
-// The top is the bottom turned by an angle and twice as large: the Jacobian has its minimum over a third of the
-// height. There it is zero for half a turn, at no point that halving the element ever meets.
+// The top is the bottom turned and twice as large. After half a turn the Jacobian is positive but for a third of
+// the height, where it is zero: at no point that halving the element ever meets.
 Points twisted(Element_kind kind, double turns)
 {
   Points p = reference_points(kind);
   const std::size_t n = kind == HEXAHEDRON ? 4 : 3;
-  const double c = turns == 0.5 ? -1 : std::cos(2 * CGAL_PI * turns), s = turns == 0.5 ? 0 : std::sin(2 * CGAL_PI * turns);
+  const double angle = 2 * CGAL_PI * turns;
+  const double c = turns == 0.5 ? -1 : std::cos(angle), s = turns == 0.5 ? 0 : std::sin(angle); // exact
   for(std::size_t i = 0; i < n; ++i) {
     p[n + i][0] = 2 * (c * p[i][0] - s * p[i][1]);
     p[n + i][1] = 2 * (s * p[i][0] + c * p[i][1]);
@@ -196,7 +197,8 @@ void test_undecided()
     BOOST_TEST(jacobian_sign(kind, twisted(kind, 0.3)) == Jacobian_sign::POSITIVE);
     BOOST_TEST(jacobian_sign(kind, twisted(kind, 0.45)) == Jacobian_sign::POSITIVE);
     BOOST_TEST(jacobian_sign(kind, twisted(kind, 0.5)) == Jacobian_sign::UNDECIDED);
-    BOOST_TEST(jacobian_sign(kind, twisted(kind, 0.5 - 1e-8)) == Jacobian_sign::UNDECIDED); // positive, by a hair
+    // positive, by a hair
+    BOOST_TEST(jacobian_sign(kind, twisted(kind, 0.5 - 1e-8)) == Jacobian_sign::UNDECIDED);
     BOOST_TEST(has_positive_corners(kind, twisted(kind, 0.5)));
     // mirrored, it is negative
     Points p = twisted(kind, 0.5);

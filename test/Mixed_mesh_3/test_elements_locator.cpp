@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Points in elements, and elements at points: the isoparametric map and its inverse against the shape functions,
-// the locator against all elements.
+// Points in elements, and elements at points: the isoparametric map and its inverse against the shape
+// functions, the locator against all elements.
 
 #include "test_meshes.h"
 

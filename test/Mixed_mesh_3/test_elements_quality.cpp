@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Scaled Jacobian, dihedral angles, warp, statistics. Volumes and aspect-ratio coefficients are tested with the
-// element traits.
+// Scaled Jacobian, dihedral angles, warp, statistics. Volumes and aspect-ratio coefficients are tested with
+// the element traits.
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>

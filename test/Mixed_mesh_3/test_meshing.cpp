@@ -102,7 +102,7 @@ void test_tolerance(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& 
     const auto criteria = Mixed_mesh_criteria_3(660).tolerance(tolerance);
     const auto result = make_mixed_mesh_3(domain, region, criteria, traits, mesh);
     check(mesh, result, 660);
-    BOOST_TEST(result.status == Status::SUCCESS || result.status == Status::TOLERANCE_NOT_REACHED);
+    BOOST_TEST(result.status == Status::SUCCESS);
     BOOST_TEST_EQ(number_of_vertices_off_surface(mesh, brain), 0u);
     const double distance = hausdorff_distance(mesh, brain, 1e-3).distance();
     BOOST_TEST_LT(distance, last);

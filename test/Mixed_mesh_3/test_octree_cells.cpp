@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the octree is made of besides itself: the cells of the lattice, against exact rationals; the leaves that
-// are refined in a region, and balance, by all pairs; where the lattice is placed.
+// What the octree is made of besides itself: the cells of the lattice, against exact rationals; the leaves
+// that are refined in a region, and balance, by all pairs; where the lattice is placed.
 
 #include "test_lattice.h"
 

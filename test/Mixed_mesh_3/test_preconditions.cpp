@@ -26,6 +26,7 @@
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 
 #include <CGAL/assertions_behaviour.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/exceptions.h>
 
 #include <boost/core/lightweight_test.hpp>
@@ -138,14 +139,14 @@ void test_surface()
   const Test_surface cube = box({0, 0, 0}, {1, 1, 1});
   ALLOWED(Oracle{cube});
   Test_surface open = cube;
-  open.remove_face(*faces(open).first);
-  open.collect_garbage();
+  CGAL::Euler::remove_face(halfedge(*faces(open).first, open), open);
   FORBIDDEN(Oracle{open});
   Test_surface quads;
   Test_surface::Vertex_index v[8];
   for(int i = 0; i < 8; ++i)
     v[i] = quads.add_vertex(Test_point(i & 1, i >> 1 & 1, i >> 2));
-  for(const auto& q : {std::array<int, 4>{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}})
+  for(const auto& q : {std::array<int, 4>{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1},
+                       {4, 5, 7, 6}})
     quads.add_face(v[q[0]], v[q[1]], v[q[2]], v[q[3]]);
   FORBIDDEN(Oracle{quads});
 }

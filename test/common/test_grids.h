@@ -47,7 +47,10 @@ inline Mesh grid(int n, Element_kind kind, double noise = 0)
   });
 }
 
-inline Vec3 position(const Mesh& mesh, Vertex_index v) { return CGAL::Mixed_meshes_3::to_vec3(mesh.point(v)); }
+inline Vec3 position(const Mesh& mesh, Vertex_index v)
+{
+  return CGAL::Mixed_meshes_3::to_vec3(mesh.point(v));
+}
 
 inline std::vector<Vec3> positions(const Mesh& mesh)
 {

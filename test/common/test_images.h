@@ -79,7 +79,8 @@ void for_each_voxel_center(const Voxel_grid_3& grid, const F& f)
   for(std::size_t k = 0; k < grid.size[2]; ++k)
     for(std::size_t j = 0; j < grid.size[1]; ++j)
       for(std::size_t i = 0; i < grid.size[0]; ++i)
-        f(grid.offset(i, j, k), CGAL::Mixed_meshes_3::transform(grid.index_to_world, Vec3(double(i), double(j), double(k))));
+        f(grid.offset(i, j, k),
+          CGAL::Mixed_meshes_3::transform(grid.index_to_world, Vec3(double(i), double(j), double(k))));
 }
 
 struct Scene

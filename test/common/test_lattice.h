@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Octrees and lattice meshes that the tests of their stages start from, and what is known of them by integers.
+// Octrees and lattice meshes that the tests of their stages start from; what integers say of them.
 
 #ifndef MIXED_MESH_3_TEST_LATTICE_H
 #define MIXED_MESH_3_TEST_LATTICE_H

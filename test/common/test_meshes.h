@@ -83,8 +83,8 @@ Mesh four_kinds(double scale, const CGAL::Mixed_meshes_3::Vec3& origin, double p
 
 // Where a point of a displaced mesh is.
 template <class Mesh, class Location>
-CGAL::Mixed_meshes_3::Vec3 position(const Mesh& mesh, const std::vector<CGAL::Mixed_meshes_3::Vec3>& displacements,
-                                    const Location& l)
+CGAL::Mixed_meshes_3::Vec3
+position(const Mesh& mesh, const std::vector<CGAL::Mixed_meshes_3::Vec3>& displacements, const Location& l)
 {
   using namespace CGAL::Mixed_meshes_3;
   Vec3 x{};

@@ -103,8 +103,8 @@ Mixed_mesh_result_3 run(const Domain& domain, const Region& region,
   return result;
 }
 
-// Of a mesh that is not fitted: every boundary vertex is outside or on the surface, every other one inside, unless
-// the repair of pinched places made it so.
+// Of a mesh that is not fitted: every boundary vertex is outside or on the surface, every other one inside,
+// unless the repair of pinched places made it so.
 inline void check_sides(const Mesh& mesh, const Mixed_mesh_result_3& result,
                  const Polyhedral_mixed_mesh_domain_3& domain)
 {
