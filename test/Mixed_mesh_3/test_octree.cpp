@@ -29,7 +29,6 @@ using CGAL::Mixed_meshes_3::Lattice_point;
 using CGAL::Mixed_meshes_3::internal::Octree;
 using CGAL::Mixed_meshes_3::internal::balance;
 using CGAL::Mixed_meshes_3::internal::edge_patterns;
-using CGAL::Mixed_meshes_3::internal::lattice_key;
 using CGAL::Mixed_meshes_3::internal::neighbor_directions;
 
 using Node_index = Octree::Node_index;
@@ -226,21 +225,6 @@ void test_vertices(const Octree& octree)
   }
 }
 
-void test_lattice_key()
-{
-  std::mt19937 random(3);
-  std::vector<Lattice_point> points;
-  for(int i = 0; i < 300; ++i) {
-    Lattice_point p;
-    for(std::uint32_t& c : p)
-      c = random() % 4 == 0 ? Octree::root_side * (random() % 2) : random() % (Octree::root_side + 1);
-    points.push_back(p);
-  }
-  for(const Lattice_point& p : points)
-    for(const Lattice_point& q : points)
-      BOOST_TEST_EQ(lattice_key(p) < lattice_key(q), p < q);
-}
-
 // ---- balance -----------------------------------------------------------------------------------
 
 // 1: the closed boxes share a part of a face, 2: of an edge, 3: a vertex only, 0: nothing.
@@ -368,7 +352,6 @@ std::size_t test_edge_patterns(const Octree& octree)
 
 int main()
 {
-  test_lattice_key();
   int number_unbalanced = 0;
   std::size_t most_patterns = 0;
   for(unsigned seed : {1u, 2u}) {

@@ -4,9 +4,9 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-"""Reads the images of test_image with another program, nibabel, and compares with image_expected.json.
+"""Reads the images of test_image_io with another program, nibabel, and compares with image_expected.json.
 
-Usage: test_image_readers.py [directory that test_image wrote to]
+Usage: test_image_readers.py [directory that test_image_io wrote to]
 
 Exit code 77 (skipped) if a module is missing: python3-nibabel.
 """

@@ -9,8 +9,15 @@
 #define MIXED_MESH_3_TEST_MESHES_H
 
 #include <CGAL/Mixed_mesh_3.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/quality.h>
+
+#include <boost/core/lightweight_test.hpp>
 
 #include <array>
+#include <cstddef>
+#include <random>
+#include <vector>
 
 // n^3 cells, of elements of one kind.
 // place: Mesh::Point_3(double, double, double), from coordinates in cells; called for each vertex once, in
@@ -50,6 +57,42 @@ Mesh grid_of_cells(int n, CGAL::Mixed_meshes_3::Element_kind kind, const Place& 
         }
       }
   return mesh;
+}
+
+// A conforming mesh with an element of each kind, in [0, 2] x [0, 1] x [0, 2].
+template <class Mesh>
+Mesh four_kinds(double scale, const CGAL::Mixed_meshes_3::Vec3& origin, double perturbation = 0)
+{
+  using namespace CGAL::Mixed_meshes_3;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-perturbation, perturbation);
+  Mesh mesh;
+  for(const Vec3& p : {Vec3{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1},
+                       {0, 1, 1}, {0.5, 0.5, 2}, {2, 0, 0}, {2, 1, 0}, {1.7, 0.5, 1.8}}) {
+    const Vec3 q = origin + scale * (p + Vec3{uniform(random), uniform(random), uniform(random)});
+    mesh.add_vertex({q[0], q[1], q[2]});
+  }
+  mesh.add_element(HEXAHEDRON, {0, 1, 2, 3, 4, 5, 6, 7});
+  mesh.add_element(PRISM, {2, 10, 6, 1, 9, 5});
+  mesh.add_element(PYRAMID, {4, 5, 6, 7, 8});
+  mesh.add_element(TETRAHEDRON, {5, 6, 8, 11});
+  for(std::size_t e = 0; e < 4; ++e)
+    BOOST_TEST(volume(mesh, e) > 0);
+  return mesh;
+}
+
+// Where a point of a displaced mesh is.
+template <class Mesh, class Location>
+CGAL::Mixed_meshes_3::Vec3
+position(const Mesh& mesh, const std::vector<CGAL::Mixed_meshes_3::Vec3>& displacements, const Location& l)
+{
+  using namespace CGAL::Mixed_meshes_3;
+  Vec3 x{};
+  for(int i = 0; i < mesh.element(l.element).size(); ++i) {
+    const Vertex_index v = mesh.element(l.element)[i];
+    x = x + l.weights[i] * (to_vec3(mesh.point(v)) + displacements[v]);
+  }
+  return x;
 }
 
 #endif // MIXED_MESH_3_TEST_MESHES_H

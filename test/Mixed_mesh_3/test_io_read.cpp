@@ -5,8 +5,8 @@
 //
 // Readers of meshes.
 //
-//   test_read DATA_DIRECTORY WORK_DIRECTORY
-//   test_read --files FILE...    for test_read_writers.py: damages copies of the files, and prints what is in
+//   test_io_read DATA_DIRECTORY WORK_DIRECTORY
+//   test_io_read --files FILE...    for test_io_read_writers.py: damages copies of the files, prints what is in
 //                                each, as a line of JSON
 
 #include <CGAL/Mixed_mesh_3.h>

@@ -4,9 +4,9 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-"""Writes a mesh by other programs, VTK and Gmsh, in all their encodings, and has test_read read it.
+"""Writes a mesh by other programs, VTK and Gmsh, in all their encodings, and has test_io_read read it.
 
-Usage: test_read_writers.py test_read [directory for the files]
+Usage: test_io_read_writers.py test_io_read [directory for the files]
 
 Exit code 77 (skipped) if a module is missing: python3-vtk9, python3-gmsh.
 """

@@ -3,13 +3,12 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// fit_mixed_mesh_to_surface() and its stages: the elasticity against linear fields, that it must reproduce;
-// targets; meshes carried onto surfaces that they were made for, and onto others; each way to end.
+// fit_mixed_mesh_to_surface() and its stages: solvers, targets; meshes carried onto surfaces that they were made
+// for, and onto others; each way to end.
 //
-//   test_fit [DATA_DIRECTORY]
+//   test_fitting_fit [DATA_DIRECTORY]
 
-#include "test_meshes.h"
-#include "test_surfaces.h"
+#include "test_grids.h"
 
 #include <CGAL/fit_mixed_mesh_to_surface.h>
 #include <CGAL/make_mixed_mesh_3.h>
@@ -26,7 +25,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <iostream>
 #include <limits>
@@ -49,51 +47,7 @@ using CGAL::Polyhedral_mixed_mesh_domain_3;
 using CGAL::fit_mixed_mesh_to_surface;
 using Status = CGAL::Mixed_mesh_fit_status;
 
-using Mesh = CGAL::Mixed_mesh_3<Test_kernel>;
-
 // ---- helpers -----------------------------------------------------------------------------------
-
-// Numbers in [-1,1], the same everywhere.
-class Noise
-{
-  std::uint32_t m_state = 1;
-
-public:
-  double operator()()
-  {
-    m_state = m_state * 1664525u + 1013904223u;
-    return double(m_state >> 8) / double(1 << 23) - 1;
-  }
-};
-
-// n^3 cells in [0,1]^3, of elements of one kind; vertices moved by up to `noise` cells.
-Mesh grid(int n, Element_kind kind, double noise = 0)
-{
-  Noise random;
-  return grid_of_cells<Mesh>(n, kind, [&](double x, double y, double z) {
-    const double dx = noise * random(), dy = noise * random(), dz = noise * random(); // in this order
-    return Test_point((x + dx) / n, (y + dy) / n, (z + dz) / n);
-  });
-}
-
-Vec3 position(const Mesh& mesh, Vertex_index v) { return to_vec3(mesh.point(v)); }
-
-std::vector<Vec3> positions(const Mesh& mesh)
-{
-  std::vector<Vec3> p;
-  for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
-    p.push_back(position(mesh, v));
-  return p;
-}
-
-std::vector<bool> is_on_boundary(const Mesh& mesh)
-{
-  std::vector<bool> result(mesh.number_of_vertices());
-  for(const Boundary_polygon& p : boundary_polygons(mesh))
-    for(int i = 0; i < p.size; ++i)
-      result[p.vertices[i]] = true;
-  return result;
-}
 
 template <class F>
 Test_surface mapped(const Test_surface& surface, const F& f)
@@ -161,85 +115,6 @@ Mixed_mesh_fit_result_3 fit(const char* what, Mesh& mesh, const Test_surface& su
   return result;
 }
 
-// ---- elasticity --------------------------------------------------------------------------------
-
-constexpr Elastic_material soft{1, 0.45};
-
-Vec3 linear_field(const Vec3& p)
-{
-  return {0.1 + 0.3 * p[0] - 0.2 * p[1], -0.2 + 0.5 * p[2] + 0.1 * p[1], 0.4 * p[0] - 0.1 * p[2]};
-}
-
-Vec3 rotation(const Vec3& p) { return Vec3{0.3, 0.1, -0.2} + cross(Vec3{0.2, -0.5, 0.7}, p); }
-
-// Solves for the inner nodes with the field prescribed on the boundary.
-template <class Solver>
-double error_of_field(const Mesh& mesh, Vec3 (*field)(const Vec3&), Solver solver)
-{
-  const std::vector<bool> is_boundary = is_on_boundary(mesh);
-  std::vector<bool> is_free = is_boundary;
-  is_free.flip();
-  std::vector<Vec3> u;
-  for(const Vec3& p : positions(mesh))
-    u.push_back(field(p));
-  Elasticity_system system(mesh.elements(), is_free);
-  BOOST_TEST(system.number_of_unknowns() > 0);
-  for(Element_index e : system.active_elements())
-    system.add(e, soft, positions(mesh), u);
-  const auto matrix = make_matrix<typename Solver::Matrix>(system.starts(), system.rows(), system.values());
-  const std::size_t n = std::size_t(system.number_of_unknowns());
-  typename Solver::Vector b(n), x(n);
-  for(int i = 0; i < system.number_of_unknowns(); ++i)
-    b[i] = system.right_hand_side()[i];
-  double denominator;
-  BOOST_TEST(solver.factor(matrix, denominator));
-  BOOST_TEST(solver.linear_solver(b, x));
-  double error = 0;
-  for(std::size_t i = 0; i < system.free_vertices().size(); ++i)
-    for(int k = 0; k < 3; ++k)
-      error = (std::max)(error, std::abs(x[int(3 * i) + k] - u[system.free_vertices()[i]][k]));
-  return error;
-}
-
-void test_elasticity()
-{
-  for(Element_kind kind : element_kinds) {
-    const Mesh mesh = grid(3, kind, 0.15);
-    BOOST_TEST(find_defects(mesh).positive());
-    BOOST_TEST_LT(error_of_field(mesh, linear_field, Simplicial_solver_traits()), 1e-12);
-
-    // Quadrature gives the volume; rigid motions no force, others some energy.
-    const Element_view element = mesh.element(0);
-    std::array<Vec3, 8> p{};
-    for(int i = 0; i < element.size(); ++i)
-      p[i] = position(mesh, element[i]);
-    double sum = 0;
-    for(int q = 0; q < quadrature_rule(kind).number_of_points; ++q)
-      sum += strain_operator(kind, p, q).volume;
-    BOOST_TEST_LT(std::abs(sum - CGAL::Mixed_meshes_3::volume(mesh, 0)), 1e-14);
-    Element_stiffness stiffness;
-    compute_element_stiffness(kind, p, soft, Dilatation::POINTWISE, stiffness);
-    double rigid = 0, energy = 0;
-    for(int a = 0; a < element.size(); ++a) {
-      Vec3 force{}, force_of_field{};
-      for(int b = 0; b < element.size(); ++b)
-        for(int i = 0; i < 3; ++i)
-          for(int j = 0; j < 3; ++j) {
-            const double k = b <= a ? stiffness[a][b][i][j] : stiffness[b][a][j][i];
-            force[i] += k * rotation(p[b])[j];
-            force_of_field[i] += k * linear_field(p[b])[j];
-          }
-      rigid = (std::max)(rigid, norm(force));
-      energy += dot(force_of_field, linear_field(p[a]));
-    }
-    BOOST_TEST_LT(rigid, 1e-14);
-    // of a constant strain: volume times stress times strain
-    const double trace = 0.3 + 0.1 - 0.1, strain_squared = 0.09 + 0.01 + 0.01 + (0.04 + 0.16 + 0.25) / 2;
-    const double expected = sum * (soft.lambda() * trace * trace + 2 * soft.mu() * strain_squared);
-    BOOST_TEST_LT(std::abs(energy - expected), 1e-12 * expected);
-  }
-}
-
 // ---- solvers -----------------------------------------------------------------------------------
 
 using Eigen_matrix = Eigen::SparseMatrix<double>;
@@ -283,22 +158,6 @@ void test_solvers()
   for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
     if(is_boundary[v])
       BOOST_TEST(position(by_default, v) == position(expected, v));
-
-  // The solver by itself, with another matrix of the same pattern, and one of another.
-  Simplicial_solver_traits solver;
-  for(double diagonal : {2., 4., 3.}) {
-    Simplicial_solver_traits::Matrix matrix(2);
-    matrix.set_coef(0, 0, diagonal, true);
-    matrix.set_coef(1, 1, diagonal, true);
-    if(diagonal == 3)
-      matrix.set_coef(1, 0, 1, true);
-    Simplicial_solver_traits::Vector b(2), x(2);
-    b[0] = b[1] = 12;
-    double denominator;
-    BOOST_TEST(solver.linear_solver(matrix, b, x, denominator));
-    BOOST_TEST_LT(std::abs(x[0] - (diagonal == 3 ? 3 : 12 / diagonal)), 1e-14);
-    BOOST_TEST_LT(std::abs(x[1] - x[0]), 1e-14);
-  }
 }
 
 // ---- targets -----------------------------------------------------------------------------------
@@ -534,7 +393,6 @@ int main(int argc, char** argv)
   CGAL::make_mixed_mesh_3(Polyhedral_mixed_mesh_domain_3(brain), CGAL::Polyhedral_mixed_mesh_region_3(region),
                           Mixed_mesh_criteria_3(660).fit_to_surface(false), mesh);
 
-  test_elasticity();
   test_solvers();
   test_brain(mesh, brain);
   test_other_surfaces(brain);

@@ -5,7 +5,10 @@
 //
 // The certificate against sampling of the Jacobian with the shape functions, which share no code.
 
+#include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+#include <CGAL/Mixed_mesh_3/validation.h>
 
 #include <boost/core/lightweight_test.hpp>
 
@@ -173,6 +176,53 @@ void test_exact()
   BOOST_TEST(jacobian_sign(HEXAHEDRON, h) == Jacobian_sign::POSITIVE);
 }
 
+// The top is the bottom turned and twice as large. After half a turn the Jacobian is positive but for a third of
+// the height, where it is zero: at no point that halving the element ever meets.
+Points twisted(Element_kind kind, double turns)
+{
+  Points p = reference_points(kind);
+  const std::size_t n = kind == HEXAHEDRON ? 4 : 3;
+  const double angle = 2 * CGAL_PI * turns;
+  const double c = turns == 0.5 ? -1 : std::cos(angle), s = turns == 0.5 ? 0 : std::sin(angle); // exact
+  for(std::size_t i = 0; i < n; ++i) {
+    p[n + i][0] = 2 * (c * p[i][0] - s * p[i][1]);
+    p[n + i][1] = 2 * (s * p[i][0] + c * p[i][1]);
+  }
+  return p;
+}
+
+void test_undecided()
+{
+  for(Element_kind kind : {PRISM, HEXAHEDRON}) {
+    BOOST_TEST(jacobian_sign(kind, twisted(kind, 0.3)) == Jacobian_sign::POSITIVE);
+    BOOST_TEST(jacobian_sign(kind, twisted(kind, 0.45)) == Jacobian_sign::POSITIVE);
+    BOOST_TEST(jacobian_sign(kind, twisted(kind, 0.5)) == Jacobian_sign::UNDECIDED);
+    // positive, by a hair
+    BOOST_TEST(jacobian_sign(kind, twisted(kind, 0.5 - 1e-8)) == Jacobian_sign::UNDECIDED);
+    BOOST_TEST(has_positive_corners(kind, twisted(kind, 0.5)));
+    // mirrored, it is negative
+    Points p = twisted(kind, 0.5);
+    for(auto& x : p)
+      x[0] = -x[0];
+    BOOST_TEST(jacobian_sign(kind, p) == Jacobian_sign::NOT_POSITIVE);
+  }
+  // along an edge of a prism only: less is decided sooner
+  BOOST_TEST(jacobian_sign(PRISM, twisted(PRISM, 0.4999)) == Jacobian_sign::POSITIVE);
+
+  // In a mesh it is a defect of its own kind.
+  using Mesh = CGAL::Mixed_mesh_3<Predicates_kernel>;
+  Mesh mesh;
+  for(const auto& x : twisted(HEXAHEDRON, 0.5))
+    mesh.add_vertex({x[0], x[1], x[2]});
+  mesh.add_element(HEXAHEDRON, {0, 1, 2, 3, 4, 5, 6, 7});
+  BOOST_TEST(jacobian_sign(mesh, 0) == Jacobian_sign::UNDECIDED);
+  const Mesh_defects defects = find_defects(mesh);
+  BOOST_TEST_EQ(defects.undecided_elements, 1u);
+  BOOST_TEST_EQ(defects.nonpositive_elements, 0u);
+  BOOST_TEST_EQ(defects.nonpositive_corners, 0u);
+  BOOST_TEST(!defects.positive() && !defects.none());
+}
+
 int main()
 {
   test_random<TETRAHEDRON>(2000);
@@ -181,5 +231,6 @@ int main()
   test_random<HEXAHEDRON>(1500);
   test_known_hexahedron();
   test_exact();
+  test_undecided();
   return boost::report_errors();
 }

@@ -1,0 +1,310 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the optimization is made of: gradients of the costs against differences, flips on integers.
+
+#include "test_fitting.h"
+
+#include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
+#include <CGAL/Mixed_mesh_3/Scaled_jacobian_quality_3.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/flips.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
+#include <CGAL/Mixed_mesh_3/quality.h>
+#include <CGAL/Mixed_mesh_3/validation.h>
+
+#include <boost/core/lightweight_test.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <random>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace CGAL::Mixed_meshes_3;
+using CGAL::Mixed_meshes_3::internal::Element_points;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// ---- quality models ----------------------------------------------------------------------------
+
+Element_points reference_points(Element_kind kind, double r3, double height)
+{
+  Element_points p{};
+  const Reference_element& r = reference_elements[kind];
+  for(int i = 0; i < r.number_of_vertices; ++i) {
+    const auto& c = r.coordinates[i];
+    if(kind == TETRAHEDRON || kind == PRISM) // the barycentric triangle becomes equilateral
+      p[i] = {c[0] + 0.5 * c[1], r3 / 2 * c[1], 0.5 * c[2]};
+    else
+      p[i] = {0.5 * c[0], 0.5 * c[1], 0.5 * c[2]};
+  }
+  if(kind == TETRAHEDRON)
+    p[3] = {0.5, r3 / 6, std::sqrt(2. / 3)};
+  if(kind == PYRAMID)
+    p[4] = {0, 0, height};
+  return p;
+}
+
+// All edges equal but for the height of the pyramid.
+Element_points ideal(Element_kind kind, double height_of_pyramid)
+{
+  return reference_points(kind, std::sqrt(3.), height_of_pyramid);
+}
+
+template <class Quality>
+void test_gradients(const Quality& quality, double height_of_pyramid, double ideal_tetrahedron, double ideal_prism,
+                    const std::function<double(Element_kind, const Element_points&)>& bound)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  constexpr double h = 1e-6;
+  std::size_t compared = 0, kinks = 0, inverted = 0;
+  for(Element_kind kind : element_kinds) {
+    const int n = reference_elements[kind].number_of_vertices;
+    // the paper's constant is that of the regular tetrahedron but for a rounding
+    const double best = kind == PRISM ? ideal_prism : kind == TETRAHEDRON ? ideal_tetrahedron : 1;
+    BOOST_TEST_LE(std::abs(quality(kind, ideal(kind, height_of_pyramid)) - best), 1e-6);
+    for(int repeat = 0; repeat < 400; ++repeat) {
+      Element_points p = ideal(kind, height_of_pyramid);
+      const double amplitude = 0.1 * (1 + repeat % 5), scale = std::ldexp(1, repeat % 7 - 3);
+      for(int i = 0; i < n; ++i)
+        for(double& x : p[i])
+          x = scale * (x + amplitude * uniform(random));
+      const double q = quality(kind, p);
+      BOOST_TEST_GE(q, best - 1e-6);
+      BOOST_TEST_GE(q * (1 + 1e-9), bound(kind, p));
+      bool is_positive = true;
+      for(int c = 0; c < reference_elements[kind].number_of_corners; ++c) {
+        const auto& k = reference_elements[kind].corners[c];
+        is_positive = is_positive
+                      && determinant(p[k[1]] - p[k[0]], p[k[2]] - p[k[0]], p[k[3]] - p[k[0]]) > 0;
+      }
+      BOOST_TEST_EQ(q < infinity, is_positive);
+      inverted += !is_positive;
+      for(int v = 0; v < n; ++v) {
+        Vec3 gradient{7, 7, 7};
+        BOOST_TEST(quality(kind, p, v, gradient) == q);
+        for(int k = 0; k < 3 && q < 50; ++k) {
+          Element_points left = p, right = p;
+          left[v][k] -= h * scale;
+          right[v][k] += h * scale;
+          const double dl = (q - quality(kind, left)) / h, dr = (quality(kind, right) - q) / h;
+          if(std::abs(dr - dl) > 1e-4 * (q * q * q + std::abs(dl))) { // one measure gives way to another
+            ++kinks;
+            continue;
+          }
+          ++compared;
+          BOOST_TEST_LE(std::abs(0.5 * (dl + dr) - scale * gradient[k]), 1e-6 * q * (10 + std::abs(dl)));
+        }
+      }
+    }
+  }
+  BOOST_TEST_GT(compared, 10000u);
+  BOOST_TEST_LT(kinks * 100, compared);
+  BOOST_TEST_GT(inverted, 50u);
+}
+
+void test_qualities()
+{
+  const double tetrahedron = std::sqrt(72.) / 8.47867, prism = 2 / std::sqrt(3.);
+  test_gradients(Aspect_ratio_quality_3(), 1, tetrahedron, prism, internal::aspect_ratio_coefficient);
+  test_gradients(Aspect_ratio_quality_3(7, 0), 1, tetrahedron, prism, internal::aspect_ratio_coefficient);
+  test_gradients(Scaled_jacobian_quality_3(), std::sqrt(0.5), 1, 1, [](Element_kind kind, const Element_points& p) {
+    const double j = internal::scaled_jacobian(kind, p);
+    return j > 0 ? 1 / j : 1;
+  });
+  // the cost of the second is the reciprocal, not less
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> uniform(-0.2, 0.2);
+  for(Element_kind kind : element_kinds)
+    for(int repeat = 0; repeat < 100; ++repeat) {
+      Element_points p = ideal(kind, 0.4 + 0.01 * repeat);
+      for(int i = 0; repeat > 0 && i < reference_elements[kind].number_of_vertices; ++i)
+        for(double& x : p[i])
+          x += uniform(random);
+      const double j = internal::scaled_jacobian(kind, p);
+      if(j > 0.01)
+        BOOST_TEST_LE(std::abs(Scaled_jacobian_quality_3()(kind, p) * j - 1), 1e-12);
+    }
+  BOOST_TEST(Aspect_ratio_quality_3(3).is_acceptable(3) && !Aspect_ratio_quality_3(3).is_acceptable(3.1));
+  BOOST_TEST(Scaled_jacobian_quality_3(3).is_acceptable(3) && !Scaled_jacobian_quality_3(3).is_acceptable(3.1));
+}
+
+// ---- flips -------------------------------------------------------------------------------------
+
+// On integers, so that volumes are exact.
+std::int64_t six_volumes(const Mesh& mesh)
+{
+  std::int64_t sum = 0;
+  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
+    std::int64_t d[3][3];
+    for(int i = 0; i < 3; ++i)
+      for(int k = 0; k < 3; ++k)
+        d[i][k] = std::int64_t(mesh.point(mesh.element(e)[i + 1])[k]) - std::int64_t(mesh.point(mesh.element(e)[0])[k]);
+    const std::int64_t v = d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1])
+                           - d[0][1] * (d[1][0] * d[2][2] - d[1][2] * d[2][0])
+                           + d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]);
+    BOOST_TEST_GT(v, 0);
+    sum += v;
+  }
+  return sum;
+}
+
+// Vertices 0 and 1 on the axis, at -height and height, and n around it.
+Mesh bipyramid(int n, int height)
+{
+  Mesh mesh;
+  mesh.add_vertex({0, 0, double(-height)});
+  mesh.add_vertex({0, 0, double(height)});
+  for(int i = 0; i < n; ++i)
+    mesh.add_vertex({std::round(100 * std::cos(2 * CGAL_PI * i / n)), std::round(100 * std::sin(2 * CGAL_PI * i / n)), 0});
+  return mesh;
+}
+
+Mesh around_axis(int n, int height)
+{
+  Mesh mesh = bipyramid(n, height);
+  for(int i = 0; i < n; ++i)
+    mesh.add_element(TETRAHEDRON, {0, 1, Vertex_index(2 + i), Vertex_index(2 + (i + 1) % n)});
+  return mesh;
+}
+
+bool has_edge(const Mesh& mesh, Vertex_index a, Vertex_index b)
+{
+  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
+    const auto element = mesh.element(e);
+    if(std::count(element.begin(), element.end(), a) && std::count(element.begin(), element.end(), b))
+      return true;
+  }
+  return false;
+}
+
+// As if inside of a larger mesh, so that nothing is removed. Returns the number of flips, and checks that the
+// elements fill the same volume.
+std::size_t flip(Mesh& mesh)
+{
+  const Mesh before = mesh;
+  BOOST_TEST(find_defects(before).none());
+  internal::Working_mesh working(mesh, internal::boundary_polygons(mesh));
+  const Aspect_ratio_quality_3 quality;
+  internal::Tetrahedron_flipper flipper(working, quality);
+  const auto is_on_boundary = std::exchange(working.is_on_boundary, std::vector<std::uint8_t>(mesh.number_of_vertices(), 0));
+  std::set<Vertex_index> changed;
+  const std::size_t flips = flipper.run(4, 1, [&](Vertex_index v) { changed.insert(v); });
+  working.is_on_boundary = is_on_boundary;
+  working.store(mesh);
+  BOOST_TEST(find_defects(mesh).none());
+  BOOST_TEST_EQ(six_volumes(mesh), six_volumes(before));
+  BOOST_TEST(boundary_of(mesh) == boundary_of(before));
+  BOOST_TEST(mesh.points() == before.points());
+  BOOST_TEST_EQ(flips == 0, is_same(mesh, before));
+  BOOST_TEST_EQ(flips == 0, changed.empty());
+  const auto sum = [&](const Mesh& m) {
+    double s = 0;
+    for(std::size_t e = 0; e < m.number_of_elements(); ++e)
+      s += std::pow(quality(TETRAHEDRON, internal::element_points(m, m.element(e))), 4);
+    return s;
+  };
+  BOOST_TEST(flips == 0 || sum(mesh) < sum(before));
+  BOOST_TEST(flips == 0 || mesh.boundary_faces().size() == boundary_of(mesh).size());
+  return flips;
+}
+
+void test_flips()
+{
+  // 3-2, of a long edge; not of a short one, where 2-3 does the contrary
+  Mesh mesh = around_axis(3, 120);
+  BOOST_TEST_EQ(flip(mesh), 1u);
+  BOOST_TEST_EQ(mesh.number_of_elements(), 2u);
+  BOOST_TEST_EQ(flip(mesh), 0u);
+  mesh = around_axis(3, 30);
+  BOOST_TEST_EQ(flip(mesh), 0u);
+  mesh = bipyramid(3, 30);
+  mesh.add_element(TETRAHEDRON, {2, 3, 4, 1});
+  mesh.add_element(TETRAHEDRON, {4, 3, 2, 0}, true);
+  BOOST_TEST_EQ(flip(mesh), 1u);
+  BOOST_TEST_EQ(mesh.number_of_elements(), 3u);
+  BOOST_TEST(has_edge(mesh, 0, 1));
+  for(int e = 0; e < 3; ++e) // the region takes what it met
+    BOOST_TEST(mesh.is_in_region(std::size_t(e)));
+
+  // 4-4, and rings of 5, 6, 7; larger ones stay
+  for(int n = 4; n <= 8; ++n) {
+    mesh = around_axis(n, 250);
+    const std::size_t flips = flip(mesh);
+    BOOST_TEST_EQ(flips > 0, n <= 7);
+    BOOST_TEST_EQ(has_edge(mesh, 0, 1), n > 7);
+    BOOST_TEST_EQ(int(mesh.number_of_elements()), n <= 7 ? 2 * (n - 2) : n);
+  }
+
+  // Not where the new elements would be inverted: vertex 2 is beyond the axis, and the ring not convex there.
+  mesh = around_axis(4, 250);
+  for(const Test_point& outside : {Test_point(-150, 0, 0), Test_point(-90, 0, 0)}) {
+    Mesh bent = bipyramid(4, 250);
+    bent.points()[2] = {10, 0, 0};
+    bent.points()[4] = outside;
+    bent.points()[3] = {-60, 100, 0};
+    bent.points()[5] = {-60, -100, 0};
+    for(Vertex_index i = 0; i < 4; ++i)
+      bent.add_element(TETRAHEDRON, {0, 1, 2 + i, 2 + (i + 1) % 4});
+    flip(bent);
+  }
+
+  // Random points in a cube, in each cell of which the edges are as they happen to be.
+  for(unsigned seed = 1; seed <= 5; ++seed) {
+    mesh = grid(4, TETRAHEDRON);
+    for(Test_point& p : mesh.points())
+      p = {std::round(4000 * p.x()), std::round(4000 * p.y()), std::round(4000 * p.z())};
+    distort(mesh, 500, seed);
+    for(Test_point& p : mesh.points()) // to integers
+      p = {std::round(p.x()), std::round(p.y()), std::round(p.z())};
+    if(is_positive(mesh))
+      BOOST_TEST_GT(flip(mesh), 5u);
+  }
+}
+
+// A flat tetrahedron on two pyramids, on whose common edge cd it lies: nothing can be flipped there.
+void test_removal()
+{
+  for(double depth : {0.5, 0.05}) {
+    Mesh mesh;
+    for(const Test_point& p : {Test_point(-1, 0.5, 0), Test_point(1, 0.5, 0), Test_point(0, 0, -depth),
+                               Test_point(0, 1, -depth), Test_point(0, 0, -1), Test_point(0, 1, -1)})
+      mesh.add_vertex(p);
+    mesh.add_element(TETRAHEDRON, {0, 1, 2, 3});
+    mesh.add_element(PYRAMID, {2, 3, 5, 4, 0});
+    mesh.add_element(PYRAMID, {2, 4, 5, 3, 1});
+    BOOST_TEST(find_defects(mesh).none());
+    const double whole = volume(mesh);
+    internal::Working_mesh working(mesh, internal::boundary_polygons(mesh));
+    const Aspect_ratio_quality_3 quality;
+    internal::Tetrahedron_flipper flipper(working, quality);
+    const std::size_t flips = flipper.run(4, 1.4, [](Vertex_index) {});
+    BOOST_TEST_EQ(flips, depth < 0.1 ? 1u : 0u);
+    BOOST_TEST_EQ(flips, flipper.number_of_removals());
+    working.store(mesh);
+    BOOST_TEST(find_defects(mesh).none());
+    BOOST_TEST_EQ(mesh.number_of_elements(), 3 - flips);
+    BOOST_TEST_LE(std::abs(whole - volume(mesh) - double(flips) * depth / 3), 1e-14);
+  }
+}
+} // namespace
+
+int main()
+{
+  test_qualities();
+  test_flips();
+  test_removal();
+  return boost::report_errors();
+}

@@ -1,0 +1,272 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// make_mixed_mesh_3() on awkward domains, and each way to end.
+
+#include "test_meshing.h"
+
+#include <CGAL/Mixed_mesh_3/surface_distance.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+
+#include <boost/core/lightweight_test.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <iostream>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using CGAL::Ball_mixed_mesh_region_3;
+using CGAL::Everywhere_mixed_mesh_region_3;
+using CGAL::Polyhedral_mixed_mesh_region_3;
+
+// ---- awkward domains ---------------------------------------------------------------------------
+
+// How it ended, exactly: a change that is not meant shall not pass for another way of ending well.
+struct Outcome
+{
+  Status status;
+  std::size_t number_of_vertices, number_of_lost_cells;
+
+  friend bool operator==(const Outcome& a, const Outcome& b)
+  {
+    return a.status == b.status && a.number_of_vertices == b.number_of_vertices
+           && a.number_of_lost_cells == b.number_of_lost_cells;
+  }
+  friend std::ostream& operator<<(std::ostream& out, const Outcome& o)
+  {
+    return out << "status " << int(o.status) << ", " << o.number_of_vertices << " vertices, "
+               << o.number_of_lost_cells << " lost cells";
+  }
+};
+
+Outcome outcome(const Mesh& mesh, const Mixed_mesh_result_3& result)
+{
+  return {result.status, mesh.number_of_vertices(), result.number_of_lost_cells};
+}
+
+// Returns the volume of the mesh that is not fitted; the fitted one is valid, too, and nearer.
+// expected: of the mesh that is not fitted, with a cube and with a box as root
+// fitted: likewise its status after fitting; small budgets only, to save time
+double mesh_shape(const std::string& name, const Surface& surface, std::size_t budget,
+                  const std::array<Outcome, 2>& expected, const std::vector<Status>& fitted_status = {})
+{
+  const Polyhedral_mixed_mesh_domain_3 domain(surface);
+  double first_volume = 0;
+  for(Root_cell root : {Root_cell::CUBE, Root_cell::BOX}) {
+    const std::string shape = name + (root == Root_cell::BOX ? " (box)" : "");
+    Mesh mesh, fitted;
+    const auto result = run(domain, Everywhere_mixed_mesh_region_3(), unfitted(budget).root_cell(root), mesh);
+    if(!BOOST_TEST_EQ(outcome(mesh, result), expected[root == Root_cell::BOX]))
+      std::cout << shape << ": needed " << result.number_of_vertices_needed << std::endl;
+    check_sides(mesh, result, domain);
+    if(root == Root_cell::CUBE && !mesh.is_empty())
+      first_volume = volume(mesh);
+
+    if(fitted_status.empty())
+      continue;
+    const auto with = run(domain, Everywhere_mixed_mesh_region_3(), Mixed_mesh_criteria_3(budget).root_cell(root),
+                          fitted);
+    BOOST_TEST_EQ(int(with.status), int(fitted_status[root == Root_cell::BOX]));
+    BOOST_TEST(with.status == result.status || with.status == Status::NOT_ALL_ARRIVED);
+    BOOST_TEST_EQ(fitted.is_empty(), mesh.is_empty());
+    if(fitted.is_empty())
+      continue;
+    const std::size_t off = number_of_vertices_off_surface(fitted, surface);
+    BOOST_TEST_LE(off, with.optimization.number_of_boundary_vertices - with.optimization.number_of_arrived_vertices);
+    BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED || off == 0);
+    BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED || volume(fitted) < volume(mesh) * (1 + 1e-12));
+    const auto rows = quality_statistics(fitted);
+    std::cout << shape << ": " << off << " off, ARC " << rows[number_of_element_kinds].mean << ", at most "
+              << rows[number_of_element_kinds].maximum << std::endl;
+  }
+  return first_volume;
+}
+
+void test_shapes()
+{
+  // the mesh contains the vertices inside; its volume is not far from that of the domain
+  const auto is_near = [](double volume, double exact) {
+    return volume > 0.8 * exact && volume < 2.5 * exact;
+  };
+
+  double volume_of_mesh;
+  Surface cube;
+  add_box(cube, {0, 0, 0}, {1, 1, 1});
+  volume_of_mesh = mesh_shape("cube", cube, 1000,
+                              {{{Status::SUCCESS, 994, 0}, {Status::SUCCESS, 995, 0}}},
+                              {Status::SUCCESS, Status::SUCCESS});
+  BOOST_TEST(is_near(volume_of_mesh, 1));
+
+  Surface tetrahedron;
+  tetrahedron.add_vertex({0, 0, 0});
+  tetrahedron.add_vertex({3, 0, 0});
+  tetrahedron.add_vertex({0, 3, 0});
+  tetrahedron.add_vertex({0, 0, 3});
+  using V = Surface::Vertex_index;
+  for(const auto& f : {std::array<int, 3>{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}})
+    tetrahedron.add_face(V(f[0]), V(f[1]), V(f[2]));
+  volume_of_mesh = mesh_shape("tetrahedron", tetrahedron, 2000,
+                              {{{Status::SUCCESS, 1996, 0}, {Status::PARTS_LOST, 1998, 9}}});
+  BOOST_TEST(is_near(volume_of_mesh, 4.5));
+
+  Surface plate;
+  add_box(plate, {0, 0, 0}, {100, 100, 1});
+  mesh_shape("plate", plate, 20000, {{{Status::SUCCESS, 19990, 0}, {Status::SUCCESS, 20000, 0}}});
+  mesh_shape("plate, few", plate, 300, {{{Status::SUCCESS, 298, 0}, {Status::SUCCESS, 299, 0}}},
+             {Status::NOT_ALL_ARRIVED, Status::NOT_ALL_ARRIVED});
+  const auto tilt = [](const Point_3& p) { // a rotation
+    const double c = 0.8, s = 0.6;
+    const Point_3 q(c * p.x() - s * p.z(), p.y(), s * p.x() + c * p.z());
+    return Point_3(q.x(), c * q.y() - s * q.z(), s * q.y() + c * q.z());
+  };
+  mesh_shape("tilted plate", transformed(plate, tilt), 20000,
+             {{{Status::SUCCESS, 19999, 0}, {Status::SUCCESS, 19966, 0}}});
+
+  Surface needle;
+  add_box(needle, {0, 0, 0}, {100, 1, 1});
+  mesh_shape("needle", needle, 2000, {{{Status::SUCCESS, 1995, 0}, {Status::SUCCESS, 1993, 0}}});
+  mesh_shape("tilted needle", transformed(needle, tilt), 2000,
+             {{{Status::SUCCESS, 1994, 0}, {Status::SUCCESS, 2000, 0}}});
+
+  Surface two;
+  add_sphere(two, {0, 0, 0}, 1, 8);
+  add_sphere(two, {5, 0.3, 0.1}, 1, 8);
+  const double sphere = 4 * CGAL_PI / 3;
+  volume_of_mesh = mesh_shape("two spheres", two, 4000,
+                              {{{Status::SUCCESS, 3997, 0}, {Status::SUCCESS, 3996, 0}}});
+  BOOST_TEST(is_near(volume_of_mesh, 2 * sphere));
+
+  // Two plates between the planes of the coarse octree: the default base level would lose one of them.
+  Surface plates;
+  add_box(plates, {0, 0, 0}, {100, 100, 4});
+  add_box(plates, {0, 0, 56.3}, {100, 100, 60.3});
+  const CGAL::Polyhedral_mixed_mesh_domain_3 plates_domain(plates);
+  Mesh mesh;
+  for(std::size_t n : {100, 500, 20000}) {
+    const auto result =
+      make_mixed_mesh_3(plates_domain, CGAL::Everywhere_mixed_mesh_region_3(), unfitted(n), mesh);
+    double lower = 100, upper = 0; // how far the mesh reaches
+    for(const auto& p : mesh.points())
+      lower = (std::min)(lower, p.z()), upper = (std::max)(upper, p.z());
+    const bool has_both = lower < 4 && upper > 56.3;
+    BOOST_TEST(has_both || result.status == Status::PARTS_LOST
+               || result.status == Status::BUDGET_TOO_SMALL || result.status == Status::EMPTY);
+    BOOST_TEST(n < 20000 || has_both);
+    BOOST_TEST_EQ(outcome(mesh, result), (n == 100 ? Outcome{Status::PARTS_LOST, 98, 492}
+                                          : n == 500 ? Outcome{Status::PARTS_LOST, 494, 444}
+                                                     : Outcome{Status::SUCCESS, 19966, 0}));
+  }
+
+  // almost touching: pinched without the repair
+  Surface touching;
+  add_sphere(touching, {0, 0, 0}, 1, 8);
+  add_sphere(touching, {1.3, 1.3, 1.2}, 1, 8);
+  volume_of_mesh = mesh_shape("touching spheres", touching, 4000,
+                              {{{Status::SUCCESS, 3999, 0}, {Status::SUCCESS, 3998, 0}}});
+  BOOST_TEST(is_near(volume_of_mesh, 2 * sphere));
+
+  Surface cavity;
+  add_sphere(cavity, {0, 0, 0}, 1, 10);
+  add_sphere(cavity, {0.1, 0, 0}, 0.5, 8);
+  volume_of_mesh = mesh_shape("cavity", cavity, 4000,
+                              {{{Status::SUCCESS, 3991, 0}, {Status::SUCCESS, 3995, 0}}});
+  BOOST_TEST(is_near(volume_of_mesh, sphere * 7 / 8));
+
+  // inside out; the sphere is symmetric, so that many cells are equally deep, but for rounding
+  Surface reversed;
+  add_sphere(reversed, {0, 0, 0}, 1, 8);
+  Mesh a, b;
+  const auto make = [&](Mesh& mesh) {
+    make_mixed_mesh_3(Polyhedral_mixed_mesh_domain_3(reversed), Polyhedral_mixed_mesh_region_3(reversed),
+                      unfitted(500), mesh);
+  };
+  make(a);
+  CGAL::Polygon_mesh_processing::reverse_face_orientations(reversed);
+  make(b);
+  BOOST_TEST(!a.is_empty() && content(a) == content(b));
+}
+
+// ---- each way to end ---------------------------------------------------------------------------
+
+// A ball that says that all its surface is at one place.
+struct Pinched_domain : Analytic_domain
+{
+  using Analytic_domain::Analytic_domain;
+  Point_3 closest_point(const Point_3& p, const Surface_part&) const { return closest_point(p); }
+  Point_3 closest_point(const Point_3& p, const Point_3&) const { return closest_point(p); }
+  Point_3 closest_point(const Point_3&) const { return {0.5, 0.5, 0.5}; }
+};
+
+void test_statuses()
+{
+  const Everywhere_mixed_mesh_region_3 everywhere;
+  Surface surface;
+  add_sphere(surface, {0, 0, 0}, 1, 12);
+  const Polyhedral_mixed_mesh_domain_3 sphere(surface);
+  Mesh mesh;
+  const auto status = [&](const Mixed_mesh_criteria_3& criteria) { return run(sphere, everywhere, criteria, mesh).status; };
+  BOOST_TEST(status(Mixed_mesh_criteria_3(1000)) == Status::SUCCESS);
+  const Mixed_mesh_criteria_3 boxed = Mixed_mesh_criteria_3(300).root_cell(Root_cell::BOX); // one root only
+  BOOST_TEST(status(Mixed_mesh_criteria_3(boxed).tolerance(1)) == Status::SUCCESS);
+  BOOST_TEST(status(Mixed_mesh_criteria_3(boxed).tolerance(0.03)) == Status::TOLERANCE_NOT_REACHED);
+  BOOST_TEST(find_defects(mesh).none());
+  BOOST_TEST(status(Mixed_mesh_criteria_3(1000).base_level(6)) == Status::BUDGET_TOO_SMALL);
+  // One more cell is worth so many vertices of a small mesh that some budgets cannot be filled.
+  bool is_filled_always = true;
+  for(std::size_t n = 30; n < 60; ++n)
+    is_filled_always = is_filled_always && status(Mixed_mesh_criteria_3(n)) != Status::BUDGET_NOT_FILLED;
+  BOOST_TEST(!is_filled_always);
+
+  BOOST_TEST(run(sphere, Ball_mixed_mesh_region_3({9, 9, 9}, 1), Mixed_mesh_criteria_3(1000), mesh).status
+             == Status::REGION_NOT_MET);
+  Recording_visitor visitor;
+  visitor.stop_at = 0;
+  BOOST_TEST(make_mixed_mesh_3(sphere, everywhere, Mixed_mesh_criteria_3(1000), mesh,
+                               CGAL::parameters::visitor(std::ref(visitor))).status == Status::STOPPED);
+
+  Surface plate; // between the planes of a coarse octree, which has no vertex inside
+  add_box(plate, {0, 0, 0.3}, {1, 1, 0.31});
+  add_box(plate, {0, 0, 0.9}, {1, 1, 0.91});
+  const Ball_mixed_mesh_region_3 away({9, 9, 9}, 1); // the octree stays coarse
+  BOOST_TEST(run(Polyhedral_mixed_mesh_domain_3(plate), away, Mixed_mesh_criteria_3(1000).base_level(2), mesh).status
+             == Status::EMPTY);
+  add_sphere(plate, {0.5, 0.5, 1}, 0.45, 8);
+  BOOST_TEST(run(Polyhedral_mixed_mesh_domain_3(plate), everywhere, Mixed_mesh_criteria_3(1000).base_level(3), mesh).status
+             == Status::PARTS_LOST);
+
+  // Balls at two corners of the root, which is too small for them: what is in it meets in a vertex.
+  const Axis_aligned_octree_cell_traits_3 small_root({0, 0, 0, 1, 1, 1});
+  const std::uint32_t side = internal::lattice_root_side;
+  const Analytic_domain corners(united(ball(small_root.point({0, 0, 0}), 0.01),
+                                       ball(small_root.point({side, 0, 0}), 0.01)));
+  const Mixed_mesh_criteria_3 one_level = unfitted(7).base_level(1);
+  const auto pinched_result = make_mixed_mesh_3(corners, everywhere, one_level, small_root, mesh);
+  check(mesh, pinched_result, 7);
+  BOOST_TEST(pinched_result.status == Status::BOUNDARY_NOT_MANIFOLD);
+  BOOST_TEST(pinched_result.has_mesh());
+  BOOST_TEST_EQ(mesh.number_of_vertices(), 7u);
+  BOOST_TEST_EQ(find_defects(mesh).nonmanifold_boundary_vertices, 1u);
+
+  const Pinched_domain pinched(ball({0.5, 0.5, 0.5}, 0.4));
+  const auto result = run(pinched, everywhere, Mixed_mesh_criteria_3(1000), mesh);
+  BOOST_TEST(result.status == Status::NOT_ALL_ARRIVED);
+  BOOST_TEST(result.optimization.status == CGAL::Mixed_mesh_optimization_status::NOT_ALL_ARRIVED);
+  BOOST_TEST_LT(result.optimization.number_of_arrived_vertices, result.optimization.number_of_boundary_vertices);
+}
+} // namespace
+
+int main()
+{
+  test_statuses();
+  test_shapes();
+  return boost::report_errors();
+}

@@ -1,0 +1,264 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Queries on a surface, by brute force over its triangles.
+
+#include "test_surfaces.h"
+
+#include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
+#include <CGAL/Mixed_mesh_regions_3.h>
+#include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
+
+#include <CGAL/Side_of_triangle_mesh.h>
+
+#include <boost/core/lightweight_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <random>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace CGAL::Mixed_meshes_3;
+using CGAL::Bbox_3;
+using CGAL::Bounded_side;
+using CGAL::Polyhedral_mixed_mesh_domain_3;
+using CGAL::Mixed_meshes_3::internal::Octree;
+
+using Kernel = Predicates_kernel;
+using Point_3 = Kernel::Point_3;
+using Triangle_3 = Kernel::Triangle_3;
+using Surface = CGAL::Surface_mesh<Point_3>;
+using Aligned_traits = Axis_aligned_octree_cell_traits_3;
+using Rotated_traits = Rotated_octree_cell_traits_3;
+
+void add_box(Surface& s, const Bbox_3& b)
+{
+  ::add_box(s, {b.xmin(), b.ymin(), b.zmin()}, {b.xmax(), b.ymax(), b.zmax()});
+}
+
+Bbox_3 bbox_of(const Surface& s) { return CGAL::bbox_3(s.points().begin(), s.points().end()); }
+
+// ---- domain oracle -----------------------------------------------------------------------------
+
+using Side_function = std::function<Bounded_side(const Point_3&)>;
+
+std::size_t number_on_surface = 0, number_of_boundary_cells = 0;
+
+template <class Traits>
+void walk(const Polyhedral_mixed_mesh_domain_3& domain, const Surface& surface, const Traits& traits,
+          const Side_function& side_of, int depth, const Lattice_point& corner, std::uint32_t side,
+          const Polyhedral_mixed_mesh_domain_3::Surface_part& parent)
+{
+  const auto cell = traits.cell(corner, side);
+  Polyhedral_mixed_mesh_domain_3::Surface_part part;
+  const Bounded_side located = domain.locate(cell, parent, part);
+  std::vector<std::uint32_t> met;
+  for(auto f : faces(surface)) {
+    const auto h = surface.halfedge(f);
+    const Triangle_3 t(surface.point(surface.source(h)), surface.point(surface.target(h)),
+                       surface.point(surface.target(surface.next(h))));
+    if(cell.do_intersect(t))
+      met.push_back(std::uint32_t(f));
+  }
+  BOOST_TEST_EQ(located, met.empty() ? side_of(cell.center()) : CGAL::ON_BOUNDARY);
+  BOOST_TEST(part.facets == met);
+
+  // all points that the stages ask for: corners, midpoints, centers, and some others
+  const std::uint32_t half = side / 2;
+  for(std::uint32_t i = 0; i < 27; ++i) {
+    const Point_3 p = traits.point({corner[0] + i % 3 * half, corner[1] + i / 3 % 3 * half,
+                                    corner[2] + i / 9 * half});
+    const Bounded_side expected = side_of(p);
+    number_on_surface += expected == CGAL::ON_BOUNDARY;
+    BOOST_TEST_EQ(domain.bounded_side(p, part), expected);
+    BOOST_TEST_EQ(domain.bounded_side(p), expected);
+    if(i % 13 == 0) {
+      const Point_3 q = domain.closest_point(p, part);
+      double nearest = std::numeric_limits<double>::infinity();
+      for(auto f : faces(surface)) {
+        const auto h = surface.halfedge(f);
+        const Triangle_3 t(surface.point(surface.source(h)), surface.point(surface.target(h)),
+                           surface.point(surface.target(surface.next(h))));
+        nearest = (std::min)(nearest, std::sqrt(CGAL::squared_distance(p, t)));
+      }
+      const double tolerance = 1e-12 * nearest + 1e-15 * std::sqrt((p - CGAL::ORIGIN).squared_length());
+      BOOST_TEST_LE(std::abs(std::sqrt(CGAL::squared_distance(p, q)) - nearest), tolerance);
+      const Point_3 without_hint = domain.closest_point(p, Polyhedral_mixed_mesh_domain_3::Surface_part());
+      BOOST_TEST_LE(std::abs(std::sqrt(CGAL::squared_distance(p, without_hint)) - nearest), tolerance);
+      // a hint from elsewhere, and none
+      for(const Point_3& r : {domain.closest_point(p, surface.point(Surface::Vertex_index(i % 6))),
+                              domain.closest_point(p)})
+        BOOST_TEST_LE(std::abs(std::sqrt(CGAL::squared_distance(p, r)) - nearest), tolerance);
+    }
+  }
+  if(located != CGAL::ON_BOUNDARY)
+    return;
+  ++number_of_boundary_cells;
+  if(depth > 0)
+    for(std::uint32_t i = 0; i < 8; ++i)
+      walk(domain, surface, traits, side_of, depth - 1,
+           {corner[0] + (i & 1) * half, corner[1] + (i >> 1 & 1) * half, corner[2] + (i >> 2) * half},
+           half, part);
+}
+
+template <class Traits>
+void test_oracle(const Surface& surface, const Traits& traits, const Side_function& side_of, int depth)
+{
+  const Polyhedral_mixed_mesh_domain_3 domain(surface);
+  BOOST_TEST_EQ(domain.number_of_facets(), num_faces(surface));
+  walk(domain, surface, traits, side_of, depth, {0, 0, 0}, Octree::root_side, domain.surface_part());
+}
+
+Bounded_side side_of_box(const Bbox_3& b, const Point_3& p)
+{
+  if(p.x() < b.xmin() || p.x() > b.xmax() || p.y() < b.ymin() || p.y() > b.ymax()
+     || p.z() < b.zmin() || p.z() > b.zmax())
+    return CGAL::ON_UNBOUNDED_SIDE;
+  return p.x() == b.xmin() || p.x() == b.xmax() || p.y() == b.ymin() || p.y() == b.ymax()
+             || p.z() == b.zmin() || p.z() == b.zmax()
+           ? CGAL::ON_BOUNDARY
+           : CGAL::ON_BOUNDED_SIDE;
+}
+
+void test_domain_oracle()
+{
+  // A box with a cavity, all facets on faces of cells: every query is degenerate. The sides are
+  // known without CGAL.
+  const Bbox_3 outer(0, 0, 0, 8, 8, 8), cavity(2, 2, 4, 6, 4, 6);
+  Surface box;
+  add_box(box, outer);
+  add_box(box, cavity);
+  const Side_function side_of_box_with_cavity = [&](const Point_3& p) {
+    const Bounded_side a = side_of_box(outer, p), b = side_of_box(cavity, p);
+    return a != CGAL::ON_BOUNDED_SIDE ? a : Bounded_side(-int(b));
+  };
+  test_oracle(box, Aligned_traits(bbox_of(box), Root_cell::BOX), side_of_box_with_cavity, 2);
+  BOOST_TEST_GT(number_on_surface, 1000u);
+  test_oracle(box, Aligned_traits(bbox_of(box), Root_cell::CUBE), side_of_box_with_cavity, 2);
+
+  // An octahedron: its edges and vertices and the inside of its facets meet lattice points.
+  Surface octahedron;
+  add_sphere(octahedron, {1, 2, 3}, 2, 2);
+  const std::size_t before = number_on_surface;
+  test_oracle(octahedron, Aligned_traits(bbox_of(octahedron), Root_cell::BOX),
+              [](const Point_3& p) {
+                const double d = std::abs(p.x() - 1) + std::abs(p.y() - 2) + std::abs(p.z() - 3);
+                return d < 2 ? CGAL::ON_BOUNDED_SIDE
+                             : d > 2 ? CGAL::ON_UNBOUNDED_SIDE : CGAL::ON_BOUNDARY;
+              }, 3);
+  BOOST_TEST_GT(number_on_surface, before + 1000);
+
+  // A round surface, two components, rotated cells, far away and large: against CGAL.
+  for(double offset : {0., 1e8}) {
+    Surface spheres;
+    add_sphere(spheres, {offset, 0, -offset}, 1000, 6);
+    add_sphere(spheres, {offset + 2200, 100, -offset}, 900, 5);
+    const CGAL::Side_of_triangle_mesh<Surface, Kernel> side_of(spheres);
+    const auto ask = [&](const Point_3& p) { return side_of(p); };
+    test_oracle(spheres, Aligned_traits(bbox_of(spheres)), ask, 2);
+    test_oracle(spheres, Rotated_traits(spheres.points(), Kernel::Vector_3(1, -2, 0.5)), ask, 2);
+  }
+  BOOST_TEST_GT(number_of_boundary_cells, 300u);
+}
+
+// No point of the surface is far from all samples, and they are on the surface.
+void test_surface_samples()
+{
+  Surface thin; // long triangles
+  add_box(thin, Bbox_3(0, 0, 0, 100, 1, 7));
+  Surface sphere;
+  add_sphere(sphere, {1, 2, 3}, 2, 12);
+  std::mt19937 random(41);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::size_t last = 0;
+  for(const Surface& surface : {thin, sphere}) {
+    const Polyhedral_mixed_mesh_domain_3 domain(surface);
+    for(double spacing : {1000., 3., 0.7}) {
+      const std::vector<Point_3> samples = domain.surface_samples(spacing);
+      for(const Point_3& p : samples)
+        BOOST_TEST_LE(CGAL::squared_distance(p, domain.closest_point(p)), 1e-20);
+      for(auto v : surface.vertices())
+        BOOST_TEST(std::count(samples.begin(), samples.end(), surface.point(v)) == 1);
+      double farthest = 0; // of all points, squared
+      for(auto f : faces(surface))
+        for(int i = 0; i < 40; ++i) {
+          const auto h = surface.halfedge(f);
+          const Point_3 a = surface.point(surface.source(h)), b = surface.point(surface.target(h)),
+                        c = surface.point(surface.target(surface.next(h)));
+          const double u = uniform(random), v = uniform(random) * (1 - u);
+          const Point_3 p = a + u * (b - a) + v * (c - a);
+          double nearest = std::numeric_limits<double>::infinity();
+          for(const Point_3& q : samples)
+            nearest = (std::min)(nearest, CGAL::squared_distance(p, q));
+          farthest = (std::max)(farthest, nearest);
+        }
+      BOOST_TEST_LE(farthest, spacing * spacing);
+      BOOST_TEST(spacing > 100 ? samples.size() == surface.number_of_vertices() : samples.size() >= last);
+      BOOST_TEST(spacing > 1 || samples.size() > surface.number_of_vertices());
+      last = samples.size();
+    }
+  }
+}
+
+// ---- moved domains -----------------------------------------------------------------------------
+
+// The tree keeps the address of the surface: what is moved is the owner of both.
+template <class Oracle>
+void test_moved()
+{
+  static_assert(std::is_nothrow_move_constructible_v<Oracle> && std::is_nothrow_move_assignable_v<Oracle>);
+  static_assert(!std::is_copy_constructible_v<Oracle> && !std::is_copy_assignable_v<Oracle>);
+  std::vector<Oracle> oracles;
+  for(int i = 0; i < 5; ++i) { // the vector moves what it has; surfaces are copied
+    const Surface surface = box({double(i), 0, 0}, {i + 1., 1, 1});
+    oracles.push_back(Oracle(surface));
+  }
+  std::swap(oracles.front(), oracles.back());
+  Oracle last = std::move(oracles.back());
+  oracles.back() = std::move(last);
+  for(std::size_t i = 0; i < 5; ++i) {
+    const double x = i == 0 ? 4 : i == 4 ? 0 : double(i);
+    BOOST_TEST(oracles[i].bbox() == Bbox_3(x, 0, 0, x + 1, 1, 1));
+    BOOST_TEST_EQ(oracles[i].bounded_side(Point_3(x + 0.5, 0.5, 0.5)), CGAL::ON_BOUNDED_SIDE);
+    BOOST_TEST_EQ(oracles[i].bounded_side(Point_3(x + 1.5, 0.5, 0.5)), CGAL::ON_UNBOUNDED_SIDE);
+    BOOST_TEST(oracles[i].closest_point(Point_3(x + 0.5, 0.25, -1)) == Point_3(x + 0.5, 0.25, 0));
+    BOOST_TEST_EQ(oracles[i].surface_samples(10).size(), 8u);
+  }
+}
+
+// A union takes regions over, and can be moved itself.
+void test_moved_union()
+{
+  using CGAL::Ball_mixed_mesh_region_3;
+  using CGAL::Polyhedral_mixed_mesh_region_3;
+  using Union = CGAL::Union_mixed_mesh_region_3<Polyhedral_mixed_mesh_region_3, Ball_mixed_mesh_region_3>;
+  Polyhedral_mixed_mesh_region_3 cube(box({0, 0, 0}, {1, 1, 1}));
+  Union first(std::move(cube), Ball_mixed_mesh_region_3({3, 0, 0}, 1));
+  const Union second(std::move(first));
+  BOOST_TEST_EQ(second.depth({0.5, 0.5, 0.5}), 0.5);
+  BOOST_TEST_EQ(second.depth({3, 0, 0}), 1.);
+  BOOST_TEST_LT(second.depth({1.5, 0, 0}), 0.);
+}
+
+} // namespace
+
+int main()
+{
+  test_domain_oracle();
+  test_surface_samples();
+  test_moved<Polyhedral_mixed_mesh_domain_3>();
+  test_moved<CGAL::Polyhedral_mixed_mesh_region_3>();
+  test_moved_union();
+  return boost::report_errors();
+}
