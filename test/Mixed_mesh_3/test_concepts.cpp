@@ -411,13 +411,10 @@ template <class Mesh>
 std::pair<double, double> radii_of_boundary(const Mesh& mesh)
 {
   std::pair<double, double> radii(100, 0);
-  for(const auto& face : mesh.boundary_faces()) {
-    const auto element = mesh.element(face.element);
-    for(int i = 0; i < 3; ++i) {
-      const auto& p = mesh.point(element[element.reference().faces[face.local_face].vertices[i]]);
-      const double r = std::hypot(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
-      radii = {(std::min)(radii.first, r), (std::max)(radii.second, r)};
-    }
+  for(auto v : boundary_vertices(mesh)) {
+    const auto& p = mesh.point(v);
+    const double r = std::hypot(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
+    radii = {(std::min)(radii.first, r), (std::max)(radii.second, r)};
   }
   return radii;
 }

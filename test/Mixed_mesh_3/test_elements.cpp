@@ -26,7 +26,6 @@
 namespace {
 
 using namespace CGAL::Mixed_meshes_3;
-using CGAL::Mixed_meshes_3::internal::Boundary_polygon;
 using CGAL::Mixed_meshes_3::internal::Manifold_defects;
 using CGAL::Mixed_meshes_3::internal::manifold_defects;
 
@@ -37,9 +36,9 @@ using Mesh = CGAL::Mixed_mesh_3<Kernel>;
 void test_manifold_defects()
 {
   const auto tetrahedron = [](Vertex_index a, Vertex_index b, Vertex_index c, Vertex_index d) {
-    return std::vector<Boundary_polygon>{{{b, c, d}, 3}, {{a, d, c}, 3}, {{a, b, d}, 3}, {{a, c, b}, 3}};
+    return std::vector<Face_vertices>{{b, c, d}, {a, d, c}, {a, b, d}, {a, c, b}};
   };
-  const auto both = [](std::vector<Boundary_polygon> a, const std::vector<Boundary_polygon>& b) {
+  const auto both = [](std::vector<Face_vertices> a, const std::vector<Face_vertices>& b) {
     a.insert(a.end(), b.begin(), b.end());
     return a;
   };
@@ -50,27 +49,27 @@ void test_manifold_defects()
   BOOST_TEST(manifold_defects(tetrahedron(0, 1, 2, 3)).empty());
   BOOST_TEST(manifold_defects(both(tetrahedron(0, 1, 2, 3), tetrahedron(4, 5, 6, 7))).empty());
   // all quadrilaterals, and both sizes
-  std::vector<Boundary_polygon> polygons;
+  std::vector<Face_vertices> polygons;
   for(Element_kind kind : element_kinds) {
     const Reference_element& r = reference_elements[kind];
     polygons.clear();
     for(int f = 0; f < r.number_of_faces; ++f) {
-      Boundary_polygon p{{}, r.faces[f].size};
-      std::copy(r.faces[f].vertices, r.faces[f].vertices + p.size, p.vertices.begin());
-      polygons.push_back(p);
+      const auto& v = r.faces[f].vertices;
+      polygons.push_back(r.faces[f].size == 3 ? Face_vertices{v[0], v[1], v[2]}
+                                              : Face_vertices{v[0], v[1], v[2], v[3]});
     }
     BOOST_TEST(manifold_defects(polygons).empty());
     // open, at each of its faces
     for(std::size_t f = 0; f < polygons.size(); ++f) {
-      std::vector<Boundary_polygon> open = polygons;
+      std::vector<Face_vertices> open = polygons;
       open.erase(open.begin() + std::ptrdiff_t(f));
       const Manifold_defects d = manifold_defects(open);
-      BOOST_TEST_EQ(int(d.edges.size()), polygons[f].size);
-      BOOST_TEST_EQ(int(d.vertices.size()), polygons[f].size);
+      BOOST_TEST_EQ(int(d.edges.size()), polygons[f].size());
+      BOOST_TEST_EQ(int(d.vertices.size()), polygons[f].size());
       // turned over
-      std::vector<Boundary_polygon> turned = polygons;
-      std::reverse(turned[f].vertices.begin(), turned[f].vertices.begin() + turned[f].size);
-      BOOST_TEST_EQ(int(manifold_defects(turned).edges.size()), polygons[f].size);
+      std::vector<Face_vertices> turned = polygons;
+      std::swap(turned[f][0], turned[f][2]);
+      BOOST_TEST_EQ(int(manifold_defects(turned).edges.size()), polygons[f].size());
     }
   }
   // four polygons at an edge: two fans at its ends
@@ -258,14 +257,14 @@ static_assert(std::is_copy_constructible_v<Mesh> && std::is_copy_assignable_v<Me
 void test_moved()
 {
   Mesh first = cube({{0.5, 0.5, 2}});
-  first.add_element(PYRAMID, {4, 5, 6, 7, 8}, true);
-  first.set_boundary_faces(boundary_faces(first));
+  first.add_element(PYRAMID, {4, 5, 6, 7, 8}, {2, true});
   const auto expect_it = [](const Mesh& mesh) {
     check(mesh, 0);
     BOOST_TEST_EQ(mesh.number_of_vertices(), 9u);
     BOOST_TEST_EQ(mesh.number_of_elements(), 2u);
     BOOST_TEST(!mesh.is_in_region(0) && mesh.is_in_region(1));
-    BOOST_TEST_EQ(mesh.boundary_faces().size(), 9u);
+    BOOST_TEST(mesh.subdomain_index(0) == 1 && mesh.subdomain_index(1) == 2);
+    BOOST_TEST_EQ(boundary_faces(mesh).size(), 9u);
     BOOST_TEST_EQ(mesh.element(1)[4], 8u);
     BOOST_TEST(mesh.point(8) == Point_3(0.5, 0.5, 2));
   };

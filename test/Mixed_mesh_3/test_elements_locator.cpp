@@ -122,20 +122,19 @@ void test_locator()
             });
           }
           const auto found = locator.locate(p);
-          BOOST_TEST_EQ(found ? found->element : 4, first);
+          BOOST_TEST_EQ(found ? found->element : Element_index(4), first);
         }
         // Nearest: against a sampling of the boundary.
         std::vector<Vec3> surface;
         for(const auto& f : boundary_faces(mesh)) {
-          const Element_face& face = mesh.element(f.element).reference().faces[f.local_face];
-          const auto v = internal::face_vertices(mesh.element(f.element), f.local_face);
+          const Face_vertices& v = f.vertices();
           Vec3 c[4];
-          for(int i = 0; i < face.size; ++i)
+          for(int i = 0; i < v.size(); ++i)
             c[i] = to_vec3(mesh.point(v[i])) + u[v[i]];
           for(int i = 0; i <= 40; ++i)
             for(int j = 0; j <= 40; ++j) {
               const double a = i / 40., b = j / 40.;
-              if(face.size == 4)
+              if(v.size() == 4)
                 surface.push_back((1 - a) * ((1 - b) * c[0] + b * c[3]) + a * ((1 - b) * c[1] + b * c[2]));
               else if(i + j <= 40)
                 surface.push_back((1 - a - b) * c[0] + a * c[1] + b * c[2]);

@@ -5,6 +5,7 @@
 //
 // The table of element kinds, the shape functions, volumes and aspect-ratio coefficients.
 
+#include <CGAL/Mixed_mesh_3/IO/internal/element_names.h>
 #include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/double.h>
@@ -158,13 +159,14 @@ void test_table(Element_kind kind)
                                                          : r.number_of_vertices);
 
   // To VTK and back; VTK's wedge has its base normal away from the top, the others as ours.
+  const IO::internal::Element_names& names = IO::internal::element_names[kind];
   std::set<int> images;
   for(int i = 0; i < r.number_of_vertices; ++i) {
-    BOOST_TEST_EQ(int(r.vtk_order[r.vtk_order[i]]), i);
-    images.insert(r.vtk_order[i]);
+    BOOST_TEST_EQ(int(names.vtk_order[names.vtk_order[i]]), i);
+    images.insert(names.vtk_order[i]);
   }
   BOOST_TEST_EQ(int(images.size()), r.number_of_vertices);
-  const auto& o = r.vtk_order;
+  const auto& o = names.vtk_order;
   if(kind == PRISM)
     BOOST_TEST_LT(determinant_of(r, o[0], o[1], o[2], o[3]), 0);
   else if(kind == TETRAHEDRON)

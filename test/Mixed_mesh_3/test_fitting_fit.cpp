@@ -171,8 +171,8 @@ struct Folded_faces
 Folded_faces folded_faces(const Mesh& mesh, const Test_surface& surface, double quality)
 {
   const Polyhedral_mixed_mesh_domain_3 domain(surface);
-  std::vector<Boundary_polygon> polygons = boundary_polygons(mesh);
-  const Surface_targets targets = surface_targets(polygons, positions(mesh), domain);
+  const std::vector<Face> boundary = boundary_faces(mesh);
+  const Surface_targets targets = surface_targets(boundary, positions(mesh), domain);
   std::vector<Vec3> sources, closest;
   std::vector<Vertex_index> numbers(mesh.number_of_vertices());
   for(std::size_t i = 0; i < targets.vertices.size(); ++i) {
@@ -183,9 +183,12 @@ Folded_faces folded_faces(const Mesh& mesh, const Test_surface& surface, double 
     const Vec3& t = targets.positions[i];
     BOOST_TEST_LT(distance({t[0], t[1], t[2]}, surface), 1e-9 * diagonal(surface));
   }
-  for(Boundary_polygon& p : polygons)
-    for(int i = 0; i < p.size; ++i)
-      p.vertices[i] = numbers[p.vertices[i]];
+  std::vector<Face_vertices> polygons;
+  for(const Face& face : boundary) {
+    polygons.push_back(face.vertices());
+    for(int i = 0; i < polygons.back().size(); ++i)
+      polygons.back()[i] = numbers[polygons.back()[i]];
+  }
   const Boundary_folds folds(polygons, sources);
   std::vector<std::uint8_t> is_folded(sources.size());
   BOOST_TEST_EQ(folds.find(targets.positions, 0, is_folded), targets.number_of_folded_faces);
@@ -239,10 +242,9 @@ void test_other_surfaces(const Test_surface& brain)
     BOOST_TEST_EQ(folded.after, 0u);
   }
 
-  // Quadrilateral boundary faces, and no list of them.
+  // Quadrilateral boundary faces.
   for(Element_kind kind : element_kinds) {
     mesh = grid(5, kind);
-    BOOST_TEST(mesh.boundary_faces().empty());
     const std::string what = std::string("grid of ") + reference_elements[kind].plural;
     const Test_surface larger_box = box({-0.1, -0.05, -0.1}, {1.1, 1.05, 1.2});
     BOOST_TEST(fit((what + " to box").c_str(), mesh, larger_box).is_on_surface());

@@ -74,18 +74,23 @@ def check_vtu(path, expected):
 
     types = vtk_to_numpy(grid.GetCellTypesArray())
     check([int((types == t).sum()) for t in VTK_TYPES] == expected["kinds"], path, "counts")
+    order = expected["by_kind"]  # of the elements in the file
+    arcs, expected_volumes = np.array(expected["ARC"])[order], np.array(expected["volumes"])[order]
     data = grid.GetCellData()
     kinds = vtk_to_numpy(data.GetArray("kind"))
     check([VTK_TYPES[k] for k in kinds] == list(types), path, "data kind")
     check(vtk_to_numpy(data.GetArray("in_region")).sum() == expected["region"], path, "in_region")
-    check(np.array_equal(vtk_to_numpy(data.GetArray("ARC")), expected["ARC"]), path, "ARC")
+    check(np.array_equal(vtk_to_numpy(data.GetArray("ARC")), arcs), path, "ARC")
+    check(list(kinds) == sorted(kinds), path, "elements are sorted by kind")
+    check(np.array_equal(vtk_to_numpy(data.GetArray("subdomain")), np.array(expected["subdomains"])[order]), path,
+          "subdomain")
 
     # VTK's filter for volumes, which are signed.
     sizes = vtk.vtkCellSizeFilter()
     sizes.SetInputData(grid)
     sizes.Update()
     volumes = vtk_to_numpy(sizes.GetOutput().GetCellData().GetArray("Volume"))
-    check(close(volumes, expected["volumes"]), path, "volumes by vtkCellSizeFilter", volumes[:3])
+    check(close(volumes, expected_volumes), path, "volumes by vtkCellSizeFilter", volumes[:3])
     check(close(volumes.sum(), expected["volume"]), path, "total volume")
 
     # VTK's tetrahedra and faces of each cell.
@@ -97,7 +102,7 @@ def check_vtu(path, expected):
         p = vtk_to_numpy(corners.GetData()).reshape(-1, 4, 3)
         parts = [tet_volume(q) for q in p]
         check(min(parts) > 0, path, "cell", e, KINDS[kinds[e]], "is inside out for VTK")
-        check(close(sum(parts), expected["volumes"][e]), path, "cell", e, "volume of its tetrahedra")
+        check(close(sum(parts), expected_volumes[e]), path, "cell", e, "volume of its tetrahedra")
         q = vtk_to_numpy(cell.GetPoints().GetData())
         for f in range(cell.GetNumberOfFaces()):
             face = vtk_to_numpy(cell.GetFace(f).GetPoints().GetData())
@@ -119,7 +124,7 @@ def check_vtu(path, expected):
         array = grid.GetPointData().GetArray("position & <copy>")
         check(array is not None and np.array_equal(vtk_to_numpy(array), points), path, "vertex data")
         array = data.GetArray("element")
-        check(array is not None and np.array_equal(vtk_to_numpy(array), np.arange(n)), path,
+        check(array is not None and np.array_equal(vtk_to_numpy(array), order), path,
               "element data")
 
 

@@ -59,7 +59,6 @@ Mesh tetrahedron()
   for(const Test_point& p : {Test_point(0, 0, 0), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}})
     mesh.add_vertex(p);
   mesh.add_element(TETRAHEDRON, {0, 1, 2, 3});
-  mesh.set_boundary_faces(boundary_faces(mesh));
   return mesh;
 }
 
@@ -164,7 +163,7 @@ void test_mesh()
   Mesh mesh = tetrahedron();
   Element_list elements = mesh.elements();
   FORBIDDEN(mesh.assign(mesh.points(), elements, {}));
-  FORBIDDEN(mesh.assign(mesh.points(), elements, std::vector<std::uint8_t>(2)));
+  FORBIDDEN(mesh.assign(mesh.points(), elements, std::vector<Element_attributes>(2)));
   BOOST_TEST_EQ(mesh.number_of_elements(), 1u); // unchanged
   ALLOWED(mesh.assign(mesh.points(), elements, std::vector<std::uint8_t>(1)));
   FORBIDDEN(elements.add(TETRAHEDRON, {0, 1, 2}));

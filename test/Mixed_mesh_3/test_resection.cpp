@@ -52,7 +52,6 @@ Mesh grid(int n, Element_kind kind)
 {
   Mesh mesh =
     grid_of_cells<Mesh>(n, kind, [](double x, double y, double z) { return Test_point(x, y, z); });
-  mesh.set_boundary_faces(boundary_faces(mesh));
   return mesh;
 }
 
@@ -86,7 +85,7 @@ bool is_close(double a, double b, double scale) { return std::abs(a - b) <= 1e-1
 
 Face_key face_key(const Mesh& mesh, std::size_t e, int f)
 {
-  Face_key key = internal::face_vertices(mesh.element(e), f);
+  Face_key key = Face(mesh.elements(), Element_index(e), f).vertices().padded();
   std::sort(key.begin(), key.end());
   return key;
 }
@@ -140,7 +139,7 @@ void check_remaining_mesh(const Mesh& mesh, const Set& is_removed)
   for(std::size_t e = 0; e < element_map.size(); ++e) {
     const Element_view element = remaining.element(e), origin = mesh.element(element_map[e]);
     is_same = is_same && !is_removed[element_map[e]] && element.kind() == origin.kind()
-              && remaining.is_in_region(e) == mesh.is_in_region(element_map[e]);
+              && remaining.attributes(e) == mesh.attributes(element_map[e]);
     for(int i = 0; i < element.size(); ++i)
       is_same = is_same && vertex_map[element[i]] == origin[i]
                 && remaining.point(element[i]) == mesh.point(origin[i]);
@@ -148,9 +147,9 @@ void check_remaining_mesh(const Mesh& mesh, const Set& is_removed)
   BOOST_TEST(is_same);
 
   // Boundary faces are old ones or at the cavity: each is one of the two.
-  const auto handle = [](const Mesh::Boundary_face& f) { return std::make_pair(f.element, f.local_face); };
+  const auto handle = [](const Face& f) { return std::make_pair(f.element(), f.local_index()); };
   std::set<std::pair<Element_index, int>> old, cavity, all;
-  for(const auto& f : mesh.boundary_faces())
+  for(const auto& f : boundary_faces(mesh))
     old.insert(handle(f));
   std::set<Face_key> faces_of_removed;
   for(std::size_t e = 0; e < is_removed.size(); ++e)
@@ -161,20 +160,20 @@ void check_remaining_mesh(const Mesh& mesh, const Set& is_removed)
   for(const auto& f : faces) {
     is_sorted = is_sorted && (cavity.empty() || *cavity.rbegin() < handle(f));
     cavity.insert(handle(f));
-    const Element_index origin = element_map[f.element];
-    is_inner = is_inner && old.count({origin, f.local_face}) == 0
-               && faces_of_removed.count(face_key(mesh, origin, f.local_face)) == 1;
+    is_inner = is_inner && !is_removed[f.element()] && old.count(handle(f)) == 0
+               && faces_of_removed.count(face_key(mesh, f.element(), f.local_index())) == 1;
   }
   BOOST_TEST(is_sorted && is_inner);
   std::size_t number_of_old_faces = 0;
   bool is_covered = true;
-  for(const auto& f : remaining.boundary_faces()) {
-    const bool is_old = old.count({element_map[f.element], f.local_face}) != 0;
+  for(const auto& f : boundary_faces(remaining)) {
+    const std::pair<Element_index, int> origin(element_map[f.element()], f.local_index());
+    const bool is_old = old.count(origin) != 0;
     number_of_old_faces += is_old;
-    is_covered = is_covered && is_old != (cavity.count(handle(f)) != 0);
+    is_covered = is_covered && is_old != (cavity.count(origin) != 0);
   }
   BOOST_TEST(is_covered);
-  BOOST_TEST_EQ(number_of_old_faces + faces.size(), remaining.boundary_faces().size());
+  BOOST_TEST_EQ(number_of_old_faces + faces.size(), boundary_faces(remaining).size());
 }
 
 // Resects, and checks all that can be checked on any mesh that is connected.
@@ -369,11 +368,10 @@ void test_statuses()
   // Tetrahedra that touch the boundary at vertices only, one by one: without one, it would be pinched there.
   std::vector<int> boundary_faces_of(n, 0);
   std::vector<bool> is_on_boundary(mesh.number_of_vertices(), false);
-  for(const auto& f : mesh.boundary_faces()) {
-    ++boundary_faces_of[f.element];
-    for(Vertex_index v : internal::face_vertices(mesh.element(f.element), f.local_face))
-      if(v != internal::no_vertex)
-        is_on_boundary[v] = true;
+  for(const auto& f : boundary_faces(mesh)) {
+    ++boundary_faces_of[f.element()];
+    for(Vertex_index v : f.vertices())
+      is_on_boundary[v] = true;
   }
   std::size_t found = 0;
   for(Element_index e = 0; e < n; ++e)
@@ -521,9 +519,9 @@ void test_tumors(const Mesh& mesh, const Test_surface& brain, int repeats)
   const double whole = volume(mesh);
   const Tally before = tally;
   std::vector<Test_point> centers;
-  for(const auto& f : mesh.boundary_faces()) // at the boundary
-    if(centers.size() < std::size_t(repeats) / 3 && f.element % 17 == 0)
-      centers.push_back(mesh.point(mesh.element(f.element)[0]));
+  for(const auto& f : boundary_faces(mesh)) // at the boundary
+    if(centers.size() < std::size_t(repeats) / 3 && f.element() % 17 == 0)
+      centers.push_back(mesh.point(mesh.element(f.element())[0]));
   while(centers.size() < std::size_t(repeats))
     centers.push_back(random_point(random, bbox));
 

@@ -72,8 +72,7 @@ Mesh solid(const Test_surface& surface, const Test_point& center)
       v.push_back(Vertex_index(u));
     mesh.add_element(TETRAHEDRON, v);
   }
-  mesh.set_boundary_faces(boundary_faces(mesh));
-  BOOST_TEST_EQ(mesh.boundary_faces().size(), surface.number_of_faces());
+  BOOST_TEST_EQ(boundary_faces(mesh).size(), surface.number_of_faces());
   BOOST_TEST_GT(volume(mesh), 0.);
   return mesh;
 }
@@ -233,7 +232,6 @@ void test_hausdorff_distance()
   for(const Vec3& p : cube())
     exact.add_vertex({p[0], p[1], p[2]});
   exact.add_element(HEXAHEDRON, {0, 1, 2, 3, 4, 5, 6, 7});
-  exact.set_boundary_faces(boundary_faces(exact));
   CGAL::Polyhedron_3<CGAL::Simple_cartesian<double>> polyhedron;
   CGAL::copy_face_graph(unit, polyhedron);
   BOOST_TEST_EQ(hausdorff_distance(exact, polyhedron).distance(), 0.);
@@ -285,7 +283,6 @@ void test_self_intersections()
     for(Vec3& p : moved)
       p[0] += shift;
     add(mesh, TETRAHEDRON, moved);
-    mesh.set_boundary_faces(boundary_faces(mesh));
     std::size_t expected = 0;
     const auto triangle = [&](std::size_t e, const Element_face& f) {
       const auto point = [&](int i) { return mesh.point(mesh.element(e)[f.vertices[i]]); };
@@ -305,10 +302,8 @@ void test_self_intersections()
     mesh.add_vertex({p[0], p[1], p[2]});
   mesh.add_element(TETRAHEDRON, {0, 1, 2, 3});
   mesh.add_element(TETRAHEDRON, {1, 2, 3, 4});
-  mesh.set_boundary_faces(boundary_faces(mesh));
   BOOST_TEST_EQ(number_of_boundary_self_intersections(mesh), 0u);
   mesh.add_element(TETRAHEDRON, {0, 3, 5, 6});
-  mesh.set_boundary_faces(boundary_faces(mesh));
   BOOST_TEST_GT(number_of_boundary_self_intersections(mesh), 0u);
 }
 
@@ -329,14 +324,13 @@ void test_brain(const std::string& data)
   BOOST_TEST_GT(number_of_vertices_off_surface(mesh, brain), 100u);
 
   std::map<Vertex_index, Test_surface::Vertex_index> vertices;
-  for(const auto& f : mesh.boundary_faces()) {
+  for(const auto& f : boundary_faces(mesh)) {
     std::vector<Test_surface::Vertex_index> v;
-    for(Vertex_index u : internal::face_vertices(mesh.element(f.element), f.local_face))
-      if(u != internal::no_vertex) {
-        if(vertices.count(u) == 0)
-          vertices[u] = boundary.add_vertex(mesh.point(u));
-        v.push_back(vertices[u]);
-      }
+    for(Vertex_index u : f.vertices()) {
+      if(vertices.count(u) == 0)
+        vertices[u] = boundary.add_vertex(mesh.point(u));
+      v.push_back(vertices[u]);
+    }
     boundary.add_face(v);
   }
   BOOST_TEST(CGAL::is_triangle_mesh(boundary) && CGAL::is_closed(boundary)); // no quadrilateral by default

@@ -93,17 +93,17 @@ void test_transitions(const Analytic_octree& located, Transition_templates_choic
   const Faces faces = faces_of(mesh.elements);
   BOOST_TEST_EQ(faces.nonconforming, 0u);
   std::set<Vertex_index> on_boundary;
-  for(const Boundary_polygon& p : faces.boundary) {
+  for(const Face_vertices& p : faces.boundary) {
     std::array<std::int64_t, 3> sum{};
     int axis = -1;
     for(int k = 0; k < 3; ++k) {
       bool is_flat = true;
-      for(int i = 0; i < p.size; ++i) {
-        sum[k] += mesh.vertices[p.vertices[i]][k];
-        is_flat = is_flat && mesh.vertices[p.vertices[i]][k] == mesh.vertices[p.vertices[0]][k];
-        on_boundary.insert(p.vertices[i]);
+      for(int i = 0; i < p.size(); ++i) {
+        sum[k] += mesh.vertices[p[i]][k];
+        is_flat = is_flat && mesh.vertices[p[i]][k] == mesh.vertices[p[0]][k];
+        on_boundary.insert(p[i]);
       }
-      sum[k] /= p.size;
+      sum[k] /= p.size();
       if(is_flat)
         axis = k;
     }
@@ -112,7 +112,7 @@ void test_transitions(const Analytic_octree& located, Transition_templates_choic
       continue;
     // outward along the axis?
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-    const auto x = [&](int i, int k) { return std::int64_t(mesh.vertices[p.vertices[i]][k]); };
+    const auto x = [&](int i, int k) { return std::int64_t(mesh.vertices[p[i]][k]); };
     const bool is_upper = (x(1, b) - x(0, b)) * (x(2, c) - x(0, c))
                             > (x(1, c) - x(0, c)) * (x(2, b) - x(0, b));
     if(!is_upper)

@@ -21,7 +21,6 @@
 #include <set>
 #include <vector>
 
-using CGAL::Mixed_meshes_3::Element_face;
 using CGAL::Mixed_meshes_3::Element_kind;
 using CGAL::Mixed_meshes_3::Jacobian_sign;
 using CGAL::Mixed_meshes_3::Vertex_index;
@@ -49,11 +48,7 @@ inline std::set<Polygon> boundary_of(const Mesh& mesh)
 {
   std::set<Polygon> result;
   for(const auto& f : CGAL::Mixed_meshes_3::boundary_faces(mesh)) {
-    const auto element = mesh.element(f.element);
-    const Element_face& face = element.reference().faces[f.local_face];
-    Polygon v;
-    for(int i = 0; i < face.size; ++i)
-      v.push_back(element[face.vertices[i]]);
+    Polygon v(f.vertices().begin(), f.vertices().end());
     std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
     result.insert(v);
   }

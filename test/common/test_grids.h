@@ -63,10 +63,8 @@ inline std::vector<Vec3> positions(const Mesh& mesh)
 inline std::vector<bool> is_on_boundary(const Mesh& mesh)
 {
   std::vector<bool> result(mesh.number_of_vertices());
-  for(const auto& f : CGAL::Mixed_meshes_3::boundary_faces(mesh))
-    for(Vertex_index v : CGAL::Mixed_meshes_3::internal::face_vertices(mesh.element(f.element), f.local_face))
-      if(v != CGAL::Mixed_meshes_3::internal::no_vertex)
-        result[v] = true;
+  for(Vertex_index v : CGAL::Mixed_meshes_3::boundary_vertices(mesh))
+    result[v] = true;
   return result;
 }
 

@@ -34,7 +34,7 @@ using CGAL::Mixed_meshes_3::Element_list;
 using CGAL::Mixed_meshes_3::Element_view;
 using CGAL::Mixed_meshes_3::Lattice_point;
 using CGAL::Mixed_meshes_3::Vertex_index;
-using CGAL::Mixed_meshes_3::internal::Boundary_polygon;
+using CGAL::Mixed_meshes_3::Face_vertices;
 using CGAL::Mixed_meshes_3::internal::Located_octree;
 using CGAL::Mixed_meshes_3::internal::Octree;
 
@@ -107,8 +107,8 @@ inline bool is_positive(const std::vector<Lattice_point>& points, const Element_
 
 struct Faces
 {
-  std::vector<Boundary_polygon> boundary; // of one element only
-  std::size_t nonconforming = 0;          // of more than two, or of two with the same orientation
+  std::vector<Face_vertices> boundary; // of one element only
+  std::size_t nonconforming = 0;       // of more than two, or of two with the same orientation
 };
 
 // With a map, as plainly as possible.
@@ -129,9 +129,9 @@ inline Faces faces_of(const Element_list& elements)
   Faces result;
   for(auto& [key, sides] : faces) {
     if(sides.size() == 1) {
-      Boundary_polygon p{{}, int(key.size())};
-      std::copy(sides[0].begin(), sides[0].end(), p.vertices.begin());
-      result.boundary.push_back(p);
+      const std::vector<Vertex_index>& v = sides[0];
+      result.boundary.push_back(v.size() == 3 ? Face_vertices{v[0], v[1], v[2]}
+                                              : Face_vertices{v[0], v[1], v[2], v[3]});
       continue;
     }
     std::reverse(sides[1].begin() + 1, sides[1].end());

@@ -43,6 +43,7 @@ inline Predicates_kernel::Point_3 rounded_point(const Vec3& p) { return {p[0], p
 template <class Mesh>
 Triangle_soup boundary_triangles(const Mesh& mesh)
 {
+  CGAL_precondition(!mesh.is_empty());
   Triangle_soup soup;
   constexpr std::size_t none = std::size_t(-1);
   std::vector<std::size_t> index(mesh.number_of_vertices(), none);

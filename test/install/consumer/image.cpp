@@ -11,7 +11,9 @@ int main()
   mm3::Voxel_image_3 image;
   image.grid.size = {2, 2, 2};
   image.values = {1, 2, 3, 4, 5, 6, 7, 8};
-  if(mm3::IO::write_NIFTI("image.nii.gz", image))
-    return 1; // with an error
-  return mm3::IO::read_NIFTI("image.nii.gz").values == image.values ? 0 : 1;
+  mm3::Voxel_image_3 read;
+  return mm3::IO::write_NIFTI("image.nii.gz", image) && mm3::IO::read_NIFTI("image.nii.gz", read)
+             && read.values == image.values
+           ? 0
+           : 1;
 }

@@ -536,6 +536,9 @@ Writes what `warp_image()` returns, beside each other: for `brain.nii.gz`
 | `brain_backward.nii.gz` | the field at points after it: where they come from |
 | `brain_mask.nii.gz` | 0 outside, 1 tissue, 2 resected: after the deformation |
 
+\param files the files
+\param path the file of the image, once committed: `.nii` or `.nii.gz`
+\param warped what to write
 \param error if not null, receives a line that names the file and says what went wrong
 \return whether all went well
 */
