@@ -53,6 +53,7 @@ public:
   Element element(Element_index e) const { return m_elements[e]; }
 
   const Element_attributes& attributes(Element_index e) const { return m_attributes[e]; }
+  const std::vector<Element_attributes>& attributes() const { return m_attributes; }
   /// Whether the element meets the region of interest.
   bool is_in_region(Element_index e) const { return m_attributes[e].is_in_region; }
   /// The label of the element, for example its material.

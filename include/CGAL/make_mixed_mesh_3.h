@@ -8,8 +8,8 @@
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
-#include <CGAL/Mixed_mesh_3/internal/meshing/Driver.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/arguments.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/mesh_domain.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/search_root.h>
 #include <CGAL/Mixed_mesh_criteria_3.h>
 #include <CGAL/Mixed_mesh_regions_3.h>
@@ -17,8 +17,6 @@
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Named_function_parameters.h>
-
-#include <type_traits>
 
 namespace CGAL {
 
@@ -83,8 +81,7 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
   const auto& d = mm3::as_domain(domain, np);
   const auto& r = mm3::as_region(region, np_region);
   return mm3::with_visitor(np, [&](auto& visitor) {
-    return mm3::Driver<std::decay_t<decltype(d)>, std::decay_t<decltype(r)>, CellTraits, Mixed_mesh_3<GeomTraits>,
-                       std::decay_t<decltype(visitor)>>(d, r, criteria, cell_traits, visitor)(mesh);
+    return mm3::mesh_domain_as(d, r, criteria, cell_traits, visitor, mesh);
   });
 }
 

@@ -9,7 +9,7 @@
 
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
 #include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
-#include <CGAL/Mixed_mesh_3/internal/fem/elasticity_assembly.h>
+#include <CGAL/Mixed_mesh_3/internal/fem/Elasticity_system.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/Mixed_mesh_3/validation.h>
 

@@ -165,7 +165,7 @@ void test_mesh()
   FORBIDDEN(mesh.assign(mesh.points(), elements, {}));
   FORBIDDEN(mesh.assign(mesh.points(), elements, std::vector<Element_attributes>(2)));
   BOOST_TEST_EQ(mesh.number_of_elements(), 1u); // unchanged
-  ALLOWED(mesh.assign(mesh.points(), elements, std::vector<std::uint8_t>(1)));
+  ALLOWED(mesh.assign(mesh.points(), elements, std::vector<Element_attributes>(1)));
   FORBIDDEN(elements.add(TETRAHEDRON, {0, 1, 2}));
   FORBIDDEN(elements.add(PYRAMID, std::vector<Vertex_index>(6)));
   FORBIDDEN(mesh.add_element(HEXAHEDRON, {0, 1, 2, 3}));

@@ -76,6 +76,9 @@ public:
     m_attraction.set_boundary(m_boundary);
   }
 
+  Surface_optimizer(const Surface_optimizer&) = delete; // members refer to each other
+  Surface_optimizer& operator=(const Surface_optimizer&) = delete;
+
   template <class Go_on>
   Mixed_mesh_optimization_result_3 operator()(const Go_on& go_on)
   {

@@ -14,8 +14,6 @@
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <CGAL/Bbox_3.h>
-#include <CGAL/Side_of_triangle_mesh.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/assertions.h>
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/named_params_helper.h>
@@ -28,7 +26,6 @@
 #include <limits>
 #include <memory>
 #include <numeric>
-#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -54,7 +51,6 @@ public:
 
   template <class FaceListGraph, class NamedParameters>
   Surface_oracle_3(const FaceListGraph& surface, const NamedParameters& np)
-    : m_data(std::make_unique<Data>())
   {
     CGAL_precondition(CGAL::is_triangle_mesh(surface));
     CGAL_precondition(CGAL::is_closed(surface));
@@ -62,31 +58,29 @@ public:
     auto vpm = parameters::choose_parameter(
       parameters::get_parameter(np, internal_np::vertex_point),
       get_const_property_map(CGAL::vertex_point, surface));
-    std::unordered_map<typename boost::graph_traits<FaceListGraph>::vertex_descriptor,
-                       Surface::Vertex_index> copy;
-    Surface& s = m_data->surface;
+    std::unordered_map<typename boost::graph_traits<FaceListGraph>::vertex_descriptor, std::size_t> copy;
+    std::vector<Point_3> points;
     for(auto v : vertices(surface)) {
+      copy[v] = points.size();
       const auto& p = get(vpm, v);
-      copy[v] = s.add_vertex(Point_3(rounded(p.x()), rounded(p.y()), rounded(p.z())));
+      points.emplace_back(rounded(p.x()), rounded(p.y()), rounded(p.z()));
     }
+    std::vector<std::array<std::size_t, 3>> triangles;
     for(auto f : faces(surface)) {
-      std::array<Surface::Vertex_index, 3> v;
+      triangles.emplace_back();
       int i = 0;
       for(auto u : vertices_around_face(halfedge(f, surface), surface))
-        v[i++] = copy[u];
-      s.add_face(v[0], v[1], v[2]);
-      m_data->triangles.emplace_back(s.point(v[0]), s.point(v[1]), s.point(v[2]));
-      m_data->boxes.push_back(m_data->triangles.back().bbox());
-      m_data->bbox += m_data->boxes.back();
+        triangles.back()[i++] = copy[u];
     }
-    m_data->tree.insert(faces(s).first, faces(s).second, s, get(CGAL::vertex_point, std::as_const(s)));
-    m_data->tree.do_not_accelerate_distance_queries(); // hints serve better
-    m_data->tree.build();
-    m_data->side_of_surface.emplace(m_data->tree);
+    build(points, triangles);
   }
 
-  const Bbox_3& bbox() const { return m_data->bbox; }
-  std::size_t number_of_facets() const { return m_data->triangles.size(); }
+  Surface_oracle_3(Surface_oracle_3&&) noexcept;
+  Surface_oracle_3& operator=(Surface_oracle_3&&) noexcept;
+  ~Surface_oracle_3();
+
+  const Bbox_3& bbox() const { return m_bbox; }
+  std::size_t number_of_facets() const { return m_triangles.size(); }
 
   /// The whole surface, with a point outside as reference: the paper's P_out.
   Surface_part surface_part() const
@@ -108,7 +102,7 @@ public:
   {
     part.facets.clear();
     for(std::uint32_t f : parent.facets)
-      if(CGAL::do_overlap(m_data->boxes[f], cell.bbox()) && cell.do_intersect(m_data->triangles[f]))
+      if(CGAL::do_overlap(m_boxes[f], cell.bbox()) && cell.do_intersect(m_triangles[f]))
         part.facets.push_back(f);
     part.reference = cell.center();
     part.reference_side = bounded_side(cell.center(), parent);
@@ -126,9 +120,9 @@ public:
     const Bbox_3 segment = p.bbox() + q.bbox();
     bool odd = false;
     for(std::uint32_t f : part.facets) {
-      if(!CGAL::do_overlap(segment, m_data->boxes[f]))
+      if(!CGAL::do_overlap(segment, m_boxes[f]))
         continue;
-      const Triangle_3& t = m_data->triangles[f];
+      const Triangle_3& t = m_triangles[f];
       const Orientation side_p = orientation(t[0], t[1], t[2], p);
       const Orientation side_q = orientation(t[0], t[1], t[2], q);
       if(side_p == side_q && side_p != COPLANAR)
@@ -148,16 +142,16 @@ public:
   }
 
   /// The side of any point, by a ray through the AABB tree.
-  Bounded_side bounded_side(const Point_3& p) const { return (*m_data->side_of_surface)(p); }
+  Bounded_side bounded_side(const Point_3& p) const;
 
   /// The closest point of the surface; faster if `part` has facets near `p`, but it need not.
   Point_3 closest_point(const Point_3& p, const Surface_part& part) const
   {
-    Point_3 hint = m_data->triangles.front()[0];
+    Point_3 hint = m_triangles.front()[0];
     double nearest = std::numeric_limits<double>::infinity();
     for(std::uint32_t f : part.facets)
       for(int i = 0; i < 3; ++i) {
-        const Point_3& q = m_data->triangles[f][i];
+        const Point_3& q = m_triangles[f][i];
         const double d = CGAL::squared_distance(p, q);
         if(d < nearest) {
           nearest = d;
@@ -168,66 +162,37 @@ public:
   }
 
   /// The closest point of the surface; faster if `hint`, a point of the surface, is near.
-  Point_3 closest_point(const Point_3& p, const Point_3& hint) const
-  {
-    return m_data->tree.closest_point(p, hint);
-  }
+  Point_3 closest_point(const Point_3& p, const Point_3& hint) const;
 
   /// The closest point of the surface, by a search that starts anywhere.
   Point_3 closest_point(const Point_3& p) const
   {
-    return closest_point(p, m_data->triangles.front()[0]);
+    return closest_point(p, m_triangles.front()[0]);
   }
 
   /// Points of the surface, such that none of its points is farther than about `spacing` from one of them:
   /// all vertices, and a grid on larger triangles.
-  std::vector<Point_3> surface_samples(double spacing) const
-  {
-    std::vector<Point_3> samples;
-    const Surface& s = m_data->surface;
-    std::vector<std::uint8_t> is_seen(s.number_of_vertices(), 0);
-    for(const auto f : faces(s)) {
-      std::array<Point_3, 3> p;
-      double longest = 0;
-      int k = 0;
-      for(const auto v : vertices_around_face(halfedge(f, s), s)) {
-        p[k++] = s.point(v);
-        if(!is_seen[v])
-          samples.push_back(s.point(v));
-        is_seen[v] = 1;
-      }
-      for(int i = 0; i < 3; ++i)
-        longest = (std::max)(longest, std::sqrt(CGAL::squared_distance(p[i], p[(i + 1) % 3])));
-      const int n = int((std::min)(std::ceil(longest / spacing), 1000.));
-      for(int i = 0; i <= n; ++i)
-        for(int j = 0; i + j <= n; ++j)
-          if((i > 0) + (j > 0) + (i + j < n) > 1) // not at a vertex
-            samples.push_back(p[0] + (double(i) / n) * (p[1] - p[0]) + (double(j) / n) * (p[2] - p[0]));
-    }
-    return samples;
-  }
+  std::vector<Point_3> surface_samples(double spacing) const;
 
 private:
-  using Surface = CGAL::Surface_mesh<Point_3>;
-  using Side_of_surface = CGAL::Side_of_triangle_mesh<Surface, Kernel>;
-  using Tree = Side_of_surface::AABB_tree; // its traits have another name in each CGAL version
+  struct Trees; // AABB trees: defined where they are used
 
   static Bounded_side opposite(Bounded_side side) { return Bounded_side(-int(side)); }
 
-  struct Data
-  {
-    Surface surface;
-    std::vector<Triangle_3> triangles;
-    std::vector<Bbox_3> boxes;
-    Bbox_3 bbox;
-    Tree tree;
-    std::optional<Side_of_surface> side_of_surface;
-  };
-  std::unique_ptr<Data> m_data; // the tree keeps the address of the surface
+  void build(const std::vector<Point_3>& points, const std::vector<std::array<std::size_t, 3>>& triangles);
+
+  std::vector<Triangle_3> m_triangles;
+  std::vector<Bbox_3> m_boxes;
+  Bbox_3 m_bbox;
+  std::unique_ptr<Trees> m_trees; // the tree keeps the address of the surface
 };
 
 } // namespace internal
 } // namespace Mixed_meshes_3
 } // namespace CGAL
+
+#ifndef CGAL_MIXED_MESH_3_COMPILED
+#  include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3_impl.h>
+#endif
 
 #endif // CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SURFACE_ORACLE_3_H

@@ -1,0 +1,106 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SURFACE_ORACLE_3_IMPL_H
+#define CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SURFACE_ORACLE_3_IMPL_H
+
+#include <CGAL/Mixed_mesh_3/internal/base/compiled.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3.h>
+
+#include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+struct Surface_oracle_3::Trees
+{
+  using Surface = CGAL::Surface_mesh<Point_3>;
+  using Side_of_surface = CGAL::Side_of_triangle_mesh<Surface, Kernel>;
+  using Tree = Side_of_surface::AABB_tree; // its traits have another name in each CGAL version
+
+  Surface surface;
+  Tree tree;
+  std::optional<Side_of_surface> side_of_surface;
+};
+
+CGAL_MIXED_MESH_3_INLINE Surface_oracle_3::Surface_oracle_3(Surface_oracle_3&&) noexcept = default;
+CGAL_MIXED_MESH_3_INLINE Surface_oracle_3& Surface_oracle_3::operator=(Surface_oracle_3&&) noexcept = default;
+CGAL_MIXED_MESH_3_INLINE Surface_oracle_3::~Surface_oracle_3() = default;
+
+CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::build(const std::vector<Point_3>& points,
+                                                      const std::vector<std::array<std::size_t, 3>>& triangles)
+{
+  m_trees = std::make_unique<Trees>();
+  Trees::Surface& s = m_trees->surface;
+  for(const Point_3& p : points)
+    s.add_vertex(p);
+  for(const auto& t : triangles) {
+    s.add_face(Trees::Surface::Vertex_index(std::uint32_t(t[0])), Trees::Surface::Vertex_index(std::uint32_t(t[1])),
+               Trees::Surface::Vertex_index(std::uint32_t(t[2])));
+    m_triangles.emplace_back(points[t[0]], points[t[1]], points[t[2]]);
+    m_boxes.push_back(m_triangles.back().bbox());
+    m_bbox += m_boxes.back();
+  }
+  m_trees->tree.insert(faces(s).first, faces(s).second, s, get(CGAL::vertex_point, std::as_const(s)));
+  m_trees->tree.do_not_accelerate_distance_queries(); // hints serve better
+  m_trees->tree.build();
+  m_trees->side_of_surface.emplace(m_trees->tree);
+}
+
+CGAL_MIXED_MESH_3_INLINE Bounded_side Surface_oracle_3::bounded_side(const Point_3& p) const
+{
+  return (*m_trees->side_of_surface)(p);
+}
+
+CGAL_MIXED_MESH_3_INLINE Surface_oracle_3::Point_3 Surface_oracle_3::closest_point(const Point_3& p,
+                                                                                   const Point_3& hint) const
+{
+  return m_trees->tree.closest_point(p, hint);
+}
+
+CGAL_MIXED_MESH_3_INLINE std::vector<Surface_oracle_3::Point_3>
+Surface_oracle_3::surface_samples(double spacing) const
+{
+  std::vector<Point_3> samples;
+  const auto& s = m_trees->surface;
+  std::vector<std::uint8_t> is_seen(s.number_of_vertices(), 0);
+  for(const auto f : faces(s)) {
+    std::array<Point_3, 3> p;
+    double longest = 0;
+    int k = 0;
+    for(const auto v : vertices_around_face(halfedge(f, s), s)) {
+      p[k++] = s.point(v);
+      if(!is_seen[v])
+        samples.push_back(s.point(v));
+      is_seen[v] = 1;
+    }
+    for(int i = 0; i < 3; ++i)
+      longest = (std::max)(longest, std::sqrt(CGAL::squared_distance(p[i], p[(i + 1) % 3])));
+    const int n = int((std::min)(std::ceil(longest / spacing), 1000.));
+    for(int i = 0; i <= n; ++i)
+      for(int j = 0; i + j <= n; ++j)
+        if((i > 0) + (j > 0) + (i + j < n) > 1) // not at a vertex
+          samples.push_back(p[0] + (double(i) / n) * (p[1] - p[0]) + (double(j) / n) * (p[2] - p[0]));
+  }
+  return samples;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SURFACE_ORACLE_3_IMPL_H
