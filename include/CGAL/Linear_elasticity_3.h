@@ -73,7 +73,7 @@ public:
     : Linear_elasticity_3(mesh, std::vector<Elastic_material>{material})
   {}
 
-  /// A material for each element.
+  /// A material for each element; `Mixed_meshes_3::materials_of_elements()` tells them by subdomain.
   Linear_elasticity_3(const Mesh& mesh, std::vector<Elastic_material> materials)
     : m_model(mesh, std::move(materials))
   {}

@@ -109,7 +109,9 @@ void test_supports(int kind)
         layered.points()[v] = regular.point(v);
   }
   BOOST_TEST(find_defects(layered).positive());
-  Elasticity bar(layered, layers);
+  for(Element_index e = 0; e < layered.number_of_elements(); ++e)
+    layered.set_subdomain_index(e, layers[e].young_modulus == 1 ? 1 : 2);
+  Elasticity bar(layered, materials_of_elements(layered, {{1, {1, 0.3, 2e-6}}, {2, {4, 0.45, 5e-6}}}));
   slide_on_sides(bar, true, true);
   prescribe(bar, vertices_where(layered, is_on_top), in_series);
   BOOST_TEST(is_success(bar.factor()));

@@ -7,6 +7,8 @@
 \ingroup PkgMixedMesh3Concepts
 \cgalConcept
 
+\cgalRefines{MixedMeshSurface_3}
+
 The concept `MixedMeshDomain_3` describes what is meshed, by a handful of queries. The method never
 sees a surface: a domain may be the inside of a polyhedron, of an implicit surface, or of a
 segmented image.
@@ -24,11 +26,8 @@ and must not throw then.
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::Polyhedral_mixed_mesh_domain_3}
+\cgalHasModels{CGAL::Implicit_mixed_mesh_domain_3}
 \cgalHasModelsEnd
-
-The optimization asks for closest points and for samples of the surface only: `Point_3`,
-`closest_point(p, hint)`, `closest_point(p)` and `surface_samples(spacing)` are all that
-`CGAL::optimize_mixed_mesh_3()` needs.
 
 The example \ref Mixed_mesh_3/custom_domain.cpp has a model given by a formula.
 
@@ -38,13 +37,6 @@ The example \ref Mixed_mesh_3/custom_domain.cpp has a model given by a formula.
 class MixedMeshDomain_3
 {
 public:
-  /*!
-  A point of a CGAL kernel whose number type converts to `double`: `CGAL::squared_distance()` of two
-  of them is taken, and it is constructed from three `double`s. The points of the cell traits must
-  convert to it. With our cell traits: `CGAL::Mixed_meshes_3::Predicates_kernel::Point_3`.
-  */
-  typedef unspecified_type Point_3;
-
   /// What is known about the surface in a cell: a model of `DefaultConstructible` and
   /// `MoveConstructible`. There is one for each octree node that meets the surface; it is never
   /// copied nor changed, copies of the octree share it.
@@ -86,20 +78,4 @@ public:
   /// \param part that of a cell which contains `p`, or a default-constructed one if that cell does not
   ///        meet the surface; a hint, the closest point may lie elsewhere
   Point_3 closest_point(const Point_3& p, const Surface_part& part) const;
-
-  /// A point of the surface as near to `p` as any: where a boundary vertex goes.
-  ///
-  /// A point that is not the nearest costs quality or fidelity, not validity. What is returned is the
-  /// position of the vertex, to the last bit: it should be on the surface up to the rounding of `double`.
-  /// \param p any finite point, inside or outside
-  /// \param hint a point of the surface that is probably near: what was returned for a point near `p`
-  Point_3 closest_point(const Point_3& p, const Point_3& hint) const;
-
-  /// As above, where no point of the surface is known yet.
-  Point_3 closest_point(const Point_3& p) const;
-
-  /// Points of the surface, such that none of its points is much farther than `spacing` from one of them.
-  /// Asked for only if there is a tolerance; its distance from the surface is measured there. The result
-  /// is a range of points, in a fixed order; neighbors in that order should be near to each other.
-  std::vector<Point_3> surface_samples(double spacing) const;
 };

@@ -6,6 +6,12 @@
 #ifndef CGAL_MIXED_MESH_3_ELASTIC_MATERIAL_H
 #define CGAL_MIXED_MESH_3_ELASTIC_MATERIAL_H
 
+#include <CGAL/Mixed_mesh_3/Element_attributes.h>
+#include <CGAL/Mixed_mesh_3/Index.h>
+
+#include <map>
+#include <vector>
+
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
@@ -26,6 +32,23 @@ struct Elastic_material
   /// The bulk modulus, kPa.
   double bulk_modulus() const { return young_modulus / (3 * (1 - 2 * poisson_ratio)); }
 };
+
+/// The materials of the elements of a mesh, by their subdomains, for `Linear_elasticity_3`.
+/// \param mesh the mesh
+/// \param materials that of each subdomain
+/// \param other that of subdomains that `materials` does not have
+template <class Mesh>
+std::vector<Elastic_material> materials_of_elements(const Mesh& mesh,
+                                                    const std::map<Subdomain_index, Elastic_material>& materials,
+                                                    const Elastic_material& other = Elastic_material())
+{
+  std::vector<Elastic_material> result;
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
+    const auto place = materials.find(mesh.subdomain_index(e));
+    result.push_back(place == materials.end() ? other : place->second);
+  }
+  return result;
+}
 
 } // namespace Mixed_meshes_3
 } // namespace CGAL

@@ -75,10 +75,6 @@ public:
     build(points, triangles);
   }
 
-  Surface_oracle_3(Surface_oracle_3&&) noexcept;
-  Surface_oracle_3& operator=(Surface_oracle_3&&) noexcept;
-  ~Surface_oracle_3();
-
   const Bbox_3& bbox() const { return m_bbox; }
   std::size_t number_of_facets() const { return m_triangles.size(); }
 
@@ -89,8 +85,11 @@ public:
     part.facets.resize(number_of_facets());
     std::iota(part.facets.begin(), part.facets.end(), 0);
     const Bbox_3& b = bbox();
-    part.reference = Point_3((b.xmax)() + 0.7 * b.x_span() + 0.1, (b.ymax)() + 0.9 * b.y_span() + 0.1,
-                             (b.zmax)() + b.z_span() + 0.1);
+    // Anywhere outside will do, but not where segments to it are parallel to the axes; the side that follows is
+    // the same from everywhere.
+    const double margin = 0.1 * (std::max)({b.x_span(), b.y_span(), b.z_span()});
+    part.reference = Point_3((b.xmax)() + 0.7 * b.x_span() + margin, (b.ymax)() + 0.9 * b.y_span() + margin,
+                             (b.zmax)() + b.z_span() + margin);
     return part;
   }
 
@@ -176,6 +175,10 @@ public:
 
 private:
   struct Trees; // AABB trees: defined where they are used
+  struct Delete_trees
+  {
+    void operator()(Trees* trees) const;
+  };
 
   static Bounded_side opposite(Bounded_side side) { return Bounded_side(-int(side)); }
 
@@ -184,7 +187,7 @@ private:
   std::vector<Triangle_3> m_triangles;
   std::vector<Bbox_3> m_boxes;
   Bbox_3 m_bbox;
-  std::unique_ptr<Trees> m_trees; // the tree keeps the address of the surface
+  std::unique_ptr<Trees, Delete_trees> m_trees; // the tree keeps the address of the surface
 };
 
 } // namespace internal

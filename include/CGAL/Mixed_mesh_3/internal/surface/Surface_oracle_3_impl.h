@@ -37,14 +37,12 @@ struct Surface_oracle_3::Trees
   std::optional<Side_of_surface> side_of_surface;
 };
 
-CGAL_MIXED_MESH_3_INLINE Surface_oracle_3::Surface_oracle_3(Surface_oracle_3&&) noexcept = default;
-CGAL_MIXED_MESH_3_INLINE Surface_oracle_3& Surface_oracle_3::operator=(Surface_oracle_3&&) noexcept = default;
-CGAL_MIXED_MESH_3_INLINE Surface_oracle_3::~Surface_oracle_3() = default;
+CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::Delete_trees::operator()(Trees* trees) const { delete trees; }
 
 CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::build(const std::vector<Point_3>& points,
                                                       const std::vector<std::array<std::size_t, 3>>& triangles)
 {
-  m_trees = std::make_unique<Trees>();
+  m_trees.reset(new Trees());
   Trees::Surface& s = m_trees->surface;
   for(const Point_3& p : points)
     s.add_vertex(p);
