@@ -40,7 +40,7 @@ short_tests=(
 sources() {
   local ending
   for ending in "$@"; do
-    find benchmark cmake demo doc examples include scripts test -type f -name "*$ending"
+    find benchmark cmake demo doc examples include scripts src test -type f -name "*$ending"
   done | sort
 }
 

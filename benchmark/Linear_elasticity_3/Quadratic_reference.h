@@ -77,7 +77,8 @@ private:
     using namespace mm3::internal;
     std::map<std::pair<int, int>, int> middles;
     const auto middle = [&](int a, int b) {
-      const auto [it, is_new] = middles.emplace(std::make_pair((std::min)(a, b), (std::max)(a, b)), int(m_points.size()));
+      const auto [it, is_new] = middles.emplace(std::make_pair((std::min)(a, b), (std::max)(a, b)),
+                                                int(m_points.size()));
       if(is_new) {
         m_points.push_back(0.5 * (m_points[std::size_t(a)] + m_points[std::size_t(b)]));
         m_is_on_boundary.push_back(false);
@@ -167,8 +168,9 @@ private:
             const double shear = mu * dot(g[a], g[b]);
             for(int r = 0; r < 3; ++r)
               for(int c = 0; c < 3; ++c) {
-                const double x =
-                  volume * (lambda * g[a][r] * g[b][c] + mu * g[a][c] * g[b][r] + (r == c ? shear : 0));
+                const double x = volume
+                                 * (lambda * g[a][r] * g[b][c] + mu * g[a][c] * g[b][r]
+                                    + (r == c ? shear : 0));
                 if(j < 0)
                   f[3 * i + r] -= x * m_displacements[std::size_t(nodes[b])][c];
                 else if(3 * i + r >= 3 * j + c)

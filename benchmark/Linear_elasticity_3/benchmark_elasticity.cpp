@@ -3,7 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// CPU times of what a surgeon waits for: new control points, a resection, a warped image; and of the same work
+// CPU times of what a surgeon waits for: new control points, a resection, a warped image; and of the same
+// work
 // with a new factorization by Eigen's LDLT. Medians, minima and maxima, in milliseconds. One thread, if
 // OMP_NUM_THREADS=1 keeps CHOLMOD to it.
 
@@ -91,8 +92,10 @@ int main(int argc, char* argv[])
     require([&](std::string* error) { return mm3::IO::read_mixed_mesh(mesh_file, mesh, error); });
     CGAL::Surface_mesh<Kernel::Point_3> tumor;
     require([&](std::string* error) { return mm3::IO::read_closed_surface(tumor_file, tumor, error); });
-    const std::vector<Vector> points{{43.633, 24.044, 49.096}, {35.245, 31.664, 49.283},
-                                     {29.646, 24.914, 57.660}, {38.404, 17.573, 58.562}};
+    const std::vector<Vector> points{{43.633, 24.044, 49.096},
+                                     {35.245, 31.664, 49.283},
+                                     {29.646, 24.914, 57.660},
+                                     {38.404, 17.573, 58.562}};
     std::vector<Vector> displacements(points.size(), Vector{-3.132, -2.349, -9.202});
     constexpr double largest_distance = 10;
 
@@ -104,10 +107,13 @@ int main(int argc, char* argv[])
       check(elasticity.set_control_points(points, largest_distance));
       check(elasticity.solve(displacements));
     });
-    measure("control points with new displacements", [&] {
-      displacements[0][0] += 0.1;
-      check(elasticity.solve(displacements));
-    }, 20);
+    measure(
+      "control points with new displacements",
+      [&] {
+        displacements[0][0] += 0.1;
+        check(elasticity.solve(displacements));
+      },
+      20);
 
     mm3::Resection_3 resection;
     measure("elements to remove", [&] { resection = mm3::resect(mesh, tumor); });
@@ -131,7 +137,9 @@ int main(int argc, char* argv[])
         });
     }
     std::sort(times.begin(), times.end());
-    report["resection"] = {{"median", times[times.size() / 2]}, {"min", times.front()}, {"max", times.back()}};
+    report["resection"] = {{"median", times[times.size() / 2]},
+                           {"min", times.front()},
+                           {"max", times.back()}};
 
     if(with_ldlt) {
       CGAL::Linear_elasticity_3<Mesh, mm3::Simplicial_solver_traits> simplicial(mesh);
@@ -150,7 +158,8 @@ int main(int argc, char* argv[])
       for(std::size_t i = 0; i < image.values.size(); ++i)
         image.values[i] = float(i % 251);
       check(elasticity.solve(displacements));
-      measure("warped image", [&] { mm3::warp_image(image, mesh, elasticity.displacements(), mm3::Warp_options()); });
+      measure("warped image",
+              [&] { mm3::warp_image(image, mesh, elasticity.displacements(), mm3::Warp_options()); });
     }
     report["vertices"] = mesh.number_of_vertices();
     std::cout << report.dump(2) << '\n';

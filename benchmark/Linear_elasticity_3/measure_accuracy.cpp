@@ -3,7 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The error of brain shift in the region of interest, on meshes from files, against quadratic elements on a fine
+// The error of brain shift in the region of interest, on meshes from files, against quadratic elements on a
+// fine
 // mesh. Prints a JSON object a line. compare_accuracy.py runs it.
 
 #include "common/resources.h"
@@ -132,9 +133,9 @@ int main(int argc, char* argv[])
     const std::pair<std::string, Boundary_displacement> cases[] = {{"bump", bump_displacement},
                                                                    {"smooth", smooth_displacement}};
     for(const auto& [name, boundary] : cases) {
-      const std::vector<Vector> exact =
-        reference(directory + "/" + name + ".txt", reference_mesh.empty() ? nullptr : &fine, brain, boundary,
-                  material, points);
+      const std::vector<Vector> exact = reference(directory + "/" + name + ".txt",
+                                                  reference_mesh.empty() ? nullptr : &fine, brain, boundary,
+                                                  material, points);
       const double size = root_mean_square(exact, std::vector<Vector>(points.size(), Vector{}));
       for(const std::string& file : files) {
         Mesh mesh;

@@ -3,7 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Brain shift with known boundary displacements, and what is compared: the displacement at points of the region.
+// Brain shift with known boundary displacements, and what is compared: the displacement at points of the
+// region.
 
 #ifndef MIXED_MESH_3_BENCHMARK_TEST_CASES_H
 #define MIXED_MESH_3_BENCHMARK_TEST_CASES_H
@@ -56,7 +57,9 @@ struct Brain
     const CGAL::Polyhedral_mixed_mesh_region_3 inside_brain(surface), inside_region(region);
     const CGAL::Bbox_3 box = CGAL::Polyhedral_mixed_mesh_domain_3(region).bbox();
     std::mt19937 generator(1);
-    const auto between = [&](double a, double b) { return a + (b - a) * (double(generator()) / 4294967296.); };
+    const auto between = [&](double a, double b) {
+      return a + (b - a) * (double(generator()) / 4294967296.);
+    };
     std::vector<Vector> points;
     while(points.size() < number) {
       Vector p;
@@ -74,7 +77,7 @@ struct Brain
 using Boundary_displacement = std::optional<Vector> (*)(const Vector& p, const Brain& brain);
 
 inline constexpr Vector opening{44, 30, 75}, tumor{28, 18, 28}; // centers; see data/README.md
-inline constexpr double push = 10;                               // millimeters towards the tumor
+inline constexpr double push = 10;                              // millimeters towards the tumor
 
 struct Opening_coordinates
 {
@@ -92,7 +95,8 @@ struct Opening_coordinates
   }
 };
 
-/// The surface within 20 mm of the axis, on the opening's side, is pushed by a bump of 10 mm; the lower 30 % of
+/// The surface within 20 mm of the axis, on the opening's side, is pushed by a bump of 10 mm; the lower 30 %
+/// of
 /// the brain are fixed; the rest is free.
 inline std::optional<Vector> bump_displacement(const Vector& p, const Brain& brain)
 {

@@ -82,8 +82,10 @@ try {
   //    inwards on the way to the tumor. They need not be vertices; up to 5 mm outside the mesh will do. The
   //    first call is for the points; the second, for their displacements, can be repeated as these change, at
   //    next to no cost.
-  const std::vector<Vector> points{
-    {43.633, 24.044, 49.096}, {35.245, 31.664, 49.283}, {29.646, 24.914, 57.660}, {38.404, 17.573, 58.562}};
+  const std::vector<Vector> points{{43.633, 24.044, 49.096},
+                                   {35.245, 31.664, 49.283},
+                                   {29.646, 24.914, 57.660},
+                                   {38.404, 17.573, 58.562}};
   const std::vector<Vector> measured(points.size(), Vector{-3.132, -2.349, -9.202});
   check(elasticity.set_control_points(points, 5));
   check(elasticity.solve(measured));

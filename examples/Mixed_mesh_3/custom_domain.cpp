@@ -30,7 +30,9 @@ public:
   using Point_3 = Kernel::Point_3;
 
   // What is known of the surface in a cell. A formula needs no such help.
-  struct Surface_part {};
+  struct Surface_part
+  {
+  };
   Surface_part surface_part() const { return {}; }
 
   CGAL::Bbox_3 bbox() const { return {-R - r, -R - r, -r, R + r, R + r, r}; }
@@ -49,9 +51,7 @@ public:
     const CGAL::Bbox_3 b = cell.bbox();
     const double radius = std::hypot(b.x_span(), b.y_span(), b.z_span()) / 2;
     const double d = signed_distance(cell.center());
-    return d > radius    ? CGAL::ON_UNBOUNDED_SIDE
-           : d < -radius ? CGAL::ON_BOUNDED_SIDE
-                         : CGAL::ON_BOUNDARY;
+    return d > radius ? CGAL::ON_UNBOUNDED_SIDE : d < -radius ? CGAL::ON_BOUNDED_SIDE : CGAL::ON_BOUNDARY;
   }
 
   CGAL::Bounded_side bounded_side(const Point_3& p, const Surface_part&) const

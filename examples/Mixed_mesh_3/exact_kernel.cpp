@@ -27,7 +27,7 @@ int main()
   // An octahedron whose vertices are no doubles. The domain rounds them, once; from then on all
   // predicates are exact.
   const Kernel::FT a = Kernel::FT(1) / 3;
-  const std::array<Point_3, 6> p = {Point_3(a, 0, 0), Point_3(0, a, 0), Point_3(-a, 0, 0),
+  const std::array<Point_3, 6> p = {Point_3(a, 0, 0),  Point_3(0, a, 0), Point_3(-a, 0, 0),
                                     Point_3(0, -a, 0), Point_3(0, 0, a), Point_3(0, 0, -a)};
   Surface surface;
   for(const Point_3& point : p)
@@ -61,7 +61,6 @@ int main()
     through_boundary.exact();
   }
   std::cout << mesh.number_of_vertices() << " vertices, volume " << inside.exact() << '\n'
-            << (inside == through_boundary ? "equals" : "differs from")
-            << " the flux through the boundary\n";
+            << (inside == through_boundary ? "equals" : "differs from") << " the flux through the boundary\n";
   return inside == through_boundary ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -29,8 +29,7 @@ bool mesh_and_report(const CGAL::Polyhedral_mixed_mesh_domain_3& brain, const Re
                      const CellTraits& cell_traits, const std::string& name)
 {
   Mesh mesh;
-  const auto result =
-    CGAL::make_mixed_mesh_3(brain, region, 2000, cell_traits, mesh);
+  const auto result = CGAL::make_mixed_mesh_3(brain, region, 2000, cell_traits, mesh);
   std::size_t in_region = 0;
   for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e)
     in_region += mesh.is_in_region(e);
@@ -49,8 +48,10 @@ int main(int argc, char** argv)
 try {
   Surface brain_surface, path_surface;
   std::string error;
-  if(!mm3::IO::read_closed_surface(argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR "/brain.off", brain_surface, &error)
-     || !mm3::IO::read_closed_surface(argc > 2 ? argv[2] : MIXED_MESH_3_DATA_DIR "/region.off", path_surface, &error)) {
+  if(!mm3::IO::read_closed_surface(argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR "/brain.off", brain_surface,
+                                   &error)
+     || !mm3::IO::read_closed_surface(argc > 2 ? argv[2] : MIXED_MESH_3_DATA_DIR "/region.off", path_surface,
+                                      &error)) {
     std::cerr << error << '\n';
     return EXIT_FAILURE;
   }

@@ -36,8 +36,7 @@ public:
   // The search for the budget tries several meshes, from the coarsest one on.
   void progress(std::size_t number_of_vertices, std::size_t budget)
   {
-    std::cout << "  " << seconds() << " s: tried " << number_of_vertices << " of " << budget
-              << " vertices\n";
+    std::cout << "  " << seconds() << " s: tried " << number_of_vertices << " of " << budget << " vertices\n";
   }
 
   void begin_stage(mm3::Stage stage)
@@ -55,7 +54,8 @@ try {
   Surface brain, path;
   std::string error;
   if(!mm3::IO::read_closed_surface(argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR "/brain.off", brain, &error)
-     || !mm3::IO::read_closed_surface(argc > 2 ? argv[2] : MIXED_MESH_3_DATA_DIR "/region.off", path, &error)) {
+     || !mm3::IO::read_closed_surface(argc > 2 ? argv[2] : MIXED_MESH_3_DATA_DIR "/region.off", path,
+                                      &error)) {
     std::cerr << error << '\n';
     return EXIT_FAILURE;
   }
@@ -70,8 +70,7 @@ try {
     const auto result = CGAL::make_mixed_mesh_3(brain, path, budget, mesh,
                                                 CGAL::parameters::visitor(std::ref(visitor)));
     const bool is_stopped = result.status == CGAL::Mixed_mesh_status::STOPPED;
-    std::cout << (is_stopped ? "stopped" : "done") << " with " << mesh.number_of_vertices()
-              << " vertices\n";
+    std::cout << (is_stopped ? "stopped" : "done") << " with " << mesh.number_of_vertices() << " vertices\n";
     is_as_expected = is_as_expected && is_stopped == (limit < 1) && is_stopped == mesh.is_empty();
   }
   return is_as_expected ? EXIT_SUCCESS : EXIT_FAILURE;

@@ -24,9 +24,12 @@ namespace CGAL {
 /*!
 \brief The domain where a function is positive.
 
-The function is as that of `Implicit_mixed_mesh_region_3`: positive inside, and it must not change faster than the
-distance. Near the surface it should be the signed distance, or have a gradient that points away from the surface:
-closest points are found by descent along the gradient (finite differences), so that a point is on the surface up to
+The function is as that of `Implicit_mixed_mesh_region_3`: positive inside, and it must not change faster than
+the
+distance. Near the surface it should be the signed distance, or have a gradient that points away from the
+surface:
+closest points are found by descent along the gradient (finite differences), so that a point is on the surface
+up to
 1e-12 of the diagonal of the box, and as near as the function is like a distance.
 
 \cgalModels{MixedMeshDomain_3}
@@ -63,7 +66,8 @@ public:
     : Implicit_mixed_mesh_region_3(std::move(depth)), m_bbox(bbox),
       m_diagonal(Mixed_meshes_3::norm({bbox.x_span(), bbox.y_span(), bbox.z_span()}))
   {
-    CGAL_precondition((std::min)({bbox.x_span(), bbox.y_span(), bbox.z_span()}) > 0 && std::isfinite(m_diagonal));
+    CGAL_precondition((std::min)({bbox.x_span(), bbox.y_span(), bbox.z_span()}) > 0
+                      && std::isfinite(m_diagonal));
   }
 
   const Bbox_3& bbox() const { return m_bbox; }

@@ -71,12 +71,14 @@ public:
   /// One material: by default E = 1 kPa, nu = 0.45, 1e-6 kg/mm^3.
   explicit Linear_elasticity_3(const Mesh& mesh, const Elastic_material& material = Elastic_material())
     : Linear_elasticity_3(mesh, std::vector<Elastic_material>{material})
-  {}
+  {
+  }
 
   /// A material for each element; `Mixed_meshes_3::materials_of_elements()` tells them by subdomain.
   Linear_elasticity_3(const Mesh& mesh, std::vector<Elastic_material> materials)
     : m_model(mesh, std::move(materials))
-  {}
+  {
+  }
 
   /// \name Supports
   /// To be set before `factor()`.

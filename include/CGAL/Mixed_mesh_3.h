@@ -81,7 +81,8 @@ public:
 
   /// Adds an element; its vertices are in the order of `reference_elements`.
   template <class Vertices>
-  Element_index add_element(Element_kind kind, const Vertices& vertices, const Element_attributes& attributes = {})
+  Element_index add_element(Element_kind kind, const Vertices& vertices,
+                            const Element_attributes& attributes = {})
   {
     m_elements.add(kind, vertices);
     m_attributes.push_back(attributes);

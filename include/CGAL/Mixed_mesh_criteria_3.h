@@ -22,7 +22,8 @@ class Mixed_mesh_criteria_3
 {
 public:
   static constexpr int automatic = -1;
-  /// The share of the budget that is to be used; else the status tells. Single cells take 7 to 20 vertices: with the
+  /// The share of the budget that is to be used; else the status tells. Single cells take 7 to 20 vertices:
+  /// with the
   /// smallest budgets that make sense, a few hundred, some 3 % may be left over.
   static constexpr double full_share = 0.97;
 
@@ -40,7 +41,8 @@ public:
 
   /// The octree level to which the whole domain is refined; cells of level `l` are 2^l times smaller
   /// than the root. Default: 3; coarser, down to 1, if the budget is too small for it; finer, up to 6, if it
-  /// takes at most half of the budget and there is no tolerance, or if no octree vertex would be inside a thin
+  /// takes at most half of the budget and there is no tolerance, or if no octree vertex would be inside a
+  /// thin
   /// domain, or more than 5 % of its cells would be lost.
   /// \pre `automatic`, or from 0 to 10
   Mixed_mesh_criteria_3& base_level(int level)
@@ -65,10 +67,7 @@ public:
     m_transition_templates = choice;
     return *this;
   }
-  Mixed_meshes_3::Transition_templates_choice transition_templates() const
-  {
-    return m_transition_templates;
-  }
+  Mixed_meshes_3::Transition_templates_choice transition_templates() const { return m_transition_templates; }
 
   /// How elements at the surface are split. Default: by vertex order.
   Mixed_mesh_criteria_3& boundary_mode(Mixed_meshes_3::Boundary_mode mode)

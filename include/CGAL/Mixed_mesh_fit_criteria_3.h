@@ -13,7 +13,8 @@
 namespace CGAL {
 
 /*!
-\brief How a mixed mesh is carried onto a surface. Each setter returns the object, so that calls can be chained.
+\brief How a mixed mesh is carried onto a surface. Each setter returns the object, so that calls can be
+chained.
 */
 class Mixed_mesh_fit_criteria_3
 {

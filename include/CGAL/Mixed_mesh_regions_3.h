@@ -37,7 +37,8 @@ public:
   explicit Polyhedral_mixed_mesh_region_3(const FaceListGraph& surface,
                                           const NamedParameters& np = parameters::default_values())
     : Surface_oracle_3(surface, np)
-  {}
+  {
+  }
 
   /// Depth below the surface; negative outside.
   double depth(const Point_3& p) const
@@ -59,12 +60,15 @@ class Implicit_mixed_mesh_region_3
 {
 public:
   using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
-  struct Surface_part {};
+  struct Surface_part
+  {
+  };
 
   /// \param depth a function object `double(Point_3)`, positive inside, of Lipschitz constant 1
   explicit Implicit_mixed_mesh_region_3(std::function<double(const Point_3&)> depth)
     : m_depth(std::move(depth))
-  {}
+  {
+  }
 
   Surface_part surface_part() const { return {}; }
 
@@ -93,9 +97,8 @@ class Ball_mixed_mesh_region_3 : public Implicit_mixed_mesh_region_3
 public:
   /// \param center,radius in the unit of the domain. \pre `radius > 0`
   Ball_mixed_mesh_region_3(const Point_3& center, double radius)
-    : Implicit_mixed_mesh_region_3([center, radius](const Point_3& p) {
-        return radius - std::sqrt(CGAL::squared_distance(p, center));
-      })
+    : Implicit_mixed_mesh_region_3(
+      [center, radius](const Point_3& p) { return radius - std::sqrt(CGAL::squared_distance(p, center)); })
   {
     CGAL_precondition(radius > 0);
   }
@@ -107,7 +110,9 @@ class Everywhere_mixed_mesh_region_3
 {
 public:
   using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
-  struct Surface_part {};
+  struct Surface_part
+  {
+  };
   Surface_part surface_part() const { return {}; }
   template <class Cell>
   Bounded_side locate(const Cell&, const Surface_part&, Surface_part&) const
@@ -140,8 +145,9 @@ public:
 
   Surface_part surface_part() const
   {
-    Surface_part part{
-      std::apply([](const auto&... r) { return std::make_tuple(r.surface_part()...); }, m_regions), {}};
+    Surface_part part{std::apply([](const auto&... r) { return std::make_tuple(r.surface_part()...); },
+                                 m_regions),
+                      {}};
     part.sides.fill(ON_BOUNDARY);
     return part;
   }

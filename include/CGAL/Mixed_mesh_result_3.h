@@ -14,19 +14,20 @@
 
 namespace CGAL {
 
-/// How `make_mixed_mesh_3()` ended. In the order of precedence: if several are true, the last of them is given.
+/// How `make_mixed_mesh_3()` ended. In the order of precedence: if several are true, the last of them is
+/// given.
 enum class Mixed_mesh_status {
-  SUCCESS,            ///< the budget is filled to at least 97 %, and the boundary is where it should be
-  BUDGET_NOT_FILLED,  ///< valid, but below 97 %: each cell tried would exceed the budget
+  SUCCESS,               ///< the budget is filled to at least 97 %, and the boundary is where it should be
+  BUDGET_NOT_FILLED,     ///< valid, but below 97 %: each cell tried would exceed the budget
   TOLERANCE_NOT_REACHED, ///< valid, on the surface, but farther from it between vertices than the tolerance
-  PARTS_LOST,         ///< valid, but parts of the domain thinner than a cell are not meshed
-  NOT_ALL_ARRIVED,    ///< valid, but some boundary vertices stay off the surface: elements would be inverted,
-                      ///< or faces of the boundary would cut each other
+  PARTS_LOST,            ///< valid, but parts of the domain thinner than a cell are not meshed
+  NOT_ALL_ARRIVED, ///< valid, but some boundary vertices stay off the surface: elements would be inverted,
+                   ///< or faces of the boundary would cut each other
   BOUNDARY_NOT_MANIFOLD, ///< the boundary is pinched where no further cell can be added
-  REGION_NOT_MET,     ///< no mesh: the region does not meet the domain
-  EMPTY,              ///< no mesh: no octree vertex is inside the domain
-  BUDGET_TOO_SMALL,   ///< no mesh: the coarsest one has more vertices than the budget
-  STOPPED             ///< no mesh: the visitor said so
+  REGION_NOT_MET,        ///< no mesh: the region does not meet the domain
+  EMPTY,                 ///< no mesh: no octree vertex is inside the domain
+  BUDGET_TOO_SMALL,      ///< no mesh: the coarsest one has more vertices than the budget
+  STOPPED                ///< no mesh: the visitor said so
 };
 
 /// The one of two statuses that has precedence: what every function of the package decides by.
@@ -70,13 +71,13 @@ struct Mixed_mesh_result_3
   Mixed_mesh_status status = Mixed_mesh_status::EMPTY;
   int base_level = 0;
   int deepest_level = 0;
-  std::size_t number_of_cells = 0;                       ///< leaves that meet the domain
+  std::size_t number_of_cells = 0; ///< leaves that meet the domain
   /// Those of the mesh; without one, those (at least) of the coarsest mesh at `base_level`.
   std::size_t number_of_vertices_needed = 0;
-  std::size_t number_of_transition_vertices = 0;         ///< inserted by the transition templates
-  std::size_t number_of_boundary_vertices_inserted = 0;  ///< inserted by the boundary stage
+  std::size_t number_of_transition_vertices = 0;        ///< inserted by the transition templates
+  std::size_t number_of_boundary_vertices_inserted = 0; ///< inserted by the boundary stage
   std::size_t number_of_relabeled_vertices = 0;         ///< to make the boundary a manifold
-  std::size_t number_of_trials = 0;                      ///< octrees tried in search of the budget
+  std::size_t number_of_trials = 0;                     ///< octrees tried in search of the budget
   /// Cells that meet the domain, but are more than a cell away from the mesh: parts of the domain
   /// thinner than a cell that no octree vertex is inside of.
   std::size_t number_of_lost_cells = 0;

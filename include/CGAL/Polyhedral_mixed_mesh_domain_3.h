@@ -36,7 +36,8 @@ public:
   explicit Polyhedral_mixed_mesh_domain_3(const FaceListGraph& surface,
                                           const NamedParameters& np = parameters::default_values())
     : Surface_oracle_3(surface, np)
-  {}
+  {
+  }
 };
 
 } // namespace CGAL

@@ -67,9 +67,9 @@ mesh.
 template <class GeomTraits, class Surface, class Quality,
           class NamedParameters = parameters::Default_named_parameters>
 Mixed_mesh_fit_result_3 fit_mixed_mesh_to_surface(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface,
-                                                 const Quality& quality,
-                                                 const Mixed_mesh_fit_criteria_3& criteria,
-                                                 const NamedParameters& np = parameters::default_values())
+                                                  const Quality& quality,
+                                                  const Mixed_mesh_fit_criteria_3& criteria,
+                                                  const NamedParameters& np = parameters::default_values())
 {
   namespace mm3 = Mixed_meshes_3::internal;
   using Default_solver = Mixed_meshes_3::Conjugate_gradient_solver_traits;
@@ -92,8 +92,8 @@ As above, with the paper's aspect-ratio coefficient, acceptable up to `acceptabl
 */
 template <class GeomTraits, class Surface, class NamedParameters = parameters::Default_named_parameters>
 Mixed_mesh_fit_result_3 fit_mixed_mesh_to_surface(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface,
-                                                 const Mixed_mesh_fit_criteria_3& criteria,
-                                                 const NamedParameters& np = parameters::default_values())
+                                                  const Mixed_mesh_fit_criteria_3& criteria,
+                                                  const NamedParameters& np = parameters::default_values())
 {
   const Mixed_meshes_3::internal::Aspect_ratio_bound quality(criteria.acceptable_aspect_ratio());
   return fit_mixed_mesh_to_surface(mesh, surface, quality, criteria, np);

@@ -43,7 +43,8 @@ threads.
 \tparam GeomTraits a model of `MixedMeshTraits_3`
 \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
 \tparam RegionNamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
-\param domain what to mesh: a domain, or its surface, with points of any CGAL kernel. \pre a surface is closed and
+\param domain what to mesh: a domain, or its surface, with points of any CGAL kernel. \pre a surface is closed
+       and
        triangulated
 \param region where to refine: a region, or its surface. \pre a surface is closed and triangulated
 \param criteria the budget (a number will do), and how to mesh
@@ -59,7 +60,8 @@ threads.
     \cgalParamDefault{`Mixed_meshes_3::Default_visitor`}
   \cgalParamNEnd
   \cgalParamNBegin{vertex_point_map}
-    \cgalParamDescription{the points of the surface that is given as `domain` (in `np`) or `region` (in `np_region`)}
+    \cgalParamDescription{the points of the surface that is given as `domain` (in `np`) or `region` (in
+    `np_region`)}
     \cgalParamType{a model of `ReadablePropertyMap` with the vertices as keys and points as values}
     \cgalParamDefault{`get_const_property_map(CGAL::vertex_point, surface)`}
   \cgalParamNEnd
@@ -72,8 +74,8 @@ template <class Domain, class Region, class CellTraits, class GeomTraits,
           class NamedParameters = parameters::Default_named_parameters,
           class RegionNamedParameters = parameters::Default_named_parameters>
 Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region,
-                                      const Mixed_mesh_criteria_3& criteria,
-                                      const CellTraits& cell_traits, Mixed_mesh_3<GeomTraits>& mesh,
+                                      const Mixed_mesh_criteria_3& criteria, const CellTraits& cell_traits,
+                                      Mixed_mesh_3<GeomTraits>& mesh,
                                       const NamedParameters& np = parameters::default_values(),
                                       const RegionNamedParameters& np_region = parameters::default_values())
 {
@@ -96,8 +98,7 @@ template <class Domain, class Region, class GeomTraits,
           class NamedParameters = parameters::Default_named_parameters,
           class RegionNamedParameters = parameters::Default_named_parameters>
 Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region,
-                                      const Mixed_mesh_criteria_3& criteria,
-                                      Mixed_mesh_3<GeomTraits>& mesh,
+                                      const Mixed_mesh_criteria_3& criteria, Mixed_mesh_3<GeomTraits>& mesh,
                                       const NamedParameters& np = parameters::default_values(),
                                       const RegionNamedParameters& np_region = parameters::default_values())
 {
@@ -105,7 +106,8 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
   const auto& d = mm3::as_domain(domain, np);
   const auto& r = mm3::as_region(region, np_region);
   const auto make = [&](const Bbox_3& root, const Mixed_mesh_criteria_3& c, Mixed_mesh_3<GeomTraits>& m) {
-    return make_mixed_mesh_3(d, r, c, Mixed_meshes_3::Axis_aligned_octree_cell_traits_3(root, c.root_cell()), m, np);
+    return make_mixed_mesh_3(d, r, c, Mixed_meshes_3::Axis_aligned_octree_cell_traits_3(root, c.root_cell()),
+                             m, np);
   };
   return mm3::is_root_searched(criteria) ? mm3::search_root(d.bbox(), criteria, make, mesh)
                                          : make(d.bbox(), criteria, mesh);

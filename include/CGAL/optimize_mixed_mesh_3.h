@@ -20,7 +20,8 @@ namespace CGAL {
 /*!
 \ingroup PkgMixedMesh3Ref
 
-\brief Brings the boundary of a mixed mesh onto a surface, moves vertices and flips tetrahedra to improve elements.
+\brief Brings the boundary of a mixed mesh onto a surface, moves vertices and flips tetrahedra to improve
+elements.
 
 Boundary vertices that are not on the surface yet are brought there, each as far at a time as its elements
 allow, while inner vertices give way. Then, in turns, each vertex descends on the sum of the powers (4, later
@@ -31,7 +32,8 @@ the improvement of slivers that the paper announces (Lobos, Bucki, Hitschfeld, P
 
 Guarantees: if the mesh was valid, it is valid after each move and in the end (the Jacobian of each element is
 proved positive on the whole element, on the coordinates as they are); boundary vertices counted in
-`number_of_arrived_vertices` are on the surface up to the rounding of `double`; the boundary does not cut itself
+`number_of_arrived_vertices` are on the surface up to the rounding of `double`; the boundary does not cut
+itself
 unless `is_boundary_simple` says so; hexahedra, prisms and pyramids stay, no vertex is added or removed, and
 the boundary's faces stay but where a flat tetrahedron on it is removed; the same input gives the same mesh.
 

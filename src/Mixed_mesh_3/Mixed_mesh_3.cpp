@@ -10,5 +10,5 @@
 #include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3_impl.h>
 
 #ifndef CGAL_MIXED_MESH_3_COMPILED
-#  error "build this file with CGAL_MIXED_MESH_3_COMPILED defined"
+#error "build this file with CGAL_MIXED_MESH_3_COMPILED defined"
 #endif

@@ -210,8 +210,7 @@ class Energy
   Elasticity m_problem;
 
 public:
-  Energy(const Mesh& mesh, const Elastic_material& material = Elastic_material())
-    : m_problem(mesh, material)
+  Energy(const Mesh& mesh, const Elastic_material& material = Elastic_material()) : m_problem(mesh, material)
   {
     prescribe(m_problem, std::vector<bool>(mesh.number_of_vertices(), true), [](const Vec3& p) { return p; });
     BOOST_TEST(is_success(m_problem.factor()));

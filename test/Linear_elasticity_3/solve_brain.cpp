@@ -67,12 +67,11 @@ int main(int argc, char** argv)
   BOOST_TEST(CGAL::IO::read_polygon_mesh(data + "/brain.off", surface));
   BOOST_TEST(CGAL::IO::read_polygon_mesh(data + "/region.off", region));
   Mesh mesh;
-  BOOST_TEST(CGAL::make_mixed_mesh_3(CGAL::Polyhedral_mixed_mesh_domain_3(surface),
-                                     CGAL::Polyhedral_mixed_mesh_region_3(region),
-                                     CGAL::Mixed_mesh_criteria_3(std::stoul(argv[2]))
-                                         .fit_to_surface(std::string(argv[4]) == "fitted"),
-                                     mesh)
-                 .has_mesh());
+  BOOST_TEST(
+    CGAL::make_mixed_mesh_3(
+      CGAL::Polyhedral_mixed_mesh_domain_3(surface), CGAL::Polyhedral_mixed_mesh_region_3(region),
+      CGAL::Mixed_mesh_criteria_3(std::stoul(argv[2])).fit_to_surface(std::string(argv[4]) == "fitted"), mesh)
+      .has_mesh());
   const Elastic_material material{1, std::stod(argv[3])};
 
   // The lower 30 % is fixed; around the opening, the boundary is pushed in by 10 mm, less towards the rim.

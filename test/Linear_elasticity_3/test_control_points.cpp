@@ -25,8 +25,7 @@ Vec3 point_in(const Mesh& mesh, Element_index e, int q)
   Vec3 p{};
   for(int a = 0; a < element.size(); ++a)
     p = p
-        + quadrature_rule(element.kind()).values[std::size_t(q)][std::size_t(a)]
-              * position(mesh, element[a]);
+        + quadrature_rule(element.kind()).values[std::size_t(q)][std::size_t(a)] * position(mesh, element[a]);
   return p;
 }
 

@@ -92,9 +92,10 @@ void test_six_modes(const Mesh& mesh)
 {
   for(double nu : {0.3, 0.49}) {
     const Elastic_material material{1, nu};
-    const Eigen::VectorXd eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness(mesh, material), Eigen::EigenvaluesOnly)
-        .eigenvalues();
+    const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness(mesh,
+                                                                                                 material),
+                                                                                       Eigen::EigenvaluesOnly)
+                                          .eigenvalues();
     const double last = eigenvalues[eigenvalues.size() - 1];
     BOOST_TEST_LT(eigenvalues.head(6).cwiseAbs().maxCoeff(), 1e-12 * last);
     BOOST_TEST_GT(eigenvalues[6], 1e-4 * last); // no hourglass
@@ -182,13 +183,13 @@ Exact_solution harmonic_solution()
 // A bar bent by moments at its ends, its sides free of stress.
 Exact_solution bending_solution(double nu)
 {
-  return {"bending",
-          [nu](const Vec3& q) {
-            const Vec3 p = q - Vec3{0.5, 0.5, 0.5};
-            return Vec3{p[0] * p[1], -(p[0] * p[0] + nu * (p[1] * p[1] - p[2] * p[2])) / 2,
-                        -nu * p[1] * p[2]};
-          },
-          [](const Elastic_material&) { return Vec3{}; }};
+  return {
+    "bending",
+    [nu](const Vec3& q) {
+      const Vec3 p = q - Vec3{0.5, 0.5, 0.5};
+      return Vec3{p[0] * p[1], -(p[0] * p[0] + nu * (p[1] * p[1] - p[2] * p[2])) / 2, -nu * p[1] * p[2]};
+    },
+    [](const Elastic_material&) { return Vec3{}; }};
 }
 
 struct Errors
@@ -286,8 +287,8 @@ void test_locking()
       const Elastic_material material{1, nu};
       const Exact_solution exact = bending_solution(nu);
       const double ours = errors(mesh, solved(mesh, material, exact, ends), exact.displacement).inside;
-      const double standard =
-          errors(mesh, solved_pointwise(mesh, material, exact, ends), exact.displacement).inside;
+      const double standard = errors(mesh, solved_pointwise(mesh, material, exact, ends), exact.displacement)
+                                .inside;
       std::cout << "  nu " << nu << " " << 100 * ours << " (" << 100 * standard << ")";
       if(nu == 0.3) {
         reference = ours;

@@ -34,15 +34,16 @@ template <class Solver>
 using Model = CGAL::Linear_elasticity_3<Mesh, Solver>;
 
 template <class Type>
-constexpr bool is_movable =
-    std::is_nothrow_move_constructible_v<Type>&& std::is_nothrow_move_assignable_v<Type>;
+constexpr bool is_movable = std::is_nothrow_move_constructible_v<Type>&&
+  std::is_nothrow_move_assignable_v<Type>;
 template <class Type>
 constexpr bool is_copyable = std::is_copy_constructible_v<Type>&& std::is_copy_assignable_v<Type>;
 
 // A factorization cannot be copied: Eigen's solvers are not copyable. One that copies shared would change
 // under the others with the next `factor()`.
-static_assert(is_movable<Elasticity> && !std::is_copy_constructible_v<Elasticity>
-              && !std::is_copy_assignable_v<Elasticity>);
+static_assert(
+  is_movable<
+    Elasticity> && !std::is_copy_constructible_v<Elasticity> && !std::is_copy_assignable_v<Elasticity>);
 static_assert(is_movable<Model<Simplicial_solver_traits>> && is_movable<Model<Fixed_solver_traits>>);
 static_assert(!std::is_move_constructible_v<Fixed_solver_traits>);
 // A locator refers to the mesh only, which is the caller's.
@@ -71,7 +72,7 @@ void advance(Problem& problem, Progress progress)
     BOOST_TEST(is_success(problem.solve(wanted)));
   if(progress >= Progress::REMOVED)
     BOOST_TEST(is_success(problem.remove_elements(
-        elements_where(mesh, [](const Vec3& p) { return p[0] > 0.75 && p[2] > 0.75; }))));
+      elements_where(mesh, [](const Vec3& p) { return p[0] > 0.75 && p[2] > 0.75; }))));
 }
 
 // What is done after it: all that comes out.

@@ -41,10 +41,10 @@ void test_removal(int kind)
     problem.set_gravity({0, 1e4, -1e5});
     BOOST_TEST(is_success(problem.set_control_points(points)));
   };
-  const std::vector<bool> first =
-      elements_where(mesh, [](const Vec3& p) { return p[2] > 0.75 && p[0] > 0.3; });
-  const std::vector<bool> second =
-      elements_where(mesh, [](const Vec3& p) { return p[2] > 0.55 && p[1] > 0.5; });
+  const std::vector<bool> first = elements_where(mesh,
+                                                 [](const Vec3& p) { return p[2] > 0.75 && p[0] > 0.3; });
+  const std::vector<bool> second = elements_where(mesh,
+                                                  [](const Vec3& p) { return p[2] > 0.55 && p[1] > 0.5; });
   std::vector<bool> both = first;
   for(Element_index e = 0; e < both.size(); ++e)
     both[e] = first[e] || second[e];
@@ -195,8 +195,8 @@ Field solved_with(const Mesh& mesh)
   BOOST_TEST(is_success(problem.set_control_points(std::vector<Vec3>{{0.7, 0.6, 0.5}, {0.4, 0.3, 0.8}})));
   BOOST_TEST(is_success(problem.solve(Field{{0.1, 0, 0}, {0, 0.1, 0.1}})));
   problem.set_iteration_tolerance(1e-8);
-  BOOST_TEST(is_success(
-      problem.remove_elements(elements_where(mesh, [](const Vec3& p) { return p[2] < 0.25; }))));
+  BOOST_TEST(
+    is_success(problem.remove_elements(elements_where(mesh, [](const Vec3& p) { return p[2] < 0.25; }))));
   BOOST_TEST(is_success(problem.solve(Field{{0.1, 0, 0}, {0, 0.1, 0.1}})));
   return problem.displacements();
 }
@@ -208,9 +208,8 @@ void test_solvers()
   const double bound = 1e-7 * largest(u); // after a removal, which iterates
   BOOST_TEST(solved_with<Simplicial_solver_traits>(mesh) == u);
   using Matrix = Eigen::SparseMatrix<double>;
-  BOOST_TEST_LT(
-      difference(solved_with<CGAL::Eigen_solver_traits<Eigen::SimplicialLDLT<Matrix>>>(mesh), u),
-      bound);
+  BOOST_TEST_LT(difference(solved_with<CGAL::Eigen_solver_traits<Eigen::SimplicialLDLT<Matrix>>>(mesh), u),
+                bound);
 #ifdef CGAL_MIXED_MESH_3_USE_CHOLMOD
   const Field v = solved_with<Cholmod_solver_traits>(mesh);
   BOOST_TEST_LT(difference(v, u), bound);

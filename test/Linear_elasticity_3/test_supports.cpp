@@ -134,8 +134,8 @@ void test_supports(int kind)
     BOOST_TEST(is_success(heavy.solve()));
     const Field expected = at_vertices(column, weighed);
     const double error = difference(heavy.displacements(), expected) / largest(expected);
-    std::cout << "  column of " << n << "^3 cells, " << name_of(kind) << ": largest error "
-              << 100 * error << " %\n";
+    std::cout << "  column of " << n << "^3 cells, " << name_of(kind) << ": largest error " << 100 * error
+              << " %\n";
     if(is_exact)
       BOOST_TEST_LT(error, 1e-10);
     else if(n == 4)
@@ -224,14 +224,14 @@ void test_free_motions()
   BOOST_TEST_EQ(free_motions(fixed([](const Vec3& p) { return p[0] == 0 && p[1] == 0; })), 1);
   BOOST_TEST_EQ(free_motions(fixed(is_on_top)), 0);
   BOOST_TEST_EQ(free_motions([&](Elasticity& held) {
-    for(Vertex_index v = 0; v < block.number_of_vertices(); ++v)
-      if(is_on_top(position(block, v)))
-        held.slide(v, {0, 0, 1});
-  }), 3);
-  BOOST_TEST_EQ(free_motions([&](Elasticity& held) { slide_on_sides(held, false, false); }), 0);
-  BOOST_TEST_EQ(free_motions([](Elasticity& held) {
-                  held.slide_along_boundary([](Vertex_index) { return true; });
+                  for(Vertex_index v = 0; v < block.number_of_vertices(); ++v)
+                    if(is_on_top(position(block, v)))
+                      held.slide(v, {0, 0, 1});
                 }),
+                3);
+  BOOST_TEST_EQ(free_motions([&](Elasticity& held) { slide_on_sides(held, false, false); }), 0);
+  BOOST_TEST_EQ(free_motions(
+                  [](Elasticity& held) { held.slide_along_boundary([](Vertex_index) { return true; }); }),
                 0);
 
   // Along the boundary: the volume stays, to first order, in whatever direction vertices move.

@@ -83,8 +83,9 @@ void test_split_element()
           if(is_inside(v))
             rank[v] = 99;
         Element_list pieces;
-        split_element(element, [&](Vertex_index v) { return rank[v]; }, is_inside,
-                      [&](Element_kind k, std::initializer_list<Vertex_index> v) { pieces.add(k, v); });
+        split_element(
+          element, [&](Vertex_index v) { return rank[v]; }, is_inside,
+          [&](Element_kind k, std::initializer_list<Vertex_index> v) { pieces.add(k, v); });
         Integer sum = 0;
         for(std::size_t i = 0; i < pieces.size(); ++i) {
           BOOST_TEST(is_positive(points, pieces[i]));
@@ -105,8 +106,8 @@ std::size_t number_reaching_out = 0, number_with_first_defects = 0, number_of_re
             number_unrepaired = 0;
 
 // Runs the stage and checks all it promises. `margin` tells that the rim can not be reached.
-void test_boundary(const Analytic_octree& located, Transition_templates_choice choice,
-                   Boundary_mode mode, bool has_margin)
+void test_boundary(const Analytic_octree& located, Transition_templates_choice choice, Boundary_mode mode,
+                   bool has_margin)
 {
   Lattice_mesh mesh = apply_transitions(located, choice);
   const Lattice_mesh before = mesh;
@@ -131,10 +132,13 @@ void test_boundary(const Analytic_octree& located, Transition_templates_choice c
   BOOST_TEST_EQ(first.defects.empty(), manifold_defects(faces_of(first_kept).boundary).empty());
 
   const Boundary_pieces boundary = split_boundary(located, mesh, mode);
-  const Boundary_pieces again = split_boundary(located, [&]() -> Lattice_mesh& {
-    fixed = before;
-    return fixed;
-  }(), mode, 3);
+  const Boundary_pieces again = split_boundary(
+    located,
+    [&]() -> Lattice_mesh& {
+      fixed = before;
+      return fixed;
+    }(),
+    mode, 3);
   BOOST_TEST(again.pieces.connectivity() == boundary.pieces.connectivity());
 
   // Relabeled: only outside vertices, to inside.
@@ -239,7 +243,8 @@ void test_boundary_stage()
     for(const Kernel::Vector_3& v : {Kernel::Vector_3(1, 0, 0), Kernel::Vector_3(1, 1, 0),
                                      Kernel::Vector_3(1, 1, 1), Kernel::Vector_3(1, 0.5, 0)})
       cases.push_back({Analytic_domain(united(ball(Point_3(0.5, 0.5, 0.5) - d * v, d),
-                                              ball(Point_3(0.5, 0.5, 0.5) + d * v, d))), 3, 0});
+                                              ball(Point_3(0.5, 0.5, 0.5) + d * v, d))),
+                       3, 0});
   unsigned seed = 100;
   for(const Case& one : cases) {
     const Analytic_octree octree = random_octree(one.domain, traits, ++seed, one.base_level, one.rounds);
@@ -254,10 +259,9 @@ void test_boundary_stage()
     for(int share : {3, 10, 30, 60})
       for(int repeat = 0; repeat < 4; ++repeat) {
         const Analytic_domain domain(noise(++seed, share, margin));
-        const Analytic_octree octree =
-          repeat == 0   ? random_octree(domain, traits, seed, 3, 0)
-          : repeat < 3 ? random_octree(domain, traits, seed, 2, repeat)
-                        : random_octree(domain, traits, seed, 2, 1, 2);
+        const Analytic_octree octree = repeat == 0  ? random_octree(domain, traits, seed, 3, 0)
+                                       : repeat < 3 ? random_octree(domain, traits, seed, 2, repeat)
+                                                    : random_octree(domain, traits, seed, 2, 1, 2);
         for(Boundary_mode mode : {Boundary_mode::VERTEX_ORDER, Boundary_mode::PAPER})
           test_boundary(octree, Transition_templates_choice::FEWEST_VERTICES, mode, false);
       }
@@ -352,11 +356,10 @@ void test_lost_cells()
   };
   std::size_t number_lost = 0, number_with_none = 0;
   unsigned seed = 500;
-  for(const Analytic_domain& domain :
-      {Analytic_domain(plate(0.19, 0.01)), Analytic_domain(plate(0.5, 0.4)),
-       Analytic_domain(united(plate(0.19, 0.01), ball({0.5, 0.5, 0.7}, 0.2))),
-       Analytic_domain(united(plate(0.71, 0.03), ball({0.4, 0.5, 0.6}, 0.3))),
-       Analytic_domain(noise(9, 2, 0.1))})
+  for(const Analytic_domain& domain : {Analytic_domain(plate(0.19, 0.01)), Analytic_domain(plate(0.5, 0.4)),
+                                       Analytic_domain(united(plate(0.19, 0.01), ball({0.5, 0.5, 0.7}, 0.2))),
+                                       Analytic_domain(united(plate(0.71, 0.03), ball({0.4, 0.5, 0.6}, 0.3))),
+                                       Analytic_domain(noise(9, 2, 0.1))})
     for(int base_level : {2, 3})
       for(int rounds : {0, 2}) {
         const Analytic_octree octree = random_octree(domain, traits, ++seed, base_level, rounds);

@@ -62,16 +62,18 @@ constexpr bool is_surface_part()
 template <class Cell>
 constexpr bool is_cell()
 {
-  return converts<decltype(a<Cell>().bbox()), CGAL::Bbox_3>
-         && converts<decltype(a<Cell>().center()), Point_3>
-         && converts<decltype(a<Cell>().do_intersect(a<Triangle_3>())), bool>;
+  const bool has_box = converts<decltype(a<Cell>().bbox()), CGAL::Bbox_3>;
+  const bool has_center = converts<decltype(a<Cell>().center()), Point_3>;
+  const bool has_test = converts<decltype(a<Cell>().do_intersect(a<Triangle_3>())), bool>;
+  return has_box && has_center && has_test;
 }
 
 template <class Traits>
 constexpr bool is_cell_traits()
 {
-  return converts<decltype(a<Traits>().point(a<Lattice_point>())), Point_3>
-         && is_cell<decltype(a<Traits>().cell(a<Lattice_point>(), std::uint32_t()))>();
+  const bool has_point = converts<decltype(a<Traits>().point(a<Lattice_point>())), Point_3>;
+  const bool has_cell = is_cell<decltype(a<Traits>().cell(a<Lattice_point>(), std::uint32_t()))>();
+  return has_point && has_cell;
 }
 
 template <class Domain, class Cell>
@@ -139,12 +141,13 @@ constexpr bool is_element_traits()
   constexpr std::size_t n = Traits::number_of_vertices;
   using Values = typename Traits::Shape_values;
   using Gradients = typename Traits::Shape_gradients;
-  return &Traits::reference == &mm3::reference_elements[Traits::kind]
-         && n == std::size_t(Traits::reference.number_of_vertices)
-         && std::is_same_v<Values, std::array<double, n>>
-         && std::is_same_v<Gradients, std::array<std::array<double, 3>, n>>
-         && std::is_same_v<decltype(Traits::shape_functions(0., 0., 0.)), Values>
-         && std::is_same_v<decltype(Traits::shape_gradients(0., 0., 0.)), Gradients>;
+  const bool has_reference = &Traits::reference == &mm3::reference_elements[Traits::kind]
+                             && n == std::size_t(Traits::reference.number_of_vertices);
+  const bool has_values = std::is_same_v<Values, std::array<double, n>>;
+  const bool has_gradients = std::is_same_v<Gradients, std::array<std::array<double, 3>, n>>;
+  const bool has_shapes = std::is_same_v<decltype(Traits::shape_functions(0., 0., 0.)), Values>;
+  const bool has_slopes = std::is_same_v<decltype(Traits::shape_gradients(0., 0., 0.)), Gradients>;
+  return has_reference && has_values && has_gradients && has_shapes && has_slopes;
 }
 
 //-- Archetypes: the members of the concept, nothing more -------------------------------------------
@@ -181,10 +184,7 @@ struct Cell_traits_archetype : Archetype
 
   struct Cell : Cell_archetype
   {
-    Cell(double x0, double y0, double z0, double s) : Cell_archetype(0)
-    {
-      x = x0, y = y0, z = z0, side = s;
-    }
+    Cell(double x0, double y0, double z0, double s) : Cell_archetype(0) { x = x0, y = y0, z = z0, side = s; }
   };
   Cell cell(const Lattice_point& p, std::uint32_t side) const
   {
@@ -211,9 +211,7 @@ struct Domain_archetype : Archetype
     const CGAL::Bbox_3 b = cell.bbox();
     const double radius = std::hypot(b.x_span(), b.y_span(), b.z_span()) / 2;
     const double d = norm(cell.center()) - 1;
-    return d > radius    ? CGAL::ON_UNBOUNDED_SIDE
-           : d < -radius ? CGAL::ON_BOUNDED_SIDE
-                         : CGAL::ON_BOUNDARY;
+    return d > radius ? CGAL::ON_UNBOUNDED_SIDE : d < -radius ? CGAL::ON_BOUNDED_SIDE : CGAL::ON_BOUNDARY;
   }
   Bounded_side bounded_side(const Point_3& p, const Surface_part&) const
   {
@@ -229,8 +227,8 @@ struct Domain_archetype : Archetype
   }
   std::array<Point_3, 6> surface_samples(double) const
   {
-    return {Point_3(1, 0, 0), Point_3(-1, 0, 0), Point_3(0, 1, 0),
-            Point_3(0, -1, 0), Point_3(0, 0, 1), Point_3(0, 0, -1)};
+    return {Point_3(1, 0, 0),  Point_3(-1, 0, 0), Point_3(0, 1, 0),
+            Point_3(0, -1, 0), Point_3(0, 0, 1),  Point_3(0, 0, -1)};
   }
 
 private:
@@ -377,8 +375,7 @@ constexpr bool is_cell_traits_with_all()
   using Union = Union_mixed_mesh_region_3<Ball_mixed_mesh_region_3, Polyhedral_mixed_mesh_region_3>;
   return is_cell_traits<Traits>() && is_domain<Polyhedral_mixed_mesh_domain_3, Cell>()
          && is_domain<Domain_archetype, Cell>() && is_region<Polyhedral_mixed_mesh_region_3, Cell>()
-         && is_region<Implicit_mixed_mesh_region_3, Cell>()
-         && is_region<Ball_mixed_mesh_region_3, Cell>()
+         && is_region<Implicit_mixed_mesh_region_3, Cell>() && is_region<Ball_mixed_mesh_region_3, Cell>()
          && is_region<Everywhere_mixed_mesh_region_3, Cell>() && is_region<Union, Cell>()
          && is_region<Region_archetype, Cell>();
 }
@@ -451,8 +448,8 @@ void test_archetypes()
             mesh, 700);
   // In the paper's mode, some tetrahedra here would be flat with all vertices on the ball.
   const auto result = CGAL::make_mixed_mesh_3(
-    domain, region, CGAL::Mixed_mesh_criteria_3(700).boundary_mode(mm3::Boundary_mode::PAPER), cell_traits, mesh,
-    CGAL::parameters::visitor(std::ref(visitor)));
+    domain, region, CGAL::Mixed_mesh_criteria_3(700).boundary_mode(mm3::Boundary_mode::PAPER), cell_traits,
+    mesh, CGAL::parameters::visitor(std::ref(visitor)));
   BOOST_TEST(result.has_mesh());
   BOOST_TEST(mm3::find_defects(mesh).none());
   // without a cell traits, and without a visitor
@@ -474,9 +471,10 @@ void test_optimization()
   for(double tolerance : {0., 0.1}) {
     auto mesh = start;
     Visitor_archetype visitor(0);
-    const auto optimized = CGAL::optimize_mixed_mesh_3(
-      mesh, domain, Quality_archetype(0), CGAL::Mixed_mesh_optimization_criteria_3().tolerance(tolerance),
-      CGAL::parameters::visitor(std::ref(visitor)));
+    const auto optimized = CGAL::optimize_mixed_mesh_3(mesh, domain, Quality_archetype(0),
+                                                       CGAL::Mixed_mesh_optimization_criteria_3().tolerance(
+                                                         tolerance),
+                                                       CGAL::parameters::visitor(std::ref(visitor)));
     BOOST_TEST(optimized.status == CGAL::Mixed_mesh_optimization_status::SUCCESS);
     test_mesh(result, mesh, 700);
   }
@@ -488,8 +486,8 @@ void test_models()
   const Domain_archetype ball(0);
   const CGAL::Mixed_mesh_criteria_3 criteria(700);
   const Axis_aligned_octree_cell_traits_3 aligned(ball.bbox());
-  const std::vector<Point_3> corners = {{-1, -1, -1}, {1, 1, 1}, {-1, 1, 1}, {1, -1, -1},
-                                        {1, -1, 1}, {-1, 1, -1}, {1, 1, -1}, {-1, -1, 1}};
+  const std::vector<Point_3> corners = {{-1, -1, -1}, {1, 1, 1},   {-1, 1, 1}, {1, -1, -1},
+                                        {1, -1, 1},   {-1, 1, -1}, {1, 1, -1}, {-1, -1, 1}};
   const Rotated_octree_cell_traits_3 rotated(corners, Kernel::Vector_3(1, 2, 3));
   const auto np = CGAL::parameters::default_values();
 
@@ -497,9 +495,8 @@ void test_models()
   test_mesh(CGAL::make_mixed_mesh_3(ball, Region_archetype(0), criteria, aligned, mesh, np), mesh, 700);
   test_mesh(CGAL::make_mixed_mesh_3(ball, Region_archetype(0), criteria, rotated, mesh, np), mesh, 700);
   const Union_mixed_mesh_region_3 region(Ball_mixed_mesh_region_3({1, 0, 0}, 0.5),
-                                         Implicit_mixed_mesh_region_3([](const Point_3& p) {
-                                           return p.z() - 0.5;
-                                         }));
+                                         Implicit_mixed_mesh_region_3(
+                                           [](const Point_3& p) { return p.z() - 0.5; }));
   test_mesh(CGAL::make_mixed_mesh_3(ball, region, criteria, mesh), mesh, 700);
 
   CGAL::Mixed_mesh_3<CGAL::Exact_predicates_exact_constructions_kernel> exact_mesh;

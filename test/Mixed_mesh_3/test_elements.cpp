@@ -93,18 +93,24 @@ Mesh_defects expect(const Mesh& mesh)
 }
 
 // The numbers of one kind are zero except those asked for.
-enum Defect { NONCONFORMING = 1, EDGES = 2, VERTICES = 4, CORNERS = 8, UNUSED = 16, DUPLICATE = 32,
-              NONFINITE = 64, INVALID = 128 };
+enum Defect {
+  NONCONFORMING = 1,
+  EDGES = 2,
+  VERTICES = 4,
+  CORNERS = 8,
+  UNUSED = 16,
+  DUPLICATE = 32,
+  NONFINITE = 64,
+  INVALID = 128
+};
 
 void check(const Mesh& mesh, int expected)
 {
   const Mesh_defects d = find_defects(mesh);
-  const int found = (d.nonconforming_faces ? NONCONFORMING : 0)
-                    | (d.nonmanifold_boundary_edges ? EDGES : 0)
-                    | (d.nonmanifold_boundary_vertices ? VERTICES : 0)
-                    | (d.nonpositive_corners ? CORNERS : 0) | (d.unused_vertices ? UNUSED : 0)
-                    | (d.duplicate_vertices ? DUPLICATE : 0) | (d.nonfinite_vertices ? NONFINITE : 0)
-                    | (d.invalid_elements ? INVALID : 0);
+  const int found = (d.nonconforming_faces ? NONCONFORMING : 0) | (d.nonmanifold_boundary_edges ? EDGES : 0)
+                    | (d.nonmanifold_boundary_vertices ? VERTICES : 0) | (d.nonpositive_corners ? CORNERS : 0)
+                    | (d.unused_vertices ? UNUSED : 0) | (d.duplicate_vertices ? DUPLICATE : 0)
+                    | (d.nonfinite_vertices ? NONFINITE : 0) | (d.invalid_elements ? INVALID : 0);
   BOOST_TEST_EQ(found, expected);
   BOOST_TEST_EQ(d.none(), expected == 0);
   BOOST_TEST_EQ(d.conforming(), (expected & (NONCONFORMING | INVALID)) == 0);
@@ -151,8 +157,7 @@ void test_find_defects()
     Mesh mesh;
     std::vector<Vertex_index> v;
     for(int i = 0; i < r.number_of_vertices; ++i)
-      v.push_back(mesh.add_vertex(
-        Point_3(r.coordinates[i][0], r.coordinates[i][1], r.coordinates[i][2])));
+      v.push_back(mesh.add_vertex(Point_3(r.coordinates[i][0], r.coordinates[i][1], r.coordinates[i][2])));
     mesh.add_element(kind, v.data());
     check(mesh, 0);
     mesh.points()[0] = Point_3(9, 9, 9); // inside out somewhere
@@ -175,8 +180,8 @@ void test_find_defects()
 
   // Two cubes side by side that share no vertex; -0 is 0.
   const auto neighbor = [](double zero) {
-    Mesh two = cube({{1, zero, zero}, {2, 0, 0}, {2, 1, 0}, {1, 1, zero},
-                     {1, zero, 1}, {2, 0, 1}, {2, 1, 1}, {1, 1, 1}});
+    Mesh two = cube(
+      {{1, zero, zero}, {2, 0, 0}, {2, 1, 0}, {1, 1, zero}, {1, zero, 1}, {2, 0, 1}, {2, 1, 1}, {1, 1, 1}});
     two.add_element(HEXAHEDRON, {8, 9, 10, 11, 12, 13, 14, 15});
     return two;
   };
@@ -194,21 +199,26 @@ void test_find_defects()
 
   const Point_3 o(0, 0, 0), x(1, 0, 0), y(0, 1, 0), z(0, 0, 1), below(0.3, 0.3, -1);
   check(tetrahedra({{0, 1, 2, 3}}, {o, x, y, z}), 0);
-  check(tetrahedra({{0, 2, 1, 3}}, {o, x, y, z}), CORNERS);                    // inverted
-  check(tetrahedra({{0, 1, 2, 3}}, {o, x, y, {1, 1, 0}}), CORNERS);            // flat
-  check(tetrahedra({{0, 1, 2, 3}}, {o, x, y, {0, 0, 1e-300}}), 0);             // almost
+  check(tetrahedra({{0, 2, 1, 3}}, {o, x, y, z}), CORNERS);         // inverted
+  check(tetrahedra({{0, 1, 2, 3}}, {o, x, y, {1, 1, 0}}), CORNERS); // flat
+  check(tetrahedra({{0, 1, 2, 3}}, {o, x, y, {0, 0, 1e-300}}), 0);  // almost
   // collinear but for the last digit: doubles would round the determinant
-  check(tetrahedra({{0, 1, 2, 3}}, {{1e8, 1e8, 1e8}, {1e8 + 1, 1e8, 1e8}, {1e8, 1e8 + 1, 1e8},
-                                    {1e8 + 1, 1e8 + 1, std::nextafter(1e8, 2e8)}}), 0);
-  check(tetrahedra({{0, 1, 2, 3}}, {{1e8, 1e8, 1e8}, {1e8 + 1, 1e8, 1e8}, {1e8, 1e8 + 1, 1e8},
-                                    {1e8 + 1, 1e8 + 1, std::nextafter(1e8, 0)}}), CORNERS);
+  check(tetrahedra({{0, 1, 2, 3}}, {{1e8, 1e8, 1e8},
+                                    {1e8 + 1, 1e8, 1e8},
+                                    {1e8, 1e8 + 1, 1e8},
+                                    {1e8 + 1, 1e8 + 1, std::nextafter(1e8, 2e8)}}),
+        0);
+  check(tetrahedra({{0, 1, 2, 3}}, {{1e8, 1e8, 1e8},
+                                    {1e8 + 1, 1e8, 1e8},
+                                    {1e8, 1e8 + 1, 1e8},
+                                    {1e8 + 1, 1e8 + 1, std::nextafter(1e8, 0)}}),
+        CORNERS);
 
   // two that share a face
   check(tetrahedra({{0, 1, 2, 3}, {0, 2, 1, 4}}, {o, x, y, z, below}), 0);
   // on the same side of it: both positive, folded
   const Mesh folded = tetrahedra({{0, 1, 2, 3}, {0, 1, 2, 4}}, {o, x, y, z, {0.3, 0.3, 2}});
-  check(folded, NONCONFORMING | EDGES
-                  | (find_defects(folded).nonmanifold_boundary_vertices ? VERTICES : 0));
+  check(folded, NONCONFORMING | EDGES | (find_defects(folded).nonmanifold_boundary_vertices ? VERTICES : 0));
   BOOST_TEST_EQ(find_defects(folded).nonconforming_faces, 1u);
   BOOST_TEST_EQ(find_defects(folded).nonmanifold_boundary_edges, 3u);
   // a face with three elements

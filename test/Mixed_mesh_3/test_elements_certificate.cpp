@@ -176,7 +176,8 @@ void test_exact()
   BOOST_TEST(jacobian_sign(HEXAHEDRON, h) == Jacobian_sign::POSITIVE);
 }
 
-// The top is the bottom turned and twice as large. After half a turn the Jacobian is positive but for a third of
+// The top is the bottom turned and twice as large. After half a turn the Jacobian is positive but for a third
+// of
 // the height, where it is zero: at no point that halving the element ever meets.
 Points twisted(Element_kind kind, double turns)
 {

@@ -157,8 +157,9 @@ void test_locator()
           }
           BOOST_TEST(std::abs(sum - 1) < 1e-12 && smallest > -1e-12);
           internal::with_kind(mesh.element(l.element).kind(), [&](auto kind) {
-            const auto n = Mixed_element_traits_3<kind.value>::shape_functions(
-              l.coordinates[0], l.coordinates[1], l.coordinates[2]);
+            const auto n = Mixed_element_traits_3<kind.value>::shape_functions(l.coordinates[0],
+                                                                               l.coordinates[1],
+                                                                               l.coordinates[2]);
             for(std::size_t k = 0; k < n.size(); ++k)
               BOOST_TEST(std::abs(n[k] - l.weights[k]) < 1e-9);
           });

@@ -55,10 +55,7 @@ Points cube()
   return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 }
 
-Points pyramid(double height)
-{
-  return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, height}};
-}
+Points pyramid(double height) { return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, height}}; }
 
 Points prism(double height)
 {
@@ -104,14 +101,14 @@ void test_distorted_elements()
   // A sliver: two edges that nearly cross.
   const double h = 1e-3;
   const Points sliver{{-1, 0, 0}, {1, 0, 0}, {0, 1, h}, {0, -1, h}};
-  BOOST_TEST(is_close(value(largest_dihedral_angle, TETRAHEDRON, sliver),
-                      180 - 2 * degrees(std::atan(h)), 1e-9));
-  BOOST_TEST(is_close(value(scaled_jacobian, TETRAHEDRON, sliver),
-                      std::sqrt(2.) * 4 * h / (2 * (2 + h * h)), 1e-12));
+  BOOST_TEST(
+    is_close(value(largest_dihedral_angle, TETRAHEDRON, sliver), 180 - 2 * degrees(std::atan(h)), 1e-9));
+  BOOST_TEST(
+    is_close(value(scaled_jacobian, TETRAHEDRON, sliver), std::sqrt(2.) * 4 * h / (2 * (2 + h * h)), 1e-12));
 
   // A flat pyramid, of height 1/4: lateral edges are 3/4 long.
-  BOOST_TEST(is_close(value(scaled_jacobian, PYRAMID, pyramid(0.25)),
-                      2 * 0.25 / (std::sqrt(2.) * 0.75), 1e-15));
+  BOOST_TEST(
+    is_close(value(scaled_jacobian, PYRAMID, pyramid(0.25)), 2 * 0.25 / (std::sqrt(2.) * 0.75), 1e-15));
   // one of height 1: lateral edges of sqrt(3/2)
   BOOST_TEST(is_close(value(scaled_jacobian, PYRAMID, pyramid(1)), 2 - 2 / std::pow(1.5, 1.5), 1e-15));
   BOOST_TEST(is_close(value(smallest_dihedral_angle, PYRAMID, pyramid(0.5)), 45, 1e-12));
@@ -129,8 +126,8 @@ void test_distorted_elements()
     Points points = cube();
     points[6] = {1 - t, 1 - t, 1 - t};
     const double edge = std::sqrt((1 - t) * (1 - t) + 2 * t * t);
-    BOOST_TEST(is_close(value(scaled_jacobian, HEXAHEDRON, points),
-                        (1 - 3 * t) / (edge * edge * edge), 1e-14));
+    BOOST_TEST(
+      is_close(value(scaled_jacobian, HEXAHEDRON, points), (1 - 3 * t) / (edge * edge * edge), 1e-14));
   }
 
   // A sheared box keeps plane faces; the angle of the shear is the smallest.
@@ -144,8 +141,7 @@ void test_distorted_elements()
 
   // A pyramid's base lifted at two opposite corners: both triangles lean by the same angle.
   points = {{0, 0, 0.1}, {1, 0, -0.1}, {1, 1, 0.1}, {0, 1, -0.1}, {0.5, 0.5, 1}};
-  BOOST_TEST(is_close(value(quad_warp, PYRAMID, points),
-                      2 * degrees(std::atan(0.2 * std::sqrt(2.))), 1e-12));
+  BOOST_TEST(is_close(value(quad_warp, PYRAMID, points), 2 * degrees(std::atan(0.2 * std::sqrt(2.))), 1e-12));
   // One corner of a cube lifted: 36.9 degrees about the diagonal through it, 35.3 about the other one.
   points = cube();
   points[6][2] += 0.5;
@@ -155,8 +151,9 @@ void test_distorted_elements()
   const Vec3 center{0.5, std::sqrt(3.) / 6, 0};
   for(int i = 3; i < 6; ++i) {
     const Vec3 r = points[i] - center;
-    points[i] = center + Vec3{std::cos(0.3) * r[0] - std::sin(0.3) * r[1],
-                              std::sin(0.3) * r[0] + std::cos(0.3) * r[1], 1};
+    points[i] = center
+                + Vec3{std::cos(0.3) * r[0] - std::sin(0.3) * r[1],
+                       std::sin(0.3) * r[0] + std::cos(0.3) * r[1], 1};
   }
   BOOST_TEST_GT(value(quad_warp, PRISM, points), 10.);
 }
@@ -285,8 +282,8 @@ void test_statistics_and_histogram()
   const auto counts = histogram(mesh, aspect_ratio_coefficient, {1, 2, 3, 7});
   BOOST_TEST((counts == std::vector<std::size_t>{0, 1, 1, 0, 2}));
   add(mesh, HEXAHEDRON, Points(8)); // infinite
-  BOOST_TEST((histogram(mesh, aspect_ratio_coefficient, {1, 2, 3, 7})
-              == std::vector<std::size_t>{0, 1, 1, 0, 3}));
+  BOOST_TEST(
+    (histogram(mesh, aspect_ratio_coefficient, {1, 2, 3, 7}) == std::vector<std::size_t>{0, 1, 1, 0, 3}));
   BOOST_TEST((histogram(mesh, aspect_ratio_coefficient, {}) == std::vector<std::size_t>{5}));
 }
 } // namespace

@@ -70,8 +70,7 @@ Points reference_points(Element_kind kind)
   const Reference_element& r = reference_elements[kind];
   Points points;
   for(int i = 0; i < r.number_of_vertices; ++i)
-    points.push_back({double(r.coordinates[i][0]), double(r.coordinates[i][1]),
-                      double(r.coordinates[i][2])});
+    points.push_back({double(r.coordinates[i][0]), double(r.coordinates[i][1]), double(r.coordinates[i][2])});
   return points;
 }
 
@@ -101,8 +100,7 @@ int determinant_of(const Reference_element& r, int a, int b, int c, int d)
   for(int i = 0; i < 3; ++i)
     for(int k = 0; k < 3; ++k)
       m[i][k] = r.coordinates[row[i]][k] - r.coordinates[a][k];
-  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
-         - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
          + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
@@ -154,9 +152,7 @@ void test_table(Element_kind kind)
       BOOST_TEST_EQ(edges.count(std::minmax(a, b)), 1u);
     }
   }
-  BOOST_TEST_EQ(r.number_of_corners, kind == TETRAHEDRON ? 1
-                                     : kind == PYRAMID   ? 4
-                                                         : r.number_of_vertices);
+  BOOST_TEST_EQ(r.number_of_corners, kind == TETRAHEDRON ? 1 : kind == PYRAMID ? 4 : r.number_of_vertices);
 
   // To VTK and back; VTK's wedge has its base normal away from the top, the others as ours.
   const IO::internal::Element_names& names = IO::internal::element_names[kind];
@@ -199,8 +195,8 @@ std::vector<Quadrature_point> quadrature(Element_kind kind)
         const double weight = w[i] * w[j] * w[k];
         const double u = (1 + x[i]) / 2, v = (1 + x[j]) / 2, t = (1 + x[k]) / 2; // in [0,1]
         if(kind == TETRAHEDRON)
-          points.push_back({{u, v * (1 - u), t * (1 - u) * (1 - v)},
-                            weight / 8 * (1 - u) * (1 - u) * (1 - v)});
+          points.push_back(
+            {{u, v * (1 - u), t * (1 - u) * (1 - v)}, weight / 8 * (1 - u) * (1 - u) * (1 - v)});
         else if(kind == PYRAMID)
           points.push_back({{x[i] * (1 - t), x[j] * (1 - t), t}, weight / 2 * (1 - t) * (1 - t)});
         else if(kind == PRISM)
@@ -306,8 +302,7 @@ void test_volume()
   // far from the origin only the rounding of the vertices counts
   const Vec3 far{1e8, -1e8, 1e8};
   const Points points = transformed(reference_points(Kind), [&](const Vec3& p) { return p + far; });
-  BOOST_TEST_EQ(volume(one_element(Kind, points), 0),
-                volume(one_element(Kind, reference_points(Kind)), 0));
+  BOOST_TEST_EQ(volume(one_element(Kind, points), 0), volume(one_element(Kind, reference_points(Kind)), 0));
 }
 
 // Two elements that share a warped face: the volumes add up to that of the whole.
@@ -337,7 +332,8 @@ void test_sum_of_volumes()
         for(int i = 0; i < 4; ++i)
           q[i] = to_vec3(mesh.point(element[element.reference().faces[f].vertices[i]]));
         six_fluxes += (determinant(q[0], q[1], q[2]) + determinant(q[0], q[2], q[3])
-                       + determinant(q[0], q[1], q[3]) + determinant(q[1], q[2], q[3])) / 2;
+                       + determinant(q[0], q[1], q[3]) + determinant(q[1], q[2], q[3]))
+                      / 2;
       }
     }
     BOOST_TEST(is_close(volume(mesh), six_fluxes / 6, 1e-12));
@@ -382,14 +378,19 @@ void test_known_aspect_ratios()
   BOOST_TEST_EQ(arc(HEXAHEDRON, box(1, 2, 3)), 3.);
   BOOST_TEST_EQ(arc(HEXAHEDRON, box(5, 1, 2)), 5.);
   // sheared by 45 degrees: two segments 1, one sqrt 2
-  BOOST_TEST(is_close(arc(HEXAHEDRON, transformed(box(1, 1, 1), [](const Vec3& p) {
-                            return Vec3{p[0] + p[2], p[1], p[2]};
-                          })), std::sqrt(2.), 1e-15));
+  BOOST_TEST(is_close(arc(HEXAHEDRON, transformed(box(1, 1, 1),
+                                                  [](const Vec3& p) {
+                                                    return Vec3{p[0] + p[2], p[1], p[2]};
+                                                  })),
+                      std::sqrt(2.), 1e-15));
   // frustum, top half as wide: the segments across are 3/4 long, that along is 1
-  BOOST_TEST(is_close(arc(HEXAHEDRON, transformed(box(1, 1, 1), [](const Vec3& p) {
-                            const double s = 1 - p[2] / 2;
-                            return Vec3{0.5 + s * (p[0] - 0.5), 0.5 + s * (p[1] - 0.5), p[2]};
-                          })), 4. / 3, 1e-15));
+  BOOST_TEST(
+    is_close(arc(HEXAHEDRON, transformed(box(1, 1, 1),
+                                         [](const Vec3& p) {
+                                           const double s = 1 - p[2] / 2;
+                                           return Vec3{0.5 + s * (p[0] - 0.5), 0.5 + s * (p[1] - 0.5), p[2]};
+                                         })),
+             4. / 3, 1e-15));
 
   BOOST_TEST_EQ(arc(PYRAMID, square_pyramid(1, {0.5, 0.5, 1})), 1.);
   BOOST_TEST_EQ(arc(PYRAMID, square_pyramid(1, {3, -2, 1})), 1.); // the height decides, not the foot
@@ -398,8 +399,8 @@ void test_known_aspect_ratios()
   // base 2 x 1, height 1
   BOOST_TEST_EQ(arc(PYRAMID, {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {1, 0.5, 1}}), 2.);
   // warped base, mean plane z = 0: the midpoint segments stay 1, the height too
-  BOOST_TEST(is_close(arc(PYRAMID, {{0, 0, 0.1}, {1, 0, -0.1}, {1, 1, 0.1}, {0, 1, -0.1},
-                                    {0.5, 0.5, 1}}), 1, 1e-15));
+  BOOST_TEST(
+    is_close(arc(PYRAMID, {{0, 0, 0.1}, {1, 0, -0.1}, {1, 1, 0.1}, {0, 1, -0.1}, {0.5, 0.5, 1}}), 1, 1e-15));
 
   // An equilateral prism's triangle has height sqrt(3)/2: no prism reaches 1.
   BOOST_TEST(is_close(arc(PRISM, prism(left, right, third, 1)), 2 / std::sqrt(3.), 1e-15));
@@ -419,8 +420,7 @@ void test_known_aspect_ratios()
   BOOST_TEST_EQ(arc(PRISM, prism(left, right, {3, 0, 0}, 1)), infinity);
   BOOST_TEST_EQ(arc(HEXAHEDRON, box(1, 1, 0)), infinity);
   for(Element_kind kind : element_kinds)
-    BOOST_TEST_EQ(arc(kind, Points(std::size_t(reference_elements[kind].number_of_vertices))),
-                  infinity);
+    BOOST_TEST_EQ(arc(kind, Points(std::size_t(reference_elements[kind].number_of_vertices))), infinity);
 }
 
 void test_invariance(Element_kind kind)
@@ -435,16 +435,19 @@ void test_invariance(Element_kind kind)
     Vec3 axis{normal(random), normal(random), normal(random)};
     axis = (1 / norm(axis)) * axis;
     const double angle = 6 * normal(random), c = std::cos(angle), s = std::sin(angle);
-    BOOST_TEST(is_close(arc(kind, transformed(points, [&](const Vec3& p) {
-                              return c * p + s * cross(axis, p) + (1 - c) * dot(axis, p) * axis;
-                            })), expected, 1e-12 * expected));
+    BOOST_TEST(is_close(arc(kind, transformed(points,
+                                              [&](const Vec3& p) {
+                                                return c * p + s * cross(axis, p)
+                                                       + (1 - c) * dot(axis, p) * axis;
+                                              })),
+                        expected, 1e-12 * expected));
     for(double scale : {1e-6, 1e6, std::ldexp(1., 40)})
-      BOOST_TEST(is_close(arc(kind, transformed(points, [&](const Vec3& p) { return scale * p; })),
-                          expected, 1e-12 * expected));
+      BOOST_TEST(is_close(arc(kind, transformed(points, [&](const Vec3& p) { return scale * p; })), expected,
+                          1e-12 * expected));
     // vertices are rounded to 1.5e-8 there
     const Vec3 far{1e8, -1e8, 1e8};
-    BOOST_TEST(is_close(arc(kind, transformed(points, [&](const Vec3& p) { return p + far; })),
-                        expected, 1e-5 * expected));
+    BOOST_TEST(is_close(arc(kind, transformed(points, [&](const Vec3& p) { return p + far; })), expected,
+                        1e-5 * expected));
   }
 }
 

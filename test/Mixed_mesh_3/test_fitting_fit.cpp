@@ -3,7 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// fit_mixed_mesh_to_surface() and its stages: solvers, targets; meshes carried onto surfaces that they were made
+// fit_mixed_mesh_to_surface() and its stages: solvers, targets; meshes carried onto surfaces that they were
+// made
 // for, and onto others; each way to end.
 //
 //   test_fitting_fit [DATA_DIRECTORY]
@@ -104,14 +105,15 @@ Mixed_mesh_fit_result_3 fit(const char* what, Mesh& mesh, const Test_surface& su
                             const Mixed_mesh_fit_criteria_3& criteria = Mixed_mesh_fit_criteria_3())
 {
   const Mesh before = mesh;
-  const Mixed_mesh_fit_result_3 result =
-    fit_mixed_mesh_to_surface(mesh, Polyhedral_mixed_mesh_domain_3(surface), criteria);
+  const Mixed_mesh_fit_result_3 result = fit_mixed_mesh_to_surface(mesh,
+                                                                   Polyhedral_mixed_mesh_domain_3(surface),
+                                                                   criteria);
   check(mesh, before, surface, result);
   const auto arc = quality_statistics(mesh)[number_of_element_kinds];
-  std::cout << what << ": status " << int(result.status) << ", " << result.number_of_arrived_vertices << " of "
-            << result.number_of_boundary_vertices << " arrived, " << result.number_of_folded_faces << " folded, "
-            << result.number_of_solves << " solves, " << result.number_of_halvings << " halvings, ARC mean "
-            << arc.mean << ", at most " << arc.maximum << '\n';
+  std::cout << what << ": status " << int(result.status) << ", " << result.number_of_arrived_vertices
+            << " of " << result.number_of_boundary_vertices << " arrived, " << result.number_of_folded_faces
+            << " folded, " << result.number_of_solves << " solves, " << result.number_of_halvings
+            << " halvings, ARC mean " << arc.mean << ", at most " << arc.maximum << '\n';
   return result;
 }
 
@@ -124,8 +126,8 @@ template <class Solver>
 Mesh fitted_with(Solver solver, const Mesh& source, const Test_surface& surface)
 {
   Mesh mesh = source;
-  const auto result =
-    fit_mixed_mesh_to_surface(mesh, surface, CGAL::parameters::sparse_linear_solver(std::ref(solver)));
+  const auto result = fit_mixed_mesh_to_surface(mesh, surface,
+                                                CGAL::parameters::sparse_linear_solver(std::ref(solver)));
   check(mesh, source, surface, result);
   return mesh;
 }
@@ -194,7 +196,8 @@ Folded_faces folded_faces(const Mesh& mesh, const Test_surface& surface, double 
   BOOST_TEST_EQ(folds.find(targets.positions, 0, is_folded), targets.number_of_folded_faces);
   const Folded_faces result{folds.find(closest, quality, is_folded),
                             folds.find(targets.positions, quality, is_folded)};
-  std::cout << "faces of quality below " << quality << ": " << result.before << ", then " << result.after << '\n';
+  std::cout << "faces of quality below " << quality << ": " << result.before << ", then " << result.after
+            << '\n';
   return result;
 }
 

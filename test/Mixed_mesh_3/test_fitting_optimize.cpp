@@ -3,7 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// optimize_mixed_mesh_3(): distorted meshes that must stay valid, each way to end, and the brain with all that
+// optimize_mixed_mesh_3(): distorted meshes that must stay valid, each way to end, and the brain with all
+// that
 // is promised for it.
 //
 //   test_fitting_optimize [DATA_DIRECTORY]
@@ -64,7 +65,8 @@ double worst_cost(const Mesh& mesh, const Quality& quality)
 {
   double worst = 0;
   for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
-    worst = (std::max)(worst, quality(mesh.element(e).kind(), internal::element_points(mesh, mesh.element(e))));
+    worst = (std::max)(worst,
+                       quality(mesh.element(e).kind(), internal::element_points(mesh, mesh.element(e))));
   return worst;
 }
 
@@ -86,7 +88,8 @@ void check(const Mesh& before, const Mesh& after, const Mixed_mesh_optimization_
   BOOST_TEST_EQ(after.number_of_vertices(), before.number_of_vertices());
   BOOST_TEST(boundary_of(after) == boundary_of(before));
   BOOST_TEST(other_elements(after) == other_elements(before));
-  BOOST_TEST(result.number_of_flips > 0 || after.elements().connectivity() == before.elements().connectivity());
+  BOOST_TEST(result.number_of_flips > 0
+             || after.elements().connectivity() == before.elements().connectivity());
   const Mesh_defects a = find_defects(before), b = find_defects(after);
   BOOST_TEST(b.none() || !a.none());
   BOOST_TEST_LE(number_of_vertices_off_surface(after, surface),
@@ -126,8 +129,8 @@ void test_distorted(const Quality& quality)
       for(bool flips : {false, true})
         for(double sliding : {no_sliding, 2.}) {
           Mesh mesh = start;
-          const auto result =
-            optimize_mixed_mesh_3(mesh, domain, quality, Criteria().flips(flips).sliding_threshold(sliding));
+          const auto result = optimize_mixed_mesh_3(mesh, domain, quality,
+                                                    Criteria().flips(flips).sliding_threshold(sliding));
           BOOST_TEST(result.status == Status::SUCCESS);
           BOOST_TEST_EQ(result.number_of_rounds, 4u);
           BOOST_TEST(result.number_of_flips == 0 || (flips && kind == TETRAHEDRON));
@@ -204,7 +207,8 @@ void test_statuses()
     Stopping_visitor impatient;
     impatient.stop_at = i;
     Mesh stopped = start;
-    result = optimize_mixed_mesh_3(stopped, domain, Criteria(), CGAL::parameters::visitor(std::ref(impatient)));
+    result = optimize_mixed_mesh_3(stopped, domain, Criteria(),
+                                   CGAL::parameters::visitor(std::ref(impatient)));
     BOOST_TEST(result.status == Status::STOPPED);
     BOOST_TEST_EQ(impatient.number_of_questions, i + 1);
     BOOST_TEST_EQ(is_same(stopped, start), i == 0);
@@ -234,7 +238,8 @@ void test_statuses()
     const auto distance = hausdorff_distance(mesh, surface);
     const auto &from_mesh = distance.from_mesh, &from_surface = distance.from_surface;
     BOOST_TEST_LE(result.largest_distance,
-                  (std::max)(from_mesh.distance + from_mesh.error, from_surface.distance + from_surface.error) + 1e-9);
+                  (std::max)(from_mesh.distance + from_mesh.error, from_surface.distance + from_surface.error)
+                    + 1e-9);
     BOOST_TEST_GE(result.largest_distance + 2 * tolerance, from_surface.distance);
   }
 }
@@ -258,7 +263,8 @@ void test_criteria()
     Mesh mesh = start;
     const Polyhedral_mixed_mesh_domain_3 larger_domain(larger);
     const auto result = model == 0 ? optimize_mixed_mesh_3(mesh, larger_domain, Criteria())
-                                   : optimize_mixed_mesh_3(mesh, larger_domain, Scaled_jacobian_quality_3(), Criteria());
+                                   : optimize_mixed_mesh_3(mesh, larger_domain, Scaled_jacobian_quality_3(),
+                                                           Criteria());
     BOOST_TEST(result.status == Status::SUCCESS);
     check(start, mesh, result, larger);
     BOOST_TEST_GE(volume(mesh), 0.8 * 4.19 * 3.375);
@@ -319,7 +325,8 @@ void test_brain(const Test_surface& brain, const Test_surface& region_surface)
   const auto drawn = optimize_mixed_mesh_3(near, domain, Criteria().tolerance(4));
   check(before, near, drawn, brain);
   const Axis_aligned_octree_cell_traits_3 traits(domain.bbox());
-  const auto refined = make_mixed_mesh_3(domain, region, Mixed_mesh_criteria_3(660).tolerance(4), traits, nearer);
+  const auto refined = make_mixed_mesh_3(domain, region, Mixed_mesh_criteria_3(660).tolerance(4), traits,
+                                         nearer);
   BOOST_TEST(refined.has_mesh());
   BOOST_TEST(find_defects(nearer).none());
   BOOST_TEST_EQ(number_of_vertices_off_surface(nearer, brain), 0u);

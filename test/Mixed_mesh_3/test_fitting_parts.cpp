@@ -63,7 +63,8 @@ Element_points ideal(Element_kind kind, double height_of_pyramid)
 }
 
 template <class Quality>
-void test_gradients(const Quality& quality, double height_of_pyramid, double ideal_tetrahedron, double ideal_prism,
+void test_gradients(const Quality& quality, double height_of_pyramid, double ideal_tetrahedron,
+                    double ideal_prism,
                     const std::function<double(Element_kind, const Element_points&)>& bound)
 {
   std::mt19937 random(5);
@@ -87,8 +88,7 @@ void test_gradients(const Quality& quality, double height_of_pyramid, double ide
       bool is_positive = true;
       for(int c = 0; c < reference_elements[kind].number_of_corners; ++c) {
         const auto& k = reference_elements[kind].corners[c];
-        is_positive = is_positive
-                      && determinant(p[k[1]] - p[k[0]], p[k[2]] - p[k[0]], p[k[3]] - p[k[0]]) > 0;
+        is_positive = is_positive && determinant(p[k[1]] - p[k[0]], p[k[2]] - p[k[0]], p[k[3]] - p[k[0]]) > 0;
       }
       BOOST_TEST_EQ(q < infinity, is_positive);
       inverted += !is_positive;
@@ -120,10 +120,11 @@ void test_qualities()
   const double tetrahedron = std::sqrt(72.) / 8.47867, prism = 2 / std::sqrt(3.);
   test_gradients(Aspect_ratio_quality_3(), 1, tetrahedron, prism, internal::aspect_ratio_coefficient);
   test_gradients(Aspect_ratio_quality_3(7, 0), 1, tetrahedron, prism, internal::aspect_ratio_coefficient);
-  test_gradients(Scaled_jacobian_quality_3(), std::sqrt(0.5), 1, 1, [](Element_kind kind, const Element_points& p) {
-    const double j = internal::scaled_jacobian(kind, p);
-    return j > 0 ? 1 / j : 1;
-  });
+  test_gradients(Scaled_jacobian_quality_3(), std::sqrt(0.5), 1, 1,
+                 [](Element_kind kind, const Element_points& p) {
+                   const double j = internal::scaled_jacobian(kind, p);
+                   return j > 0 ? 1 / j : 1;
+                 });
   // the cost of the second is the reciprocal, not less
   std::mt19937 random(6);
   std::uniform_real_distribution<double> uniform(-0.2, 0.2);
@@ -138,7 +139,8 @@ void test_qualities()
         BOOST_TEST_LE(std::abs(Scaled_jacobian_quality_3()(kind, p) * j - 1), 1e-12);
     }
   BOOST_TEST(Aspect_ratio_quality_3(3).is_acceptable(3) && !Aspect_ratio_quality_3(3).is_acceptable(3.1));
-  BOOST_TEST(Scaled_jacobian_quality_3(3).is_acceptable(3) && !Scaled_jacobian_quality_3(3).is_acceptable(3.1));
+  BOOST_TEST(Scaled_jacobian_quality_3(3).is_acceptable(3)
+             && !Scaled_jacobian_quality_3(3).is_acceptable(3.1));
 }
 
 // ---- flips -------------------------------------------------------------------------------------
@@ -151,7 +153,8 @@ std::int64_t six_volumes(const Mesh& mesh)
     std::int64_t d[3][3];
     for(int i = 0; i < 3; ++i)
       for(int k = 0; k < 3; ++k)
-        d[i][k] = std::int64_t(mesh.point(mesh.element(e)[i + 1])[k]) - std::int64_t(mesh.point(mesh.element(e)[0])[k]);
+        d[i][k] = std::int64_t(mesh.point(mesh.element(e)[i + 1])[k])
+                  - std::int64_t(mesh.point(mesh.element(e)[0])[k]);
     const std::int64_t v = d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1])
                            - d[0][1] * (d[1][0] * d[2][2] - d[1][2] * d[2][0])
                            + d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]);
@@ -168,7 +171,8 @@ Mesh bipyramid(int n, int height)
   mesh.add_vertex({0, 0, double(-height)});
   mesh.add_vertex({0, 0, double(height)});
   for(int i = 0; i < n; ++i)
-    mesh.add_vertex({std::round(100 * std::cos(2 * CGAL_PI * i / n)), std::round(100 * std::sin(2 * CGAL_PI * i / n)), 0});
+    mesh.add_vertex(
+      {std::round(100 * std::cos(2 * CGAL_PI * i / n)), std::round(100 * std::sin(2 * CGAL_PI * i / n)), 0});
   return mesh;
 }
 
@@ -199,7 +203,8 @@ std::size_t flip(Mesh& mesh)
   internal::Working_mesh working(mesh, boundary_faces(mesh));
   const Aspect_ratio_quality_3 quality;
   internal::Tetrahedron_flipper flipper(working, quality);
-  const auto is_on_boundary = std::exchange(working.is_on_boundary, std::vector<std::uint8_t>(mesh.number_of_vertices(), 0));
+  const auto is_on_boundary = std::exchange(working.is_on_boundary,
+                                            std::vector<std::uint8_t>(mesh.number_of_vertices(), 0));
   std::set<Vertex_index> changed;
   const std::size_t flips = flipper.run(4, 1, [&](Vertex_index v) { changed.insert(v); });
   working.is_on_boundary = is_on_boundary;

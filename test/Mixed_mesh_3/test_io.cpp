@@ -41,8 +41,8 @@
 #include <vector>
 
 #if defined(__unix__)
-#  include <csignal>
-#  include <sys/resource.h>
+#include <csignal>
+#include <sys/resource.h>
 #endif
 
 using namespace CGAL::Mixed_meshes_3;
@@ -55,7 +55,8 @@ using Point = Kernel::Point_3;
 
 const char* const extensions[] = {".vtu", ".msh", ".msh2", ".mesh", ".inp", ".feb"};
 
-// Brute force: the faces that occur once. Empty if one occurs more than twice, or twice in the same direction.
+// Brute force: the faces that occur once. Empty if one occurs more than twice, or twice in the same
+// direction.
 template <class Mesh>
 std::vector<Face> find_boundary_faces(const Mesh& mesh)
 {
@@ -164,8 +165,8 @@ Mesh grid(int n, unsigned int seed, double noise)
   for(int z = 0; z <= n; ++z)
     for(int y = 0; y <= n; ++y)
       for(int x = 0; x <= n; ++x)
-        points[number[std::size_t(lattice(x, y, z))]]
-          = affine(x + noise * uniform(), y + noise * uniform(), z + noise * uniform());
+        points[number[std::size_t(lattice(x, y, z))]] = affine(x + noise * uniform(), y + noise * uniform(),
+                                                               z + noise * uniform());
 
   for(int z = 0; z < n; ++z)
     for(int y = 0; y < n; ++y)
@@ -176,8 +177,8 @@ Mesh grid(int n, unsigned int seed, double noise)
           v[i] = lattice(x + (c[0] > 0), y + (c[1] > 0), z + (c[2] > 0));
         }
         const int center = centers + (z * n + y) * n + x;
-        points[number[std::size_t(center)]]
-          = affine(x + 0.5 + noise * uniform(), y + 0.5 + noise * uniform(), z + 0.5);
+        points[number[std::size_t(center)]] = affine(x + 0.5 + noise * uniform(), y + 0.5 + noise * uniform(),
+                                                     z + 0.5);
         const bool is_prism_column = (x + 2 * y) % 3 == 0;
         if(z + 1 < n && is_prism_column) {
           add(PRISM, {v[0], v[1], v[2], v[4], v[5], v[6]});
@@ -294,8 +295,7 @@ public:
   {
     for(const char* extension : extensions) {
       const std::string path = (m_directory / (name + extension)).string();
-      const IO::Write_options options
-        = std::string(extension) == ".vtu" ? vtu_options : IO::Write_options();
+      const IO::Write_options options = std::string(extension) == ".vtu" ? vtu_options : IO::Write_options();
       BOOST_TEST(IO::check_output_path(path));
       BOOST_TEST(IO::write_mixed_mesh(path, mesh, options));
       const std::string first = contents(path);
@@ -308,9 +308,8 @@ public:
       region += mesh.is_in_region(e);
     const auto counts = mesh.elements().counts();
     m_json << (m_json.str().size() > 1 ? ",\n" : "\n") << " {\"name\": \"" << name
-           << "\", \"vertices\": " << mesh.number_of_vertices() << ", \"kinds\": [" << counts[0]
-           << ", " << counts[1] << ", " << counts[2] << ", " << counts[3]
-           << "], \"region\": " << region
+           << "\", \"vertices\": " << mesh.number_of_vertices() << ", \"kinds\": [" << counts[0] << ", "
+           << counts[1] << ", " << counts[2] << ", " << counts[3] << "], \"region\": " << region
            << ", \"triangles\": " << number_of_boundary_faces(mesh, 3)
            << ", \"quadrilaterals\": " << number_of_boundary_faces(mesh, 4)
            << ", \"volume\": " << volume(mesh) << ",\n  \"volumes\": [";
@@ -327,8 +326,8 @@ public:
       m_json << (e == 0 ? "" : ", ") << aspect_ratio_coefficient(mesh, e);
     m_json << "],\n  \"points\": [";
     for(std::size_t v = 0; v < mesh.number_of_vertices(); ++v)
-      m_json << (v == 0 ? "" : ", ") << "[" << mesh.points()[v].x() << ", " << mesh.points()[v].y()
-             << ", " << mesh.points()[v].z() << "]";
+      m_json << (v == 0 ? "" : ", ") << "[" << mesh.points()[v].x() << ", " << mesh.points()[v].y() << ", "
+             << mesh.points()[v].z() << "]";
     m_json << "]}";
   }
 
@@ -380,8 +379,8 @@ void test_writers(const fs::path& directory)
   BOOST_TEST_EQ(origins.size(), tetrahedra.number_of_elements());
   const std::vector<double> numbers(origins.begin(), origins.end());
   std::ostringstream stream;
-  BOOST_TEST(IO::write_VTU(
-    stream, tetrahedra, {{{"position & <copy>", &positions, 3}}, {{"element", &numbers}}}));
+  BOOST_TEST(
+    IO::write_VTU(stream, tetrahedra, {{{"position & <copy>", &positions, 3}}, {{"element", &numbers}}}));
   BOOST_TEST(stream.str() == contents(path));
   fs::remove(path);
   expectations.finish();
@@ -425,8 +424,7 @@ void test_split(const Mesh& mesh, bool is_planar)
   BOOST_TEST_EQ(tetrahedra.number_of_vertices(), mesh.number_of_vertices());
   const auto counts = mesh.elements().counts();
   BOOST_TEST_EQ(tetrahedra.number_of_elements(),
-                counts[TETRAHEDRON] + 2 * counts[PYRAMID] + 3 * counts[PRISM]
-                  + 6 * counts[HEXAHEDRON]);
+                counts[TETRAHEDRON] + 2 * counts[PYRAMID] + 3 * counts[PRISM] + 6 * counts[HEXAHEDRON]);
 
   std::vector<double> volumes(mesh.number_of_elements());
   bool all_positive = true, same_region = true;
@@ -500,8 +498,7 @@ void test_errors(const fs::path& directory)
   IO::Write_options options;
   options.vertex_data = {{"data", &values}};
   BOOST_TEST(mentions(write_error(old.string(), mesh, options), "size of the mesh"));
-  BOOST_TEST(
-    mentions(write_error((place / "old.msh").string(), mesh, options), ".vtu only"));
+  BOOST_TEST(mentions(write_error((place / "old.msh").string(), mesh, options), ".vtu only"));
   std::ostringstream stream;
   BOOST_TEST(!IO::write_VTU(stream, mesh, {{{"data", &values}}, {}}));
   BOOST_TEST(stream.str().empty());
@@ -564,9 +561,9 @@ void test_reader(const fs::path& directory)
   const std::string cube = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n";
 
   Surface surface;
-  IO::Surface_input input =
-      read("OFF\n8 6 0\n" + cube + "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n",
-           surface);
+  IO::Surface_input input = read("OFF\n8 6 0\n" + cube
+                                   + "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n",
+                                 surface);
   BOOST_TEST_EQ(input.number_of_components, 1u);
   BOOST_TEST_LT(std::abs(input.volume - 1), 1e-15);
   BOOST_TEST_EQ(faces(surface).size(), 12u);
@@ -578,8 +575,8 @@ void test_reader(const fs::path& directory)
                             "3 4 5 8\n3 5 7 8\n3 7 6 8\n3 6 4 8\n";
   for(const char* cavity :
       {"3 8 9 10\n3 8 10 11\n3 8 11 9\n3 9 11 10\n", "3 8 10 9\n3 8 11 10\n3 8 9 11\n3 9 10 11\n"}) {
-    input = read("OFF\n12 13 0\n" + cube + "0.5 0.5 1\n0.25 0.25 0.5\n0.75 0.25 0.5\n0.25 0.75 0.5\n"
-                     + walls + cavity,
+    input = read("OFF\n12 13 0\n" + cube + "0.5 0.5 1\n0.25 0.25 0.5\n0.75 0.25 0.5\n0.25 0.75 0.5\n" + walls
+                   + cavity,
                  surface);
     BOOST_TEST_EQ(input.number_of_components, 2u);
     BOOST_TEST_LT(std::abs(input.volume - (1 - 0.125 * 0.5 / 3)), 1e-15);
@@ -589,11 +586,10 @@ void test_reader(const fs::path& directory)
   }
 
   // Two faces with their vertices on the edge between the first two: removed, without a trace.
-  const std::string needles =
-      "OFF\n10 16 0\n" + cube
-      + "0.25 0 0\n0.5 0 0\n"
-        "3 0 3 1\n3 0 2 3\n3 4 5 7\n3 4 7 6\n3 2 6 7\n3 2 7 3\n3 0 4 6\n3 0 6 2\n"
-        "3 1 3 7\n3 1 7 5\n3 0 5 4\n3 0 8 5\n3 8 9 5\n3 9 1 5\n3 0 1 9\n3 0 9 8\n";
+  const std::string needles = "OFF\n10 16 0\n" + cube
+                              + "0.25 0 0\n0.5 0 0\n"
+                                "3 0 3 1\n3 0 2 3\n3 4 5 7\n3 4 7 6\n3 2 6 7\n3 2 7 3\n3 0 4 6\n3 0 6 2\n"
+                                "3 1 3 7\n3 1 7 5\n3 0 5 4\n3 0 8 5\n3 8 9 5\n3 9 1 5\n3 0 1 9\n3 0 9 8\n";
   input = read(needles, surface);
   BOOST_TEST(has_warning(input, "removed 2 degenerate faces"));
   BOOST_TEST_LT(std::abs(input.volume - 1), 1e-15);

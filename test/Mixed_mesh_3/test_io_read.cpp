@@ -6,7 +6,8 @@
 // Readers of meshes.
 //
 //   test_io_read DATA_DIRECTORY WORK_DIRECTORY
-//   test_io_read --files FILE...    for test_io_read_writers.py: damages copies of the files, prints what is in
+//   test_io_read --files FILE...    for test_io_read_writers.py: damages copies of the files, prints what is
+// in
 //                                each, as a line of JSON
 
 #include <CGAL/Mixed_mesh_3.h>
@@ -134,8 +135,9 @@ void test_damage(const std::string& path, const std::string& damaged_path)
       // Half of them where the file describes itself; digits, so that numbers stay numbers; bits.
       const std::size_t range = trial % 2 == 0 ? wrong.size() : (std::min)(wrong.size(), std::size_t(2000));
       char& c = wrong[random() % range];
-      c = n % 3 == 0 ? char('0' + random() % 10)
-          : n % 3 == 1 ? char(c ^ (1 << random() % 8)) : char(random());
+      c = n % 3 == 0   ? char('0' + random() % 10)
+          : n % 3 == 1 ? char(c ^ (1 << random() % 8))
+                       : char(random());
     }
     if(trial % 10 == 0) // a part is missing
       wrong.erase(random() % wrong.size(), random() % 30);
@@ -209,9 +211,8 @@ struct Piece_text
            + "\"><!-- <Points> -->\n<CellData>" + array("Float32", "in_region", in_region)
            + "</CellData>\n<Points><DataArray type=\"" + point_type + "\" NumberOfComponents = \"3\">\n"
            + points + "<InformationKey name=\"x\"><Value> 0 </Value></InformationKey></DataArray></Points>\n"
-           + "<Cells>"
-           + array(index_type, "connectivity", connectivity) + array(index_type, "offsets", offsets)
-           + array("UInt8", "types", types) + "</Cells></Piece>\n";
+           + "<Cells>" + array(index_type, "connectivity", connectivity)
+           + array(index_type, "offsets", offsets) + array("UInt8", "types", types) + "</Cells></Piece>\n";
   }
 };
 

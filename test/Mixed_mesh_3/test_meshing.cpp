@@ -114,8 +114,8 @@ void test_tolerance(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& 
               << result.number_of_vertices_in_region << " vertices in the region" << std::endl;
     last = distance;
     Mesh again;
-    make_mixed_mesh_3(domain, region, Mixed_mesh_criteria_3(660).tolerance(tolerance).number_of_threads(3), traits,
-                      again);
+    make_mixed_mesh_3(domain, region, Mixed_mesh_criteria_3(660).tolerance(tolerance).number_of_threads(3),
+                      traits, again);
     BOOST_TEST(content(again) == content(mesh));
   }
 }
@@ -139,7 +139,8 @@ void test_same(const AnySurface& surface, const AnySurface& region, const Mixed_
 {
   CGAL::Mixed_mesh_3<MeshKernel> mesh;
   const Mixed_mesh_result_3 result = make_mixed_mesh_3(Polyhedral_mixed_mesh_domain_3(surface),
-                                                       Polyhedral_mixed_mesh_region_3(region), criteria, mesh);
+                                                       Polyhedral_mixed_mesh_region_3(region), criteria,
+                                                       mesh);
   check(mesh, result, 660);
   BOOST_TEST(content(mesh) == expected);
 }
@@ -162,12 +163,14 @@ void test_kernels(const Surface& brain, const Surface& region)
   test_same<Exact_kernel>(brain, region, fitted, expected);
   test_same<Simple_kernel>(brain, region, fitted, expected);
   // A copy has its faces in another order: the closest points are rounded differently.
-  make_mixed_mesh_3(Polyhedral_mixed_mesh_domain_3(brain), Polyhedral_mixed_mesh_region_3(region), unfitted(660), mesh);
+  make_mixed_mesh_3(Polyhedral_mixed_mesh_domain_3(brain), Polyhedral_mixed_mesh_region_3(region),
+                    unfitted(660), mesh);
   const Content by_octree = content(mesh);
   using Exact_surface = CGAL::Surface_mesh<Exact_kernel::Point_3>;
   test_same<Exact_kernel>(copy<Exact_surface>(brain), copy<Exact_surface>(region), unfitted(660), by_octree);
   using Simple_polyhedron = CGAL::Polyhedron_3<Simple_kernel>;
-  test_same<Simple_kernel>(copy<Simple_polyhedron>(brain), copy<Simple_polyhedron>(region), unfitted(660), by_octree);
+  test_same<Simple_kernel>(copy<Simple_polyhedron>(brain), copy<Simple_polyhedron>(region), unfitted(660),
+                           by_octree);
   using Polyhedron = CGAL::Polyhedron_3<Kernel>;
   test_same<Kernel>(copy<Polyhedron>(brain), copy<Polyhedron>(region), unfitted(660), by_octree);
 }
@@ -183,8 +186,7 @@ void test_criteria(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& d
   BOOST_TEST(!(content(mesh) == content(plain)));
   check_sides(mesh, result, domain);
 
-  result = run(domain, region,
-               unfitted(1500).transition_templates(Transition_templates_choice::CENTERED),
+  result = run(domain, region, unfitted(1500).transition_templates(Transition_templates_choice::CENTERED),
                mesh);
   BOOST_TEST(result.status == Status::SUCCESS);
   BOOST_TEST_GT(result.number_of_transition_vertices, expected.number_of_transition_vertices);
@@ -200,9 +202,9 @@ void test_criteria(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& d
     result = run(domain, region, unfitted(1500).base_level(level), mesh);
     BOOST_TEST_EQ(result.base_level, level);
     BOOST_TEST(result.status
-               == (level <= 3 ? Status::SUCCESS
-                              : result.number_of_vertices_needed > 1500 ? Status::BUDGET_TOO_SMALL
-                                                                        : Status::SUCCESS));
+               == (level <= 3                                ? Status::SUCCESS
+                   : result.number_of_vertices_needed > 1500 ? Status::BUDGET_TOO_SMALL
+                                                             : Status::SUCCESS));
     BOOST_TEST_GE(result.deepest_level, level);
   }
   BOOST_TEST(result.status == Status::BUDGET_TOO_SMALL);
@@ -217,8 +219,7 @@ void test_criteria(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& d
   for(const Vector_3& axis : {Vector_3(1, 2, 3), Vector_3(0, 0, -1), Vector_3(-1, 0.3, 0.1)}) {
     const Rotated_octree_cell_traits_3 traits(brain.points(), axis);
     const Mixed_mesh_criteria_3 criteria = unfitted(1500);
-    result = make_mixed_mesh_3(domain, region, criteria, traits, mesh,
-                               CGAL::parameters::default_values());
+    result = make_mixed_mesh_3(domain, region, criteria, traits, mesh, CGAL::parameters::default_values());
     check(mesh, result, 1500);
     BOOST_TEST(result.status == Status::SUCCESS);
     check_sides(mesh, result, domain);
@@ -232,21 +233,22 @@ void test_regions(const Polyhedral_mixed_mesh_domain_3& domain, const Surface& r
   const Mixed_mesh_criteria_3 criteria = unfitted(1500);
   Mesh ball, same, everywhere, united;
   const double radius = 15;
-  BOOST_TEST(run(domain, Ball_mixed_mesh_region_3(center, radius), criteria, ball).status
-             == Status::SUCCESS);
+  BOOST_TEST(run(domain, Ball_mixed_mesh_region_3(center, radius), criteria, ball).status == Status::SUCCESS);
   run(domain, Implicit_mixed_mesh_region_3([=](const Point_3& p) {
         return radius - std::sqrt(CGAL::squared_distance(p, center));
-      }), criteria, same);
+      }),
+      criteria, same);
   BOOST_TEST(content(ball) == content(same));
 
-  BOOST_TEST(run(domain, Everywhere_mixed_mesh_region_3(), criteria, everywhere).status
-             == Status::SUCCESS);
+  BOOST_TEST(run(domain, Everywhere_mixed_mesh_region_3(), criteria, everywhere).status == Status::SUCCESS);
   for(std::size_t e = 0; e < everywhere.number_of_elements(); ++e)
     BOOST_TEST(everywhere.is_in_region(e));
 
   using Union = Union_mixed_mesh_region_3<Polyhedral_mixed_mesh_region_3, Ball_mixed_mesh_region_3>;
-  const auto result = run(domain, Union(Polyhedral_mixed_mesh_region_3(region_surface),
-                                        Ball_mixed_mesh_region_3(center, radius)), criteria, united);
+  const auto result = run(domain,
+                          Union(Polyhedral_mixed_mesh_region_3(region_surface),
+                                Ball_mixed_mesh_region_3(center, radius)),
+                          criteria, united);
   BOOST_TEST(result.status == Status::SUCCESS);
   const Polyhedral_mixed_mesh_region_3 alone(region_surface);
   // elements of the union belong to one of the two
@@ -281,9 +283,7 @@ void test_invariance(const Surface& brain, const Surface& region)
   };
   const Content expected = make(brain, region, false), fitted = make(brain, region, true);
   for(double scale : {std::ldexp(1., 20), std::ldexp(1., -20), 1e6, 1e-6, 25.4}) {
-    const auto f = [&](const Point_3& p) {
-      return Point_3(scale * p.x(), scale * p.y(), scale * p.z());
-    };
+    const auto f = [&](const Point_3& p) { return Point_3(scale * p.x(), scale * p.y(), scale * p.z()); };
     const Surface surface = transformed(brain, f), region_surface = transformed(region, f);
     const Content scaled = make(surface, region_surface, false);
     // The side of a cell is rounded to 20 bits: other factors move vertices by up to 2e-6 of the root
@@ -337,8 +337,7 @@ void test_visitor(const Surface& brain, const Surface& region)
   Mesh expected, mesh;
   make_mixed_mesh_3(brain, region, 660, expected);
   Recording_visitor all;
-  const auto result = make_mixed_mesh_3(brain, region, 660, mesh,
-                                        CGAL::parameters::visitor(std::ref(all)));
+  const auto result = make_mixed_mesh_3(brain, region, 660, mesh, CGAL::parameters::visitor(std::ref(all)));
   BOOST_TEST(content(mesh) == content(expected));
   BOOST_TEST_EQ(all.number_of_errors, 0u);
   BOOST_TEST_EQ(all.open, -1);

@@ -73,15 +73,16 @@ double mesh_shape(const std::string& name, const Surface& surface, std::size_t b
 
     if(fitted_status.empty())
       continue;
-    const auto with = run(domain, Everywhere_mixed_mesh_region_3(), Mixed_mesh_criteria_3(budget).root_cell(root),
-                          fitted);
+    const auto with = run(domain, Everywhere_mixed_mesh_region_3(),
+                          Mixed_mesh_criteria_3(budget).root_cell(root), fitted);
     BOOST_TEST_EQ(int(with.status), int(fitted_status[root == Root_cell::BOX]));
     BOOST_TEST(with.status == result.status || with.status == Status::NOT_ALL_ARRIVED);
     BOOST_TEST_EQ(fitted.is_empty(), mesh.is_empty());
     if(fitted.is_empty())
       continue;
     const std::size_t off = number_of_vertices_off_surface(fitted, surface);
-    BOOST_TEST_LE(off, with.optimization.number_of_boundary_vertices - with.optimization.number_of_arrived_vertices);
+    BOOST_TEST_LE(off, with.optimization.number_of_boundary_vertices
+                         - with.optimization.number_of_arrived_vertices);
     BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED || off == 0);
     BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED || volume(fitted) < volume(mesh) * (1 + 1e-12));
     const auto rows = quality_statistics(fitted);
@@ -101,8 +102,7 @@ void test_shapes()
   double volume_of_mesh;
   Surface cube;
   add_box(cube, {0, 0, 0}, {1, 1, 1});
-  volume_of_mesh = mesh_shape("cube", cube, 1000,
-                              {{{Status::SUCCESS, 994, 0}, {Status::SUCCESS, 995, 0}}},
+  volume_of_mesh = mesh_shape("cube", cube, 1000, {{{Status::SUCCESS, 994, 0}, {Status::SUCCESS, 995, 0}}},
                               {Status::SUCCESS, Status::SUCCESS});
   BOOST_TEST(is_near(volume_of_mesh, 1));
 
@@ -152,16 +152,16 @@ void test_shapes()
   const CGAL::Polyhedral_mixed_mesh_domain_3 plates_domain(plates);
   Mesh mesh;
   for(std::size_t n : {100, 500, 20000}) {
-    const auto result =
-      make_mixed_mesh_3(plates_domain, CGAL::Everywhere_mixed_mesh_region_3(), unfitted(n), mesh);
+    const auto result = make_mixed_mesh_3(plates_domain, CGAL::Everywhere_mixed_mesh_region_3(), unfitted(n),
+                                          mesh);
     double lower = 100, upper = 0; // how far the mesh reaches
     for(const auto& p : mesh.points())
       lower = (std::min)(lower, p.z()), upper = (std::max)(upper, p.z());
     const bool has_both = lower < 4 && upper > 56.3;
-    BOOST_TEST(has_both || result.status == Status::PARTS_LOST
-               || result.status == Status::BUDGET_TOO_SMALL || result.status == Status::EMPTY);
+    BOOST_TEST(has_both || result.status == Status::PARTS_LOST || result.status == Status::BUDGET_TOO_SMALL
+               || result.status == Status::EMPTY);
     BOOST_TEST(n < 20000 || has_both);
-    BOOST_TEST_EQ(outcome(mesh, result), (n == 100 ? Outcome{Status::PARTS_LOST, 98, 492}
+    BOOST_TEST_EQ(outcome(mesh, result), (n == 100   ? Outcome{Status::PARTS_LOST, 98, 492}
                                           : n == 500 ? Outcome{Status::PARTS_LOST, 494, 444}
                                                      : Outcome{Status::SUCCESS, 19966, 0}));
   }
@@ -213,7 +213,9 @@ void test_statuses()
   add_sphere(surface, {0, 0, 0}, 1, 12);
   const Polyhedral_mixed_mesh_domain_3 sphere(surface);
   Mesh mesh;
-  const auto status = [&](const Mixed_mesh_criteria_3& criteria) { return run(sphere, everywhere, criteria, mesh).status; };
+  const auto status = [&](const Mixed_mesh_criteria_3& criteria) {
+    return run(sphere, everywhere, criteria, mesh).status;
+  };
   BOOST_TEST(status(Mixed_mesh_criteria_3(1000)) == Status::SUCCESS);
   const Mixed_mesh_criteria_3 boxed = Mixed_mesh_criteria_3(300).root_cell(Root_cell::BOX); // one root only
   BOOST_TEST(status(Mixed_mesh_criteria_3(boxed).tolerance(1)) == Status::SUCCESS);
@@ -231,23 +233,28 @@ void test_statuses()
   Recording_visitor visitor;
   visitor.stop_at = 0;
   BOOST_TEST(make_mixed_mesh_3(sphere, everywhere, Mixed_mesh_criteria_3(1000), mesh,
-                               CGAL::parameters::visitor(std::ref(visitor))).status == Status::STOPPED);
+                               CGAL::parameters::visitor(std::ref(visitor)))
+               .status
+             == Status::STOPPED);
 
   Surface plate; // between the planes of a coarse octree, which has no vertex inside
   add_box(plate, {0, 0, 0.3}, {1, 1, 0.31});
   add_box(plate, {0, 0, 0.9}, {1, 1, 0.91});
   const Ball_mixed_mesh_region_3 away({9, 9, 9}, 1); // the octree stays coarse
-  BOOST_TEST(run(Polyhedral_mixed_mesh_domain_3(plate), away, Mixed_mesh_criteria_3(1000).base_level(2), mesh).status
-             == Status::EMPTY);
+  BOOST_TEST(
+    run(Polyhedral_mixed_mesh_domain_3(plate), away, Mixed_mesh_criteria_3(1000).base_level(2), mesh).status
+    == Status::EMPTY);
   add_sphere(plate, {0.5, 0.5, 1}, 0.45, 8);
-  BOOST_TEST(run(Polyhedral_mixed_mesh_domain_3(plate), everywhere, Mixed_mesh_criteria_3(1000).base_level(3), mesh).status
-             == Status::PARTS_LOST);
+  BOOST_TEST(
+    run(Polyhedral_mixed_mesh_domain_3(plate), everywhere, Mixed_mesh_criteria_3(1000).base_level(3), mesh)
+      .status
+    == Status::PARTS_LOST);
 
   // Balls at two corners of the root, which is too small for them: what is in it meets in a vertex.
   const Axis_aligned_octree_cell_traits_3 small_root({0, 0, 0, 1, 1, 1});
   const std::uint32_t side = internal::lattice_root_side;
-  const Analytic_domain corners(united(ball(small_root.point({0, 0, 0}), 0.01),
-                                       ball(small_root.point({side, 0, 0}), 0.01)));
+  const Analytic_domain corners(
+    united(ball(small_root.point({0, 0, 0}), 0.01), ball(small_root.point({side, 0, 0}), 0.01)));
   const Mixed_mesh_criteria_3 one_level = unfitted(7).base_level(1);
   const auto pinched_result = make_mixed_mesh_3(corners, everywhere, one_level, small_root, mesh);
   check(mesh, pinched_result, 7);
@@ -260,7 +267,8 @@ void test_statuses()
   const auto result = run(pinched, everywhere, Mixed_mesh_criteria_3(1000), mesh);
   BOOST_TEST(result.status == Status::NOT_ALL_ARRIVED);
   BOOST_TEST(result.optimization.status == CGAL::Mixed_mesh_optimization_status::NOT_ALL_ARRIVED);
-  BOOST_TEST_LT(result.optimization.number_of_arrived_vertices, result.optimization.number_of_boundary_vertices);
+  BOOST_TEST_LT(result.optimization.number_of_arrived_vertices,
+                result.optimization.number_of_boundary_vertices);
 }
 } // namespace
 

@@ -44,8 +44,7 @@ struct Moved_surface
 
 bool is_same(const Mesh& a, const Mesh& b)
 {
-  bool result = !a.is_empty() && a.points() == b.points()
-                && a.elements().kinds() == b.elements().kinds()
+  bool result = !a.is_empty() && a.points() == b.points() && a.elements().kinds() == b.elements().kinds()
                 && a.elements().connectivity() == b.elements().connectivity();
   for(std::size_t e = 0; result && e < a.number_of_elements(); ++e)
     result = a.is_in_region(e) == b.is_in_region(e);

@@ -39,10 +39,7 @@ struct Cell
   Lattice_point corner;
   int level;
   std::uint32_t side() const { return Octree::root_side >> level; }
-  bool operator<(const Cell& c) const
-  {
-    return std::tie(corner, level) < std::tie(c.corner, c.level);
-  }
+  bool operator<(const Cell& c) const { return std::tie(corner, level) < std::tie(c.corner, c.level); }
   bool operator==(const Cell& c) const { return corner == c.corner && level == c.level; }
 };
 
@@ -159,8 +156,7 @@ void test_structure(const Octree& octree)
       BOOST_TEST_EQ(octree.parent(c), n);
       BOOST_TEST_EQ(octree.level(c), octree.level(n) + 1);
       for(int k = 0; k < 3; ++k)
-        BOOST_TEST_EQ(octree.corner(c)[k],
-                      octree.corner(n)[k] + (i >> k & 1 ? octree.side(c) : 0));
+        BOOST_TEST_EQ(octree.corner(c)[k], octree.corner(n)[k] + (i >> k & 1 ? octree.side(c) : 0));
     }
   }
   BOOST_TEST_EQ(volume, std::uint64_t(1) << 3 * (Octree::max_level + 1));
@@ -339,8 +335,8 @@ std::size_t test_edge_patterns(const Octree& octree)
     for(int e = 0; e < 12; ++e) {
       const std::uint32_t m = std::uint32_t(midpoints[e]);
       const Lattice_point& c = octree.corner(n);
-      expected |= int(vertices.count({c[0] + m % 3 * half, c[1] + m / 3 % 3 * half,
-                                      c[2] + m / 9 * half})) << e;
+      expected |= int(vertices.count({c[0] + m % 3 * half, c[1] + m / 3 % 3 * half, c[2] + m / 9 * half}))
+                  << e;
     }
     BOOST_TEST_EQ(int(patterns[n]), expected);
     seen.insert(expected);

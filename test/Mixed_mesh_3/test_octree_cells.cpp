@@ -46,10 +46,7 @@ Exact_vector operator-(const Exact_vector& a, const Exact_vector& b)
 {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
-Exact dot(const Exact_vector& a, const Exact_vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+Exact dot(const Exact_vector& a, const Exact_vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // The lattice as an affine frame, in rationals: an origin and the images of the unit vectors.
 struct Frame
@@ -93,8 +90,7 @@ bool exactly_intersect(const Frame& frame, const Lattice_point& corner, std::uin
           clipped.push_back(a);
         if((da > 0 && db < 0) || (da < 0 && db > 0)) {
           const Exact s = da / (da - db);
-          clipped.push_back({a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]),
-                             a[2] + s * (b[2] - a[2])});
+          clipped.push_back({a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])});
         }
       }
       polygon = std::move(clipped);
@@ -111,12 +107,12 @@ void test_lattice(const Traits& traits)
   for(int repeat = 0; repeat < 300; ++repeat) {
     Lattice_point p;
     for(std::uint32_t& c : p)
-      c = std::uint32_t(repeat < 8 ? Octree::root_side * (random() % 2)
-                                   : random() % (Octree::root_side + 1));
+      c = std::uint32_t(repeat < 8 ? Octree::root_side * (random() % 2) : random() % (Octree::root_side + 1));
     const Exact_vector q = exact(traits.point(p));
     for(int k = 0; k < 3; ++k)
-      BOOST_TEST(q[k] == frame.origin[k] + p[0] * frame.units[0][k] + p[1] * frame.units[1][k]
-                           + p[2] * frame.units[2][k]);
+      BOOST_TEST(q[k]
+                 == frame.origin[k] + p[0] * frame.units[0][k] + p[1] * frame.units[1][k]
+                      + p[2] * frame.units[2][k]);
   }
   // Orthogonal and right-handed, so that positive elements of the lattice are positive in space.
   for(int k = 0; k < 3; ++k)
@@ -124,7 +120,8 @@ void test_lattice(const Traits& traits)
   const auto& u = frame.units;
   BOOST_TEST(u[0][0] * (u[1][1] * u[2][2] - u[1][2] * u[2][1])
                - u[0][1] * (u[1][0] * u[2][2] - u[1][2] * u[2][0])
-               + u[0][2] * (u[1][0] * u[2][1] - u[1][1] * u[2][0]) > 0);
+               + u[0][2] * (u[1][0] * u[2][1] - u[1][1] * u[2][0])
+             > 0);
 
   // Cells: center, box, length, and which triangles they meet; those through lattice points touch.
   for(int repeat = 0; repeat < 60; ++repeat) {
@@ -141,8 +138,8 @@ void test_lattice(const Traits& traits)
     double shortest = std::numeric_limits<double>::infinity();
     const Point_3 first = traits.point(corner);
     for(std::uint32_t i = 0; i < 8; ++i) {
-      const Point_3 p = traits.point({corner[0] + (i & 1) * side, corner[1] + (i >> 1 & 1) * side,
-                                      corner[2] + (i >> 2) * side});
+      const Point_3 p = traits.point(
+        {corner[0] + (i & 1) * side, corner[1] + (i >> 1 & 1) * side, corner[2] + (i >> 2) * side});
       box += p.bbox();
       if(i == 1 || i == 2 || i == 4)
         shortest = (std::min)(shortest, std::sqrt(CGAL::squared_distance(p, first)));
@@ -152,8 +149,7 @@ void test_lattice(const Traits& traits)
     for(int i = 0; i < 10; ++i) {
       const auto near = [&](int k) {
         const std::int64_t x = std::int64_t(corner[k]) + (std::int64_t(random() % 7) - 2) * (side / 2);
-        return std::uint32_t((std::min)((std::max)(x, std::int64_t(0)),
-                                        std::int64_t(Octree::root_side)));
+        return std::uint32_t((std::min)((std::max)(x, std::int64_t(0)), std::int64_t(Octree::root_side)));
       };
       const auto vertex = [&] {
         return i % 2 == 0 ? traits.point({near(0), near(1), near(2)})
@@ -180,10 +176,11 @@ void test_cell_traits()
 {
   std::mt19937 random(23);
   std::uniform_real_distribution<double> uniform(0, 1);
-  std::vector<Bbox_3> boxes = {
-    {0, 0, 0, 1, 1, 1}, {0.1, -0.7, 1. / 3, 1.1, 0.9, 0.7}, {-3.9, -44, -65.8, 60.1, 55, 65.79},
-    {1e8, -1e8, 1e8, 1e8 + 100, -1e8 + 33, 1e8 + 7},
-    {1e8, 1e8, 1e8, 1e8 + 1e-5, 1e8 + 1e-6, 1e8 + 1e-6}};
+  std::vector<Bbox_3> boxes = {{0, 0, 0, 1, 1, 1},
+                               {0.1, -0.7, 1. / 3, 1.1, 0.9, 0.7},
+                               {-3.9, -44, -65.8, 60.1, 55, 65.79},
+                               {1e8, -1e8, 1e8, 1e8 + 100, -1e8 + 33, 1e8 + 7},
+                               {1e8, 1e8, 1e8, 1e8 + 1e-5, 1e8 + 1e-6, 1e8 + 1e-6}};
   for(int i = 0; i < 30; ++i) {
     const double offset = std::array<double, 3>{0, 1, 1e8}[i % 3];
     const double x = offset * uniform(random), y = -offset * uniform(random), z = uniform(random);
@@ -192,11 +189,10 @@ void test_cell_traits()
   std::size_t n = 0;
   for(const Bbox_3& b : boxes)
     for(double scale : {1., 1e-6, 1e6}) {
-      const std::vector<Point_3> points = {
-        {scale * b.xmin(), scale * b.ymin(), scale * b.zmin()},
-        {scale * b.xmax(), scale * b.ymax(), scale * b.zmax()},
-        {scale * b.xmax(), scale * b.ymin(), scale * b.zmax()},
-        {scale * b.xmin(), scale * b.ymax(), scale * b.zmax()}};
+      const std::vector<Point_3> points = {{scale * b.xmin(), scale * b.ymin(), scale * b.zmin()},
+                                           {scale * b.xmax(), scale * b.ymax(), scale * b.zmax()},
+                                           {scale * b.xmax(), scale * b.ymin(), scale * b.zmax()},
+                                           {scale * b.xmin(), scale * b.ymax(), scale * b.zmax()}};
       const Bbox_3 box = CGAL::bbox_3(points.begin(), points.end());
       for(Root_cell root : {Root_cell::CUBE, Root_cell::BOX}) {
         const Aligned_traits traits(box, root);
@@ -210,10 +206,10 @@ void test_cell_traits()
         }
       }
       // far more extent than digits left is needed to turn a box 1e-5 small at 1e8
-      const Kernel::Vector_3 axis = n % 7 == 0 ? Kernel::Vector_3(0, 0, -1)
-                                               : Kernel::Vector_3(uniform(random) - 0.5,
-                                                                  uniform(random) - 0.5,
-                                                                  uniform(random) - 0.5);
+      const Kernel::Vector_3 axis = n % 7 == 0
+                                      ? Kernel::Vector_3(0, 0, -1)
+                                      : Kernel::Vector_3(uniform(random) - 0.5, uniform(random) - 0.5,
+                                                         uniform(random) - 0.5);
       const Rotated_traits traits(points, axis);
       test_cover(traits, points);
       if(n < 30)
@@ -221,8 +217,7 @@ void test_cell_traits()
       const Frame frame(traits);
       for(int k = 1; k < 3; ++k)
         BOOST_TEST(dot(frame.units[0], frame.units[0]) == dot(frame.units[k], frame.units[k]));
-      const Kernel::Vector_3 third = traits.point({0, 0, Octree::root_side})
-                                     - traits.point({0, 0, 0});
+      const Kernel::Vector_3 third = traits.point({0, 0, Octree::root_side}) - traits.point({0, 0, 0});
       BOOST_TEST_GT(axis * third / std::sqrt(axis.squared_length() * third.squared_length()),
                     std::cos(3 * CGAL_PI / 180));
       ++n;
@@ -282,20 +277,23 @@ void test_rim()
   const Analytic_domain domain([](const Point_3&) { return 9.; });
   std::size_t number_left_out = 0, number_kept_outside = 0;
   // the last one is smaller than a cell, and contains no center
-  for(const auto& region : {CGAL::Ball_mixed_mesh_region_3({0.4, 0.5, 0.6}, 0.3),
-                            CGAL::Ball_mixed_mesh_region_3({0, 0, 0}, 0.5),
-                            CGAL::Ball_mixed_mesh_region_3({0.5, 0.5, 0.5}, 0.02)}) {
+  for(const auto& region :
+      {CGAL::Ball_mixed_mesh_region_3({0.4, 0.5, 0.6}, 0.3), CGAL::Ball_mixed_mesh_region_3({0, 0, 0}, 0.5),
+       CGAL::Ball_mixed_mesh_region_3({0.5, 0.5, 0.5}, 0.02)}) {
     Located_octree octree(domain, region, traits);
     for(int level = 0; level < 6; ++level) {
       std::vector<Octree::Node_index> all; // that meet the region
       for(Octree::Node_index n : octree.leaves_to_refine(level, false))
         if(octree.is_in_region(n))
           all.push_back(n);
-      const auto corner = [&](Octree::Node_index n, int k) { return std::int64_t(octree.octree().corner(n)[k]); };
+      const auto corner = [&](Octree::Node_index n, int k) {
+        return std::int64_t(octree.octree().corner(n)[k]);
+      };
       const std::int64_t side = Octree::side_at(level);
       std::vector<std::uint8_t> is_core;
       for(Octree::Node_index n : all)
-        is_core.push_back(region.depth(traits.cell(octree.octree().corner(n), Octree::side_at(level)).center()) >= 0);
+        is_core.push_back(
+          region.depth(traits.cell(octree.octree().corner(n), Octree::side_at(level)).center()) >= 0);
       std::vector<Octree::Node_index> expected;
       for(std::size_t i = 0; i < all.size(); ++i) {
         bool is_at_rim = false;
@@ -349,8 +347,8 @@ void test_place_lattice()
   constexpr std::size_t counts[] = {30, 50, 0, 50, 40};
   const auto choose = [&](std::size_t number) {
     std::vector<double> chosen;
-    for(const Bbox_3& r : best_roots(roots, number,
-                                     [&](const Bbox_3& b) { return counts[std::size_t(b.xmin())]; }))
+    for(const Bbox_3& r :
+        best_roots(roots, number, [&](const Bbox_3& b) { return counts[std::size_t(b.xmin())]; }))
       chosen.push_back(r.xmin());
     return chosen;
   };

@@ -144,8 +144,8 @@ void test_surface()
   Test_surface::Vertex_index v[8];
   for(int i = 0; i < 8; ++i)
     v[i] = quads.add_vertex(Test_point(i & 1, i >> 1 & 1, i >> 2));
-  for(const auto& q : {std::array<int, 4>{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1},
-                       {4, 5, 7, 6}})
+  for(const auto& q :
+      {std::array<int, 4>{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}})
     quads.add_face(v[q[0]], v[q[1]], v[q[2]], v[q[3]]);
   FORBIDDEN(Oracle{quads});
 }

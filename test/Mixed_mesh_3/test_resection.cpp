@@ -50,8 +50,7 @@ struct Tally
 
 Mesh grid(int n, Element_kind kind)
 {
-  Mesh mesh =
-    grid_of_cells<Mesh>(n, kind, [](double x, double y, double z) { return Test_point(x, y, z); });
+  Mesh mesh = grid_of_cells<Mesh>(n, kind, [](double x, double y, double z) { return Test_point(x, y, z); });
   return mesh;
 }
 
@@ -251,8 +250,7 @@ Resection_3 check(const Mesh& mesh, const Set& asked, const Resection_options& o
   tally.floating += result.floating.size();
   const Set expected = options.keep_floating_pieces ? naive : united(naive, is_loose_naive);
   const std::size_t changes = result.number_of_restored_elements + result.number_of_pinch_elements;
-  if(count(expected) != n
-     && find_defects(remaining_mesh(mesh, expected)).closed_manifold_boundary()) {
+  if(count(expected) != n && find_defects(remaining_mesh(mesh, expected)).closed_manifold_boundary()) {
     BOOST_TEST(result.is_removed == expected);
     BOOST_TEST_EQ(changes, 0u);
   } else {
@@ -275,8 +273,8 @@ void test_two_cubes()
   BOOST_TEST_EQ(check(mesh, set_of(mesh, {cell(1, 1, 1), cell(2, 1, 1)})).volume, 2.);
   BOOST_TEST_EQ(check(mesh, set_of(mesh, {cell(1, 1, 1), cell(3, 1, 1)})).volume, 2.);
   for(Element_index other : {cell(2, 2, 1), cell(2, 1, 2), cell(1, 2, 2), cell(2, 2, 2)}) {
-    BOOST_TEST(!find_defects(remaining_mesh(mesh, set_of(mesh, {cell(1, 1, 1), other})))
-                  .closed_manifold_boundary());
+    BOOST_TEST(
+      !find_defects(remaining_mesh(mesh, set_of(mesh, {cell(1, 1, 1), other}))).closed_manifold_boundary());
     const Resection_3 result = check(mesh, set_of(mesh, {cell(1, 1, 1), other}));
     BOOST_TEST(result.status == Resection_status::SUCCESS);
     BOOST_TEST_EQ(result.volume, 1.);
@@ -348,9 +346,9 @@ void test_checkerboards()
 
 void test_statuses()
 {
-  for(Resection_status status : {Resection_status::SUCCESS, Resection_status::NOTHING_REMOVED,
-                                 Resection_status::EVERYTHING_RESTORED, Resection_status::EVERYTHING_REMOVED,
-                                 Resection_status::BOUNDARY_NOT_MANIFOLD})
+  for(Resection_status status :
+      {Resection_status::SUCCESS, Resection_status::NOTHING_REMOVED, Resection_status::EVERYTHING_RESTORED,
+       Resection_status::EVERYTHING_REMOVED, Resection_status::BOUNDARY_NOT_MANIFOLD})
     BOOST_TEST(!std::string(description(status)).empty());
 
   const Mesh mesh = grid(3, TETRAHEDRON);
@@ -376,8 +374,9 @@ void test_statuses()
   std::size_t found = 0;
   for(Element_index e = 0; e < n; ++e)
     if(boundary_faces_of[e] == 0
-       && std::count_if(mesh.element(e).begin(), mesh.element(e).end(),
-                        [&](Vertex_index v) { return is_on_boundary[v]; }) == 1) {
+       && std::count_if(mesh.element(e).begin(), mesh.element(e).end(), [&](Vertex_index v) {
+            return is_on_boundary[v];
+          }) == 1) {
       ++found;
       BOOST_TEST(check(mesh, set_of(mesh, {e})).status == Resection_status::EVERYTHING_RESTORED);
     }
@@ -414,7 +413,10 @@ class Box_domain
 {
 public:
   using Point_3 = Test_point;
-  struct Surface_part { int number = 0; };
+  struct Surface_part
+  {
+    int number = 0;
+  };
   Surface_part surface_part() const { return {7}; }
   CGAL::Bounded_side bounded_side(const Point_3& p, const Surface_part& part) const
   {
@@ -445,8 +447,9 @@ void test_domains()
 
   // Another kernel.
   using Exact = CGAL::Mixed_mesh_3<CGAL::Exact_predicates_exact_constructions_kernel>;
-  const Exact exact = grid_of_cells<Exact>(
-    4, HEXAHEDRON, [](double x, double y, double z) { return Exact::Point_3(x, y, z); });
+  const Exact exact = grid_of_cells<Exact>(4, HEXAHEDRON, [](double x, double y, double z) {
+    return Exact::Point_3(x, y, z);
+  });
   BOOST_TEST(resect(exact, surface).is_removed == resect(mesh, surface).is_removed);
 }
 

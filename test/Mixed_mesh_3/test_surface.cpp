@@ -77,8 +77,8 @@ void walk(const Polyhedral_mixed_mesh_domain_3& domain, const Surface& surface, 
   // all points that the stages ask for: corners, midpoints, centers, and some others
   const std::uint32_t half = side / 2;
   for(std::uint32_t i = 0; i < 27; ++i) {
-    const Point_3 p = traits.point({corner[0] + i % 3 * half, corner[1] + i / 3 % 3 * half,
-                                    corner[2] + i / 9 * half});
+    const Point_3 p = traits.point(
+      {corner[0] + i % 3 * half, corner[1] + i / 3 % 3 * half, corner[2] + i / 9 * half});
     const Bounded_side expected = side_of(p);
     number_on_surface += expected == CGAL::ON_BOUNDARY;
     BOOST_TEST_EQ(domain.bounded_side(p, part), expected);
@@ -97,8 +97,8 @@ void walk(const Polyhedral_mixed_mesh_domain_3& domain, const Surface& surface, 
       const Point_3 without_hint = domain.closest_point(p, Polyhedral_mixed_mesh_domain_3::Surface_part());
       BOOST_TEST_LE(std::abs(std::sqrt(CGAL::squared_distance(p, without_hint)) - nearest), tolerance);
       // a hint from elsewhere, and none
-      for(const Point_3& r : {domain.closest_point(p, surface.point(Surface::Vertex_index(i % 6))),
-                              domain.closest_point(p)})
+      for(const Point_3& r :
+          {domain.closest_point(p, surface.point(Surface::Vertex_index(i % 6))), domain.closest_point(p)})
         BOOST_TEST_LE(std::abs(std::sqrt(CGAL::squared_distance(p, r)) - nearest), tolerance);
     }
   }
@@ -108,8 +108,8 @@ void walk(const Polyhedral_mixed_mesh_domain_3& domain, const Surface& surface, 
   if(depth > 0)
     for(std::uint32_t i = 0; i < 8; ++i)
       walk(domain, surface, traits, side_of, depth - 1,
-           {corner[0] + (i & 1) * half, corner[1] + (i >> 1 & 1) * half, corner[2] + (i >> 2) * half},
-           half, part);
+           {corner[0] + (i & 1) * half, corner[1] + (i >> 1 & 1) * half, corner[2] + (i >> 2) * half}, half,
+           part);
 }
 
 template <class Traits>
@@ -122,11 +122,11 @@ void test_oracle(const Surface& surface, const Traits& traits, const Side_functi
 
 Bounded_side side_of_box(const Bbox_3& b, const Point_3& p)
 {
-  if(p.x() < b.xmin() || p.x() > b.xmax() || p.y() < b.ymin() || p.y() > b.ymax()
-     || p.z() < b.zmin() || p.z() > b.zmax())
+  if(p.x() < b.xmin() || p.x() > b.xmax() || p.y() < b.ymin() || p.y() > b.ymax() || p.z() < b.zmin()
+     || p.z() > b.zmax())
     return CGAL::ON_UNBOUNDED_SIDE;
-  return p.x() == b.xmin() || p.x() == b.xmax() || p.y() == b.ymin() || p.y() == b.ymax()
-             || p.z() == b.zmin() || p.z() == b.zmax()
+  return p.x() == b.xmin() || p.x() == b.xmax() || p.y() == b.ymin() || p.y() == b.ymax() || p.z() == b.zmin()
+             || p.z() == b.zmax()
            ? CGAL::ON_BOUNDARY
            : CGAL::ON_BOUNDED_SIDE;
 }
@@ -151,12 +151,13 @@ void test_domain_oracle()
   Surface octahedron;
   add_sphere(octahedron, {1, 2, 3}, 2, 2);
   const std::size_t before = number_on_surface;
-  test_oracle(octahedron, Aligned_traits(bbox_of(octahedron), Root_cell::BOX),
-              [](const Point_3& p) {
-                const double d = std::abs(p.x() - 1) + std::abs(p.y() - 2) + std::abs(p.z() - 3);
-                return d < 2 ? CGAL::ON_BOUNDED_SIDE
-                             : d > 2 ? CGAL::ON_UNBOUNDED_SIDE : CGAL::ON_BOUNDARY;
-              }, 3);
+  test_oracle(
+    octahedron, Aligned_traits(bbox_of(octahedron), Root_cell::BOX),
+    [](const Point_3& p) {
+      const double d = std::abs(p.x() - 1) + std::abs(p.y() - 2) + std::abs(p.z() - 3);
+      return d < 2 ? CGAL::ON_BOUNDED_SIDE : d > 2 ? CGAL::ON_UNBOUNDED_SIDE : CGAL::ON_BOUNDARY;
+    },
+    3);
   BOOST_TEST_GT(number_on_surface, before + 1000);
 
   // A round surface, two components, rotated cells, far away and large: against CGAL.

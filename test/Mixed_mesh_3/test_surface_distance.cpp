@@ -94,8 +94,9 @@ Test_surface refined(Test_surface s, int n)
         const auto edge = std::minmax(v[i], v[(i + 1) % 3]);
         auto found = middles.find(edge);
         if(found == middles.end())
-          found = middles.emplace(edge, r.add_vertex(CGAL::midpoint(s.point(edge.first),
-                                                                    s.point(edge.second)))).first;
+          found = middles
+                    .emplace(edge, r.add_vertex(CGAL::midpoint(s.point(edge.first), s.point(edge.second))))
+                    .first;
         m.push_back(found->second);
       }
       for(std::size_t i = 0; i < 3; ++i)
@@ -132,7 +133,8 @@ std::pair<double, double> sampled_distance(const Test_surface& from, const Test_
     for(int i = 0; i <= n; ++i)
       for(int j = 0; i + j <= n; ++j)
         largest = (std::max)(largest, brute_force_distance(t[0] + double(i) / n * (t[1] - t[0])
-                                                           + double(j) / n * (t[2] - t[0]), to));
+                                                             + double(j) / n * (t[2] - t[0]),
+                                                           to));
   }
   return {largest, largest + longest / n};
 }
@@ -288,7 +290,7 @@ void test_self_intersections()
       const auto point = [&](int i) { return mesh.point(mesh.element(e)[f.vertices[i]]); };
       return Test_kernel::Triangle_3(point(0), point(1), point(2));
     };
-    for(const Element_face* f = reference_elements[TETRAHEDRON].faces, *end = f + 4; f != end; ++f)
+    for(const Element_face *f = reference_elements[TETRAHEDRON].faces, *end = f + 4; f != end; ++f)
       for(const Element_face* g = end - 4; g != end; ++g)
         expected += CGAL::do_intersect(triangle(0, *f), triangle(1, *g));
     BOOST_TEST((expected == 0) == (shift == 5));

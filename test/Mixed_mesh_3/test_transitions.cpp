@@ -65,9 +65,8 @@ void test_transitions(const Analytic_octree& located, Transition_templates_choic
   std::set<Lattice_point> corners;
   Integer volume_of_leaves = 0, volume_of_elements = 0;
   for(Octree::Node_index m : leaves) {
-    const bool is_used = std::any_of(alive.begin(), alive.end(), [&](Octree::Node_index a) {
-      return touch(octree, a, m);
-    });
+    const bool is_used = std::any_of(alive.begin(), alive.end(),
+                                     [&](Octree::Node_index a) { return touch(octree, a, m); });
     BOOST_TEST(used.count(m) != 0 || !is_used);
     const Integer side = octree.side(m);
     if(used.count(m) != 0)
@@ -114,7 +113,7 @@ void test_transitions(const Analytic_octree& located, Transition_templates_choic
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;
     const auto x = [&](int i, int k) { return std::int64_t(mesh.vertices[p[i]][k]); };
     const bool is_upper = (x(1, b) - x(0, b)) * (x(2, c) - x(0, c))
-                            > (x(1, c) - x(0, c)) * (x(2, b) - x(0, b));
+                          > (x(1, c) - x(0, c)) * (x(2, b) - x(0, b));
     if(!is_upper)
       --sum[axis];
     const Octree::Node_index behind = leaf_at(octree, sum);
@@ -151,10 +150,10 @@ void test_transitions(const Analytic_octree& located, Transition_templates_choic
 void test_all_transitions()
 {
   const Aligned_traits traits({0, 0, 0, 1, 1, 1}), box({0, 0, 0, 1, 1, 0.5}, Root_cell::BOX);
-  const std::vector<Analytic_domain> domains = {
-    Analytic_domain(ball({0.45, 0.5, 0.55}, 0.3)),
-    Analytic_domain(united(ball({0.2, 0.2, 0.2}, 0.15), ball({0.9, 0.9, 0.3}, 0.4))),
-    Analytic_domain([](const Point_3&) { return 9.; })};
+  const std::vector<Analytic_domain> domains = {Analytic_domain(ball({0.45, 0.5, 0.55}, 0.3)),
+                                                Analytic_domain(united(ball({0.2, 0.2, 0.2}, 0.15),
+                                                                       ball({0.9, 0.9, 0.3}, 0.4))),
+                                                Analytic_domain([](const Point_3&) { return 9.; })};
   unsigned seed = 0;
   for(const Analytic_domain& domain : domains)
     for(const Aligned_traits& t : {traits, box})
@@ -162,9 +161,8 @@ void test_all_transitions()
         const Analytic_octree octree = random_octree(domain, t, ++seed, base_level, 3);
         test_transitions(octree, Transition_templates_choice::FEWEST_VERTICES);
         test_transitions(octree, Transition_templates_choice::CENTERED);
-        BOOST_TEST_LT(
-          apply_transitions(octree, Transition_templates_choice::FEWEST_VERTICES).vertices.size(),
-          apply_transitions(octree, Transition_templates_choice::CENTERED).vertices.size());
+        BOOST_TEST_LT(apply_transitions(octree, Transition_templates_choice::FEWEST_VERTICES).vertices.size(),
+                      apply_transitions(octree, Transition_templates_choice::CENTERED).vertices.size());
       }
 }
 

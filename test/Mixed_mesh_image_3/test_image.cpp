@@ -52,8 +52,8 @@ void test_identity()
     return Vec3{0, 0, 0};
   }));
   BOOST_TEST(warped.image.values == image.values);
-  BOOST_TEST(warped.mask.values == std::vector<float>(warped.forward.is_in_mesh.begin(),
-                                                      warped.forward.is_in_mesh.end()));
+  BOOST_TEST(warped.mask.values
+             == std::vector<float>(warped.forward.is_in_mesh.begin(), warped.forward.is_in_mesh.end()));
   double inside = 0;
   for(float m : warped.mask.values)
     inside += double(m);
@@ -203,8 +203,7 @@ void test_resection()
   const Element_locator_3<Mesh> locator(scene.mesh);
   for_each_voxel_center(scene.image.grid, [&](std::size_t offset, const Vec3& x) {
     const auto l = locator.locate(x);
-    const bool is_shared = l && l->element == 1
-                           && internal::depth(PRISM, l->coordinates) < 1e-6;
+    const bool is_shared = l && l->element == 1 && internal::depth(PRISM, l->coordinates) < 1e-6;
     const float expected = !l ? 0.f : l->element == 1 ? 2.f : 1.f;
     if(!is_shared)
       BOOST_TEST_EQ(by_elements.mask.values[offset], expected);

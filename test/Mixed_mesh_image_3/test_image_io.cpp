@@ -148,8 +148,8 @@ void test_round_trips()
   BOOST_TEST(IO::write_NIFTI(file("image_field.nii.gz"), field));
   expected << "],\n\"field\": [";
   for(std::size_t i = 0; i < 60; ++i)
-    expected << (i == 0 ? "[" : ", [") << double(field.vectors[i][0]) << ", "
-             << double(field.vectors[i][1]) << ", " << double(field.vectors[i][2]) << "]";
+    expected << (i == 0 ? "[" : ", [") << double(field.vectors[i][0]) << ", " << double(field.vectors[i][1])
+             << ", " << double(field.vectors[i][2]) << "]";
   expected << "]}\n";
 
   // Slope and intercept: values to the nearest that the type holds, cut off at its ends.
@@ -168,7 +168,8 @@ void test_round_trips()
   sheared.grid.index_to_world[0] = {1, 0.3, 0, 5};
   BOOST_TEST(IO::write_NIFTI(file("image_sheared.nii"), sheared));
   BOOST_TEST_LT(difference(read_image(file("image_sheared.nii")).grid.index_to_world,
-                           sheared.grid.index_to_world), 1e-6);
+                           sheared.grid.index_to_world),
+                1e-6);
 }
 
 nifti_1_header small_header()
@@ -212,12 +213,15 @@ void test_orientation()
   BOOST_TEST_EQ(read_map(header).world, 1);
   header.qform_code = 0;
   BOOST_TEST_LT(difference(read_map(header).index_to_world,
-                           Affine_map_3{{{2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 2, 0}}}), 1e-12);
+                           Affine_map_3{{{2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 2, 0}}}),
+                1e-12);
   BOOST_TEST_EQ(read_map(header).world, 0);
   // units
   header.sform_code = 2;
-  for(const auto& unit : {std::pair<int, double>{NIFTI_UNITS_METER, 1000}, {NIFTI_UNITS_MM, 1},
-                          {NIFTI_UNITS_MICRON, 1e-3}, {NIFTI_UNITS_UNKNOWN, 1}}) {
+  for(const auto& unit : {std::pair<int, double>{NIFTI_UNITS_METER, 1000},
+                          {NIFTI_UNITS_MM, 1},
+                          {NIFTI_UNITS_MICRON, 1e-3},
+                          {NIFTI_UNITS_UNKNOWN, 1}}) {
     header.xyzt_units = char(unit.first);
     Affine_map_3 scaled = sform;
     for(auto& row : scaled)

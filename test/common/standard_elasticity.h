@@ -21,8 +21,7 @@
 template <class Mesh>
 std::vector<CGAL::Mixed_meshes_3::Vec3>
 standard_solution(const Mesh& mesh, const CGAL::Mixed_meshes_3::Elastic_material& material,
-                  std::vector<bool> is_prescribed,
-                  std::vector<CGAL::Mixed_meshes_3::Vec3> displacements)
+                  std::vector<bool> is_prescribed, std::vector<CGAL::Mixed_meshes_3::Vec3> displacements)
 {
   using namespace CGAL::Mixed_meshes_3::internal;
   using CGAL::Mixed_meshes_3::Vec3;

@@ -32,12 +32,13 @@ using Mesh = CGAL::Mixed_mesh_3<CGAL::Mixed_meshes_3::Predicates_kernel>;
 inline Affine_map_3 oblique(const Vec3& sizes, const Vec3& origin, bool mirror)
 {
   const double a = 0.3, b = -0.5, c = 0.2;
-  const double r[3][3] = {
-    {std::cos(b) * std::cos(c), -std::cos(b) * std::sin(c), std::sin(b)},
-    {std::cos(a) * std::sin(c) + std::sin(a) * std::sin(b) * std::cos(c),
-     std::cos(a) * std::cos(c) - std::sin(a) * std::sin(b) * std::sin(c), -std::sin(a) * std::cos(b)},
-    {std::sin(a) * std::sin(c) - std::cos(a) * std::sin(b) * std::cos(c),
-     std::sin(a) * std::cos(c) + std::cos(a) * std::sin(b) * std::sin(c), std::cos(a) * std::cos(b)}};
+  const double r[3][3] = {{std::cos(b) * std::cos(c), -std::cos(b) * std::sin(c), std::sin(b)},
+                          {std::cos(a) * std::sin(c) + std::sin(a) * std::sin(b) * std::cos(c),
+                           std::cos(a) * std::cos(c) - std::sin(a) * std::sin(b) * std::sin(c),
+                           -std::sin(a) * std::cos(b)},
+                          {std::sin(a) * std::sin(c) - std::cos(a) * std::sin(b) * std::cos(c),
+                           std::sin(a) * std::cos(c) + std::cos(a) * std::sin(b) * std::sin(c),
+                           std::cos(a) * std::cos(b)}};
   Affine_map_3 map;
   for(int i = 0; i < 3; ++i) {
     for(int j = 0; j < 3; ++j)
@@ -68,8 +69,8 @@ inline Voxel_image_3 ramp_image(const Affine_map_3& map, const std::array<std::s
   for(std::size_t k = 0; k < size[2]; ++k)
     for(std::size_t j = 0; j < size[1]; ++j)
       for(std::size_t i = 0; i < size[0]; ++i)
-        image.values[image.grid.offset(i, j, k)] =
-          float(ramp(CGAL::Mixed_meshes_3::transform(map, Vec3(double(i), double(j), double(k)))));
+        image.values[image.grid.offset(i, j, k)] = float(
+          ramp(CGAL::Mixed_meshes_3::transform(map, Vec3(double(i), double(j), double(k)))));
   return image;
 }
 

@@ -42,11 +42,10 @@ using Aligned_traits = Axis_aligned_octree_cell_traits_3;
 
 // ---- a domain made of labels -------------------------------------------------------------------
 
-using Analytic_octree =
-  Located_octree<Analytic_domain, Everywhere_mixed_mesh_region_3, Aligned_traits>;
+using Analytic_octree = Located_octree<Analytic_domain, Everywhere_mixed_mesh_region_3, Aligned_traits>;
 
 inline Analytic_octree random_octree(const Analytic_domain& domain, const Aligned_traits& traits,
-                              unsigned seed, int base_level, int rounds, unsigned one_in = 12)
+                                     unsigned seed, int base_level, int rounds, unsigned one_in = 12)
 {
   static const Everywhere_mixed_mesh_region_3 region;
   std::mt19937 random(seed);
@@ -69,15 +68,14 @@ inline Analytic_octree random_octree(const Analytic_domain& domain, const Aligne
 using Integer = boost::multiprecision::int128_t;
 
 inline Integer determinant(const Lattice_point& a, const Lattice_point& b, const Lattice_point& c,
-                    const Lattice_point& d)
+                           const Lattice_point& d)
 {
   Integer m[3][3];
   const Lattice_point* rows[3] = {&b, &c, &d};
   for(int i = 0; i < 3; ++i)
     for(int k = 0; k < 3; ++k)
       m[i][k] = std::int64_t((*rows[i])[k]) - std::int64_t(a[k]);
-  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
-         - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
          + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
@@ -98,8 +96,8 @@ inline bool is_positive(const std::vector<Lattice_point>& points, const Element_
 {
   for(int c = 0; c < element.reference().number_of_corners; ++c) {
     const auto& i = element.reference().corners[c];
-    if(determinant(points[element[i[0]]], points[element[i[1]]], points[element[i[2]]],
-                   points[element[i[3]]]) <= 0)
+    if(determinant(points[element[i[0]]], points[element[i[1]]], points[element[i[2]]], points[element[i[3]]])
+       <= 0)
       return false;
   }
   return true;

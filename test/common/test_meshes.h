@@ -48,8 +48,8 @@ Mesh grid_of_cells(int n, CGAL::Mixed_meshes_3::Element_kind kind, const Place& 
         } else if(kind == PYRAMID) {
           const Vertex_index center = mesh.add_vertex(place(x + 0.5, y + 0.5, z + 0.5));
           for(const Element_face& f : reference_elements[HEXAHEDRON].faces) // seen from inside: reversed
-            mesh.add_element(kind,
-                             {v[f.vertices[3]], v[f.vertices[2]], v[f.vertices[1]], v[f.vertices[0]], center});
+            mesh.add_element(kind, {v[f.vertices[3]], v[f.vertices[2]], v[f.vertices[1]], v[f.vertices[0]],
+                                    center});
         } else { // around the diagonal, the same in each cell
           static constexpr int path[6][2] = {{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}};
           for(const auto& p : path)
@@ -67,8 +67,18 @@ Mesh four_kinds(double scale, const CGAL::Mixed_meshes_3::Vec3& origin, double p
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-perturbation, perturbation);
   Mesh mesh;
-  for(const Vec3& p : {Vec3{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1},
-                       {0, 1, 1}, {0.5, 0.5, 2}, {2, 0, 0}, {2, 1, 0}, {1.7, 0.5, 1.8}}) {
+  for(const Vec3& p : {Vec3{0, 0, 0},
+                       {1, 0, 0},
+                       {1, 1, 0},
+                       {0, 1, 0},
+                       {0, 0, 1},
+                       {1, 0, 1},
+                       {1, 1, 1},
+                       {0, 1, 1},
+                       {0.5, 0.5, 2},
+                       {2, 0, 0},
+                       {2, 1, 0},
+                       {1.7, 0.5, 1.8}}) {
     const Vec3 q = origin + scale * (p + Vec3{uniform(random), uniform(random), uniform(random)});
     mesh.add_vertex({q[0], q[1], q[2]});
   }

@@ -71,7 +71,10 @@ Content content(const AnyMesh& mesh)
 }
 
 // The mesh as the octree leaves it, its boundary outside the domain.
-inline Mixed_mesh_criteria_3 unfitted(std::size_t n) { return Mixed_mesh_criteria_3(n).fit_to_surface(false); }
+inline Mixed_mesh_criteria_3 unfitted(std::size_t n)
+{
+  return Mixed_mesh_criteria_3(n).fit_to_surface(false);
+}
 
 // What holds for any input: a valid mesh within the budget, or none.
 template <class AnyMesh>
@@ -89,13 +92,12 @@ void check(const AnyMesh& mesh, const Mixed_mesh_result_3& result, std::size_t b
   BOOST_TEST_EQ(d.closed_manifold_boundary(), result.status != Status::BOUNDARY_NOT_MANIFOLD);
   BOOST_TEST_GT(volume(mesh), 0);
   BOOST_TEST(result.status != Status::SUCCESS || mesh.number_of_vertices() >= 0.97 * double(budget));
-  BOOST_TEST(result.status != Status::BUDGET_NOT_FILLED
-             || mesh.number_of_vertices() < 0.97 * double(budget));
+  BOOST_TEST(result.status != Status::BUDGET_NOT_FILLED || mesh.number_of_vertices() < 0.97 * double(budget));
 }
 
 template <class Domain, class Region>
-Mixed_mesh_result_3 run(const Domain& domain, const Region& region,
-                        const Mixed_mesh_criteria_3& criteria, Mesh& mesh)
+Mixed_mesh_result_3 run(const Domain& domain, const Region& region, const Mixed_mesh_criteria_3& criteria,
+                        Mesh& mesh)
 {
   const Mixed_mesh_result_3 result = make_mixed_mesh_3(domain, region, criteria, mesh);
   check(mesh, result, criteria.maximal_number_of_vertices());
@@ -105,7 +107,7 @@ Mixed_mesh_result_3 run(const Domain& domain, const Region& region,
 // Of a mesh that is not fitted: every boundary vertex is outside or on the surface, every other one inside,
 // unless the repair of pinched places made it so.
 inline void check_sides(const Mesh& mesh, const Mixed_mesh_result_3& result,
-                 const Polyhedral_mixed_mesh_domain_3& domain)
+                        const Polyhedral_mixed_mesh_domain_3& domain)
 {
   std::vector<bool> is_boundary(mesh.number_of_vertices());
   for(Vertex_index v : boundary_vertices(mesh))

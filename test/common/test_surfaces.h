@@ -47,10 +47,11 @@ inline void add_sphere(Test_surface& s, const Test_point& center, double radius,
     for(int j = 0; j < (i == 0 || i == n ? 1 : n == 2 ? 4 : 2 * n); ++j) {
       const double a = CGAL_PI * i / n, b = CGAL_PI * j / (n == 2 ? 2 : n);
       const auto exact_if_axis = [&](double x) { return std::abs(x) < 1e-9 ? 0 : x; };
-      rings[i].push_back(s.add_vertex(
-        center + radius * Test_kernel::Vector_3(exact_if_axis(std::sin(a) * std::cos(b)),
-                                           exact_if_axis(std::sin(a) * std::sin(b)),
-                                           exact_if_axis(std::cos(a)))));
+      rings[i].push_back(s.add_vertex(center
+                                      + radius
+                                          * Test_kernel::Vector_3(exact_if_axis(std::sin(a) * std::cos(b)),
+                                                                  exact_if_axis(std::sin(a) * std::sin(b)),
+                                                                  exact_if_axis(std::cos(a)))));
     }
   for(int i = 0; i < n; ++i) {
     const auto &up = rings[i], &down = rings[i + 1];
@@ -85,7 +86,9 @@ class Analytic_domain
 {
 public:
   using Point_3 = Test_point;
-  struct Surface_part {};
+  struct Surface_part
+  {
+  };
 
   explicit Analytic_domain(std::function<double(const Point_3&)> f) : m_function(std::move(f)) {}
 
@@ -98,8 +101,7 @@ public:
     const CGAL::Bbox_3 b = cell.bbox();
     const double radius = std::hypot(b.x_span(), b.y_span(), b.z_span()) / 2;
     const double f = m_function(cell.center());
-    return f > radius ? CGAL::ON_BOUNDED_SIDE
-                      : f < -radius ? CGAL::ON_UNBOUNDED_SIDE : CGAL::ON_BOUNDARY;
+    return f > radius ? CGAL::ON_BOUNDED_SIDE : f < -radius ? CGAL::ON_UNBOUNDED_SIDE : CGAL::ON_BOUNDARY;
   }
 
   CGAL::Bounded_side bounded_side(const Point_3& p) const

@@ -35,7 +35,8 @@ int main(int argc, char** argv)
   Surface surface, region_surface;
   if(argc < 4 || !PMP::IO::read_polygon_mesh(argv[1], surface)
      || !PMP::IO::read_polygon_mesh(argv[2], region_surface)) {
-    std::cerr << "usage: benchmark_make_mixed_mesh_3 SURFACE REGION VERTICES [THREADS [optimize|relax|none]]\n";
+    std::cerr
+      << "usage: benchmark_make_mixed_mesh_3 SURFACE REGION VERTICES [THREADS [optimize|relax|none]]\n";
     return 2;
   }
   const auto criteria = CGAL::Mixed_mesh_criteria_3(std::stoul(argv[3]))
@@ -46,15 +47,13 @@ int main(int argc, char** argv)
   const std::size_t memory_before = log.peak_bytes();
   const std::clock_t start = std::clock();
   const auto domain = log("AABB trees", [&] { return CGAL::Polyhedral_mixed_mesh_domain_3(surface); });
-  const auto region =
-    log("AABB trees", [&] { return CGAL::Polyhedral_mixed_mesh_region_3(region_surface); });
+  const auto region = log("AABB trees", [&] { return CGAL::Polyhedral_mixed_mesh_region_3(region_surface); });
   CGAL::Mixed_mesh_3<Kernel> mesh;
-  const auto result =
-    CGAL::make_mixed_mesh_3(domain, region, criteria, mesh, CGAL::parameters::visitor(std::ref(log)));
+  const auto result = CGAL::make_mixed_mesh_3(domain, region, criteria, mesh,
+                                              CGAL::parameters::visitor(std::ref(log)));
   if(relaxes)
-    log("Algorithm 1", [&] {
-      return CGAL::fit_mixed_mesh_to_surface(mesh, domain, CGAL::Mixed_mesh_fit_criteria_3());
-    });
+    log("Algorithm 1",
+        [&] { return CGAL::fit_mixed_mesh_to_surface(mesh, domain, CGAL::Mixed_mesh_fit_criteria_3()); });
   const auto defects = log("checks", [&] { return CGAL::Mixed_meshes_3::find_defects(mesh); });
   const double cpu = double(std::clock() - start) / CLOCKS_PER_SEC, seconds = log.seconds();
   const bool is_valid = result.status == CGAL::Mixed_mesh_status::SUCCESS && defects.none();

@@ -100,8 +100,7 @@ class Distance_grid
 
 public:
   Distance_grid(const Surface& region_surface, const CGAL::Bbox_3& box)
-    : m_side(Mesh_measures::build(m_tree, region_surface))
-    , m_origin(box.xmin(), box.ymin(), box.zmin())
+    : m_side(Mesh_measures::build(m_tree, region_surface)), m_origin(box.xmin(), box.ymin(), box.zmin())
   {
     const double extents[3] = {box.x_span(), box.y_span(), box.z_span()};
     m_step = std::hypot(extents[0], extents[1], extents[2]) / 48;
@@ -151,8 +150,7 @@ public:
 
   FT operator()(const Point_3& p, int, const Index&) const
   {
-    return (std::min)(m_sizes.in_region + m_sizes.growth * (std::max)(0., (*m_distance)(p)),
-                      m_sizes.largest);
+    return (std::min)(m_sizes.in_region + m_sizes.growth * (std::max)(0., (*m_distance)(p)), m_sizes.largest);
   }
 };
 
@@ -179,11 +177,9 @@ Result make_mesh(const Surface& surface, const Surface& region_surface, const Si
   const Domain domain(surface, &random);
   Distance_grid distance(region_surface, domain.bbox());
   const Sizing_field size(distance, sizes);
-  const Mesh_criteria criteria(
-    Mesh_criteria::Facet_criteria(sizes.facet_angle, size, sizes.facet_distance),
-    Mesh_criteria::Cell_criteria(sizes.radius_edge_ratio, size));
-  result.complex =
-    CGAL::make_mesh_3<Complex>(domain, criteria, params::no_perturb(), params::no_exude());
+  const Mesh_criteria criteria(Mesh_criteria::Facet_criteria(sizes.facet_angle, size, sizes.facet_distance),
+                               Mesh_criteria::Cell_criteria(sizes.radius_edge_ratio, size));
+  result.complex = CGAL::make_mesh_3<Complex>(domain, criteria, params::no_perturb(), params::no_exude());
   result.cpu_seconds_of_refinement = lap();
   if(with_perturbation) {
     CGAL::perturb_mesh_3(result.complex, domain);
@@ -273,7 +269,8 @@ try {
 
   Surface surface, region_surface;
   require([&](std::string* error) { return mm3::IO::read_closed_surface(surface_file, surface, error); });
-  require([&](std::string* error) { return mm3::IO::read_closed_surface(region_file, region_surface, error); });
+  require(
+    [&](std::string* error) { return mm3::IO::read_closed_surface(region_file, region_surface, error); });
 
   if(sizes.in_region <= 0)
     sizes.in_region = find_size_in_region(surface, region_surface, sizes, number_of_vertices);

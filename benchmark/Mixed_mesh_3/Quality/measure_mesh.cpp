@@ -43,7 +43,8 @@ try {
 
   Surface surface, region_surface;
   require([&](std::string* error) { return mm3::IO::read_closed_surface(surface_file, surface, error); });
-  require([&](std::string* error) { return mm3::IO::read_closed_surface(region_file, region_surface, error); });
+  require(
+    [&](std::string* error) { return mm3::IO::read_closed_surface(region_file, region_surface, error); });
 
   CGAL::Mixed_mesh_3<Kernel> mesh;
   const std::clock_t start = std::clock();

@@ -80,8 +80,8 @@ inline std::vector<Sample> samples(const Surface& surface, double step)
   std::vector<Sample> result;
   for(const Surface::Face_index f : faces(surface)) {
     const auto [a, b, c] = triangle_points(surface, f);
-    const double longest = std::sqrt((std::max)({CGAL::squared_distance(a, b), CGAL::squared_distance(b, c),
-                                                 CGAL::squared_distance(c, a)}));
+    const double longest = std::sqrt(
+      (std::max)({CGAL::squared_distance(a, b), CGAL::squared_distance(b, c), CGAL::squared_distance(c, a)}));
     const int n = (std::max)(1, int(std::ceil(longest / step)));
     const double weight = std::sqrt(CGAL::squared_area(a, b, c)) / (0.5 * (n + 1) * (n + 2));
     for(int i = 0; i <= n; ++i)
@@ -169,8 +169,8 @@ std::array<double, 2> dihedral_angles(const Mesh& mesh)
             if(face.vertices[i] == next && face.vertices[(i + 1) % face.size] == v) {
               int ignored = -1;
               const Vec3 m = normal(g, v, ignored), edge = p[next] - p[v];
-              const double angle =
-                180 - degrees * std::atan2(determinant(n, m, edge) / norm(edge), dot(n, m));
+              const double angle = 180
+                                   - degrees * std::atan2(determinant(n, m, edge) / norm(edge), dot(n, m));
               range = {(std::min)(range[0], angle), (std::max)(range[1], angle)};
             }
         }
@@ -229,8 +229,8 @@ nlohmann::ordered_json measure(const Mesh& mesh, const Surface& surface, const S
   std::vector<char> is_in_region;
   for(const auto& p : mesh.points())
     is_in_region.push_back(side_of_region(to_point(p)) != CGAL::ON_UNBOUNDED_SIDE);
-  line["share of vertices in region"] =
-    double(std::count(is_in_region.begin(), is_in_region.end(), 1)) / double(is_in_region.size());
+  line["share of vertices in region"] = double(std::count(is_in_region.begin(), is_in_region.end(), 1))
+                                        / double(is_in_region.size());
   std::vector<std::array<mm3::Vertex_index, 2>> edges;
   for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
     const auto element = mesh.element(e);
@@ -282,8 +282,9 @@ nlohmann::ordered_json measure(const Mesh& mesh, const Surface& surface, const S
   for(const mm3::Element_kind kind : mm3::element_kinds) {
     const auto& row = rows[kind];
     if(row.count != 0)
-      line["kinds"][mm3::reference_elements[kind].plural] = {
-        {"count", row.count}, {"ARC mean", row.mean}, {"ARC max", row.maximum}};
+      line["kinds"][mm3::reference_elements[kind].plural] = {{"count", row.count},
+                                                             {"ARC mean", row.mean},
+                                                             {"ARC max", row.maximum}};
   }
   const auto [smallest, largest] = dihedral_angles(mesh);
   line["smallest dihedral angle"] = smallest;
@@ -294,7 +295,8 @@ nlohmann::ordered_json measure(const Mesh& mesh, const Surface& surface, const S
   return line;
 }
 
-/// Ends a program: adds the measures to a line if wanted, writes the mesh if a file is given, prints the line.
+/// Ends a program: adds the measures to a line if wanted, writes the mesh if a file is given, prints the
+/// line.
 template <class Mesh>
 void finish(nlohmann::ordered_json line, const Mesh& mesh, const Surface& surface, const Surface& region,
             bool only_time, const std::string& output_file)

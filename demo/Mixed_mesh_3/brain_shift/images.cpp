@@ -46,11 +46,11 @@ std::size_t number_of_vertices_inside(const Mesh& mesh, const mm3::Voxel_grid_3&
   CGAL::Bbox_3 box;
   for(const auto& p : mesh.points())
     box += p.bbox();
-  throw std::runtime_error(o.image + ": the image does not overlap the mesh " + o.mesh
-                           + ": its center is at " + place(mm3::transform(grid.index_to_world, middle))
-                           + ", the mesh's at "
-                           + place({(box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2,
-                                    (box.zmin() + box.zmax()) / 2}) + ", in mm");
+  throw std::runtime_error(
+    o.image + ": the image does not overlap the mesh " + o.mesh + ": its center is at "
+    + place(mm3::transform(grid.index_to_world, middle)) + ", the mesh's at "
+    + place({(box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2, (box.zmin() + box.zmax()) / 2})
+    + ", in mm");
 }
 
 } // namespace
@@ -110,6 +110,7 @@ mm3::Voxel_image_3 read_image(const Options&, const Mesh&, Outcome&)
 
 void write_images(mm3::IO::Output_files&, const mm3::Voxel_image_3&, const Mesh&, const Tumor*,
                   const std::vector<bool>&, const Options&, Stage_log&, Outcome&)
-{}
+{
+}
 
 #endif

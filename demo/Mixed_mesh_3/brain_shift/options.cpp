@@ -27,23 +27,30 @@ constexpr bool has_nifti = true;
 constexpr bool has_nifti = false;
 #endif
 
-CLI::Validator fraction() { return number("from 0 to 1", [](double x) { return x >= 0 && x <= 1; }); }
-CLI::Validator not_negative() { return number("of at least 0", [](double x) { return x >= 0; }); }
+CLI::Validator fraction()
+{
+  return number("from 0 to 1", [](double x) { return x >= 0 && x <= 1; });
+}
+CLI::Validator not_negative()
+{
+  return number("of at least 0", [](double x) { return x >= 0; });
+}
 
 // Returns the option that those of images need.
 CLI::Option* add_inputs(CLI::App& app, Options& o)
 {
   app.add_option("MESH", o.mesh, "Mesh of the brain, in mm: .vtu or .msh")->required();
-  app.add_option("--control-points", o.control_points,
-                 "Table of points with given displacements, in mm: a header x,y,z,dx,dy,dz, then a line for "
-                 "each")
+  app
+    .add_option("--control-points", o.control_points,
+                "Table of points with given displacements, in mm: a header x,y,z,dx,dy,dz, then a line for "
+                "each")
     ->required()
     ->type_name("FILE.csv");
-  app.add_option("--tumor,--tumour", o.tumor,
-                 "Closed surface: elements whose centroid is inside are removed, after the shift")
+  app
+    .add_option("--tumor,--tumour", o.tumor,
+                "Closed surface: elements whose centroid is inside are removed, after the shift")
     ->type_name("SURFACE");
-  return app.add_option("--image", o.image, "Image before the shift: .nii or .nii.gz")
-    ->type_name("IMAGE");
+  return app.add_option("--image", o.image, "Image before the shift: .nii or .nii.gz")->type_name("IMAGE");
 }
 
 void add_supports(CLI::App& app, Options& o)
@@ -51,20 +58,23 @@ void add_supports(CLI::App& app, Options& o)
   app.add_option("--up", o.up, "Direction of height: x, y, z, -x, -y, -z, or three numbers")
     ->type_name("X,Y,Z")
     ->capture_default_str();
-  app.add_option("--fixed-below", o.fixed_below,
-                 "Boundary vertices in that lower part of the height are fixed; 0: none")
+  app
+    .add_option("--fixed-below", o.fixed_below,
+                "Boundary vertices in that lower part of the height are fixed; 0: none")
     ->check(fraction())
     ->type_name("FRACTION")
     ->capture_default_str();
   CLI::Option* slide_below =
-    app.add_option("--slide-below", o.slide_below,
-                   "Boundary vertices in that lower part of the height that are not fixed slide along the "
-                   "boundary without friction (default: 0, none)")
+    app
+      .add_option("--slide-below", o.slide_below,
+                  "Boundary vertices in that lower part of the height that are not fixed slide along the "
+                  "boundary without friction (default: 0, none)")
       ->check(fraction())
       ->type_name("FRACTION");
-  app.add_option("--slide-beyond", o.slide_beyond,
-                 "Boundary vertices farther than that from all control points slide, unless fixed: the skull "
-                 "holds the brain but at the opening (default: none)")
+  app
+    .add_option("--slide-beyond", o.slide_beyond,
+                "Boundary vertices farther than that from all control points slide, unless fixed: the skull "
+                "holds the brain but at the opening (default: none)")
     ->check(not_negative())
     ->excludes(slide_below)
     ->type_name("MM");
@@ -80,24 +90,27 @@ void add_physics(CLI::App& app, Options& o)
     ->check(number("of at least 0 and below 0.5", [](double x) { return x >= 0 && x < 0.5; }))
     ->type_name("NU")
     ->capture_default_str();
-  app.add_option("--gravity", o.gravity,
-                 "Acceleration in mm/s^2, for example 0,0,-9810; tissue weighs 1 kg/l")
+  app
+    .add_option("--gravity", o.gravity, "Acceleration in mm/s^2, for example 0,0,-9810; tissue weighs 1 kg/l")
     ->type_name("X,Y,Z")
     ->capture_default_str();
-  app.add_option("--max-distance", o.max_distance,
-                 "Control points up to so far outside the mesh are taken to its boundary")
+  app
+    .add_option("--max-distance", o.max_distance,
+                "Control points up to so far outside the mesh are taken to its boundary")
     ->check(not_negative())
     ->type_name("MM")
     ->capture_default_str();
-  app.add_option("--control-radius", o.control_radius,
-                 "A control point has the mean displacement of the boundary within so far, mm; 0: that of "
-                 "the point itself, which a force then dents, the deeper the finer the mesh")
+  app
+    .add_option("--control-radius", o.control_radius,
+                "A control point has the mean displacement of the boundary within so far, mm; 0: that of "
+                "the point itself, which a force then dents, the deeper the finer the mesh")
     ->check(not_negative())
     ->type_name("MM")
     ->capture_default_str();
-  app.add_option("--control-compliance", o.compliance,
-                 "How far a control point gives way to a force, for measurements that are noisy, in mm/mN; "
-                 "0: they are exact")
+  app
+    .add_option("--control-compliance", o.compliance,
+                "How far a control point gives way to a force, for measurements that are noisy, in mm/mN; "
+                "0: they are exact")
     ->check(not_negative())
     ->type_name("C")
     ->capture_default_str();
@@ -105,19 +118,22 @@ void add_physics(CLI::App& app, Options& o)
 
 void add_outputs(CLI::App& app, Options& o, CLI::Option* image)
 {
-  app.add_option("--output", o.outputs,
-                 "Mesh as it was, with the point data `displacement` and the cell data `resected`: .vtu; can "
-                 "be given several times")
+  app
+    .add_option("--output", o.outputs,
+                "Mesh as it was, with the point data `displacement` and the cell data `resected`: .vtu; can "
+                "be given several times")
     ->type_name("FILE.vtu")
     ->allow_extra_args(false);
-  app.add_option("--output-deformed", o.deformed_outputs,
-                 "Mesh that is left, deformed: .vtu, .msh, .mesh, .inp, .feb; can be given several times")
+  app
+    .add_option("--output-deformed", o.deformed_outputs,
+                "Mesh that is left, deformed: .vtu, .msh, .mesh, .inp, .feb; can be given several times")
     ->type_name("FILE")
     ->allow_extra_args(false);
   CLI::Option* output_image =
-    app.add_option("--output-image", o.output_image,
-                   "Start of the names of images: PREFIX.nii.gz (deformed), PREFIX_forward.nii.gz, "
-                   "PREFIX_backward.nii.gz (displacements), PREFIX_mask.nii.gz (1 tissue, 2 resected)")
+    app
+      .add_option("--output-image", o.output_image,
+                  "Start of the names of images: PREFIX.nii.gz (deformed), PREFIX_forward.nii.gz, "
+                  "PREFIX_backward.nii.gz (displacements), PREFIX_mask.nii.gz (1 tissue, 2 resected)")
       ->needs(image)
       ->type_name("PREFIX");
   image->needs(output_image);

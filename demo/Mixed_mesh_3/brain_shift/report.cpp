@@ -129,8 +129,13 @@ std::string report(const Options& o, const Outcome& outcome, const Stage_log& lo
                       {"tumor", outcome.tumor ? describe(*outcome.tumor) : Json()},
                       {"image", outcome.image ? describe(*outcome.image, o) : Json()}};
   report["parameters"] = parameters_of(o);
-  report["units"] = {{"lengths", "mm"}, {"areas", "mm^2"}, {"volumes", "mm^3"}, {"forces", "mN"},
-                     {"energy", "microjoule"}, {"times", "ms"}, {"heights", "height of the mesh"}};
+  report["units"] = {{"lengths", "mm"},
+                     {"areas", "mm^2"},
+                     {"volumes", "mm^3"},
+                     {"forces", "mN"},
+                     {"energy", "microjoule"},
+                     {"times", "ms"},
+                     {"heights", "height of the mesh"}};
   report["supports"] = {{"boundary vertices", outcome.supports.boundary_vertices},
                         {"fixed", outcome.supports.fixed},
                         {"sliding", outcome.supports.sliding}};

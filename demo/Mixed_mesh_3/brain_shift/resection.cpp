@@ -22,9 +22,9 @@ struct Tumor::Domain : CGAL::Polyhedral_mixed_mesh_domain_3
 };
 
 Tumor::Tumor(const std::string& path, Surface_facts& facts, std::vector<std::string>& warnings)
-  : m_path(path)
-  , m_domain(std::make_unique<const Domain>(read_surface(path, facts, warnings)))
-{}
+  : m_path(path), m_domain(std::make_unique<const Domain>(read_surface(path, facts, warnings)))
+{
+}
 
 Tumor::~Tumor() = default;
 

@@ -35,14 +35,14 @@ namespace {
     throw std::runtime_error(at_line() + "the control point is " + rounded(result.distance) + " mm outside "
                              + o.mesh + "; --max-distance is " + rounded(o.max_distance) + " mm");
   case Elasticity_status::CONTRADICTORY_CONTROL_POINTS:
-    throw std::runtime_error(at_line() + "the displacement contradicts those of other control points, or "
-                             "supports, in the same element: it is missed by " + rounded(result.distance)
-                             + " mm; see --control-compliance, --fixed-below");
+    throw std::runtime_error(at_line()
+                             + "the displacement contradicts those of other control points, or "
+                               "supports, in the same element: it is missed by "
+                             + rounded(result.distance) + " mm; see --control-compliance, --fixed-below");
   case Elasticity_status::FREE_RIGID_MOTION:
     throw std::runtime_error(o.mesh + ": " + result.description()
                              + ", and the control points do not hold it; see --fixed-below");
-  default:
-    throw std::runtime_error(o.mesh + ": " + result.description());
+  default: throw std::runtime_error(o.mesh + ": " + result.description());
   }
 }
 
@@ -78,8 +78,8 @@ Supports set_supports(Elasticity& elasticity, const Options& o, const std::vecto
     double distance = std::numeric_limits<double>::infinity();
     for(const Control_point& point : points)
       distance = (std::min)(distance, norm(Vector(point.position) - position(v)));
-    const bool is_sliding =
-      !is_below(v, o.fixed_below) && (is_below(v, o.slide_below) || distance > o.slide_beyond);
+    const bool is_sliding = !is_below(v, o.fixed_below)
+                            && (is_below(v, o.slide_below) || distance > o.slide_beyond);
     supports.sliding += is_sliding;
     return is_sliding;
   });
@@ -92,10 +92,9 @@ std::vector<std::size_t> find_inverted_elements(const Mesh& mesh, const std::vec
 {
   std::vector<std::size_t> inverted;
   for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e)
-    if(!is_removed[e]
-       && mm3::jacobian_sign(mesh.element(e), [&](mm3::Vertex_index v) {
-            return mm3::to_vec3(mesh.point(v)) + displacements[v];
-          }) != mm3::Jacobian_sign::POSITIVE)
+    if(!is_removed[e] && mm3::jacobian_sign(mesh.element(e), [&](mm3::Vertex_index v) {
+                           return mm3::to_vec3(mesh.point(v)) + displacements[v];
+                         }) != mm3::Jacobian_sign::POSITIVE)
       inverted.push_back(e);
   return inverted;
 }
@@ -146,8 +145,8 @@ Shift shift_of(const Elasticity& elasticity, const Options& o, const std::vector
   shift.displacements = elasticity.displacements();
   shift.energy = elasticity.energy();
   measure(mesh, shift);
-  const std::vector<std::size_t> inverted =
-    find_inverted_elements(mesh, shift.displacements, elasticity.removed_elements());
+  const std::vector<std::size_t> inverted = find_inverted_elements(mesh, shift.displacements,
+                                                                   elasticity.removed_elements());
   shift.inverted_elements = inverted.size();
   if(!inverted.empty())
     outcome.warnings.push_back(when + ": " + counted(inverted.size(), "element is", "elements are")
@@ -199,8 +198,8 @@ void remove(Elasticity& elasticity, const std::vector<bool>& is_removed, const O
     log("control points", [&] { set_control_points(elasticity, o, left); });
   log("remove elements", [&] { check(elasticity.remove_elements(is_removed), o, left); });
   log("solve after resection", [&] { check(elasticity.solve(displacements_of(left)), o, left); });
-  outcome.after =
-    log("checks", [&] { return shift_of(elasticity, o, is_used, "shift after resection", outcome); });
+  outcome.after = log("checks",
+                      [&] { return shift_of(elasticity, o, is_used, "shift after resection", outcome); });
 }
 
 } // namespace

@@ -85,8 +85,7 @@ public:
       return;
     clear_line();
     for(const Stage_cost& cost : m_costs)
-      std::fprintf(stderr, "%9.3f s %6zu MiB  %s\n", cost.seconds, cost.peak_bytes >> 20,
-                   cost.name.c_str());
+      std::fprintf(stderr, "%9.3f s %6zu MiB  %s\n", cost.seconds, cost.peak_bytes >> 20, cost.name.c_str());
   }
 
   /// Largest resident memory of the process since the log was made, in all stages and between them.

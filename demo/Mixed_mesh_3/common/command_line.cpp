@@ -13,7 +13,8 @@ CLI::Validator number(const std::string& wanted, const std::function<bool(double
     [=](const std::string& text) {
       double x;
       return CLI::detail::lexical_cast(text, x) && is_valid(x) && std::isfinite(x)
-               ? std::string() : "expected a number " + wanted + ", not " + text;
+               ? std::string()
+               : "expected a number " + wanted + ", not " + text;
     },
     "");
 }

@@ -17,7 +17,12 @@ Surface read_surface(const std::string& path, Surface_facts& facts, std::vector<
   require([&](std::string* error) { return IO::read_closed_surface(path, surface, error, &input); });
   for(const std::string& warning : input.warnings)
     warnings.push_back(path + ": " + warning);
-  facts = {path, input.number_of_points, input.number_of_polygons, surface.number_of_vertices(),
-           surface.number_of_faces(), input.number_of_components, input.volume};
+  facts = {path,
+           input.number_of_points,
+           input.number_of_polygons,
+           surface.number_of_vertices(),
+           surface.number_of_faces(),
+           input.number_of_components,
+           input.volume};
   return surface;
 }

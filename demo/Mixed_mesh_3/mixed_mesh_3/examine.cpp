@@ -58,8 +58,7 @@ std::vector<Check> checks_of(const mm3::Mesh_defects& d, const Fidelity& fidelit
 
 Aspect_ratios aspect_ratios_of(const Mesh& mesh)
 {
-  return {mm3::quality_statistics(mesh),
-          mm3::quality_statistics(mesh, mm3::aspect_ratio_coefficient, 1.3, 7),
+  return {mm3::quality_statistics(mesh), mm3::quality_statistics(mesh, mm3::aspect_ratio_coefficient, 1.3, 7),
           mm3::histogram(mesh, mm3::aspect_ratio_coefficient, histogram_edges())};
 }
 
@@ -68,9 +67,8 @@ void examine(const Mesh& mesh, const Surface& surface, const Options& options, S
 {
   const mm3::Mesh_defects defects = log("checks", [&] { return mm3::find_defects(mesh); });
   if(defects.none())
-    outcome.fidelity = log("distance to surface", [&] {
-      return fidelity_of(mesh, surface, outcome.surface.volume);
-    });
+    outcome.fidelity = log("distance to surface",
+                           [&] { return fidelity_of(mesh, surface, outcome.surface.volume); });
   outcome.checks = checks_of(defects, outcome.fidelity);
   require_all(outcome.checks, defects.none() ? outcome.fidelity.self_intersections : 0);
 

@@ -27,8 +27,7 @@ constexpr bool has_eigen = false;
 
 void add_files(CLI::App& app, Options& o)
 {
-  app.add_option("SURFACE", o.surface, "Closed surface of the domain: .off, .obj, .stl or .ply")
-    ->required();
+  app.add_option("SURFACE", o.surface, "Closed surface of the domain: .off, .obj, .stl or .ply")->required();
   app.add_option("--region", o.region,
                  "Closed surface of the region of interest, in the same coordinates (default: refine "
                  "everywhere)");
@@ -36,9 +35,10 @@ void add_files(CLI::App& app, Options& o)
     ->required()
     ->check(CLI::PositiveNumber)
     ->type_name("N");
-  app.add_option("--output", o.outputs,
-                 "Mesh files: .vtu (VTK, ParaView), .msh (Gmsh), .mesh (Medit), .inp (Abaqus), .feb "
-                 "(FEBio); can be given several times")
+  app
+    .add_option("--output", o.outputs,
+                "Mesh files: .vtu (VTK, ParaView), .msh (Gmsh), .mesh (Medit), .inp (Abaqus), .feb "
+                "(FEBio); can be given several times")
     ->type_name("FILE")
     ->allow_extra_args(false);
   app.add_option("--report", o.report, "Report with counts, quality, checks, times and memory")
@@ -48,20 +48,23 @@ void add_files(CLI::App& app, Options& o)
 // Returns the option that those of Algorithm 1 need.
 CLI::Option* add_fit(CLI::App& app, Options& o)
 {
-  app.add_option("--base-level", o.base_level,
-                 "Octree level of the whole domain; cells are 2^L times smaller than the root "
-                 "(default: 3; coarser or finer as the budget says)")
+  app
+    .add_option("--base-level", o.base_level,
+                "Octree level of the whole domain; cells are 2^L times smaller than the root "
+                "(default: 3; coarser or finer as the budget says)")
     ->check(CLI::Range(0, 10))
     ->type_name("L");
-  CLI::Option* no_fit =
-    app.add_flag("--no-fit", o.no_fit, "Leave boundary vertices where the octree has them");
+  CLI::Option* no_fit = app.add_flag("--no-fit", o.no_fit,
+                                     "Leave boundary vertices where the octree has them");
   CLI::Option* no_optimize =
-    app.add_flag("--no-optimize", o.no_optimize,
-                 "Carry the boundary onto the surface as the paper does (Algorithm 1), without optimization")
+    app
+      .add_flag("--no-optimize", o.no_optimize,
+                "Carry the boundary onto the surface as the paper does (Algorithm 1), without optimization")
       ->excludes(no_fit);
-  app.add_option("--tolerance", o.tolerance,
-                 "How far boundary and surface may be from each other, in the unit of SURFACE: part of the "
-                 "budget is spent outside the region for that; takes longer")
+  app
+    .add_option("--tolerance", o.tolerance,
+                "How far boundary and surface may be from each other, in the unit of SURFACE: part of the "
+                "budget is spent outside the region for that; takes longer")
     ->check(number("greater than 0", [](double x) { return x > 0; }))
     ->type_name("D")
     ->excludes(no_fit)
@@ -84,8 +87,9 @@ void add_stages(CLI::App& app, Options& o)
   app.add_option("--root", o.root, "Root cell: cube (default), or box (the bounding box, as the paper)")
     ->transform(CLI::CheckedTransformer(roots, CLI::ignore_case).description("{cube,box}"))
     ->type_name("ROOT");
-  app.add_option("--templates", o.templates,
-                 "Transition templates: fewest (vertices, default), or centered (a vertex in each)")
+  app
+    .add_option("--templates", o.templates,
+                "Transition templates: fewest (vertices, default), or centered (a vertex in each)")
     ->transform(CLI::CheckedTransformer(templates, CLI::ignore_case).description("{fewest,centered}"))
     ->type_name("CHOICE");
 }
@@ -93,11 +97,12 @@ void add_stages(CLI::App& app, Options& o)
 // The options of the paper's way onto the surface; they need --no-optimize.
 void add_algorithm_1(CLI::App& app, Options& o, CLI::Option* no_optimize)
 {
-  const std::map<std::string, Solver> solvers{
-    {"cg", Solver::CG}, {"ldlt", Solver::LDLT}, {"cholmod", Solver::CHOLMOD}};
+  const std::map<std::string, Solver> solvers{{"cg", Solver::CG},
+                                              {"ldlt", Solver::LDLT},
+                                              {"cholmod", Solver::CHOLMOD}};
   const auto at_least_1 = number("of at least 1", [](double x) { return x >= 1; });
-  const auto below_one_half =
-    number("of at least 0 and below 0.5", [](double x) { return x >= 0 && x < 0.5; });
+  const auto below_one_half = number("of at least 0 and below 0.5",
+                                     [](double x) { return x >= 0 && x < 0.5; });
   std::vector<CLI::Option*> options{
     app.add_option("--steps", o.steps, "Steps to the surface, the paper's MAX_STEP")
       ->check(CLI::Range(1, 1000))
@@ -107,30 +112,35 @@ void add_algorithm_1(CLI::App& app, Options& o, CLI::Option* no_optimize)
       ->check(below_one_half)
       ->type_name("NU")
       ->capture_default_str(),
-    app.add_option("--stiffness-factor", o.stiffness_factor,
-                   "By how much an element of bad quality is stiffened at a time")
+    app
+      .add_option("--stiffness-factor", o.stiffness_factor,
+                  "By how much an element of bad quality is stiffened at a time")
       ->check(number("greater than 1", [](double x) { return x > 1; }))
       ->type_name("F")
       ->capture_default_str(),
-    app.add_option("--max-stiffness", o.maximal_stiffness,
-                   "Largest stiffness, as a multiple of that at the start, the paper's Y_MAX")
+    app
+      .add_option("--max-stiffness", o.maximal_stiffness,
+                  "Largest stiffness, as a multiple of that at the start, the paper's Y_MAX")
       ->check(at_least_1)
       ->type_name("Y")
       ->capture_default_str(),
-    app.add_option("--acceptable-quality", o.acceptable_quality,
-                   "Elements of a larger aspect-ratio coefficient are stiffened")
+    app
+      .add_option("--acceptable-quality", o.acceptable_quality,
+                  "Elements of a larger aspect-ratio coefficient are stiffened")
       ->check(at_least_1)
       ->type_name("ARC")
       ->capture_default_str(),
-    app.add_option("--solver", o.solver,
-                   "Linear solver: cg (conjugate gradients), ldlt (Eigen's simplicial factorization), or "
-                   "cholmod (SuiteSparse's supernodal one, if built with it)")
+    app
+      .add_option("--solver", o.solver,
+                  "Linear solver: cg (conjugate gradients), ldlt (Eigen's simplicial factorization), or "
+                  "cholmod (SuiteSparse's supernodal one, if built with it)")
       ->transform(CLI::CheckedTransformer(solvers, CLI::ignore_case).description("{cg,ldlt,cholmod}"))
       ->type_name("SOLVER")
       ->default_str("cg")};
-  options.push_back(app.add_option("--layers", o.layers,
-                                   "Only vertices within so many layers of elements from the boundary move "
-                                   "(default: all of a mesh of up to 3,000 vertices, 4 of a larger one)")
+  options.push_back(app
+                      .add_option("--layers", o.layers,
+                                  "Only vertices within so many layers of elements from the boundary move "
+                                  "(default: all of a mesh of up to 3,000 vertices, 4 of a larger one)")
                       ->check(CLI::Range(0, CGAL::Mixed_mesh_fit_criteria_3::all_layers))
                       ->type_name("L"));
   for(CLI::Option* option : options)

@@ -21,24 +21,20 @@ const char* const solver_names[] = {"cg", "ldlt", "cholmod"};
 
 Json describe(const Surface_facts& s)
 {
-  return {{"file", s.file},
-          {"points", s.points},
-          {"polygons", s.polygons},
-          {"vertices", s.vertices},
-          {"triangles", s.triangles},
-          {"components", s.components},
+  return {{"file", s.file},         {"points", s.points},       {"polygons", s.polygons},
+          {"vertices", s.vertices}, {"triangles", s.triangles}, {"components", s.components},
           {"volume", s.volume}};
 }
 
 Json describe(const Options& o)
 {
   Json report = {{"vertices", o.vertices},
-                 {"base level", o.base_level == CGAL::Mixed_mesh_criteria_3::automatic
-                                  ? Json("automatic") : Json(o.base_level)},
+                 {"base level", o.base_level == CGAL::Mixed_mesh_criteria_3::automatic ? Json("automatic")
+                                                                                       : Json(o.base_level)},
                  {"mode", o.mode == mm3::Boundary_mode::PAPER ? "paper" : "default"},
                  {"root", o.root == mm3::Root_cell::BOX ? "box" : "cube"},
-                 {"templates", o.templates == mm3::Transition_templates_choice::CENTERED
-                                 ? "centered" : "fewest"},
+                 {"templates",
+                  o.templates == mm3::Transition_templates_choice::CENTERED ? "centered" : "fewest"},
                  {"fit", fit_names[int(o.fit())]},
                  {"tolerance", o.tolerance > 0 ? Json(o.tolerance) : Json()},
                  {"tetrahedra", o.tetrahedra},
@@ -51,7 +47,8 @@ Json describe(const Options& o)
                              {"maximal stiffness", o.maximal_stiffness},
                              {"acceptable quality", o.acceptable_quality},
                              {"layers", o.layers == CGAL::Mixed_mesh_fit_criteria_3::automatic
-                                          ? Json("automatic") : Json(o.layers)},
+                                          ? Json("automatic")
+                                          : Json(o.layers)},
                              {"solver", solver_names[int(o.solver)]}};
   return report;
 }
@@ -172,14 +169,11 @@ Json describe_mesh(const Options& o, const Outcome& outcome)
 {
   const double vertices = double(outcome.mesh.vertices);
   const std::size_t in_region = outcome.result.number_of_vertices_in_region;
-  Json report = {{"vertices", outcome.mesh.vertices},
-                 {"share of budget", vertices / double(o.vertices)},
-                 {"vertices in region", in_region},
-                 {"share of vertices in region", double(in_region) / vertices},
-                 {"elements", outcome.mesh.elements},
-                 {"elements in region", outcome.elements_in_region},
-                 {"boundary faces", outcome.boundary_faces},
-                 {"volume", outcome.fidelity.volume_of_mesh}};
+  Json report = {
+    {"vertices", outcome.mesh.vertices},        {"share of budget", vertices / double(o.vertices)},
+    {"vertices in region", in_region},          {"share of vertices in region", double(in_region) / vertices},
+    {"elements", outcome.mesh.elements},        {"elements in region", outcome.elements_in_region},
+    {"boundary faces", outcome.boundary_faces}, {"volume", outcome.fidelity.volume_of_mesh}};
   add_kinds(outcome.mesh, report);
   return report;
 }

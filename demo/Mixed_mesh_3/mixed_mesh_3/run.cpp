@@ -59,15 +59,13 @@ struct Inputs
 Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
 {
   Inputs inputs;
-  inputs.surface = log("read surface", [&] {
-    return read_surface(o.surface, outcome.surface, outcome.warnings);
-  });
+  inputs.surface = log("read surface",
+                       [&] { return read_surface(o.surface, outcome.surface, outcome.warnings); });
   if(o.tolerance > 0)
     check_tolerance(o, inputs.surface);
   if(!o.region.empty())
-    inputs.region = log("read region", [&] {
-      return read_surface(o.region, outcome.region.emplace(), outcome.warnings);
-    });
+    inputs.region = log("read region",
+                        [&] { return read_surface(o.region, outcome.region.emplace(), outcome.warnings); });
   return inputs;
 }
 
@@ -89,9 +87,8 @@ Mesh make_mesh(const Domain& domain, const Surface& region_surface, const Option
   if(o.region.empty()) {
     result = CGAL::make_mixed_mesh_3(domain, CGAL::Everywhere_mixed_mesh_region_3(), criteria, mesh, np);
   } else {
-    const auto region = log("AABB tree of region", [&] {
-      return CGAL::Polyhedral_mixed_mesh_region_3(region_surface);
-    });
+    const auto region = log("AABB tree of region",
+                            [&] { return CGAL::Polyhedral_mixed_mesh_region_3(region_surface); });
     result = CGAL::make_mixed_mesh_3(domain, region, criteria, mesh, np);
   }
   refuse(result, o);
@@ -110,10 +107,10 @@ bool fit_by_algorithm_1(Mesh& mesh, const Domain& domain, const Options& o, Stag
   if(r.status == Status::SOLVER_FAILED)
     outcome.warnings.push_back("--solver: did not solve a linear system; try another one");
   if(r.status == Status::CAP_REACHED)
-    outcome.warnings.push_back(
-      std::to_string(r.number_of_unacceptable_elements) + " elements have an aspect-ratio coefficient above "
-      + rounded(o.acceptable_quality)
-      + ": stiffening does not help them, see --max-stiffness; optimization would");
+    outcome.warnings.push_back(std::to_string(r.number_of_unacceptable_elements)
+                               + " elements have an aspect-ratio coefficient above "
+                               + rounded(o.acceptable_quality)
+                               + ": stiffening does not help them, see --max-stiffness; optimization would");
   is_valid = r.status != Status::INVALID_MESH;
   return r.is_on_surface();
 }

@@ -39,25 +39,26 @@ void refuse(const CGAL::Mixed_mesh_result_3& result, const Options& o)
   using Status = CGAL::Mixed_mesh_status;
   switch(result.status) {
   case Status::BUDGET_TOO_SMALL:
-    throw std::runtime_error("--vertices " + std::to_string(o.vertices) + ": too small, the coarsest mesh "
-                             "of " + o.surface + " at base level " + std::to_string(result.base_level)
+    throw std::runtime_error("--vertices " + std::to_string(o.vertices)
+                             + ": too small, the coarsest mesh "
+                               "of "
+                             + o.surface + " at base level " + std::to_string(result.base_level)
                              + " has at least " + std::to_string(result.number_of_vertices_needed)
                              + " vertices");
   case Status::EMPTY:
-    throw std::runtime_error(o.surface + ": too thin for this budget, no octree vertex is inside; try "
-                             "more vertices or a larger --base-level");
+    throw std::runtime_error(o.surface
+                             + ": too thin for this budget, no octree vertex is inside; try "
+                               "more vertices or a larger --base-level");
   case Status::REGION_NOT_MET:
     throw std::runtime_error(o.region + ": the region does not meet the domain of " + o.surface);
-  case Status::STOPPED:
-    throw std::runtime_error("stopped");
+  case Status::STOPPED: throw std::runtime_error("stopped");
   case Status::BOUNDARY_NOT_MANIFOLD:
     throw Invalid_mesh("the boundary is pinched at the border of the root cell; try another --base-level");
   case Status::BUDGET_NOT_FILLED:
   case Status::TOLERANCE_NOT_REACHED:
   case Status::NOT_ALL_ARRIVED:
   case Status::PARTS_LOST:
-  case Status::SUCCESS:
-    break;
+  case Status::SUCCESS: break;
   }
 }
 
@@ -67,8 +68,9 @@ void require_all(const std::vector<Check>& checks, std::size_t self_intersection
     if(!check.holds)
       throw Invalid_mesh(std::string("the mesh failed the check: ") + check.name
                          + (self_intersections != 0
-                              ? ": " + std::to_string(self_intersections) + " pairs of faces; "
-                                "try more vertices, a larger --base-level, or --no-fit"
+                              ? ": " + std::to_string(self_intersections)
+                                  + " pairs of faces; "
+                                    "try more vertices, a larger --base-level, or --no-fit"
                               : ""));
 }
 
@@ -77,9 +79,9 @@ void add_warnings(const Options& o, Outcome& outcome)
   std::vector<std::string>& warnings = outcome.warnings;
   const Fidelity& f = outcome.fidelity;
   if(double(outcome.mesh.vertices) < 0.97 * double(o.vertices))
-    warnings.push_back("only " + std::to_string(outcome.mesh.vertices) + " of "
-                       + std::to_string(o.vertices) + " vertices used: the region cannot be refined "
-                       "further, or each further cell tried would exceed the budget");
+    warnings.push_back("only " + std::to_string(outcome.mesh.vertices) + " of " + std::to_string(o.vertices)
+                       + " vertices used: the region cannot be refined "
+                         "further, or each further cell tried would exceed the budget");
   if(outcome.result.number_of_lost_cells != 0)
     warnings.push_back(lost_parts(outcome.result, o));
   if(o.fit() != Fit::NONE && f.vertices_off != 0)
@@ -92,7 +94,8 @@ void add_warnings(const Options& o, Outcome& outcome)
   const bool is_fitted = o.fit() != Fit::NONE;
   const double ratio = f.ratio_of_volumes();
   if(ratio < 0.9 || ratio > (is_fitted ? 1.1 : 4))
-    warnings.push_back(o.surface + ": the mesh has " + rounded(ratio) + " times the surface's volume: it is "
-                       "too coarse for the domain; try more vertices or a larger --base-level"
+    warnings.push_back(o.surface + ": the mesh has " + rounded(ratio)
+                       + " times the surface's volume: it is "
+                         "too coarse for the domain; try more vertices or a larger --base-level"
                        + (o.fit() == Fit::OPTIMIZATION && o.tolerance == 0 ? ", or --tolerance" : ""));
 }

@@ -18,12 +18,12 @@ namespace CGAL {
 /// How an operation of `Linear_elasticity_3` ended.
 enum class Linear_elasticity_status {
   SUCCESS,
-  NO_ELEMENTS,                  ///< nothing is there, or nothing is left
-  INVERTED_ELEMENT,             ///< the Jacobian of `element` is not positive at a point of the quadrature
-  FREE_RIGID_MOTION,            ///< `number_of_free_motions` are neither supported nor controlled, such as `motion`
-  CONTROL_POINT_OUTSIDE,        ///< `control_point` is `distance` outside the mesh
-  CONTRADICTORY_CONTROL_POINTS, ///< the displacement of `control_point` cannot be had together with the others
-  SOLVER_FAILED                 ///< the system is not positive definite: elements hang together by hinges only
+  NO_ELEMENTS,           ///< nothing is there, or nothing is left
+  INVERTED_ELEMENT,      ///< the Jacobian of `element` is not positive at a point of the quadrature
+  FREE_RIGID_MOTION,     ///< `number_of_free_motions` are neither supported nor controlled, such as `motion`
+  CONTROL_POINT_OUTSIDE, ///< `control_point` is `distance` outside the mesh
+  CONTRADICTORY_CONTROL_POINTS, ///< the displacement of `control_point` cannot be had with the others
+  SOLVER_FAILED ///< the system is not positive definite: elements hang together by hinges only
 };
 
 /// A rigid motion: the displacement at `p` is `translation + rotation x (p - center)`.
@@ -77,7 +77,8 @@ private:
   static void write(std::ostream& out, const Vector& v, double scale)
   {
     const auto rounded = [](double x) { return std::round(x * 1000) / 1000 + 0.; }; // no minus zero
-    out << "(" << rounded(v[0] * scale) << ", " << rounded(v[1] * scale) << ", " << rounded(v[2] * scale) << ")";
+    out << "(" << rounded(v[0] * scale) << ", " << rounded(v[1] * scale) << ", " << rounded(v[2] * scale)
+        << ")";
   }
 
   void describe_motion(std::ostream& out) const

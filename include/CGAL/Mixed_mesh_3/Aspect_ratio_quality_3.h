@@ -47,7 +47,8 @@ public:
   /// \param warp_weight how much a warped face counts; 0 for the plain measure
   explicit Aspect_ratio_quality_3(double acceptable = 7, double warp_weight = 30)
     : m_acceptable(acceptable), m_warp_weight(warp_weight)
-  {}
+  {
+  }
 
   bool is_acceptable(double cost) const { return cost <= m_acceptable; }
 

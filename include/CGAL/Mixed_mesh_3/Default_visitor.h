@@ -16,8 +16,8 @@ namespace Mixed_meshes_3 {
 enum class Stage { OCTREE, TRANSITIONS, BOUNDARY, ASSEMBLY, OPTIMIZATION };
 
 inline constexpr int number_of_stages = 5;
-inline constexpr const char* stage_names[number_of_stages] = {"octree", "transitions", "boundary",
-                                                              "assembly", "optimization"};
+inline constexpr const char* stage_names[number_of_stages] = {"octree", "transitions", "boundary", "assembly",
+                                                              "optimization"};
 
 /// \brief Model of `MixedMeshVisitor_3` that does nothing.
 struct Default_visitor

@@ -38,9 +38,9 @@ struct Elastic_material
 /// \param materials that of each subdomain
 /// \param other that of subdomains that `materials` does not have
 template <class Mesh>
-std::vector<Elastic_material> materials_of_elements(const Mesh& mesh,
-                                                    const std::map<Subdomain_index, Elastic_material>& materials,
-                                                    const Elastic_material& other = Elastic_material())
+std::vector<Elastic_material>
+materials_of_elements(const Mesh& mesh, const std::map<Subdomain_index, Elastic_material>& materials,
+                      const Elastic_material& other = Elastic_material())
 {
   std::vector<Elastic_material> result;
   for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {

@@ -9,7 +9,8 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
-/// What an element is part of: a material, for example a tumor. 0 is what is outside, as in CGAL's labeled domains.
+/// What an element is part of: a material, for example a tumor. 0 is what is outside, as in CGAL's labeled
+/// domains.
 using Subdomain_index = int;
 
 /// What is known of an element besides its kind and vertices; every stage hands it on.

@@ -29,9 +29,7 @@ class Element_view
   Element_kind m_kind;
 
 public:
-  Element_view(Element_kind kind, const Vertex_index* vertices)
-    : m_vertices(vertices), m_kind(kind)
-  {}
+  Element_view(Element_kind kind, const Vertex_index* vertices) : m_vertices(vertices), m_kind(kind) {}
 
   Element_kind kind() const { return m_kind; }
   const Reference_element& reference() const { return reference_elements[m_kind]; }
@@ -63,17 +61,13 @@ public:
   std::size_t size() const { return m_kinds.size(); }
   bool empty() const { return m_kinds.empty(); }
 
-  Element_view operator[](Element_index e) const
-  {
-    return {m_kinds[e], m_vertices.data() + m_offsets[e]};
-  }
+  Element_view operator[](Element_index e) const { return {m_kinds[e], m_vertices.data() + m_offsets[e]}; }
 
   void add(Element_kind kind, const Vertex_index* vertices)
   {
     check_size(1);
     m_kinds.push_back(kind);
-    m_vertices.insert(m_vertices.end(), vertices,
-                      vertices + reference_elements[kind].number_of_vertices);
+    m_vertices.insert(m_vertices.end(), vertices, vertices + reference_elements[kind].number_of_vertices);
     m_offsets.push_back(m_vertices.size());
   }
 

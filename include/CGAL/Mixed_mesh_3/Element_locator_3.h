@@ -144,8 +144,8 @@ class Element_locator_3
     Vec3 lower, upper;
     bool contains(const Vec3& p) const
     {
-      return lower[0] <= p[0] && p[0] <= upper[0] && lower[1] <= p[1] && p[1] <= upper[1]
-             && lower[2] <= p[2] && p[2] <= upper[2];
+      return lower[0] <= p[0] && p[0] <= upper[0] && lower[1] <= p[1] && p[1] <= upper[1] && lower[2] <= p[2]
+             && p[2] <= upper[2];
     }
     double squared_distance(const Vec3& p) const
     {
@@ -276,8 +276,7 @@ class Element_locator_3
 
 public:
   /// For the mesh as it is. \cost O(n log n) in the number of elements
-  explicit Element_locator_3(const Mesh& mesh)
-    : m_mesh(&mesh)
+  explicit Element_locator_3(const Mesh& mesh) : m_mesh(&mesh)
   {
     m_points.reserve(mesh.number_of_vertices());
     for(const auto& p : mesh.points())

@@ -82,7 +82,10 @@ public:
   {
     return std::make_tuple(m_element, m_local_index) < std::make_tuple(f.m_element, f.m_local_index);
   }
-  bool operator==(const Face& f) const { return m_element == f.m_element && m_local_index == f.m_local_index; }
+  bool operator==(const Face& f) const
+  {
+    return m_element == f.m_element && m_local_index == f.m_local_index;
+  }
 };
 
 } // namespace Mixed_meshes_3

@@ -80,8 +80,8 @@ public:
     const double cube_side = longest * (1 + 1. / 64);
     double largest = cube_side;
     for(int k = 0; k < 3; ++k)
-      largest = (std::max)({largest, std::abs((bbox.min)(k)) + cube_side,
-                            std::abs((bbox.max)(k)) + cube_side});
+      largest = (std::max)(
+        {largest, std::abs((bbox.min)(k)) + cube_side, std::abs((bbox.max)(k)) + cube_side});
     const double granularity = internal::lattice_granularity(largest);
     for(int k = 0; k < 3; ++k) {
       const double extent = (bbox.max)(k) - (bbox.min)(k);
@@ -114,10 +114,7 @@ public:
   }
 
   /// The length of the shortest edge of a cell of the given lattice side.
-  double length(std::uint32_t side) const
-  {
-    return side * (std::min)({m_unit[0], m_unit[1], m_unit[2]});
-  }
+  double length(std::uint32_t side) const { return side * (std::min)({m_unit[0], m_unit[1], m_unit[2]}); }
 
 private:
   double coordinate(int k, std::uint32_t i) const { return m_origin[k] + i * m_unit[k]; }
@@ -161,8 +158,7 @@ public:
         {0, 3, 5, 6}, {1, 0, 5, 3}, {2, 0, 3, 6}, {4, 0, 6, 5}, {7, 3, 6, 5}};
       for(const auto& i : tetrahedra)
         if(CGAL::do_intersect(t, Predicates_kernel::Tetrahedron_3(m_vertices[i[0]], m_vertices[i[1]],
-                                                                  m_vertices[i[2]],
-                                                                  m_vertices[i[3]])))
+                                                                  m_vertices[i[2]], m_vertices[i[3]])))
           return true;
       return false;
     }
@@ -201,8 +197,8 @@ public:
       for(int a = 0; a < 3; ++a)
         center += m_axes[a][k] * (lower[a] + upper[a]) / 2 / (m_norm * m_norm);
       const double half = m_unit * (internal::lattice_root_side / 2);
-      m_origin[k] = std::floor((center - half * (m_axes[0][k] + m_axes[1][k] + m_axes[2][k]))
-                               / granularity) * granularity;
+      m_origin[k] = std::floor((center - half * (m_axes[0][k] + m_axes[1][k] + m_axes[2][k])) / granularity)
+                    * granularity;
     }
   }
 

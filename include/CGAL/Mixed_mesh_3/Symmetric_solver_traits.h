@@ -61,8 +61,9 @@ public:
       : Base(int(starts.size() - 1))
     {
       const int n = int(starts.size() - 1);
-      this->eigen_object() = Eigen::Map<const Eigen::SparseMatrix<double>>(
-        n, n, Eigen::Index(rows.size()), starts.data(), rows.data(), values.data());
+      this->eigen_object() = Eigen::Map<const Eigen::SparseMatrix<double>>(n, n, Eigen::Index(rows.size()),
+                                                                           starts.data(), rows.data(),
+                                                                           values.data());
     }
   };
 
@@ -77,9 +78,10 @@ public:
     denominator = 1;
     const Eigen::SparseMatrix<double>& a = matrix.eigen_object();
     const int *starts = a.outerIndexPtr(), *rows = a.innerIndexPtr();
-    const bool has_same_pattern =
-      std::equal(starts, starts + a.cols() + 1, m_state->starts.begin(), m_state->starts.end())
-      && std::equal(rows, rows + a.nonZeros(), m_state->rows.begin(), m_state->rows.end());
+    const bool has_same_pattern = std::equal(starts, starts + a.cols() + 1, m_state->starts.begin(),
+                                             m_state->starts.end())
+                                  && std::equal(rows, rows + a.nonZeros(), m_state->rows.begin(),
+                                                m_state->rows.end());
     if(!has_same_pattern) {
       m_state->starts.assign(starts, starts + a.cols() + 1);
       m_state->rows.assign(rows, rows + a.nonZeros());

@@ -77,7 +77,9 @@ double area(const Mesh& mesh, const Face& face)
 {
   const auto triangle = [&](int i, int j, int k) {
     const Vec3 p = to_vec3(mesh.point(face.vertices()[i]));
-    return norm(cross(to_vec3(mesh.point(face.vertices()[j])) - p, to_vec3(mesh.point(face.vertices()[k])) - p)) / 2;
+    return norm(
+             cross(to_vec3(mesh.point(face.vertices()[j])) - p, to_vec3(mesh.point(face.vertices()[k])) - p))
+           / 2;
   };
   return face.vertices().size() == 3
            ? triangle(0, 1, 2)

@@ -191,8 +191,8 @@ void for_each_jacobian_polynomial(Element_kind kind, const std::array<Vector<NT>
       Bernstein_polynomial<NT> jacobian({2, 0, 0});
       for(int t1 = 0; t1 < 2; ++t1)
         for(int t2 = 0; t2 < 2; ++t2)
-          jacobian(t1 + t2, 0, 0) +=
-            scalar_product(cross_product(dr[t1], ds[t2]), dt) * NT(product_weight(t1 + t2));
+          jacobian(t1 + t2, 0, 0) += scalar_product(cross_product(dr[t1], ds[t2]), dt)
+                                     * NT(product_weight(t1 + t2));
       f(jacobian);
     }
     return;
@@ -274,8 +274,8 @@ inline Jacobian_sign jacobian_sign(Element_kind kind, const std::array<std::arra
     return Jacobian_sign::POSITIVE;
   {
     const CGAL::Protect_FPU_rounding<true> protection;
-    const Jacobian_sign sign =
-      internal::jacobian_sign_with<CGAL::Interval_nt<false>>(kind, points, interval_subdivisions);
+    const Jacobian_sign sign = internal::jacobian_sign_with<CGAL::Interval_nt<false>>(kind, points,
+                                                                                      interval_subdivisions);
     if(sign != Jacobian_sign::UNDECIDED)
       return sign;
   }

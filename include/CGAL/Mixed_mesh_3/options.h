@@ -15,7 +15,7 @@ enum class Adjacency { FACE = 1, EDGE = 2, VERTEX = 3 };
 /// How cells with hanging vertices are decomposed.
 enum class Transition_templates_choice {
   FEWEST_VERTICES, ///< 118 of 144 templates need no vertex at the cell's center
-  CENTERED          ///< every such cell is coned from its center
+  CENTERED         ///< every such cell is coned from its center
 };
 
 /// The shape of the root cell of axis-aligned octrees.

@@ -163,8 +163,7 @@ Quality_table quality_statistics(const Mesh& mesh)
 /// \param edges the values that separate bins. \pre sorted
 /// \return the counts: one more than there are edges
 template <class Mesh, class Measure>
-std::vector<std::size_t> histogram(const Mesh& mesh, const Measure& measure,
-                                   const std::vector<double>& edges)
+std::vector<std::size_t> histogram(const Mesh& mesh, const Measure& measure, const std::vector<double>& edges)
 {
   CGAL_precondition(std::is_sorted(edges.begin(), edges.end()));
   std::vector<std::size_t> counts(edges.size() + 1);

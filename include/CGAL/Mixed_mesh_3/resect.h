@@ -29,11 +29,11 @@ namespace Mixed_meshes_3 {
 
 /// How `resect()` ended.
 enum class Resection_status {
-  SUCCESS,               ///< something is removed, and the boundary of what is left is a closed 2-manifold
-  NOTHING_REMOVED,       ///< no element was asked for that is still there: no centroid is inside
-  EVERYTHING_RESTORED,   ///< all elements asked for had to stay: each would leave a pinched vertex
-  EVERYTHING_REMOVED,    ///< no element is left
-  BOUNDARY_NOT_MANIFOLD  ///< pinched vertices remain: the boundary of the mesh was not a manifold before
+  SUCCESS,              ///< something is removed, and the boundary of what is left is a closed 2-manifold
+  NOTHING_REMOVED,      ///< no element was asked for that is still there: no centroid is inside
+  EVERYTHING_RESTORED,  ///< all elements asked for had to stay: each would leave a pinched vertex
+  EVERYTHING_REMOVED,   ///< no element is left
+  BOUNDARY_NOT_MANIFOLD ///< pinched vertices remain: the boundary of the mesh was not a manifold before
 };
 
 /// A status in words.
@@ -75,8 +75,8 @@ struct Resection_3
   std::size_t number_of_restored_elements = 0; ///< of which stay: without them a vertex would be pinched
   /// Removed in addition, as they came loose; 0 if such pieces are kept.
   std::size_t number_of_floating_elements = 0;
-  std::size_t number_of_pinch_elements = 0;    ///< removed in addition: with them a vertex would be pinched
-  std::size_t number_of_pinched_vertices = 0;  ///< that remain
+  std::size_t number_of_pinch_elements = 0;   ///< removed in addition: with them a vertex would be pinched
+  std::size_t number_of_pinched_vertices = 0; ///< that remain
   /// The pieces that came loose, removed or kept: of each connected part of the mesh all but the largest.
   std::vector<Floating_piece_3> floating;
   double volume = 0; ///< removed by this resection, in the cube of the mesh's unit: mm^3
@@ -93,10 +93,14 @@ namespace internal {
 
 // What has parts of a surface is a model of `MixedMeshDomain_3`; what has none is a surface.
 template <class Tumor, class = void>
-struct Is_domain : std::false_type {};
+struct Is_domain : std::false_type
+{
+};
 
 template <class Tumor>
-struct Is_domain<Tumor, std::void_t<typename Tumor::Surface_part>> : std::true_type {};
+struct Is_domain<Tumor, std::void_t<typename Tumor::Surface_part>> : std::true_type
+{
+};
 
 // The concept wants a part of the surface with the point. Ours find the side of a point sooner without.
 template <class Domain, class = void>
@@ -279,7 +283,8 @@ Mesh remaining_mesh(const Mesh& mesh, const std::vector<bool>& is_removed,
 }
 
 /*!
-The surface of the cavity: the faces of elements that are left against elements that are removed, in the numbers
+The surface of the cavity: the faces of elements that are left against elements that are removed, in the
+numbers
 of `mesh`, in the order of the elements left.
 
 \param mesh the mesh
@@ -296,11 +301,12 @@ std::vector<Face> cavity_faces(const Mesh& mesh, const std::vector<bool>& is_rem
       for(Vertex_index v : mesh.element(e))
         is_at_cavity[v] = true;
   std::vector<Face> faces;
-  internal::for_each_face(mesh.elements(), mesh.number_of_vertices(),
-                          [&](Vertex_index v) { return is_at_cavity[v]; }, [&](const auto& group) {
-    if(group.size() == 2 && is_removed[group.element(0)] != is_removed[group.element(1)])
-      faces.push_back(group[is_removed[group.element(0)] ? 1 : 0]);
-  });
+  internal::for_each_face(
+    mesh.elements(), mesh.number_of_vertices(), [&](Vertex_index v) { return is_at_cavity[v]; },
+    [&](const auto& group) {
+      if(group.size() == 2 && is_removed[group.element(0)] != is_removed[group.element(1)])
+        faces.push_back(group[is_removed[group.element(0)] ? 1 : 0]);
+    });
   std::sort(faces.begin(), faces.end());
   return faces;
 }

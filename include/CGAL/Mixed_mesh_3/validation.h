@@ -51,17 +51,17 @@ inline bool is_balanced(const internal::Octree& octree, Adjacency adjacency)
 /// What is wrong with a mesh: all zero if nothing is.
 struct Mesh_defects
 {
-  std::size_t nonconforming_faces = 0;  ///< in more than two elements, or twice with one orientation,
-                                        ///< or a quadrilateral against triangles
-  std::size_t nonmanifold_boundary_edges = 0;    ///< not once in each direction
+  std::size_t nonconforming_faces = 0;        ///< in more than two elements, or twice with one orientation,
+                                              ///< or a quadrilateral against triangles
+  std::size_t nonmanifold_boundary_edges = 0; ///< not once in each direction
   std::size_t nonmanifold_boundary_vertices = 0; ///< with more than one fan of boundary faces
   std::size_t nonpositive_corners = 0;  ///< corner tetrahedra whose orientation is not positive, exactly
   std::size_t nonpositive_elements = 0; ///< whose Jacobian is not positive everywhere, exactly
   std::size_t undecided_elements = 0;   ///< of which that could be neither proved nor disproved
   std::size_t unused_vertices = 0;
-  std::size_t duplicate_vertices = 0;   ///< with the coordinates of an earlier one
+  std::size_t duplicate_vertices = 0; ///< with the coordinates of an earlier one
   std::size_t nonfinite_vertices = 0;
-  std::size_t invalid_elements = 0;     ///< a vertex that does not exist, or the same one twice
+  std::size_t invalid_elements = 0; ///< a vertex that does not exist, or the same one twice
 
   bool conforming() const { return nonconforming_faces == 0 && invalid_elements == 0; }
   bool closed_manifold_boundary() const
@@ -124,7 +124,8 @@ void find_bad_vertices(const Mesh& mesh, Mesh_defects& defects)
     for(j = i + 1; j < hashes.size() && hashes[j].first == hashes[i].first; ++j) {
       bool is_duplicate = false;
       for(std::size_t k = i; k < j; ++k)
-        is_duplicate = is_duplicate || to_vec3(mesh.point(hashes[k].second)) == to_vec3(mesh.point(hashes[j].second));
+        is_duplicate = is_duplicate
+                       || to_vec3(mesh.point(hashes[k].second)) == to_vec3(mesh.point(hashes[j].second));
       defects.duplicate_vertices += is_duplicate;
     }
   }
@@ -148,8 +149,8 @@ void find_nonpositive_elements(const Mesh& mesh, Mesh_defects& defects)
     const Reference_element& reference = element.reference();
     for(int c = 0; c < reference.number_of_corners; ++c) {
       const auto& i = reference.corners[c];
-      defects.nonpositive_corners +=
-        orientation(point(i[0]), point(i[1]), point(i[2]), point(i[3])) != POSITIVE;
+      defects.nonpositive_corners += orientation(point(i[0]), point(i[1]), point(i[2]), point(i[3]))
+                                     != POSITIVE;
     }
   }
 }

@@ -34,8 +34,7 @@ inline std::array<double, 3> transform(const Affine_map_3& map, const std::array
 /// The determinant of the linear part: the volume of a voxel; negative if the map mirrors.
 inline double determinant(const Affine_map_3& m)
 {
-  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
-         - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
          + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
@@ -78,8 +77,16 @@ struct Voxel_grid_3
 
 /// Types of numbers in image files; the values are NIfTI's.
 enum class Voxel_type : std::int16_t {
-  UINT8 = 2, INT16 = 4, INT32 = 8, FLOAT32 = 16, FLOAT64 = 64,
-  INT8 = 256, UINT16 = 512, UINT32 = 768, INT64 = 1024, UINT64 = 1280
+  UINT8 = 2,
+  INT16 = 4,
+  INT32 = 8,
+  FLOAT32 = 16,
+  FLOAT64 = 64,
+  INT8 = 256,
+  UINT16 = 512,
+  UINT32 = 768,
+  INT64 = 1024,
+  UINT64 = 1280
 };
 
 /// An image with a number in each voxel, and how a file holds it: as `type`, where the value of a voxel
@@ -97,8 +104,8 @@ struct Voxel_image_3
 struct Displacement_field_3
 {
   Voxel_grid_3 grid;
-  std::vector<std::array<float, 3>> vectors;  ///< at `grid.offset(i, j, k)`
-  std::vector<std::uint8_t> is_in_mesh;       ///< whether the voxel's center is in the mesh
+  std::vector<std::array<float, 3>> vectors; ///< at `grid.offset(i, j, k)`
+  std::vector<std::uint8_t> is_in_mesh;      ///< whether the voxel's center is in the mesh
 };
 
 /*!

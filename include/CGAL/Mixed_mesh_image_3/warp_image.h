@@ -64,8 +64,8 @@ namespace internal {
 /// A mesh and its displacement, in the indices of a grid; checked.
 struct Mesh_in_grid
 {
-  std::vector<Vec3> before, after;   // positions of the vertices
-  std::vector<Vec3> displacements;   // in millimeters
+  std::vector<Vec3> before, after; // positions of the vertices
+  std::vector<Vec3> displacements; // in millimeters
   double largest_displacement = 0;
 
   template <class Mesh, class Displacements>
@@ -157,8 +157,9 @@ inline Displacement_field_3 displacement_field(const Voxel_grid_3& grid, const E
     for(Vec3& u : vectors)
       u = Vec3{} - u;
   const std::vector<bool>& resected = options.resected_elements;
-  rasterize_displacement(elements, [&resected](Element_index e) { return resected.empty() || !resected[e]; },
-                         is_forward ? mesh.before : mesh.after, vectors, field);
+  rasterize_displacement(
+    elements, [&resected](Element_index e) { return resected.empty() || !resected[e]; },
+    is_forward ? mesh.before : mesh.after, vectors, field);
   fade_displacement(options.fade_distance ? *options.fade_distance : 2 * mesh.largest_displacement, field);
   return field;
 }
@@ -181,7 +182,8 @@ void for_each_displaced_voxel(const Displacement_field_3& field, const Visitor& 
         }
         Vec3 p{double(i), double(j), double(k)};
         for(int a = 0; a < 3; ++a)
-          p[a] += dot({to_index[a][0], to_index[a][1], to_index[a][2]}, {double(u[0]), double(u[1]), double(u[2])});
+          p[a] += dot({to_index[a][0], to_index[a][1], to_index[a][2]},
+                      {double(u[0]), double(u[1]), double(u[2])});
         visit(offset, p);
       }
 }
@@ -204,8 +206,7 @@ inline Voxel_image_3 resample_image(const Voxel_image_3& image, const Displaceme
   CGAL_precondition(image.grid.size == field.grid.size);
   Voxel_image_3 result = image;
   internal::for_each_displaced_voxel(
-    field,
-    [&](std::size_t offset, const Vec3& p) { result.values[offset] = interpolate(image, p); },
+    field, [&](std::size_t offset, const Vec3& p) { result.values[offset] = interpolate(image, p); },
     [](std::size_t) {});
   return result;
 }

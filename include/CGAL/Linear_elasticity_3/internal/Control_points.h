@@ -45,7 +45,8 @@ class Located_elements
 public:
   Located_elements(const Mesh& mesh, const std::vector<bool>& is_removed)
     : m_mesh(remaining(mesh, is_removed, m_elements)), m_locator(m_mesh)
-  {}
+  {
+  }
 
   // The locator would stay with the mesh of the other one.
   Located_elements(const Located_elements&) = delete;

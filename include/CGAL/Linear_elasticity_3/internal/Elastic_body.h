@@ -41,7 +41,8 @@ public:
                std::vector<Elastic_material> materials)
     : m_stiffness(elements, std::move(points), std::move(materials)),
       m_supports(m_stiffness.number_of_vertices())
-  {}
+  {
+  }
 
   const Elastic_stiffness& stiffness() const { return m_stiffness; }
   const Elastic_supports& supports() const { return m_supports; }

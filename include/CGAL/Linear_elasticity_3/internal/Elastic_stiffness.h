@@ -221,9 +221,9 @@ private:
 
   void remove_removed(std::vector<Element_index>& elements) const
   {
-    elements.erase(
-      std::remove_if(elements.begin(), elements.end(), [this](Element_index e) { return m_is_removed[e]; }),
-      elements.end());
+    elements.erase(std::remove_if(elements.begin(), elements.end(),
+                                  [this](Element_index e) { return m_is_removed[e]; }),
+                   elements.end());
   }
 
   void add_element(Element_index e, double factor)

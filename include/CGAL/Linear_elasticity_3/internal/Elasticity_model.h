@@ -57,7 +57,8 @@ class Elasticity_model
 public:
   Elasticity_model(const Mesh& mesh, std::vector<Elastic_material> materials)
     : m_mesh(&mesh), m_body(mesh.elements(), points_of(mesh), std::move(materials))
-  {}
+  {
+  }
 
   const Mesh& mesh() const { return *m_mesh; }
   Elastic_body<SolverTraits>& body() { return m_body; }

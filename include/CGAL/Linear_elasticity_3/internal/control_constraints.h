@@ -59,9 +59,9 @@ class Control_constraints
   std::vector<Control_weights> m_weights;
   double m_compliance;
   bool m_is_solved = true;
-  Matrix m_response, m_motions;    // W, R
-  Matrix m_g, m_kernel;            // G; combinations of motions that the control points do not hold
-  double m_augmentation = 0;       // g
+  Matrix m_response, m_motions; // W, R
+  Matrix m_g, m_kernel;         // G; combinations of motions that the control points do not hold
+  double m_augmentation = 0;    // g
   std::vector<Index> m_independent;
   // Of the augmented S, rows and columns m_independent. Factors that are not computed are not there, as they
   // could not be moved: they have members without a value.
@@ -158,8 +158,7 @@ public:
   /// Whether displacements are those wanted, up to rounding. \pre no compliance
   bool is_satisfied(const Vector& u, const Vector& wanted) const
   {
-    return wanted.size() == 0
-           || (at_points(u) - wanted).lpNorm<Eigen::Infinity>() <= tolerance(u, wanted);
+    return wanted.size() == 0 || (at_points(u) - wanted).lpNorm<Eigen::Infinity>() <= tolerance(u, wanted);
   }
 
   /// Adds B^T s.

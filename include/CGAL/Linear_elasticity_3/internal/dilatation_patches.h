@@ -111,9 +111,9 @@ Patches dilatation_patches(const Element_list& elements, std::size_t number_of_v
     if(faces.size() != 2)
       return;
     const Element_index a = faces.element(0), b = faces.element(1);
-    if(patch_form(elements[a].kind()) == Patch_form::PAIR && patch_form(elements[b].kind()) == Patch_form::PAIR
-       && faces[0].vertices().size() == 4 && patch_of[a] == no_patch && patch_of[b] == no_patch
-       && is_together(a, b)) {
+    if(patch_form(elements[a].kind()) == Patch_form::PAIR
+       && patch_form(elements[b].kind()) == Patch_form::PAIR && faces[0].vertices().size() == 4
+       && patch_of[a] == no_patch && patch_of[b] == no_patch && is_together(a, b)) {
       patches.emplace_back();
       join(a, patches.size() - 1);
       join(b, patches.size() - 1);

@@ -66,9 +66,8 @@ struct Free_motion
 
 /// The vertices of each connected part of some elements: connected by common vertices.
 template <class Is_kept>
-std::vector<std::vector<Vertex_index>> connected_vertices(const Element_list& elements,
-                                                          std::size_t number_of_vertices,
-                                                          const Is_kept& is_kept)
+std::vector<std::vector<Vertex_index>>
+connected_vertices(const Element_list& elements, std::size_t number_of_vertices, const Is_kept& is_kept)
 {
   std::vector<Vertex_index> parent(number_of_vertices);
   std::iota(parent.begin(), parent.end(), Vertex_index(0));

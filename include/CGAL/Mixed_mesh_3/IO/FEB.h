@@ -23,7 +23,8 @@ namespace IO {
 \brief Writes a mesh as model of FEBio (`.feb`), version 4.0.
 
 The mesh: node set `all`, element sets such as `region_hex8` and `rest_tet4` (of other subdomains than 1
-`subdomain_2_rest_tet4` and so on), surface `boundary` (counter-clockwise seen from outside). FEBio takes no mesh
+`subdomain_2_rest_tet4` and so on), surface `boundary` (counter-clockwise seen from outside). FEBio takes no
+mesh
 without materials: there are `region` and `rest`, and those of other subdomains, with numbers to be replaced
 (neo-Hookean, Young's modulus 1, Poisson's ratio 0.45).
 There are no boundary conditions, loads or steps. The numbers of nodes and elements are the indices
@@ -51,8 +52,7 @@ bool write_FEB(std::ostream& stream, const Mesh& mesh)
     if(part.attributes.subdomain_index != 1)
       materials.push_back(part.name());
   for(const std::string& name : materials)
-    out << "    <material id=\"" << ++material << "\" name=\"" << name
-        << "\" type=\"neo-Hookean\">\n"
+    out << "    <material id=\"" << ++material << "\" name=\"" << name << "\" type=\"neo-Hookean\">\n"
         << "      <density>1</density>\n      <E>1</E>\n      <v>0.45</v>\n    </material>\n";
   out << "  </Material>\n"
       << "  <Mesh>\n"

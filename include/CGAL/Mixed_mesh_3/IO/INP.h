@@ -52,8 +52,8 @@ bool write_INP(std::ostream& stream, const Mesh& mesh)
   }
 
   for(const Element_block& block : blocks) {
-    out << "*ELEMENT, TYPE=" << block.names().abaqus_type
-        << ", ELSET=" << set_name(block.part) << '_' << block.names().abaqus_type << '\n';
+    out << "*ELEMENT, TYPE=" << block.names().abaqus_type << ", ELSET=" << set_name(block.part) << '_'
+        << block.names().abaqus_type << '\n';
     for(Element_index e : block) {
       out << e + 1 << ',';
       write_vertices(out, mesh.element(e), ',');

@@ -67,7 +67,8 @@ class MSH_model
 public:
   template <class Mesh>
   explicit MSH_model(const Mesh& mesh)
-    : m_vertex_entity(mesh.number_of_vertices(), no_entity), m_blocks(mesh), m_boundary_faces(Mixed_meshes_3::boundary_faces(mesh))
+    : m_vertex_entity(mesh.number_of_vertices(), no_entity), m_blocks(mesh),
+      m_boundary_faces(Mixed_meshes_3::boundary_faces(mesh))
   {
     m_entities.push_back({"boundary", 2, boundary_tag});
     std::vector<std::size_t> entity_of(mesh.number_of_elements());
@@ -161,7 +162,8 @@ void write_MSH_4_1_elements(Buffered_output& out, const Mesh& mesh, const MSH_mo
     ++faces[face.vertices().size() - 3];
   const std::size_t m = mesh.number_of_elements(), total = m + faces[0] + faces[1];
   out << "$Elements\n"
-      << model.blocks().blocks().size() + (faces[0] != 0) + (faces[1] != 0) << ' ' << total << " 1 " << total << '\n';
+      << model.blocks().blocks().size() + (faces[0] != 0) + (faces[1] != 0) << ' ' << total << " 1 " << total
+      << '\n';
   for(const Element_block& block : model.blocks()) {
     out << "3 " << model.tag(block) << ' ' << block.names().gmsh_type << ' ' << block.size() << '\n';
     for(Element_index e : block) {
@@ -202,8 +204,7 @@ void write_MSH_2_2_nodes_and_elements(Buffered_output& out, const Mesh& mesh, co
     write_point(out, Mixed_meshes_3::to_vec3(mesh.points()[v]), " ");
     out << '\n';
   }
-  out << "$EndNodes\n$Elements\n"
-      << mesh.number_of_elements() + model.boundary_faces().size() << '\n';
+  out << "$EndNodes\n$Elements\n" << mesh.number_of_elements() + model.boundary_faces().size() << '\n';
   for(const Element_block& block : model.blocks())
     for(Element_index e : block)
       write_element(e + 1, block.names().gmsh_type, model.tag(block), mesh.element(e));
@@ -220,7 +221,8 @@ void write_MSH_2_2_nodes_and_elements(Buffered_output& out, const Mesh& mesh, co
 
 Physical groups: the volumes "region" (1) and "rest" (2) for the elements of subdomain 1 in the region and the
 others, the surface "boundary" (3) for the boundary faces, counter-clockwise seen from outside, and from 4 on
-"subdomain_2_region", "subdomain_2_rest" and so on, as they occur. The numbers of vertices and elements are the
+"subdomain_2_region", "subdomain_2_rest" and so on, as they occur. The numbers of vertices and elements are
+the
 indices plus 1; boundary faces are numbered after the elements. Elements are written by group and kind.
 
 \return whether the stream took everything.
@@ -231,8 +233,7 @@ bool write_MSH(std::ostream& stream, const Mesh& mesh, MSH_version version = MSH
   using namespace internal;
   const MSH_model model(mesh);
   Buffered_output out(stream);
-  out << "$MeshFormat\n"
-      << (version == MSH_version::V4_1 ? "4.1" : "2.2") << " 0 8\n$EndMeshFormat\n";
+  out << "$MeshFormat\n" << (version == MSH_version::V4_1 ? "4.1" : "2.2") << " 0 8\n$EndMeshFormat\n";
   write_MSH_physical_names(out, model);
   if(version == MSH_version::V4_1) {
     write_MSH_entities(out, model);

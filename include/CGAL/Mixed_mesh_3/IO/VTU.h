@@ -91,10 +91,9 @@ VTU_array element_array(std::string name, const Mesh& mesh, Function value)
 inline VTU_array vertex_data_array(const Data_array& data)
 {
   const std::vector<double>* values = data.values;
-  return {data.name, vtk_type_name<double>(), data.number_of_components,
-          values->size() * sizeof(double), [=](Buffered_output& out) {
-            out.write_bytes(reinterpret_cast<const char*>(values->data()),
-                            values->size() * sizeof(double));
+  return {data.name, vtk_type_name<double>(), data.number_of_components, values->size() * sizeof(double),
+          [=](Buffered_output& out) {
+            out.write_bytes(reinterpret_cast<const char*>(values->data()), values->size() * sizeof(double));
           }};
 }
 
@@ -113,8 +112,7 @@ VTU_array element_data_array(const Mesh& mesh, const Data_array& data)
 template <class Index, class Mesh>
 VTU_arrays cell_arrays(const Mesh& mesh)
 {
-  return {{"connectivity", vtk_type_name<Index>(), 1,
-           mesh.elements().connectivity().size() * sizeof(Index),
+  return {{"connectivity", vtk_type_name<Index>(), 1, mesh.elements().connectivity().size() * sizeof(Index),
            [&mesh](Buffered_output& out) {
              for_each_element_by_kind(mesh, [&](Element_index e) {
                const Element_view element = mesh.element(e);
@@ -130,8 +128,9 @@ VTU_arrays cell_arrays(const Mesh& mesh)
                out.write_binary(end);
              });
            }},
-          element_array<std::uint8_t>(
-            "types", mesh, [&mesh](Element_index e) { return element_names[mesh.element(e).kind()].vtk_type; })};
+          element_array<std::uint8_t>("types", mesh, [&mesh](Element_index e) {
+            return element_names[mesh.element(e).kind()].vtk_type;
+          })};
 }
 
 inline std::string escaped_for_XML(const std::string& text)
@@ -153,8 +152,10 @@ inline std::string escaped_for_XML(const std::string& text)
 /*!
 \brief Writes a mesh as VTK unstructured grid: XML, version 1.0, with raw binary data appended.
 
-Elements are sorted by kind, within a kind in the order of the mesh: programs that read blocks of one kind find
-four. Element data: `kind` (the number of the `Element_kind`), `ARC` (the aspect-ratio coefficient), `in_region`
+Elements are sorted by kind, within a kind in the order of the mesh: programs that read blocks of one kind
+find
+four. Element data: `kind` (the number of the `Element_kind`), `ARC` (the aspect-ratio coefficient),
+`in_region`
 (1 or 0), `subdomain` (the subdomain index), and what the options add. Nothing of the size of the mesh is
 allocated.
 
@@ -176,14 +177,17 @@ bool write_VTU(std::ostream& stream, const Mesh& mesh, const VTU_options& option
   for(const Data_array& data : options.vertex_data)
     if((fits = fits && data.has_size(n)))
       vertex_data.push_back(vertex_data_array(data));
-  element_data.push_back(element_array<std::uint8_t>(
-    "kind", mesh, [&mesh](Element_index e) { return mesh.element(e).kind(); }));
-  element_data.push_back(element_array<double>(
-    "ARC", mesh, [&mesh](Element_index e) { return aspect_ratio_coefficient(mesh, e); }));
-  element_data.push_back(element_array<std::uint8_t>(
-    "in_region", mesh, [&mesh](Element_index e) { return mesh.is_in_region(e); }));
-  element_data.push_back(element_array<std::int32_t>(
-    "subdomain", mesh, [&mesh](Element_index e) { return mesh.subdomain_index(e); }));
+  element_data.push_back(
+    element_array<std::uint8_t>("kind", mesh, [&mesh](Element_index e) { return mesh.element(e).kind(); }));
+  element_data.push_back(element_array<double>("ARC", mesh, [&mesh](Element_index e) {
+    return aspect_ratio_coefficient(mesh, e);
+  }));
+  element_data.push_back(element_array<std::uint8_t>("in_region", mesh, [&mesh](Element_index e) {
+    return mesh.is_in_region(e);
+  }));
+  element_data.push_back(element_array<std::int32_t>("subdomain", mesh, [&mesh](Element_index e) {
+    return mesh.subdomain_index(e);
+  }));
   for(const Data_array& data : options.element_data)
     if((fits = fits && data.has_size(m)))
       element_data.push_back(element_data_array(mesh, data));
@@ -208,11 +212,11 @@ bool write_VTU(std::ostream& stream, const Mesh& mesh, const VTU_options& option
     const char* name;
     VTU_arrays arrays;
   };
-  const Section sections[] = {
-    {"PointData", std::move(vertex_data)},
-    {"CellData", std::move(element_data)},
-    {"Points", {points}},
-    {"Cells", is_small ? cell_arrays<std::int32_t>(mesh) : cell_arrays<std::int64_t>(mesh)}};
+  const Section sections[] = {{"PointData", std::move(vertex_data)},
+                              {"CellData", std::move(element_data)},
+                              {"Points", {points}},
+                              {"Cells",
+                               is_small ? cell_arrays<std::int32_t>(mesh) : cell_arrays<std::int64_t>(mesh)}};
 
 #ifdef CGAL_BIG_ENDIAN
   const char* const byte_order = "BigEndian";
@@ -230,9 +234,9 @@ bool write_VTU(std::ostream& stream, const Mesh& mesh, const VTU_options& option
   for(const Section& section : sections) {
     out << "      <" << section.name << ">\n";
     for(const VTU_array& array : section.arrays) {
-      out << "        <DataArray type=\"" << array.type << "\" Name=\""
-          << escaped_for_XML(array.name) << "\" NumberOfComponents=\""
-          << array.number_of_components << "\" format=\"appended\" offset=\"" << offset << "\"/>\n";
+      out << "        <DataArray type=\"" << array.type << "\" Name=\"" << escaped_for_XML(array.name)
+          << "\" NumberOfComponents=\"" << array.number_of_components << "\" format=\"appended\" offset=\""
+          << offset << "\"/>\n";
       offset += sizeof(std::uint64_t) + array.number_of_bytes;
     }
     out << "      </" << section.name << ">\n";

@@ -27,8 +27,8 @@ struct Surface_input
 {
   std::size_t number_of_points = 0, number_of_polygons = 0; ///< in the file
   std::size_t number_of_components = 0;
-  double volume = 0;                                        ///< enclosed, in the cube of the unit
-  std::vector<std::string> warnings;                        ///< a line each, without the file's name
+  double volume = 0;                 ///< enclosed, in the cube of the unit
+  std::vector<std::string> warnings; ///< a line each, without the file's name
 };
 
 namespace internal {
@@ -80,7 +80,7 @@ template <class Mesh>
 } // namespace CGAL
 
 #ifndef CGAL_MIXED_MESH_3_COMPILED
-#  include <CGAL/Mixed_mesh_3/IO/internal/read_surface_impl.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/read_surface_impl.h>
 #endif
 
 #endif // CGAL_MIXED_MESH_3_IO_READ_CLOSED_SURFACE_H

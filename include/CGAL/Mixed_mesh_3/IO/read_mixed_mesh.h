@@ -35,8 +35,10 @@ What `write_mixed_mesh()` writes in these formats is read back as it was, except
 element and no boundary face, which it does not write to Gmsh 4.1. All vertices in the file are kept, and none
 are merged: vertices and elements have the order of the file or, in Gmsh's formats, of the numbers that the
 file gives them. Elements of lower dimension are skipped. An element is in the region if the cell data
-`in_region` (VTK) are not 0, or if it is in a physical volume called "region" (Gmsh); cell data `subdomain`, and
-names such as "subdomain_2_rest", tell the subdomain, else it is 1. `write_mixed_mesh()` sorts the elements of a
+`in_region` (VTK) are not 0, or if it is in a physical volume called "region" (Gmsh); cell data `subdomain`,
+and
+names such as "subdomain_2_rest", tell the subdomain, else it is 1. `write_mixed_mesh()` sorts the elements of
+a
 `.vtu` file by kind.
 
 The file is checked, but not the mesh: elements may be inverted, or not fit together; see `find_defects()`.
@@ -69,8 +71,8 @@ template <class Mesh>
     for(const auto& p : input.points) {
       for(double x : p)
         if(!std::isfinite(x))
-          refuse(file, "vertex " + std::to_string(points.size())
-                         + " has a coordinate that is not a finite number");
+          refuse(file,
+                 "vertex " + std::to_string(points.size()) + " has a coordinate that is not a finite number");
       points.emplace_back(p[0], p[1], p[2]);
     }
     if(input.elements.empty())

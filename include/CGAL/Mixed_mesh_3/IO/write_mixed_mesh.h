@@ -55,8 +55,8 @@ struct Extension
 
 // The first extension of a format is its usual one; Gmsh knows `.msh2`, too.
 inline constexpr Extension extensions[] = {{".vtu", Format::VTU},      {".msh", Format::MSH_4_1},
-                                    {".msh2", Format::MSH_2_2}, {".mesh", Format::MEDIT},
-                                    {".inp", Format::INP},      {".feb", Format::FEB}};
+                                           {".msh2", Format::MSH_2_2}, {".mesh", Format::MEDIT},
+                                           {".inp", Format::INP},      {".feb", Format::FEB}};
 
 template <class Mesh>
 bool write(std::ostream& stream, const Mesh& mesh, Format format, const Write_options& options)
@@ -114,8 +114,8 @@ public:
   template <class Write>
   [[nodiscard]] bool write(const std::string& path, const Write& write, std::string* error = nullptr)
   {
-    internal::Output_file& file = m_files.emplace_back(std::piecewise_construct, std::make_tuple(path),
-                                                       std::make_tuple(path)).second;
+    internal::Output_file& file =
+      m_files.emplace_back(std::piecewise_construct, std::make_tuple(path), std::make_tuple(path)).second;
     std::string reason = file.error();
     if(reason.empty())
       reason = file.write(write);
@@ -155,7 +155,8 @@ temporary one is created beside it and removed.
 /// Writes a mesh to one of several files that shall appear together, as the function below does to one.
 template <class Mesh>
 [[nodiscard]] bool write_mixed_mesh(Output_files& files, const std::string& path, const Mesh& mesh,
-                                    const Write_options& options = Write_options(), std::string* error = nullptr)
+                                    const Write_options& options = Write_options(),
+                                    std::string* error = nullptr)
 {
   const std::optional<Format> format = format_of(path);
   if(!format)
@@ -198,9 +199,8 @@ template <class Mesh>
   }
   const Format used = options.msh_2_2 && *format == Format::MSH_4_1 ? Format::MSH_2_2 : *format;
 
-  return files.write(path, [&](std::ostream& stream) {
-    return internal::write(stream, mesh, used, options);
-  }, error);
+  return files.write(
+    path, [&](std::ostream& stream) { return internal::write(stream, mesh, used, options); }, error);
 }
 
 /*!
@@ -226,7 +226,8 @@ is removed when something goes wrong. An existing file stays until it is replace
 */
 template <class Mesh>
 [[nodiscard]] bool write_mixed_mesh(const std::string& path, const Mesh& mesh,
-                                    const Write_options& options = Write_options(), std::string* error = nullptr)
+                                    const Write_options& options = Write_options(),
+                                    std::string* error = nullptr)
 {
   Output_files files;
   return write_mixed_mesh(files, path, mesh, options, error) && files.commit(error);

@@ -174,8 +174,8 @@ Nifti_header read_header(const std::string& path, Input_file& file, std::int32_t
   if(!file.read(reinterpret_cast<char*>(&header) + sizeof(first), sizeof(header) - sizeof(first)))
     refuse(path, unknown);
   if(std::memcmp(header.magic, magic, 4) != 0)
-    refuse(path, std::memcmp(header.magic, "ni", 2) == 0
-                         ? "cannot be read: its voxels are in another file" : unknown);
+    refuse(path, std::memcmp(header.magic, "ni", 2) == 0 ? "cannot be read: its voxels are in another file"
+                                                         : unknown);
   Header native = header;
   if(native.sizeof_hdr != int(sizeof(Header)))
     swap_nifti_header(&native, version);
@@ -214,8 +214,9 @@ inline Voxel_grid_3 read_grid(const std::string& path, const nifti_image& header
   grid.size = {std::size_t(header.nx), std::size_t(header.ny), std::size_t(header.nz)};
   const bool has_sform = header.sform_code > 0;
   grid.world = has_sform ? header.sform_code : header.qform_code > 0 ? header.qform_code : 0;
-  const double unit = header.xyz_units == NIFTI_UNITS_METER ? 1000
-                      : header.xyz_units == NIFTI_UNITS_MICRON ? 0.001 : 1;
+  const double unit = header.xyz_units == NIFTI_UNITS_METER    ? 1000
+                      : header.xyz_units == NIFTI_UNITS_MICRON ? 0.001
+                                                               : 1;
   const nifti_dmat44& map = has_sform ? header.sto_xyz : header.qto_xyz;
   double scale = 1; // determinants of rotations times sizes are as large as the product of the columns
   for(int j = 0; j < 4; ++j) {
@@ -384,8 +385,9 @@ void write_as(Compressed_output& output, const Voxel_image_3& image, double slop
       if constexpr(std::is_integral<T>::value) {
         using Limits = std::numeric_limits<T>;
         x = std::nearbyint(x);
-        block[k] = x >= double((Limits::max)()) ? (Limits::max)()
-                   : x > double((Limits::min)()) ? T(x) : (Limits::min)();
+        block[k] = x >= double((Limits::max)())  ? (Limits::max)()
+                   : x > double((Limits::min)()) ? T(x)
+                                                 : (Limits::min)();
       } else {
         block[k] = T(x);
       }
@@ -422,9 +424,8 @@ inline Voxel_image_3 read_image(const std::string& path)
       image.values[i] = float(image.slope * double(x) + image.intercept);
       if(!std::isfinite(image.values[i])) {
         const auto& size = image.grid.size;
-        refuse(path, "voxel (" + std::to_string(i % size[0]) + ", "
-                             + std::to_string(i / size[0] % size[1]) + ", "
-                             + std::to_string(i / size[0] / size[1]) + ") is not a finite number");
+        refuse(path, "voxel (" + std::to_string(i % size[0]) + ", " + std::to_string(i / size[0] % size[1])
+                       + ", " + std::to_string(i / size[0] / size[1]) + ") is not a finite number");
       }
     }
   });
@@ -446,7 +447,8 @@ integers beyond 2^24 lose digits. Not for several threads at once.
 \param error if not null, receives then a line that names the file and the defect
 \return whether all went well
 */
-[[nodiscard]] inline bool read_NIFTI(const std::string& path, Voxel_image_3& image, std::string* error = nullptr)
+[[nodiscard]] inline bool read_NIFTI(const std::string& path, Voxel_image_3& image,
+                                     std::string* error = nullptr)
 {
   return internal::is_read(path, error, [&] { image = internal::read_image(path); });
 }
@@ -463,59 +465,65 @@ are written as sform, and as qform if the axes are at right angles.
 \param error if not null, receives a line that names the file and says what went wrong
 \return whether all went well
 */
-[[nodiscard]] inline bool write_NIFTI(Output_files& files, const std::string& path, const Voxel_image_3& image,
-                                      std::string* error = nullptr)
+[[nodiscard]] inline bool write_NIFTI(Output_files& files, const std::string& path,
+                                      const Voxel_image_3& image, std::string* error = nullptr)
 {
   const std::string defect = internal::image_output_error(path, image.grid, image.values.size());
   if(!internal::is_success(internal::with_path(path, defect), error))
     return false;
-  return files.write(path, [&](std::ostream& stream) {
-    nifti_1_header header = internal::make_header(image.grid);
-    const double slope = image.slope != 0 ? image.slope : 1;
-    header.datatype = short(image.type);
-    header.scl_slope = float(slope);
-    header.scl_inter = float(image.intercept);
-    internal::Compressed_output output(stream, internal::ends_with(path, ".gz"));
-    const char no_extension[4] = {};
-    const bool is_known = internal::with_voxel_type(header.datatype, [&](auto zero) {
-      header.bitpix = short(8 * sizeof(zero));
-      output.write(&header, sizeof(header));
-      output.write(no_extension, sizeof(no_extension));
-      internal::write_as<decltype(zero)>(output, image, slope);
-    });
-    return output.finish() && is_known;
-  }, error);
+  return files.write(
+    path,
+    [&](std::ostream& stream) {
+      nifti_1_header header = internal::make_header(image.grid);
+      const double slope = image.slope != 0 ? image.slope : 1;
+      header.datatype = short(image.type);
+      header.scl_slope = float(slope);
+      header.scl_inter = float(image.intercept);
+      internal::Compressed_output output(stream, internal::ends_with(path, ".gz"));
+      const char no_extension[4] = {};
+      const bool is_known = internal::with_voxel_type(header.datatype, [&](auto zero) {
+        header.bitpix = short(8 * sizeof(zero));
+        output.write(&header, sizeof(header));
+        output.write(no_extension, sizeof(no_extension));
+        internal::write_as<decltype(zero)>(output, image, slope);
+      });
+      return output.finish() && is_known;
+    },
+    error);
 }
 
 /// As above, a field: a vector image (five dimensions, `NIFTI_INTENT_DISPVECT`) of floats in millimeters,
 /// components in the directions of the image's world: right, front, up.
-[[nodiscard]] inline bool write_NIFTI(Output_files& files, const std::string& path, const Displacement_field_3& field,
-                                      std::string* error = nullptr)
+[[nodiscard]] inline bool write_NIFTI(Output_files& files, const std::string& path,
+                                      const Displacement_field_3& field, std::string* error = nullptr)
 {
   const std::string defect = internal::image_output_error(path, field.grid, field.vectors.size());
   if(!internal::is_success(internal::with_path(path, defect), error))
     return false;
-  return files.write(path, [&](std::ostream& stream) {
-    nifti_1_header header = internal::make_header(field.grid);
-    header.dim[0] = 5;
-    header.dim[5] = 3;
-    header.datatype = NIFTI_TYPE_FLOAT32;
-    header.bitpix = 32;
-    header.intent_code = NIFTI_INTENT_DISPVECT;
-    internal::Compressed_output output(stream, internal::ends_with(path, ".gz"));
-    const char no_extension[4] = {};
-    output.write(&header, sizeof(header));
-    output.write(no_extension, sizeof(no_extension));
-    std::vector<float> block;
-    for(std::size_t component = 0; component < 3; ++component)
-      for(std::size_t i = 0; i < field.vectors.size(); i += block.size()) {
-        block.resize((std::min)(field.vectors.size() - i, std::size_t(1) << 16));
-        for(std::size_t k = 0; k < block.size(); ++k)
-          block[k] = field.vectors[i + k][component];
-        output.write(block.data(), block.size() * sizeof(float));
-      }
-    return output.finish();
-  }, error);
+  return files.write(
+    path,
+    [&](std::ostream& stream) {
+      nifti_1_header header = internal::make_header(field.grid);
+      header.dim[0] = 5;
+      header.dim[5] = 3;
+      header.datatype = NIFTI_TYPE_FLOAT32;
+      header.bitpix = 32;
+      header.intent_code = NIFTI_INTENT_DISPVECT;
+      internal::Compressed_output output(stream, internal::ends_with(path, ".gz"));
+      const char no_extension[4] = {};
+      output.write(&header, sizeof(header));
+      output.write(no_extension, sizeof(no_extension));
+      std::vector<float> block;
+      for(std::size_t component = 0; component < 3; ++component)
+        for(std::size_t i = 0; i < field.vectors.size(); i += block.size()) {
+          block.resize((std::min)(field.vectors.size() - i, std::size_t(1) << 16));
+          for(std::size_t k = 0; k < block.size(); ++k)
+            block[k] = field.vectors[i + k][component];
+          output.write(block.data(), block.size() * sizeof(float));
+        }
+      return output.finish();
+    },
+    error);
 }
 
 /// Writes an image or a field to a file, which appears when it is complete.

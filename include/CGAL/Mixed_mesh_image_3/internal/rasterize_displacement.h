@@ -232,7 +232,8 @@ inline void fade_displacement(double distance, Displacement_field_3& field)
       if(first == end)
         continue;
       auto last = end;
-      while(*--last == 0) {}
+      while(*--last == 0) {
+      }
       extend(0, std::size_t(first - row));
       extend(0, std::size_t(last - row));
       extend(1, j);

@@ -99,8 +99,7 @@ public:
   }
 };
 
-inline void write_point(Buffered_output& out, const Mixed_meshes_3::Vec3& p,
-                        std::string_view separator)
+inline void write_point(Buffered_output& out, const Mixed_meshes_3::Vec3& p, std::string_view separator)
 {
   out << p[0] << separator << p[1] << separator << p[2];
 }

@@ -26,7 +26,8 @@ namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
 
-/// Elements with the same attributes, as a named set: "region" and "rest" of subdomain 1, "subdomain_2_region" and
+/// Elements with the same attributes, as a named set: "region" and "rest" of subdomain 1,
+/// "subdomain_2_region" and
 /// "subdomain_2_rest" of the next one, and so on.
 struct Part
 {
@@ -35,7 +36,8 @@ struct Part
   std::string name() const
   {
     const Subdomain_index s = attributes.subdomain_index;
-    return (s == 1 ? "" : "subdomain_" + std::to_string(s) + "_") + (attributes.is_in_region ? "region" : "rest");
+    return (s == 1 ? "" : "subdomain_" + std::to_string(s) + "_")
+           + (attributes.is_in_region ? "region" : "rest");
   }
 
   /// The inverse of `name()`.
@@ -45,8 +47,8 @@ struct Part
     constexpr std::string_view prefix = "subdomain_";
     if(name.substr(0, prefix.size()) == prefix) {
       const char* const end = name.data() + name.size();
-      const auto [rest, error] =
-        std::from_chars(name.data() + prefix.size(), end, part.attributes.subdomain_index);
+      const auto [rest, error] = std::from_chars(name.data() + prefix.size(), end,
+                                                 part.attributes.subdomain_index);
       if(error != std::errc() || rest == end || *rest != '_' || part.attributes.subdomain_index < 1)
         return std::nullopt;
       name.remove_prefix(std::size_t(rest + 1 - name.data()));
@@ -67,14 +69,15 @@ private:
   }
 };
 
-/// Where a format wants a number for a part or for the boundary: 1 and 2 are region and rest of subdomain 1, 3 is
+/// Where a format wants a number for a part or for the boundary: 1 and 2 are region and rest of subdomain 1,
+/// 3 is
 /// the boundary; further parts follow as they occur, from 4.
 constexpr int boundary_tag = 3;
 
 /// Elements of one kind in one part.
 struct Element_block
 {
-  std::size_t part;  ///< in `Element_blocks::parts()`
+  std::size_t part; ///< in `Element_blocks::parts()`
   Element_kind kind;
   std::vector<Element_index>::const_iterator first, last;
 
@@ -111,8 +114,9 @@ public:
     for(auto first = m_order.cbegin(), last = first; first != m_order.cend(); first = last) {
       last = std::find_if(first, m_order.cend(), [&](Element_index e) { return key(*first) < key(e); });
       const Part part{mesh.attributes(*first)};
-      m_blocks.push_back({std::size_t(std::lower_bound(m_parts.begin(), m_parts.end(), part) - m_parts.begin()),
-                          mesh.elements().kinds()[*first], first, last});
+      m_blocks.push_back(
+        {std::size_t(std::lower_bound(m_parts.begin(), m_parts.end(), part) - m_parts.begin()),
+         mesh.elements().kinds()[*first], first, last});
     }
   }
 
@@ -130,8 +134,9 @@ public:
     const Element_attributes& a = m_parts[part].attributes;
     if(a.subdomain_index == 1)
       return a.is_in_region ? 1 : 2;
-    const std::ptrdiff_t parts_of_first =
-      std::count_if(m_parts.begin(), m_parts.end(), [](const Part& p) { return p.attributes.subdomain_index == 1; });
+    const std::ptrdiff_t parts_of_first = std::count_if(m_parts.begin(), m_parts.end(), [](const Part& p) {
+      return p.attributes.subdomain_index == 1;
+    });
     return boundary_tag + 1 + int(std::ptrdiff_t(part) - parts_of_first);
   }
 };

@@ -17,7 +17,8 @@ namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
 
-/// Gmsh, Abaqus, Medit and FEBio order vertices as we do. VTK's linear wedge is the mirror image of our prism:
+/// Gmsh, Abaqus, Medit and FEBio order vertices as we do. VTK's linear wedge is the mirror image of our
+/// prism:
 /// `vtk_order` lists, for each VTK position, the vertex of ours to write there.
 struct Element_names
 {

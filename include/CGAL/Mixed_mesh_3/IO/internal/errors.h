@@ -3,7 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How readers and writers say what is wrong: within, by an exception or a line of text; to the caller, by `false`
+// How readers and writers say what is wrong: within, by an exception or a line of text; to the caller, by
+// `false`
 // and the line where it was asked for.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_ERRORS_H

@@ -45,7 +45,7 @@ class MSH_reader
   bool m_is_version_4 = false, m_is_binary = false, m_has_nodes = false, m_has_elements = false;
   std::map<std::int64_t, Element_attributes> m_groups;  // of physical groups of volumes with names of ours
   std::map<std::int32_t, Element_attributes> m_volumes; // version 4 only
-  std::vector<std::int64_t> m_node_tags;   // increasing
+  std::vector<std::int64_t> m_node_tags;                // increasing
   std::vector<std::int64_t> m_element_tags;
   Mesh_input m_mesh;
 
@@ -148,7 +148,8 @@ class MSH_reader
     }
   }
 
-  // What a physical group says of its elements. Tags are negative for what is against the orientation of the group.
+  // What a physical group says of its elements. Tags are negative for what is against the orientation of the
+  // group.
   void add_group(std::int64_t tag, Element_attributes& attributes) const
   {
     const auto group = m_groups.find(tag < 0 ? -tag : tag);
@@ -330,8 +331,9 @@ class MSH_reader
       const std::int32_t dimension = get_int(), entity = get_int(), type = get_int();
       const std::size_t size = checked(get_tag(), 2);
       const auto volume = m_volumes.find(entity);
-      const Element_attributes attributes =
-        dimension == 3 && volume != m_volumes.end() ? volume->second : Element_attributes();
+      const Element_attributes attributes = dimension == 3 && volume != m_volumes.end()
+                                              ? volume->second
+                                              : Element_attributes();
       size_of_type(type); // is it known?
       for(std::size_t i = 0; i < size; ++i) {
         const std::int64_t tag = get_tag();

@@ -15,7 +15,7 @@
 #include <CGAL/config.h>
 
 #ifdef CGAL_USE_ZLIB
-#  include <zlib.h>
+#include <zlib.h>
 #endif
 
 #include <algorithm>
@@ -132,8 +132,8 @@ public:
       in.skip(equals == std::string_view::npos ? rest.size() : equals + 1);
       in.skip_space();
       rest = in.rest();
-      const std::size_t end = rest.empty() || (rest[0] != '"' && rest[0] != '\'')
-                                ? std::string_view::npos : rest.find(rest[0], 1);
+      const std::size_t end = rest.empty() || (rest[0] != '"' && rest[0] != '\'') ? std::string_view::npos
+                                                                                  : rest.find(rest[0], 1);
       if(end == std::string_view::npos)
         internal::refuse(m_path, "is damaged: no valid attributes of " + in_quotes(tag.name));
       if(found == name)
@@ -395,11 +395,11 @@ class VTU_reader
         f(zero);
       return type == name;
     };
-    return call_if("Float64", double()) || call_if("Float32", float())
-           || call_if("Int64", std::int64_t()) || call_if("UInt64", std::uint64_t())
-           || call_if("Int32", std::int32_t()) || call_if("UInt32", std::uint32_t())
-           || call_if("Int16", std::int16_t()) || call_if("UInt16", std::uint16_t())
-           || call_if("Int8", std::int8_t()) || call_if("UInt8", std::uint8_t());
+    return call_if("Float64", double()) || call_if("Float32", float()) || call_if("Int64", std::int64_t())
+           || call_if("UInt64", std::uint64_t()) || call_if("Int32", std::int32_t())
+           || call_if("UInt32", std::uint32_t()) || call_if("Int16", std::int16_t())
+           || call_if("UInt16", std::uint16_t()) || call_if("Int8", std::int8_t())
+           || call_if("UInt8", std::uint8_t());
   }
 
   std::uint64_t header_word(const Array& array, Encoded_bytes& in) const
@@ -419,8 +419,7 @@ class VTU_reader
 
 #ifdef CGAL_USE_ZLIB
   template <class T>
-  void read_compressed(const Array& array, Encoded_bytes& in, std::size_t count,
-                       std::vector<T>& values) const
+  void read_compressed(const Array& array, Encoded_bytes& in, std::size_t count, std::vector<T>& values) const
   {
     const std::uint64_t blocks = header_word(array, in), block_size = header_word(array, in),
                         last_size = header_word(array, in), expected = count * sizeof(T);
@@ -500,8 +499,8 @@ class VTU_reader
       if(word.empty())
         refuse_count();
       if(!parse_number(word, value))
-        refuse_array(array, "has " + in_quotes(word) + " where a number of type "
-                              + std::string(array.type) + " is expected");
+        refuse_array(array, "has " + in_quotes(word) + " where a number of type " + std::string(array.type)
+                              + " is expected");
     }
     if(!in.word().empty())
       refuse_count();
@@ -558,9 +557,9 @@ class VTU_reader
       return Cell_type{HEXAHEDRON, voxel_order};
     if(type < 0 || type > last_of_low_dimension) {
       const bool is_of_higher_order = (type >= 21 && type <= 37) || (type >= 60 && type <= 81);
-      refuse("cell " + std::to_string(cell)
-             + (is_of_higher_order ? " is of higher order" : " cannot be read") + " (VTK's type "
-             + std::to_string(type) + "); expected linear hexahedra, wedges, pyramids and tetrahedra");
+      refuse("cell " + std::to_string(cell) + (is_of_higher_order ? " is of higher order" : " cannot be read")
+             + " (VTK's type " + std::to_string(type)
+             + "); expected linear hexahedra, wedges, pyramids and tetrahedra");
     }
     return std::nullopt;
   }
@@ -577,8 +576,8 @@ class VTU_reader
     const std::int64_t size = offsets.empty() ? 0 : offsets.back();
     if(size < 0)
       refuse("its array \"offsets\" is not increasing");
-    const std::vector<std::int64_t> connectivity =
-        values<std::int64_t>(piece.connectivity, "connectivity", std::uint64_t(size));
+    const std::vector<std::int64_t> connectivity = values<std::int64_t>(piece.connectivity, "connectivity",
+                                                                        std::uint64_t(size));
     const auto cell_data = [&](const std::optional<Array>& array, const char* name) {
       return array ? values<double>(array, name, m) : std::vector<double>();
     };
@@ -605,8 +604,8 @@ class VTU_reader
                  + std::to_string(expected));
         std::array<Vertex_index, 8> vertices{};
         for(std::int64_t i = 0; i < expected; ++i)
-          vertices[type->order[i]]
-            = Vertex_index(first + std::uint64_t(connectivity[std::size_t(begin + i)]));
+          vertices[type->order[i]] = Vertex_index(first
+                                                  + std::uint64_t(connectivity[std::size_t(begin + i)]));
         mesh.elements.add(type->kind, vertices.data());
         Element_attributes attributes;
         attributes.is_in_region = !in_region.empty() && in_region[e] != 0;

@@ -98,7 +98,7 @@ inline Edge_counts count_edges(const std::vector<std::vector<std::size_t>>& poly
 
 // What stands in a file may be anything: numbers first, then topology.
 inline void check_soup(const std::string& path, const std::vector<Predicates_kernel::Point_3>& points,
-                const std::vector<std::vector<std::size_t>>& polygons)
+                       const std::vector<std::vector<std::size_t>>& polygons)
 {
   if(points.empty() || polygons.empty())
     refuse(path, "has no faces");
@@ -154,8 +154,8 @@ inline std::string place_of(Surface::Face_index face, const Surface& mesh)
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out.precision(7);
-  out << "(" << CGAL::to_double(p.x()) << ", " << CGAL::to_double(p.y()) << ", "
-      << CGAL::to_double(p.z()) << ")";
+  out << "(" << CGAL::to_double(p.x()) << ", " << CGAL::to_double(p.y()) << ", " << CGAL::to_double(p.z())
+      << ")";
   return out.str();
 }
 
@@ -191,8 +191,7 @@ inline void remove_degenerate_faces(const std::string& path, Surface& mesh, Surf
   bool is_intact = false;
   try {
     PMP::remove_degenerate_faces(mesh);
-    is_intact = CGAL::is_valid_polygon_mesh(mesh) && CGAL::is_closed(mesh)
-                && CGAL::is_triangle_mesh(mesh);
+    is_intact = CGAL::is_valid_polygon_mesh(mesh) && CGAL::is_closed(mesh) && CGAL::is_triangle_mesh(mesh);
   } catch(const std::exception&) { // an assertion of CGAL
   }
   degenerate.clear();
@@ -230,8 +229,8 @@ inline void refuse_self_intersections(const std::string& path, const Surface& me
     if(std::find(places.begin(), places.end(), place) == places.end())
       places.push_back(place);
   }
-  std::string text = "the surface intersects itself in "
-                     + counted(crossings.size(), "pair", "pairs") + " of faces, for example near ";
+  std::string text = "the surface intersects itself in " + counted(crossings.size(), "pair", "pairs")
+                     + " of faces, for example near ";
   for(std::size_t i = 0; i < places.size(); ++i)
     text += (i == 0 ? "" : ", ") + places[i];
   refuse(path, text);
@@ -277,8 +276,7 @@ inline std::size_t orient_components(Surface& mesh, std::size_t& number_of_rever
     }
     if(candidates.empty())
       continue;
-    const Side::AABB_tree tree(outer.faces.begin(), outer.faces.end(), mesh,
-                                        get(CGAL::vertex_point, mesh));
+    const Side::AABB_tree tree(outer.faces.begin(), outer.faces.end(), mesh, get(CGAL::vertex_point, mesh));
     const Side side(tree);
     for(Component* c : candidates) {
       Bounded_side s = ON_BOUNDARY;
@@ -337,8 +335,8 @@ CGAL_MIXED_MESH_3_INLINE void read_surface(const std::string& path, Surface& mes
                                 }),
                  polygons.end());
   if(polygons.size() != before)
-    input.warnings.push_back("dropped " + counted(before - polygons.size(), "degenerate face",
-                                                  "degenerate faces"));
+    input.warnings.push_back("dropped "
+                             + counted(before - polygons.size(), "degenerate face", "degenerate faces"));
   const std::size_t doubled = PMP::merge_duplicate_polygons_in_polygon_soup(points, polygons);
   if(doubled != 0)
     input.warnings.push_back("merged " + counted(doubled, "duplicate face", "duplicate faces"));
@@ -352,9 +350,9 @@ CGAL_MIXED_MESH_3_INLINE void read_surface(const std::string& path, Surface& mes
   if(edges.open != 0)
     refuse(path, "the surface is not closed: " + counted(edges.open, "border edge", "border edges"));
   if(edges.crowded != 0)
-    refuse(path, "the surface is not a manifold: "
-                   + counted(edges.crowded, "edge has more than two faces",
-                             "edges have more than two faces"));
+    refuse(path,
+           "the surface is not a manifold: "
+             + counted(edges.crowded, "edge has more than two faces", "edges have more than two faces"));
   if(!PMP::is_polygon_soup_a_polygon_mesh(polygons)) {
     // Duplicates pinched points, and those of edges that it has to cut, as in a Moebius band.
     const std::size_t n = points.size();
@@ -372,8 +370,8 @@ CGAL_MIXED_MESH_3_INLINE void read_surface(const std::string& path, Surface& mes
   clear(mesh);
   PMP::polygon_soup_to_polygon_mesh(points, polygons, mesh);
   if(!CGAL::is_triangle_mesh(mesh)) {
-    const std::size_t n = std::size_t(std::count_if(polygons.begin(), polygons.end(),
-                                                    [](const auto& p) { return p.size() > 3; }));
+    const std::size_t n = std::size_t(
+      std::count_if(polygons.begin(), polygons.end(), [](const auto& p) { return p.size() > 3; }));
     if(!PMP::triangulate_faces(mesh))
       refuse(path, "its polygons cannot be triangulated");
     input.warnings.push_back("triangulated " + counted(n, "polygon", "polygons"));

@@ -22,8 +22,7 @@ template <class F>
 void parallel_for(std::size_t n, unsigned threads, const F& f)
 {
   constexpr std::size_t worth_a_thread = 512;
-  const std::size_t blocks = (std::max)(std::size_t(1),
-                                        (std::min)(std::size_t(threads), n / worth_a_thread));
+  const std::size_t blocks = (std::max)(std::size_t(1), (std::min)(std::size_t(threads), n / worth_a_thread));
   const auto run = [&](std::size_t block) {
     for(std::size_t i = n * block / blocks; i < n * (block + 1) / blocks; ++i)
       f(i);

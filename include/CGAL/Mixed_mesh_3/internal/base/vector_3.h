@@ -21,7 +21,8 @@ class Lazy_exact_nt;
 
 namespace Mixed_meshes_3 {
 
-/// A vector, or a position, in doubles. A type of our own, so that its operators are found by argument-dependent
+/// A vector, or a position, in doubles. A type of our own, so that its operators are found by
+/// argument-dependent
 /// lookup.
 struct Vec3 : std::array<double, 3>
 {

@@ -42,7 +42,7 @@ struct Boundary_pieces
   std::size_t number_of_vertices = 0;    ///< of the result
   std::size_t number_of_relabeled_vertices = 0;
   std::size_t number_of_inserted_vertices = 0;
-  Manifold_defects defects;              ///< that relabeling could not repair
+  Manifold_defects defects; ///< that relabeling could not repair
 };
 
 template <class Octree_>
@@ -52,8 +52,8 @@ class Boundary_stage : private Boundary_pieces
   Lattice_mesh& m_mesh;
   const Boundary_mode m_mode;
   const unsigned m_threads;
-  std::vector<Element_index> m_outer;   // elements that have a vertex not inside
-  std::vector<double> m_distances;      // of vertices not inside, where asked for
+  std::vector<Element_index> m_outer; // elements that have a vertex not inside
+  std::vector<double> m_distances;    // of vertices not inside, where asked for
   std::vector<std::uint32_t> m_ranks;
 
   static constexpr std::uint32_t last_rank = std::uint32_t(-1);
@@ -150,10 +150,9 @@ private:
       for(Element_index e : m_outer) {
         const Element_view element = m_mesh.elements[e];
         if(is_replaced[e] && has_inside_vertex(element))
-          split_element(element, [&](Vertex_index v) { return m_ranks[v]; }, inside(),
-                        [&](Element_kind kind, std::initializer_list<Vertex_index> v) {
-                          add_piece(e, kind, v.begin());
-                        });
+          split_element(
+            element, [&](Vertex_index v) { return m_ranks[v]; }, inside(),
+            [&](Element_kind kind, std::initializer_list<Vertex_index> v) { add_piece(e, kind, v.begin()); });
       }
     }
   }
@@ -182,8 +181,7 @@ private:
         }
       }
     }
-    std::sort(faces.begin(), faces.end(),
-              [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<Face_vertices> polygons;
     for(std::size_t i = 0; i < faces.size(); ++i)
       if((i == 0 || faces[i - 1].first != faces[i].first)

@@ -35,8 +35,7 @@ without outside vertices stays, as the base of a pyramid.
            strictly convex
 */
 template <class Rank, class Is_inside, class Add>
-void split_element(const Element_view& element, const Rank& rank, const Is_inside& is_inside,
-                   const Add& add)
+void split_element(const Element_view& element, const Rank& rank, const Is_inside& is_inside, const Add& add)
 {
   const auto is_before = [&](Vertex_index a, Vertex_index b) { return rank(a) < rank(b); };
   const Vertex_index apex = *std::min_element(element.begin(), element.end(), is_before);

@@ -46,7 +46,8 @@ class Parity_splitter
 public:
   Parity_splitter(Lattice_mesh& mesh, const Meets_surface& meets_surface)
     : m_mesh(mesh), m_meets_surface(meets_surface), m_is_touched(mesh.vertices.size(), 0)
-  {}
+  {
+  }
 
   /// Calls `add(element, kind, vertices)` for each piece, in the order of the elements; sets
   /// `is_replaced` for each element that is split.
@@ -89,8 +90,8 @@ private:
     for(int i = 0; i < element.reference().number_of_faces; ++i) {
       const Element_face& face = element.reference().faces[i];
       if(face.size == 4)
-        f(Quadrilateral{element[face.vertices[0]], element[face.vertices[1]],
-                        element[face.vertices[2]], element[face.vertices[3]]});
+        f(Quadrilateral{element[face.vertices[0]], element[face.vertices[1]], element[face.vertices[2]],
+                        element[face.vertices[3]]});
     }
   }
 
@@ -213,10 +214,9 @@ private:
     for(const auto& ends : {std::array<int, 4>{0, 2, 5, 7}, std::array<int, 4>{1, 3, 4, 6}}) {
       bool all = true;
       for_each_quadrilateral(element, [&](const Quadrilateral& q) {
-        all = all && has_diagonal(q)
-              && std::any_of(ends.begin(), ends.end(), [&](int i) {
-                   return position(q, element[i]) < 4 && diagonal_ends_at(q, element[i]);
-                 });
+        all = all && has_diagonal(q) && std::any_of(ends.begin(), ends.end(), [&](int i) {
+                return position(q, element[i]) < 4 && diagonal_ends_at(q, element[i]);
+              });
       });
       if(!all)
         continue;

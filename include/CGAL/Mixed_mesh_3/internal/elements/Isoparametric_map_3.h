@@ -67,7 +67,8 @@ for the hexahedron: at most 1 each in the reference element.
 template <Element_kind Kind>
 struct Element_field
 {
-  static_assert(Kind == TETRAHEDRON || Kind == PYRAMID || Kind == PRISM || Kind == HEXAHEDRON, "add the new kind");
+  static_assert(Kind == TETRAHEDRON || Kind == PYRAMID || Kind == PRISM || Kind == HEXAHEDRON,
+                "add the new kind");
   static constexpr int size = Kind == TETRAHEDRON ? 0 : Kind == PYRAMID ? 1 : Kind == PRISM ? 2 : 4;
   std::array<Vec3, 4 + size> c;
 

@@ -3,7 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The paper's aspect-ratio coefficient (ARC; Lobos, Bucki, Hitschfeld, Payan: section 4), with its gradient: the one
+// The paper's aspect-ratio coefficient (ARC; Lobos, Bucki, Hitschfeld, Payan: section 4), with its gradient:
+// the one
 // formula of it.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_ASPECT_RATIO_H
@@ -37,8 +38,7 @@ inline double squared_tetrahedron_arc(const Vec3& a, const Vec3& b, const Vec3& 
   const double six_volumes = determinant(ab, ac, ad);
   if(!(six_volumes > 0))
     return std::numeric_limits<double>::infinity();
-  const double l2 =
-    (dot(ab, ab) + dot(ac, ac) + dot(ad, ad) + dot(bc, bc) + dot(bd, bd) + dot(cd, cd)) / 6;
+  const double l2 = (dot(ab, ab) + dot(ac, ac) + dot(ad, ad) + dot(bc, bc) + dot(bd, bd) + dot(cd, cd)) / 6;
   constexpr double factor = 36 / (tetrahedron_arc_factor * tetrahedron_arc_factor);
   return factor * l2 * l2 * l2 / (six_volumes * six_volumes);
 }
@@ -47,8 +47,7 @@ inline double squared_tetrahedron_arc(const Vec3& a, const Vec3& b, const Vec3& 
 inline Vec3 tetrahedron_arc_gradient(const Vec3& x, const Vec3& u, const Vec3& v, const Vec3& w)
 {
   const Vec3 xu = u - x, xv = v - x, xw = w - x, uv = v - u, uw = w - u, vw = w - v;
-  const double sum =
-    dot(xu, xu) + dot(xv, xv) + dot(xw, xw) + dot(uv, uv) + dot(uw, uw) + dot(vw, vw);
+  const double sum = dot(xu, xu) + dot(xv, xv) + dot(xw, xw) + dot(uv, uv) + dot(uw, uw) + dot(vw, vw);
   const Vec3 area = cross(uw, uv); // of the face opposite to x, inwards, times 2
   return (-3 / sum) * (xu + xv + xw) - (1 / determinant(xu, xv, xw)) * area;
 }
@@ -131,7 +130,8 @@ inline Length triangle_height(const Mean<2>& a, const Mean<2>& b, const Mean<2>&
   return {area / width, (1 / width) * area_gradient - (wu * area / (width * width * width)) * u};
 }
 
-/// The two lengths whose ratio is the ARC of a pyramid, prism or hexahedron, with their gradients by the position of
+/// The two lengths whose ratio is the ARC of a pyramid, prism or hexahedron, with their gradients by the
+/// position of
 /// vertex `v` if wanted.
 template <bool with_gradient>
 Extreme_lengths extreme_lengths(Element_kind kind, const Element_points& p, int v)

@@ -37,8 +37,9 @@ inline double volume(Element_kind kind, const Element_points& p)
       six_volumes += determinant(a, b, c);
     } else {
       const Vec3& d = p[face.vertices[3]];
-      six_volumes += 0.5 * (determinant(a, b, c) + determinant(a, c, d) + determinant(a, b, d)
-                            + determinant(b, c, d));
+      six_volumes += 0.5
+                     * (determinant(a, b, c) + determinant(a, c, d) + determinant(a, b, d)
+                        + determinant(b, c, d));
     }
   }
   return six_volumes / 6;

@@ -60,7 +60,8 @@ public:
   public:
     Group(const Element_list& elements, const Entry* first, std::size_t size)
       : m_elements(elements), m_first(first), m_size(size)
-    {}
+    {
+    }
 
     std::size_t size() const { return m_size; }
     Element_index element(std::size_t i) const { return m_first[i].element; }
@@ -111,7 +112,8 @@ public:
   }
 };
 
-/// Calls `visit(group)` with a `Face_table::Group` for each set of vertices that is a face, among the faces all
+/// Calls `visit(group)` with a `Face_table::Group` for each set of vertices that is a face, among the faces
+/// all
 /// of whose vertices satisfy `is_candidate`.
 /// \cost linear in the number of elements, if vertices have boundedly many; 24 bytes per face
 template <class Is_candidate, class Visitor>
@@ -125,7 +127,8 @@ void for_each_face(const Element_list& elements, std::size_t number_of_vertices,
 template <class Visitor>
 void for_each_face(const Element_list& elements, std::size_t number_of_vertices, const Visitor& visit)
 {
-  for_each_face(elements, number_of_vertices, [](Vertex_index) { return true; }, visit);
+  for_each_face(
+    elements, number_of_vertices, [](Vertex_index) { return true; }, visit);
 }
 
 } // namespace internal

@@ -108,8 +108,7 @@ inline Strain_operator strain_operator(Element_kind kind, const std::array<Vec3,
   const double jacobian = dot(dr, st);
   Strain_operator b;
   for(int a = 0; a < n; ++a)
-    b.gradients[a] =
-      (1 / jacobian) * (reference[a][0] * st + (reference[a][1] * tr + reference[a][2] * rs));
+    b.gradients[a] = (1 / jacobian) * (reference[a][0] * st + (reference[a][1] * tr + reference[a][2] * rs));
   b.volume = rule.weights[std::size_t(q)] * jacobian;
   return b;
 }

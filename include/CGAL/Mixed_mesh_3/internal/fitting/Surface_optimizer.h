@@ -51,7 +51,8 @@ class Surface_optimizer
   std::vector<std::uint8_t> m_is_arrived;
   Mixed_mesh_optimization_result_3 m_result;
 
-  // Costs are ratios, 1 for the ideal element: none of these numbers has a unit. They decide how soon and how far
+  // Costs are ratios, 1 for the ideal element: none of these numbers has a unit. They decide how soon and how
+  // far
   // bad elements are tolerated, never whether a mesh is valid: that each move proves.
   // While the boundary arrives, elements may become that bad; in each round more, as what does not go
   // gently shall go nevertheless: from 4, 15 rounds lead to 100. A smaller limit leaves more vertices off the
@@ -71,8 +72,7 @@ public:
                     const Quality& quality)
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality), m_project(domain),
       m_boundary(boundary_faces(mesh)), m_working(mesh, m_boundary),
-      m_moves(m_working, m_quality, m_project, criteria.sliding_threshold()),
-      m_samples(surface_samples()),
+      m_moves(m_working, m_quality, m_project, criteria.sliding_threshold()), m_samples(surface_samples()),
       m_attraction(m_working, m_project, m_samples, criteria.tolerance()),
       m_is_arrived(m_working.points.size(), 0)
   {
@@ -96,8 +96,8 @@ public:
     m_working.store(m_mesh);
     const bool is_fitted = m_result.number_of_arrived_vertices == m_result.number_of_boundary_vertices
                            && m_result.is_boundary_simple;
-    m_result.status = is_stopped   ? Status::STOPPED
-                      : !is_fitted ? Status::NOT_ALL_ARRIVED
+    m_result.status = is_stopped                                           ? Status::STOPPED
+                      : !is_fitted                                         ? Status::NOT_ALL_ARRIVED
                       : m_result.largest_distance > m_criteria.tolerance() ? Status::TOLERANCE_NOT_REACHED
                                                                            : Status::SUCCESS;
     return m_result;
@@ -166,7 +166,8 @@ private:
     for(int round = 0; round < retreat_rounds && !crossing.empty(); ++round) {
       const double share = round < retreat_rounds / 2 ? 0.25 : 1;
       for(Vertex_index v : crossing)
-        if(m_moves.try_move(v, m_working.points[v] + share * (start[v] - m_working.points[v]), retreat_cost)) {
+        if(m_moves.try_move(v, m_working.points[v] + share * (start[v] - m_working.points[v]),
+                            retreat_cost)) {
           m_moves.fix(v);
           m_result.number_of_arrived_vertices -= m_is_arrived[v];
           m_is_arrived[v] = 0;
@@ -181,8 +182,8 @@ private:
   void advance(double acceptable)
   {
     m_travelers.erase(std::remove_if(m_travelers.begin(), m_travelers.end(),
-                                      [&](const auto& t) { return move_to(t.first, t.second, acceptable); }),
-                       m_travelers.end());
+                                     [&](const auto& t) { return move_to(t.first, t.second, acceptable); }),
+                      m_travelers.end());
   }
 
   // What can not get to its target may get to the surface where it has come near to it.

@@ -45,12 +45,12 @@ class Vertex_optimizer
   const Quality& m_quality;
   const Project& m_project;
   const double m_worth_sliding;
-  std::vector<double> m_radii;            // of the next trial step of each vertex; 0: not known
-  std::vector<std::uint8_t> m_is_active;  // whether it may have something to gain
+  std::vector<double> m_radii;           // of the next trial step of each vertex; 0: not known
+  std::vector<std::uint8_t> m_is_active; // whether it may have something to gain
   std::vector<std::uint8_t> m_is_fixed;
-  std::vector<Attraction> m_attractions;  // one for each vertex, or none
-  std::vector<double> m_costs;            // of each element; negative: not known
-  std::vector<double> m_trial_costs;      // of the elements around the vertex that is moved
+  std::vector<Attraction> m_attractions; // one for each vertex, or none
+  std::vector<double> m_costs;           // of each element; negative: not known
+  std::vector<double> m_trial_costs;     // of the elements around the vertex that is moved
   double m_power = 4;
   double m_good_enough = 1;
 
@@ -65,7 +65,8 @@ public:
   Vertex_optimizer(Working_mesh& mesh, const Quality& quality, const Project& project, double worth_sliding)
     : m_mesh(mesh), m_quality(quality), m_project(project), m_worth_sliding(worth_sliding),
       m_radii(mesh.points.size(), 0), m_is_active(mesh.points.size(), 0), m_is_fixed(mesh.is_on_boundary)
-  {}
+  {
+  }
 
   /// Boundary vertices are fixed until they are on the surface.
   void release(Vertex_index v) { m_is_fixed[v] = 0; }
@@ -158,9 +159,8 @@ private:
 
   bool is_valid(Vertex_index v) const
   {
-    return std::all_of(m_mesh.incident[v].begin(), m_mesh.incident[v].end(), [&](Element_index e) {
-      return m_mesh.is_positive(m_mesh.elements[e]);
-    });
+    return std::all_of(m_mesh.incident[v].begin(), m_mesh.incident[v].end(),
+                       [&](Element_index e) { return m_mesh.is_positive(m_mesh.elements[e]); });
   }
 
   // Of the attraction; where there is none the weight is 0.

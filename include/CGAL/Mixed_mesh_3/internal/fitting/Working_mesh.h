@@ -97,11 +97,12 @@ struct Working_mesh
   std::vector<Face> boundary_faces() const
   {
     std::vector<Face> faces;
-    for_each_face(element_list(), points.size(), [this](Vertex_index v) { return is_on_boundary[v] != 0; },
-                  [&](const auto& group) {
-                    if(group.size() == 1)
-                      faces.push_back(group[0]);
-                  });
+    for_each_face(
+      element_list(), points.size(), [this](Vertex_index v) { return is_on_boundary[v] != 0; },
+      [&](const auto& group) {
+        if(group.size() == 1)
+          faces.push_back(group[0]);
+      });
     return faces;
   }
 
@@ -148,7 +149,8 @@ struct Working_mesh
     new_points.reserve(points.size());
     for(std::size_t v = 0; v < points.size(); ++v)
       new_points.push_back(to_vec3(mesh.points()[v]) == points[v]
-                             ? mesh.points()[v] : Point_3(points[v][0], points[v][1], points[v][2]));
+                             ? mesh.points()[v]
+                             : Point_3(points[v][0], points[v][1], points[v][2]));
     if(std::none_of(elements.begin(), elements.end(), [](const Element& e) { return e.is_removed; })) {
       mesh.points() = std::move(new_points);
       return;

@@ -23,7 +23,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Targets, and Algorithm 1; vertices that stay behind get new targets, those nearest to where they have come.
+/// Targets, and Algorithm 1; vertices that stay behind get new targets, those nearest to where they have
+/// come.
 template <class Domain, class Mesh, class Quality, class Solver, class Go_on>
 Mixed_mesh_fit_result_3 fit(Mesh& mesh, const Domain& domain, const Quality& quality,
                             const Mixed_mesh_fit_criteria_3& criteria, Solver& solver, const Go_on& go_on)

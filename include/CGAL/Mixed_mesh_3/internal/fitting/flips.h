@@ -128,7 +128,8 @@ private:
 
   // The tetrahedra around an edge, and their vertices off it, in order such that (a, b, r[i], r[i + 1])
   // is positive. Empty unless the edge is inside and all its elements are tetrahedra.
-  std::vector<Vertex_index> ring_of(Vertex_index a, Vertex_index b, std::vector<Element_index>& elements) const
+  std::vector<Vertex_index> ring_of(Vertex_index a, Vertex_index b,
+                                    std::vector<Element_index>& elements) const
   {
     std::vector<std::array<Vertex_index, 2>> links;
     for(Element_index e : m_mesh.incident[a]) {
@@ -217,8 +218,8 @@ private:
     return std::any_of(around.begin(), around.end(), [&](Element_index other) {
       const Working_mesh::Element& element = m_mesh.elements[other];
       return other != e && std::all_of(vertices.begin(), vertices.end(), [&](Vertex_index v) {
-        return std::find(element.begin(), element.end(), v) != element.end();
-      });
+               return std::find(element.begin(), element.end(), v) != element.end();
+             });
     });
   }
 
@@ -232,7 +233,8 @@ private:
         const Element_face& face = reference.faces[f];
         const auto v = [&](int i) { return element.vertices[face.vertices[i % face.size]]; };
         for(int i = 0; i < face.size; ++i)
-          if(((v(i) == a && v(i + 1) == b) || (v(i) == b && v(i + 1) == a)) && !is_shared(e, {v(0), v(1), v(2)}))
+          if(((v(i) == a && v(i + 1) == b) || (v(i) == b && v(i + 1) == a))
+             && !is_shared(e, {v(0), v(1), v(2)}))
             return true;
       }
     }
@@ -246,7 +248,8 @@ private:
     if(cost(m_mesh.elements[e].vertices.data()) < power(worth_removing, m_power))
       return false;
     const std::array<Vertex_index, 8> v = m_mesh.elements[e].vertices;
-    constexpr int edges[6][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};
+    constexpr int edges[6][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2},
+                                 {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};
     for(const auto& k : edges) {
       const Vertex_index a = v[k[0]], b = v[k[1]], c = v[k[2]], d = v[k[3]];
       if(m_mesh.is_on_boundary[a] && m_mesh.is_on_boundary[b] && m_mesh.is_on_boundary[c]
@@ -274,11 +277,11 @@ private:
           const auto& o = m_mesh.elements[other];
           if(o.position(b) == 4 || o.position(c) == 4)
             continue;
-          const Vertex_index apex = o.vertices[std::size_t(6 - o.position(a) - o.position(b) - o.position(c))];
+          const Vertex_index apex =
+            o.vertices[std::size_t(6 - o.position(a) - o.position(b) - o.position(c))];
           // (a, b, c) is seen counter-clockwise from outside, where the apex is
           const std::vector<Tetrahedron> tetrahedra{{a, b, d, apex}, {b, c, d, apex}, {c, a, d, apex}};
-          const double limit = (1 - least_gain)
-                               * (cost(v.data()) + cost(o.vertices.data()));
+          const double limit = (1 - least_gain) * (cost(v.data()) + cost(o.vertices.data()));
           double sum = 0;
           for(const Tetrahedron& t : tetrahedra)
             if(sum < limit)

@@ -102,8 +102,8 @@ class Surface_relaxation
   Solver& m_solver;
   const Go_on& m_go_on;
   Elasticity_system m_system;
-  typename Solver::Vector m_solution; // of the last solve: where an iterative solver starts
-  std::vector<Element_index> m_moving; // elements with a vertex that may move
+  typename Solver::Vector m_solution;     // of the last solve: where an iterative solver starts
+  std::vector<Element_index> m_moving;    // elements with a vertex that may move
   std::vector<std::uint8_t> m_is_elastic; // for each of those, whether it has a vertex that the system moves
   std::vector<double> m_sizes, m_stiffness, m_costs; // for each element
   std::vector<Vec3>& m_points;
@@ -120,8 +120,8 @@ public:
     : m_elements(elements), m_targets(targets), m_criteria(criteria), m_quality(quality), m_solver(solver),
       m_go_on(go_on), m_system(elements, free_vertices(elements, targets, criteria, points.size())),
       m_solution(std::size_t(m_system.number_of_unknowns())), m_sizes(elements.size(), 0),
-      m_stiffness(elements.size(), 1), m_costs(elements.size(), 0), m_points(points),
-      m_candidate(points), m_displacements(points.size(), Vec3{}), m_is_frozen(targets.vertices.size(), 0)
+      m_stiffness(elements.size(), 1), m_costs(elements.size(), 0), m_points(points), m_candidate(points),
+      m_displacements(points.size(), Vec3{}), m_is_frozen(targets.vertices.size(), 0)
   {
     std::vector<std::uint8_t> is_free(points.size(), 0), is_moving(points.size(), 0);
     for(Vertex_index v : m_system.free_vertices())
@@ -157,11 +157,11 @@ public:
     m_result.number_of_arrived_vertices = arrived;
     for(Element_index e : m_moving)
       m_result.number_of_unacceptable_elements += !m_quality.is_acceptable(m_costs[e]);
-    m_result.status = outcome == Outcome::STOPPED                 ? Status::STOPPED
-                      : outcome == Outcome::FAILED                ? Status::SOLVER_FAILED
-                      : arrived != m_targets.vertices.size()      ? Status::NOT_ALL_ARRIVED
-                      : m_result.number_of_unacceptable_elements != 0   ? Status::CAP_REACHED
-                                                                  : Status::SUCCESS;
+    m_result.status = outcome == Outcome::STOPPED                     ? Status::STOPPED
+                      : outcome == Outcome::FAILED                    ? Status::SOLVER_FAILED
+                      : arrived != m_targets.vertices.size()          ? Status::NOT_ALL_ARRIVED
+                      : m_result.number_of_unacceptable_elements != 0 ? Status::CAP_REACHED
+                                                                      : Status::SUCCESS;
     return m_result;
   }
 
@@ -287,7 +287,8 @@ private:
     if(n == 0)
       return true;
     ++m_result.number_of_solves;
-    const auto matrix = make_matrix<typename Solver::Matrix>(m_system.starts(), m_system.rows(), m_system.values());
+    const auto matrix = make_matrix<typename Solver::Matrix>(m_system.starts(), m_system.rows(),
+                                                             m_system.values());
     typename Solver::Vector b{std::size_t(n)};
     for(int i = 0; i < n; ++i)
       b[i] = m_system.right_hand_side()[std::size_t(i)];

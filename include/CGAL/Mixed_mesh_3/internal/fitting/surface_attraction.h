@@ -43,9 +43,9 @@ class Surface_attraction
   const Project& m_project;
   const std::vector<Vec3>& m_samples; // of the surface
   const double m_tolerance;
-  std::vector<Triangle> m_triangles;  // of the boundary
-  std::vector<double> m_stiffness;    // of each vertex: how often it was drawn in vain
-  std::vector<Vec3> m_shifts;         // of each vertex, the mean of what draws it, weighted
+  std::vector<Triangle> m_triangles; // of the boundary
+  std::vector<double> m_stiffness;   // of each vertex: how often it was drawn in vain
+  std::vector<Vec3> m_shifts;        // of each vertex, the mean of what draws it, weighted
   std::vector<double> m_weights;
   std::vector<std::pair<double, Vec3>> m_far_points; // with their distances
   double m_largest_distance = 0;
@@ -61,7 +61,8 @@ public:
                      double tolerance)
     : m_mesh(mesh), m_project(project), m_samples(samples), m_tolerance(tolerance),
       m_stiffness(mesh.points.size(), 1)
-  {}
+  {
+  }
 
   void set_boundary(const std::vector<Face>& faces)
   {
@@ -128,7 +129,8 @@ private:
   }
 
   // The point of the triangle with barycentric coordinates b should be at `where`, a point of the surface.
-  void add(const Triangle& t, const std::array<double, 3>& b, const Vec3& shift, const Vec3& where, double share)
+  void add(const Triangle& t, const std::array<double, 3>& b, const Vec3& shift, const Vec3& where,
+           double share)
   {
     const double distance = norm(shift), excess = distance - 0.7 * tolerated_share * m_tolerance;
     m_largest_distance = (std::max)(m_largest_distance, distance);
@@ -174,7 +176,8 @@ private:
     const double area = dot(normal, normal);
     if(!(area > 0))
       return {0, 0, 0};
-    return {dot(normal, cross(b, c)) / area, dot(normal, cross(c, a)) / area, dot(normal, cross(a, b)) / area};
+    return {dot(normal, cross(b, c)) / area, dot(normal, cross(c, a)) / area,
+            dot(normal, cross(a, b)) / area};
   }
 
   // On a grid, the finer the larger the triangle is.
@@ -185,13 +188,15 @@ private:
       double longest = 0;
       for(int i = 0; i < 3; ++i)
         longest = (std::max)(longest, norm(m_mesh.points[t[i]] - m_mesh.points[t[(i + 1) % 3]]));
-      const int n = int((std::min)((std::max)(std::ceil(longest / m_tolerance), 2.), largest_number_of_steps));
+      const int n = int(
+        (std::min)((std::max)(std::ceil(longest / m_tolerance), 2.), largest_number_of_steps));
       const double share = 4. / ((n + 1) * (n + 2) / 2 - 3); // as if it were four samples
       for(int i = 0; i <= n; ++i)
         for(int j = 0; i + j <= n; ++j)
           if((i > 0) + (j > 0) + (i + j < n) > 1) { // not at a vertex
             const std::array<double, 3> b{1 - double(i + j) / n, double(i) / n, double(j) / n};
-            const Vec3 p = b[0] * m_mesh.points[t[0]] + (b[1] * m_mesh.points[t[1]] + b[2] * m_mesh.points[t[2]]);
+            const Vec3 p = b[0] * m_mesh.points[t[0]]
+                           + (b[1] * m_mesh.points[t[1]] + b[2] * m_mesh.points[t[2]]);
             const Vec3 q = m_project(p, m_mesh.points[t[0]]);
             add(t, b, q - p, q, share);
           }

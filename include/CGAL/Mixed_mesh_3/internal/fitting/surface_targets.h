@@ -53,7 +53,8 @@ struct Surface_targets
 };
 
 /*!
-The boundary as triangles, to see where targets fold. A quadrilateral gives its four corner triangles: none may
+The boundary as triangles, to see where targets fold. A quadrilateral gives its four corner triangles: none
+may
 be folded.
 
 A target triangle is folded when its normal turns away from the normal of the boundary there, which is that of
@@ -101,7 +102,8 @@ public:
   }
 
   /// Marks the vertices of triangles below a quality, and counts these.
-  std::size_t find(const std::vector<Vec3>& targets, double quality, std::vector<std::uint8_t>& is_marked) const
+  std::size_t find(const std::vector<Vec3>& targets, double quality,
+                   std::vector<std::uint8_t>& is_marked) const
   {
     std::fill(is_marked.begin(), is_marked.end(), 0);
     std::size_t count = 0;

@@ -52,9 +52,10 @@ class Driver
 public:
   Driver(const Domain& domain, const Region& region, const Mixed_mesh_criteria_3& criteria,
          const CellTraits& traits, Visitor& visitor)
-    : m_criteria(criteria), m_traits(traits), m_visitor(visitor), m_root(domain, region, traits), m_octree(m_root),
-      m_tolerance_search(m_root, criteria, visitor, m_result)
-  {}
+    : m_criteria(criteria), m_traits(traits), m_visitor(visitor), m_root(domain, region, traits),
+      m_octree(m_root), m_tolerance_search(m_root, criteria, visitor, m_result)
+  {
+  }
 
   Driver(const Driver&) = delete; // the search refers to members
   Driver& operator=(const Driver&) = delete;
@@ -104,9 +105,9 @@ private:
     int level = first_base_level(m_root, m_criteria);
     for(int step = 0;; level += step) {
       Octree_ octree = m_root;
-      Candidate candidate = refine_in_region(octree, budget(), level,
-                                             [this](Octree_& o) { m_tolerance_search.split_far_cells(o); },
-                                             [this](const Octree_& o) { return try_octree(o); });
+      Candidate candidate = refine_in_region(
+        octree, budget(), level, [this](Octree_& o) { m_tolerance_search.split_far_cells(o); },
+        [this](const Octree_& o) { return try_octree(o); });
       const bool is_above = candidate.number_of_vertices > budget();
       if(is_above && step > 0)
         return; // the coarser one, which fits, stays
@@ -121,9 +122,9 @@ private:
       }
       m_lost = lost_cells(m_octree, m_best.mesh, m_best.boundary);
       m_result.number_of_cells = m_octree.number_of_cells();
-      const bool is_too_coarse =
-        m_best.number_of_vertices == 0
-        || double(m_lost.size()) > tolerated_share_of_lost_cells * double(m_result.number_of_cells);
+      const bool is_too_coarse = m_best.number_of_vertices == 0
+                                 || double(m_lost.size())
+                                      > tolerated_share_of_lost_cells * double(m_result.number_of_cells);
       if(is_automatic && is_above && level > coarsest_automatic_base_level)
         step = -1;
       else if(is_automatic && !is_above && step >= 0 && is_too_coarse && level < finest_automatic_base_level)

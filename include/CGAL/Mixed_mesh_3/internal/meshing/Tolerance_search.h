@@ -3,7 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Towards a tolerance: which cells outside the region have to be split, so that the boundary comes near enough to
+// Towards a tolerance: which cells outside the region have to be split, so that the boundary comes near
+// enough to
 // the surface.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_TOLERANCE_SEARCH_H
@@ -32,8 +33,10 @@ namespace internal {
 template <class Octree_, class Mesh, class Visitor>
 class Tolerance_search
 {
-  // Rounds of splitting (four make cells 16 times smaller), the share of the budget they may take (the rest is for
-  // the region), how gently a coarse mesh is fitted for that (each round of fitting costs as much as the others),
+  // Rounds of splitting (four make cells 16 times smaller), the share of the budget they may take (the rest
+  // is for
+  // the region), how gently a coarse mesh is fitted for that (each round of fitting costs as much as the
+  // others),
   // and, where too many places are too far, multiples of the tolerance to begin with.
   static constexpr int rounds = 4, rounds_of_coarse_fit = 5;
   static constexpr double largest_share = 0.7;
@@ -51,7 +54,8 @@ public:
   Tolerance_search(const Octree_& root, const Mixed_mesh_criteria_3& criteria, Visitor& visitor,
                    Mixed_mesh_result_3& result)
     : m_root(root), m_criteria(criteria), m_visitor(visitor), m_result(result)
-  {}
+  {
+  }
 
   bool is_stopped() const { return m_is_stopped; }
 
@@ -68,8 +72,9 @@ public:
       m_result.number_of_vertices_for_tolerance = candidate.number_of_vertices;
       Mesh coarse;
       assemble_mesh(octree, candidate.mesh, candidate.boundary, coarse);
-      const auto criteria =
-        Mixed_mesh_optimization_criteria_3().tolerance(m_criteria.tolerance()).number_of_rounds(rounds_of_coarse_fit);
+      const auto criteria = Mixed_mesh_optimization_criteria_3()
+                              .tolerance(m_criteria.tolerance())
+                              .number_of_rounds(rounds_of_coarse_fit);
       Surface_optimizer optimizer(coarse, m_root.domain(), criteria, Aspect_ratio_quality_3());
       if(!fit(optimizer) || !split(optimizer, limit, octree, candidate))
         return;
@@ -108,7 +113,8 @@ private:
   {
     const Stage_pause<Visitor> pause(m_visitor, Stage::OCTREE);
     const Stage_scope<Visitor> scope(m_visitor, Stage::OPTIMIZATION);
-    m_is_stopped = optimizer([this] { return m_visitor.go_on(); }).status == Mixed_mesh_optimization_status::STOPPED;
+    m_is_stopped = optimizer([this] { return m_visitor.go_on(); }).status
+                   == Mixed_mesh_optimization_status::STOPPED;
     return !m_is_stopped;
   }
 

@@ -23,36 +23,44 @@ namespace internal {
 
 template <class T, class = void>
 struct Is_face_graph : std::false_type
-{};
+{
+};
 // `boost::graph_traits` of what is no graph does not compile: a function tells.
 template <class T>
 struct Is_face_graph<T, std::void_t<decltype(faces(std::declval<const T&>()))>> : std::true_type
-{};
+{
+};
 
 template <class T, class = void>
 struct Is_surface_model : std::false_type
-{};
+{
+};
 template <class T>
 struct Is_surface_model<T, std::void_t<typename T::Point_3, decltype(std::declval<const T&>().closest_point(
-                                                               std::declval<const typename T::Point_3&>()))>>
+                                                              std::declval<const typename T::Point_3&>()))>>
   : std::true_type
-{};
+{
+};
 
 template <class T, class = void>
 struct Is_region_model : std::false_type
-{};
+{
+};
 template <class T>
-struct Is_region_model<T, std::void_t<typename T::Surface_part, decltype(std::declval<const T&>().surface_part())>>
+struct Is_region_model<
+  T, std::void_t<typename T::Surface_part, decltype(std::declval<const T&>().surface_part())>>
   : std::true_type
-{};
+{
+};
 
 /// A domain as it is, or that inside a surface.
 template <class T, class NamedParameters>
 decltype(auto) as_domain(const T& domain, [[maybe_unused]] const NamedParameters& np)
 {
-  static_assert(Is_face_graph<T>::value || (Is_surface_model<T>::value && Is_region_model<T>::value),
-                "the domain must be a closed triangulated surface (a model of FaceListGraph, its header included) or a "
-                "model of MixedMeshDomain_3");
+  static_assert(
+    Is_face_graph<T>::value || (Is_surface_model<T>::value && Is_region_model<T>::value),
+    "the domain must be a closed triangulated surface (a model of FaceListGraph, its header included) or a "
+    "model of MixedMeshDomain_3");
   if constexpr(Is_face_graph<T>::value)
     return Polyhedral_mixed_mesh_domain_3(domain, np);
   else
@@ -63,9 +71,10 @@ decltype(auto) as_domain(const T& domain, [[maybe_unused]] const NamedParameters
 template <class T, class NamedParameters>
 decltype(auto) as_surface(const T& surface, [[maybe_unused]] const NamedParameters& np)
 {
-  static_assert(Is_face_graph<T>::value || Is_surface_model<T>::value,
-                "the surface must be closed and triangulated (a model of FaceListGraph, its header included) or a "
-                "model of MixedMeshSurface_3");
+  static_assert(
+    Is_face_graph<T>::value || Is_surface_model<T>::value,
+    "the surface must be closed and triangulated (a model of FaceListGraph, its header included) or a "
+    "model of MixedMeshSurface_3");
   if constexpr(Is_face_graph<T>::value)
     return Polyhedral_mixed_mesh_domain_3(surface, np);
   else
@@ -76,9 +85,10 @@ decltype(auto) as_surface(const T& surface, [[maybe_unused]] const NamedParamete
 template <class T, class NamedParameters>
 decltype(auto) as_region(const T& region, [[maybe_unused]] const NamedParameters& np)
 {
-  static_assert(Is_face_graph<T>::value || Is_region_model<T>::value,
-                "the region must be a closed triangulated surface (a model of FaceListGraph, its header included) or a "
-                "model of MixedMeshRegion_3");
+  static_assert(
+    Is_face_graph<T>::value || Is_region_model<T>::value,
+    "the region must be a closed triangulated surface (a model of FaceListGraph, its header included) or a "
+    "model of MixedMeshRegion_3");
   if constexpr(Is_face_graph<T>::value)
     return Polyhedral_mixed_mesh_region_3(region, np);
   else
@@ -89,11 +99,12 @@ decltype(auto) as_region(const T& region, [[maybe_unused]] const NamedParameters
 template <class NamedParameters, class Function>
 decltype(auto) with_visitor(const NamedParameters& np, const Function& f)
 {
-  using Visitor =
-    typename internal_np::Lookup_named_param_def<internal_np::visitor_t, NamedParameters, Default_visitor>::reference;
+  using Visitor = typename internal_np::Lookup_named_param_def<internal_np::visitor_t, NamedParameters,
+                                                               Default_visitor>::reference;
   Default_visitor default_visitor;
-  Visitor visitor =
-    parameters::choose_parameter(parameters::get_parameter_reference(np, internal_np::visitor), default_visitor);
+  Visitor visitor = parameters::choose_parameter(parameters::get_parameter_reference(np,
+                                                                                     internal_np::visitor),
+                                                 default_visitor);
   return f(visitor);
 }
 

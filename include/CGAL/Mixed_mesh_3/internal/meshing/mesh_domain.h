@@ -3,7 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The core works on doubles: one driver for all kernels of the user's mesh, and for domains and regions inside
+// The core works on doubles: one driver for all kernels of the user's mesh, and for domains and regions
+// inside
 // polyhedra one that can be compiled in advance.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_MESH_DOMAIN_H
@@ -32,8 +33,9 @@ using Core_mesh = Mixed_mesh_3<Predicates_kernel>;
 
 /// Runs the driver.
 template <class Domain, class Region, class CellTraits>
-Mixed_mesh_result_3 mesh_domain(const Domain& domain, const Region& region, const Mixed_mesh_criteria_3& criteria,
-                                const CellTraits& cell_traits, Any_visitor& visitor, Core_mesh& mesh)
+Mixed_mesh_result_3 mesh_domain(const Domain& domain, const Region& region,
+                                const Mixed_mesh_criteria_3& criteria, const CellTraits& cell_traits,
+                                Any_visitor& visitor, Core_mesh& mesh)
 {
   return Driver<Domain, Region, CellTraits, Core_mesh, Any_visitor>(domain, region, criteria, cell_traits,
                                                                     visitor)(mesh);
@@ -72,7 +74,7 @@ Mixed_mesh_result_3 mesh_domain_as(const Domain& domain, const Region& region,
 } // namespace CGAL
 
 #ifndef CGAL_MIXED_MESH_3_COMPILED
-#  include <CGAL/Mixed_mesh_3/internal/meshing/mesh_domain_impl.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/mesh_domain_impl.h>
 #endif
 
 #endif // CGAL_MIXED_MESH_3_INTERNAL_MESHING_MESH_DOMAIN_H

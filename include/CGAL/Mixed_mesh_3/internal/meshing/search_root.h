@@ -30,19 +30,22 @@ inline bool is_root_searched(const Mixed_mesh_criteria_3& criteria)
          && criteria.maximal_number_of_vertices() <= largest_budget_to_place_lattice;
 }
 
-/// Whether a result is to be preferred: valid, then within the tolerance, then with more vertices in the region
+/// Whether a result is to be preferred: valid, then within the tolerance, then with more vertices in the
+/// region
 /// (or, outside the tolerance, nearer to the surface).
 inline bool is_better(const Mixed_mesh_result_3& a, const Mixed_mesh_result_3& b, double tolerance)
 {
   const auto rank = [&](const Mixed_mesh_result_3& r) {
     const bool is_within = r.optimization.largest_distance <= tolerance;
     return std::make_tuple(r.has_mesh(), r.status != Mixed_mesh_status::NOT_ALL_ARRIVED, is_within,
-                           is_within ? double(r.number_of_vertices_in_region) : -r.optimization.largest_distance);
+                           is_within ? double(r.number_of_vertices_in_region)
+                                     : -r.optimization.largest_distance);
   };
   return rank(a) > rank(b);
 }
 
-/// Of the roots that leave most vertices to the region, takes the one whose mesh is within the tolerance with most
+/// Of the roots that leave most vertices to the region, takes the one whose mesh is within the tolerance with
+/// most
 /// vertices in the region, else nearest to it.
 /// \param bbox of the domain
 /// \param criteria with a tolerance
@@ -55,12 +58,12 @@ Mixed_mesh_result_3 search_root(const Bbox_3& bbox, const Mixed_mesh_criteria_3&
   Mesh trial;
   bool is_stopped = false;
   const std::size_t compared = vertices_to_compare_roots / criteria.maximal_number_of_vertices() + 1;
-  const std::vector<Bbox_3> roots =
-    best_roots(candidate_roots(bbox), compared, [&](const Bbox_3& root) -> std::size_t {
+  const std::vector<Bbox_3> roots = best_roots(
+    candidate_roots(bbox), compared, [&](const Bbox_3& root) -> std::size_t {
       if(is_stopped)
         return 0;
-      const Mixed_mesh_result_3 result =
-        make(root, Mixed_mesh_criteria_3(criteria).tolerance(0).fit_to_surface(false), trial);
+      const Mixed_mesh_result_3 result = make(
+        root, Mixed_mesh_criteria_3(criteria).tolerance(0).fit_to_surface(false), trial);
       is_stopped = result.status == Mixed_mesh_status::STOPPED;
       return result.has_mesh() ? result.number_of_vertices_in_region : 0;
     });

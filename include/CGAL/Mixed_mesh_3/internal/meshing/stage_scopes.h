@@ -22,7 +22,10 @@ class Stage_scope
   const Stage m_stage;
 
 public:
-  Stage_scope(Visitor& visitor, Stage stage) : m_visitor(visitor), m_stage(stage) { visitor.begin_stage(stage); }
+  Stage_scope(Visitor& visitor, Stage stage) : m_visitor(visitor), m_stage(stage)
+  {
+    visitor.begin_stage(stage);
+  }
   ~Stage_scope() { m_visitor.end_stage(m_stage); }
   Stage_scope(const Stage_scope&) = delete;
   Stage_scope& operator=(const Stage_scope&) = delete;
@@ -36,7 +39,10 @@ class Stage_pause
   const Stage m_stage;
 
 public:
-  Stage_pause(Visitor& visitor, Stage stage) : m_visitor(visitor), m_stage(stage) { visitor.end_stage(stage); }
+  Stage_pause(Visitor& visitor, Stage stage) : m_visitor(visitor), m_stage(stage)
+  {
+    visitor.end_stage(stage);
+  }
   ~Stage_pause() { m_visitor.begin_stage(m_stage); }
   Stage_pause(const Stage_pause&) = delete;
   Stage_pause& operator=(const Stage_pause&) = delete;

@@ -211,7 +211,7 @@ private:
 
   struct Location
   {
-    std::int8_t domain, region; // Bounded_side
+    std::int8_t domain, region;             // Bounded_side
     std::uint32_t domain_part, region_part; // 0: none (or, for the root, the whole)
   };
 

@@ -66,7 +66,8 @@ public:
     for(std::uint32_t i = 0; i < 8; ++i)
       m_nodes.push_back({{parent.corner[0] + (i & 1) * half, parent.corner[1] + (i >> 1 & 1) * half,
                           parent.corner[2] + (i >> 2) * half},
-                         0, std::uint8_t(parent.level + 1)});
+                         0,
+                         std::uint8_t(parent.level + 1)});
     return first;
   }
 
@@ -170,11 +171,11 @@ private:
         face(axis, {child(n[0], o | a), child(n[1], o)});
       // edges in the face along b, then along c; around an edge along k, bit 0 is axis k+1
       for(int o : {0, b})
-        edge((axis + 1) % 3, {child(n[0], o | a), child(n[0], o | a | c), child(n[1], o),
-                              child(n[1], o | c)});
+        edge((axis + 1) % 3,
+             {child(n[0], o | a), child(n[0], o | a | c), child(n[1], o), child(n[1], o | c)});
       for(int o : {0, c})
-        edge((axis + 2) % 3, {child(n[0], o | a), child(n[1], o), child(n[0], o | a | b),
-                              child(n[1], o | b)});
+        edge((axis + 2) % 3,
+             {child(n[0], o | a), child(n[1], o), child(n[0], o | a | b), child(n[1], o | b)});
       std::array<Node_index, 8> around;
       for(int i = 0; i < 8; ++i)
         around[i] = child(n[i & a ? 1 : 0], i ^ a);
@@ -188,8 +189,7 @@ private:
         return;
       const int a = 1 << axis, b = 1 << (axis + 1) % 3, c = 1 << (axis + 2) % 3;
       for(int o : {0, a})
-        edge(axis, {child(n[0], o | b | c), child(n[1], o | c), child(n[2], o | b),
-                    child(n[3], o)});
+        edge(axis, {child(n[0], o | b | c), child(n[1], o | c), child(n[2], o | b), child(n[3], o)});
       std::array<Node_index, 8> around;
       for(int i = 0; i < 8; ++i)
         around[i] = child(n[(i & b ? 1 : 0) | (i & c ? 2 : 0)], i ^ b ^ c);

@@ -22,9 +22,11 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// For larger budgets it is not worth the time, which grows with the budget: the region has most vertices anyway.
+/// For larger budgets it is not worth the time, which grows with the budget: the region has most vertices
+/// anyway.
 inline constexpr std::size_t largest_budget_to_place_lattice = 20000;
-/// How many vertices the meshes have together that are made to compare the best roots: 7 meshes of 660 vertices, one
+/// How many vertices the meshes have together that are made to compare the best roots: 7 meshes of 660
+/// vertices, one
 /// of 4,000 and more. Their fitting is most of the time that a tolerance takes.
 inline constexpr std::size_t vertices_to_compare_roots = 4000;
 
@@ -33,9 +35,10 @@ inline constexpr std::size_t vertices_to_compare_roots = 4000;
 inline std::vector<Bbox_3> candidate_roots(const Bbox_3& domain)
 {
   constexpr double scales[] = {1.05, 1.1, 1.15, 1.2, 1.25};
-  constexpr Vec3 shifts[] = {{0, 0, 0},  {1, 0, 0},  {-1, 0, 0},      {0, 1, 0},       {0, -1, 0},
-                             {0, 0, 1},  {0, 0, -1}, {0.5, 0.5, 0.5}, {-0.5, -0.5, 0.5}};
-  const Vec3 low{domain.xmin(), domain.ymin(), domain.zmin()}, high{domain.xmax(), domain.ymax(), domain.zmax()};
+  constexpr Vec3 shifts[] = {{0, 0, 0}, {1, 0, 0},  {-1, 0, 0},      {0, 1, 0},        {0, -1, 0},
+                             {0, 0, 1}, {0, 0, -1}, {0.5, 0.5, 0.5}, {-0.5, -0.5, 0.5}};
+  const Vec3 low{domain.xmin(), domain.ymin(), domain.zmin()},
+    high{domain.xmax(), domain.ymax(), domain.zmax()};
   const Vec3 extent = high - low, center = 0.5 * (low + high);
   const double side = (std::max)({extent[0], extent[1], extent[2]});
   std::vector<Bbox_3> roots{domain};

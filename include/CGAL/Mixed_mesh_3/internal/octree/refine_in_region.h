@@ -100,8 +100,7 @@ private:
       if(low > 0 && double(size()) > full_enough * double(m_budget))
         break;
       // by the rate of the last trial, by the secant, and by bisection where that is slow
-      const double rate =
-        n_high > 0 ? double(n_high - size()) / double(high - low) : m_vertices_per_cell;
+      const double rate = n_high > 0 ? double(n_high - size()) / double(high - low) : m_vertices_per_cell;
       const double secant = (std::max)(1., double(m_budget - size()) / rate);
       const std::size_t k = step > 2 && step % 2 == 1 && n_high > 0 ? low + (high - low) / 2
                                                                     : low + std::size_t(secant);

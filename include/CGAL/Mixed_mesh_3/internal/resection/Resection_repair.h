@@ -24,7 +24,6 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-
 /// The elements around each vertex, and across each face.
 class Element_adjacency
 {
@@ -101,9 +100,10 @@ public:
   };
   enum class State : std::uint8_t {
     KEPT,
-    GONE,    // from before
-    ASKED,   // removed as asked
-    FLOATING, PINCH // removed in addition, and why
+    GONE,  // from before
+    ASKED, // removed as asked
+    FLOATING,
+    PINCH // removed in addition, and why
   };
 
 private:

@@ -55,9 +55,8 @@ public:
     CGAL_precondition(CGAL::is_triangle_mesh(surface));
     CGAL_precondition(CGAL::is_closed(surface));
     // A copy in doubles: predicates are exact on it, and the user's surface need not outlive us.
-    auto vpm = parameters::choose_parameter(
-      parameters::get_parameter(np, internal_np::vertex_point),
-      get_const_property_map(CGAL::vertex_point, surface));
+    auto vpm = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
+                                            get_const_property_map(CGAL::vertex_point, surface));
     std::unordered_map<typename boost::graph_traits<FaceListGraph>::vertex_descriptor, std::size_t> copy;
     std::vector<Point_3> points;
     for(auto v : vertices(surface)) {
@@ -85,7 +84,8 @@ public:
     part.facets.resize(number_of_facets());
     std::iota(part.facets.begin(), part.facets.end(), 0);
     const Bbox_3& b = bbox();
-    // Anywhere outside will do, but not where segments to it are parallel to the axes; the side that follows is
+    // Anywhere outside will do, but not where segments to it are parallel to the axes; the side that follows
+    // is
     // the same from everywhere.
     const double margin = 0.1 * (std::max)({b.x_span(), b.y_span(), b.z_span()});
     part.reference = Point_3((b.xmax)() + 0.7 * b.x_span() + margin, (b.ymax)() + 0.9 * b.y_span() + margin,
@@ -132,8 +132,7 @@ public:
       const Orientation o2 = orientation(p, q, t[2], t[0]);
       if(o0 * o2 == -1 || o1 * o2 == -1)
         continue;
-      if(side_p == COPLANAR || side_q == COPLANAR || o0 == COPLANAR || o1 == COPLANAR
-         || o2 == COPLANAR)
+      if(side_p == COPLANAR || side_q == COPLANAR || o0 == COPLANAR || o1 == COPLANAR || o2 == COPLANAR)
         return bounded_side(p); // the segment touches an edge or a vertex, or ends on the surface
       odd = !odd;
     }
@@ -164,10 +163,7 @@ public:
   Point_3 closest_point(const Point_3& p, const Point_3& hint) const;
 
   /// The closest point of the surface, by a search that starts anywhere.
-  Point_3 closest_point(const Point_3& p) const
-  {
-    return closest_point(p, m_triangles.front()[0]);
-  }
+  Point_3 closest_point(const Point_3& p) const { return closest_point(p, m_triangles.front()[0]); }
 
   /// Points of the surface, such that none of its points is farther than about `spacing` from one of them:
   /// all vertices, and a grid on larger triangles.
@@ -195,7 +191,7 @@ private:
 } // namespace CGAL
 
 #ifndef CGAL_MIXED_MESH_3_COMPILED
-#  include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3_impl.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3_impl.h>
 #endif
 
 #endif // CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SURFACE_ORACLE_3_H

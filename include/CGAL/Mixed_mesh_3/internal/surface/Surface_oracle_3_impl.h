@@ -39,15 +39,17 @@ struct Surface_oracle_3::Trees
 
 CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::Delete_trees::operator()(Trees* trees) const { delete trees; }
 
-CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::build(const std::vector<Point_3>& points,
-                                                      const std::vector<std::array<std::size_t, 3>>& triangles)
+CGAL_MIXED_MESH_3_INLINE void
+Surface_oracle_3::build(const std::vector<Point_3>& points,
+                        const std::vector<std::array<std::size_t, 3>>& triangles)
 {
   m_trees.reset(new Trees());
   Trees::Surface& s = m_trees->surface;
   for(const Point_3& p : points)
     s.add_vertex(p);
   for(const auto& t : triangles) {
-    s.add_face(Trees::Surface::Vertex_index(std::uint32_t(t[0])), Trees::Surface::Vertex_index(std::uint32_t(t[1])),
+    s.add_face(Trees::Surface::Vertex_index(std::uint32_t(t[0])),
+               Trees::Surface::Vertex_index(std::uint32_t(t[1])),
                Trees::Surface::Vertex_index(std::uint32_t(t[2])));
     m_triangles.emplace_back(points[t[0]], points[t[1]], points[t[2]]);
     m_boxes.push_back(m_triangles.back().bbox());

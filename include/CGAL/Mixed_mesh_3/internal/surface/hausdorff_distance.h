@@ -98,8 +98,8 @@ public:
 /// How far a surface is from another one.
 struct One_sided_distance
 {
-  double distance = 0; ///< of `from`, the farthest point found
-  double error = 0;    ///< no point is farther than `distance + error`
+  double distance = 0;             ///< of `from`, the farthest point found
+  double error = 0;                ///< no point is farther than `distance + error`
   Predicates_kernel::Point_3 from; ///< a point of the surface
   Predicates_kernel::Point_3 to;   ///< the point of the other one nearest to it
 };

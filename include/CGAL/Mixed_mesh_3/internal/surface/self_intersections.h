@@ -36,8 +36,9 @@ inline bool is_crossing(const std::array<Vertex_index, 3>& s, const std::array<V
   };
   // turned, such that what is shared comes first
   const auto turned = [](std::array<Vertex_index, 3> a, const std::array<Vertex_index, 3>& b, int& shared) {
-    const auto end =
-      std::stable_partition(a.begin(), a.end(), [&](Vertex_index v) { return std::count(b.begin(), b.end(), v) > 0; });
+    const auto end = std::stable_partition(a.begin(), a.end(), [&](Vertex_index v) {
+      return std::count(b.begin(), b.end(), v) > 0;
+    });
     shared = int(end - a.begin());
     return a;
   };

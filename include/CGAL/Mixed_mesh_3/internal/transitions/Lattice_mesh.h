@@ -27,16 +27,15 @@ struct Lattice_mesh
   static constexpr std::int8_t unknown_side = 2;
 
   std::vector<Lattice_point> vertices;
-  std::vector<std::int8_t> sides;            ///< `Bounded_side` of each vertex, or unknown
-  std::vector<Octree::Node_index> leaves;    ///< for each vertex, a leaf that touches it
-  std::vector<std::uint8_t> is_on_rim;       ///< not all leaves around the vertex have elements
+  std::vector<std::int8_t> sides;         ///< `Bounded_side` of each vertex, or unknown
+  std::vector<Octree::Node_index> leaves; ///< for each vertex, a leaf that touches it
+  std::vector<std::uint8_t> is_on_rim;    ///< not all leaves around the vertex have elements
   Element_list elements;
-  std::vector<Octree::Node_index> cells;     ///< for each element, the leaf it comes from
+  std::vector<Octree::Node_index> cells; ///< for each element, the leaf it comes from
   /// From here on, vertices are not the octree's: transition templates inserted them.
   std::size_t first_inserted_vertex = 0;
 
-  Vertex_index add_vertex(const Lattice_point& p, std::int8_t side, Octree::Node_index leaf,
-                          bool rim = false)
+  Vertex_index add_vertex(const Lattice_point& p, std::int8_t side, Octree::Node_index leaf, bool rim = false)
   {
     vertices.push_back(p);
     sides.push_back(side);

@@ -51,7 +51,8 @@ class Apply_transitions
 public:
   explicit Apply_transitions(const Octree_& octree)
     : m_located(octree), m_octree(octree.octree()), m_patterns(edge_patterns(m_octree))
-  {}
+  {
+  }
 
   Lattice_mesh operator()(Transition_templates_choice choice, unsigned threads)
   {
@@ -127,8 +128,7 @@ private:
   {
     const Lattice_point& c = m_octree.corner(n);
     const int shift = Octree::max_level - m_octree.level(n);
-    return int(((p[0] - c[0]) >> shift) + 3 * ((p[1] - c[1]) >> shift)
-               + 9 * ((p[2] - c[2]) >> shift));
+    return int(((p[0] - c[0]) >> shift) + 3 * ((p[1] - c[1]) >> shift) + 9 * ((p[2] - c[2]) >> shift));
   }
 
   void add_transition_elements(Transition_templates_choice choice)
@@ -161,8 +161,7 @@ private:
     const std::uint32_t half = m_octree.side(n) / 2;
     const Lattice_point& c = m_octree.corner(n);
     const Lattice_point p{c[0] + local % 3 * half, c[1] + local / 3 % 3 * half, c[2] + local / 9 * half};
-    const auto [known, is_new] =
-      m_inserted.try_emplace(lattice_key(p), Vertex_index(m_mesh.vertices.size()));
+    const auto [known, is_new] = m_inserted.try_emplace(lattice_key(p), Vertex_index(m_mesh.vertices.size()));
     if(is_new) {
       const Bounded_side side = m_located.side(n);
       m_mesh.add_vertex(p, side == ON_BOUNDARY ? Lattice_mesh::unknown_side : std::int8_t(side), n,
@@ -183,8 +182,9 @@ private:
         unknown.push_back(v);
     parallel_for(unknown.size(), threads, [&](std::size_t i) {
       const Vertex_index v = unknown[i];
-      m_mesh.sides[v] = std::int8_t(m_located.domain().bounded_side(
-        m_located.point(m_mesh.vertices[v]), m_located.surface_part(m_mesh.leaves[v])));
+      m_mesh.sides[v] = std::int8_t(
+        m_located.domain().bounded_side(m_located.point(m_mesh.vertices[v]),
+                                        m_located.surface_part(m_mesh.leaves[v])));
     });
   }
 };

@@ -65,18 +65,17 @@ constexpr int CELL_CENTER = 13;
 // The midpoint of an edge as a lattice index.
 inline int edge_midpoint(int edge)
 {
-  constexpr unsigned char midpoints[12] = { 1, 7, 19, 25, 3, 5, 21, 23, 9, 11, 15, 17 };
+  constexpr unsigned char midpoints[12] = {1, 7, 19, 25, 3, 5, 21, 23, 9, 11, 15, 17};
   return midpoints[edge];
 }
 
 // The 4 bits of a face in the pattern of its cell.
 inline unsigned int face_pattern(unsigned int mask, int face)
 {
-  constexpr unsigned char edges[6][4] = { { 4, 6, 8, 10 }, { 5, 7, 9, 11 }, { 0, 2, 8, 9 },
-                                          { 1, 3, 10, 11 }, { 0, 1, 4, 5 }, { 2, 3, 6, 7 } };
+  constexpr unsigned char edges[6][4] = {{4, 6, 8, 10},  {5, 7, 9, 11}, {0, 2, 8, 9},
+                                         {1, 3, 10, 11}, {0, 1, 4, 5},  {2, 3, 6, 7}};
   const unsigned char* e = edges[face];
-  return (mask >> e[0] & 1) | (mask >> e[1] & 1) << 1 | (mask >> e[2] & 1) << 2
-                            | (mask >> e[3] & 1) << 3;
+  return (mask >> e[0] & 1) | (mask >> e[1] & 1) << 1 | (mask >> e[2] & 1) << 2 | (mask >> e[3] & 1) << 3;
 }
 
 // The pieces of a face, from its 4 bits only: both cells at a face agree on them. Up to rotation:
@@ -90,42 +89,41 @@ inline unsigned int face_pattern(unsigned int mask, int face)
 inline Face_split face_split(int face, unsigned int bits)
 {
   // The points 0..8 of the drawing for each face, seen from outside.
-  constexpr unsigned char points[6][9] = { {  0,  9, 18, 21, 24, 15,  6,  3, 12 },
-                                           {  2,  5,  8, 17, 26, 23, 20, 11, 14 },
-                                           {  0,  1,  2, 11, 20, 19, 18,  9, 10 },
-                                           {  6, 15, 24, 25, 26, 17,  8,  7, 16 },
-                                           {  0,  3,  6,  7,  8,  5,  2,  1,  4 },
-                                           { 18, 19, 20, 23, 26, 25, 24, 21, 22 } };
+  constexpr unsigned char points[6][9] = {{0, 9, 18, 21, 24, 15, 6, 3, 12},
+                                          {2, 5, 8, 17, 26, 23, 20, 11, 14},
+                                          {0, 1, 2, 11, 20, 19, 18, 9, 10},
+                                          {6, 15, 24, 25, 26, 17, 8, 7, 16},
+                                          {0, 3, 6, 7, 8, 5, 2, 1, 4},
+                                          {18, 19, 20, 23, 26, 25, 24, 21, 22}};
   // The bit of each side 0 2, 2 4, 4 6, 6 0: the drawing's first direction is the face's first
   // axis on x+, y-, z+ and the second one on the others.
-  constexpr unsigned char bits_of_sides[2][4] = { { 0, 3, 1, 2 }, { 2, 1, 3, 0 } };
+  constexpr unsigned char bits_of_sides[2][4] = {{0, 3, 1, 2}, {2, 1, 3, 0}};
   // The six splits, with their sides as bits 0 to 3.
-  struct Case { unsigned char sides; Face_split split; };
+  struct Case
+  {
+    unsigned char sides;
+    Face_split split;
+  };
   constexpr Case cases[6] = {
-    { 0x0, { 1, { { 4, { 0, 2, 4, 6 } } } } },
-    { 0x1, { 3, { { 3, { 0, 1, 6 } }, { 3, { 1, 2, 4 } }, { 3, { 1, 4, 6 } } } } },
-    { 0x5, { 2, { { 4, { 0, 1, 5, 6 } }, { 4, { 1, 2, 4, 5 } } } } },
-    { 0x9, { 4, { { 3, { 0, 1, 7 } }, { 3, { 1, 4, 7 } }, { 3, { 1, 2, 4 } },
-                  { 3, { 4, 6, 7 } } } } },
-    { 0xB, { 4, { { 4, { 7, 3, 4, 6 } }, { 3, { 0, 1, 7 } }, { 3, { 1, 2, 3 } },
-                  { 3, { 1, 3, 7 } } } } },
-    { 0xF, { 4, { { 4, { 0, 1, 8, 7 } }, { 4, { 1, 2, 3, 8 } }, { 4, { 8, 3, 4, 5 } },
-                  { 4, { 7, 8, 5, 6 } } } } } };
+    {0x0, {1, {{4, {0, 2, 4, 6}}}}},
+    {0x1, {3, {{3, {0, 1, 6}}, {3, {1, 2, 4}}, {3, {1, 4, 6}}}}},
+    {0x5, {2, {{4, {0, 1, 5, 6}}, {4, {1, 2, 4, 5}}}}},
+    {0x9, {4, {{3, {0, 1, 7}}, {3, {1, 4, 7}}, {3, {1, 2, 4}}, {3, {4, 6, 7}}}}},
+    {0xB, {4, {{4, {7, 3, 4, 6}}, {3, {0, 1, 7}}, {3, {1, 2, 3}}, {3, {1, 3, 7}}}}},
+    {0xF, {4, {{4, {0, 1, 8, 7}}, {4, {1, 2, 3, 8}}, {4, {8, 3, 4, 5}}, {4, {7, 8, 5, 6}}}}}};
 
   const bool first = (face == 1 || face == 2 || face == 5);
   unsigned int sides = 0;
-  for (int i = 0; i < 4; ++i)
+  for(int i = 0; i < 4; ++i)
     sides |= (bits >> bits_of_sides[first ? 0 : 1][i] & 1) << i;
-  for (int rotation = 0; ; ++rotation)   // ends: one of the six is a rotation of any pattern
+  for(int rotation = 0;; ++rotation) // ends: one of the six is a rotation of any pattern
   {
     const unsigned int rotated = (sides >> rotation | sides << (4 - rotation)) & 0xF;
-    for (const Case& c : cases)
-      if (c.sides == rotated)
-      {
+    for(const Case& c : cases)
+      if(c.sides == rotated) {
         Face_split result = c.split;
-        for (int i = 0; i < result.size; ++i)
-          for (int k = 0; k < result.pieces[i].size; ++k)
-          {
+        for(int i = 0; i < result.size; ++i)
+          for(int k = 0; k < result.pieces[i].size; ++k) {
             unsigned char& v = result.pieces[i].vertices[k];
             v = points[face][v == 8 ? 8 : (v + 2 * rotation) % 8];
           }
@@ -138,9 +136,9 @@ inline Face_split face_split(int face, unsigned int bits)
 class Transition_template
 {
 public:
-  Transition_template(const Template_element* begin, const Template_element* end)
-    : m_begin(begin), m_end(end)
-  {}
+  Transition_template(const Template_element* begin, const Template_element* end) : m_begin(begin), m_end(end)
+  {
+  }
 
   const Template_element* begin() const { return m_begin; }
   const Template_element* end() const { return m_end; }
@@ -182,7 +180,7 @@ private:
 
     Transition_template operator[](unsigned int mask) const
     {
-      return { elements.data() + offsets[mask], elements.data() + offsets[mask + 1] };
+      return {elements.data() + offsets[mask], elements.data() + offsets[mask + 1]};
     }
   };
 
@@ -193,30 +191,28 @@ private:
     unsigned char edges[12];
     bool is_reflection;
 
-    Symmetry(int number)   // 0..47: 6 orders of the axes, each with 8 sets of reversed axes
+    Symmetry(int number) // 0..47: 6 orders of the axes, each with 8 sets of reversed axes
     {
-      constexpr unsigned char axes[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
-                                             { 0, 2, 1 }, { 2, 1, 0 }, { 1, 0, 2 } };
+      constexpr unsigned char axes[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
       const int order = number / 8, reversed = number % 8;
       is_reflection = (order >= 3) != (((reversed ^ reversed >> 1 ^ reversed >> 2) & 1) != 0);
-      for (int i = 0; i < 27; ++i)
-      {
-        const int p[3] = { i % 3, i / 3 % 3, i / 9 };
+      for(int i = 0; i < 27; ++i) {
+        const int p[3] = {i % 3, i / 3 % 3, i / 9};
         int q[3];
-        for (int k = 0; k < 3; ++k)
+        for(int k = 0; k < 3; ++k)
           q[k] = (reversed >> k & 1) ? 2 - p[axes[order][k]] : p[axes[order][k]];
         points[i] = static_cast<unsigned char>(q[0] + 3 * q[1] + 9 * q[2]);
       }
-      for (int e = 0; e < 12; ++e)
-        for (int f = 0; f < 12; ++f)
-          if (points[edge_midpoint(e)] == edge_midpoint(f))
+      for(int e = 0; e < 12; ++e)
+        for(int f = 0; f < 12; ++f)
+          if(points[edge_midpoint(e)] == edge_midpoint(f))
             edges[e] = static_cast<unsigned char>(f);
     }
 
     unsigned int operator()(unsigned int mask) const
     {
       unsigned int result = 0;
-      for (int e = 0; e < 12; ++e)
+      for(int e = 0; e < 12; ++e)
         result |= (mask >> e & 1) << edges[e];
       return result;
     }
@@ -226,10 +222,10 @@ private:
     Template_element operator()(const Template_element& element) const
     {
       constexpr unsigned char order[2][4][8] = {
-        { { 0, 1, 2, 3 }, { 0, 1, 2, 3, 4 }, { 0, 1, 2, 3, 4, 5 }, { 0, 1, 2, 3, 4, 5, 6, 7 } },
-        { { 0, 2, 1, 3 }, { 0, 3, 2, 1, 4 }, { 0, 2, 1, 3, 5, 4 }, { 0, 3, 2, 1, 4, 7, 6, 5 } } };
+        {{0, 1, 2, 3}, {0, 1, 2, 3, 4}, {0, 1, 2, 3, 4, 5}, {0, 1, 2, 3, 4, 5, 6, 7}},
+        {{0, 2, 1, 3}, {0, 3, 2, 1, 4}, {0, 2, 1, 3, 5, 4}, {0, 3, 2, 1, 4, 7, 6, 5}}};
       Template_element result = element;
-      for (int i = 0; i < element.size; ++i)
+      for(int i = 0; i < element.size; ++i)
         result.vertices[i] = points[element.vertices[order[is_reflection][element.kind][i]]];
       return result;
     }
@@ -243,37 +239,37 @@ private:
 
   void fill_default()
   {
-    constexpr unsigned char sizes[4] = { 4, 5, 6, 8 };
+    constexpr unsigned char sizes[4] = {4, 5, 6, 8};
     std::vector<Symmetry> symmetries;
-    for (int i = 0; i < 48; ++i)
+    for(int i = 0; i < 48; ++i)
       symmetries.emplace_back(i);
 
     // For each pattern its class and the first symmetry that leads to it.
-    struct Class { std::vector<Template_element> elements; bool has_center; };
+    struct Class
+    {
+      std::vector<Template_element> elements;
+      bool has_center;
+    };
     std::vector<Class> classes;
     std::array<unsigned char, number_of_patterns> class_of, symmetry_of;
     std::array<bool, number_of_patterns> is_known = {};
     const unsigned short* entry = transition_table;
-    for (int c = 0; c < number_of_transition_classes; ++c)
-    {
+    for(int c = 0; c < number_of_transition_classes; ++c) {
       const unsigned int mask = *entry++;
-      classes.push_back({ std::vector<Template_element>(*entry++), false });
-      for (Template_element& element : classes.back().elements)
-      {
+      classes.push_back({std::vector<Template_element>(*entry++), false});
+      for(Template_element& element : classes.back().elements) {
         element = {};
         element.kind = static_cast<unsigned char>(*entry++);
         element.size = sizes[element.kind];
-        for (int i = 0; i < element.size; ++i)
-        {
+        for(int i = 0; i < element.size; ++i) {
           element.vertices[i] = static_cast<unsigned char>(*entry++);
-          if (element.vertices[i] == CELL_CENTER)
+          if(element.vertices[i] == CELL_CENTER)
             classes.back().has_center = true;
         }
       }
-      for (unsigned char s = 0; s < 48; ++s)
-      {
+      for(unsigned char s = 0; s < 48; ++s) {
         const unsigned int image = symmetries[s](mask);
-        if (is_known[image])
+        if(is_known[image])
           continue;
         is_known[image] = true;
         class_of[image] = static_cast<unsigned char>(c);
@@ -281,11 +277,10 @@ private:
       }
     }
 
-    for (unsigned int mask = 0; mask < number_of_patterns; ++mask)
-    {
+    for(unsigned int mask = 0; mask < number_of_patterns; ++mask) {
       m_default.offsets[mask] = static_cast<unsigned int>(m_default.elements.size());
       m_has_center[mask] = classes[class_of[mask]].has_center;
-      for (const Template_element& element : classes[class_of[mask]].elements)
+      for(const Template_element& element : classes[class_of[mask]].elements)
         m_default.elements.push_back(symmetries[symmetry_of[mask]](element));
     }
     m_default.offsets[number_of_patterns] = static_cast<unsigned int>(m_default.elements.size());
@@ -293,22 +288,19 @@ private:
 
   void fill_centered()
   {
-    for (unsigned int mask = 0; mask < number_of_patterns; ++mask)
-    {
+    for(unsigned int mask = 0; mask < number_of_patterns; ++mask) {
       m_centered.offsets[mask] = static_cast<unsigned int>(m_centered.elements.size());
-      if (mask == 0)
-      {
+      if(mask == 0) {
         m_centered.elements.push_back(*m_default[0].begin());
         continue;
       }
-      for (int face = 0; face < 6; ++face)
-        for (const Face_piece& piece : face_split(face, face_pattern(mask, face)))
-        {
+      for(int face = 0; face < 6; ++face)
+        for(const Face_piece& piece : face_split(face, face_pattern(mask, face))) {
           // Seen from the center, which is inside, the base is to be counter-clockwise.
           Template_element element = {};
           element.kind = (piece.size == 4 ? 1 : 0);
           element.size = static_cast<unsigned char>(piece.size + 1);
-          for (int i = 0; i < piece.size; ++i)
+          for(int i = 0; i < piece.size; ++i)
             element.vertices[i] = piece.vertices[piece.size - 1 - i];
           element.vertices[piece.size] = CELL_CENTER;
           m_centered.elements.push_back(element);
