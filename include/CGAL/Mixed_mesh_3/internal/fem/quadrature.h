@@ -32,22 +32,24 @@ struct Quadrature_rule
   std::array<std::array<Vec3, 8>, 8> gradients{}; // in reference coordinates, by point and by node
 };
 
-template <Element_kind Kind>
+/// \tparam ElementTraits a model of `MixedElementTraits_3`
+template <class ElementTraits>
 Quadrature_rule make_quadrature_rule()
 {
+  constexpr Element_kind kind = ElementTraits::kind;
   Quadrature_rule rule;
   const auto add = [&rule](double r, double s, double t, double weight) {
-    const auto gradients = Mixed_element_traits_3<Kind>::shape_gradients(r, s, t);
+    const auto gradients = ElementTraits::shape_gradients(r, s, t);
     const std::size_t q = std::size_t(rule.number_of_points++);
     rule.weights[q] = weight;
     std::copy(gradients.begin(), gradients.end(), rule.gradients[q].begin());
-    const auto values = Mixed_element_traits_3<Kind>::shape_functions(r, s, t);
+    const auto values = ElementTraits::shape_functions(r, s, t);
     std::copy(values.begin(), values.end(), rule.values[q].begin());
   };
   const double gauss = 1 / std::sqrt(3.); // two points on [-1,1], of weight 1
-  if constexpr(Kind == TETRAHEDRON) {
+  if constexpr(kind == TETRAHEDRON) {
     add(0.25, 0.25, 0.25, 1. / 6); // gradients are constant
-  } else if constexpr(Kind == PYRAMID) {
+  } else if constexpr(kind == PYRAMID) {
     // Conical product: (r, s) shrink towards the apex, and heights are Gauss-Jacobi points for the weight
     // (1 - t)^2 on [0,1].
     const double offset = std::sqrt(10.) / 15, weight_offset = std::sqrt(10.) / 48;
@@ -57,12 +59,12 @@ Quadrature_rule make_quadrature_rule()
         for(int j : {-1, 1})
           add(i * gauss * (1 - t), j * gauss * (1 - t), t, weight);
     }
-  } else if constexpr(Kind == PRISM) {
+  } else if constexpr(kind == PRISM) {
     for(int k : {-1, 1})
       for(int i = 0; i < 3; ++i)
         add(i == 1 ? 2. / 3 : 1. / 6, i == 2 ? 2. / 3 : 1. / 6, k * gauss, 1. / 6);
   } else {
-    static_assert(Kind == HEXAHEDRON, "a quadrature rule for each kind of element");
+    static_assert(kind == HEXAHEDRON, "a quadrature rule for each kind of element");
     for(int i : {-1, 1})
       for(int j : {-1, 1})
         for(int k : {-1, 1})
@@ -73,8 +75,10 @@ Quadrature_rule make_quadrature_rule()
 
 inline const Quadrature_rule& quadrature_rule(Element_kind kind)
 {
-  static const std::array rules{make_quadrature_rule<TETRAHEDRON>(), make_quadrature_rule<PYRAMID>(),
-                                make_quadrature_rule<PRISM>(), make_quadrature_rule<HEXAHEDRON>()};
+  static const std::array rules{make_quadrature_rule<Mixed_element_traits_3<TETRAHEDRON>>(),
+                                make_quadrature_rule<Mixed_element_traits_3<PYRAMID>>(),
+                                make_quadrature_rule<Mixed_element_traits_3<PRISM>>(),
+                                make_quadrature_rule<Mixed_element_traits_3<HEXAHEDRON>>()};
   static_assert(std::tuple_size_v<std::remove_const_t<decltype(rules)>> == number_of_element_kinds,
                 "a quadrature rule for each kind of element");
   return rules[kind];
