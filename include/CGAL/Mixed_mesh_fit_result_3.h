@@ -11,6 +11,7 @@
 namespace CGAL {
 
 /// How `fit_mixed_mesh_to_surface()` ended: of those that apply the last.
+/// How `fit_mixed_mesh_to_surface()` ended.
 enum class Mixed_mesh_fit_status {
   SUCCESS,         ///< the boundary is on the surface, all elements that moved are of acceptable quality
   CAP_REACHED,     ///< the boundary is on the surface; stiffening did not make all elements acceptable
@@ -37,6 +38,7 @@ inline const char* description(Mixed_mesh_fit_status status)
   return "";
 }
 
+/// What `fit_mixed_mesh_to_surface()` did.
 struct Mixed_mesh_fit_result_3
 {
   Mixed_mesh_fit_status status = Mixed_mesh_fit_status::EMPTY;

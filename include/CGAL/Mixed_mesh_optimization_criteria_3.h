@@ -67,6 +67,7 @@ private:
 };
 
 /// How `optimize_mixed_mesh_3()` ended. The first that applies, from the bottom up.
+/// How `optimize_mixed_mesh_3()` ended.
 enum class Mixed_mesh_optimization_status {
   SUCCESS,               ///< the boundary is on the surface, and within the tolerance if there is one
   TOLERANCE_NOT_REACHED, ///< the boundary vertices are on the surface; it is farther away between them
@@ -92,6 +93,7 @@ inline const char* description(Mixed_mesh_optimization_status status)
   return "";
 }
 
+/// What `optimize_mixed_mesh_3()` did.
 struct Mixed_mesh_optimization_result_3
 {
   Mixed_mesh_optimization_status status = Mixed_mesh_optimization_status::EMPTY;
