@@ -53,46 +53,44 @@ struct Is_region_model<
 {
 };
 
-/// A domain as it is, or that inside a surface.
+/// What is given, or a `Model` made of it if that is a surface.
+template <class Model, class T, class NamedParameters>
+decltype(auto) as_model(const T& given, [[maybe_unused]] const NamedParameters& np)
+{
+  if constexpr(Is_face_graph<T>::value)
+    return Model(given, np);
+  else
+    return (given);
+}
+
 template <class T, class NamedParameters>
-decltype(auto) as_domain(const T& domain, [[maybe_unused]] const NamedParameters& np)
+decltype(auto) as_domain(const T& domain, const NamedParameters& np)
 {
   static_assert(
     Is_face_graph<T>::value || (Is_surface_model<T>::value && Is_region_model<T>::value),
-    "the domain must be a closed triangulated surface (a model of FaceListGraph, its header included) or a "
-    "model of MixedMeshDomain_3");
-  if constexpr(Is_face_graph<T>::value)
-    return Polyhedral_mixed_mesh_domain_3(domain, np);
-  else
-    return (domain);
+    "the domain must be a closed triangulated surface (a model of FaceListGraph, its header included) "
+    "or a model of MixedMeshDomain_3");
+  return as_model<Polyhedral_mixed_mesh_domain_3>(domain, np);
 }
 
-/// A surface of a concept as it is, or made of a triangulated one.
 template <class T, class NamedParameters>
-decltype(auto) as_surface(const T& surface, [[maybe_unused]] const NamedParameters& np)
+decltype(auto) as_surface(const T& surface, const NamedParameters& np)
 {
   static_assert(
     Is_face_graph<T>::value || Is_surface_model<T>::value,
     "the surface must be closed and triangulated (a model of FaceListGraph, its header included) or a "
     "model of MixedMeshSurface_3");
-  if constexpr(Is_face_graph<T>::value)
-    return Polyhedral_mixed_mesh_domain_3(surface, np);
-  else
-    return (surface);
+  return as_model<Polyhedral_mixed_mesh_domain_3>(surface, np);
 }
 
-/// A region as it is, or that inside a surface.
 template <class T, class NamedParameters>
-decltype(auto) as_region(const T& region, [[maybe_unused]] const NamedParameters& np)
+decltype(auto) as_region(const T& region, const NamedParameters& np)
 {
   static_assert(
     Is_face_graph<T>::value || Is_region_model<T>::value,
-    "the region must be a closed triangulated surface (a model of FaceListGraph, its header included) or a "
-    "model of MixedMeshRegion_3");
-  if constexpr(Is_face_graph<T>::value)
-    return Polyhedral_mixed_mesh_region_3(region, np);
-  else
-    return (region);
+    "the region must be a closed triangulated surface (a model of FaceListGraph, its header included) "
+    "or a model of MixedMeshRegion_3");
+  return as_model<Polyhedral_mixed_mesh_region_3>(region, np);
 }
 
 /// Calls `f(visitor)` with the visitor among the named parameters, or the default one.
