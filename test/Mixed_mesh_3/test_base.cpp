@@ -5,6 +5,7 @@
 //
 // Ground floors: vectors, keys of lattice points, the parallel loop.
 
+#include <CGAL/Mixed_mesh_3/Index.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Lattice_point.h>
 #include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
@@ -18,10 +19,13 @@
 #include <cstddef>
 #include <random>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 namespace {
 
+using CGAL::Mixed_meshes_3::Element_index;
+using CGAL::Mixed_meshes_3::Vertex_index;
 using CGAL::Mixed_meshes_3::Lattice_point;
 using CGAL::Mixed_meshes_3::Vec3;
 using CGAL::Mixed_meshes_3::internal::Octree;
@@ -96,6 +100,23 @@ void test_parallel_for()
   BOOST_TEST(ids == std::vector<std::thread::id>(600, std::this_thread::get_id()));
 }
 
+// An index is made of integers and is one, but not one of another kind.
+static_assert(
+  std::is_convertible_v<std::size_t, Vertex_index> && std::is_convertible_v<Vertex_index, std::size_t>);
+static_assert(!std::is_convertible_v<Element_index, Vertex_index>);
+static_assert(!std::is_constructible_v<Vertex_index, Element_index>);
+static_assert(!std::is_assignable_v<Vertex_index&, Element_index>);
+static_assert(sizeof(Vertex_index) == 4 && std::is_trivially_copyable_v<Vertex_index>);
+
+void test_index()
+{
+  Vertex_index v = 3;
+  BOOST_TEST_EQ(v++, 3u);
+  BOOST_TEST_EQ(++v, 5u);
+  BOOST_TEST_EQ(--v, 4u);
+  BOOST_TEST_EQ(Vertex_index{}, 0u);
+}
+
 } // namespace
 
 int main()
@@ -104,5 +125,6 @@ int main()
   test_rounding();
   test_lattice_key();
   test_parallel_for();
+  test_index();
   return boost::report_errors();
 }

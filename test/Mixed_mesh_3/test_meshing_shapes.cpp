@@ -7,6 +7,7 @@
 
 #include "test_meshing.h"
 
+#include <CGAL/Implicit_mixed_mesh_domain_3.h>
 #include <CGAL/Mixed_mesh_3/surface_distance.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -270,10 +272,60 @@ void test_statuses()
   BOOST_TEST_LT(result.optimization.number_of_arrived_vertices,
                 result.optimization.number_of_boundary_vertices);
 }
+
+// Of several statuses the last one in their order; each has words of its own.
+void test_precedence()
+{
+  std::vector<std::string> words;
+  for(int a = 0; a <= int(Status::STOPPED); ++a) {
+    words.push_back(description(Status(a)));
+    BOOST_TEST(!words.back().empty());
+    BOOST_TEST_EQ(std::count(words.begin(), words.end(), words.back()), 1);
+    for(int b = 0; b <= int(Status::STOPPED); ++b)
+      BOOST_TEST_EQ(int(CGAL::worse(Status(a), Status(b))), (std::max)(a, b));
+    Mixed_mesh_result_3 result;
+    result.status = Status(a);
+    BOOST_TEST_EQ(result.has_mesh(), a <= int(Status::BOUNDARY_NOT_MANIFOLD));
+  }
+}
+
+// A function as domain, with and without a region, beside the surface of the same ball.
+void test_implicit_domain()
+{
+  const Point_3 center(0.1, -0.2, 0.3);
+  const CGAL::Implicit_mixed_mesh_domain_3 domain(
+    [&](const Point_3& p) { return 1 - std::sqrt(CGAL::squared_distance(p, center)); },
+    CGAL::Bbox_3(-0.9, -1.2, -0.7, 1.1, 0.8, 1.3));
+  Mesh mesh;
+  for(double tolerance : {0., 0.03}) {
+    const Mixed_mesh_criteria_3 criteria = Mixed_mesh_criteria_3(800).tolerance(tolerance);
+    for(const auto& result :
+        {CGAL::make_mixed_mesh_3(domain, criteria, mesh),
+         CGAL::make_mixed_mesh_3(domain, Ball_mixed_mesh_region_3({0.1, -0.2, 1.2}, 0.5), criteria, mesh)})
+      BOOST_TEST(result.status == Status::SUCCESS);
+    BOOST_TEST(find_defects(mesh).none());
+    double farthest = 0;
+    for(Vertex_index v : boundary_vertices(mesh))
+      farthest = (std::max)(farthest, std::abs(domain.depth(mesh.point(v))));
+    BOOST_TEST_LT(farthest, 1e-10);
+  }
+  // the direction of the closest point does not matter from the center
+  BOOST_TEST_LT(std::abs(domain.depth(domain.closest_point(center))), 1e-10);
+  BOOST_TEST_GT(domain.surface_samples(0.1).size(), 400u);
+
+  // A surface, and a number as criteria.
+  Mesh of_surface;
+  BOOST_TEST(CGAL::make_mixed_mesh_3(sphere({0.1, -0.2, 0.3}, 1, 24), 800, of_surface).status
+             == Status::SUCCESS);
+  BOOST_TEST_LT(std::abs(volume(of_surface) - volume(mesh)), 0.05 * volume(mesh));
+}
+
 } // namespace
 
 int main()
 {
+  test_precedence();
+  test_implicit_domain();
   test_statuses();
   test_shapes();
   return boost::report_errors();
