@@ -4,8 +4,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // CPU times of what a surgeon waits for: new control points, a resection, a warped image; and of the same
-// work
-// with a new factorization by Eigen's LDLT. Medians, minima and maxima, in milliseconds. One thread, if
+// work with a new factorization by Eigen's LDLT. Medians, minima and maxima, in milliseconds. One thread, if
 // OMP_NUM_THREADS=1 keeps CHOLMOD to it.
 
 #include "common/resources.h"

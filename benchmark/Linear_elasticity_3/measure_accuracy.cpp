@@ -4,8 +4,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The error of brain shift in the region of interest, on meshes from files, against quadratic elements on a
-// fine
-// mesh. Prints a JSON object a line. compare_accuracy.py runs it.
+// fine mesh. Prints a JSON object a line. compare_accuracy.py runs it.
 
 #include "common/resources.h"
 

@@ -96,8 +96,7 @@ struct Opening_coordinates
 };
 
 /// The surface within 20 mm of the axis, on the opening's side, is pushed by a bump of 10 mm; the lower 30 %
-/// of
-/// the brain are fixed; the rest is free.
+/// of the brain are fixed; the rest is free.
 inline std::optional<Vector> bump_displacement(const Vector& p, const Brain& brain)
 {
   using namespace mm3::internal;

@@ -25,12 +25,9 @@ namespace CGAL {
 \brief The domain where a function is positive.
 
 The function is as that of `Implicit_mixed_mesh_region_3`: positive inside, and it must not change faster than
-the
-distance. Near the surface it should be the signed distance, or have a gradient that points away from the
-surface:
-closest points are found by descent along the gradient (finite differences), so that a point is on the surface
-up to
-1e-12 of the diagonal of the box, and as near as the function is like a distance.
+the distance. Near the surface its gradient must not be near zero; best is the signed distance. Closest points
+are found by descent along the gradient (finite differences), until the value is below 1e-12 of the diagonal
+of the box, or after 100 steps; they are as near as the function is like a distance.
 
 \cgalModels{MixedMeshDomain_3}
 */

@@ -12,6 +12,7 @@
 
 #include <CGAL/assertions.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <initializer_list>
 #include <type_traits>
@@ -84,6 +85,7 @@ public:
   Element_index add_element(Element_kind kind, const Vertices& vertices,
                             const Element_attributes& attributes = {})
   {
+    CGAL_precondition(attributes.subdomain_index > 0);
     m_elements.add(kind, vertices);
     m_attributes.push_back(attributes);
     return Element_index(m_elements.size() - 1);
@@ -96,10 +98,13 @@ public:
     return add_element<std::initializer_list<Vertex_index>>(kind, vertices, attributes);
   }
 
-  /// Takes whole arrays over. \pre `attributes.size() == elements.size()`
+  /// Takes whole arrays over. \pre `attributes.size() == elements.size()`, subdomain indices are positive
   void assign(std::vector<Point_3> points, Elements elements, std::vector<Element_attributes> attributes)
   {
     CGAL_precondition(attributes.size() == elements.size());
+    CGAL_expensive_precondition(
+      std::all_of(attributes.begin(), attributes.end(),
+                  [](const Element_attributes& a) { return a.subdomain_index > 0; }));
     m_points = std::move(points);
     m_elements = std::move(elements);
     m_attributes = std::move(attributes);

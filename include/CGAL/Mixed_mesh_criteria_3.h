@@ -23,8 +23,7 @@ class Mixed_mesh_criteria_3
 public:
   static constexpr int automatic = -1;
   /// The share of the budget that is to be used; else the status tells. Single cells take 7 to 20 vertices:
-  /// with the
-  /// smallest budgets that make sense, a few hundred, some 3 % may be left over.
+  /// with the smallest budgets that make sense, a few hundred, some 3 % may be left over.
   static constexpr double full_share = 0.97;
 
   /// A number is a vertex budget with the default settings.
@@ -42,8 +41,7 @@ public:
   /// The octree level to which the whole domain is refined; cells of level `l` are 2^l times smaller
   /// than the root. Default: 3; coarser, down to 1, if the budget is too small for it; finer, up to 6, if it
   /// takes at most half of the budget and there is no tolerance, or if no octree vertex would be inside a
-  /// thin
-  /// domain, or more than 5 % of its cells would be lost.
+  /// thin domain, or more than 5 % of its cells would be lost.
   /// \pre `automatic`, or from 0 to 10
   Mixed_mesh_criteria_3& base_level(int level)
   {

@@ -33,9 +33,9 @@ the improvement of slivers that the paper announces (Lobos, Bucki, Hitschfeld, P
 Guarantees: if the mesh was valid, it is valid after each move and in the end (the Jacobian of each element is
 proved positive on the whole element, on the coordinates as they are); boundary vertices counted in
 `number_of_arrived_vertices` are on the surface up to the rounding of `double`; the boundary does not cut
-itself
-unless `is_boundary_simple` says so; hexahedra, prisms and pyramids stay, no vertex is added or removed, and
-the boundary's faces stay but where a flat tetrahedron on it is removed; the same input gives the same mesh.
+itself unless `is_boundary_simple` says so; hexahedra, prisms and pyramids stay, no vertex is added or
+removed, and the boundary's faces stay but where a flat tetrahedron on it is removed; the same input gives the
+same mesh.
 
 \tparam GeomTraits a model of `MixedMeshTraits_3`
 \tparam Surface a model of `MixedMeshSurface_3`, or of `FaceListGraph`

@@ -45,7 +45,7 @@ void test_control_points(int kind)
 
   // In elements, on faces inside and on the boundary, at vertices.
   std::vector<Vec3> points;
-  const Element_index last = Element_index(mesh.number_of_elements() - 1);
+  const std::uint32_t last = std::uint32_t(mesh.number_of_elements() - 1);
   for(Element_index e : {last / 5, 2 * last / 5, 3 * last / 5, 4 * last / 5, last})
     points.push_back(point_in(mesh, e, 0));
   for(Element_index e : {last / 3, 2 * last / 3}) {

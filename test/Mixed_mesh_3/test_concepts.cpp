@@ -107,7 +107,7 @@ constexpr bool is_region()
 template <class Quality>
 constexpr bool is_quality()
 {
-  using Vector = std::array<double, 3>;
+  using Vector = mm3::Vec3;
   using Points = std::array<Vector, 8>;
   return std::is_copy_constructible_v<Quality>
          && converts<decltype(a<Quality>()(mm3::PRISM, a<Points>())), double>
@@ -260,7 +260,7 @@ struct Quality_archetype
   Quality_archetype(const Quality_archetype&) = default;
   Quality_archetype& operator=(const Quality_archetype&) = delete;
 
-  using Vector = std::array<double, 3>;
+  using Vector = mm3::Vec3;
   using Points = std::array<Vector, 8>;
 
   double operator()(mm3::Element_kind kind, const Points& p) const
@@ -408,7 +408,7 @@ template <class Mesh>
 std::pair<double, double> radii_of_boundary(const Mesh& mesh)
 {
   std::pair<double, double> radii(100, 0);
-  for(auto v : boundary_vertices(mesh)) {
+  for(auto v : mm3::boundary_vertices(mesh)) {
     const auto& p = mesh.point(v);
     const double r = std::hypot(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
     radii = {(std::min)(radii.first, r), (std::max)(radii.second, r)};

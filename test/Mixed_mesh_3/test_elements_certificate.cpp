@@ -177,8 +177,7 @@ void test_exact()
 }
 
 // The top is the bottom turned and twice as large. After half a turn the Jacobian is positive but for a third
-// of
-// the height, where it is zero: at no point that halving the element ever meets.
+// of the height, where it is zero: at no point that halving the element ever meets.
 Points twisted(Element_kind kind, double turns)
 {
   Points p = reference_points(kind);

@@ -4,8 +4,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // fit_mixed_mesh_to_surface() and its stages: solvers, targets; meshes carried onto surfaces that they were
-// made
-// for, and onto others; each way to end.
+// made for, and onto others; each way to end.
 //
 //   test_fitting_fit [DATA_DIRECTORY]
 

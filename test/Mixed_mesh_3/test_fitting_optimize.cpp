@@ -4,8 +4,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // optimize_mixed_mesh_3(): distorted meshes that must stay valid, each way to end, and the brain with all
-// that
-// is promised for it.
+// that is promised for it.
 //
 //   test_fitting_optimize [DATA_DIRECTORY]
 

@@ -38,7 +38,7 @@ public:
   \return at least 1, near 1 for a good element; infinity if the element is degenerate or inverted
   */
   double operator()(CGAL::Mixed_meshes_3::Element_kind kind,
-                    const std::array<std::array<double, 3>, 8>& points) const;
+                    const std::array<CGAL::Mixed_meshes_3::Vec3, 8>& points) const;
 
   /*!
   The same cost, and its gradient.
@@ -50,8 +50,8 @@ public:
          kink, that of any of the measures that meet there
   */
   double operator()(CGAL::Mixed_meshes_3::Element_kind kind,
-                    const std::array<std::array<double, 3>, 8>& points, int vertex,
-                    std::array<double, 3>& gradient) const;
+                    const std::array<CGAL::Mixed_meshes_3::Vec3, 8>& points, int vertex,
+                    CGAL::Mixed_meshes_3::Vec3& gradient) const;
 
   /// Whether an element of that cost is good enough for Algorithm 1 of the paper, which stiffens those that
   /// are not. The optimization does not ask.

@@ -20,10 +20,8 @@ They are followed by one `begin_stage(OCTREE)` and `end_stage(OCTREE)` for what 
 search, and, if there is a mesh, by the stages `ASSEMBLY` and, unless the boundary shall stay where the
 octree has it, `OPTIMIZATION`, in which `go_on()` is asked before each round. With a tolerance,
 coarse meshes are fitted between octrees, each in a stage `OPTIMIZATION` of its own, and all of this may be
-repeated
-for several roots of the octree. Stages are neither nested nor left open. All calls come from the thread that
-called
-`CGAL::make_mixed_mesh_3()`.
+repeated for several roots of the octree. Stages are neither nested nor left open. All calls come from the
+thread that called `CGAL::make_mixed_mesh_3()`.
 
 `CGAL::optimize_mixed_mesh_3()` and `CGAL::fit_mixed_mesh_to_surface()` ask `go_on()` only.
 

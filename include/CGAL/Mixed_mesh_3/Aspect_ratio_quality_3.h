@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 
 namespace CGAL {
@@ -40,7 +41,8 @@ class Aspect_ratio_quality_3
   double m_warp_weight = 30;
 
   // Of the corner tetrahedra of the ideal elements: edges of length 1, height of the pyramid 1.
-  static constexpr double ideal_corner[number_of_element_kinds] = {1, 1.1932324, 1.2580589, 1.3000510};
+  static constexpr double ideal_corner[] = {1, 1.1932324, 1.2580589, 1.3000510};
+  static_assert(std::size(ideal_corner) == number_of_element_kinds, "a value for each kind");
 
 public:
   /// \param acceptable costs above it make Algorithm 1 stiffen an element; the paper's bound is 7

@@ -12,8 +12,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /// A number of 32 bits that counts one kind of thing: it is made of integers and gives them back, but an
-/// index
-/// of another kind does not convert to it, so that `prescribe(element)` does not compile.
+/// index of another kind does not convert to it, so that `prescribe(element)` does not compile.
 template <class Tag>
 class Index
 {

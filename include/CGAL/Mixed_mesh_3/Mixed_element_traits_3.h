@@ -62,7 +62,7 @@ struct Reference_element
   std::int8_t coordinates[8][3];
 };
 
-inline constexpr Reference_element reference_elements[number_of_element_kinds] = {
+inline constexpr Reference_element reference_elements[] = {
   {"tetrahedron",
    "tetrahedra",
    4,
@@ -115,6 +115,8 @@ inline constexpr Reference_element reference_elements[number_of_element_kinds] =
     {6, 5, 7, 2},
     {7, 6, 4, 3}},
    {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}}};
+static_assert(sizeof(reference_elements) / sizeof(reference_elements[0]) == number_of_element_kinds,
+              "a row for each kind");
 
 namespace internal {
 

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace CGAL {
@@ -31,7 +32,8 @@ class Scaled_jacobian_quality_3
   double m_acceptable;
 
   // The determinant of three edges over their lengths, in the ideal elements: all edges are equal.
-  static constexpr double ideal[number_of_element_kinds] = {0.70710678118654752, 0.5, 0.86602540378443865, 1};
+  static constexpr double ideal[] = {0.70710678118654752, 0.5, 0.86602540378443865, 1};
+  static_assert(std::size(ideal) == number_of_element_kinds, "a value for each kind");
 
 public:
   /// \param acceptable costs above it make Algorithm 1 stiffen an element; 5 is a scaled Jacobian of 0.2

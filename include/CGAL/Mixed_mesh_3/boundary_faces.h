@@ -13,7 +13,6 @@
 #include <CGAL/Mixed_mesh_3/internal/elements/for_each_face.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <vector>
 
 namespace CGAL {

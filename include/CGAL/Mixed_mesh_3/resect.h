@@ -15,6 +15,7 @@
 #include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 
+#include <CGAL/Named_function_parameters.h>
 #include <CGAL/assertions.h>
 #include <CGAL/enum.h>
 
@@ -209,15 +210,26 @@ that of the domain is.
 \param mesh the mesh, as above
 \param tumor what to remove, in the coordinates of the mesh. \pre a surface is closed and triangulated
 \param options as above
+\param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those below
+
+\cgalNamedParamsBegin
+  \cgalParamNBegin{vertex_point_map}
+    \cgalParamDescription{the points of `tumor`, if that is a `FaceListGraph`}
+    \cgalParamType{a model of `ReadablePropertyMap` with the vertices as keys and points as values}
+    \cgalParamDefault{`get_const_property_map(CGAL::vertex_point, tumor)`}
+  \cgalParamNEnd
+\cgalNamedParamsEnd
+
 \return what is removed, and why
 \cost as above, plus an inside test for each element
 */
-template <class Mesh, class Tumor>
+template <class Mesh, class Tumor, class NamedParameters = parameters::Default_named_parameters>
 Resection_3 resect(const Mesh& mesh, const Tumor& tumor,
-                   const Resection_options& options = Resection_options())
+                   const Resection_options& options = Resection_options(),
+                   [[maybe_unused]] const NamedParameters& np = parameters::default_values())
 {
   if constexpr(!internal::Is_domain<Tumor>::value) {
-    return resect(mesh, Polyhedral_mixed_mesh_domain_3(tumor), options);
+    return resect(mesh, Polyhedral_mixed_mesh_domain_3(tumor, np), options);
   } else {
     CGAL_precondition(options.already_removed.empty()
                       || options.already_removed.size() == mesh.number_of_elements());
@@ -284,8 +296,7 @@ Mesh remaining_mesh(const Mesh& mesh, const std::vector<bool>& is_removed,
 
 /*!
 The surface of the cavity: the faces of elements that are left against elements that are removed, in the
-numbers
-of `mesh`, in the order of the elements left.
+numbers of `mesh`, in the order of the elements left.
 
 \param mesh the mesh
 \param is_removed true for each element that is removed. \pre one for each element

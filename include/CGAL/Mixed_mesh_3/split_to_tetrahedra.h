@@ -8,9 +8,8 @@
 
 #include <CGAL/Mixed_mesh_3.h>
 
+#include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -24,8 +23,8 @@ is a cone from its vertex of smallest index. Both elements at a face therefore s
 way, and the result is conforming; no vertex is added. A pyramid becomes 2 tetrahedra, a prism 3, a
 hexahedron 6.
 
-Tetrahedra stand in the order of the elements they come from. They are in the region if their element
-is; boundary faces are the parts of the boundary faces of `mesh`.
+Tetrahedra stand in the order of the elements they come from. They have the attributes of their
+element.
 
 The union is the same where quadrilaterals are planar. Where they are warped, the surface follows the
 diagonals, and tetrahedra of a valid but badly shaped element can have a negative volume.

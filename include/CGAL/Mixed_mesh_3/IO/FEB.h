@@ -24,11 +24,9 @@ namespace IO {
 
 The mesh: node set `all`, element sets such as `region_hex8` and `rest_tet4` (of other subdomains than 1
 `subdomain_2_rest_tet4` and so on), surface `boundary` (counter-clockwise seen from outside). FEBio takes no
-mesh
-without materials: there are `region` and `rest`, and those of other subdomains, with numbers to be replaced
-(neo-Hookean, Young's modulus 1, Poisson's ratio 0.45).
-There are no boundary conditions, loads or steps. The numbers of nodes and elements are the indices
-plus 1.
+mesh without materials: there are `region` and `rest`, and those of other subdomains, with numbers to be
+replaced (neo-Hookean, Young's modulus 1, Poisson's ratio 0.45). There are no boundary conditions, loads or
+steps. The numbers of nodes and elements are the indices plus 1.
 
 \return whether the stream took everything.
 */

@@ -222,8 +222,7 @@ void write_MSH_2_2_nodes_and_elements(Buffered_output& out, const Mesh& mesh, co
 Physical groups: the volumes "region" (1) and "rest" (2) for the elements of subdomain 1 in the region and the
 others, the surface "boundary" (3) for the boundary faces, counter-clockwise seen from outside, and from 4 on
 "subdomain_2_region", "subdomain_2_rest" and so on, as they occur. The numbers of vertices and elements are
-the
-indices plus 1; boundary faces are numbered after the elements. Elements are written by group and kind.
+the indices plus 1; boundary faces are numbered after the elements. Elements are written by group and kind.
 
 \return whether the stream took everything.
 */

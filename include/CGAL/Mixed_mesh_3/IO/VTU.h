@@ -153,11 +153,9 @@ inline std::string escaped_for_XML(const std::string& text)
 \brief Writes a mesh as VTK unstructured grid: XML, version 1.0, with raw binary data appended.
 
 Elements are sorted by kind, within a kind in the order of the mesh: programs that read blocks of one kind
-find
-four. Element data: `kind` (the number of the `Element_kind`), `ARC` (the aspect-ratio coefficient),
-`in_region`
-(1 or 0), `subdomain` (the subdomain index), and what the options add. Nothing of the size of the mesh is
-allocated.
+find four. Element data: `kind` (the number of the `Element_kind`), `ARC` (the aspect-ratio coefficient),
+`in_region` (1 or 0), `subdomain` (the subdomain index), and what the options add. Nothing of the size of the
+mesh is allocated.
 
 VTK disagrees with itself on wedges. Written in the documented order, as here, their faces look
 outwards and `vtkCellSizeFilter` finds a positive volume, but the Jacobian of the shape functions of

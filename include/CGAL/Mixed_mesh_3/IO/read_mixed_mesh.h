@@ -36,9 +36,8 @@ element and no boundary face, which it does not write to Gmsh 4.1. All vertices 
 are merged: vertices and elements have the order of the file or, in Gmsh's formats, of the numbers that the
 file gives them. Elements of lower dimension are skipped. An element is in the region if the cell data
 `in_region` (VTK) are not 0, or if it is in a physical volume called "region" (Gmsh); cell data `subdomain`,
-and
-names such as "subdomain_2_rest", tell the subdomain, else it is 1. `write_mixed_mesh()` sorts the elements of
-a
+and names such as "subdomain_2_rest", tell the subdomain, a positive integer; without them it is 1.
+`write_mixed_mesh()` sorts the elements of a
 `.vtu` file by kind.
 
 The file is checked, but not the mesh: elements may be inverted, or not fit together; see `find_defects()`.

@@ -27,8 +27,7 @@ namespace IO {
 namespace internal {
 
 /// Elements with the same attributes, as a named set: "region" and "rest" of subdomain 1,
-/// "subdomain_2_region" and
-/// "subdomain_2_rest" of the next one, and so on.
+/// "subdomain_2_region" and "subdomain_2_rest" of the next one, and so on.
 struct Part
 {
   Element_attributes attributes;
@@ -70,8 +69,7 @@ private:
 };
 
 /// Where a format wants a number for a part or for the boundary: 1 and 2 are region and rest of subdomain 1,
-/// 3 is
-/// the boundary; further parts follow as they occur, from 4.
+/// 3 is the boundary; further parts follow as they occur, from 4.
 constexpr int boundary_tag = 3;
 
 /// Elements of one kind in one part.

@@ -4,12 +4,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // How readers and writers say what is wrong: within, by an exception or a line of text; to the caller, by
-// `false`
-// and the line where it was asked for.
+// `false` and the line where it was asked for.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_ERRORS_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_ERRORS_H
 
+#include <exception>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -51,8 +51,10 @@ bool is_read(const std::string& path, std::string* error, const Read& read)
     return is_success(too_large, error);
   } catch(const std::length_error&) {
     return is_success(too_large, error);
-  } catch(const std::runtime_error& e) {
+  } catch(const std::runtime_error& e) { // ours
     return is_success(e.what(), error);
+  } catch(const std::exception& e) { // an assertion of CGAL
+    return is_success(path + ": " + e.what(), error);
   }
 }
 

@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -611,7 +612,7 @@ class VTU_reader
         attributes.is_in_region = !in_region.empty() && in_region[e] != 0;
         if(!subdomain.empty()) {
           constexpr double largest = (std::numeric_limits<Subdomain_index>::max)();
-          if(!(subdomain[e] >= 1 && subdomain[e] <= largest))
+          if(!(subdomain[e] >= 1 && subdomain[e] <= largest && subdomain[e] == std::floor(subdomain[e])))
             refuse("cell " + std::to_string(e) + " has a \"subdomain\" that is not a positive integer");
           attributes.subdomain_index = Subdomain_index(subdomain[e]);
         }

@@ -22,8 +22,7 @@ class Lazy_exact_nt;
 namespace Mixed_meshes_3 {
 
 /// A vector, or a position, in doubles. A type of our own, so that its operators are found by
-/// argument-dependent
-/// lookup.
+/// argument-dependent lookup.
 struct Vec3 : std::array<double, 3>
 {
   Vec3() = default; // `Vec3{}` is zero

@@ -4,8 +4,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The paper's aspect-ratio coefficient (ARC; Lobos, Bucki, Hitschfeld, Payan: section 4), with its gradient:
-// the one
-// formula of it.
+// the one formula of it.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_ASPECT_RATIO_H
 #define CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_ASPECT_RATIO_H
@@ -13,6 +12,8 @@
 #include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/element_points.h>
+
+#include <CGAL/assertions.h>
 
 #include <cmath>
 #include <limits>
@@ -131,8 +132,7 @@ inline Length triangle_height(const Mean<2>& a, const Mean<2>& b, const Mean<2>&
 }
 
 /// The two lengths whose ratio is the ARC of a pyramid, prism or hexahedron, with their gradients by the
-/// position of
-/// vertex `v` if wanted.
+/// position of vertex `v` if wanted.
 template <bool with_gradient>
 Extreme_lengths extreme_lengths(Element_kind kind, const Element_points& p, int v)
 {
@@ -172,12 +172,13 @@ Extreme_lengths extreme_lengths(Element_kind kind, const Element_points& p, int 
     }
     break;
   }
-  case TETRAHEDRON: break; // its ARC is no ratio of lengths
+  case TETRAHEDRON: CGAL_error_msg("the ARC of a tetrahedron is no ratio of lengths");
   }
   return e;
 }
 
-/// The paper's aspect-ratio coefficient (ARC): infinity for an element that is inverted or flat.
+/// The paper's aspect-ratio coefficient (ARC): infinity where a length is 0, and for a tetrahedron or pyramid
+/// that is inverted; lengths in prisms and hexahedra have no sign.
 inline double aspect_ratio_coefficient(Element_kind kind, const Element_points& p)
 {
   return kind == TETRAHEDRON ? std::sqrt(squared_tetrahedron_arc(p[0], p[1], p[2], p[3]))

@@ -57,27 +57,29 @@ inline double scaled_jacobian_of_tetrahedron(const Vec3& a, const Vec3& b, const
 inline double scaled_jacobian(Element_kind kind, const Element_points& p)
 {
   const Reference_element& reference = reference_elements[kind];
-  double smallest = std::numeric_limits<double>::infinity();
-  for(int i = 0; i < reference.number_of_corners; ++i) {
-    const auto& v = reference.corners[i];
-    if(kind == TETRAHEDRON || kind == PYRAMID) {
-      smallest = (std::min)(smallest, scaled_jacobian_of_tetrahedron(p[v[0]], p[v[1]], p[v[2]], p[v[3]]));
-      continue;
+  const auto smallest = [&](const auto& measure) {
+    double least = std::numeric_limits<double>::infinity();
+    for(int i = 0; i < reference.number_of_corners; ++i) {
+      const auto& v = reference.corners[i];
+      least = (std::min)(least, measure(p[v[0]], p[v[1]], p[v[2]], p[v[3]]));
     }
-    const Vec3 a = p[v[1]] - p[v[0]], b = p[v[2]] - p[v[0]], c = p[v[3]] - p[v[0]];
+    return least;
+  };
+  const auto of_edges = [](const Vec3& o, const Vec3& x, const Vec3& y, const Vec3& z) {
+    const Vec3 a = x - o, b = y - o, c = z - o;
     const double lengths = norm(a) * norm(b) * norm(c);
-    smallest = (std::min)(smallest, lengths > 0 ? determinant(a, b, c) / lengths : 0);
-  }
+    return lengths > 0 ? determinant(a, b, c) / lengths : 0;
+  };
   switch(kind) {
-  case TETRAHEDRON:
-  case HEXAHEDRON: break;
-  case PRISM: return smallest * 2 / std::sqrt(3.);
+  case TETRAHEDRON: return smallest(scaled_jacobian_of_tetrahedron);
   case PYRAMID: {
-    const double scaled = smallest * std::sqrt(2.);
+    const double scaled = smallest(scaled_jacobian_of_tetrahedron) * std::sqrt(2.);
     return (std::min)(scaled, 2 - scaled); // some pyramids not so regular reach 1.14
   }
+  case PRISM: return smallest(of_edges) * 2 / std::sqrt(3.);
+  case HEXAHEDRON: return smallest(of_edges);
   }
-  return smallest;
+  return 0;
 }
 
 constexpr double degrees_per_radian = 180 / CGAL_PI;

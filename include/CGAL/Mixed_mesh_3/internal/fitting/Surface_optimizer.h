@@ -52,11 +52,10 @@ class Surface_optimizer
   Mixed_mesh_optimization_result_3 m_result;
 
   // Costs are ratios, 1 for the ideal element: none of these numbers has a unit. They decide how soon and how
-  // far
-  // bad elements are tolerated, never whether a mesh is valid: that each move proves.
-  // While the boundary arrives, elements may become that bad; in each round more, as what does not go
-  // gently shall go nevertheless: from 4, 15 rounds lead to 100. A smaller limit leaves more vertices off the
-  // surface, a larger one worse elements. Rounds are not reached by smooth surfaces: these arrive in a few.
+  // far bad elements are tolerated, never whether a mesh is valid: that each move proves. While the boundary
+  // arrives, elements may become that bad; in each round more, as what does not go gently shall go
+  // nevertheless: from 4, 15 rounds lead to 100. A smaller limit leaves more vertices off the surface, a
+  // larger one worse elements.
   static constexpr double acceptable_at_first = 4, acceptable_growth = 1.25, acceptable_at_most = 100,
                           acceptable_late = 10;
   static constexpr int arrival_rounds = 40, arrival_sweeps = 2, rounds_until_new_target = 8;

@@ -93,7 +93,8 @@ struct Working_mesh
         is_on_boundary[v] = 1;
   }
 
-  /// The boundary, which changes when elements on it are removed.
+  /// The boundary, which changes when elements on it are removed: not in the order of the elements, and with
+  /// those in the numbers of `element_list()`.
   std::vector<Face> boundary_faces() const
   {
     std::vector<Face> faces;

@@ -54,8 +54,7 @@ struct Surface_targets
 
 /*!
 The boundary as triangles, to see where targets fold. A quadrilateral gives its four corner triangles: none
-may
-be folded.
+may be folded.
 
 A target triangle is folded when its normal turns away from the normal of the boundary there, which is that of
 the *mesh* before it moves, averaged over the faces around the vertices. The surface's own normals serve

@@ -4,8 +4,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Towards a tolerance: which cells outside the region have to be split, so that the boundary comes near
-// enough to
-// the surface.
+// enough to the surface.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_TOLERANCE_SEARCH_H
 #define CGAL_MIXED_MESH_3_INTERNAL_MESHING_TOLERANCE_SEARCH_H
@@ -34,10 +33,8 @@ template <class Octree_, class Mesh, class Visitor>
 class Tolerance_search
 {
   // Rounds of splitting (four make cells 16 times smaller), the share of the budget they may take (the rest
-  // is for
-  // the region), how gently a coarse mesh is fitted for that (each round of fitting costs as much as the
-  // others),
-  // and, where too many places are too far, multiples of the tolerance to begin with.
+  // is for the region), how gently a coarse mesh is fitted for that (each round of fitting costs as much as
+  // the others), and, where too many places are too far, multiples of the tolerance to begin with.
   static constexpr int rounds = 4, rounds_of_coarse_fit = 5;
   static constexpr double largest_share = 0.7;
   static constexpr double multiples[] = {1, 1.2, 1.4, 1.7, 2};
@@ -100,7 +97,8 @@ public:
 private:
   Candidate try_base_octree(Octree_& octree)
   {
-    for(int level = 0; level < first_base_level(m_root, m_criteria); ++level)
+    const int base_level = first_base_level(m_root, m_criteria);
+    for(int level = 0; level < base_level; ++level)
       octree.refine(octree.leaves_to_refine(level, false));
     split_far_cells(octree);
     Candidate c = make_candidate(octree, m_criteria, m_visitor);
@@ -130,7 +128,10 @@ private:
       }
       Octree_ finer = m_root;
       candidate = try_base_octree(finer);
-      if(candidate.is_stopped || double(candidate.number_of_vertices) <= limit) {
+      m_is_stopped = candidate.is_stopped;
+      if(m_is_stopped)
+        return false;
+      if(double(candidate.number_of_vertices) <= limit) {
         octree = std::move(finer);
         return true;
       }

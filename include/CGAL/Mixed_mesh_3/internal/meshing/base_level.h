@@ -19,17 +19,14 @@ inline constexpr int default_base_level = 3;
 inline constexpr int coarsest_automatic_base_level = 1;
 inline constexpr int finest_automatic_base_level = 6;
 // A judgment: what is lost is reported in any case. With less tolerated, more domains get a finer base level,
-// and
-// the region has fewer vertices.
+// and the region has fewer vertices.
 inline constexpr double tolerated_share_of_lost_cells = 0.05;
 // What may be spent outside the region: beyond, elements there are not what limits the solution.
 inline constexpr double largest_share_for_base_level = 0.5;
 
 /// The level that the criteria give. Else the default, or a finer one if the budget is large: with elements
-/// as
-/// coarse as for a small one, the solution would not gain from more vertices in the region. With a tolerance,
-/// that
-/// says where to be finer.
+/// as coarse as for a small one, the solution would not gain from more vertices in the region. With a
+/// tolerance, that says where to be finer.
 /// \param root the octree with nothing but its root
 template <class Octree_>
 int first_base_level(const Octree_& root, const Mixed_mesh_criteria_3& criteria)

@@ -4,8 +4,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The core works on doubles: one driver for all kernels of the user's mesh, and for domains and regions
-// inside
-// polyhedra one that can be compiled in advance.
+// inside polyhedra one that can be compiled in advance.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_MESH_DOMAIN_H
 #define CGAL_MIXED_MESH_3_INTERNAL_MESHING_MESH_DOMAIN_H

@@ -31,8 +31,7 @@ inline bool is_root_searched(const Mixed_mesh_criteria_3& criteria)
 }
 
 /// Whether a result is to be preferred: valid, then within the tolerance, then with more vertices in the
-/// region
-/// (or, outside the tolerance, nearer to the surface).
+/// region (or, outside the tolerance, nearer to the surface).
 inline bool is_better(const Mixed_mesh_result_3& a, const Mixed_mesh_result_3& b, double tolerance)
 {
   const auto rank = [&](const Mixed_mesh_result_3& r) {
@@ -45,8 +44,7 @@ inline bool is_better(const Mixed_mesh_result_3& a, const Mixed_mesh_result_3& b
 }
 
 /// Of the roots that leave most vertices to the region, takes the one whose mesh is within the tolerance with
-/// most
-/// vertices in the region, else nearest to it.
+/// most vertices in the region, else nearest to it.
 /// \param bbox of the domain
 /// \param criteria with a tolerance
 /// \param make `Mixed_mesh_result_3(root, criteria, mesh)`

@@ -26,8 +26,7 @@ namespace internal {
 /// anyway.
 inline constexpr std::size_t largest_budget_to_place_lattice = 20000;
 /// How many vertices the meshes have together that are made to compare the best roots: 7 meshes of 660
-/// vertices, one
-/// of 4,000 and more. Their fitting is most of the time that a tolerance takes.
+/// vertices, one of 4,000 and more. Their fitting is most of the time that a tolerance takes.
 inline constexpr std::size_t vertices_to_compare_roots = 4000;
 
 /// Boxes around the domain's, the box itself first: cubes up to 1.25 times as large as the smallest one

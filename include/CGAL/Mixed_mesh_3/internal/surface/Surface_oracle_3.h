@@ -85,8 +85,7 @@ public:
     std::iota(part.facets.begin(), part.facets.end(), 0);
     const Bbox_3& b = bbox();
     // Anywhere outside will do, but not where segments to it are parallel to the axes; the side that follows
-    // is
-    // the same from everywhere.
+    // is the same from everywhere.
     const double margin = 0.1 * (std::max)({b.x_span(), b.y_span(), b.z_span()});
     part.reference = Point_3((b.xmax)() + 0.7 * b.x_span() + margin, (b.ymax)() + 0.9 * b.y_span() + margin,
                              (b.zmax)() + b.z_span() + margin);
