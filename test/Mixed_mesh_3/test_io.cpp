@@ -321,6 +321,9 @@ public:
     m_json << "],\n  \"subdomains\": [";
     for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
       m_json << (e == 0 ? "" : ", ") << mesh.subdomain_index(e);
+    m_json << "],\n  \"in_region\": [";
+    for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
+      m_json << (e == 0 ? "" : ", ") << int(mesh.is_in_region(e));
     m_json << "],\n  \"ARC\": [";
     for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
       m_json << (e == 0 ? "" : ", ") << aspect_ratio_coefficient(mesh, e);

@@ -54,6 +54,25 @@ def tet_volume(p):
     return np.linalg.det(np.asarray(p[1:]) - np.asarray(p[0])) / 6
 
 
+def part_names(expected):
+    """The name of the part that each element is in, as the writers' documentation says."""
+    return [("" if subdomain == 1 else "subdomain_%d_" % subdomain) + ("region" if in_region else "rest")
+            for subdomain, in_region in zip(expected["subdomains"], expected["in_region"])]
+
+
+def part_tags(expected):
+    """The number of each part that has elements: 1, 2, and from 4 on."""
+    parts = sorted(set(zip(expected["subdomains"], [1 - r for r in expected["in_region"]])))
+    tags, others = {}, 4
+    for subdomain, is_rest in parts:
+        name = part_names({"subdomains": [subdomain], "in_region": [1 - is_rest]})[0]
+        if subdomain == 1:
+            tags[name] = 1 + is_rest
+        else:
+            tags[name], others = others, others + 1
+    return tags
+
+
 def check_vtu(path, expected):
     errors = []
     reader = vtk.vtkXMLUnstructuredGridReader()
@@ -162,24 +181,20 @@ def check_msh(path, version, expected):
         volume += volumes.sum()
     check(close(volume, expected["volume"]), path, "total volume")
 
-    # Groups and entities: volumes 1 (region) and 2 (rest), surface 3.
-    region, rest = expected["region"], sum(expected["kinds"]) - expected["region"]
+    # Groups and entities: volumes 1 (region) and 2 (rest) of subdomain 1, surface 3, other volumes.
+    names = part_names(expected)
+    numbers = {tag: names.count(name) for name, tag in part_tags(expected).items()}
+    numbers[3] = expected["triangles"] + expected["quadrilaterals"]
     groups = {(dim, tag): gmsh.model.getPhysicalName(dim, tag)
               for dim, tag in gmsh.model.getPhysicalGroups()}
-    wanted = {(2, 3): "boundary"}
-    if region:
-        wanted[3, 1] = "region"
-    if rest:
-        wanted[3, 2] = "rest"
+    wanted = {(2, 3): "boundary", **{(3, tag): name for name, tag in part_tags(expected).items()}}
     check(groups == wanted, path, "physical groups", groups)
     check(sorted(gmsh.model.getEntities()) == sorted(wanted), path, "entities",
           gmsh.model.getEntities())
     for dim, tag in wanted:
         check(list(gmsh.model.getEntitiesForPhysicalGroup(dim, tag)) == [tag], path, "group", tag)
         number = sum(map(len, mesh.getElements(dim, tag)[1]))
-        check(number == {1: region, 2: rest,
-                         3: expected["triangles"] + expected["quadrilaterals"]}[tag], path,
-              "number of elements of", wanted[dim, tag])
+        check(number == numbers[tag], path, "number of elements of", wanted[dim, tag])
     if version == 4.1:
         tags = np.concatenate([mesh.getNodes(*entity)[0] for entity in wanted])
         check(sorted(tags) == list(range(1, n + 1)), path, "each vertex is on one entity")
@@ -213,8 +228,7 @@ def check_elements(path, expected, points, elements, parts):
     """Files no reader here understands: elements by kind, in Gmsh's order, and parts ("region")."""
     check(np.array_equal(points, expected["points"]), path, "coordinates")
     check([len(e) for e in elements] == expected["kinds"], path, "counts")
-    check(parts.count("region") == expected["region"], path, "number of elements in the region")
-    check(len(parts) == sum(expected["kinds"]), path, "number of parts")
+    check(sorted(parts) == sorted(part_names(expected)), path, "parts of elements")
     points = np.asarray(points)
     # The corner at vertex 0.
     neighbors = [(0, 1, 2, 3), (0, 1, 3, 4), (0, 1, 2, 3), (0, 1, 3, 4)]
@@ -238,7 +252,8 @@ def check_medit(path, expected):
             blocks[keyword] = rows.astype(int)
     none = np.zeros((0, 5), int)
     volumes = [blocks.get(k, none) for k in list(MEDIT_KEYWORDS)[:4]]
-    parts = [{1: "region", 2: "rest"}[r] for b in volumes for r in b[:, -1]]
+    names = {tag: name for name, tag in part_tags(expected).items()}
+    parts = [names[r] for b in volumes for r in b[:, -1]]
     check_elements(path, expected, points, [b[:, :-1] - 1 for b in volumes], parts)
     check_boundary(path, expected, points,
                    [blocks.get(k, none)[:, :-1] - 1 for k in ("Triangles", "Quadrilaterals")])
