@@ -538,6 +538,27 @@ void test_visitor()
   const auto& log = patient.log();
   BOOST_TEST(log.front() == std::make_pair(Stage::OCTREE, true));
   BOOST_TEST(log.back() == std::make_pair(Stage::OPTIMIZATION, false));
+
+  // On the way to a tolerance, where coarse meshes are fitted between octrees.
+  const CGAL::Mixed_mesh_criteria_3 with_tolerance = CGAL::Mixed_mesh_criteria_3(criteria).tolerance(0.05);
+  const auto questions_until = [&](int n) {
+    Visitor_archetype visitor(n);
+    result = CGAL::make_mixed_mesh_3(domain, region, with_tolerance, Cell_traits_archetype(0), mesh,
+                                     CGAL::parameters::visitor(std::ref(visitor)));
+    BOOST_TEST_EQ(visitor.log().size() % 2, 0u);
+    for(std::size_t i = 0; i + 1 < visitor.log().size(); i += 2)
+      BOOST_TEST(visitor.log()[i].second && !visitor.log()[i + 1].second
+                 && visitor.log()[i].first == visitor.log()[i + 1].first);
+    return visitor.questions();
+  };
+  const int questions = questions_until(0);
+  BOOST_TEST(result.has_mesh());
+  BOOST_TEST_GT(questions, patient.questions());
+  for(int n = 1; n <= questions; ++n) {
+    BOOST_TEST_EQ(questions_until(n), 0); // after a no, it is not asked again
+    BOOST_TEST(result.status == Mixed_mesh_status::STOPPED);
+    BOOST_TEST(mesh.is_empty());
+  }
 }
 
 int main()
