@@ -32,7 +32,19 @@ namespace CGAL {
 class Polyhedral_mixed_mesh_region_3 : public Mixed_meshes_3::internal::Surface_oracle_3
 {
 public:
-  /// \pre `CGAL::is_triangle_mesh(surface) && CGAL::is_closed(surface)`
+  /*!
+  \tparam FaceListGraph a model of `FaceListGraph`, with points of any CGAL kernel
+  \param surface the surface. \pre `CGAL::is_triangle_mesh(surface) && CGAL::is_closed(surface)`
+  \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those below
+
+  \cgalNamedParamsBegin
+    \cgalParamNBegin{vertex_point_map}
+      \cgalParamDescription{the points of `surface`}
+      \cgalParamType{a model of `ReadablePropertyMap` with the vertices as keys and points as values}
+      \cgalParamDefault{`get_const_property_map(CGAL::vertex_point, surface)`}
+    \cgalParamNEnd
+  \cgalNamedParamsEnd
+  */
   template <class FaceListGraph, class NamedParameters = parameters::Default_named_parameters>
   explicit Polyhedral_mixed_mesh_region_3(const FaceListGraph& surface,
                                           const NamedParameters& np = parameters::default_values())

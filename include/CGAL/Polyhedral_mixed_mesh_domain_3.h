@@ -29,7 +29,16 @@ public:
 
   \tparam FaceListGraph a model of `FaceListGraph`, with points of any CGAL kernel
   \param surface the surface. \pre `CGAL::is_triangle_mesh(surface) && CGAL::is_closed(surface)`
-  \param np an optional sequence of named parameters: `vertex_point_map`
+  \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those below
+
+  \cgalNamedParamsBegin
+    \cgalParamNBegin{vertex_point_map}
+      \cgalParamDescription{the points of `surface`}
+      \cgalParamType{a model of `ReadablePropertyMap` with the vertices as keys and points as values}
+      \cgalParamDefault{`get_const_property_map(CGAL::vertex_point, surface)`}
+    \cgalParamNEnd
+  \cgalNamedParamsEnd
+
   \cost O(n log n) for n triangles
   */
   template <class FaceListGraph, class NamedParameters = parameters::Default_named_parameters>

@@ -118,7 +118,16 @@ two triangles, through their vertex of smallest index.
 \param relative_error how much a distance may be too small, relative to the diagonal of the box of
        `surface`. Where large triangles coincide with thousands of small ones the error can be larger;
        `One_sided_distance::error` tells.
-\param np an optional sequence of named parameters: `vertex_point_map` of `surface`
+\param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those below
+
+\cgalNamedParamsBegin
+  \cgalParamNBegin{vertex_point_map}
+    \cgalParamDescription{the points of `surface`}
+    \cgalParamType{a model of `ReadablePropertyMap` with the vertices as keys and points as values}
+    \cgalParamDefault{`get_const_property_map(CGAL::vertex_point, surface)`}
+  \cgalParamNEnd
+\cgalNamedParamsEnd
+
 \cost about O(n log n) for n triangles, if the distances are not all the same; at most some seconds more
 */
 template <class Mesh, class FaceListGraph, class NamedParameters = parameters::Default_named_parameters>
@@ -134,12 +143,23 @@ Hausdorff_distance hausdorff_distance(const Mesh& mesh, const FaceListGraph& sur
           internal::one_sided_distance(triangles, internal::Nearest_triangle(boundary), maximal_error)};
 }
 
-/// Number of vertices on the boundary of a mesh that are not on a surface.
-/// \param mesh the mesh. \pre not empty
-/// \param surface a model of `FaceListGraph`. \pre triangulated, and not empty
-/// \param relative_tolerance the distance beyond which a vertex is not on the surface, relative to the
-///        diagonal of the box of `surface`
-/// \param np an optional sequence of named parameters: `vertex_point_map` of `surface`
+/*!
+Number of vertices on the boundary of a mesh that are not on a surface.
+
+\param mesh the mesh. \pre not empty
+\param surface a model of `FaceListGraph`. \pre triangulated, and not empty
+\param relative_tolerance the distance beyond which a vertex is not on the surface, relative to the
+       diagonal of the box of `surface`
+\param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those below
+
+\cgalNamedParamsBegin
+  \cgalParamNBegin{vertex_point_map}
+    \cgalParamDescription{the points of `surface`}
+    \cgalParamType{a model of `ReadablePropertyMap` with the vertices as keys and points as values}
+    \cgalParamDefault{`get_const_property_map(CGAL::vertex_point, surface)`}
+  \cgalParamNEnd
+\cgalNamedParamsEnd
+*/
 template <class Mesh, class FaceListGraph, class NamedParameters = parameters::Default_named_parameters>
 std::size_t number_of_vertices_off_surface(const Mesh& mesh, const FaceListGraph& surface,
                                            double relative_tolerance = 1e-9,
