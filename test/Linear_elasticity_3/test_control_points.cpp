@@ -183,10 +183,17 @@ void test_control_points(int kind)
       const Face_vertices& v = face.vertices();
       const int n = v.size();
       const auto at = [&](int i) { return to_vec3(mesh.point(v[i])); };
-      const auto triangle = [&](int i, int j) { return norm(cross(at(i) - at(0), at(j) - at(0))) / 2; };
+      const auto triangle = [&](int i, int j, int k) {
+        return norm(cross(at(j) - at(i), at(k) - at(i))) / 2;
+      };
+      // of a warped quadrilateral, the mean of its two triangulations
+      const double area_of_face = n == 3 ? triangle(0, 1, 2)
+                                         : (triangle(0, 1, 2) + triangle(2, 3, 0) + triangle(1, 2, 3)
+                                            + triangle(3, 0, 1))
+                                             / 2;
       for(int i = 0; i < n; ++i)
         if(norm(at(i) - middle[0]) <= radius) {
-          const double share = (triangle(1, 2) + (n == 4 ? triangle(2, 3) : 0)) / n;
+          const double share = area_of_face / n;
           mean = mean + share * problem.displacements()[v[i]];
           area += share;
         }
