@@ -38,10 +38,9 @@ public:
 
   std::size_t maximal_number_of_vertices() const { return m_maximal_number_of_vertices; }
 
-  /// The octree level to which the whole domain is refined; cells of level `l` are 2^l times smaller
-  /// than the root. Default: 3; coarser, down to 1, if the budget is too small for it; finer, up to 6, if it
-  /// takes at most half of the budget and there is no tolerance, or if no octree vertex would be inside a
-  /// thin domain, or more than 5 % of its cells would be lost.
+  /// The octree level to which the whole domain is refined at least; cells of level `l` are 2^l times smaller
+  /// than the root. Default: 3; coarser, down to 1, if the budget is too small for it; finer, up to 6, if no
+  /// octree vertex would be inside a thin domain, or more than 5 % of its cells would be lost.
   /// \pre `automatic`, or from 0 to 10
   Mixed_mesh_criteria_3& base_level(int level)
   {
@@ -50,6 +49,33 @@ public:
     return *this;
   }
   int base_level() const { return m_base_level; }
+
+  /// How far from the region cells are refined on its behalf: the distance at which a cell of half the size is
+  /// as urgent as one of the size at the region is there grows with it. As a share of the region's mean radius;
+  /// 0: the region only, as the paper does. Default: 0.35.
+  /// \pre at least 0
+  Mixed_mesh_criteria_3& grading(double share_of_radius)
+  {
+    CGAL_precondition(share_of_radius >= 0);
+    m_grading = share_of_radius;
+    return *this;
+  }
+  double grading() const { return m_grading; }
+
+  /// The share of the budget for vertices on the surface that the optimization inserts by bisecting edges of the
+  /// boundary: each costs one vertex, where an octree cell costs 8 to 19. If the boundary is not fitted, so many
+  /// vertices are left over for a later `optimize_mixed_mesh_3()`. Default: 0.07, and 0 if the boundary is not
+  /// fitted. \pre `automatic`, or in [0, 0.5]
+  Mixed_mesh_criteria_3& share_of_bisections(double share)
+  {
+    CGAL_precondition(share == automatic || (share >= 0 && share <= 0.5));
+    m_share_of_bisections = share;
+    return *this;
+  }
+  double share_of_bisections() const
+  {
+    return m_share_of_bisections != automatic ? m_share_of_bisections : m_fit_to_surface ? 0.07 : 0;
+  }
 
   /// The shape of the root, hence of all cells. Default: a cube.
   Mixed_mesh_criteria_3& root_cell(Mixed_meshes_3::Root_cell root)
@@ -86,12 +112,14 @@ public:
   bool fit_to_surface() const { return m_fit_to_surface; }
 
   /// How far boundary and surface may be from each other, in the surface's unit. If positive, part of the
-  /// budget is spent outside the region, on cells where a coarse mesh is farther, and boundary vertices
-  /// slide towards places that are. 0: nothing is spent outside the region. Default: 0.
-  /// \pre at least 0
+  /// budget is spent on cells where the boundary would be much farther, and boundary vertices slide towards
+  /// places that are; the status tells if that was not enough. 0: no more is asked for than that vertices are on
+  /// the surface. Default: 0.45 of the edge of a cube with the volume that one vertex of the budget has to
+  /// serve; that is a wish: the status is not concerned.
+  /// \pre `automatic`, or at least 0
   Mixed_mesh_criteria_3& tolerance(double distance)
   {
-    CGAL_precondition(distance >= 0);
+    CGAL_precondition(distance == automatic || distance >= 0);
     m_tolerance = distance;
     return *this;
   }
@@ -115,7 +143,9 @@ private:
     Mixed_meshes_3::Transition_templates_choice::FEWEST_VERTICES;
   Mixed_meshes_3::Boundary_mode m_boundary_mode = Mixed_meshes_3::Boundary_mode::VERTEX_ORDER;
   bool m_fit_to_surface = true;
-  double m_tolerance = 0;
+  double m_grading = 0.35;
+  double m_share_of_bisections = automatic;
+  double m_tolerance = automatic;
   unsigned m_number_of_threads = 1;
 };
 

@@ -59,7 +59,17 @@ public:
   }
   bool flips() const { return m_flips; }
 
+  /// How many edges of the boundary may be bisected, each for one more vertex on the surface: edges of elements
+  /// in the region of interest, the longest first. Default: none.
+  Mixed_mesh_optimization_criteria_3& number_of_bisections(std::size_t number)
+  {
+    m_number_of_bisections = number;
+    return *this;
+  }
+  std::size_t number_of_bisections() const { return m_number_of_bisections; }
+
 private:
+  std::size_t m_number_of_bisections = 0;
   double m_tolerance = 0;
   int m_number_of_rounds = 0;
   double m_sliding_threshold = 2.25;
@@ -100,6 +110,7 @@ struct Mixed_mesh_optimization_result_3
   std::size_t number_of_boundary_vertices = 0;
   std::size_t number_of_arrived_vertices = 0; ///< boundary vertices on the surface
   std::size_t number_of_flips = 0;            ///< of tetrahedra
+  std::size_t number_of_bisections = 0;       ///< of boundary edges: so many vertices are new
   bool is_boundary_simple = true;             ///< whether the boundary does not cut itself
   std::size_t number_of_rounds = 0;
   /// With a tolerance: the largest distance between boundary and surface, either way, at sample points.

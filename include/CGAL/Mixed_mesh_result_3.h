@@ -83,6 +83,9 @@ struct Mixed_mesh_result_3
   std::size_t number_of_lost_cells = 0;
   Bbox_3 lost_cells; ///< what contains those cells
   std::size_t number_of_vertices_in_region = 0;
+  /// How far boundary and surface were wished to be from each other at most: what the criteria say, or what
+  /// that means if they leave it open.
+  double tolerance = 0;
   /// What the coarse mesh (as fine as the tolerance asks for, without the region) takes of the budget; 0
   /// without a tolerance.
   std::size_t number_of_vertices_for_tolerance = 0;

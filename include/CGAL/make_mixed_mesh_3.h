@@ -10,7 +10,6 @@
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/arguments.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/mesh_domain.h>
-#include <CGAL/Mixed_mesh_3/internal/meshing/search_root.h>
 #include <CGAL/Mixed_mesh_criteria_3.h>
 #include <CGAL/Mixed_mesh_regions_3.h>
 #include <CGAL/Mixed_mesh_result_3.h>
@@ -90,9 +89,7 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
 /*!
 \ingroup PkgMixedMesh3Ref
 
-As above, with cells parallel to the axes and the root that the criteria say. With a tolerance and a budget of
-at most 20,000 vertices, roots of other sizes and positions are tried too, as these decide how many vertices
-are left for the region.
+As above, with cells parallel to the axes and the root that the criteria say.
 */
 template <class Domain, class Region, class GeomTraits,
           class NamedParameters = parameters::Default_named_parameters,
@@ -105,12 +102,9 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
   namespace mm3 = Mixed_meshes_3::internal;
   const auto& d = mm3::as_domain(domain, np);
   const auto& r = mm3::as_region(region, np_region);
-  const auto make = [&](const Bbox_3& root, const Mixed_mesh_criteria_3& c, Mixed_mesh_3<GeomTraits>& m) {
-    return make_mixed_mesh_3(d, r, c, Mixed_meshes_3::Axis_aligned_octree_cell_traits_3(root, c.root_cell()),
-                             m, np);
-  };
-  return mm3::is_root_searched(criteria) ? mm3::search_root(d.bbox(), criteria, make, mesh)
-                                         : make(d.bbox(), criteria, mesh);
+  return make_mixed_mesh_3(d, r, criteria,
+                           Mixed_meshes_3::Axis_aligned_octree_cell_traits_3(d.bbox(), criteria.root_cell()), mesh,
+                           np);
 }
 
 /*!

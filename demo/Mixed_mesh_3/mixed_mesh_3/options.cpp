@@ -51,9 +51,16 @@ CLI::Option* add_fit(CLI::App& app, Options& o)
   app
     .add_option("--base-level", o.base_level,
                 "Octree level of the whole domain; cells are 2^L times smaller than the root "
-                "(default: 3; coarser or finer as the budget says)")
+                "at least (default: 3; coarser or finer as the budget says)")
     ->check(CLI::Range(0, 10))
     ->type_name("L");
+  app
+    .add_option("--grading", o.grading,
+                "How gently cells grow with the distance from the region, as a share of its mean radius; 0: only "
+                "the region is refined, as in the paper")
+    ->check(CLI::Range(0., 100.))
+    ->type_name("G")
+    ->capture_default_str();
   CLI::Option* no_fit = app.add_flag("--no-fit", o.no_fit,
                                      "Leave boundary vertices where the octree has them");
   CLI::Option* no_optimize =
@@ -64,7 +71,7 @@ CLI::Option* add_fit(CLI::App& app, Options& o)
   app
     .add_option("--tolerance", o.tolerance,
                 "How far boundary and surface may be from each other, in the unit of SURFACE: part of the "
-                "budget is spent outside the region for that; takes longer")
+                "budget is spent outside the region for that (default: as the budget allows)")
     ->check(number("greater than 0", [](double x) { return x > 0; }))
     ->type_name("D")
     ->excludes(no_fit)

@@ -34,7 +34,8 @@ struct Options
   CGAL::Mixed_meshes_3::Root_cell root = CGAL::Mixed_meshes_3::Root_cell::CUBE;
   Templates templates = Templates::FEWEST_VERTICES;
   bool no_fit = false, no_optimize = false, msh2 = false, tetrahedra = false, quiet = false;
-  double tolerance = 0;
+  double tolerance = 0; // automatic
+  double grading = 0.35;
   unsigned threads = 1;
 
   // of Algorithm 1

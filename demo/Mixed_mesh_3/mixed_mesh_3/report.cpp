@@ -36,7 +36,8 @@ Json describe(const Options& o)
                  {"templates",
                   o.templates == mm3::Transition_templates_choice::CENTERED ? "centered" : "fewest"},
                  {"fit", fit_names[int(o.fit())]},
-                 {"tolerance", o.tolerance > 0 ? Json(o.tolerance) : Json()},
+                 {"grading", o.grading},
+                 {"tolerance", o.tolerance > 0 ? Json(o.tolerance) : Json("automatic")},
                  {"tetrahedra", o.tetrahedra},
                  {"msh version", o.msh2 ? "2.2" : "4.1"},
                  {"threads", o.threads}};
@@ -188,13 +189,14 @@ void describe_method(const Options& o, const Outcome& outcome, Json& report)
                       {"cells lost", result.number_of_lost_cells},
                       {"octrees tried", result.number_of_trials}};
   report["vertices inserted"] = {{"by transition templates", result.number_of_transition_vertices},
-                                 {"by boundary stage", result.number_of_boundary_vertices_inserted}};
+                                 {"by boundary stage", result.number_of_boundary_vertices_inserted},
+                                 {"by bisection of boundary edges", result.optimization.number_of_bisections}};
   report["vertices labeled inside for a manifold boundary"] = result.number_of_relabeled_vertices;
   report["fitting"] = describe_fitting(o, outcome);
   const double distance = outcome.fidelity.distance();
-  if(o.tolerance > 0)
-    report["tolerance"] = {{"tolerance", o.tolerance},
-                           {"reached", distance <= o.tolerance},
+  if(result.tolerance > 0)
+    report["tolerance"] = {{"tolerance", result.tolerance},
+                           {"reached", distance <= result.tolerance},
                            {"largest distance", distance},
                            {"largest distance at sample points", result.optimization.largest_distance},
                            {"vertices of the mesh as coarse as it allows",

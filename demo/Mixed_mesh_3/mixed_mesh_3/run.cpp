@@ -72,16 +72,18 @@ Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
 Mesh make_mesh(const Domain& domain, const Surface& region_surface, const Options& o, Stage_log& log,
                CGAL::Mixed_mesh_result_3& result)
 {
-  // With a tolerance, octrees are compared by what their meshes are like when fitted. Without, the boundary
-  // is fitted later, so that the mesh before is seen.
-  const auto criteria = CGAL::Mixed_mesh_criteria_3(o.vertices)
+  // The boundary is fitted later, so that the mesh before is seen.
+  auto criteria = CGAL::Mixed_mesh_criteria_3(o.vertices)
                           .base_level(o.base_level)
+                          .grading(o.grading)
                           .boundary_mode(o.mode)
                           .root_cell(o.root)
                           .transition_templates(o.templates)
-                          .fit_to_surface(o.tolerance > 0)
-                          .tolerance(o.tolerance)
+                          .fit_to_surface(o.fit() == Fit::OPTIMIZATION)
                           .number_of_threads(o.threads);
+  criteria.share_of_bisections(criteria.share_of_bisections()).fit_to_surface(false);
+  if(o.tolerance > 0)
+    criteria.tolerance(o.tolerance);
   const auto np = CGAL::parameters::visitor(std::ref(log));
   Mesh mesh;
   if(o.region.empty()) {
@@ -115,16 +117,20 @@ bool fit_by_algorithm_1(Mesh& mesh, const Domain& domain, const Options& o, Stag
   return r.is_on_surface();
 }
 
-bool fit_by_optimization(Mesh& mesh, const Domain& domain, Stage_log& log, Outcome& outcome, bool& is_valid)
+bool fit_by_optimization(Mesh& mesh, const Domain& domain, const Options& o, Stage_log& log, Outcome& outcome,
+                         bool& is_valid)
 {
   using Status = CGAL::Mixed_mesh_optimization_status;
+  const auto criteria = CGAL::Mixed_mesh_optimization_criteria_3()
+                          .tolerance(outcome.result.tolerance)
+                          .number_of_bisections(o.vertices - mesh.number_of_vertices());
   const auto r = log(mm3::stage_names[int(mm3::Stage::OPTIMIZATION)], [&] {
-    return CGAL::optimize_mixed_mesh_3(mesh, domain, CGAL::Mixed_mesh_optimization_criteria_3(),
+    return CGAL::optimize_mixed_mesh_3(mesh, domain, criteria,
                                        CGAL::parameters::visitor(std::ref(log)));
   });
   outcome.result.optimization = r;
   is_valid = r.status != Status::INVALID_MESH;
-  return r.status == Status::SUCCESS;
+  return r.status == Status::SUCCESS || r.status == Status::TOLERANCE_NOT_REACHED;
 }
 
 // Carries the boundary onto the surface; the status becomes what the library would make of it.
@@ -133,7 +139,7 @@ void fit(Mesh& mesh, const Domain& domain, const Options& o, Stage_log& log, Out
   bool is_valid = false;
   const bool is_on_surface = o.fit() == Fit::ALGORITHM_1
                                ? fit_by_algorithm_1(mesh, domain, o, log, outcome, is_valid)
-                               : fit_by_optimization(mesh, domain, log, outcome, is_valid);
+                               : fit_by_optimization(mesh, domain, o, log, outcome, is_valid);
   if(!is_valid)
     throw Invalid_mesh("an element of the mesh is inverted before its boundary is fitted");
   if(!is_on_surface)
@@ -164,7 +170,7 @@ void run(const Options& o)
   const Inputs inputs = read_inputs(o, log, outcome);
   const Domain domain = log("AABB tree of surface", [&] { return Domain(inputs.surface); });
   Mesh mesh = make_mesh(domain, inputs.region, o, log, outcome.result);
-  if(o.fit() != Fit::NONE && !(o.tolerance > 0)) {
+  if(o.fit() != Fit::NONE) {
     outcome.before = log("quality", [&] { return aspect_ratios_of(mesh); });
     fit(mesh, domain, o, log, outcome);
   }

@@ -9,6 +9,7 @@
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_OPTIMIZER_H
 
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/bisect_boundary_edges.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/flips.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_attraction.h>
@@ -17,6 +18,7 @@
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -49,6 +51,7 @@ class Surface_optimizer
   Attraction_ m_attraction;
   std::vector<std::pair<Vertex_index, Vec3>> m_travelers; // not on the surface yet, with their targets
   std::vector<std::uint8_t> m_is_arrived;
+  std::vector<Vec3> m_start; // where vertices came from; of new ones, between those of the edge
   Mixed_mesh_optimization_result_3 m_result;
 
   // Costs are ratios, 1 for the ideal element: none of these numbers has a unit. They decide how soon and how
@@ -65,6 +68,9 @@ class Surface_optimizer
   // better than that stay then, and tetrahedra are not flipped.
   static constexpr double good_enough[2] = {1.02, 1.4}, worth_flipping[2] = {1.2, 1.4};
   static constexpr double share_of_first_power = 0.6;
+  // No half of a bisected tetrahedron may cost more. And how many edges are bisected in the region, times the
+  // number of vertices to the power of 2/3, like that of all vertices on the surface: 30 of 660, 190 of 10,000.
+  static constexpr double worst_half = 3.2, bisections_in_region = 0.4;
 
 public:
   Surface_optimizer(Mesh& mesh, const Domain& domain, const Mixed_mesh_optimization_criteria_3& criteria,
@@ -73,7 +79,7 @@ public:
       m_boundary(boundary_faces(mesh)), m_working(mesh, m_boundary),
       m_moves(m_working, m_quality, m_project, criteria.sliding_threshold()), m_samples(surface_samples()),
       m_attraction(m_working, m_project, m_samples, criteria.tolerance()),
-      m_is_arrived(m_working.points.size(), 0)
+      m_is_arrived(m_working.points.size(), 0), m_start(m_working.points)
   {
     m_attraction.set_boundary(m_boundary);
   }
@@ -85,9 +91,8 @@ public:
   Mixed_mesh_optimization_result_3 operator()(const Go_on& go_on)
   {
     using Status = Mixed_mesh_optimization_status;
-    const std::vector<Vec3> start = m_working.points;
     const bool is_stopped = !arrive(go_on) || !alternate(go_on);
-    retreat_from_self_intersections(start);
+    retreat_from_self_intersections();
     if(m_criteria.tolerance() > 0) {
       m_attraction.measure();
       m_result.largest_distance = m_attraction.largest_distance();
@@ -101,9 +106,6 @@ public:
                                                                            : Status::SUCCESS;
     return m_result;
   }
-
-  /// Points of the surface that are farther from the boundary than a multiple of the tolerance.
-  std::vector<Vec3> far_points(double multiple) const { return m_attraction.far_points(multiple); }
 
 private:
   // Closer ones than twice the tolerance would rarely be farther off; much closer ones than the boundary's
@@ -159,13 +161,13 @@ private:
 
   // Where the surface comes near to itself, faces between its vertices may meet. Their vertices go back
   // towards where they came from, where no faces met, until none meet.
-  void retreat_from_self_intersections(const std::vector<Vec3>& start)
+  void retreat_from_self_intersections()
   {
     std::vector<Vertex_index> crossing = vertices_of_self_intersections(m_working.points, m_boundary);
     for(int round = 0; round < retreat_rounds && !crossing.empty(); ++round) {
       const double share = round < retreat_rounds / 2 ? 0.25 : 1;
       for(Vertex_index v : crossing)
-        if(m_moves.try_move(v, m_working.points[v] + share * (start[v] - m_working.points[v]),
+        if(m_moves.try_move(v, m_working.points[v] + share * (m_start[v] - m_working.points[v]),
                             retreat_cost)) {
           m_moves.fix(v);
           m_result.number_of_arrived_vertices -= m_is_arrived[v];
@@ -218,6 +220,46 @@ private:
     return flips;
   }
 
+  template <class Gain>
+  void bisect(std::size_t number, const Gain& gain)
+  {
+    const auto gain_if_arrived = [&](Vertex_index a, Vertex_index b, const std::array<Vertex_index, 2>& apexes) {
+      return m_is_arrived[a] && m_is_arrived[b] ? gain(a, b, apexes) : 0.;
+    };
+    m_is_arrived.resize(m_working.points.size() + number, 1);
+    Boundary_bisector bisector(m_working, m_quality, m_project, gain_if_arrived, m_boundary, worst_half);
+    for(const auto& [a, b] : bisector(number))
+      m_start.push_back(0.5 * (m_start[a] + m_start[b]));
+    m_is_arrived.resize(m_working.points.size());
+    m_boundary = m_working.boundary_faces();
+  }
+
+  // In the region the longest edges, then those that are farthest from the surface, by the volume between.
+  void bisect()
+  {
+    const std::size_t before = m_working.points.size(), number = m_criteria.number_of_bisections();
+    if(number == 0)
+      return;
+    const std::vector<Vec3>& p = m_working.points;
+    const std::size_t in_region = std::size_t(bisections_in_region * std::pow(double(before), 2. / 3));
+    bisect((std::min)(number, in_region), [&](Vertex_index a, Vertex_index b, const auto&) {
+      return m_working.is_edge_in_region(a, b) ? norm(p[a] - p[b]) : 0;
+    });
+    const auto far_edges = m_attraction.far_edges();
+    bisect(number - (p.size() - before), [&](Vertex_index a, Vertex_index b, const auto& apexes) {
+      const auto far = far_edges.find(std::minmax(a, b));
+      const Vec3 middle = 0.5 * (p[a] + p[b]);
+      const double distance = (std::max)(norm(m_project(middle, p[a]) - middle),
+                                         far == far_edges.end() ? 0. : far->second);
+      return distance * (norm(cross(p[b] - p[a], p[apexes[0]] - p[a])) + norm(cross(p[b] - p[a], p[apexes[1]] - p[a])));
+    });
+    m_result.number_of_bisections = p.size() - before;
+    m_result.number_of_boundary_vertices += m_result.number_of_bisections;
+    m_result.number_of_arrived_vertices += m_result.number_of_bisections;
+    m_moves.add_vertices();
+    m_attraction.set_boundary(m_boundary);
+  }
+
   template <class Go_on>
   bool alternate(const Go_on& go_on)
   {
@@ -241,6 +283,8 @@ private:
         m_moves.attract(m_attraction.attractions(phase == 0 ? 1 : 16));
       }
       m_moves.run(power, good_enough[phase], sweeps);
+      if(round == 0)
+        bisect();
       ++m_result.number_of_rounds;
     }
     return true;

@@ -68,6 +68,14 @@ public:
   {
   }
 
+  /// Vertices that the mesh has more than before are free to move.
+  void add_vertices()
+  {
+    m_radii.resize(m_mesh.points.size(), 0);
+    m_is_active.resize(m_mesh.points.size(), 1);
+    m_is_fixed.resize(m_mesh.points.size(), 0);
+  }
+
   /// Boundary vertices are fixed until they are on the surface.
   void release(Vertex_index v) { m_is_fixed[v] = 0; }
   void fix(Vertex_index v) { m_is_fixed[v] = 1; }
@@ -166,7 +174,7 @@ private:
   // Of the attraction; where there is none the weight is 0.
   Attraction attraction(Vertex_index v) const
   {
-    return m_attractions.empty() ? Attraction() : m_attractions[v];
+    return v < m_attractions.size() ? m_attractions[v] : Attraction();
   }
 
   double attraction_energy(Vertex_index v) const

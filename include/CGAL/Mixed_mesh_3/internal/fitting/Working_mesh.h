@@ -107,6 +107,22 @@ struct Working_mesh
     return faces;
   }
 
+  Vertex_index add_vertex(const Vec3& p, bool on_boundary)
+  {
+    points.push_back(p);
+    incident.emplace_back();
+    is_on_boundary.push_back(on_boundary);
+    return Vertex_index(points.size() - 1);
+  }
+
+  /// \pre it has no elements
+  void remove_last_vertex()
+  {
+    points.pop_back();
+    incident.pop_back();
+    is_on_boundary.pop_back();
+  }
+
   Element_index add(const Element& element)
   {
     const Element_index e = Element_index(elements.size());
@@ -121,6 +137,15 @@ struct Working_mesh
     elements[e].is_removed = true;
     for(Vertex_index v : elements[e])
       incident[v].erase(std::find(incident[v].begin(), incident[v].end(), e));
+  }
+
+  /// Whether an element with that edge is in the region of interest.
+  bool is_edge_in_region(Vertex_index a, Vertex_index b) const
+  {
+    return std::any_of(incident[a].begin(), incident[a].end(), [&](Element_index e) {
+      const Element& element = elements[e];
+      return element.attributes.is_in_region && element.begin() + element.position(b) != element.end();
+    });
   }
 
   /// Where a vertex is, as a function object.
@@ -149,7 +174,7 @@ struct Working_mesh
     std::vector<Point_3> new_points;
     new_points.reserve(points.size());
     for(std::size_t v = 0; v < points.size(); ++v)
-      new_points.push_back(to_vec3(mesh.points()[v]) == points[v]
+      new_points.push_back(v < mesh.number_of_vertices() && to_vec3(mesh.points()[v]) == points[v]
                              ? mesh.points()[v]
                              : Point_3(points[v][0], points[v][1], points[v][2]));
     if(std::none_of(elements.begin(), elements.end(), [](const Element& e) { return e.is_removed; })) {

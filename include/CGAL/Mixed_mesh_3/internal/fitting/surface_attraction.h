@@ -19,6 +19,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -48,7 +49,15 @@ class Surface_attraction
   std::vector<Vec3> m_shifts;        // of each vertex, the mean of what draws it, weighted
   std::vector<double> m_weights;
   std::vector<std::pair<double, Vec3>> m_far_points; // with their distances
+  std::vector<double> m_farthest;                    // of each triangle, the distance of its farthest sample
   double m_largest_distance = 0;
+  // Most samples are near: they need not be measured again until the boundary next to them has moved so far
+  // that they might draw.
+  std::vector<Vec3> m_last_points;             // of the vertices
+  std::vector<double> m_moved;                 // each vertex, since the last measurement
+  std::vector<double> m_slack_of_samples;      // how far the boundary may move until the sample draws
+  std::vector<std::size_t> m_nearest;          // triangle of each sample
+  std::vector<double> m_slack_of_triangles;
 
   // Samples nearer than this share of the tolerance draw nothing.
   static constexpr double tolerated_share = 0.5;
@@ -67,22 +76,37 @@ public:
   void set_boundary(const std::vector<Face>& faces)
   {
     m_triangles.clear();
+    m_stiffness.resize(m_mesh.points.size(), 1);
+    m_last_points.clear();
     for(const Face& face : faces)
       for(int i = 2; i < face.vertices().size(); ++i)
         m_triangles.push_back({face.vertices()[0], face.vertices()[i - 1], face.vertices()[i]});
+    m_slack_of_samples.assign(m_samples.size(), 0);
+    m_nearest.assign(m_samples.size(), 0);
+    m_slack_of_triangles.assign(m_triangles.size(), 0);
   }
 
-  /// Of the last measurement.
+  /// An upper bound, at the last measurement.
   double largest_distance() const { return m_largest_distance; }
-  /// Points of the surface, at the last measurement, farther from the boundary than a multiple (at least 1)
-  /// of the tolerance, and those next to places of the boundary that are.
-  std::vector<Vec3> far_points(double multiple) const
+  /// Points of the surface, at the last measurement, farther from the boundary than the tolerance, and those
+  /// next to places of the boundary that are; with their distances.
+  const std::vector<std::pair<double, Vec3>>& far_points() const { return m_far_points; }
+
+  /// For the longest edge of each triangle that has farther samples than the tolerance: the largest distance.
+  std::map<std::pair<Vertex_index, Vertex_index>, double> far_edges() const
   {
-    std::vector<Vec3> result;
-    for(const auto& [distance, point] : m_far_points)
-      if(distance > multiple * m_tolerance)
-        result.push_back(point);
-    return result;
+    std::map<std::pair<Vertex_index, Vertex_index>, double> edges;
+    for(std::size_t t = 0; t < m_farthest.size(); ++t)
+      if(m_farthest[t] > m_tolerance) {
+        std::pair<double, std::pair<Vertex_index, Vertex_index>> longest{};
+        for(int i = 0; i < 3; ++i) {
+          const Vertex_index a = m_triangles[t][i], b = m_triangles[t][(i + 1) % 3];
+          longest = (std::max)(longest, {norm(m_mesh.points[a] - m_mesh.points[b]), std::minmax(a, b)});
+        }
+        double& distance = edges[longest.second];
+        distance = (std::max)(distance, m_farthest[t]);
+      }
+    return edges;
   }
 
   /// Measures all distances.
@@ -93,6 +117,11 @@ public:
     m_weights.assign(m_mesh.points.size(), 0);
     m_far_points.clear();
     m_largest_distance = 0;
+    m_farthest.assign(m_triangles.size(), 0);
+    m_moved.assign(m_mesh.points.size(), 0);
+    for(std::size_t v = 0; v < m_last_points.size(); ++v)
+      m_moved[v] = norm(m_mesh.points[v] - m_last_points[v]);
+    m_last_points = m_mesh.points;
     measure_from_surface();
     measure_from_boundary();
   }
@@ -128,15 +157,29 @@ private:
     return sum / count;
   }
 
+  double threshold() const { return tolerated_share * m_tolerance; }
+
+  // Whether what was at a distance of `threshold() - slack` is still nearer than the threshold.
+  bool is_near(double& slack, const Triangle& t)
+  {
+    slack -= (std::max)({m_moved[t[0]], m_moved[t[1]], m_moved[t[2]]});
+    if(!(slack > 0))
+      return false;
+    m_largest_distance = (std::max)(m_largest_distance, threshold() - slack);
+    return true;
+  }
+
   // The point of the triangle with barycentric coordinates b should be at `where`, a point of the surface.
-  void add(const Triangle& t, const std::array<double, 3>& b, const Vec3& shift, const Vec3& where,
+  void add(std::size_t number, const std::array<double, 3>& b, const Vec3& shift, const Vec3& where,
            double share)
   {
+    const Triangle& t = m_triangles[number];
     const double distance = norm(shift), excess = distance - 0.7 * tolerated_share * m_tolerance;
     m_largest_distance = (std::max)(m_largest_distance, distance);
+    m_farthest[number] = (std::max)(m_farthest[number], distance);
     if(distance > m_tolerance)
       m_far_points.emplace_back(distance, where);
-    if(distance < tolerated_share * m_tolerance)
+    if(distance < threshold())
       return;
     for(int i = 0; i < 3; ++i)
       if(b[i] > 0) {
@@ -153,6 +196,12 @@ private:
     const auto point = [](const Vec3& p) { return Kernel::Point_3(p[0], p[1], p[2]); };
     if(m_samples.empty() || m_triangles.empty())
       return;
+    std::vector<std::size_t> asked;
+    for(std::size_t i = 0; i < m_samples.size(); ++i)
+      if(!is_near(m_slack_of_samples[i], m_triangles[m_nearest[i]]))
+        asked.push_back(i);
+    if(asked.empty())
+      return;
     std::vector<Kernel::Triangle_3> triangles;
     for(const Triangle& t : m_triangles)
       triangles.emplace_back(point(m_mesh.points[t[0]]), point(m_mesh.points[t[1]]),
@@ -161,11 +210,13 @@ private:
     tree.do_not_accelerate_distance_queries(); // the last triangle is a good hint, as samples are in order
     tree.build();
     auto nearest = std::make_pair(triangles[0][0], triangles.cbegin());
-    for(const Vec3& s : m_samples) {
+    for(std::size_t i : asked) {
+      const Vec3& s = m_samples[i];
       nearest = tree.closest_point_and_primitive(point(s), nearest);
-      const Triangle& t = m_triangles[std::size_t(nearest.second - triangles.cbegin())];
+      m_nearest[i] = std::size_t(nearest.second - triangles.cbegin());
       const Vec3 p = to_vec3(nearest.first);
-      add(t, barycentric_coordinates(t, p), s - p, s, 1);
+      m_slack_of_samples[i] = threshold() - norm(s - p);
+      add(m_nearest[i], barycentric_coordinates(m_triangles[m_nearest[i]], p), s - p, s, 1);
     }
   }
 
@@ -184,7 +235,12 @@ private:
   void measure_from_boundary()
   {
     constexpr double largest_number_of_steps = 8;
-    for(const Triangle& t : m_triangles) {
+    for(std::size_t k = 0; k < m_triangles.size(); ++k) {
+      const Triangle& t = m_triangles[k];
+      if(is_near(m_slack_of_triangles[k], t))
+        continue;
+      m_slack_of_triangles[k] = threshold();
+      Vec3 hint = m_mesh.points[t[0]];
       double longest = 0;
       for(int i = 0; i < 3; ++i)
         longest = (std::max)(longest, norm(m_mesh.points[t[i]] - m_mesh.points[t[(i + 1) % 3]]));
@@ -197,8 +253,9 @@ private:
             const std::array<double, 3> b{1 - double(i + j) / n, double(i) / n, double(j) / n};
             const Vec3 p = b[0] * m_mesh.points[t[0]]
                            + (b[1] * m_mesh.points[t[1]] + b[2] * m_mesh.points[t[2]]);
-            const Vec3 q = m_project(p, m_mesh.points[t[0]]);
-            add(t, b, q - p, q, share);
+            hint = m_project(p, hint);
+            m_slack_of_triangles[k] = (std::min)(m_slack_of_triangles[k], threshold() - norm(hint - p));
+            add(k, b, hint - p, hint, share);
           }
     }
   }

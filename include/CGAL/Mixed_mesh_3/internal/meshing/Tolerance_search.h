@@ -32,17 +32,18 @@ namespace internal {
 template <class Octree_, class Mesh, class Visitor>
 class Tolerance_search
 {
-  // Rounds of splitting (four make cells 16 times smaller), the share of the budget they may take (the rest
-  // is for the region), how gently a coarse mesh is fitted for that (each round of fitting costs as much as
-  // the others), and, where too many places are too far, multiples of the tolerance to begin with.
-  static constexpr int rounds = 4, rounds_of_coarse_fit = 5;
-  static constexpr double largest_share = 0.7;
-  static constexpr double multiples[] = {1, 1.2, 1.4, 1.7, 2};
+  // Rounds of splitting (six make cells 64 times smaller), the share of the budget they may take (the rest is
+  // for the region). Places farther than the first of these multiples of the tolerance are split for: nearer
+  // ones the sliding of boundary vertices reaches. The others follow where that takes too much.
+  static constexpr int rounds = 6;
+  static constexpr double largest_share = 0.5;
+  static constexpr double multiples[] = {1.6, 2, 2.5, 3};
 
   const Octree_& m_root;
   const Mixed_mesh_criteria_3& m_criteria;
   Visitor& m_visitor;
   Mixed_mesh_result_3& m_result;
+  std::vector<Vec3> m_samples; // of the surface
   std::vector<std::vector<Vec3>> m_far_points; // of the surface, where cells are split
   bool m_is_stopped = false;                   // by the visitor
 
@@ -60,20 +61,19 @@ public:
   void run()
   {
     const double limit = largest_share * double(m_criteria.maximal_number_of_vertices());
+    for(const auto& p : m_root.domain().surface_samples(2 * m_result.tolerance))
+      m_samples.push_back(to_vec3(p));
     Octree_ octree = m_root;
     Candidate candidate = try_base_octree(octree);
+    std::pair<std::size_t, Far_points> far;
     for(int round = 0; round < rounds; ++round) {
       m_is_stopped = candidate.is_stopped;
       if(m_is_stopped || candidate.number_of_vertices == 0 || double(candidate.number_of_vertices) > limit)
         return;
       m_result.number_of_vertices_for_tolerance = candidate.number_of_vertices;
-      Mesh coarse;
-      assemble_mesh(octree, candidate.mesh, candidate.boundary, coarse);
-      const auto criteria = Mixed_mesh_optimization_criteria_3()
-                              .tolerance(m_criteria.tolerance())
-                              .number_of_rounds(rounds_of_coarse_fit);
-      Surface_optimizer optimizer(coarse, m_root.domain(), criteria, Aspect_ratio_quality_3());
-      if(!fit(optimizer) || !split(optimizer, limit, octree, candidate))
+      if(round == 0)
+        far = far_points(octree, candidate);
+      if(!split(far, limit, octree, candidate))
         return;
     }
   }
@@ -97,43 +97,56 @@ public:
 private:
   Candidate try_base_octree(Octree_& octree)
   {
-    const int base_level = first_base_level(m_root, m_criteria);
-    for(int level = 0; level < base_level; ++level)
-      octree.refine(octree.leaves_to_refine(level, false));
+    if(!refine_to_level(octree, first_base_level(m_criteria), m_criteria.maximal_number_of_vertices()))
+      return {};
     split_far_cells(octree);
     Candidate c = make_candidate(octree, m_criteria, m_visitor);
     m_result.number_of_trials += !c.is_stopped;
     return c;
   }
 
-  template <class Optimizer>
-  bool fit(Optimizer& optimizer)
+  using Far_points = std::vector<std::pair<double, Vec3>>;
+
+  // Of the surface, from the boundary as it will be when its vertices are on the surface.
+  std::pair<std::size_t, Far_points> far_points(const Octree_& octree, const Candidate& candidate) const
   {
-    const Stage_pause<Visitor> pause(m_visitor, Stage::OCTREE);
-    const Stage_scope<Visitor> scope(m_visitor, Stage::OPTIMIZATION);
-    m_is_stopped = optimizer([this] { return m_visitor.go_on(); }).status
-                   == Mixed_mesh_optimization_status::STOPPED;
-    return !m_is_stopped;
+    Mesh mesh;
+    assemble_mesh(octree, candidate.mesh, candidate.boundary, mesh);
+    const std::vector<Face> boundary = boundary_faces(mesh);
+    Working_mesh projected(mesh, boundary);
+    const Surface_targets targets = surface_targets(boundary, projected.points, m_root.domain());
+    for(std::size_t i = 0; i < targets.vertices.size(); ++i)
+      projected.points[targets.vertices[i]] = targets.positions[i];
+    const Surface_projection<typename Octree_::Domain_3> project(m_root.domain());
+    Surface_attraction attraction(projected, project, m_samples, m_result.tolerance);
+    attraction.set_boundary(boundary);
+    attraction.measure();
+    return {targets.number_of_folded_faces, attraction.far_points()};
   }
 
   // Splits cells at as many far points as fit into the limit, the farthest ones.
-  template <class Optimizer>
-  bool split(const Optimizer& optimizer, double limit, Octree_& octree, Candidate& candidate)
+  bool split(std::pair<std::size_t, Far_points>& far, double limit, Octree_& octree, Candidate& candidate)
   {
     for(double multiple : multiples) {
-      m_far_points.push_back(optimizer.far_points(multiple));
-      if(m_far_points.back().empty()) {
-        m_far_points.pop_back();
+      std::vector<Vec3> points;
+      for(const auto& [distance, point] : far.second)
+        if(distance > multiple * m_result.tolerance)
+          points.push_back(point);
+      if(points.empty())
         return false;
-      }
+      m_far_points.push_back(points);
       Octree_ finer = m_root;
       candidate = try_base_octree(finer);
       m_is_stopped = candidate.is_stopped;
       if(m_is_stopped)
         return false;
       if(double(candidate.number_of_vertices) <= limit) {
-        octree = std::move(finer);
-        return true;
+        auto next = far_points(finer, candidate);
+        if(next.first <= far.first) {
+          far = std::move(next);
+          octree = std::move(finer);
+          return true;
+        }
       }
       m_far_points.pop_back();
     }

@@ -21,28 +21,25 @@ inline constexpr int finest_automatic_base_level = 6;
 // A judgment: what is lost is reported in any case. With less tolerated, more domains get a finer base level,
 // and the region has fewer vertices.
 inline constexpr double tolerated_share_of_lost_cells = 0.05;
-// What may be spent outside the region: beyond, elements there are not what limits the solution.
-inline constexpr double largest_share_for_base_level = 0.5;
-
-/// The level that the criteria give. Else the default, or a finer one if the budget is large: with elements
-/// as coarse as for a small one, the solution would not gain from more vertices in the region. With a
-/// tolerance, that says where to be finer.
-/// \param root the octree with nothing but its root
-template <class Octree_>
-int first_base_level(const Octree_& root, const Mixed_mesh_criteria_3& criteria)
+/// The level that the criteria give, or the default.
+inline int first_base_level(const Mixed_mesh_criteria_3& criteria)
 {
-  if(criteria.base_level() != Mixed_mesh_criteria_3::automatic)
-    return criteria.base_level();
-  const double limit = largest_share_for_base_level * double(criteria.maximal_number_of_vertices());
-  int level = 0;
-  for(Octree_ octree = root; criteria.tolerance() == 0 && level < finest_automatic_base_level; ++level) {
-    if(8 * double(octree.number_of_cells_inside()) > limit)
-      break;
+  return criteria.base_level() != Mixed_mesh_criteria_3::automatic ? criteria.base_level() : default_base_level;
+}
+
+/// Refines what meets the domain to a level, unless there would be far more cells than vertices are allowed.
+/// \return whether it did so
+template <class Octree_>
+bool refine_to_level(Octree_& octree, int base_level, std::size_t budget)
+{
+  constexpr std::size_t far_above_budget = 1000000;
+  for(int level = 0; level < base_level; ++level) {
+    // Cells inside have their smallest corners inside, and eight children each: a lower bound.
+    if(8 * octree.number_of_cells_inside() > (std::max)(budget, far_above_budget))
+      return false;
     octree.refine(octree.leaves_to_refine(level, false));
-    if(double(octree.number_of_cells()) > limit) // about as many as vertices
-      break;
   }
-  return (std::max)(level, default_base_level);
+  return true;
 }
 
 } // namespace internal

@@ -41,6 +41,7 @@ class Located_octree
 public:
   using Node_index = Octree::Node_index;
   using Cell_traits = CellTraits;
+  using Domain_3 = Domain;
   using Surface_part = typename Domain::Surface_part;
 
   Located_octree(const Domain& domain, const Region& region, const CellTraits& traits)
@@ -51,12 +52,13 @@ public:
     m_locations.push_back({ON_BOUNDARY, ON_BOUNDARY, 0, 0});
     const auto p = traits.point({0, 0, 0}),
                q = traits.point({Octree::root_side, Octree::root_side, Octree::root_side});
-    m_scale = std::ldexp(1., 24) / std::hypot(q.x() - p.x(), q.y() - p.y(), q.z() - p.z());
+    m_diagonal = std::hypot(q.x() - p.x(), q.y() - p.y(), q.z() - p.z());
     locate(Octree::root(), m_locations[0]);
   }
 
   const Octree& octree() const { return m_octree; }
   const Domain& domain() const { return *m_domain; }
+  const Region& region() const { return *m_region; }
 
   /// `ON_BOUNDARY`: the cell meets the surface of the domain; else the side of all its points.
   Bounded_side side(Node_index n) const { return Bounded_side(m_locations[n].domain); }
@@ -97,7 +99,10 @@ public:
 
   /// A length in units of 2^-24 of the root, rounded: lengths that are equal but for rounding rarely
   /// differ, so that symmetric input does not depend on it.
-  double quantized(double length) const { return std::floor(length * m_scale + 0.3); }
+  double quantized(double length) const { return std::floor(length * (std::ldexp(1., 24) / m_diagonal) + 0.3); }
+
+  /// That length in its own unit.
+  double rounded(double length) const { return quantized(length) * std::ldexp(m_diagonal, -24); }
 
   /// The leaf around a point of the root.
   template <class Point>
@@ -132,9 +137,14 @@ public:
     balance(m_octree, refined, Adjacency::EDGE, [this](Node_index n) { split(n); });
   }
 
-  /// The leaves of a level that meet the domain, and the region too if asked for. Of few cells, those at
-  /// the region's rim are left out: they meet it, but their centers are outside, while that of a neighbor
-  /// is inside. They would take much of a small budget to where it is not wanted.
+  /// Takes back all splits but those that made the nodes below `size`.
+  void truncate(std::size_t size)
+  {
+    m_octree.truncate(size);
+    m_locations.resize(size);
+  }
+
+  /// The leaves of a level that meet the domain, and the region too if asked for.
   std::vector<Node_index> leaves_to_refine(int level, bool in_region_only) const
   {
     std::vector<Node_index> leaves;
@@ -142,73 +152,33 @@ public:
       if(m_octree.level(n) == level && m_octree.is_leaf(n) && is_alive(n)
          && (!in_region_only || is_in_region(n)))
         leaves.push_back(n);
-    if(in_region_only && leaves.size() <= large_number_of_cells)
-      remove_rim(leaves);
     return leaves;
   }
 
-  /// Sorts leaves of one level by the depth of their center in the region, deepest first. Where
-  /// there are many, they share the depth of an ancestor.
-  void sort_by_depth(std::vector<Node_index>& leaves) const
+  /// Depth of the center of a cell in the region; negative outside.
+  double depth_in_region(Node_index n) const
   {
-    if(leaves.empty())
-      return;
-    int level = m_octree.level(leaves.front());
-    for(std::size_t queries = leaves.size(); queries > large_number_of_cells && level > 0; queries /= 8)
-      --level;
-    const std::uint32_t side = Octree::side_at(level), mask = ~(side - 1);
-    // Of equally deep ones, those at the surface first: there they serve the shape, too.
-    std::vector<std::tuple<double, bool, Node_index>> keys;
-    Lattice_point last{Octree::root_side, 0, 0};
-    double depth = 0;
-    for(Node_index n : leaves) {
-      Lattice_point p = m_octree.corner(n);
-      for(std::uint32_t& c : p)
-        c &= mask;
-      if(p != last) {
-        depth = m_region->depth(m_traits->point({p[0] + side / 2, p[1] + side / 2, p[2] + side / 2}));
-        last = p;
-      }
-      keys.emplace_back(-quantized(depth), this->side(n) != ON_BOUNDARY, n);
-    }
-    std::sort(keys.begin(), keys.end());
-    for(std::size_t i = 0; i < leaves.size(); ++i)
-      leaves[i] = std::get<2>(keys[i]);
+    return m_region->depth(m_traits->cell(m_octree.corner(n), m_octree.side(n)).center());
+  }
+
+  /// The volume of a cell of a level.
+  double cell_volume(int level) const
+  {
+    const auto at = [this](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+      return m_traits->point({x, y, z});
+    };
+    constexpr std::uint32_t side = Octree::root_side;
+    const auto o = at(0, 0, 0);
+    return std::ldexp(std::abs(CGAL::determinant(at(side, 0, 0) - o, at(0, side, 0) - o, at(0, 0, side) - o)), -3 * level);
+  }
+
+  /// The edge length of a cell, or, where edges are not equal, the root of their mean square.
+  double edge_length(Node_index n) const
+  {
+    return std::ldexp(m_diagonal / std::sqrt(3.), -m_octree.level(n));
   }
 
 private:
-  // So many queries on the region take no notable time.
-  static constexpr std::size_t large_number_of_cells = 4000;
-
-  // Leaves of one level.
-  void remove_rim(std::vector<Node_index>& leaves) const
-  {
-    std::vector<Lattice_point> core; // corners of those with the center in the region
-    std::vector<std::uint8_t> is_core(leaves.size(), 0);
-    const std::uint32_t side = leaves.empty() ? 0 : m_octree.side(leaves.front());
-    for(std::size_t i = 0; i < leaves.size(); ++i) {
-      const Lattice_point p = m_octree.corner(leaves[i]);
-      is_core[i] = m_region->depth(m_traits->point({p[0] + side / 2, p[1] + side / 2, p[2] + side / 2})) >= 0;
-      if(is_core[i])
-        core.push_back(p);
-    }
-    std::sort(core.begin(), core.end());
-    const auto is_beside_core = [&](const Lattice_point& p) {
-      for(std::uint32_t n = 0; n < 27; ++n) { // wraps around below 0, where there is no cell
-        const Lattice_point q{p[0] + (n % 3 - 1) * side, p[1] + (n / 3 % 3 - 1) * side,
-                              p[2] + (n / 9 - 1) * side};
-        if(std::binary_search(core.begin(), core.end(), q))
-          return true;
-      }
-      return false;
-    };
-    std::size_t kept = 0;
-    for(std::size_t i = 0; i < leaves.size(); ++i)
-      if(is_core[i] || !is_beside_core(m_octree.corner(leaves[i])))
-        leaves[kept++] = leaves[i];
-    leaves.resize(kept);
-  }
-
   struct Location
   {
     std::int8_t domain, region;             // Bounded_side
@@ -262,12 +232,27 @@ private:
   const Region* m_region;
   const CellTraits* m_traits;
   Octree m_octree;
-  double m_scale;
+  double m_diagonal; // of the root
   std::vector<Location> m_locations;
   Parts<Surface_part> m_domain_parts;
   Parts<typename Region::Surface_part> m_region_parts;
   std::shared_ptr<const Surface_part> m_no_part = std::make_shared<const Surface_part>();
 };
+
+/// The volume of the domain, about: of the cells inside, and half of those that meet its surface.
+/// \param root the octree with nothing but its root
+template <class Octree_>
+double volume_of_domain(const Octree_& root)
+{
+  constexpr std::size_t enough = 500;
+  Octree_ octree = root;
+  for(int level = 0;; ++level) {
+    const std::size_t inside = octree.number_of_cells_inside(), all = octree.number_of_cells();
+    if(all >= enough || level == Octree::max_level)
+      return 0.5 * double(inside + all) * octree.cell_volume(level);
+    octree.refine(octree.leaves_to_refine(level, false));
+  }
+}
 
 } // namespace internal
 } // namespace Mixed_meshes_3

@@ -71,6 +71,16 @@ public:
     return first;
   }
 
+  /// Takes back all splits but the first ones: those that made the nodes below `size`.
+  void truncate(std::size_t size)
+  {
+    CGAL_precondition(size % 8 == 1 && size <= m_nodes.size());
+    for(std::size_t i = (size - 1) / 8; i < m_parents.size(); ++i)
+      m_nodes[m_parents[i]].first_child = 0;
+    m_nodes.resize(size);
+    m_parents.resize((size - 1) / 8);
+  }
+
   /// The node of at most the level of `n` that covers the cell of the size of `n` next to it in
   /// direction `d` (components -1, 0, 1); `no_node` outside the root.
   Node_index neighbor(Node_index n, const std::array<int, 3>& d) const

@@ -1,0 +1,165 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The octree of a vertex budget (section 5.1 of the paper): as many splits of the sequence as the *final* mesh
+// has room for.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_OCTREE_FILL_VERTEX_BUDGET_H
+#define CGAL_MIXED_MESH_3_INTERNAL_OCTREE_FILL_VERTEX_BUDGET_H
+
+#include <CGAL/Mixed_mesh_3/internal/octree/Refinement_sequence.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+template <class Octree_, class Try>
+class Budget_search
+{
+  using Sequence = Refinement_sequence<Octree_>;
+  using Candidate = decltype(std::declval<const Try&>()(std::declval<const Octree_&>()));
+
+  // A budget filled to 99.8 % is full enough while large steps are tried: with millions of vertices a
+  // further trial costs more than it brings. Below 98 % single cells are tried.
+  static constexpr double full_enough = 0.998, worth_single_cells = 0.99;
+  static constexpr std::size_t number_of_single_cells = 24;
+
+  const std::size_t m_budget;
+  const Try& m_try;
+  Sequence m_sequence;
+  Octree_ m_octree;
+  Candidate m_best;
+  std::size_t m_steps = 0; // of the best
+
+public:
+  Budget_search(const Octree_& start, std::size_t budget, double radius, const Try& try_octree)
+    : m_budget(budget), m_try(try_octree), m_sequence(start, radius), m_octree(start), m_best(m_try(start))
+  {
+    search();
+    add_single_cells();
+  }
+
+  std::pair<Octree_, Candidate> best() && { return {std::move(m_octree), std::move(m_best)}; }
+
+private:
+  std::size_t size() const { return m_best.number_of_vertices; }
+  bool is_done() const { return m_best.is_stopped || size() >= m_budget; }
+
+  // Tries an octree; takes it over if it fits (or the user stops).
+  std::size_t attempt(Octree_ trial)
+  {
+    Candidate candidate = m_try(trial);
+    const std::size_t n = candidate.number_of_vertices;
+    if(!candidate.is_stopped && !candidate.is_manifold() && m_best.is_manifold())
+      return m_budget + 1; // rare: another number of cells will do
+    if(candidate.is_stopped || n <= m_budget) {
+      m_octree = std::move(trial);
+      m_best = std::move(candidate);
+    }
+    return n;
+  }
+
+  // The first step with so many cells.
+  std::size_t steps_for(double cells)
+  {
+    while(double(m_sequence.number_of_cells(m_sequence.number_of_steps())) < cells && m_sequence.extend()) {
+    }
+    std::size_t low = 0, high = m_sequence.number_of_steps();
+    while(low < high) {
+      const std::size_t middle = low + (high - low) / 2;
+      if(double(m_sequence.number_of_cells(middle)) < cells)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+    return low;
+  }
+
+  // Extends the sequence as far as needed and there is something to split.
+  std::size_t available(std::size_t steps)
+  {
+    while(m_sequence.number_of_steps() < steps && m_sequence.extend()) {
+    }
+    return (std::min)(steps, m_sequence.number_of_steps());
+  }
+
+  // The number of vertices grows with that of cells, nearly at a fixed rate. `low` steps fit; `high` do not, or
+  // are not known to.
+  void search()
+  {
+    constexpr std::size_t unknown = std::size_t(-1);
+    std::size_t high = unknown, n_high = 0;
+    double rate = 1.25; // vertices for a cell, deep inside and at the surface
+    for(int step = 0; high - m_steps > 1 && !is_done(); ++step) {
+      if(m_steps > 0 && double(size()) > full_enough * double(m_budget))
+        return;
+      const std::size_t low = m_steps, n_low = size();
+      const double cells = double(m_sequence.number_of_cells(low));
+      if(high != unknown)
+        rate = double(n_high - n_low) / (std::max)(1., double(m_sequence.number_of_cells(high)) - cells);
+      const bool is_slow = step > 2 && step % 2 == 1 && high != unknown;
+      const std::size_t wanted = is_slow ? low + (high - low) / 2
+                                         : steps_for(cells + double(m_budget - n_low) / rate);
+      const std::size_t steps = available((std::min)((std::max)(wanted, low + 1), high - 1));
+      if(steps <= low)
+        return; // there is nothing left to split
+      const std::size_t n = attempt(m_sequence.octree(steps));
+      if(n <= m_budget) {
+        m_steps = steps;
+        rate = (std::max)(0.5, (double(n) - double(n_low)) / (double(m_sequence.number_of_cells(steps)) - cells));
+      } else {
+        high = steps;
+        n_high = n;
+      }
+    }
+  }
+
+  // Where one more cell in order would exceed a small budget, others may fit.
+  void add_single_cells()
+  {
+    const std::size_t last = available(m_steps + number_of_single_cells);
+    for(std::size_t i = m_steps; i < last; ++i) {
+      if(is_done() || double(size()) > worth_single_cells * double(m_budget))
+        return;
+      const Octree::Node_index n = m_sequence.cell(i);
+      if(n >= m_sequence.number_of_nodes(m_steps) || !m_octree.octree().is_leaf(n))
+        continue;
+      Octree_ trial = m_octree;
+      trial.refine(std::vector<Octree::Node_index>{n});
+      attempt(std::move(trial));
+    }
+  }
+};
+
+/*!
+Finds the finest octree of a sequence whose mesh fits the budget.
+
+A candidate is an octree with the mesh made of it. `Candidate::number_of_vertices` is what is bounded;
+`Candidate::is_stopped` tells that the user wants to stop.
+
+\param octree the located octree to begin with; becomes that of the result
+\param radius see `Refinement_sequence`
+\param try_octree `Candidate(octree)`: runs all stages that change the number of vertices
+\return the best candidate; its number of vertices is above the budget only if that of the start is
+\cost O(log n) trials of at most a little more than n vertices; two for large n
+*/
+template <class Octree_, class Try>
+auto fill_vertex_budget(Octree_& octree, std::size_t budget, double radius, const Try& try_octree)
+{
+  auto best = Budget_search<Octree_, Try>(octree, budget, radius, try_octree).best();
+  octree = std::move(best.first);
+  return std::move(best.second);
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_OCTREE_FILL_VERTEX_BUDGET_H
