@@ -175,8 +175,9 @@ private:
     }
     const Eigen::Index n = 3 * m_number_of_unknowns;
     m_matrix.resize(n, n);
-    m_matrix.resizeNonZeros(Eigen::Index(9 * number_of_blocks) - n); // diagonal blocks have 6 of 9
-    std::fill_n(m_matrix.valuePtr(), m_matrix.nonZeros(), 0.);
+    const Eigen::Index number_of_values = Eigen::Index(9 * number_of_blocks) - n; // diagonal blocks have 6
+    m_matrix.resizeNonZeros(number_of_values);
+    std::fill_n(m_matrix.valuePtr(), number_of_values, 0.);
     int* starts = m_matrix.outerIndexPtr();
     int* row = m_matrix.innerIndexPtr();
     for(int j = 0; j < m_number_of_unknowns; ++j)

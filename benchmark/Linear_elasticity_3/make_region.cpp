@@ -3,12 +3,14 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The region of interest of an opening: the convex hull of the tumor's sphere and the opening's disk.
+// The region of interest of an opening: the convex hull of the tumor's sphere and the opening's disk. Of
+// several openings: a surface of several parts.
 
 #include "Opening.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
 #include <CGAL/convex_hull_3.h>
 
 #include <cmath>
@@ -53,18 +55,23 @@ std::vector<Point> points_of_region(const Opening& o)
 
 int main(int argc, char* argv[])
 {
-  if(argc != 4) {
-    std::cerr << "Usage: make_region OPENINGS.json NAME REGION.off\n";
+  if(argc < 4) {
+    std::cerr << "Usage: make_region OPENINGS.json REGION.off NAME...\n";
     return EXIT_FAILURE;
   }
   try {
-    const std::vector<Point> points = points_of_region(find_opening(read_openings(argv[1]), argv[2]));
-    CGAL::Surface_mesh<Point> hull;
-    CGAL::convex_hull_3(points.begin(), points.end(), hull);
-    std::ofstream out(argv[3]);
+    const std::vector<Opening> openings = read_openings(argv[1]);
+    CGAL::Surface_mesh<Point> region;
+    for(int i = 3; i < argc; ++i) {
+      const std::vector<Point> points = points_of_region(find_opening(openings, argv[i]));
+      CGAL::Surface_mesh<Point> hull;
+      CGAL::convex_hull_3(points.begin(), points.end(), hull);
+      CGAL::copy_face_graph(hull, region);
+    }
+    std::ofstream out(argv[2]);
     out.precision(17);
-    if(!CGAL::IO::write_OFF(out, hull))
-      throw std::runtime_error(std::string(argv[3]) + ": cannot be written");
+    if(!CGAL::IO::write_OFF(out, region))
+      throw std::runtime_error(std::string(argv[2]) + ": cannot be written");
   } catch(const std::exception& e) {
     std::cerr << "make_region: error: " << e.what() << '\n';
     return EXIT_FAILURE;
