@@ -26,8 +26,8 @@
 #include <vector>
 
 /// Tetrahedra of degree 2 with straight edges: nothing in common with what is measured but the strain of a
-/// linear tetrahedron. Solved by conjugate gradients; the preconditioner adds a Gauss-Seidel sweep to and fro,
-/// and the exact solution for linear tetrahedra.
+/// linear tetrahedron. Solved by conjugate gradients; the preconditioner is the sum of Gauss-Seidel to and
+/// fro, and the solution with linear tetrahedra.
 class Quadratic_reference
 {
   using Vec3 = mm3::Vec3;
