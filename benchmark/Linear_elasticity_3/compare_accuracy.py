@@ -63,6 +63,9 @@ class Comparison:
     def region(self, name):
         return self.work / "regions" / f"{name}.off"
 
+    def reference(self, name, load):
+        return self.work / "ref" / f"{name}_{load}.txt"
+
     def make_region(self, file, *names):
         run(self.programs / "make_region", OPENINGS, file, *names)
 
@@ -71,7 +74,7 @@ class Comparison:
 
     def make_references(self):
         missing = [n for n in self.names
-                   if not all((self.work / "ref" / f"{n}_{load}.txt").exists() for load in LOADS)]
+                   if not all(self.reference(n, load).exists() for load in LOADS)]
         if missing:
             mesh, regions = self.work / "reference.vtu", self.work / "regions" / "all.off"
             self.make_region(regions, *(o["name"] for o in json.loads(OPENINGS.read_text())))
@@ -85,20 +88,24 @@ class Comparison:
         return json.loads(self.measure(mesh, "--regions", name).splitlines()[0])
 
     def mesh_3(self, name, vertices, settings):
-        """Of each setting in WORK."""
+        """Of each setting in WORK, those of `settings` among them."""
         folder = self.work / "mesh_3"
         for growth, scale in settings:
             mesh = folder / f"{name}_{vertices}_{growth}_{scale}.vtu"
             if not mesh.exists():
                 run(self.programs / "benchmark_mesh_3", BRAIN, self.region(name), vertices, "--growth", growth,
                     "--region-scale", scale, "--output", mesh)
-            if not mesh.with_suffix(".vtu.json").exists():
-                row = self.measure(mesh, "--regions", name).splitlines()[0]
-                mesh.with_suffix(".vtu.json").write_text(row + "\n")
+        meshes = sorted(folder.glob(f"{name}_{vertices}_*.vtu"))
+        references_time = max(self.reference(name, load).stat().st_mtime for load in LOADS)
+        outdated = [m for m in meshes if not m.with_suffix(".json").exists()
+                    or m.with_suffix(".json").stat().st_mtime < references_time]
+        if outdated:
+            for mesh, line in zip(outdated, self.measure(*outdated, "--regions", name).splitlines()):
+                mesh.with_suffix(".json").write_text(line + "\n")
         rows = []
-        for file in sorted(folder.glob(f"{name}_{vertices}_*.vtu.json")):
-            rows.append(json.loads(file.read_text()))
-            rows[-1]["setting"] = ", ".join(file.name[:-len(".vtu.json")].split("_")[2:])
+        for mesh in meshes:
+            rows.append(json.loads(mesh.with_suffix(".json").read_text()))
+            rows[-1]["setting"] = ", ".join(mesh.stem.split("_")[2:])
         return rows
 
 
