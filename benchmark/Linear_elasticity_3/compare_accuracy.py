@@ -1,91 +1,206 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The error of brain shift in the region by number of vertices, beside meshes of Mesh_3: a table and a plot.
+"""The error of brain shift in the regions of openings.json, beside meshes of Mesh_3: tables and a plot.
 
-  compare_accuracy.py DIRECTORY WORK [--vertices 660 2000 10000 50000] [--plot FILE.png]
+  compare_accuracy.py DIRECTORY WORK [--regions front back] [--vertices 660 2000 10000] [--tune-mesh-3]
+                      [--plot FILE.png]
 
-DIRECTORY holds the programs mixed_mesh_3, benchmark_mesh_3 and measure_accuracy; WORK gets the meshes and the
-references, quadratic elements with some 940,000 nodes. These take an hour; they are kept, and made again only if
-the files bump.txt and smooth.txt are not there. Each mesh is solved with the elements of Linear_elasticity_3
-and with standard ones, which lock. The plot needs matplotlib (Debian: python3-matplotlib).
+DIRECTORY holds the programs mixed_mesh_3, benchmark_mesh_3, make_region and measure_accuracy. WORK gets
+
+- regions/NAME.off,
+- ref/NAME_{bump,smooth}.txt, the references: quadratic elements on one mesh for all regions, fine in each.
+  Their own error is some 0.1 to 0.25 % of the displacement for the bump, less than 0.1 % for the smooth one,
+  of what finer meshes give, Mesh_3's among them; they take ten minutes,
+- mesh_3/NAME_VERTICES_GROWTH_SCALE.vtu, meshes of Mesh_3, and .json, their errors,
+- mixed/NAME_VERTICES.vtu, our meshes.
+
+What is there is used again, but for our meshes. Mesh_3's are made with a growth of sizes of 0.4; --tune-mesh-3
+tries others, and regions of another scale. Each column has the best of the settings in WORK. Each mesh is
+solved with standard elements, which lock, and with the elements of Linear_elasticity_3. The plot needs
+matplotlib (Debian: python3-matplotlib).
 """
 
 import argparse
+import itertools
 import json
 import pathlib
+import shutil
+import statistics
 import subprocess
 
-DATA = pathlib.Path(__file__).resolve().parents[3] / "data"
-INPUT = (DATA / "brain.off", DATA / "region.off")
-REFERENCE = ("--vertices", 120000, "--base-level", 6, "--tetrahedra")
-# with which Mesh_3 makes so many vertices; searched for if not here
-SIZES = {660: 4.862, 2000: 2.632, 10000: 1.357, 50000: 0.753}
-CASES = {"bump": "bump of 10 mm, lower 30 % fixed, rest free", "smooth": "smooth, prescribed everywhere"}
+HERE = pathlib.Path(__file__).resolve().parent
+DATA = HERE.parents[1] / "data"
+BRAIN = DATA / "brain.off"
+OPENINGS = HERE / "openings.json"
+REFERENCE = ("--vertices", 50000, "--base-level", 5, "--tetrahedra")  # 382,000 quadratic nodes
+DEFAULT = (0.4, 1)  # growth of Mesh_3's sizes with the distance, scale of the region
+TUNING = tuple(itertools.product((0.15, 0.25, 0.4, 0.7, 1.0), (1, 1.4)))
+LOADS = {"bump": "bump of 10 mm, lower 30 % fixed, rest free", "smooth": "smooth, prescribed everywhere"}
+ELEMENTS = {"standard": "error of standard elements", "own": "error"}
+COLUMNS = tuple(itertools.product(LOADS, ELEMENTS))
 
 
 def run(*command):
     return subprocess.run([*map(str, command)], check=True, stdout=subprocess.PIPE, text=True).stdout
 
 
-def make_meshes(programs, work, counts):
-    brain, region = INPUT
-    for n in counts:
-        run(programs / "mixed_mesh_3", brain, "--region", region, "--vertices", n, "--quiet", "--output",
-            work / f"mixed_{n}.vtu")
-        size = ("--size-in-region", SIZES[n]) if n in SIZES else ()
-        run(programs / "benchmark_mesh_3", brain, region, n, *size, "--output", work / f"mesh_3_{n}.vtu")
-    if all((work / f"{case}.txt").exists() for case in CASES):
-        return []
-    fine = work / "reference.vtu"
-    run(programs / "mixed_mesh_3", brain, "--region", region, *REFERENCE, "--quiet", "--output", fine)
-    return ["--reference-mesh", fine]
+def error(row, load, elements, where=""):
+    return row[load][ELEMENTS[elements] + where]
 
 
-def plot(rows, file):
+class Comparison:
+    def __init__(self, programs, work, openings):
+        self.programs, self.work = programs, work
+        self.names = [o["name"] for o in openings]
+        for folder in ("regions", "ref", "mesh_3", "mixed"):
+            (work / folder).mkdir(parents=True, exist_ok=True)
+        for opening in openings:
+            if self.region(opening["name"]).exists():
+                continue
+            if "region" in opening:
+                shutil.copy(DATA / opening["region"], self.region(opening["name"]))
+            else:
+                self.make_region(self.region(opening["name"]), opening["name"])
+
+    def region(self, name):
+        return self.work / "regions" / f"{name}.off"
+
+    def reference(self, name, load):
+        return self.work / "ref" / f"{name}_{load}.txt"
+
+    def make_region(self, file, *names):
+        run(self.programs / "make_region", OPENINGS, file, *names)
+
+    def measure(self, *arguments):
+        return run(self.programs / "measure_accuracy", BRAIN, OPENINGS, self.work, *arguments)
+
+    def make_references(self):
+        missing = [n for n in self.names
+                   if not all(self.reference(n, load).exists() for load in LOADS)]
+        if missing:
+            mesh, regions = self.work / "reference.vtu", self.work / "regions" / "all.off"
+            self.make_region(regions, *(o["name"] for o in json.loads(OPENINGS.read_text())))
+            run(self.programs / "mixed_mesh_3", BRAIN, "--region", regions, *REFERENCE, "--quiet", "--output", mesh)
+            self.measure("--reference-mesh", mesh, "--regions", *missing)
+
+    def ours(self, name, vertices):
+        mesh = self.work / "mixed" / f"{name}_{vertices}.vtu"
+        run(self.programs / "mixed_mesh_3", BRAIN, "--region", self.region(name), "--vertices", vertices,
+            "--quiet", "--output", mesh)
+        return json.loads(self.measure(mesh, "--regions", name).splitlines()[0])
+
+    def mesh_3(self, name, vertices, settings):
+        """Of each setting in WORK, those of `settings` among them."""
+        folder = self.work / "mesh_3"
+        for growth, scale in settings:
+            mesh = folder / f"{name}_{vertices}_{growth}_{scale}.vtu"
+            if not mesh.exists():
+                run(self.programs / "benchmark_mesh_3", BRAIN, self.region(name), vertices, "--growth", growth,
+                    "--region-scale", scale, "--output", mesh)
+        meshes = sorted(folder.glob(f"{name}_{vertices}_*.vtu"))
+        references_time = max(self.reference(name, load).stat().st_mtime for load in LOADS)
+        outdated = [m for m in meshes if not m.with_suffix(".json").exists()
+                    or m.with_suffix(".json").stat().st_mtime < references_time]
+        if outdated:
+            for mesh, line in zip(outdated, self.measure(*outdated, "--regions", name).splitlines()):
+                mesh.with_suffix(".json").write_text(line + "\n")
+        rows = []
+        for mesh in meshes:
+            rows.append(json.loads(mesh.with_suffix(".json").read_text()))
+            rows[-1]["setting"] = ", ".join(mesh.stem.split("_")[2:])
+        return rows
+
+
+def best(rows, load, elements):
+    return min(rows, key=lambda row: error(row, load, elements))
+
+
+def print_errors(results, vertices, names):
+    """Cells: our error, Mesh_3's, their ratio, and Mesh_3's growth and scale."""
+    print(f"\n{vertices:,} vertices: error in the region, %: ours : Mesh_3 = ratio (Mesh_3's growth, scale)\n")
+    print("| region |" + "".join(f" {load}, {elements} elements |" for load, elements in COLUMNS))
+    print("|---|" + "--:|" * len(COLUMNS))
+    pairs = {column: [] for column in COLUMNS}
+
+    def cell(a, b):
+        return f" {100 * a:.2f} : {100 * b:.2f} = {a / b:.2f}"
+
+    for name in names:
+        ours, theirs = results[name, vertices]
+        line = f"| {name} |"
+        for column in COLUMNS:
+            row = best(theirs, *column)
+            pairs[column].append((error(ours, *column), error(row, *column)))
+            line += f"{cell(*pairs[column][-1])} ({row['setting']}) |"
+        print(line)
+    for title, summary in (("mean", statistics.mean), ("worst", max)):
+        print(f"| **{title}** |" + "".join(f"{cell(*map(summary, zip(*pairs[c])))} |" for c in COLUMNS))
+    ratios = {c: [a / b for a, b in pairs[c]] for c in COLUMNS}
+    print("| ratio: mean, worst |"
+          + "".join(f" {statistics.mean(r):.2f}, {max(r):.2f} |" for r in ratios.values()))
+
+
+def print_meshes(results, vertices, names):
+    """Of Mesh_3's meshes the one that is best for the bump with standard elements."""
+    print(f"\n{vertices:,} vertices: the meshes, and errors in the tumor, %\n")
+    print("| region | mesher | vertices | elements | in region | in loaded patch |"
+          + "".join(f" {load}, {elements} |" for load, elements in COLUMNS))
+    print("|---|---|" + "--:|" * (4 + len(COLUMNS)))
+    for name in names:
+        ours, theirs = results[name, vertices]
+        for mesher, r in (("ours", ours), ("Mesh_3", best(theirs, "bump", "standard"))):
+            print(f"| {name} | {mesher} | {r['vertices']:,} | {r['elements']:,} "
+                  f"| {r['share of vertices in region']:.0%} | {r['boundary vertices in patch']} |"
+                  + "".join(f" {100 * error(r, *c, ' in tumor'):.2f} |" for c in COLUMNS))
+
+
+def plot(results, counts, names, file):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, len(CASES), figsize=(11, 4.6), sharey=True)
-    styles = (("mixed", "error", "Mixed_mesh_3", "o-", "#1f6fb4"),
-              ("mixed", "error of standard elements", "Mixed_mesh_3, standard elements", "o:", "#1f6fb4"),
-              ("mesh_3", "error", "Mesh_3", "s-", "#c8442c"),
-              ("mesh_3", "error of standard elements", "Mesh_3, standard elements", "s:", "#c8442c"))
-    for ax, (case, title) in zip(axes, CASES.items()):
-        for mesher, key, label, style, color in styles:
-            points = sorted((r["vertices"], 100 * r[key]) for r in rows
-                            if r["case"] == case and r["mesher"] == mesher)
-            ax.loglog(*zip(*points), style, color=color, label=label)
+    figure, axes = plt.subplots(1, len(LOADS), figsize=(11, 4.6), sharey=True)
+    for ax, (load, title) in zip(axes, LOADS.items()):
+        for elements, line in (("own", "-"), ("standard", ":")):
+            column = (load, elements)
+            ours = [[error(results[name, n][0], *column) for name in names] for n in counts]
+            theirs = [[error(best(results[name, n][1], *column), *column) for name in names] for n in counts]
+            for mesher, errors, marker, color in (("Mixed_mesh_3", ours, "o", "#1f6fb4"),
+                                                  ("Mesh_3, tuned", theirs, "s", "#c8442c")):
+                ax.loglog(counts, [100 * statistics.mean(e) for e in errors], marker + line, color=color,
+                          label=f"{mesher}, {elements} elements")
         ax.set_title(title)
         ax.set_xlabel("vertices")
         ax.grid(True, which="both", alpha=0.3)
-    axes[0].set_ylabel("RMS error in the region, % of RMS displacement")
+    axes[0].set_ylabel(f"RMS error, % of RMS displacement: mean of {len(names)} regions")
     axes[0].legend()
     figure.tight_layout()
     figure.savefig(file, dpi=130)
 
 
 def main():
+    openings = json.loads(OPENINGS.read_text())
+    names = [o["name"] for o in openings]
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directory", type=pathlib.Path)
     parser.add_argument("work", type=pathlib.Path)
-    parser.add_argument("--vertices", type=int, nargs="+", default=[660, 2000, 10000, 50000])
+    parser.add_argument("--regions", nargs="+", choices=names, default=names)
+    parser.add_argument("--vertices", type=int, nargs="+", default=[660, 2000, 10000])
+    parser.add_argument("--tune-mesh-3", action="store_true")
     parser.add_argument("--plot", type=pathlib.Path)
     arguments = parser.parse_args()
-    arguments.work.mkdir(parents=True, exist_ok=True)
-    reference = make_meshes(arguments.directory, arguments.work, arguments.vertices)
-    files = [arguments.work / f"{mesher}_{n}.vtu" for n in arguments.vertices for mesher in ("mixed", "mesh_3")]
-    out = run(arguments.directory / "measure_accuracy", *INPUT, *files, "--references", arguments.work, *reference)
-    rows = [json.loads(line) for line in out.splitlines() if line.startswith("{")]
-    for row in rows:
-        row["mesher"] = pathlib.Path(row["mesh"]).stem.rsplit("_", 1)[0]
-    print("| case | mesher | vertices | elements | error | error of standard elements |")
-    print("|---|---|--:|--:|--:|--:|")
-    for r in rows:
-        print(f"| {r['case']} | {r['mesher']} | {r['vertices']:,} | {r['elements']:,} | {r['error']:.2%} "
-              f"| {r['error of standard elements']:.2%} |")
+    comparison = Comparison(arguments.directory, arguments.work,
+                            [o for o in openings if o["name"] in arguments.regions])
+    comparison.make_references()
+    settings = TUNING if arguments.tune_mesh_3 else (DEFAULT,)
+    results = {}
+    for n in arguments.vertices:
+        for name in comparison.names:
+            results[name, n] = comparison.ours(name, n), comparison.mesh_3(name, n, settings)
+        print_errors(results, n, comparison.names)
+        print_meshes(results, n, comparison.names)
     if arguments.plot:
-        plot(rows, arguments.plot)
+        plot(results, arguments.vertices, comparison.names, arguments.plot)
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <exception>
@@ -32,13 +33,24 @@ namespace {
 constexpr std::size_t number_of_points = 2000;
 constexpr double least_depth = 3; // mm, below the surface of the brain
 
-double root_mean_square(const std::vector<Vector>& u, const std::vector<Vector>& v)
+// Of the points of a subset.
+double root_mean_square(const std::vector<Vector>& u, const std::vector<bool>& is_in_subset)
 {
   double sum = 0;
   for(std::size_t i = 0; i < u.size(); ++i)
-    for(int k = 0; k < 3; ++k)
-      sum += (u[i][k] - v[i][k]) * (u[i][k] - v[i][k]);
-  return std::sqrt(sum / double(u.size()));
+    if(is_in_subset[i])
+      sum += mm3::dot(u[i], u[i]);
+  return std::sqrt(sum / double(std::count(is_in_subset.begin(), is_in_subset.end(), true)));
+}
+
+double relative_error(const std::vector<Vector>& u, const std::vector<Vector>& exact,
+                      const std::vector<bool>& is_in_subset)
+{
+  using namespace mm3::internal;
+  std::vector<Vector> difference;
+  for(std::size_t i = 0; i < u.size(); ++i)
+    difference.push_back(u[i] - exact[i]);
+  return root_mean_square(difference, is_in_subset) / root_mean_square(exact, is_in_subset);
 }
 
 std::vector<Vector> at_points(const Mesh& mesh, const std::vector<Vector>& displacements,
@@ -58,16 +70,15 @@ std::vector<Vector> at_points(const Mesh& mesh, const std::vector<Vector>& displ
 }
 
 // By Linear_elasticity_3, and by standard elements.
-std::pair<std::vector<Vector>, std::vector<Vector>> solve(const Mesh& mesh, const Brain& brain,
-                                                          Boundary_displacement boundary,
-                                                          const mm3::Elastic_material& material)
+std::pair<std::vector<Vector>, std::vector<Vector>>
+solve(const Mesh& mesh, const Boundary_displacement& boundary, const mm3::Elastic_material& material)
 {
   CGAL::Linear_elasticity_3<Mesh> elasticity(mesh, material);
   std::vector<bool> is_prescribed = boundary_vertices(mesh);
   std::vector<Vector> displacements(mesh.number_of_vertices(), Vector{});
   for(mm3::Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
     if(is_prescribed[v]) {
-      const auto u = boundary(mm3::to_vec3(mesh.point(v)), brain);
+      const auto u = boundary(mm3::to_vec3(mesh.point(v)));
       is_prescribed[v] = u.has_value();
       if(u) {
         elasticity.prescribe(v, *u);
@@ -82,75 +93,142 @@ std::pair<std::vector<Vector>, std::vector<Vector>> solve(const Mesh& mesh, cons
   return {elasticity.displacements(), standard_solution(mesh, material, is_prescribed, displacements)};
 }
 
-// A reference takes minutes: it is kept in a file, a line for each point.
-std::vector<Vector> reference(const std::string& file, const Mesh* mesh, const Brain& brain,
-                              Boundary_displacement boundary, const mm3::Elastic_material& material,
-                              const std::vector<Vector>& points)
+// A region, and where displacements are compared in it.
+struct Test_case
 {
-  std::vector<Vector> values(points.size());
-  if(mesh == nullptr) {
-    std::ifstream in(file);
-    for(Vector& u : values)
-      in >> u[0] >> u[1] >> u[2];
-    if(!in)
-      throw std::runtime_error(file + ": no reference there: make it by --reference-mesh");
-    return values;
+  Opening opening;
+  CGAL::Surface_mesh<Kernel::Point_3> region;
+  std::vector<Vector> points;
+  std::vector<bool> is_in_tumor; // of points
+  std::vector<std::pair<std::string, Boundary_displacement>> loads;
+
+  Test_case(const Opening& o, const std::string& work, const Brain& brain,
+            const CGAL::Polyhedral_mixed_mesh_region_3& inside_brain)
+    : opening(o), loads{{"bump", bump_displacement(o, brain)}, {"smooth", smooth_displacement(o)}}
+  {
+    using namespace mm3::internal;
+    require([&](std::string* error) {
+      return mm3::IO::read_closed_surface(work + "/regions/" + o.name + ".off", region, error);
+    });
+    points = points_to_compare(inside_brain, region, number_of_points, least_depth);
+    for(const Vector& p : points)
+      is_in_tumor.push_back(norm(p - o.tumor) < o.tumor_radius);
   }
-  const Quadratic_reference quadratic(*mesh, brain, boundary, material);
-  std::cerr << file << ": " << quadratic.number_of_nodes() << " nodes\n";
-  values = quadratic.at(points);
+};
+
+std::string reference_file(const std::string& work, const Test_case& c, const std::string& load)
+{
+  return work + "/ref/" + c.opening.name + "_" + load + ".txt";
+}
+
+void write_reference(const std::string& file, const std::vector<Vector>& values)
+{
   std::ofstream out(file);
   out.precision(17);
   for(const Vector& u : values)
     out << u[0] << ' ' << u[1] << ' ' << u[2] << '\n';
   if(!out)
     throw std::runtime_error(file + ": cannot be written");
+}
+
+std::vector<Vector> read_reference(const std::string& file)
+{
+  std::ifstream in(file);
+  std::vector<Vector> values(number_of_points);
+  for(Vector& u : values)
+    in >> u[0] >> u[1] >> u[2];
+  if(!in)
+    throw std::runtime_error(file + ": no reference there: make it by --reference-mesh");
   return values;
+}
+
+// All loads that prescribe the whole boundary share a matrix.
+void make_references(const std::string& mesh_file, const std::string& work,
+                     const std::vector<Test_case>& cases, const mm3::Elastic_material& material)
+{
+  Mesh mesh;
+  require([&](std::string* error) { return mm3::IO::read_mixed_mesh(mesh_file, mesh, error); });
+  Quadratic_reference quadratic(mesh, material);
+  std::cerr << mesh_file << ": " << quadratic.number_of_nodes() << " nodes\n";
+  std::vector<Boundary_displacement> smooth_loads;
+  for(const Test_case& c : cases)
+    smooth_loads.push_back(smooth_displacement(c.opening));
+  const auto smooth = quadratic.solve(smooth_loads);
+  for(std::size_t i = 0; i < cases.size(); ++i)
+    write_reference(reference_file(work, cases[i], "smooth"), quadratic.at(cases[i].points, smooth[i]));
+  for(const Test_case& c : cases) {
+    const auto bump = quadratic.solve({c.loads.front().second});
+    write_reference(reference_file(work, c, "bump"), quadratic.at(c.points, bump.front()));
+  }
+}
+
+double share_of_vertices_in_region(const Mesh& mesh, const Test_case& c)
+{
+  const CGAL::Polyhedral_mixed_mesh_region_3 inside_region(c.region);
+  std::size_t inside = 0;
+  for(const auto& p : mesh.points())
+    inside += inside_region.depth({p.x(), p.y(), p.z()}) > 0;
+  return double(inside) / double(mesh.number_of_vertices());
+}
+
+nlohmann::ordered_json measure(const std::string& file, const std::string& work, const Test_case& c,
+                               const mm3::Elastic_material& material)
+{
+  Mesh mesh;
+  require([&](std::string* error) { return mm3::IO::read_mixed_mesh(file, mesh, error); });
+  const std::vector<mm3::Vertex_index> boundary = mm3::boundary_vertices(mesh);
+  nlohmann::ordered_json line{{"mesh", file},
+                              {"region", c.opening.name},
+                              {"vertices", mesh.number_of_vertices()},
+                              {"elements", mesh.number_of_elements()},
+                              {"share of vertices in region", share_of_vertices_in_region(mesh, c)},
+                              {"boundary vertices in patch",
+                               std::count_if(boundary.begin(), boundary.end(), [&](mm3::Vertex_index v) {
+                                 return is_in_patch(mm3::to_vec3(mesh.point(v)), c.opening);
+                               })}};
+  const std::vector<bool> everywhere(c.points.size(), true);
+  for(const auto& [name, load] : c.loads) {
+    const std::vector<Vector> exact = read_reference(reference_file(work, c, name));
+    const auto [ours, standard] = solve(mesh, load, material);
+    const std::vector<Vector> u = at_points(mesh, ours, c.points), v = at_points(mesh, standard, c.points);
+    line[name] = {{"rms displacement, mm", root_mean_square(exact, everywhere)},
+                  {"error", relative_error(u, exact, everywhere)},
+                  {"error of standard elements", relative_error(v, exact, everywhere)},
+                  {"error in tumor", relative_error(u, exact, c.is_in_tumor)},
+                  {"error of standard elements in tumor", relative_error(v, exact, c.is_in_tumor)}};
+  }
+  return line;
 }
 
 } // namespace
 
 int main(int argc, char* argv[])
 {
-  std::string surface, region, directory = ".", reference_mesh;
-  std::vector<std::string> files;
+  std::string surface, openings_file, work, reference_mesh;
+  std::vector<std::string> names, files;
   mm3::Elastic_material material;
-  CLI::App app{"Measures the error of brain shift in the region, on meshes from files."};
+  CLI::App app{"Measures the error of brain shift in regions of interest, on meshes from files."};
   app.add_option("surface", surface, "closed surface of the brain")->required();
-  app.add_option("region", region, "closed surface of the region of interest")->required();
+  app.add_option("openings", openings_file, "openings.json")->required();
+  app.add_option("work", work, "has regions/NAME.off and the references, ref/NAME_{bump,smooth}.txt")
+    ->required();
   app.add_option("meshes", files, ".vtu or .msh");
+  app.add_option("--regions", names, "names of openings (default: all)");
   app.add_option("--poisson-ratio", material.poisson_ratio, "")->capture_default_str();
-  app.add_option("--references", directory, "where the references are kept")->capture_default_str();
-  app.add_option("--reference-mesh", reference_mesh, "tetrahedra to make them from");
+  app.add_option("--reference-mesh", reference_mesh, "tetrahedra to make the references from");
   CLI11_PARSE(app, argc, argv);
   try {
-    const Brain brain(surface, region);
-    const std::vector<Vector> points = brain.points_to_compare(number_of_points, least_depth);
-    Mesh fine;
+    const Brain brain(surface);
+    const CGAL::Polyhedral_mixed_mesh_region_3 inside_brain(brain.surface);
+    std::vector<Test_case> cases;
+    for(const Opening& o : read_openings(openings_file))
+      if(names.empty() || std::find(names.begin(), names.end(), o.name) != names.end())
+        cases.emplace_back(o, work, brain, inside_brain);
     if(!reference_mesh.empty())
-      require([&](std::string* error) { return mm3::IO::read_mixed_mesh(reference_mesh, fine, error); });
-    const std::pair<std::string, Boundary_displacement> cases[] = {{"bump", bump_displacement},
-                                                                   {"smooth", smooth_displacement}};
-    for(const auto& [name, boundary] : cases) {
-      const std::vector<Vector> exact = reference(directory + "/" + name + ".txt",
-                                                  reference_mesh.empty() ? nullptr : &fine, brain, boundary,
-                                                  material, points);
-      const double size = root_mean_square(exact, std::vector<Vector>(points.size(), Vector{}));
-      for(const std::string& file : files) {
-        Mesh mesh;
-        require([&](std::string* error) { return mm3::IO::read_mixed_mesh(file, mesh, error); });
-        const auto [ours, standard] = solve(mesh, brain, boundary, material);
-        std::cout << nlohmann::json{{"mesh", file},
-                                    {"case", name},
-                                    {"vertices", mesh.number_of_vertices()},
-                                    {"elements", mesh.number_of_elements()},
-                                    {"rms displacement, mm", size},
-                                    {"error", root_mean_square(at_points(mesh, ours, points), exact) / size},
-                                    {"error of standard elements",
-                                     root_mean_square(at_points(mesh, standard, points), exact) / size}}
-                  << std::endl;
-      }
-    }
+      make_references(reference_mesh, work, cases, material);
+    for(const Test_case& c : cases)
+      for(const std::string& file : files)
+        std::cout << measure(file, work, c, material) << std::endl;
   } catch(const std::exception& e) {
     std::cerr << "measure_accuracy: error: " << e.what() << '\n';
     return EXIT_FAILURE;

@@ -9,6 +9,8 @@
 #ifndef MIXED_MESH_3_BENCHMARK_TEST_CASES_H
 #define MIXED_MESH_3_BENCHMARK_TEST_CASES_H
 
+#include "Opening.h"
+
 #include "common/resources.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -23,6 +25,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <random>
@@ -34,88 +37,93 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Mixed_mesh_3<Kernel>;
 using Vector = mm3::Vec3;
 
-/// The bundled brain's; millimeters.
+/// A brain and its extent in height; millimeters.
 struct Brain
 {
-  CGAL::Surface_mesh<Kernel::Point_3> surface, region;
+  CGAL::Surface_mesh<Kernel::Point_3> surface;
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
 
-  Brain(const std::string& surface_file, const std::string& region_file)
+  explicit Brain(const std::string& file)
   {
-    require([&](std::string* error) { return mm3::IO::read_closed_surface(surface_file, surface, error); });
-    require([&](std::string* error) { return mm3::IO::read_closed_surface(region_file, region, error); });
+    require([&](std::string* error) { return mm3::IO::read_closed_surface(file, surface, error); });
     for(auto v : surface.vertices()) {
       lowest = (std::min)(lowest, surface.point(v).z());
       highest = (std::max)(highest, surface.point(v).z());
     }
   }
-
-  /// Points inside the region, at least `depth` below the surface of the brain; always the same.
-  std::vector<Vector> points_to_compare(std::size_t number, double depth) const
-  {
-    const CGAL::Polyhedral_mixed_mesh_domain_3 domain(surface);
-    const CGAL::Polyhedral_mixed_mesh_region_3 inside_brain(surface), inside_region(region);
-    const CGAL::Bbox_3 box = CGAL::Polyhedral_mixed_mesh_domain_3(region).bbox();
-    std::mt19937 generator(1);
-    const auto between = [&](double a, double b) {
-      return a + (b - a) * (double(generator()) / 4294967296.);
-    };
-    std::vector<Vector> points;
-    while(points.size() < number) {
-      Vector p;
-      for(int k : {2, 1, 0})
-        p[k] = between((box.min)(k), (box.max)(k));
-      const CGAL::Polyhedral_mixed_mesh_region_3::Point_3 q(p[0], p[1], p[2]);
-      if(inside_region.depth(q) > 0 && inside_brain.depth(q) >= depth)
-        points.push_back(p);
-    }
-    return points;
-  }
 };
 
-/// What a boundary vertex is prescribed, if it is.
-using Boundary_displacement = std::optional<Vector> (*)(const Vector& p, const Brain& brain);
+/// Points inside the region, at least `depth` below the surface of the brain; always the same.
+inline std::vector<Vector> points_to_compare(const CGAL::Polyhedral_mixed_mesh_region_3& inside_brain,
+                                             const CGAL::Surface_mesh<Kernel::Point_3>& region,
+                                             std::size_t number, double depth)
+{
+  const CGAL::Polyhedral_mixed_mesh_region_3 inside_region(region);
+  const CGAL::Bbox_3 box = CGAL::Polyhedral_mixed_mesh_domain_3(region).bbox();
+  std::mt19937 generator(1);
+  const auto between = [&](double a, double b) { return a + (b - a) * (double(generator()) / 4294967296.); };
+  std::vector<Vector> points;
+  while(points.size() < number) {
+    Vector p;
+    for(int k : {2, 1, 0})
+      p[k] = between((box.min)(k), (box.max)(k));
+    const CGAL::Polyhedral_mixed_mesh_region_3::Point_3 q(p[0], p[1], p[2]);
+    if(inside_region.depth(q) > 0 && inside_brain.depth(q) >= depth)
+      points.push_back(p);
+  }
+  return points;
+}
 
-inline constexpr Vector opening{44, 30, 75}, tumor{28, 18, 28}; // centers; see data/README.md
-inline constexpr double push = 10;                              // millimeters towards the tumor
+/// What a boundary vertex is prescribed, if it is.
+using Boundary_displacement = std::function<std::optional<Vector>(const Vector&)>;
+
+inline constexpr double push = 10; // millimeters towards the tumor
 
 struct Opening_coordinates
 {
-  Vector axis; // of length 1, inwards
-  double depth, from_axis, from_opening, length;
+  double depth, from_axis, from_opening;
 
-  explicit Opening_coordinates(const Vector& p)
+  Opening_coordinates(const Vector& p, const Opening& o)
   {
     using namespace mm3::internal;
-    length = norm(tumor - opening);
-    axis = (1 / length) * (tumor - opening);
-    depth = dot(p - opening, axis);
-    from_axis = norm(p - opening - depth * axis);
-    from_opening = norm(p - opening);
+    depth = dot(p - o.center, o.axis);
+    from_axis = norm(p - o.center - depth * o.axis);
+    from_opening = norm(p - o.center);
   }
 };
 
-/// The surface within 20 mm of the axis, on the opening's side, is pushed by a bump of 10 mm; the lower 30 %
-/// of the brain are fixed; the rest is free.
-inline std::optional<Vector> bump_displacement(const Vector& p, const Brain& brain)
+/// Whether a point of the surface is as near to the axis as the opening's border, and on its side.
+inline bool is_in_patch(const Vector& p, const Opening& o)
 {
-  using namespace mm3::internal;
-  constexpr double radius = 20, fixed_share = 0.3;
-  const Opening_coordinates c(p);
-  if(p[2] < brain.lowest + fixed_share * (brain.highest - brain.lowest))
-    return Vector{};
-  if(c.from_axis < radius && c.depth < c.length)
-    return (push * (1 + std::cos(M_PI * c.from_axis / radius)) / 2) * c.axis;
-  return std::nullopt;
+  const Opening_coordinates c(p, o);
+  return c.from_axis < o.radius && c.depth < o.length;
+}
+
+/// The surface below the opening is pushed by a bump of 10 mm; the lower 30 % of the brain are fixed; the
+/// rest is free.
+inline Boundary_displacement bump_displacement(const Opening& o, const Brain& brain)
+{
+  constexpr double fixed_share = 0.3;
+  const double fixed_below = brain.lowest + fixed_share * (brain.highest - brain.lowest);
+  return [=](const Vector& p) -> std::optional<Vector> {
+    using namespace mm3::internal;
+    if(p[2] < fixed_below)
+      return Vector{};
+    if(!is_in_patch(p, o))
+      return std::nullopt;
+    return (push * (1 + std::cos(M_PI * Opening_coordinates(p, o).from_axis / o.radius)) / 2) * o.axis;
+  };
 }
 
 /// All of the boundary is prescribed, smoothly: a Gaussian around the opening.
-inline std::optional<Vector> smooth_displacement(const Vector& p, const Brain&)
+inline Boundary_displacement smooth_displacement(const Opening& o)
 {
-  using namespace mm3::internal;
   constexpr double width = 25;
-  const Opening_coordinates c(p);
-  return (push * std::exp(-c.from_opening * c.from_opening / (2 * width * width))) * c.axis;
+  return [=](const Vector& p) -> std::optional<Vector> {
+    using namespace mm3::internal;
+    const double distance = Opening_coordinates(p, o).from_opening;
+    return (push * std::exp(-distance * distance / (2 * width * width))) * o.axis;
+  };
 }
 
 inline std::vector<bool> boundary_vertices(const Mesh& mesh)

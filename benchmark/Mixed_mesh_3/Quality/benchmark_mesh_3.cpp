@@ -29,6 +29,7 @@
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_criteria_3.h>
 #include <CGAL/Mesh_triangulation_3.h>
+#include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Polyhedral_mesh_domain_3.h>
 #include <CGAL/make_mesh_3.h>
 
@@ -244,18 +245,32 @@ double find_size_in_region(const Surface& surface, const Surface& region_surface
   return std::exp(best.log_size);
 }
 
+/// About the center of its box.
+Surface scaled(Surface surface, double factor)
+{
+  const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(surface);
+  const Point center = CGAL::midpoint(Point((box.min)(0), (box.min)(1), (box.min)(2)),
+                                      Point((box.max)(0), (box.max)(1), (box.max)(2)));
+  for(auto v : surface.vertices())
+    surface.point(v) = center + factor * (surface.point(v) - center);
+  return surface;
+}
+
 int main(int argc, char** argv)
 try {
   CLI::App app("Makes a mesh of tetrahedra by CGAL's Mesh_3 and measures it.");
   std::string surface_file, region_file, output_file;
   std::size_t number_of_vertices = 0;
   Sizes sizes;
+  double region_scale = 1;
   bool no_perturb_exude = false, only_time = false;
   app.add_option("surface", surface_file, "closed surface of the domain")->required();
   app.add_option("region", region_file, "closed surface of the region of interest")->required();
   app.add_option("vertices", number_of_vertices, "vertices wanted")->required()->check(CLI::PositiveNumber);
   app.add_option("--size-in-region", sizes.in_region, "size in the region; found by a search if not given");
   app.add_option("--growth", sizes.growth, "of the size with the distance from the region")
+    ->capture_default_str();
+  app.add_option("--region-scale", region_scale, "sizes are those of the region scaled about its center")
     ->capture_default_str();
   app.add_option("--largest", sizes.largest, "largest size")->capture_default_str();
   app.add_option("--facet-distance", sizes.facet_distance, "of facets from the surface")
@@ -272,10 +287,11 @@ try {
   require(
     [&](std::string* error) { return mm3::IO::read_closed_surface(region_file, region_surface, error); });
 
+  const Surface fine_surface = scaled(region_surface, region_scale);
   if(sizes.in_region <= 0)
-    sizes.in_region = find_size_in_region(surface, region_surface, sizes, number_of_vertices);
+    sizes.in_region = find_size_in_region(surface, fine_surface, sizes, number_of_vertices);
   const double start = cpu_seconds();
-  const Result result = make_mesh(surface, region_surface, sizes, !no_perturb_exude);
+  const Result result = make_mesh(surface, fine_surface, sizes, !no_perturb_exude);
   const double seconds = cpu_seconds() - start;
   const Mesh mesh = to_mixed_mesh(result.complex);
 
@@ -285,6 +301,7 @@ try {
                                  {"vertices", mesh.number_of_vertices()},
                                  {"size in region", sizes.in_region},
                                  {"growth", sizes.growth},
+                                 {"region scale", region_scale},
                                  {"largest", sizes.largest},
                                  {"facet distance", sizes.facet_distance},
                                  {"facet angle", sizes.facet_angle},
