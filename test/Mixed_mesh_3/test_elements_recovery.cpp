@@ -201,7 +201,7 @@ void test_reproduction()
     }
     const auto exact = [](const Vec3& x) { return quadratic(x, 0.02); };
     const Recovered u(mesh, at_vertices(mesh, exact), {}, Gradient_recovery::LEAST_SQUARES);
-    BOOST_TEST_EQ(u.number_of_plain_elements(), 0u);
+    BOOST_TEST_EQ(u.number_of_linear_elements(), 0u);
     BOOST_TEST_LT(largest_error(u, exact), 1e-12);
     for_each_sample(u, [&](const Element_location_3& l) {
       BOOST_TEST_LT(distance(u.gradient(l), quadratic_gradient(point(mesh, l), 0.02)), 1e-10);
@@ -411,7 +411,7 @@ void test_orientation()
           values[v] = {0, 0, height};
       const Recovered u(mesh, values, {}, Gradient_recovery::LEAST_SQUARES);
       check_continuity(u);
-      number += u.number_of_plain_elements();
+      number += u.number_of_linear_elements();
       // What is left of the formula does not fold, where the shape functions do not.
       const Element_locator_3<Mesh> locator(u), plain(mesh, values);
       std::size_t found = 0, all = 0;

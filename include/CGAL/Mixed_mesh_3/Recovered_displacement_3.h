@@ -107,8 +107,8 @@ private:
   std::vector<Vec3> m_displacements;
   std::vector<bool> m_is_removed;
   internal::Vertex_gradients m_gradients;
-  std::vector<bool> m_is_plain; // vertices: pairs of them have no bubble
-  std::size_t m_number_of_plain_elements = 0;
+  std::vector<bool> m_is_linear; // vertices: pairs of them have no bubble
+  std::size_t m_number_of_linear_elements = 0;
 
   template <class Displacements>
   static std::vector<Vec3> vectors(const Mesh& mesh, const Displacements& displacements)
@@ -127,7 +127,7 @@ private:
   Vec3 bubble(Vertex_index v, Vertex_index w) const
   {
     Vec3 sum{};
-    if(m_is_plain[v] && m_is_plain[w])
+    if(m_is_linear[v] && m_is_linear[w])
       return sum;
     const Vec3 edge = position(w) - position(v);
     int n = 0;
@@ -168,17 +168,17 @@ private:
   }
 
   // Bubbles that are taken from an element are also missing in its neighbors: again, until all is well.
-  void find_plain_elements()
+  void find_linear_elements()
   {
-    std::vector<bool> is_plain(m_mesh->number_of_elements(), false);
+    std::vector<bool> is_linear(m_mesh->number_of_elements(), false);
     for(bool has_changed = true; has_changed;) {
       has_changed = false;
-      for(Element_index e = 0; e < is_plain.size(); ++e)
-        if(!is_removed(e) && !is_plain[e] && !is_oriented(m_mesh->element(e))) {
-          is_plain[e] = has_changed = true;
-          ++m_number_of_plain_elements;
+      for(Element_index e = 0; e < is_linear.size(); ++e)
+        if(!is_removed(e) && !is_linear[e] && !is_oriented(m_mesh->element(e))) {
+          is_linear[e] = has_changed = true;
+          ++m_number_of_linear_elements;
           for(Vertex_index v : m_mesh->element(e))
-            m_is_plain[v] = true;
+            m_is_linear[v] = true;
         }
     }
   }
@@ -203,10 +203,10 @@ public:
       m_gradients(
         mesh, [this](Element_index e) { return !is_removed(e); }, m_displacements,
         recovery == Gradient_recovery::LEAST_SQUARES),
-      m_is_plain(mesh.number_of_vertices(), false)
+      m_is_linear(mesh.number_of_vertices(), false)
   {
     CGAL_precondition(m_is_removed.empty() || m_is_removed.size() == mesh.number_of_elements());
-    find_plain_elements();
+    find_linear_elements();
   }
 
   /// The displacement at a point of an element. Also of the boundary's point nearest to one outside.
@@ -247,7 +247,7 @@ public:
   const std::vector<Vec3>& displacements() const { return m_displacements; }
   bool is_removed(Element_index e) const { return !m_is_removed.empty() && m_is_removed[e]; }
   /// Elements in which the displacement is that of the shape functions, so that they are not turned inside out.
-  std::size_t number_of_plain_elements() const { return m_number_of_plain_elements; }
+  std::size_t number_of_linear_elements() const { return m_number_of_linear_elements; }
 
   /// \cond INTERNAL
   // None if the displacement is that of the shape functions.

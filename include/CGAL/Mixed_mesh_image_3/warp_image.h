@@ -60,6 +60,8 @@ struct Warped_image_3
   Displacement_field_3 forward;  ///< at points before the deformation: where they go
   Displacement_field_3 backward; ///< at points after the deformation: where they come from
   Voxel_image_3 mask;            ///< after the deformation: 0 outside, 1 tissue, 2 resected
+  /// With `RECOVERED`: see `Recovered_displacement_3::number_of_linear_elements()`.
+  std::size_t number_of_linear_elements = 0;
 };
 
 namespace internal {
@@ -250,6 +252,8 @@ Warped_image_3 warp_image(const Voxel_image_3& image, const Mesh& mesh, const Di
     return internal::displacement_field(grid, mesh.elements(), mesh_in_grid, bubbles_of, options, is_forward);
   };
   Warped_image_3 warped;
+  if(recovered)
+    warped.number_of_linear_elements = recovered->number_of_linear_elements();
   warped.backward = field(false);
   warped.forward = field(true);
   warped.image = resample_image(image, warped.backward);

@@ -48,21 +48,69 @@ inline Voxel_range voxel_range(const Voxel_grid_3& grid, const Vec3& lower, cons
   return range;
 }
 
+/// Points of an element one after the other in a row, each found from those before.
+template <class Map>
+class Row_of_locations
+{
+  const Map& m_map;
+  std::array<Vec3, 3> m_last{}; // the nearest first
+  int m_number_of_last = 0;
+  std::array<Vec3, 3> m_inverse_rows{}; // of the derivative, at one of these or before
+
+  // From the polynomial through those before.
+  Vec3 prediction(const Vec3& start, const Vec3& step) const
+  {
+    switch(m_number_of_last) {
+    case 0: return start;
+    case 1: return m_last[0] + step;
+    case 2: return 2. * m_last[0] - m_last[1];
+    default: return 3. * (m_last[0] - m_last[1]) + m_last[2];
+    }
+  }
+
+public:
+  explicit Row_of_locations(const Map& map) : m_map(map) {}
+
+  /// What comes is not next to what was.
+  void interrupt() { m_number_of_last = 0; }
+
+  /// \param p the point  \param start where it is if the map is affine  \param step to the next point then
+  std::optional<Vec3> locate(const Vec3& p, const Vec3& start, const Vec3& step)
+  {
+    // The error of reference coordinates is about the square of the last step: fields are floats. That of
+    // the simplified iteration is a part of it, a half for elements that are much curved.
+    constexpr double accuracy = 1e-4, simplified_accuracy = 1e-6;
+    if(m_map.is_affine())
+      return m_map.inverse(p, start, accuracy);
+    const Vec3 r = prediction(start, step);
+    std::optional<Vec3> found = r;
+    if(m_number_of_last == 0 || !m_map.improve(m_inverse_rows, p, *found, simplified_accuracy)) {
+      found = m_map.inverse(p, r, accuracy);
+      if(!found) {
+        interrupt();
+        return found;
+      }
+      m_inverse_rows = m_map.inverse_derivatives(*found);
+    }
+    m_last = {*found, m_last[0], m_last[1]};
+    m_number_of_last = (std::min)(m_number_of_last + 1, 3);
+    return found;
+  }
+};
+
 /*!
 Calls `visit(offset, p, r)` for the voxels whose centers p are in an element, with reference coordinates.
 
 Row by row: where a row is in all half-spaces that contain the element, the map is inverted, each voxel
 starting from the result for the one before.
-\param range where the element is  \param map an `Isoparametric_map_3`, to indices of the grid
+\param map an `Isoparametric_map_3`, to indices of the grid
+\param range where the element is
 \param is_wanted `bool(offset)`: whether to look at a voxel
 */
 template <class Map, class Is_wanted, class Visitor>
 void for_each_voxel(const Map& map, const Voxel_range& range, const Voxel_grid_3& grid,
                     const Is_wanted& is_wanted, const Visitor& visit)
 {
-  // The error of reference coordinates is about the square of the last step: fields are floats.
-  // That of the simplified iteration is about a tenth of it.
-  constexpr double accuracy = 1e-4, simplified_accuracy = 3e-6;
   const Half_spaces& faces = map.necessary_half_spaces();
   const Vec3 step = map.linear_inverse_of_vector({1, 0, 0});
   double slopes[6];
@@ -84,35 +132,15 @@ void for_each_voxel(const Map& map, const Voxel_range& range, const Voxel_grid_3
       }
       if(!(from <= to))
         continue;
-      std::array<Vec3, 3> rows{}; // of the derivative's inverse, at the first of these or later
-      Vec3 last[3];               // reference coordinates of the voxels before, the nearest first
-      int number_of_last = 0;
+      Row_of_locations<Map> row(map);
       for(std::size_t i = std::size_t(std::ceil(from)); double(i) <= to; ++i) {
         const std::size_t offset = grid.offset(i, std::size_t(j), std::size_t(k));
         if(!is_wanted(offset)) {
-          number_of_last = 0;
+          row.interrupt();
           continue;
         }
-        const Vec3 r = number_of_last == 0   ? start + double(i) * step
-                       : number_of_last == 1 ? last[0] + step
-                       : number_of_last == 2 ? 2. * last[0] - last[1]
-                                             : 3. * (last[0] - last[1]) + last[2];
         const Vec3 p{double(i), double(j), double(k)};
-        std::optional<Vec3> found = r;
-        if(number_of_last == 0 || !map.improve(rows, p, *found, simplified_accuracy)) {
-          found = map.inverse(p, r, accuracy);
-          if(found && !map.is_affine())
-            rows = map.inverse_derivatives(*found);
-        }
-        if(!found || map.is_affine()) {
-          number_of_last = 0;
-        } else {
-          last[2] = last[1];
-          last[1] = last[0];
-          last[0] = *found;
-          number_of_last = (std::min)(number_of_last + 1, 3);
-        }
-        if(found)
+        if(const auto found = row.locate(p, start + double(i) * step, step))
           visit(offset, p, *found);
       }
     }
