@@ -33,8 +33,10 @@ enum class Displacement_interpolation {
 
 /// How the gradient at a vertex is made.
 enum class Gradient_recovery {
-  AVERAGE,      ///< mean of the elements' gradients at their centers, weighted by volume
-  LEAST_SQUARES ///< of the polynomial of degree 2 that fits the vertices around; if these are too few, `AVERAGE`
+  AVERAGE, ///< mean of the elements' gradients at their centers, weighted by volume
+  /// That of the polynomial of degree 2 that fits the vertices around by least squares; `AVERAGE` if these do
+  /// not determine it. Exact for quadratic displacements.
+  LEAST_SQUARES
 };
 
 namespace internal {
@@ -70,11 +72,11 @@ bool all_of_test_points(const F& f)
 
 \f[ u(x) = \sum_i N_i(x) \left( u_i + \tfrac12 G_i (x - x_i) \right) \f]
 
-with the shape functions \f$ N_i \f$ of the element and gradients \f$ G_i \f$ of the displacement at the vertices, which
-are recovered from the displacements of the vertices around. The field is continuous, it has the displacements
-given at the vertices, is linear where these are, and is quadratic where these are and the gradients are exact.
-No unknown is added. See D. Kraaijpoel, T. van Leeuwen: "Raising the order of multivariate approximation schemes
-using supplementary derivative data", Procedia Computer Science 1, 2010.
+with the shape functions \f$ N_i \f$ of the element and gradients \f$ G_i \f$ of the displacement at the
+vertices, which are recovered from the displacements of the vertices around. The field is continuous, it
+has the displacements given at the vertices, is linear where these are, and quadratic where these are and the gradients are exact.
+No unknown is added. See D. Kraaijpoel, T. van Leeuwen: "Raising the order of multivariate approximation
+schemes using supplementary derivative data", Procedia Computer Science 1, 2010.
 
 As \f$ \sum_i N_i x_i = x \f$, this is a sum over pairs of the element's vertices,
 
@@ -82,14 +84,14 @@ As \f$ \sum_i N_i x_i = x \f$, this is a sum over pairs of the element's vertice
 
 and so are the exceptions to the formula; all of them keep the field continuous, and linear fields linear:
 
-- *Subdomains* (see `Element_attributes`) may be of different stiffness, and the gradient jumps then from one to the other. So a
+- *Subdomains* (see `Element_attributes`) may be of different stiffness, and the gradient jumps then. So a
   vertex has a gradient for each subdomain around it, and the pair has the mean of its \f$ b_{ij} \f$ in the
   subdomains that both vertices have.
 - *Removed elements* do not count.
 - *Orientation*: where an element would nearly be turned inside out by the field, pairs of its vertices
   have \f$ b_{ij} = 0 \f$. That is where at a vertex, the middle of an edge or the center the determinant of
-  \f$ I + \nabla u \f$ is less than a quarter of what it is with shape functions only, which leaves room for what happens
-  between these points.
+  \f$ I + \nabla u \f$ is less than a quarter of what it is with shape functions only, which leaves room
+  for what happens between these points.
 
 The mesh must outlive the object and not change.
 
@@ -188,8 +190,8 @@ public:
   Recovers the gradients.
 
   \param mesh the mesh, before the displacement
-  \param displacements a vector for each vertex, with components `[0]`, `[1]`, `[2]`; those of vertices that only
-         removed elements have do not matter
+  \param displacements a vector for each vertex, with components `[0]`, `[1]`, `[2]`; those of vertices that
+         only removed elements have do not matter
   \param removed_elements true for each element that has been removed; empty: none
   \param recovery how gradients are made
   \pre a displacement for each vertex; `removed_elements` is empty or has a value for each element
@@ -246,7 +248,7 @@ public:
   /// Displacements of the vertices.
   const std::vector<Vec3>& displacements() const { return m_displacements; }
   bool is_removed(Element_index e) const { return !m_is_removed.empty() && m_is_removed[e]; }
-  /// Elements in which the displacement is that of the shape functions, so that they are not turned inside out.
+  /// Elements in which the displacement is that of the shape functions, or they would be turned inside out.
   std::size_t number_of_linear_elements() const { return m_number_of_linear_elements; }
 
   /// \cond INTERNAL
