@@ -122,9 +122,9 @@ inline std::array<double, 4> nearest_weights(const Vec3* p, int size)
 \brief Finds the element of a mesh that contains a point, and the point's coordinates there.
 
 For the mesh as it is, or displaced: by the shape functions, or by a `Recovered_displacement_3`. Of several
-elements that contain a point (on common faces, edges and vertices) it is the one with the smallest index. Points
-that are outside by less than 1e-9 in reference
-coordinates count as inside, so that none is lost between elements.
+elements that contain a point (on common faces, edges and vertices) it is the one with the smallest index.
+Points that are outside by less than 1e-9 in reference coordinates count as inside, so that none is lost
+between elements.
 
 The mesh must outlive the locator and not change. Points are whatever has `p[0]`, `p[1]`, `p[2]`.
 
