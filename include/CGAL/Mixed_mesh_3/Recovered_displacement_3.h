@@ -74,7 +74,8 @@ bool all_of_test_points(const F& f)
 
 with the shape functions \f$ N_i \f$ of the element and gradients \f$ G_i \f$ of the displacement at the
 vertices, which are recovered from the displacements of the vertices around. The field is continuous, it
-has the displacements given at the vertices, is linear where these are, and quadratic where these are and the gradients are exact.
+has the displacements given at the vertices, is linear where these are, and quadratic where these are and
+the gradients are exact.
 No unknown is added. See D. Kraaijpoel, T. van Leeuwen: "Raising the order of multivariate approximation
 schemes using supplementary derivative data", Procedia Computer Science 1, 2010.
 
