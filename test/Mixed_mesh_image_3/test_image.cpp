@@ -8,6 +8,7 @@
 #include "test_images.h"
 
 #include <CGAL/Mixed_mesh_3/Element_locator_3.h>
+#include <CGAL/Mixed_mesh_3/Recovered_displacement_3.h>
 #include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>
 #include <CGAL/Mixed_mesh_image_3/warp_image.h>
 
@@ -87,21 +88,39 @@ void test_affine_displacement(bool mirror)
     BOOST_TEST(n > 100);
 }
 
-void test_fields_are_inverse(bool mirror)
+// Both fields, against locators.
+void test_fields_are_inverse(bool mirror, Displacement_interpolation interpolation)
 {
   const Scene scene(mirror);
   const auto u = scene.displacements(bend);
-  const Warped_image_3 warped = warp_image(scene.image, scene.mesh, u);
-  const Element_locator_3<Mesh> before(scene.mesh), after(scene.mesh, u);
+  Warp_options options;
+  options.interpolation = interpolation;
+  const Warped_image_3 warped = warp_image(scene.image, scene.mesh, u, options);
+  const bool is_recovered = interpolation == Displacement_interpolation::RECOVERED;
+  const Recovered_displacement_3<Mesh> recovered(scene.mesh, u);
+  const Element_locator_3<Mesh> before(scene.mesh), plain(scene.mesh, u), curved(recovered);
+  const Element_locator_3<Mesh>& after = is_recovered ? curved : plain;
   const std::vector<Vec3> none(u.size(), Vec3{});
+  const auto deformed = [&](const Element_location_3& l) {
+    return is_recovered ? position(scene.mesh, none, l) + recovered(l) : position(scene.mesh, u, l);
+  };
+  double largest_difference = 0;
   for_each_voxel_center(scene.image.grid, [&](std::size_t offset, const Vec3& x) {
     const Vec3 from = x + to_doubles(warped.backward.vectors[offset]);
+    BOOST_TEST_EQ(bool(warped.backward.is_in_mesh[offset]), after.locate(x).has_value());
     if(warped.backward.is_in_mesh[offset])
-      BOOST_TEST(is_close(position(scene.mesh, u, before.nearest(from)), x, 1e-5));
+      BOOST_TEST(is_close(deformed(before.nearest(from)), x, 1e-5));
+    BOOST_TEST_EQ(bool(warped.forward.is_in_mesh[offset]), before.locate(x).has_value());
+    if(!warped.forward.is_in_mesh[offset])
+      return;
     const Vec3 to = x + to_doubles(warped.forward.vectors[offset]);
-    if(warped.forward.is_in_mesh[offset])
-      BOOST_TEST(is_close(position(scene.mesh, none, after.nearest(to)), x, 1e-5));
+    BOOST_TEST(is_close(deformed(before.nearest(x)), to, 1e-5));
+    if(const auto back = after.locate(to)) // else at the surface, by rounding
+      BOOST_TEST(is_close(position(scene.mesh, none, *back), x, 1e-5));
+    const Vec3 linear = position(scene.mesh, u, *before.locate(x));
+    largest_difference = (std::max)(largest_difference, norm(linear - to));
   });
+  BOOST_TEST_EQ(largest_difference > 0.01, is_recovered);
   // The image deformed and back: that of before, in the mesh, up to interpolation.
   const Voxel_image_3 again = resample_image(warped.image, warped.forward);
   double worst = 0, mean = 0;
@@ -249,7 +268,8 @@ int main()
   test_identity();
   for(bool mirror : {false, true}) {
     test_affine_displacement(mirror);
-    test_fields_are_inverse(mirror);
+    test_fields_are_inverse(mirror, Displacement_interpolation::LINEAR);
+    test_fields_are_inverse(mirror, Displacement_interpolation::RECOVERED);
   }
   test_outside();
   test_fade();

@@ -163,7 +163,8 @@ class BrainShift(unittest.TestCase):
     def test_all_of_it(self):
         told, run = self.succeeds(self.mesh, "--control-points", self.points, "--tumor", self.tumor, "--image",
                                   self.image, "--output", WORK / "all.vtu", "--output-deformed", WORK / "left.vtu",
-                                  "--output-deformed", WORK / "left.msh", "--output-image", WORK / "all")
+                                  "--output-deformed", WORK / "left.msh", "--output-image", WORK / "all",
+                                  "--interpolation", "linear")
         self.assertIn("wrote", run.stdout)
         grid, left = self.read(WORK / "all.vtu"), self.read(WORK / "left.vtu")
         displacement = vtk_to_numpy(grid.GetPointData().GetArray("displacement"))
@@ -217,7 +218,9 @@ class BrainShift(unittest.TestCase):
         mask, values = np.asarray(mask.dataobj), warped.get_fdata()
         self.assertEqual(set(np.unique(mask)), {0, 1, 2})
         self.assertEqual(told["image"], {"voxels of tissue": int((mask == 1).sum()),
-                                         "voxels resected": int((mask == 2).sum())})
+                                         "voxels resected": int((mask == 2).sum()),
+                                         "elements with linear interpolation": 0})
+        self.assertEqual(told["parameters"]["interpolation between vertices"], "linear")
         self.assertTrue(np.all(values[mask == 2] == 0))
         voxels = np.argwhere(mask == 1)[::7]
         world = voxels @ self.affine[:3, :3].T + self.affine[:3, 3]
@@ -240,6 +243,21 @@ class BrainShift(unittest.TestCase):
         # a field takes a voxel where it came from
         backward = np.asarray(nibabel.load(WORK / "all_backward.nii.gz").dataobj)[:, :, :, 0][tuple(voxels.T)]
         self.assertTrue(np.allclose(1000 + (world + backward) @ self.gradient, values[tuple(voxels.T)], atol=1e-2))
+
+    def test_interpolation(self):
+        run = lambda name, *more: self.succeeds(self.mesh, "--control-points", self.points, "--control-radius", 8,
+                                                "--image", self.image, "--output-image", WORK / name, *more)[0]
+        data = lambda name: np.asarray(nibabel.load(WORK / f"{name}.nii.gz").dataobj)
+        told = run("default")
+        self.assertEqual(told["parameters"]["interpolation between vertices"], "recovered")
+        run("recovered", "--interpolation", "recovered")
+        run("linear", "--interpolation", "linear")
+        inside = (data("linear_mask") == 1) & (data("recovered_mask") == 1)
+        for direction in ("_forward", "_backward"):
+            self.assertTrue(np.array_equal(data("default" + direction), data("recovered" + direction)))
+            difference = data("default" + direction) - data("linear" + direction)
+            largest = np.linalg.norm(difference[inside], axis=-1).max()
+            self.assertTrue(0.05 < largest < 0.2 * told["shift"]["largest displacement"], largest)
 
     def test_rigid_motion_is_exact(self):
         # All control points move alike, nothing is fixed: everything follows.
@@ -457,7 +475,8 @@ class BrainShift(unittest.TestCase):
                             (["--poisson-ratio", 0.5], "--poisson-ratio: expected a number of at least 0"),
                             (["--gravity", "1,2"], "--gravity: expected three numbers"),
                             (["--gravity", "0,0,nan"], "--gravity"), (["--up", "w"], "--up"),
-                            (["--up", "0,0,0"], "--up"), (["--max-distance", -1], "--max-distance"),
+                            (["--up", "0,0,0"], "--up"),
+                            (["--interpolation", "cubic"], "--interpolation"), (["--max-distance", -1], "--max-distance"),
                             (["--control-compliance", -1], "--control-compliance"),
                             (["--image", self.image], "--output-image"),
                             (["--output-image", WORK / "no"], "--image")):

@@ -83,6 +83,7 @@ void write_images(mm3::IO::Output_files& files, const mm3::Voxel_image_3& image,
                   Outcome& outcome)
 {
   mm3::Warp_options warp;
+  warp.interpolation = o.interpolation;
   if(tumor != nullptr) {
     warp.resected_elements = is_removed;
     warp.is_resected = [tumor](const std::array<double, 3>& p) { return tumor->contains(p); };
@@ -93,6 +94,7 @@ void write_images(mm3::IO::Output_files& files, const mm3::Voxel_image_3& image,
   const std::vector<float>& mask = warped.mask.values;
   outcome.image->voxels_of_tissue = std::size_t(std::count(mask.begin(), mask.end(), 1.f));
   outcome.image->voxels_resected = std::size_t(std::count(mask.begin(), mask.end(), 2.f));
+  outcome.image->linear_elements = warped.number_of_linear_elements;
   if(!o.output_image.empty())
     log("write images", [&] {
       require([&](std::string* error) {

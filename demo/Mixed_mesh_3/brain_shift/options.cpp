@@ -15,6 +15,9 @@
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 
@@ -137,6 +140,16 @@ void add_outputs(CLI::App& app, Options& o, CLI::Option* image)
       ->needs(image)
       ->type_name("PREFIX");
   image->needs(output_image);
+  using Interpolation = mm3::Displacement_interpolation;
+  const std::vector<std::pair<std::string, Interpolation>> interpolations{{"linear", Interpolation::LINEAR},
+                                                                          {"recovered",
+                                                                           Interpolation::RECOVERED}};
+  app
+    .add_option("--interpolation", o.interpolation,
+                "Displacement between vertices, for the image: recovered, by shape functions and gradients "
+                "(default), or linear, by shape functions only")
+    ->transform(CLI::CheckedTransformer(interpolations, CLI::ignore_case).description("{linear,recovered}"))
+    ->type_name("HOW");
   app.add_option("--report", o.report, "Report with counts, displacements, forces, parameters and times")
     ->type_name("FILE.json");
 }

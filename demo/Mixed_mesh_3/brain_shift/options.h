@@ -9,6 +9,7 @@
 #define MIXED_MESH_3_DEMO_BRAIN_SHIFT_OPTIONS_H
 
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
+#include <CGAL/Mixed_mesh_3/Recovered_displacement_3.h>
 
 #include <array>
 #include <limits>
@@ -23,6 +24,8 @@ struct Options
   double fixed_below = 0.3, slide_below = 0, slide_beyond = std::numeric_limits<double>::infinity();
   double max_distance = 5, compliance = 0, control_radius = 0;
   CGAL::Mixed_meshes_3::Elastic_material material;
+  CGAL::Mixed_meshes_3::Displacement_interpolation interpolation =
+    CGAL::Mixed_meshes_3::Displacement_interpolation::RECOVERED;
   bool quiet = false;
 
   // of the two texts

@@ -30,7 +30,7 @@ struct Image_facts
   double volume_of_voxel = 0;
   int world = 0; // NIfTI's number
   double smallest = 0, largest = 0, share_inside = 0;
-  std::size_t voxels_of_tissue = 0, voxels_resected = 0; // when it is warped
+  std::size_t voxels_of_tissue = 0, voxels_resected = 0, linear_elements = 0; // when it is warped
 };
 
 struct Supports

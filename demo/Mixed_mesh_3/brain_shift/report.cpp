@@ -13,6 +13,8 @@
 #include <iostream>
 #include <vector>
 
+namespace mm3 = CGAL::Mixed_meshes_3;
+
 namespace {
 
 Json describe_mesh(const Options& o, const Outcome& outcome)
@@ -54,7 +56,9 @@ Json parameters_of(const Options& o)
           {"slide beyond", quantity(std::isfinite(o.slide_beyond) ? Json(o.slide_beyond) : Json(), "mm")},
           {"largest distance of control points", quantity(o.max_distance, "mm")},
           {"compliance of control points", quantity(o.compliance, "mm/mN")},
-          {"radius of control points", quantity(o.control_radius, "mm")}};
+          {"radius of control points", quantity(o.control_radius, "mm")},
+          {"interpolation between vertices",
+           o.interpolation == mm3::Displacement_interpolation::LINEAR ? "linear" : "recovered"}};
 }
 
 Json describe_points(const Outcome& outcome)
@@ -145,7 +149,8 @@ std::string report(const Options& o, const Outcome& outcome, const Stage_log& lo
   report["shift after resection"] = outcome.after ? describe(*outcome.after, outcome.points) : Json();
   if(outcome.image)
     report["image"] = {{"voxels of tissue", outcome.image->voxels_of_tissue},
-                       {"voxels resected", outcome.image->voxels_resected}};
+                       {"voxels resected", outcome.image->voxels_resected},
+                       {"elements with linear interpolation", outcome.image->linear_elements}};
   report["outputs"] = outputs_of(o);
   report["warnings"] = outcome.warnings;
   report["stages"] = describe_stages(log, "ms", 1000);

@@ -7,8 +7,12 @@
 #define CGAL_MIXED_MESH_3_ELEMENT_LOCATOR_3_H
 
 #include <CGAL/Mixed_mesh_3.h>
-#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/Element_location_3.h>
+#include <CGAL/Mixed_mesh_3/Face.h>
+#include <CGAL/Mixed_mesh_3/Recovered_displacement_3.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/Isoparametric_map_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/Quadratic_field.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/for_each_face.h>
 
 #include <CGAL/assertions.h>
 
@@ -22,17 +26,6 @@
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
-
-/// A point of a mesh: its element, and where it is there.
-struct Element_location_3
-{
-  Element_index element = Element_index(-1);
-  std::array<double, 3> coordinates{}; ///< in the reference element
-  /// Values of the shape functions, in the order of the element's vertices: a field of the mesh is the sum
-  /// of its values at the vertices times these.
-  std::array<double, 8> weights{};
-  double distance = 0; ///< of the point asked for; 0 if it is in the element
-};
 
 namespace internal {
 
@@ -128,9 +121,10 @@ inline std::array<double, 4> nearest_weights(const Vec3* p, int size)
 /*!
 \brief Finds the element of a mesh that contains a point, and the point's coordinates there.
 
-For the mesh as it is, or displaced. Of several elements that contain a point (on common faces, edges and
-vertices) it is the one with the smallest index. Points that are outside by less than 1e-9 in reference
-coordinates count as inside, so that none is lost between elements.
+For the mesh as it is, or displaced: by the shape functions, or by a `Recovered_displacement_3`. Of several
+elements that contain a point (on common faces, edges and vertices) it is the one with the smallest index.
+Points that are outside by less than 1e-9 in reference coordinates count as inside, so that none is lost
+between elements.
 
 The mesh must outlive the locator and not change. Points are whatever has `p[0]`, `p[1]`, `p[2]`.
 
@@ -160,6 +154,7 @@ class Element_locator_3
 
   const Mesh* m_mesh;
   std::vector<Vec3> m_points;
+  std::optional<Recovered_displacement_3<Mesh>> m_displacement; // none: by the shape functions
   std::vector<Face> m_boundary;
   // A uniform grid: the elements whose boxes meet cell c are
   // m_elements[m_ends[c]] ... m_elements[m_ends[c + 1] - 1], in ascending order.
@@ -184,6 +179,26 @@ class Element_locator_3
     for(int k = 0; k < 3; ++k) {
       b.lower[k] -= margin;
       b.upper[k] += margin;
+    }
+    return b;
+  }
+
+  bool is_removed(Element_index e) const { return m_displacement && m_displacement->is_removed(e); }
+
+  std::optional<internal::Bubbles> bubbles_of(const Element_view& element) const
+  {
+    return m_displacement ? m_displacement->bubbles(element) : std::nullopt;
+  }
+
+  // Displacements that are not linear leave the box of the vertices.
+  Box box_of_element(Element_index e) const
+  {
+    const Element_view element = m_mesh->element(e);
+    Box b = box(element, element.size());
+    if(const auto bubbles = bubbles_of(element)) {
+      const Vec3 r = internal::bubble_extent(element.kind(), *bubbles);
+      b.lower = b.lower - r;
+      b.upper = b.upper + r;
     }
     return b;
   }
@@ -217,12 +232,16 @@ class Element_locator_3
   void make_grid()
   {
     const std::size_t n = m_mesh->number_of_elements();
+    std::vector<Element_index> elements;
     std::vector<Box> boxes;
     boxes.reserve(n);
     for(std::size_t e = 0; e < n; ++e)
-      boxes.push_back(box(m_mesh->element(e), m_mesh->element(e).size()));
+      if(!is_removed(Element_index(e))) {
+        elements.push_back(Element_index(e));
+        boxes.push_back(box_of_element(Element_index(e)));
+      }
     Vec3 extent{};
-    if(n != 0) {
+    if(!boxes.empty()) {
       m_box = boxes.front();
       for(const Box& b : boxes)
         for(int k = 0; k < 3; ++k) {
@@ -245,8 +264,8 @@ class Element_locator_3
     for(std::size_t c = 2; c < m_ends.size(); ++c)
       m_ends[c] += m_ends[c - 1];
     m_elements.resize(m_ends.back());
-    for(std::size_t e = 0; e < n; ++e)
-      for_each_cell(boxes[e], [&](std::size_t c) { m_elements[m_ends[c + 1]++] = Element_index(e); });
+    for(std::size_t i = 0; i < boxes.size(); ++i)
+      for_each_cell(boxes[i], [&](std::size_t c) { m_elements[m_ends[c + 1]++] = elements[i]; });
   }
 
   std::optional<Element_location_3> locate_in(Element_index e, const Vec3& p) const
@@ -256,7 +275,10 @@ class Element_locator_3
     for(int i = 0; i < element.size(); ++i)
       points[i] = m_points[element[i]];
     return internal::with_kind(element.kind(), [&](auto kind) -> std::optional<Element_location_3> {
-      const auto r = internal::Isoparametric_map_3<kind.value>(points).inverse(p);
+      using Recovered_map = internal::Isoparametric_map_3<kind.value, internal::Quadratic_field<kind.value>>;
+      const auto bubbles = bubbles_of(element);
+      const auto r = bubbles ? Recovered_map(points, *bubbles).inverse(p)
+                             : internal::Isoparametric_map_3<kind.value>(points).inverse(p);
       if(!r)
         return std::nullopt;
       Element_location_3 location;
@@ -271,7 +293,18 @@ class Element_locator_3
   void prepare()
   {
     make_grid();
-    m_boundary = boundary_faces(*m_mesh);
+    internal::for_each_face(m_mesh->elements(), m_points.size(), [&](const auto& group) {
+      int number = 0;
+      std::size_t last = 0;
+      for(std::size_t i = 0; i < group.size(); ++i)
+        if(!is_removed(group.element(i))) {
+          ++number;
+          last = i;
+        }
+      if(number == 1)
+        m_boundary.push_back(group[last]);
+    });
+    std::sort(m_boundary.begin(), m_boundary.end());
   }
 
 public:
@@ -289,6 +322,17 @@ public:
   template <class Displacements>
   Element_locator_3(const Mesh& mesh, const Displacements& displacements)
     : m_mesh(&mesh), m_points(internal::displaced_points(mesh, displacements))
+  {
+    prepare();
+  }
+
+  /// For the mesh displaced, the same field between vertices; without the elements that it has as removed.
+  /// What is located is a point of the mesh before: from here to there the field takes it, exactly so up to
+  /// rounding. \cost O(n log n) in the number of elements
+  explicit Element_locator_3(const Recovered_displacement_3<Mesh>& displacement)
+    : m_mesh(&displacement.mesh()),
+      m_points(internal::displaced_points(displacement.mesh(), displacement.displacements())),
+      m_displacement(displacement)
   {
     prepare();
   }
@@ -311,7 +355,8 @@ public:
 
   /*!
   The element that contains a point, or else the point of the boundary nearest to it; of equally near ones
-  the one in the element with the smallest index.
+  the one in the element with the smallest index. The boundary of a mesh with a `Recovered_displacement_3`
+  is taken to be made of the faces between displaced vertices, which it differs little from.
 
   \pre the mesh is not empty
   \cost as `locate()`, and linear in the number of boundary faces for a point outside

@@ -11,6 +11,7 @@
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Element_locator_3.h>
+#include <CGAL/Mixed_mesh_3/Recovered_displacement_3.h>
 #include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>
 #include <CGAL/Mixed_mesh_image_3/internal/rasterize_displacement.h>
 
@@ -41,6 +42,8 @@ struct Warp_options
   /// twice the largest displacement of a vertex; below 1.5 times, space outside can fold. The field is
   /// continuous up to a voxel, except at points that are equally near to different parts of the mesh.
   std::optional<double> fade_distance;
+  /// How displacements between the vertices are made from those of the vertices.
+  Displacement_interpolation interpolation = Displacement_interpolation::RECOVERED;
   /// Elements that have been removed, true for each; empty: none. The displacements of vertices that only
   /// they have do not matter.
   std::vector<bool> resected_elements;
@@ -57,15 +60,15 @@ struct Warped_image_3
   Displacement_field_3 forward;  ///< at points before the deformation: where they go
   Displacement_field_3 backward; ///< at points after the deformation: where they come from
   Voxel_image_3 mask;            ///< after the deformation: 0 outside, 1 tissue, 2 resected
+  /// With `RECOVERED`: see `Recovered_displacement_3::number_of_linear_elements()`.
+  std::size_t number_of_linear_elements = 0;
 };
 
 namespace internal {
 
 /// A mesh and its displacement, in the indices of a grid; checked.
-struct Mesh_in_grid
+struct Mesh_in_grid : Displaced_vertices
 {
-  std::vector<Vec3> before, after; // positions of the vertices
-  std::vector<Vec3> displacements; // in millimeters
   double largest_displacement = 0;
 
   template <class Mesh, class Displacements>
@@ -144,22 +147,19 @@ private:
 };
 
 // The field at the voxels that are in the mesh (before or after the deformation), and near it.
-inline Displacement_field_3 displacement_field(const Voxel_grid_3& grid, const Element_list& elements,
-                                               const Mesh_in_grid& mesh, const Warp_options& options,
-                                               bool is_forward)
+template <class Bubbles_of>
+Displacement_field_3 displacement_field(const Voxel_grid_3& grid, const Element_list& elements,
+                                        const Mesh_in_grid& mesh, const Bubbles_of& bubbles_of,
+                                        const Warp_options& options, bool is_forward)
 {
   Displacement_field_3 field;
   field.grid = grid;
   field.vectors.resize(grid.number_of_voxels());
   field.is_in_mesh.resize(grid.number_of_voxels());
-  std::vector<Vec3> vectors = mesh.displacements;
-  if(!is_forward)
-    for(Vec3& u : vectors)
-      u = Vec3{} - u;
   const std::vector<bool>& resected = options.resected_elements;
   rasterize_displacement(
-    elements, [&resected](Element_index e) { return resected.empty() || !resected[e]; },
-    is_forward ? mesh.before : mesh.after, vectors, field);
+    elements, [&resected](Element_index e) { return resected.empty() || !resected[e]; }, mesh, bubbles_of,
+    is_forward, field);
   fade_displacement(options.fade_distance ? *options.fade_distance : 2 * mesh.largest_displacement, field);
   return field;
 }
@@ -242,9 +242,20 @@ Warped_image_3 warp_image(const Voxel_image_3& image, const Mesh& mesh, const Di
   const Voxel_grid_3& grid = image.grid;
   CGAL_precondition(image.values.size() == grid.number_of_voxels());
   const internal::Mesh_in_grid mesh_in_grid(grid, mesh, displacements, options);
+  std::optional<Recovered_displacement_3<Mesh>> recovered;
+  if(options.interpolation == Displacement_interpolation::RECOVERED)
+    recovered.emplace(mesh, mesh_in_grid.displacements, options.resected_elements);
+  const auto bubbles_of = [&recovered](const Element_view& element) {
+    return recovered ? recovered->bubbles(element) : std::nullopt;
+  };
+  const auto field = [&](bool is_forward) {
+    return internal::displacement_field(grid, mesh.elements(), mesh_in_grid, bubbles_of, options, is_forward);
+  };
   Warped_image_3 warped;
-  warped.backward = internal::displacement_field(grid, mesh.elements(), mesh_in_grid, options, false);
-  warped.forward = internal::displacement_field(grid, mesh.elements(), mesh_in_grid, options, true);
+  if(recovered)
+    warped.number_of_linear_elements = recovered->number_of_linear_elements();
+  warped.backward = field(false);
+  warped.forward = field(true);
   warped.image = resample_image(image, warped.backward);
   warped.mask.grid = grid;
   warped.mask.type = Voxel_type::UINT8;

@@ -11,6 +11,7 @@
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/Isoparametric_map_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/Quadratic_field.h>
 
 #include <CGAL/assertions.h>
 
@@ -20,6 +21,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace CGAL {
@@ -46,29 +48,69 @@ inline Voxel_range voxel_range(const Voxel_grid_3& grid, const Vec3& lower, cons
   return range;
 }
 
+/// Points of an element one after the other in a row, each found from those before.
+template <class Map>
+class Row_of_locations
+{
+  const Map& m_map;
+  std::array<Vec3, 3> m_last{}; // the nearest first
+  int m_number_of_last = 0;
+  std::array<Vec3, 3> m_inverse_rows{}; // of the derivative, at one of these or before
+
+  // From the polynomial through those before.
+  Vec3 prediction(const Vec3& start, const Vec3& step) const
+  {
+    switch(m_number_of_last) {
+    case 0: return start;
+    case 1: return m_last[0] + step;
+    case 2: return 2. * m_last[0] - m_last[1];
+    default: return 3. * (m_last[0] - m_last[1]) + m_last[2];
+    }
+  }
+
+public:
+  explicit Row_of_locations(const Map& map) : m_map(map) {}
+
+  /// What comes is not next to what was.
+  void interrupt() { m_number_of_last = 0; }
+
+  /// \param p the point  \param start where it is if the map is affine  \param step to the next point then
+  std::optional<Vec3> locate(const Vec3& p, const Vec3& start, const Vec3& step)
+  {
+    // The error of reference coordinates is about the square of the last step: fields are floats. That of
+    // the simplified iteration is a part of it, a half for elements that are much curved.
+    constexpr double accuracy = 1e-4, simplified_accuracy = 1e-6;
+    if(m_map.is_affine())
+      return m_map.inverse(p, start, accuracy);
+    const Vec3 r = prediction(start, step);
+    std::optional<Vec3> found = r;
+    if(m_number_of_last == 0 || !m_map.improve(m_inverse_rows, p, *found, simplified_accuracy)) {
+      found = m_map.inverse(p, r, accuracy);
+      if(!found) {
+        interrupt();
+        return found;
+      }
+      m_inverse_rows = m_map.inverse_derivatives(*found);
+    }
+    m_last = {*found, m_last[0], m_last[1]};
+    m_number_of_last = (std::min)(m_number_of_last + 1, 3);
+    return found;
+  }
+};
+
 /*!
-Calls `visit(offset, r)` for the voxels whose centers are in an element, with reference coordinates.
+Calls `visit(offset, p, r)` for the voxels whose centers p are in an element, with reference coordinates.
 
 Row by row: where a row is in all half-spaces that contain the element, the map is inverted, each voxel
 starting from the result for the one before.
-\param points positions of the element's vertices, in indices of the grid
+\param map an `Isoparametric_map_3`, to indices of the grid
+\param range where the element is
 \param is_wanted `bool(offset)`: whether to look at a voxel
 */
-template <Element_kind Kind, class Is_wanted, class Visitor>
-void for_each_voxel(const Vec3* points, const Voxel_grid_3& grid, const Is_wanted& is_wanted,
-                    const Visitor& visit)
+template <class Map, class Is_wanted, class Visitor>
+void for_each_voxel(const Map& map, const Voxel_range& range, const Voxel_grid_3& grid,
+                    const Is_wanted& is_wanted, const Visitor& visit)
 {
-  constexpr double margin = 1e-7, accuracy = 1e-6; // fields are floats
-  Vec3 lower = points[0], upper = points[0];
-  for(int i = 1; i < reference_elements[Kind].number_of_vertices; ++i)
-    for(int k = 0; k < 3; ++k) {
-      lower[k] = (std::min)(lower[k], points[i][k]);
-      upper[k] = (std::max)(upper[k], points[i][k]);
-    }
-  const Voxel_range range = voxel_range(grid, lower, upper, {margin, margin, margin});
-  if(range.is_empty())
-    return;
-  const Isoparametric_map_3<Kind> map(points);
   const Half_spaces& faces = map.necessary_half_spaces();
   const Vec3 step = map.linear_inverse_of_vector({1, 0, 0});
   double slopes[6];
@@ -90,57 +132,109 @@ void for_each_voxel(const Vec3* points, const Voxel_grid_3& grid, const Is_wante
       }
       if(!(from <= to))
         continue;
-      Vec3 r{};
-      bool is_near = false; // r belongs to the voxel before
+      Row_of_locations<Map> row(map);
       for(std::size_t i = std::size_t(std::ceil(from)); double(i) <= to; ++i) {
         const std::size_t offset = grid.offset(i, std::size_t(j), std::size_t(k));
         if(!is_wanted(offset)) {
-          is_near = false;
+          row.interrupt();
           continue;
         }
-        r = is_near ? r + step : start + double(i) * step;
-        const auto found = map.inverse({double(i), double(j), double(k)}, r, accuracy);
-        is_near = found && !map.is_affine();
-        if(found) {
-          r = *found;
-          visit(offset, r);
-        }
+        const Vec3 p{double(i), double(j), double(k)};
+        if(const auto found = row.locate(p, start + double(i) * step, step))
+          visit(offset, p, *found);
       }
     }
 }
 
+/// The linear part of a map.
+inline Vec3 transform_vector(const Affine_map_3& map, const Vec3& v)
+{
+  Vec3 result;
+  for(int k = 0; k < 3; ++k)
+    result[k] = dot({map[k][0], map[k][1], map[k][2]}, v);
+  return result;
+}
+
+/// Where an element is: the voxels in the box of its vertices, and as far as bubbles carry others from there.
+inline Voxel_range voxel_range(const Voxel_grid_3& grid, Element_kind kind, const Vec3* points,
+                               const Vec3& extent = Vec3{})
+{
+  constexpr double margin = 1e-7; // more than counts as inside
+  Vec3 lower = points[0], upper = points[0];
+  for(int i = 1; i < reference_elements[kind].number_of_vertices; ++i)
+    for(int k = 0; k < 3; ++k) {
+      lower[k] = (std::min)(lower[k], points[i][k]);
+      upper[k] = (std::max)(upper[k], points[i][k]);
+    }
+  return voxel_range(grid, lower, upper, extent + Vec3(margin, margin, margin));
+}
+
+/// A mesh and its displacement, with positions in indices of a grid.
+struct Displaced_vertices
+{
+  std::vector<Vec3> before, after; // positions of the vertices
+  std::vector<Vec3> displacements; // in millimeters
+};
+
 /*!
-The field of the displacement on the voxels in the mesh.
+The field of the displacement on the voxels in the mesh, or of what leads back.
 
 \param elements the elements
 \param is_used `bool(Element_index)`: elements to leave out
-\param indices positions of the vertices, in indices of the field's grid
-\param displacements at the vertices, in millimeters
+\param vertices in indices of the field's grid
+\param bubbles_of `std::optional<Bubbles>(Element_view)`: of the displacement between vertices, in millimeters
+\param is_forward whether the field is to be the displacement, or what leads back
 \param field vectors of the voxels in an element are set (the first of several elements), and their
        `is_in_mesh`
 */
-template <class Is_used>
+template <class Is_used, class Bubbles_of>
 void rasterize_displacement(const Element_list& elements, const Is_used& is_used,
-                            const std::vector<Vec3>& indices, const std::vector<Vec3>& displacements,
+                            const Displaced_vertices& vertices, const Bubbles_of& bubbles_of, bool is_forward,
                             Displacement_field_3& field)
 {
+  const Affine_map_3 &to_world = field.grid.index_to_world, to_index = inverse(to_world);
   const auto is_free = [&field](std::size_t offset) { return field.is_in_mesh[offset] == 0; };
   for(std::size_t e = 0; e < elements.size(); ++e) {
     if(!is_used(Element_index(e)))
       continue;
     const Element_view element = elements[e];
-    Vec3 points[8], values[8];
+    Vec3 before[8], after[8], displacements[8];
     for(int i = 0; i < element.size(); ++i) {
-      points[i] = indices[element[i]];
-      values[i] = displacements[element[i]];
+      before[i] = vertices.before[element[i]];
+      after[i] = vertices.after[element[i]];
+      displacements[i] = (is_forward ? 1. : -1.) * vertices.displacements[element[i]];
     }
+    const std::optional<Bubbles> bubbles = bubbles_of(element);
+    Bubbles in_grid{};
+    if(bubbles && !is_forward)
+      for(std::size_t i = 0; i < std::size_t(number_of_pairs(element.kind())); ++i)
+        in_grid[i] = transform_vector(to_index, (*bubbles)[i]);
+    const Voxel_range range = voxel_range(field.grid, element.kind(), is_forward ? before : after,
+                                          bubble_extent(element.kind(), in_grid));
+    if(range.is_empty())
+      continue;
     with_kind(element.kind(), [&](auto kind) {
-      const Element_field<kind.value> displacement(values);
-      for_each_voxel<kind.value>(points, field.grid, is_free, [&](std::size_t offset, const Vec3& r) {
-        const Vec3 u = displacement(r);
-        field.vectors[offset] = {float(u[0]), float(u[1]), float(u[2])};
-        field.is_in_mesh[offset] = 1;
-      });
+      using Map = Isoparametric_map_3<kind.value>;
+      using Quadratic = Quadratic_field<kind.value>;
+      const auto rasterize = [&](const auto& map, const auto& displacement) {
+        for_each_voxel(map, range, field.grid, is_free,
+                       [&](std::size_t offset, const Vec3& p, const Vec3& r) {
+                         const Vec3 u = displacement(p, r);
+                         field.vectors[offset] = {float(u[0]), float(u[1]), float(u[2])};
+                         field.is_in_mesh[offset] = 1;
+                       });
+      };
+      if(!bubbles) {
+        const Element_field<kind.value> linear(displacements);
+        rasterize(Map(is_forward ? before : after), [&](const Vec3&, const Vec3& r) { return linear(r); });
+      } else if(is_forward) {
+        const Quadratic quadratic(displacements, *bubbles);
+        rasterize(Map(before), [&](const Vec3&, const Vec3& r) { return quadratic(r); });
+      } else {
+        const Map back(before); // cheaper than the displacement, which is quadratic
+        rasterize(Isoparametric_map_3<kind.value, Quadratic>(after, in_grid),
+                  [&](const Vec3& p, const Vec3& r) { return transform_vector(to_world, back(r) - p); });
+      }
     });
   }
 }

@@ -1,0 +1,30 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_ELEMENT_LOCATION_3_H
+#define CGAL_MIXED_MESH_3_ELEMENT_LOCATION_3_H
+
+#include <CGAL/Mixed_mesh_3/Index.h>
+
+#include <array>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+
+/// A point of a mesh: its element, and where it is there.
+struct Element_location_3
+{
+  Element_index element = Element_index(-1);
+  std::array<double, 3> coordinates{}; ///< in the reference element
+  /// Values of the shape functions, in the order of the element's vertices: a field of the mesh is the sum
+  /// of its values at the vertices times these.
+  std::array<double, 8> weights{};
+  double distance = 0; ///< of the point asked for; 0 if it is in the element
+};
+
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_ELEMENT_LOCATION_3_H

@@ -1,0 +1,275 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_RECOVERED_DISPLACEMENT_3_H
+#define CGAL_MIXED_MESH_3_RECOVERED_DISPLACEMENT_3_H
+
+#include <CGAL/Mixed_mesh_3.h>
+#include <CGAL/Mixed_mesh_3/Element_location_3.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/Quadratic_field.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/recover_gradients.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/with_kind.h>
+
+#include <CGAL/assertions.h>
+
+#include <array>
+#include <cstddef>
+#include <iterator>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+
+/// How displacements between vertices are made from those of the vertices.
+enum class Displacement_interpolation {
+  LINEAR,   ///< by the shape functions of the elements
+  RECOVERED ///< by these, and by the gradients of the displacement: see `Recovered_displacement_3`
+};
+
+/// How the gradient at a vertex is made.
+enum class Gradient_recovery {
+  AVERAGE, ///< mean of the elements' gradients at their centers, weighted by volume
+  /// That of the polynomial of degree 2 that fits the vertices around by least squares; `AVERAGE` if these do
+  /// not determine it. Exact for quadratic displacements.
+  LEAST_SQUARES
+};
+
+namespace internal {
+
+// Where elements are tested for orientation: vertices, middles of edges, center. Not at a pyramid's apex.
+template <Element_kind Kind, class F>
+bool all_of_test_points(const F& f)
+{
+  const Reference_element& reference = reference_elements[Kind];
+  const Vec3 center = reference_center(Kind);
+  const auto vertex = [&](int i) {
+    Vec3 r;
+    for(int k = 0; k < 3; ++k)
+      r[k] = double(reference.coordinates[i][k]);
+    const bool is_apex = Kind == PYRAMID && i == 4;
+    return is_apex ? 0.999 * r + 0.001 * center : r;
+  };
+  if(!f(center))
+    return false;
+  for(int i = 0; i < reference.number_of_vertices; ++i)
+    if(!f(vertex(i)))
+      return false;
+  for(int i = 0; i < reference.number_of_edges; ++i)
+    if(!f(0.5 * (vertex(reference.edges[i][0]) + vertex(reference.edges[i][1]))))
+      return false;
+  return true;
+}
+
+} // namespace internal
+
+/*!
+\brief The displacement of a mesh between its vertices, one order better than by the shape functions.
+
+\f[ u(x) = \sum_i N_i(x) \left( u_i + \tfrac12 G_i (x - x_i) \right) \f]
+
+with the shape functions \f$ N_i \f$ of the element and gradients \f$ G_i \f$ of the displacement at the
+vertices, which are recovered from the displacements of the vertices around. The field is continuous, it
+has the displacements given at the vertices, is linear where these are, and quadratic where these are and
+the gradients are exact.
+No unknown is added. See D. Kraaijpoel, T. van Leeuwen: "Raising the order of multivariate approximation
+schemes using supplementary derivative data", Procedia Computer Science 1, 2010.
+
+As \f$ \sum_i N_i x_i = x \f$, this is a sum over pairs of the element's vertices,
+
+\f[ u(x) = \sum_i N_i u_i + \sum_{i<j} N_i N_j b_{ij}, \qquad b_{ij} = \tfrac12 (G_i - G_j) (x_j - x_i), \f]
+
+and so are the exceptions to the formula; all of them keep the field continuous, and linear fields linear:
+
+- *Subdomains* (see `Element_attributes`) may be of different stiffness, and the gradient jumps then. So a
+  vertex has a gradient for each subdomain around it, and the pair has the mean of its \f$ b_{ij} \f$ in the
+  subdomains that both vertices have.
+- *Removed elements* do not count.
+- *Orientation*: where an element would nearly be turned inside out by the field, pairs of its vertices
+  have \f$ b_{ij} = 0 \f$. That is where at a vertex, the middle of an edge or the center the determinant of
+  \f$ I + \nabla u \f$ is less than a quarter of what it is with shape functions only, which leaves room
+  for what happens between these points.
+
+The mesh must outlive the object and not change.
+
+\tparam Mesh a `Mixed_mesh_3`
+*/
+template <class Mesh>
+class Recovered_displacement_3
+{
+public:
+  /// Derivatives of the displacement by x, y and z: the columns of its gradient.
+  using Gradient = std::array<Vec3, 3>;
+
+private:
+  const Mesh* m_mesh;
+  std::vector<Vec3> m_displacements;
+  std::vector<bool> m_is_removed;
+  internal::Vertex_gradients m_gradients;
+  std::vector<bool> m_is_linear; // vertices: pairs of them have no bubble
+  std::size_t m_number_of_linear_elements = 0;
+
+  template <class Displacements>
+  static std::vector<Vec3> vectors(const Mesh& mesh, const Displacements& displacements)
+  {
+    CGAL_precondition(std::size_t(std::size(displacements)) == mesh.number_of_vertices());
+    std::vector<Vec3> result;
+    result.reserve(mesh.number_of_vertices());
+    for(const auto& u : displacements)
+      result.push_back({double(u[0]), double(u[1]), double(u[2])});
+    return result;
+  }
+
+  Vec3 position(Vertex_index v) const { return to_vec3(m_mesh->point(v)); }
+
+  // b_ij for any two vertices.
+  Vec3 bubble(Vertex_index v, Vertex_index w) const
+  {
+    Vec3 sum{};
+    if(m_is_linear[v] && m_is_linear[w])
+      return sum;
+    const Vec3 edge = position(w) - position(v);
+    int n = 0;
+    auto j = m_gradients.begin(w);
+    for(auto i = m_gradients.begin(v); i != m_gradients.end(v); ++i) {
+      while(j != m_gradients.end(w) && j->subdomain < i->subdomain)
+        ++j;
+      if(j == m_gradients.end(w))
+        break;
+      if(j->subdomain != i->subdomain)
+        continue;
+      for(int k = 0; k < 3; ++k)
+        sum = sum + edge[k] * (i->gradient[k] - j->gradient[k]);
+      ++n;
+    }
+    return n == 0 ? sum : (0.5 / n) * sum;
+  }
+
+  // Whether the element keeps its orientation where it is tested.
+  bool is_oriented(const Element_view& element) const
+  {
+    Vec3 before[8], after[8];
+    for(int i = 0; i < element.size(); ++i) {
+      before[i] = position(element[i]) - position(element[0]);
+      after[i] = before[i] + m_displacements[element[i]] - m_displacements[element[0]];
+    }
+    const internal::Bubbles b = bubbles(element).value_or(internal::Bubbles{});
+    return internal::with_kind(element.kind(), [&](auto kind) {
+      const internal::Element_field<kind.value> x(before), plain(after);
+      const internal::Quadratic_field<kind.value> recovered(after, b);
+      return internal::all_of_test_points<kind.value>([&](const Vec3& r) {
+        const auto d0 = x.derivatives(r), d1 = plain.derivatives(r), d2 = recovered.derivatives(r);
+        const double volume = determinant(d0[0], d0[1], d0[2]);
+        const double change = determinant(d1[0], d1[1], d1[2]) / volume;
+        return change > 0 && determinant(d2[0], d2[1], d2[2]) / volume >= 0.25 * change;
+      });
+    });
+  }
+
+  // Bubbles that are taken from an element are also missing in its neighbors: again, until all is well.
+  void find_linear_elements()
+  {
+    std::vector<bool> is_linear(m_mesh->number_of_elements(), false);
+    for(bool has_changed = true; has_changed;) {
+      has_changed = false;
+      for(Element_index e = 0; e < is_linear.size(); ++e)
+        if(!is_removed(e) && !is_linear[e] && !is_oriented(m_mesh->element(e))) {
+          is_linear[e] = has_changed = true;
+          ++m_number_of_linear_elements;
+          for(Vertex_index v : m_mesh->element(e))
+            m_is_linear[v] = true;
+        }
+    }
+  }
+
+public:
+  /*!
+  Recovers the gradients.
+
+  \param mesh the mesh, before the displacement
+  \param displacements a vector for each vertex, with components `[0]`, `[1]`, `[2]`; those of vertices that
+         only removed elements have do not matter
+  \param removed_elements true for each element that has been removed; empty: none
+  \param recovery how gradients are made
+  \pre a displacement for each vertex; `removed_elements` is empty or has a value for each element
+  \cost linear in the number of elements, if vertices have boundedly many
+  */
+  template <class Displacements>
+  Recovered_displacement_3(const Mesh& mesh, const Displacements& displacements,
+                           std::vector<bool> removed_elements = {},
+                           Gradient_recovery recovery = Gradient_recovery::AVERAGE)
+    : m_mesh(&mesh), m_displacements(vectors(mesh, displacements)), m_is_removed(std::move(removed_elements)),
+      m_gradients(
+        mesh, [this](Element_index e) { return !is_removed(e); }, m_displacements,
+        recovery == Gradient_recovery::LEAST_SQUARES),
+      m_is_linear(mesh.number_of_vertices(), false)
+  {
+    CGAL_precondition(m_is_removed.empty() || m_is_removed.size() == mesh.number_of_elements());
+    find_linear_elements();
+  }
+
+  /// The displacement at a point of an element. Also of the boundary's point nearest to one outside.
+  Vec3 operator()(const Element_location_3& location) const
+  {
+    const Element_view element = m_mesh->element(location.element);
+    Vec3 u{};
+    for(int j = 0; j < element.size(); ++j) {
+      const double weight = location.weights[j];
+      u = u + weight * m_displacements[element[j]];
+      for(int i = 0; i < j; ++i)
+        if(weight * location.weights[i] != 0)
+          u = u + (weight * location.weights[i]) * bubble(element[i], element[j]);
+    }
+    return u;
+  }
+
+  /// Its gradient there. It jumps between elements. \pre not the apex of a pyramid
+  Gradient gradient(const Element_location_3& location) const
+  {
+    const Element_view element = m_mesh->element(location.element);
+    Vec3 points[8], values[8];
+    for(int i = 0; i < element.size(); ++i) {
+      points[i] = position(element[i]) - position(element[0]);
+      values[i] = m_displacements[element[i]];
+    }
+    return internal::with_kind(element.kind(), [&](auto kind) {
+      const Vec3 r(location.coordinates);
+      return internal::gradient_in_space(
+        internal::Quadratic_field<kind.value>(values, bubbles(element).value_or(internal::Bubbles{}))
+          .derivatives(r),
+        internal::Element_field<kind.value>(points).derivatives(r));
+    });
+  }
+
+  const Mesh& mesh() const { return *m_mesh; }
+  /// Displacements of the vertices.
+  const std::vector<Vec3>& displacements() const { return m_displacements; }
+  bool is_removed(Element_index e) const { return !m_is_removed.empty() && m_is_removed[e]; }
+  /// Elements in which the displacement is that of the shape functions, or they would be turned inside out.
+  std::size_t number_of_linear_elements() const { return m_number_of_linear_elements; }
+
+  /// \cond INTERNAL
+  // None if the displacement is that of the shape functions.
+  std::optional<internal::Bubbles> bubbles(const Element_view& element) const
+  {
+    internal::Bubbles b{};
+    bool is_any = false;
+    for(int j = 1; j < element.size(); ++j)
+      for(int i = 0; i < j; ++i) {
+        const Vec3 c = bubble(element[i], element[j]);
+        b[std::size_t(internal::pair_index(i, j))] = c;
+        is_any = is_any || c[0] != 0 || c[1] != 0 || c[2] != 0;
+      }
+    return is_any ? std::optional<internal::Bubbles>(b) : std::nullopt;
+  }
+  /// \endcond
+};
+
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_RECOVERED_DISPLACEMENT_3_H
