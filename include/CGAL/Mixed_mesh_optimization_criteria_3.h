@@ -9,6 +9,7 @@
 #include <CGAL/assertions.h>
 
 #include <cstddef>
+#include <limits>
 
 namespace CGAL {
 
@@ -18,6 +19,10 @@ namespace CGAL {
 class Mixed_mesh_optimization_criteria_3
 {
 public:
+  /// The least aspect-ratio coefficient, rounded up, that no mesh of cubic cells exceeds before its boundary
+  /// is fitted: 3.1918.
+  static constexpr double default_quality_bound = 3.2;
+
   /// How far the boundary may be from the surface, and the surface from the boundary, in the mesh's unit:
   /// boundary vertices slide towards places that are farther. 0: vertices are on the surface, and no more is
   /// asked for. Default: 0. \pre at least 0
@@ -59,10 +64,25 @@ public:
   }
   bool flips() const { return m_flips; }
 
+  /// The largest cost that an element may get. Where elements cost more already, none gets worse than the worst
+  /// of those that are changed with it; so if none costs more than the bound, none ever will. What would need
+  /// worse elements stays off the surface. By default, costs are aspect-ratio coefficients, or above them.
+  /// 0, or infinity: no bound; elements may get worse the longer a vertex does not arrive. Default: 3.2.
+  /// \pre 0, or at least 1
+  Mixed_mesh_optimization_criteria_3& quality_bound(double cost)
+  {
+    CGAL_precondition(cost == 0 || cost >= 1);
+    m_quality_bound = cost == 0 ? std::numeric_limits<double>::infinity() : cost;
+    return *this;
+  }
+  /// Infinity if there is none.
+  double quality_bound() const { return m_quality_bound; }
+
 private:
   double m_tolerance = 0;
   int m_number_of_rounds = 0;
   double m_sliding_threshold = 2.25;
+  double m_quality_bound = default_quality_bound;
   bool m_flips = true;
 };
 

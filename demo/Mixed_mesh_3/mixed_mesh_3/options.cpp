@@ -69,6 +69,21 @@ CLI::Option* add_fit(CLI::App& app, Options& o)
     ->type_name("D")
     ->excludes(no_fit)
     ->excludes(no_optimize);
+  app
+    .add_option("--max-arc", o.largest_arc,
+                "Largest aspect-ratio coefficient of an element: boundary vertices that would need a larger one "
+                "stay off the surface (default: 3.2; 0 or none: no bound)")
+    ->transform(CLI::Validator(
+      [](std::string& text) {
+        if(text == "none")
+          text = "0";
+        return std::string();
+      },
+      ""))
+    ->check(number("of at least 1, 0 or none", [](double x) { return x == 0 || x >= 1; }))
+    ->type_name("ARC")
+    ->excludes(no_fit)
+    ->excludes(no_optimize);
   return no_optimize;
 }
 

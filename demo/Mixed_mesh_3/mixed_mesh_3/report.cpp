@@ -37,6 +37,7 @@ Json describe(const Options& o)
                   o.templates == mm3::Transition_templates_choice::CENTERED ? "centered" : "fewest"},
                  {"fit", fit_names[int(o.fit())]},
                  {"tolerance", o.tolerance > 0 ? Json(o.tolerance) : Json()},
+                 {"max ARC", o.has_quality_bound() ? Json(o.largest_arc) : Json()},
                  {"tetrahedra", o.tetrahedra},
                  {"msh version", o.msh2 ? "2.2" : "4.1"},
                  {"threads", o.threads}};
@@ -94,9 +95,13 @@ void describe_ratios(const Aspect_ratios& ratios, const char* when, Json& qualit
   quality["histograms"]["ARC"][when] = ratios.histogram;
 }
 
-Json describe_quality(const Outcome& outcome)
+Json describe_quality(const Options& o, const Outcome& outcome)
 {
   Json quality;
+  if(o.has_quality_bound())
+    quality["quality bound"] = {{"ARC", o.largest_arc},
+                                {"elements above", outcome.elements_above_bound},
+                                {"method", "proved for each element, exact on the coordinates written"}};
   if(outcome.before)
     describe_ratios(*outcome.before, "before", quality);
   describe_ratios(outcome.after, "after", quality);
@@ -218,7 +223,7 @@ std::string report(const Options& o, const Outcome& outcome, const Stage_log& lo
   report["mesh"] = describe_mesh(o, outcome);
   describe_method(o, outcome, report);
   report["surface"] = describe(outcome.fidelity);
-  report["quality"] = describe_quality(outcome);
+  report["quality"] = describe_quality(o, outcome);
   for(const Check& check : outcome.checks)
     report["checks"][check.name] = check.holds;
   report["outputs"] = o.outputs;

@@ -81,6 +81,7 @@ Mesh make_mesh(const Domain& domain, const Surface& region_surface, const Option
                           .transition_templates(o.templates)
                           .fit_to_surface(o.tolerance > 0)
                           .tolerance(o.tolerance)
+                          .quality_bound(o.largest_arc)
                           .number_of_threads(o.threads);
   const auto np = CGAL::parameters::visitor(std::ref(log));
   Mesh mesh;
@@ -115,11 +116,13 @@ bool fit_by_algorithm_1(Mesh& mesh, const Domain& domain, const Options& o, Stag
   return r.is_on_surface();
 }
 
-bool fit_by_optimization(Mesh& mesh, const Domain& domain, Stage_log& log, Outcome& outcome, bool& is_valid)
+bool fit_by_optimization(Mesh& mesh, const Domain& domain, const Options& o, Stage_log& log, Outcome& outcome,
+                         bool& is_valid)
 {
   using Status = CGAL::Mixed_mesh_optimization_status;
   const auto r = log(mm3::stage_names[int(mm3::Stage::OPTIMIZATION)], [&] {
-    return CGAL::optimize_mixed_mesh_3(mesh, domain, CGAL::Mixed_mesh_optimization_criteria_3(),
+    return CGAL::optimize_mixed_mesh_3(mesh, domain,
+                                       CGAL::Mixed_mesh_optimization_criteria_3().quality_bound(o.largest_arc),
                                        CGAL::parameters::visitor(std::ref(log)));
   });
   outcome.result.optimization = r;
@@ -133,7 +136,7 @@ void fit(Mesh& mesh, const Domain& domain, const Options& o, Stage_log& log, Out
   bool is_valid = false;
   const bool is_on_surface = o.fit() == Fit::ALGORITHM_1
                                ? fit_by_algorithm_1(mesh, domain, o, log, outcome, is_valid)
-                               : fit_by_optimization(mesh, domain, log, outcome, is_valid);
+                               : fit_by_optimization(mesh, domain, o, log, outcome, is_valid);
   if(!is_valid)
     throw Invalid_mesh("an element of the mesh is inverted before its boundary is fitted");
   if(!is_on_surface)

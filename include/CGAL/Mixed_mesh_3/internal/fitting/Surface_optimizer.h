@@ -55,7 +55,7 @@ class Surface_optimizer
   // far bad elements are tolerated, never whether a mesh is valid: that each move proves. While the boundary
   // arrives, elements may become that bad; in each round more, as what does not go gently shall go
   // nevertheless: from 4, 15 rounds lead to 100. A smaller limit leaves more vertices off the surface, a
-  // larger one worse elements.
+  // larger one worse elements. The quality bound of the criteria is above all of them.
   static constexpr double acceptable_at_first = 4, acceptable_growth = 1.25, acceptable_at_most = 100,
                           acceptable_late = 10;
   static constexpr int arrival_rounds = 40, arrival_sweeps = 2, rounds_until_new_target = 8;
@@ -71,7 +71,7 @@ public:
                     const Quality& quality)
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality), m_project(domain),
       m_boundary(boundary_faces(mesh)), m_working(mesh, m_boundary),
-      m_moves(m_working, m_quality, m_project, criteria.sliding_threshold()), m_samples(surface_samples()),
+      m_moves(m_working, m_quality, m_project, criteria.sliding_threshold(), bound()), m_samples(surface_samples()),
       m_attraction(m_working, m_project, m_samples, criteria.tolerance()),
       m_is_arrived(m_working.points.size(), 0)
   {
@@ -106,6 +106,10 @@ public:
   std::vector<Vec3> far_points(double multiple) const { return m_attraction.far_points(multiple); }
 
 private:
+  // A little less, so that what is within it in doubles is so exactly: those have relative errors of some
+  // 1e-13 for costs below 10, and of 1e-16 times the cost, or its square, for larger ones.
+  double bound() const { return (1 - 1e-10) * m_criteria.quality_bound(); }
+
   // Closer ones than twice the tolerance would rarely be farther off; much closer ones than the boundary's
   // vertices could not draw these to different places.
   std::vector<Vec3> surface_samples() const
@@ -224,7 +228,7 @@ private:
     const bool has_tolerance = m_criteria.tolerance() > 0;
     const int rounds = m_criteria.number_of_rounds(), first = int(share_of_first_power * rounds + 0.5);
     const int sweeps = has_tolerance ? 3 : 8, rounds_to_flip = has_tolerance ? 3 : 1;
-    Tetrahedron_flipper<Quality> flipper(m_working, m_quality);
+    Tetrahedron_flipper<Quality> flipper(m_working, m_quality, bound());
     for(int round = 0; round < rounds; ++round) {
       if(!go_on())
         return false;

@@ -88,7 +88,9 @@ private:
   void optimize(Mesh& mesh)
   {
     const Scope scope(m_visitor, Stage::OPTIMIZATION);
-    const auto criteria = Mixed_mesh_optimization_criteria_3().tolerance(m_criteria.tolerance());
+    const auto criteria = Mixed_mesh_optimization_criteria_3()
+                            .tolerance(m_criteria.tolerance())
+                            .quality_bound(m_criteria.quality_bound());
     const Aspect_ratio_quality_3 quality;
     Surface_optimizer optimizer(mesh, m_root.domain(), criteria, quality);
     m_result.optimization = optimizer([this] { return m_visitor.go_on(); });
