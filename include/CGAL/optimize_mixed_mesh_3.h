@@ -8,7 +8,7 @@
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Surface_optimizer.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Bounded_optimization.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/arguments.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
@@ -80,7 +80,7 @@ optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface, co
   }
   const auto& s = mm3::as_surface(surface, np);
   return mm3::with_visitor(np, [&](auto& visitor) {
-    return mm3::Surface_optimizer(mesh, s, criteria, quality)([&] { return visitor.go_on(); });
+    return mm3::Bounded_optimization(mesh, s, criteria, quality)([&] { return visitor.go_on(); });
   });
 }
 

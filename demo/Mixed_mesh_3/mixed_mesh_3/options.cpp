@@ -70,9 +70,10 @@ CLI::Option* add_fit(CLI::App& app, Options& o)
     ->excludes(no_fit)
     ->excludes(no_optimize);
   app
-    .add_option("--max-arc", o.largest_arc,
-                "Largest aspect-ratio coefficient of an element: boundary vertices that would need a larger one "
-                "stay off the surface (default: 3.2; 0 or none: no bound)")
+    .add_option(
+      "--max-arc", o.largest_arc,
+      "Largest aspect-ratio coefficient of an element: boundary vertices that would need a larger one "
+      "stay off the surface (default: 3.2; 0 or none: no bound)")
     ->transform(CLI::Validator(
       [](std::string& text) {
         if(text == "none")

@@ -122,7 +122,8 @@ bool fit_by_optimization(Mesh& mesh, const Domain& domain, const Options& o, Sta
   using Status = CGAL::Mixed_mesh_optimization_status;
   const auto r = log(mm3::stage_names[int(mm3::Stage::OPTIMIZATION)], [&] {
     return CGAL::optimize_mixed_mesh_3(mesh, domain,
-                                       CGAL::Mixed_mesh_optimization_criteria_3().quality_bound(o.largest_arc),
+                                       CGAL::Mixed_mesh_optimization_criteria_3().quality_bound(
+                                         o.largest_arc),
                                        CGAL::parameters::visitor(std::ref(log)));
   });
   outcome.result.optimization = r;

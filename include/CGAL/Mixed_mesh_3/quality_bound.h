@@ -78,7 +78,8 @@ class Aspect_ratio_test
         s += squared(difference(at(i), at(j)));
     const NT d = scalar_product(cross_product(at(1), at(2)), at(3));
     const NT factor = NT(847867) / NT(100000);
-    return Uncertain<bool>(d > 0) & Uncertain<bool>(s * s * s <= 6 * factor * factor * m_squared_bound * d * d);
+    return Uncertain<bool>(d > 0)
+           & Uncertain<bool>(s * s * s <= 6 * factor * factor * m_squared_bound * d * d);
   }
 
   // Twice the segments between midpoints of opposite edges, and the height over the mean plane.
@@ -90,8 +91,8 @@ class Aspect_ratio_test
     const Uncertain<bool> is_upright = Uncertain<bool>(area > 0) & Uncertain<bool>(height > 0);
     if(!certainly(is_upright))
       return is_upright;
-    return are_alike(squared(difference(sum({2, 3}), sum({0, 1}))), squared(difference(sum({1, 2}), sum({3, 0}))),
-                     height * height / (4 * area));
+    return are_alike(squared(difference(sum({2, 3}), sum({0, 1}))),
+                     squared(difference(sum({1, 2}), sum({3, 0}))), height * height / (4 * area));
   }
 
   // Twice the midpoint segments of each quadrilateral, and the height of the mean triangle over it.

@@ -26,6 +26,13 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
+/// The quality bound of the criteria, a little less: a cost within it in doubles is within the bound exactly. The
+/// relative error of the cost of an element near to the default bound is some 1e-13.
+inline double bound_for_doubles(const Mixed_mesh_optimization_criteria_3& criteria)
+{
+  return (1 - 1e-10) * criteria.quality_bound();
+}
+
 /*!
 \tparam Domain has `Point_3`, `closest_point(p)`, `closest_point(p, hint)` and `surface_samples(spacing)`
 \tparam Quality a model of `MixedMeshQuality_3`
@@ -39,7 +46,7 @@ class Surface_optimizer
 
   Mesh& m_mesh;
   const Domain& m_domain;
-  const Mixed_mesh_optimization_criteria_3& m_criteria;
+  const Mixed_mesh_optimization_criteria_3 m_criteria;
   const Quality m_quality;
   Project m_project;
   std::vector<Face> m_boundary;
@@ -49,6 +56,8 @@ class Surface_optimizer
   Attraction_ m_attraction;
   std::vector<std::pair<Vertex_index, Vec3>> m_travelers; // not on the surface yet, with their targets
   std::vector<std::uint8_t> m_is_arrived;
+  std::vector<std::uint8_t> m_is_held;
+  std::vector<Vertex_index> m_crossing; // in the end
   Mixed_mesh_optimization_result_3 m_result;
 
   // Costs are ratios, 1 for the ideal element: none of these numbers has a unit. They decide how soon and how
@@ -71,15 +80,21 @@ public:
                     const Quality& quality)
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality), m_project(domain),
       m_boundary(boundary_faces(mesh)), m_working(mesh, m_boundary),
-      m_moves(m_working, m_quality, m_project, criteria.sliding_threshold(), bound()), m_samples(surface_samples()),
-      m_attraction(m_working, m_project, m_samples, criteria.tolerance()),
-      m_is_arrived(m_working.points.size(), 0)
+      m_moves(m_working, m_quality, m_project, criteria.sliding_threshold(), bound_for_doubles(criteria)),
+      m_samples(surface_samples()), m_attraction(m_working, m_project, m_samples, criteria.tolerance()),
+      m_is_arrived(m_working.points.size(), 0), m_is_held(m_working.points.size(), 0)
   {
     m_attraction.set_boundary(m_boundary);
   }
 
   Surface_optimizer(const Surface_optimizer&) = delete; // members refer to each other
   Surface_optimizer& operator=(const Surface_optimizer&) = delete;
+
+  /// Boundary vertices that stay where they are, for each vertex whether it does.
+  void hold(const std::vector<std::uint8_t>& is_held)
+  {
+    std::copy(is_held.begin(), is_held.end(), m_is_held.begin());
+  }
 
   template <class Go_on>
   Mixed_mesh_optimization_result_3 operator()(const Go_on& go_on)
@@ -102,14 +117,13 @@ public:
     return m_result;
   }
 
+  /// Those of boundary faces that cut each other in the end.
+  const std::vector<Vertex_index>& crossing_vertices() const { return m_crossing; }
+
   /// Points of the surface that are farther from the boundary than a multiple of the tolerance.
   std::vector<Vec3> far_points(double multiple) const { return m_attraction.far_points(multiple); }
 
 private:
-  // A little less, so that what is within it in doubles is so exactly: those have relative errors of some
-  // 1e-13 for costs below 10, and of 1e-16 times the cost, or its square, for larger ones.
-  double bound() const { return (1 - 1e-10) * m_criteria.quality_bound(); }
-
   // Closer ones than twice the tolerance would rarely be farther off; much closer ones than the boundary's
   // vertices could not draw these to different places.
   std::vector<Vec3> surface_samples() const
@@ -142,6 +156,8 @@ private:
     const Surface_targets targets = surface_targets(m_boundary, m_working.points, m_domain);
     m_result.number_of_boundary_vertices = targets.vertices.size();
     for(std::size_t i = 0; i < targets.vertices.size(); ++i) {
+      if(m_is_held[targets.vertices[i]])
+        continue;
       // what is on the surface stays, even if its faces are folded
       const Vec3& p = m_working.points[targets.vertices[i]];
       const Vec3 q = m_project(p, targets.positions[i]);
@@ -165,10 +181,10 @@ private:
   // towards where they came from, where no faces met, until none meet.
   void retreat_from_self_intersections(const std::vector<Vec3>& start)
   {
-    std::vector<Vertex_index> crossing = vertices_of_self_intersections(m_working.points, m_boundary);
-    for(int round = 0; round < retreat_rounds && !crossing.empty(); ++round) {
+    m_crossing = vertices_of_self_intersections(m_working.points, m_boundary);
+    for(int round = 0; round < retreat_rounds && !m_crossing.empty(); ++round) {
       const double share = round < retreat_rounds / 2 ? 0.25 : 1;
-      for(Vertex_index v : crossing)
+      for(Vertex_index v : m_crossing)
         if(m_moves.try_move(v, m_working.points[v] + share * (start[v] - m_working.points[v]),
                             retreat_cost)) {
           m_moves.fix(v);
@@ -176,9 +192,9 @@ private:
           m_is_arrived[v] = 0;
         }
       m_moves.run(8, good_enough[1], arrival_sweeps);
-      crossing = vertices_of_self_intersections(m_working.points, m_boundary);
+      m_crossing = vertices_of_self_intersections(m_working.points, m_boundary);
     }
-    m_result.is_boundary_simple = crossing.empty();
+    m_result.is_boundary_simple = m_crossing.empty();
   }
 
   // The boundary vertices that are not on the surface go on.
@@ -228,7 +244,7 @@ private:
     const bool has_tolerance = m_criteria.tolerance() > 0;
     const int rounds = m_criteria.number_of_rounds(), first = int(share_of_first_power * rounds + 0.5);
     const int sweeps = has_tolerance ? 3 : 8, rounds_to_flip = has_tolerance ? 3 : 1;
-    Tetrahedron_flipper<Quality> flipper(m_working, m_quality, bound());
+    Tetrahedron_flipper<Quality> flipper(m_working, m_quality, bound_for_doubles(m_criteria));
     for(int round = 0; round < rounds; ++round) {
       if(!go_on())
         return false;

@@ -12,7 +12,7 @@
 #include <CGAL/Mixed_mesh_3/Default_visitor.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/assemble_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/lost_cells.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Surface_optimizer.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Bounded_optimization.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Candidate.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Tolerance_search.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/base_level.h>
@@ -92,8 +92,8 @@ private:
                             .tolerance(m_criteria.tolerance())
                             .quality_bound(m_criteria.quality_bound());
     const Aspect_ratio_quality_3 quality;
-    Surface_optimizer optimizer(mesh, m_root.domain(), criteria, quality);
-    m_result.optimization = optimizer([this] { return m_visitor.go_on(); });
+    Bounded_optimization optimize(mesh, m_root.domain(), criteria, quality);
+    m_result.optimization = optimize([this] { return m_visitor.go_on(); });
     m_result.status = worse(m_result.status, status_of(m_result.optimization.status));
     if(m_result.status == Mixed_mesh_status::STOPPED)
       mesh.clear();

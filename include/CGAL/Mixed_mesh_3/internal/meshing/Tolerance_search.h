@@ -71,7 +71,7 @@ public:
       assemble_mesh(octree, candidate.mesh, candidate.boundary, coarse);
       const auto criteria = Mixed_mesh_optimization_criteria_3()
                               .tolerance(m_criteria.tolerance())
-                              .quality_bound(m_criteria.quality_bound())
+                              .quality_bound(0) // the mesh is looked at only
                               .number_of_rounds(rounds_of_coarse_fit);
       Surface_optimizer optimizer(coarse, m_root.domain(), criteria, Aspect_ratio_quality_3());
       if(!fit(optimizer) || !split(optimizer, limit, octree, candidate))

@@ -1,0 +1,147 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The optimization with its two promises: no element above the quality bound, and no faces that cut each other.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_BOUNDED_OPTIMIZATION_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_BOUNDED_OPTIMIZATION_H
+
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/element_points.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Surface_optimizer.h>
+#include <CGAL/Mixed_mesh_optimization_criteria_3.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/*!
+Runs the optimization as often as it takes, each time from the start:
+
+- *freely*: on the way to the surface, elements may get worse than the bound, and better again. If all of the
+  boundary arrives, and no element is above the bound in the end, as for most surfaces, that is the result;
+- *within the bound*, which no step leaves;
+- where faces cut each other in the end, once more, with their vertices *held* where they are, and each time
+  more of those around them; at last all of the boundary, which does not cut itself then.
+
+Only what is above the bound at the start can be above it in the end.
+
+\tparam Quality a model of `MixedMeshQuality_3`
+*/
+template <class Mesh, class Domain, class Quality>
+class Bounded_optimization
+{
+  using Criteria = Mixed_mesh_optimization_criteria_3;
+  using Result = Mixed_mesh_optimization_result_3;
+  using Status = Mixed_mesh_optimization_status;
+
+  Mesh& m_mesh; // the start, until the end
+  const Domain& m_domain;
+  const Criteria& m_criteria;
+  const Quality& m_quality;
+  std::vector<std::uint8_t> m_is_held; // for each vertex
+
+  // How many rings of faces around those that cut each other are held in addition, time after time.
+  static constexpr int rings[] = {0, 1, 2, 4, 8};
+
+public:
+  Bounded_optimization(Mesh& mesh, const Domain& domain, const Criteria& criteria, const Quality& quality)
+    : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality),
+      m_is_held(mesh.number_of_vertices(), 0)
+  {
+  }
+
+  template <class Go_on>
+  Result operator()(const Go_on& go_on)
+  {
+    Mesh free = m_mesh;
+    Surface_optimizer optimizer(free, m_domain, Criteria(m_criteria).quality_bound(0), m_quality);
+    Result result = optimizer(go_on);
+    const bool is_stopped = result.status == Status::STOPPED, is_within = is_within_bound(free);
+    if(is_within && (is_fitted(result) || is_stopped)) {
+      m_mesh = std::move(free);
+      return result;
+    }
+    if(is_stopped) { // what had arrived has come back
+      result.number_of_arrived_vertices = result.number_of_flips = 0;
+      return result;
+    }
+    Mesh bounded;
+    const Result second = optimize_within(bounded, go_on);
+    const bool is_free_better = is_within && result.is_boundary_simple && second.status != Status::STOPPED
+                                && number_off(result) <= number_off(second);
+    m_mesh = std::move(is_free_better ? free : bounded);
+    return is_free_better ? result : second;
+  }
+
+private:
+  static std::size_t number_off(const Result& r)
+  {
+    return r.number_of_boundary_vertices - r.number_of_arrived_vertices;
+  }
+
+  static bool is_fitted(const Result& r) { return r.is_boundary_simple && number_off(r) == 0; }
+
+  // Within the bound, and until no faces cut each other.
+  template <class Go_on>
+  Result optimize_within(Mesh& mesh, const Go_on& go_on)
+  {
+    for(std::size_t i = 0;; ++i) {
+      mesh = m_mesh;
+      Surface_optimizer optimizer(mesh, m_domain, m_criteria, m_quality);
+      optimizer.hold(m_is_held);
+      const Result result = optimizer(go_on);
+      if(result.is_boundary_simple || result.status == Status::STOPPED || i > std::size(rings))
+        return result;
+      if(i == std::size(rings))
+        std::fill(m_is_held.begin(), m_is_held.end(), 1);
+      else
+        hold(optimizer.crossing_vertices(), rings[i]);
+    }
+  }
+
+  void hold(const std::vector<Vertex_index>& vertices, int number_of_rings)
+  {
+    for(Vertex_index v : vertices)
+      m_is_held[v] = 1;
+    for(int ring = 0; ring < number_of_rings; ++ring) {
+      const std::vector<std::uint8_t> is_inner = m_is_held;
+      for(const Face& face : boundary_faces(m_mesh))
+        if(std::any_of(face.vertices().begin(), face.vertices().end(),
+                       [&](Vertex_index v) { return is_inner[v] != 0; }))
+          for(Vertex_index v : face.vertices())
+            m_is_held[v] = 1;
+    }
+  }
+
+  double largest_cost(const Mesh& mesh) const
+  {
+    double largest = 0;
+    for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
+      const Element_view element = mesh.element(e);
+      largest = (std::max)(largest, m_quality(element.kind(), element_points(mesh, element)));
+    }
+    return largest;
+  }
+
+  bool is_within_bound(const Mesh& mesh) const
+  {
+    const double cost = largest_cost(mesh);
+    return cost <= bound_for_doubles(m_criteria) || cost <= largest_cost(m_mesh);
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_BOUNDED_OPTIMIZATION_H
