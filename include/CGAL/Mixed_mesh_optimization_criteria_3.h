@@ -124,6 +124,9 @@ struct Mixed_mesh_optimization_result_3
   std::size_t number_of_rounds = 0;
   /// With a tolerance: the largest distance between boundary and surface, either way, at sample points.
   double largest_distance = 0;
+  double quality_bound = std::numeric_limits<double>::infinity(); ///< that of the criteria
+  /// Elements that are not proved to cost at most the bound: 0 if the mesh had none at the start.
+  std::size_t number_of_elements_above_bound = 0;
 };
 
 } // namespace CGAL

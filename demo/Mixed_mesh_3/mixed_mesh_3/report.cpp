@@ -7,6 +7,8 @@
 
 #include "common/report_json.h"
 
+#include <CGAL/Mixed_mesh_3/quality_bound.h>
+
 #include <cstddef>
 #include <iomanip>
 #include <iostream>
@@ -101,6 +103,8 @@ Json describe_quality(const Options& o, const Outcome& outcome)
   if(o.has_quality_bound())
     quality["quality bound"] = {{"ARC", o.largest_arc},
                                 {"elements above", outcome.elements_above_bound},
+                                {"dihedral angles of tetrahedra within it",
+                                 mm3::dihedral_angle_bounds(o.largest_arc)},
                                 {"method", "proved for each element, exact on the coordinates written"}};
   if(outcome.before)
     describe_ratios(*outcome.before, "before", quality);

@@ -13,13 +13,17 @@
 #include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/aspect_ratio.h>
 
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Interval_nt.h>
 #include <CGAL/Uncertain.h>
 #include <CGAL/assertions.h>
+#include <CGAL/number_utils.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <initializer_list>
 
@@ -190,6 +194,22 @@ std::size_t number_of_elements_above(const Mesh& mesh, double bound)
   for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
     count += !is_aspect_ratio_at_most(mesh, Element_index(e), bound);
   return count;
+}
+
+/*!
+Between which angles, in degrees, all dihedral angles of a tetrahedron are whose aspect-ratio coefficient (ARC) is
+at most a bound. Both are attained; the manual has the proof.
+
+\param bound the largest ARC. \pre at least 1
+\return the smallest and the largest angle: 12.94 and 154.44 for 3.2
+*/
+inline std::array<double, 2> dihedral_angle_bounds(double bound)
+{
+  CGAL_precondition(bound >= 1);
+  // ARC >= 3 (3 - cos x) / (f sin x) for the angle x, so that f ARC sin x + 3 cos x >= 9
+  const double sine = internal::tetrahedron_arc_factor * bound, cosine = 3;
+  const double from = std::asin((std::min)(9 / std::hypot(sine, cosine), 1.)), shift = std::atan2(cosine, sine);
+  return {180 / CGAL_PI * (from - shift), 180 / CGAL_PI * (CGAL_PI - from - shift)};
 }
 
 } // namespace Mixed_meshes_3

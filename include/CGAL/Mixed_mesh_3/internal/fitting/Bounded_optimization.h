@@ -63,6 +63,18 @@ public:
   template <class Go_on>
   Result operator()(const Go_on& go_on)
   {
+    Result result = optimize(go_on);
+    const double bound = bound_for_doubles(m_criteria);
+    result.quality_bound = m_criteria.quality_bound();
+    for(std::size_t e = 0; e < m_mesh.number_of_elements(); ++e)
+      result.number_of_elements_above_bound += cost(m_mesh, e) > bound;
+    return result;
+  }
+
+private:
+  template <class Go_on>
+  Result optimize(const Go_on& go_on)
+  {
     Mesh free = m_mesh;
     Surface_optimizer optimizer(free, m_domain, Criteria(m_criteria).quality_bound(0), m_quality);
     Result result = optimizer(go_on);
@@ -83,7 +95,6 @@ public:
     return is_free_better ? result : second;
   }
 
-private:
   static std::size_t number_off(const Result& r)
   {
     return r.number_of_boundary_vertices - r.number_of_arrived_vertices;
@@ -123,13 +134,17 @@ private:
     }
   }
 
+  double cost(const Mesh& mesh, std::size_t e) const
+  {
+    const Element_view element = mesh.element(e);
+    return m_quality(element.kind(), element_points(mesh, element));
+  }
+
   double largest_cost(const Mesh& mesh) const
   {
     double largest = 0;
-    for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
-      const Element_view element = mesh.element(e);
-      largest = (std::max)(largest, m_quality(element.kind(), element_points(mesh, element)));
-    }
+    for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
+      largest = (std::max)(largest, cost(mesh, e));
     return largest;
   }
 
