@@ -98,9 +98,9 @@ public:
   }
   double tolerance() const { return m_tolerance; }
 
-  /// The largest aspect-ratio coefficient (ARC) of an element, if the boundary is fitted. From the default on it
-  /// is guaranteed for cubic cells and the default boundary mode; what would need worse elements stays off the
-  /// surface. A smaller one is not reached by all elements, but none gets worse than it is at the start.
+  /// The largest aspect-ratio coefficient (ARC) of an element, if the boundary is fitted. From the default on
+  /// it is guaranteed for cubic cells and the default boundary mode; what would need worse elements stays off
+  /// the surface. A smaller one is not reached by all elements, but none gets worse than it is at the start.
   /// 0, or infinity: no bound. Default: 3.2. \pre 0, or at least 1
   Mixed_mesh_criteria_3& quality_bound(double arc)
   {

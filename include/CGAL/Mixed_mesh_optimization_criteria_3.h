@@ -64,10 +64,11 @@ public:
   }
   bool flips() const { return m_flips; }
 
-  /// The largest cost that an element may get. Where elements cost more already, none gets worse than the worst
-  /// of those that are changed with it; so if none costs more than the bound, none ever will. What would need
-  /// worse elements stays off the surface. By default, costs are aspect-ratio coefficients, or above them.
-  /// 0, or infinity: no bound; elements may get worse the longer a vertex does not arrive. Default: 3.2.
+  /// The largest cost that an element may get. Where elements cost more already, none gets worse than the
+  /// worst of those that are changed with it; so if none costs more than the bound, none ever will. What
+  /// would need worse elements stays off the surface. By default, costs are aspect-ratio coefficients, or
+  /// above them. 0, or infinity: no bound; elements may get worse the longer a vertex does not arrive.
+  /// Default: 3.2.
   /// \pre 0, or at least 1
   Mixed_mesh_optimization_criteria_3& quality_bound(double cost)
   {

@@ -33,7 +33,9 @@ elements at the surface are split so that they can follow it (Lobos, Bucki, Hits
 has them, all outside or on the surface.
 
 Guarantees if `result.has_mesh()`: at most `criteria.maximal_number_of_vertices()` vertices; conforming;
-the Jacobian of every element is positive on the whole element; the boundary is a closed oriented
+the Jacobian of every element is positive on the whole element; no element has an aspect-ratio coefficient
+above `criteria.quality_bound()` if that is at least 3.2, cells are cubes and the boundary mode is the
+default; the boundary is a closed oriented
 2-manifold unless the status says otherwise; the same input gives the same mesh, whatever the number of
 threads.
 

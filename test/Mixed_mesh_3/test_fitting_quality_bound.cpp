@@ -3,8 +3,9 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// That no element has an aspect-ratio coefficient (ARC) above the bound: all elements that there can be before
-// the boundary is fitted, each way to end, the proof for one element, and what follows for dihedral angles.
+// That no element has an aspect-ratio coefficient (ARC) above the bound: all elements that there can be
+// before the boundary is fitted, each way to end, the proof for one element, and what follows for dihedral
+// angles.
 
 #include "test_fitting.h"
 
@@ -82,8 +83,8 @@ Points points_of(const Points& p, std::initializer_list<Vertex_index> vertices)
   return q;
 }
 
-// All that the boundary stage can make of an element: each set of vertices outside, in each order. Of vertices
-// inside, which have no order, it takes none before.
+// All that the boundary stage can make of an element: each set of vertices outside, in each order. Of
+// vertices inside, which have no order, it takes none before.
 void add_pieces(Element_kind kind, const Points& p, Worst& worst)
 {
   constexpr Vertex_index vertices[8] = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -111,7 +112,8 @@ void add_pieces(Element_kind kind, const Points& p, Worst& worst)
   add(0);
 }
 
-// As tetrahedra, of whatever vertex and diagonals: what `split_to_tetrahedra()` makes of elements and of pieces.
+// As tetrahedra, of whatever vertex and diagonals: what `split_to_tetrahedra()` makes of elements and of
+// pieces.
 void add_tetrahedra(Element_kind kind, const Points& p, Worst& worst)
 {
   const Reference_element& reference = reference_elements[kind];
@@ -318,7 +320,7 @@ void test_exact_bounds()
     BOOST_TEST(is_within(kind, p, 3));
     BOOST_TEST(!is_within(kind, p, below));
   }
-  // of the prism on a right triangle with legs of 1: a height of 3, and that of the triangle over its hypotenuse
+  // the prism on a right triangle with legs of 1: its height of 3, and the triangle's over the hypotenuse
   const Rational squared = squared_arc(PRISM, prism);
   BOOST_TEST(squared == Rational(18));
   BOOST_TEST(is_within(PRISM, prism, 4.25) && !is_within(PRISM, prism, 4.24));
@@ -553,8 +555,7 @@ void test_stopped()
   BOOST_TEST(unchanged > 1 && unchanged < patient.number_of_questions / 3);
 }
 
-// From elsewhere, with elements above the bound at the start: none gets worse than the worst of them, and those
-// that are near to no such one stay within the bound.
+// From elsewhere, with elements above the bound at the start: none gets worse than the worst of them.
 void test_bad_start()
 {
   const Test_surface cube = box({0, 0, 0}, {1, 1, 1});

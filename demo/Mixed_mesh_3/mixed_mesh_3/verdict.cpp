@@ -87,8 +87,9 @@ void add_warnings(const Options& o, Outcome& outcome)
   if(o.fit() != Fit::NONE && f.vertices_off != 0)
     warnings.push_back(std::to_string(f.vertices_off) + " of " + std::to_string(f.vertices)
                        + " boundary vertices are not on " + o.surface
-                       + (o.has_quality_bound() ? ": elements would be worse than --max-arc allows"
-                                                : ": elements would be inverted")
+                       + (o.has_quality_bound()
+                            ? ": elements would be worse than --max-arc allows, or inverted"
+                            : ": elements would be inverted")
                        + ", or coordinates are too large to tell");
   if(outcome.elements_above_bound != 0)
     warnings.push_back("--max-arc " + rounded(o.largest_arc) + ": "

@@ -184,8 +184,8 @@ bool is_aspect_ratio_at_most(const Mesh& mesh, Element_index e, double bound)
   return is_aspect_ratio_at_most(element.kind(), points, bound);
 }
 
-/// How many elements have an aspect-ratio coefficient (ARC) above `bound`: proved for these, and for the others
-/// that they have none.
+/// How many elements have an aspect-ratio coefficient (ARC) above `bound`: proved for these, and for the
+/// others that they have none.
 /// \cost linear in the number of elements
 template <class Mesh>
 std::size_t number_of_elements_above(const Mesh& mesh, double bound)
@@ -197,8 +197,8 @@ std::size_t number_of_elements_above(const Mesh& mesh, double bound)
 }
 
 /*!
-Between which angles, in degrees, all dihedral angles of a tetrahedron are whose aspect-ratio coefficient (ARC) is
-at most a bound. Both are attained; the manual has the proof.
+Between which angles, in degrees, all dihedral angles of a tetrahedron are whose aspect-ratio coefficient
+(ARC) is at most a bound. Both are attained; the manual has the proof.
 
 \param bound the largest ARC. \pre at least 1
 \return the smallest and the largest angle: 12.94 and 154.44 for 3.2
@@ -208,7 +208,8 @@ inline std::array<double, 2> dihedral_angle_bounds(double bound)
   CGAL_precondition(bound >= 1);
   // ARC >= 3 (3 - cos x) / (f sin x) for the angle x, so that f ARC sin x + 3 cos x >= 9
   const double sine = internal::tetrahedron_arc_factor * bound, cosine = 3;
-  const double from = std::asin((std::min)(9 / std::hypot(sine, cosine), 1.)), shift = std::atan2(cosine, sine);
+  const double from = std::asin((std::min)(9 / std::hypot(sine, cosine), 1.)),
+               shift = std::atan2(cosine, sine);
   return {180 / CGAL_PI * (from - shift), 180 / CGAL_PI * (CGAL_PI - from - shift)};
 }
 

@@ -3,20 +3,24 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The optimization with its two promises: no element above the quality bound, and no faces that cut each other.
+// The optimization with its two promises: no element above the quality bound, and no faces that cut each
+// other.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_BOUNDED_OPTIMIZATION_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_BOUNDED_OPTIMIZATION_H
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/element_points.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_optimizer.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -31,9 +35,11 @@ Runs the optimization as often as it takes, each time from the start:
   boundary arrives, and no element is above the bound in the end, as for most surfaces, that is the result;
 - *within the bound*, which no step leaves;
 - where faces cut each other in the end, once more, with their vertices *held* where they are, and each time
-  more of those around them; at last all of the boundary, which does not cut itself then.
+  more of those around them; at last all of the boundary, which does not cut itself then if it did not at the
+  start.
 
-Only what is above the bound at the start can be above it in the end.
+If no element is above the bound at the start, none is in the end; else none is worse than the worst of the
+start.
 
 \tparam Quality a model of `MixedMeshQuality_3`
 */
@@ -79,7 +85,10 @@ private:
     Surface_optimizer optimizer(free, m_domain, Criteria(m_criteria).quality_bound(0), m_quality);
     Result result = optimizer(go_on);
     const bool is_stopped = result.status == Status::STOPPED, is_within = is_within_bound(free);
-    if(is_within && (is_fitted(result) || is_stopped)) {
+    const bool is_all = m_criteria.quality_bound() == std::numeric_limits<double>::infinity()
+                          ? result.is_boundary_simple
+                          : is_fitted(result);
+    if(is_within && (is_all || is_stopped)) { // no other run would do better
       m_mesh = std::move(free);
       return result;
     }
@@ -111,13 +120,22 @@ private:
       Surface_optimizer optimizer(mesh, m_domain, m_criteria, m_quality);
       optimizer.hold(m_is_held);
       const Result result = optimizer(go_on);
-      if(result.is_boundary_simple || result.status == Status::STOPPED || i > std::size(rings))
+      if(result.is_boundary_simple || result.status == Status::STOPPED || i > std::size(rings)
+         || (i == 0 && is_start_crossing()))
         return result;
       if(i == std::size(rings))
         std::fill(m_is_held.begin(), m_is_held.end(), 1);
       else
         hold(optimizer.crossing_vertices(), rings[i]);
     }
+  }
+
+  bool is_start_crossing() const
+  {
+    std::vector<Vec3> points;
+    for(const auto& p : m_mesh.points())
+      points.push_back(to_vec3(p));
+    return !vertices_of_self_intersections(points, boundary_faces(m_mesh)).empty();
   }
 
   void hold(const std::vector<Vertex_index>& vertices, int number_of_rings)

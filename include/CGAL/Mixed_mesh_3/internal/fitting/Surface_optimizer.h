@@ -26,8 +26,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The quality bound of the criteria, a little less: a cost within it in doubles is within the bound exactly. The
-/// relative error of the cost of an element near to the default bound is some 1e-13.
+/// The quality bound of the criteria, a little less: a cost within it in doubles is within the bound exactly.
+/// The relative error of the cost of an element near to the default bound is some 1e-13.
 inline double bound_for_doubles(const Mixed_mesh_optimization_criteria_3& criteria)
 {
   return (1 - 1e-10) * criteria.quality_bound();
