@@ -92,7 +92,7 @@ private:
 enum class Mixed_mesh_optimization_status {
   SUCCESS,               ///< the boundary is on the surface, and within the tolerance if there is one
   TOLERANCE_NOT_REACHED, ///< the boundary vertices are on the surface; it is farther away between them
-  NOT_ALL_ARRIVED,       ///< valid, but boundary vertices stay off the surface: elements would be inverted,
+  NOT_ALL_ARRIVED,       ///< valid, but boundary vertices stay off the surface: elements would be too bad,
                          ///< or faces of the boundary would cut each other
   STOPPED,               ///< valid, as far as it went: the visitor said so
   INVALID_MESH,          ///< unchanged: an element is inverted, or names a vertex that does not exist
