@@ -94,7 +94,7 @@ enum class Mixed_mesh_optimization_status {
   TOLERANCE_NOT_REACHED, ///< the boundary vertices are on the surface; it is farther away between them
   NOT_ALL_ARRIVED,       ///< valid, but boundary vertices stay off the surface: elements would be too bad,
                          ///< or faces of the boundary would cut each other
-  STOPPED,               ///< valid, as far as it went: the visitor said so
+  STOPPED,               ///< valid, as far as it went, or unchanged: the visitor said so
   INVALID_MESH,          ///< unchanged: an element is inverted, or names a vertex that does not exist
   EMPTY                  ///< unchanged: there is no element
 };
