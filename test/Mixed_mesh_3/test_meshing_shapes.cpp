@@ -9,6 +9,7 @@
 
 #include <CGAL/Implicit_mixed_mesh_domain_3.h>
 #include <CGAL/Mixed_mesh_3/surface_distance.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 
 #include <boost/core/lightweight_test.hpp>
@@ -86,7 +87,9 @@ double mesh_shape(const std::string& name, const Surface& surface, std::size_t b
     BOOST_TEST_LE(off, with.optimization.number_of_boundary_vertices
                          - with.optimization.number_of_arrived_vertices);
     BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED || off == 0);
-    BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED || volume(fitted) < volume(mesh) * (1 + 1e-12));
+    const double exact = CGAL::to_double(CGAL::Polygon_mesh_processing::volume(surface));
+    BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED
+               || std::abs(volume(fitted) - exact) < std::abs(volume(mesh) - exact));
     const auto rows = quality_statistics(fitted);
     std::cout << shape << ": " << off << " off, ARC " << rows[number_of_element_kinds].mean << ", at most "
               << rows[number_of_element_kinds].maximum << std::endl;
@@ -124,8 +127,8 @@ void test_shapes()
   add_box(plate, {0, 0, 0}, {100, 100, 1});
   mesh_shape("plate", plate, 20000, {{{Status::SUCCESS, 19990, 0}, {Status::SUCCESS, 20000, 0}}});
   mesh_shape("plate, few", plate, 300, {{{Status::SUCCESS, 298, 0}, {Status::SUCCESS, 299, 0}}},
-             {Status::NOT_ALL_ARRIVED, Status::NOT_ALL_ARRIVED});
-  const auto tilt = [](const Point_3& p) { // a rotation
+             {Status::NOT_ALL_ARRIVED, Status::SUCCESS}); // with elements as flat as the plate
+  const auto tilt = [](const Point_3& p) {                // a rotation
     const double c = 0.8, s = 0.6;
     const Point_3 q(c * p.x() - s * p.z(), p.y(), s * p.x() + c * p.z());
     return Point_3(q.x(), c * q.y() - s * q.z(), s * q.y() + c * q.z());
