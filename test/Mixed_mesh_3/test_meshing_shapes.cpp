@@ -56,9 +56,9 @@ Outcome outcome(const Mesh& mesh, const Mixed_mesh_result_3& result)
   return {result.status, mesh.number_of_vertices(), result.number_of_lost_cells};
 }
 
-// Returns the volume of the mesh that is not fitted; the fitted one is valid, too, and nearer.
+// Returns the volume of the mesh that is not fitted; the fitted one is valid, too, and on the surface.
 // expected: of the mesh that is not fitted, with a cube and with a box as root
-// fitted: likewise its status after fitting; small budgets only, to save time
+// fitted: likewise its status after fitting; convex surfaces and small budgets only, to save time
 double mesh_shape(const std::string& name, const Surface& surface, std::size_t budget,
                   const std::array<Outcome, 2>& expected, const std::vector<Status>& fitted_status = {})
 {
@@ -87,9 +87,9 @@ double mesh_shape(const std::string& name, const Surface& surface, std::size_t b
     BOOST_TEST_LE(off, with.optimization.number_of_boundary_vertices
                          - with.optimization.number_of_arrived_vertices);
     BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED || off == 0);
+    // the chords of a convex surface are inside
     const double exact = CGAL::to_double(CGAL::Polygon_mesh_processing::volume(surface));
-    BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED
-               || std::abs(volume(fitted) - exact) < std::abs(volume(mesh) - exact));
+    BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED || volume(fitted) < exact * (1 + 1e-9));
     const auto rows = quality_statistics(fitted);
     std::cout << shape << ": " << off << " off, ARC " << rows[number_of_element_kinds].mean << ", at most "
               << rows[number_of_element_kinds].maximum << std::endl;
