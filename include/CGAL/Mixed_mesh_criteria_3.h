@@ -8,6 +8,7 @@
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/options.h>
+#include <CGAL/Mixed_mesh_optimization_criteria_3.h>
 
 #include <CGAL/assertions.h>
 
@@ -114,7 +115,7 @@ public:
   /// How far boundary and surface may be from each other, in the surface's unit. If positive, part of the
   /// budget is spent on cells where the boundary would be much farther, and boundary vertices slide towards
   /// places that are; the status tells if that was not enough. 0: no more is asked for than that vertices are on
-  /// the surface. Default: 0.45 of the edge of a cube with the volume that one vertex of the budget has to
+  /// the surface. Default: 0.42 of the edge of a cube with the volume that one vertex of the budget has to
   /// serve; that is a wish: the status is not concerned.
   /// \pre `automatic`, or at least 0
   Mixed_mesh_criteria_3& tolerance(double distance)
@@ -124,6 +125,18 @@ public:
     return *this;
   }
   double tolerance() const { return m_tolerance; }
+
+  /// The largest aspect-ratio coefficient (ARC) of an element, if the boundary is fitted. From the default on
+  /// it is guaranteed for cubic cells and the default boundary mode; what would need worse elements stays off
+  /// the surface. A smaller one is not reached by all elements, but none gets worse than it is at the start.
+  /// 0, or infinity: no bound. Default: 3.2. \pre 0, or at least 1
+  Mixed_mesh_criteria_3& quality_bound(double arc)
+  {
+    m_quality_bound = Mixed_mesh_optimization_criteria_3().quality_bound(arc).quality_bound();
+    return *this;
+  }
+  /// Infinity if there is none.
+  double quality_bound() const { return m_quality_bound; }
 
   /// How many threads answer queries on the surface. The mesh does not depend on it. Default: 1.
   /// \pre at least 1
@@ -146,6 +159,7 @@ private:
   double m_grading = 0.35;
   double m_share_of_bisections = automatic;
   double m_tolerance = automatic;
+  double m_quality_bound = Mixed_mesh_optimization_criteria_3::default_quality_bound;
   unsigned m_number_of_threads = 1;
 };
 

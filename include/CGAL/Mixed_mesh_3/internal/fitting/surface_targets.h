@@ -47,9 +47,10 @@ public:
 /// What `surface_targets()` found.
 struct Surface_targets
 {
-  std::vector<Vertex_index> vertices;     ///< the boundary vertices, ascending
-  std::vector<Vec3> positions;            ///< of each its target, on the surface
-  std::size_t number_of_folded_faces = 0; ///< that sliding could not unfold
+  std::vector<Vertex_index> vertices;        ///< the boundary vertices, ascending
+  std::vector<Vec3> positions;               ///< of each its target, on the surface
+  std::size_t number_of_folded_faces = 0;    ///< that sliding could not unfold
+  std::vector<Vertex_index> folded_vertices; ///< of these faces
 };
 
 /*!
@@ -205,6 +206,9 @@ Surface_targets surface_targets(const std::vector<Face>& boundary, const std::ve
       }
   }
   result.number_of_folded_faces = folds.find(targets, 0, is_folded);
+  for(std::size_t i = 0; i < n; ++i)
+    if(is_folded[i])
+      result.folded_vertices.push_back(result.vertices[i]);
   return result;
 }
 

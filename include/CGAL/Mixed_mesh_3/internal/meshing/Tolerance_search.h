@@ -9,11 +9,13 @@
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_TOLERANCE_SEARCH_H
 #define CGAL_MIXED_MESH_3_INTERNAL_MESHING_TOLERANCE_SEARCH_H
 
-#include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/assemble_mesh.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Surface_optimizer.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/surface_attraction.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Candidate.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/base_level.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
@@ -21,6 +23,8 @@
 #include <CGAL/Mixed_mesh_result_3.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -28,7 +32,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Fits the mesh of the base level, splits cells where it is too far from the surface, and again.
+/// Splits cells of the base level where the boundary would be too far from the surface, and again.
 template <class Octree_, class Mesh, class Visitor>
 class Tolerance_search
 {
@@ -37,13 +41,13 @@ class Tolerance_search
   // ones the sliding of boundary vertices reaches. The others follow where that takes too much.
   static constexpr int rounds = 6;
   static constexpr double largest_share = 0.5;
-  static constexpr double multiples[] = {1.6, 2, 2.5, 3};
+  static constexpr double multiples[] = {1.6, 2, 2.5, 3}, multiples_of_wish[] = {2.5, 3.2, 4};
 
   const Octree_& m_root;
   const Mixed_mesh_criteria_3& m_criteria;
   Visitor& m_visitor;
   Mixed_mesh_result_3& m_result;
-  std::vector<Vec3> m_samples; // of the surface
+  std::vector<Vec3> m_samples;                 // of the surface
   std::vector<std::vector<Vec3>> m_far_points; // of the surface, where cells are split
   bool m_is_stopped = false;                   // by the visitor
 
@@ -65,17 +69,20 @@ public:
       m_samples.push_back(to_vec3(p));
     Octree_ octree = m_root;
     Candidate candidate = try_base_octree(octree);
-    std::pair<std::size_t, Far_points> far;
-    for(int round = 0; round < rounds; ++round) {
-      m_is_stopped = candidate.is_stopped;
-      if(m_is_stopped || candidate.number_of_vertices == 0 || double(candidate.number_of_vertices) > limit)
-        return;
-      m_result.number_of_vertices_for_tolerance = candidate.number_of_vertices;
-      if(round == 0)
-        far = far_points(octree, candidate);
-      if(!split(far, limit, octree, candidate))
-        return;
+    std::size_t best = 0, least_defects = std::size_t(-1); // after how many rounds
+    for(int round = 0; !is_stopped_by(candidate) && candidate.number_of_vertices > 0; ++round) {
+      if(double(candidate.number_of_vertices) > limit)
+        break;
+      const Estimate estimate = estimate_boundary(octree, candidate);
+      if(estimate.number_of_defects <= least_defects) {
+        least_defects = estimate.number_of_defects;
+        best = m_far_points.size();
+        m_result.number_of_vertices_for_tolerance = candidate.number_of_vertices;
+      }
+      if(round == rounds || !split(estimate, limit, octree, candidate))
+        break;
     }
+    m_far_points.resize(best);
   }
 
   /// One level more around each far point, outside the region, round by round.
@@ -105,10 +112,22 @@ private:
     return c;
   }
 
-  using Far_points = std::vector<std::pair<double, Vec3>>;
+  bool is_stopped_by(const Candidate& candidate)
+  {
+    m_is_stopped = candidate.is_stopped;
+    return m_is_stopped;
+  }
 
-  // Of the surface, from the boundary as it will be when its vertices are on the surface.
-  std::pair<std::size_t, Far_points> far_points(const Octree_& octree, const Candidate& candidate) const
+  struct Estimate
+  {
+    std::vector<std::pair<double, Vec3>> far_points; // of the surface, with their distances
+    std::vector<Vec3> defects;                       // where the surface is too fine for the cells
+    std::size_t number_of_defects;
+  };
+
+  // From the boundary with its vertices on the surface, where the optimization will bring them nearly. Where its
+  // faces are folded or cut each other, it would have to leave vertices behind.
+  Estimate estimate_boundary(const Octree_& octree, const Candidate& candidate) const
   {
     Mesh mesh;
     assemble_mesh(octree, candidate.mesh, candidate.boundary, mesh);
@@ -121,33 +140,32 @@ private:
     Surface_attraction attraction(projected, project, m_samples, m_result.tolerance);
     attraction.set_boundary(boundary);
     attraction.measure();
-    return {targets.number_of_folded_faces, attraction.far_points()};
+    Estimate estimate{attraction.far_points(), {}, targets.number_of_folded_faces};
+    const std::vector<Vertex_index> crossing = vertices_of_self_intersections(projected.points, boundary);
+    estimate.number_of_defects += crossing.size();
+    for(const std::vector<Vertex_index>& vertices : {targets.folded_vertices, crossing})
+      for(Vertex_index v : vertices)
+        estimate.defects.push_back(projected.points[v]);
+    return estimate;
   }
 
-  // Splits cells at as many far points as fit into the limit, the farthest ones.
-  bool split(std::pair<std::size_t, Far_points>& far, double limit, Octree_& octree, Candidate& candidate)
+  // Splits cells at all defects, and at as many far points as fit into the limit, the farthest ones.
+  bool split(const Estimate& estimate, double limit, Octree_& octree, Candidate& candidate)
   {
-    for(double multiple : multiples) {
-      std::vector<Vec3> points;
-      for(const auto& [distance, point] : far.second)
-        if(distance > multiple * m_result.tolerance)
+    const bool is_wish = m_criteria.tolerance() == Mixed_mesh_criteria_3::automatic;
+    for(const double* multiple = is_wish ? std::begin(multiples_of_wish) : std::begin(multiples);
+        multiple != (is_wish ? std::end(multiples_of_wish) : std::end(multiples)); ++multiple) {
+      std::vector<Vec3> points = estimate.defects;
+      for(const auto& [distance, point] : estimate.far_points)
+        if(distance > *multiple * m_result.tolerance)
           points.push_back(point);
       if(points.empty())
         return false;
       m_far_points.push_back(points);
-      Octree_ finer = m_root;
-      candidate = try_base_octree(finer);
-      m_is_stopped = candidate.is_stopped;
-      if(m_is_stopped)
-        return false;
-      if(double(candidate.number_of_vertices) <= limit) {
-        auto next = far_points(finer, candidate);
-        if(next.first <= far.first) {
-          far = std::move(next);
-          octree = std::move(finer);
-          return true;
-        }
-      }
+      octree = m_root;
+      candidate = try_base_octree(octree);
+      if(candidate.is_stopped || double(candidate.number_of_vertices) <= limit)
+        return true;
       m_far_points.pop_back();
     }
     return false;
