@@ -3,13 +3,12 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the octree is made of besides itself: the cells of the lattice, against exact rationals; the leaves
-// that are refined in a region, and balance, by all pairs; where the lattice is placed.
+// What the octree is made of besides itself: the cells of the lattice, against exact rationals; balance, by
+// all pairs; what a located octree says of its cells, by their boxes.
 
 #include "test_lattice.h"
 
 #include <CGAL/Mixed_mesh_3/internal/octree/balance.h>
-#include <CGAL/Mixed_mesh_3/internal/octree/place_lattice.h>
 #include <CGAL/Mixed_mesh_3/validation.h>
 
 #include <CGAL/Exact_rational.h>
@@ -22,7 +21,6 @@
 #include <cstdint>
 #include <limits>
 #include <random>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -267,95 +265,88 @@ void test_is_balanced()
   }
 }
 
-// ---- the rim of the region ---------------------------------------------------------------------
+// ---- located cells -----------------------------------------------------------------------------
 
-// Few leaves at the rim of the region are left out: their centers are outside, but that of one of 26
-// neighbors is inside. By all pairs.
-void test_rim()
+// A box as region, so that what meets it is decided by comparisons.
+struct Box_region
 {
-  const Aligned_traits traits({0, 0, 0, 1, 1, 1});
-  const Analytic_domain domain([](const Point_3&) { return 9.; });
-  std::size_t number_left_out = 0, number_kept_outside = 0;
-  // the last one is smaller than a cell, and contains no center
-  for(const auto& region :
-      {CGAL::Ball_mixed_mesh_region_3({0.4, 0.5, 0.6}, 0.3), CGAL::Ball_mixed_mesh_region_3({0, 0, 0}, 0.5),
-       CGAL::Ball_mixed_mesh_region_3({0.5, 0.5, 0.5}, 0.02)}) {
-    Located_octree octree(domain, region, traits);
-    for(int level = 0; level < 6; ++level) {
-      std::vector<Octree::Node_index> all; // that meet the region
-      for(Octree::Node_index n : octree.leaves_to_refine(level, false))
-        if(octree.is_in_region(n))
-          all.push_back(n);
-      const auto corner = [&](Octree::Node_index n, int k) {
-        return std::int64_t(octree.octree().corner(n)[k]);
-      };
-      const std::int64_t side = Octree::side_at(level);
-      std::vector<std::uint8_t> is_core;
-      for(Octree::Node_index n : all)
-        is_core.push_back(
-          region.depth(traits.cell(octree.octree().corner(n), Octree::side_at(level)).center()) >= 0);
-      std::vector<Octree::Node_index> expected;
-      for(std::size_t i = 0; i < all.size(); ++i) {
-        bool is_at_rim = false;
-        for(std::size_t j = 0; all.size() <= 4000 && !is_core[i] && j < all.size(); ++j)
-          if(is_core[j]) {
-            bool is_near = true;
-            for(int k = 0; k < 3; ++k)
-              is_near = is_near && std::abs(corner(all[i], k) - corner(all[j], k)) <= side;
-            is_at_rim = is_at_rim || is_near;
-          }
-        number_left_out += is_at_rim;
-        if(!is_at_rim) {
-          expected.push_back(all[i]);
-          number_kept_outside += !is_core[i];
-        }
-      }
-      BOOST_TEST(octree.leaves_to_refine(level, true) == expected);
-      BOOST_TEST_EQ(expected.empty(), all.empty());
-      octree.refine(octree.leaves_to_refine(level, false));
-    }
-  }
-  BOOST_TEST_GT(number_left_out, 500u);
-  BOOST_TEST_GT(number_kept_outside, 500u); // where there are many
-}
-
-// ---- the lattice -------------------------------------------------------------------------------
-
-// All roots contain the domain; the best ones come first.
-void test_place_lattice()
-{
-  using internal::candidate_roots;
-  using internal::best_roots;
-  for(const Bbox_3& b : {Bbox_3(0, 0, 0, 1, 1, 1), Bbox_3(-3.9, -44, -65.8, 60.1, 55, 65.79),
-                         Bbox_3(1e8, -1e8, 1e8, 1e8 + 100, -1e8 + 33, 1e8 + 7)}) {
-    const std::vector<Bbox_3> roots = candidate_roots(b);
-    BOOST_TEST(roots.front() == b);
-    std::set<std::array<double, 4>> places;
-    const double side = (std::max)({b.x_span(), b.y_span(), b.z_span()});
-    for(const Bbox_3& r : roots) {
-      BOOST_TEST(r.xmin() <= b.xmin() && r.ymin() <= b.ymin() && r.zmin() <= b.zmin());
-      BOOST_TEST(r.xmax() >= b.xmax() && r.ymax() >= b.ymax() && r.zmax() >= b.zmax());
-      BOOST_TEST_LE((std::max)({r.x_span(), r.y_span(), r.z_span()}), 1.26 * side);
-      places.insert({r.xmin(), r.ymin(), r.zmin(), r.xmax()});
-    }
-    BOOST_TEST_EQ(places.size(), roots.size()); // no two are the same
-  }
-
-  std::vector<Bbox_3> roots;
-  for(int i = 0; i < 5; ++i)
-    roots.emplace_back(i, 0, 0, i + 1, 1, 1);
-  constexpr std::size_t counts[] = {30, 50, 0, 50, 40};
-  const auto choose = [&](std::size_t number) {
-    std::vector<double> chosen;
-    for(const Bbox_3& r :
-        best_roots(roots, number, [&](const Bbox_3& b) { return counts[std::size_t(b.xmin())]; }))
-      chosen.push_back(r.xmin());
-    return chosen;
+  struct Surface_part
+  {
   };
-  using Numbers = std::vector<double>;
-  BOOST_TEST(choose(1) == Numbers({1}));
-  BOOST_TEST(choose(3) == Numbers({1, 3, 4}));
-  BOOST_TEST(choose(9) == Numbers({1, 3, 4, 0, 2}));
+  Bbox_3 box;
+
+  Surface_part surface_part() const { return {}; }
+  template <class Cell>
+  CGAL::Bounded_side locate(const Cell& cell, const Surface_part&, Surface_part&) const
+  {
+    const Bbox_3 c = cell.bbox();
+    bool meets = true, is_inside = true;
+    for(int k = 0; k < 3; ++k) {
+      meets = meets && c.min(k) <= box.max(k) && box.min(k) <= c.max(k);
+      is_inside = is_inside && box.min(k) < c.min(k) && c.max(k) < box.max(k);
+    }
+    return is_inside ? CGAL::ON_BOUNDED_SIDE : meets ? CGAL::ON_BOUNDARY : CGAL::ON_UNBOUNDED_SIDE;
+  }
+  double depth(const Point_3& p) const
+  {
+    double least = std::numeric_limits<double>::infinity();
+    for(int k = 0; k < 3; ++k)
+      least = (std::min)({least, p[k] - box.min(k), box.max(k) - p[k]});
+    return least;
+  }
+};
+
+// What is chosen for refinement, and what is told of cells, by the boxes of all nodes.
+void test_located_cells()
+{
+  const Analytic_domain domain(ball({0.5, 0.5, 0.5}, 0.3));
+  const double volume_of_ball = 4 * CGAL_PI / 3 * 0.027;
+  for(const Bbox_3& root : {Bbox_3(0, 0, 0, 1, 1, 1), Bbox_3(0, 0.2, 0.1, 1, 0.8, 0.9)}) {
+    const Aligned_traits traits(root, Root_cell::BOX);
+    for(const Bbox_3& b :
+        {Bbox_3(0.4, 0.3, 0.2, 0.7, 0.6, 0.55), Bbox_3(0.51, 0.51, 0.51, 0.52, 0.52, 0.52)}) {
+      const Box_region region{b};
+      Located_octree octree(domain, region, traits);
+      const double whole = octree.cell_volume(0);
+      BOOST_TEST_LE(std::abs(whole - root.x_span() * root.y_span() * root.z_span()), 1e-5 * whole);
+      const double volume = volume_of_domain(octree);
+      BOOST_TEST(volume > 0.85 * volume_of_ball && volume < 1.25 * volume_of_ball);
+      std::size_t number_in_region = 0, number_beside = 0;
+      for(int level = 0; level < 5; ++level) {
+        std::vector<Octree::Node_index> all, in_region;
+        std::size_t inside = 0, alive = 0;
+        for(Octree::Node_index n = 0; n < octree.octree().size(); ++n) {
+          const auto cell = traits.cell(octree.octree().corner(n), octree.octree().side(n));
+          Box_region::Surface_part part;
+          BOOST_TEST_EQ(octree.is_in_region(n), region.locate(cell, part, part) != CGAL::ON_UNBOUNDED_SIDE);
+          BOOST_TEST_EQ(octree.depth_in_region(n), region.depth(cell.center()));
+          BOOST_TEST_LE(std::abs(octree.rounded(octree.depth_in_region(n)) - octree.depth_in_region(n)),
+                        1e-6);
+          Analytic_domain::Surface_part none;
+          const CGAL::Bounded_side side = domain.locate(cell, none, none);
+          if(!octree.octree().is_leaf(n))
+            continue;
+          BOOST_TEST_EQ(octree.leaf_at(cell.center()), n);
+          inside += octree.side(n) == CGAL::ON_BOUNDED_SIDE;
+          alive += octree.is_alive(n);
+          BOOST_TEST(octree.side(n) == side || side == CGAL::ON_BOUNDARY); // children inherit a side
+          if(octree.octree().level(n) == level && octree.is_alive(n)) {
+            all.push_back(n);
+            if(octree.is_in_region(n))
+              in_region.push_back(n);
+          }
+        }
+        BOOST_TEST_EQ(octree.number_of_cells(), alive);
+        BOOST_TEST_EQ(octree.number_of_cells_inside(), inside);
+        BOOST_TEST(octree.leaves_to_refine(level, false) == all);
+        BOOST_TEST(octree.leaves_to_refine(level, true) == in_region);
+        number_in_region += in_region.size();
+        number_beside += all.size() - in_region.size();
+        octree.refine(all);
+      }
+      BOOST_TEST(number_in_region >= 5 && number_beside > 100);
+    }
+  }
 }
 
 } // namespace
@@ -364,7 +355,6 @@ int main()
 {
   test_cell_traits();
   test_is_balanced();
-  test_rim();
-  test_place_lattice();
+  test_located_cells();
   return boost::report_errors();
 }

@@ -269,18 +269,18 @@ private:
   template <class Gain>
   void bisect(std::size_t number, const Gain& gain)
   {
+    const auto is_arrived = [&](Vertex_index v) { return v >= m_is_arrived.size() || m_is_arrived[v]; };
     const auto gain_if_arrived = [&](Vertex_index a, Vertex_index b,
                                      const std::array<Vertex_index, 2>& apexes) {
-      return m_is_arrived[a] && m_is_arrived[b] ? gain(a, b, apexes) : 0.;
+      return is_arrived(a) && is_arrived(b) ? gain(a, b, apexes) : 0.;
     };
-    m_is_arrived.resize(m_working.points.size() + number, 1);
     Boundary_bisector bisector(m_working, m_quality, m_project, gain_if_arrived, m_boundary,
                                (std::min)(worst_half, bound_for_doubles(m_criteria)));
     for(const auto& [a, b] : bisector(number)) {
       m_simple_points.push_back(0.5 * (m_simple_points[a] + m_simple_points[b]));
       m_simple_is_arrived.push_back(0);
     }
-    m_is_arrived.resize(m_working.points.size());
+    m_is_arrived.resize(m_working.points.size(), 1);
     m_boundary = m_working.boundary_faces();
   }
 

@@ -58,6 +58,7 @@ class Surface_attraction
   std::vector<double> m_slack_of_samples; // how far the boundary may move until the sample draws
   std::vector<std::size_t> m_nearest;     // triangle of each sample
   std::vector<double> m_slack_of_triangles;
+  std::vector<int> m_steps_of_triangles; // of the grid of samples
 
   // Samples nearer than this share of the tolerance draw nothing.
   static constexpr double tolerated_share = 0.35;
@@ -84,6 +85,7 @@ public:
     m_slack_of_samples.assign(m_samples.size(), 0);
     m_nearest.assign(m_samples.size(), 0);
     m_slack_of_triangles.assign(m_triangles.size(), 0);
+    m_steps_of_triangles.assign(m_triangles.size(), 0);
   }
 
   /// An upper bound, at the last measurement.
@@ -232,20 +234,25 @@ private:
   }
 
   // On a grid, the finer the larger the triangle is.
+  int number_of_steps(const Triangle& t) const
+  {
+    constexpr double largest = 8;
+    double longest = 0;
+    for(int i = 0; i < 3; ++i)
+      longest = (std::max)(longest, norm(m_mesh.points[t[i]] - m_mesh.points[t[(i + 1) % 3]]));
+    return int((std::min)((std::max)(std::ceil(longest / m_tolerance), 2.), largest));
+  }
+
   void measure_from_boundary()
   {
-    constexpr double largest_number_of_steps = 8;
     for(std::size_t k = 0; k < m_triangles.size(); ++k) {
       const Triangle& t = m_triangles[k];
-      if(is_near(m_slack_of_triangles[k], t))
+      const int n = number_of_steps(t);
+      if(n == m_steps_of_triangles[k] && is_near(m_slack_of_triangles[k], t))
         continue;
       m_slack_of_triangles[k] = threshold();
+      m_steps_of_triangles[k] = n;
       Vec3 hint = m_mesh.points[t[0]];
-      double longest = 0;
-      for(int i = 0; i < 3; ++i)
-        longest = (std::max)(longest, norm(m_mesh.points[t[i]] - m_mesh.points[t[(i + 1) % 3]]));
-      const int n = int(
-        (std::min)((std::max)(std::ceil(longest / m_tolerance), 2.), largest_number_of_steps));
       const double share = 4. / ((n + 1) * (n + 2) / 2 - 3); // as if it were four samples
       for(int i = 0; i <= n; ++i)
         for(int j = 0; i + j <= n; ++j)

@@ -83,6 +83,7 @@ public:
     }
     if(m_criteria.fit_to_surface())
       optimize(mesh);
+    note_share_filled(mesh.number_of_vertices());
     return m_result;
   }
 
@@ -108,11 +109,11 @@ private:
   void optimize(Mesh& mesh)
   {
     const Scope scope(m_visitor, Stage::OPTIMIZATION);
+    const std::size_t rest = m_criteria.maximal_number_of_vertices() - m_best.number_of_vertices;
     const auto criteria = Mixed_mesh_optimization_criteria_3()
                             .tolerance(m_result.tolerance)
                             .quality_bound(m_criteria.quality_bound())
-                            .number_of_bisections(m_criteria.maximal_number_of_vertices()
-                                                  - m_best.number_of_vertices);
+                            .number_of_bisections(m_criteria.share_of_bisections() > 0 ? rest : 0);
     const Aspect_ratio_quality_3 quality;
     Bounded_optimization optimize(mesh, m_root.domain(), criteria, quality);
     m_result.optimization = optimize([this] { return m_visitor.go_on(); });
@@ -218,7 +219,14 @@ private:
     note(!meets_region, Status::REGION_NOT_MET);
     note(!m_best.is_manifold(), Status::BOUNDARY_NOT_MANIFOLD);
     note(!m_lost.empty(), Status::PARTS_LOST);
-    note(double(n) < Mixed_mesh_criteria_3::full_share * double(budget()), Status::BUDGET_NOT_FILLED);
+  }
+
+  // Of the whole budget, or of what is not left over for a later optimization.
+  void note_share_filled(std::size_t n)
+  {
+    const std::size_t whole = m_criteria.fit_to_surface() ? m_criteria.maximal_number_of_vertices() : budget();
+    if(double(n) < Mixed_mesh_criteria_3::full_share * double(whole))
+      m_result.status = worse(m_result.status, Mixed_mesh_status::BUDGET_NOT_FILLED);
   }
 };
 

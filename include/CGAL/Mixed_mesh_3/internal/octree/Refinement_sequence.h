@@ -70,12 +70,14 @@ class Refinement_sequence
   // Of equal keys, the deepest in the region first; ties by lattice position.
   using Entry = std::tuple<double, double, std::uint64_t, Node_index>;
 
+public:
   // Measured on five regions and patches of a brain (benchmark/Linear_elasticity_3): exponents from 5 to 7 and
   // factors from 2 to 16 differ by less than 10 %; without the factor, errors of prescribed displacements are
   // half as large again at 2,000 vertices. With ten times as much for the volume, a sixth less is left for the
   // region at 10,000 vertices.
   static constexpr double exponent = 6, factor_at_surface = 4, weight_of_volume = 3e-4;
 
+private:
   Octree_ m_octree; // after all steps
   const double m_radius;
   std::vector<double> m_depths;     // of each node in the region
