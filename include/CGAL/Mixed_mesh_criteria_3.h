@@ -8,6 +8,7 @@
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/options.h>
+#include <CGAL/Mixed_mesh_optimization_criteria_3.h>
 
 #include <CGAL/assertions.h>
 
@@ -125,6 +126,18 @@ public:
   }
   double tolerance() const { return m_tolerance; }
 
+  /// The largest aspect-ratio coefficient (ARC) of an element, if the boundary is fitted. From the default on
+  /// it is guaranteed for cubic cells and the default boundary mode; what would need worse elements stays off
+  /// the surface. A smaller one is not reached by all elements, but none gets worse than it is at the start.
+  /// 0, or infinity: no bound. Default: 3.2. \pre 0, or at least 1
+  Mixed_mesh_criteria_3& quality_bound(double arc)
+  {
+    m_quality_bound = Mixed_mesh_optimization_criteria_3().quality_bound(arc).quality_bound();
+    return *this;
+  }
+  /// Infinity if there is none.
+  double quality_bound() const { return m_quality_bound; }
+
   /// How many threads answer queries on the surface. The mesh does not depend on it. Default: 1.
   /// \pre at least 1
   Mixed_mesh_criteria_3& number_of_threads(unsigned threads)
@@ -146,6 +159,7 @@ private:
   double m_grading = 0.35;
   double m_share_of_bisections = automatic;
   double m_tolerance = automatic;
+  double m_quality_bound = Mixed_mesh_optimization_criteria_3::default_quality_bound;
   unsigned m_number_of_threads = 1;
 };
 

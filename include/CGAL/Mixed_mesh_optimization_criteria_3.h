@@ -9,6 +9,7 @@
 #include <CGAL/assertions.h>
 
 #include <cstddef>
+#include <limits>
 
 namespace CGAL {
 
@@ -18,6 +19,10 @@ namespace CGAL {
 class Mixed_mesh_optimization_criteria_3
 {
 public:
+  /// The least aspect-ratio coefficient, rounded up, that no mesh of cubic cells exceeds before its boundary
+  /// is fitted: 3.1918.
+  static constexpr double default_quality_bound = 3.2;
+
   /// How far the boundary may be from the surface, and the surface from the boundary, in the mesh's unit:
   /// boundary vertices slide towards places that are farther. 0: vertices are on the surface, and no more is
   /// asked for. Default: 0. \pre at least 0
@@ -68,11 +73,27 @@ public:
   }
   std::size_t number_of_bisections() const { return m_number_of_bisections; }
 
+  /// The largest cost that an element may get. Where elements cost more already, none gets worse than the
+  /// worst of those that are changed with it; so if none costs more than the bound, none ever will. What
+  /// would need worse elements stays off the surface. By default, costs are aspect-ratio coefficients, or
+  /// above them. 0, or infinity: no bound; elements may get worse the longer a vertex does not arrive.
+  /// Default: 3.2.
+  /// \pre 0, or at least 1
+  Mixed_mesh_optimization_criteria_3& quality_bound(double cost)
+  {
+    CGAL_precondition(cost == 0 || cost >= 1);
+    m_quality_bound = cost == 0 ? std::numeric_limits<double>::infinity() : cost;
+    return *this;
+  }
+  /// Infinity if there is none.
+  double quality_bound() const { return m_quality_bound; }
+
 private:
   std::size_t m_number_of_bisections = 0;
   double m_tolerance = 0;
   int m_number_of_rounds = 0;
   double m_sliding_threshold = 2.25;
+  double m_quality_bound = default_quality_bound;
   bool m_flips = true;
 };
 
@@ -81,9 +102,9 @@ private:
 enum class Mixed_mesh_optimization_status {
   SUCCESS,               ///< the boundary is on the surface, and within the tolerance if there is one
   TOLERANCE_NOT_REACHED, ///< the boundary vertices are on the surface; it is farther away between them
-  NOT_ALL_ARRIVED,       ///< valid, but boundary vertices stay off the surface: elements would be inverted,
+  NOT_ALL_ARRIVED,       ///< valid, but boundary vertices stay off the surface: elements would be too bad,
                          ///< or faces of the boundary would cut each other
-  STOPPED,               ///< valid, as far as it went: the visitor said so
+  STOPPED,               ///< valid, as far as it went, or unchanged: the visitor said so
   INVALID_MESH,          ///< unchanged: an element is inverted, or names a vertex that does not exist
   EMPTY                  ///< unchanged: there is no element
 };
@@ -115,6 +136,9 @@ struct Mixed_mesh_optimization_result_3
   std::size_t number_of_rounds = 0;
   /// With a tolerance: the largest distance between boundary and surface, either way, at sample points.
   double largest_distance = 0;
+  double quality_bound = std::numeric_limits<double>::infinity(); ///< that of the criteria
+  /// Elements that are not proved to cost at most the bound: 0 if the mesh had none at the start.
+  std::size_t number_of_elements_above_bound = 0;
 };
 
 } // namespace CGAL

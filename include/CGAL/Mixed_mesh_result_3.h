@@ -21,7 +21,7 @@ enum class Mixed_mesh_status {
   BUDGET_NOT_FILLED,     ///< valid, but below 97 %: each cell tried would exceed the budget
   TOLERANCE_NOT_REACHED, ///< valid, on the surface, but farther from it between vertices than the tolerance
   PARTS_LOST,            ///< valid, but parts of the domain thinner than a cell are not meshed
-  NOT_ALL_ARRIVED, ///< valid, but some boundary vertices stay off the surface: elements would be inverted,
+  NOT_ALL_ARRIVED, ///< valid, but some boundary vertices stay off the surface: elements would be too bad,
                    ///< or faces of the boundary would cut each other
   BOUNDARY_NOT_MANIFOLD, ///< the boundary is pinched where no further cell can be added
   REGION_NOT_MET,        ///< no mesh: the region does not meet the domain

@@ -32,7 +32,9 @@ elements at the surface are split so that they can follow it (Lobos, Bucki, Hits
 has them, all outside or on the surface.
 
 Guarantees if `result.has_mesh()`: at most `criteria.maximal_number_of_vertices()` vertices; conforming;
-the Jacobian of every element is positive on the whole element; the boundary is a closed oriented
+the Jacobian of every element is positive on the whole element; no element has an aspect-ratio coefficient
+above `criteria.quality_bound()` if that is at least 3.2, cells are cubes and the boundary mode is the
+default; the boundary is a closed oriented
 2-manifold unless the status says otherwise; the same input gives the same mesh, whatever the number of
 threads.
 
@@ -103,8 +105,8 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
   const auto& d = mm3::as_domain(domain, np);
   const auto& r = mm3::as_region(region, np_region);
   return make_mixed_mesh_3(d, r, criteria,
-                           Mixed_meshes_3::Axis_aligned_octree_cell_traits_3(d.bbox(), criteria.root_cell()), mesh,
-                           np);
+                           Mixed_meshes_3::Axis_aligned_octree_cell_traits_3(d.bbox(), criteria.root_cell()),
+                           mesh, np);
 }
 
 /*!

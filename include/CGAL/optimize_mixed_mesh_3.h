@@ -8,7 +8,7 @@
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Surface_optimizer.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Bounded_optimization.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/arguments.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
@@ -30,12 +30,15 @@ sum falls: 2-3 flips, and the removal of edges with up to 7 tetrahedra around. B
 surface where an element is bad, or towards places of the surface that are farther than the tolerance. This is
 the improvement of slivers that the paper announces (Lobos, Bucki, Hitschfeld, Payan: section 7).
 
+No element gets a cost above `criteria.quality_bound()`, or, where one has, above the worst one at the start:
+where that bound and the surface conflict, boundary vertices stay off the surface.
+
 Guarantees: if the mesh was valid, it is valid after each move and in the end (the Jacobian of each element is
 proved positive on the whole element, on the coordinates as they are); boundary vertices counted in
 `number_of_arrived_vertices` are on the surface up to the rounding of `double`; the boundary does not cut
-itself unless `is_boundary_simple` says so; hexahedra, prisms and pyramids stay, no vertex is added or
-removed, and the boundary's faces stay but where a flat tetrahedron on it is removed; the same input gives the
-same mesh.
+itself (if it does at the start, `is_boundary_simple` may be false); hexahedra, prisms and pyramids stay, no
+vertex is added or removed, and the boundary's faces stay but where a flat tetrahedron on it is removed; the
+same input gives the same mesh.
 
 \tparam GeomTraits a model of `MixedMeshTraits_3`
 \tparam Surface a model of `MixedMeshSurface_3`, or of `FaceListGraph`
@@ -80,7 +83,7 @@ optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface, co
   }
   const auto& s = mm3::as_surface(surface, np);
   return mm3::with_visitor(np, [&](auto& visitor) {
-    return mm3::Surface_optimizer(mesh, s, criteria, quality)([&] { return visitor.go_on(); });
+    return mm3::Bounded_optimization(mesh, s, criteria, quality)([&] { return visitor.go_on(); });
   });
 }
 

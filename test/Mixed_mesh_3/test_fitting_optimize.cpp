@@ -202,6 +202,7 @@ void test_statuses()
 
   // stopped anywhere: valid; a no is a no
   BOOST_TEST_GT(patient.number_of_questions, 4u);
+  std::size_t unchanged = 0;
   for(std::size_t i = 0; i < patient.number_of_questions; ++i) {
     Stopping_visitor impatient;
     impatient.stop_at = i;
@@ -210,9 +211,14 @@ void test_statuses()
                                    CGAL::parameters::visitor(std::ref(impatient)));
     BOOST_TEST(result.status == Status::STOPPED);
     BOOST_TEST_EQ(impatient.number_of_questions, i + 1);
-    BOOST_TEST_EQ(is_same(stopped, start), i == 0);
+    // outside the quality bound, where it may be on the way, it comes back
+    const bool is_unchanged = is_same(stopped, start);
+    BOOST_TEST(is_unchanged || i > 0);
+    BOOST_TEST(!is_unchanged || result.number_of_arrived_vertices == 0);
+    unchanged += is_unchanged;
     check(start, stopped, result, surface);
   }
+  BOOST_TEST_LE(unchanged, 2u);
 
   // A plate so thin that its elements would be flatter than what is accepted.
   Test_surface plate;

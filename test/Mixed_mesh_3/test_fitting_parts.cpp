@@ -202,7 +202,7 @@ std::size_t flip(Mesh& mesh)
   BOOST_TEST(find_defects(before).none());
   internal::Working_mesh working(mesh, boundary_faces(mesh));
   const Aspect_ratio_quality_3 quality;
-  internal::Tetrahedron_flipper flipper(working, quality);
+  internal::Tetrahedron_flipper flipper(working, quality, infinity);
   const auto is_on_boundary = std::exchange(working.is_on_boundary,
                                             std::vector<std::uint8_t>(mesh.number_of_vertices(), 0));
   std::set<Vertex_index> changed;
@@ -300,7 +300,7 @@ void test_removal()
     const double whole = volume(mesh);
     internal::Working_mesh working(mesh, boundary_faces(mesh));
     const Aspect_ratio_quality_3 quality;
-    internal::Tetrahedron_flipper flipper(working, quality);
+    internal::Tetrahedron_flipper flipper(working, quality, infinity);
     const std::size_t flips = flipper.run(4, 1.4, [](Vertex_index) {});
     BOOST_TEST_EQ(flips, depth < 0.1 ? 1u : 0u);
     BOOST_TEST_EQ(flips, flipper.number_of_removals());

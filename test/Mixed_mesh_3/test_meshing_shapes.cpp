@@ -9,6 +9,7 @@
 
 #include <CGAL/Implicit_mixed_mesh_domain_3.h>
 #include <CGAL/Mixed_mesh_3/surface_distance.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 
 #include <boost/core/lightweight_test.hpp>
@@ -55,9 +56,9 @@ Outcome outcome(const Mesh& mesh, const Mixed_mesh_result_3& result)
   return {result.status, mesh.number_of_vertices(), result.number_of_lost_cells};
 }
 
-// Returns the volume of the mesh that is not fitted; the fitted one is valid, too, and nearer.
+// Returns the volume of the mesh that is not fitted; the fitted one is valid, too, and on the surface.
 // expected: of the mesh that is not fitted, with a cube and with a box as root
-// fitted: likewise its status after fitting; small budgets only, to save time
+// fitted: likewise its status after fitting; convex surfaces and small budgets only, to save time
 double mesh_shape(const std::string& name, const Surface& surface, std::size_t budget,
                   const std::array<Outcome, 2>& expected, const std::vector<Status>& fitted_status = {})
 {
@@ -86,7 +87,9 @@ double mesh_shape(const std::string& name, const Surface& surface, std::size_t b
     BOOST_TEST_LE(off, with.optimization.number_of_boundary_vertices
                          - with.optimization.number_of_arrived_vertices);
     BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED || off == 0);
-    BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED || volume(fitted) < volume(mesh) * (1 + 1e-12));
+    // the chords of a convex surface are inside
+    const double exact = CGAL::to_double(CGAL::Polygon_mesh_processing::volume(surface));
+    BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED || volume(fitted) < exact * (1 + 1e-9));
     const auto rows = quality_statistics(fitted);
     std::cout << shape << ": " << off << " off, ARC " << rows[number_of_element_kinds].mean << ", at most "
               << rows[number_of_element_kinds].maximum << std::endl;
@@ -124,8 +127,8 @@ void test_shapes()
   add_box(plate, {0, 0, 0}, {100, 100, 1});
   mesh_shape("plate", plate, 20000, {{{Status::SUCCESS, 19990, 0}, {Status::SUCCESS, 20000, 0}}});
   mesh_shape("plate, few", plate, 300, {{{Status::SUCCESS, 298, 0}, {Status::SUCCESS, 299, 0}}},
-             {Status::NOT_ALL_ARRIVED, Status::NOT_ALL_ARRIVED});
-  const auto tilt = [](const Point_3& p) { // a rotation
+             {Status::NOT_ALL_ARRIVED, Status::SUCCESS}); // with elements as flat as the plate
+  const auto tilt = [](const Point_3& p) {                // a rotation
     const double c = 0.8, s = 0.6;
     const Point_3 q(c * p.x() - s * p.z(), p.y(), s * p.x() + c * p.z());
     return Point_3(q.x(), c * q.y() - s * q.z(), s * q.y() + c * q.z());

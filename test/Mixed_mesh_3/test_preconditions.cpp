@@ -89,6 +89,9 @@ void test_criteria()
   for(double cost : {0.99, nan})
     FORBIDDEN(optimization.sliding_threshold(cost));
   ALLOWED(optimization.tolerance(0).number_of_rounds(1).sliding_threshold(1));
+  for(double bound : {-1., 0.5, nan})
+    FORBIDDEN(optimization.quality_bound(bound));
+  ALLOWED(optimization.quality_bound(1).quality_bound(0));
 
   using Fit_criteria = CGAL::Mixed_mesh_fit_criteria_3;
   Fit_criteria fit;

@@ -245,6 +245,37 @@ class CommandLine(unittest.TestCase):
         quiet = self.mesher(DATA / "brain.off", "--vertices", 660, "--quiet")
         self.assertEqual((quiet.returncode, quiet.stdout, quiet.stderr), (0, "", ""))
 
+    def test_quality_bound(self):
+        # thin plates: some vertices would need bad elements to get onto them
+        points = [(x, y, 0.3 * i + 0.05 * z) for i in range(4) for x, y, z in CUBE]
+        plates = self.file("plates.off", off(points, [f for i in range(4) for f in shifted(TRIANGLES, 8 * i)]))
+        report = WORK / "report.json"
+        for bound, largest in ((), 3.2), (("--max-arc", 4), 4), (("--max-arc", "none"), None):
+            run = self.mesher(plates, "--vertices", 2000, "--output", self.output, "--report", report, *bound)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            told = json.loads(report.read_text())
+            quality = told["quality"]
+            self.assertEqual(told["options"]["max ARC"], largest)
+            self.assertEqual(told["status"], "not all arrived")
+            if largest is None:
+                self.assertGreater(quality["after"]["all"]["ARC max"], 10)
+                self.assertNotIn("quality bound", quality)
+                continue
+            self.assertIn("worse than --max-arc allows", run.stderr)
+            self.assertLessEqual(quality["after"]["all"]["ARC max"], largest)
+            proof = quality["quality bound"]
+            self.assertEqual((proof["ARC"], proof["elements above"]), (largest, 0))
+            smallest_angle, largest_angle = proof["dihedral angles of tetrahedra within it"]
+            self.assertGreaterEqual(quality["smallest dihedral angle"]["tetrahedra"]["min"], smallest_angle)
+            self.assertLessEqual(quality["largest dihedral angle"]["tetrahedra"]["max"], largest_angle)
+        for bad in "0.5", "-1", "nan", "much":
+            self.assertEqual(self.mesher(plates, "--vertices", 2000, "--max-arc", bad).returncode, 2)
+        self.assertEqual(self.mesher(plates, "--vertices", 2000, "--max-arc", 4, "--no-fit").returncode, 2)
+        # with a bound that no mesh can have, what is above it is told
+        told, run = self.brain("--max-arc", 1.1)
+        self.assertGreater(told["quality"]["quality bound"]["elements above"], 100)
+        self.assertIn("elements are above it", run.stderr)
+
     def test_quality(self):
         told, _ = self.brain()
         quality = told["quality"]

@@ -8,6 +8,7 @@
 #include "mixed_mesh_3/verdict.h"
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/quality_bound.h>
 #include <CGAL/Mixed_mesh_3/surface_distance.h>
 #include <CGAL/Mixed_mesh_3/validation.h>
 
@@ -76,6 +77,10 @@ void examine(const Mesh& mesh, const Surface& surface, const Options& options, S
   outcome.boundary_faces = mm3::boundary_faces(mesh).size();
   for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e)
     outcome.elements_in_region += mesh.is_in_region(e);
+  if(options.has_quality_bound())
+    outcome.elements_above_bound = log("quality bound", [&] {
+      return mm3::number_of_elements_above(mesh, options.largest_arc);
+    });
   add_warnings(options, outcome);
   if(options.tolerance > 0 && outcome.result.status == CGAL::Mixed_mesh_status::SUCCESS
      && outcome.fidelity.distance() > options.tolerance) // between the points that the library looked at

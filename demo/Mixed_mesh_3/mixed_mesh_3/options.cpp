@@ -55,9 +55,10 @@ CLI::Option* add_fit(CLI::App& app, Options& o)
     ->check(CLI::Range(0, 10))
     ->type_name("L");
   app
-    .add_option("--grading", o.grading,
-                "How gently cells grow with the distance from the region, as a share of its mean radius; 0: only "
-                "the region is refined, as in the paper")
+    .add_option(
+      "--grading", o.grading,
+      "How gently cells grow with the distance from the region, as a share of its mean radius; 0: only "
+      "the region is refined, as in the paper")
     ->check(CLI::Range(0., 100.))
     ->type_name("G")
     ->capture_default_str();
@@ -74,6 +75,22 @@ CLI::Option* add_fit(CLI::App& app, Options& o)
                 "budget is spent outside the region for that (default: as the budget allows)")
     ->check(number("greater than 0", [](double x) { return x > 0; }))
     ->type_name("D")
+    ->excludes(no_fit)
+    ->excludes(no_optimize);
+  app
+    .add_option(
+      "--max-arc", o.largest_arc,
+      "Largest aspect-ratio coefficient of an element: boundary vertices that would need a larger one "
+      "stay off the surface (default: 3.2; 0 or none: no bound)")
+    ->transform(CLI::Validator(
+      [](std::string& text) {
+        if(text == "none")
+          text = "0";
+        return std::string();
+      },
+      ""))
+    ->check(number("of at least 1, 0 or none", [](double x) { return x == 0 || x >= 1; }))
+    ->type_name("ARC")
     ->excludes(no_fit)
     ->excludes(no_optimize);
   return no_optimize;

@@ -36,6 +36,7 @@ struct Options
   bool no_fit = false, no_optimize = false, msh2 = false, tetrahedra = false, quiet = false;
   double tolerance = 0; // automatic
   double grading = 0.35;
+  double largest_arc = CGAL::Mixed_mesh_optimization_criteria_3::default_quality_bound; // 0: any
   unsigned threads = 1;
 
   // of Algorithm 1
@@ -47,6 +48,7 @@ struct Options
   double acceptable_quality = CGAL::Mixed_mesh_fit_criteria_3().acceptable_aspect_ratio();
   Solver solver = Solver::CG;
 
+  bool has_quality_bound() const { return fit() == Fit::OPTIMIZATION && largest_arc > 0; }
   Fit fit() const { return no_fit ? Fit::NONE : no_optimize ? Fit::ALGORITHM_1 : Fit::OPTIMIZATION; }
 };
 

@@ -84,6 +84,7 @@ struct Outcome
   std::size_t elements_in_region = 0, boundary_faces = 0;
   std::optional<Aspect_ratios> before; // the boundary is fitted
   Aspect_ratios after;
+  std::size_t elements_above_bound = 0; // of the options, proved
   Shapes shapes;
   Fidelity fidelity;
   std::vector<Check> checks;

@@ -7,6 +7,8 @@
 
 #include "common/report_json.h"
 
+#include <CGAL/Mixed_mesh_3/quality_bound.h>
+
 #include <cstddef>
 #include <iomanip>
 #include <iostream>
@@ -38,6 +40,7 @@ Json describe(const Options& o)
                  {"fit", fit_names[int(o.fit())]},
                  {"grading", o.grading},
                  {"tolerance", o.tolerance > 0 ? Json(o.tolerance) : Json("automatic")},
+                 {"max ARC", o.has_quality_bound() ? Json(o.largest_arc) : Json()},
                  {"tetrahedra", o.tetrahedra},
                  {"msh version", o.msh2 ? "2.2" : "4.1"},
                  {"threads", o.threads}};
@@ -95,9 +98,15 @@ void describe_ratios(const Aspect_ratios& ratios, const char* when, Json& qualit
   quality["histograms"]["ARC"][when] = ratios.histogram;
 }
 
-Json describe_quality(const Outcome& outcome)
+Json describe_quality(const Options& o, const Outcome& outcome)
 {
   Json quality;
+  if(o.has_quality_bound())
+    quality["quality bound"] = {{"ARC", o.largest_arc},
+                                {"elements above", outcome.elements_above_bound},
+                                {"dihedral angles of tetrahedra within it",
+                                 mm3::dihedral_angle_bounds(o.largest_arc)},
+                                {"method", "proved for each element, exact on the coordinates written"}};
   if(outcome.before)
     describe_ratios(*outcome.before, "before", quality);
   describe_ratios(outcome.after, "after", quality);
@@ -190,7 +199,8 @@ void describe_method(const Options& o, const Outcome& outcome, Json& report)
                       {"octrees tried", result.number_of_trials}};
   report["vertices inserted"] = {{"by transition templates", result.number_of_transition_vertices},
                                  {"by boundary stage", result.number_of_boundary_vertices_inserted},
-                                 {"by bisection of boundary edges", result.optimization.number_of_bisections}};
+                                 {"by bisection of boundary edges",
+                                  result.optimization.number_of_bisections}};
   report["vertices labeled inside for a manifold boundary"] = result.number_of_relabeled_vertices;
   report["fitting"] = describe_fitting(o, outcome);
   const double distance = outcome.fidelity.distance();
@@ -220,7 +230,7 @@ std::string report(const Options& o, const Outcome& outcome, const Stage_log& lo
   report["mesh"] = describe_mesh(o, outcome);
   describe_method(o, outcome, report);
   report["surface"] = describe(outcome.fidelity);
-  report["quality"] = describe_quality(outcome);
+  report["quality"] = describe_quality(o, outcome);
   for(const Check& check : outcome.checks)
     report["checks"][check.name] = check.holds;
   report["outputs"] = o.outputs;

@@ -74,13 +74,13 @@ Mesh make_mesh(const Domain& domain, const Surface& region_surface, const Option
 {
   // The boundary is fitted later, so that the mesh before is seen.
   auto criteria = CGAL::Mixed_mesh_criteria_3(o.vertices)
-                          .base_level(o.base_level)
-                          .grading(o.grading)
-                          .boundary_mode(o.mode)
-                          .root_cell(o.root)
-                          .transition_templates(o.templates)
-                          .fit_to_surface(o.fit() == Fit::OPTIMIZATION)
-                          .number_of_threads(o.threads);
+                    .base_level(o.base_level)
+                    .grading(o.grading)
+                    .boundary_mode(o.mode)
+                    .root_cell(o.root)
+                    .transition_templates(o.templates)
+                    .fit_to_surface(o.fit() == Fit::OPTIMIZATION)
+                    .number_of_threads(o.threads);
   criteria.share_of_bisections(criteria.share_of_bisections()).fit_to_surface(false);
   if(o.tolerance > 0)
     criteria.tolerance(o.tolerance);
@@ -123,10 +123,10 @@ bool fit_by_optimization(Mesh& mesh, const Domain& domain, const Options& o, Sta
   using Status = CGAL::Mixed_mesh_optimization_status;
   const auto criteria = CGAL::Mixed_mesh_optimization_criteria_3()
                           .tolerance(outcome.result.tolerance)
+                          .quality_bound(o.largest_arc)
                           .number_of_bisections(o.vertices - mesh.number_of_vertices());
   const auto r = log(mm3::stage_names[int(mm3::Stage::OPTIMIZATION)], [&] {
-    return CGAL::optimize_mixed_mesh_3(mesh, domain, criteria,
-                                       CGAL::parameters::visitor(std::ref(log)));
+    return CGAL::optimize_mixed_mesh_3(mesh, domain, criteria, CGAL::parameters::visitor(std::ref(log)));
   });
   outcome.result.optimization = r;
   is_valid = r.status != Status::INVALID_MESH;

@@ -87,7 +87,13 @@ void add_warnings(const Options& o, Outcome& outcome)
   if(o.fit() != Fit::NONE && f.vertices_off != 0)
     warnings.push_back(std::to_string(f.vertices_off) + " of " + std::to_string(f.vertices)
                        + " boundary vertices are not on " + o.surface
-                       + ": elements would be inverted, or coordinates are too large to tell");
+                       + (o.has_quality_bound()
+                            ? ": elements would be worse than --max-arc allows, or inverted"
+                            : ": elements would be inverted")
+                       + ", or coordinates are too large to tell");
+  if(outcome.elements_above_bound != 0)
+    warnings.push_back("--max-arc " + rounded(o.largest_arc) + ": "
+                       + std::to_string(outcome.elements_above_bound) + " elements are above it");
   if(o.tolerance > 0 && f.distance() > o.tolerance)
     warnings.push_back(missed_tolerance(f, o));
   // Before the boundary is fitted, the cells around it add some volume; corners cut off take some.

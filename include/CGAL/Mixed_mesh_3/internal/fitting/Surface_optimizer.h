@@ -28,6 +28,13 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
+/// The quality bound of the criteria, a little less: a cost within it in doubles is within the bound exactly.
+/// The relative error of the cost of an element near to the default bound is some 1e-13.
+inline double bound_for_doubles(const Mixed_mesh_optimization_criteria_3& criteria)
+{
+  return (1 - 1e-10) * criteria.quality_bound();
+}
+
 /*!
 \tparam Domain has `Point_3`, `closest_point(p)`, `closest_point(p, hint)` and `surface_samples(spacing)`
 \tparam Quality a model of `MixedMeshQuality_3`
@@ -41,7 +48,7 @@ class Surface_optimizer
 
   Mesh& m_mesh;
   const Domain& m_domain;
-  const Mixed_mesh_optimization_criteria_3& m_criteria;
+  const Mixed_mesh_optimization_criteria_3 m_criteria;
   const Quality m_quality;
   Project m_project;
   std::vector<Face> m_boundary;
@@ -52,13 +59,15 @@ class Surface_optimizer
   std::vector<std::pair<Vertex_index, Vec3>> m_travelers; // not on the surface yet, with their targets
   std::vector<std::uint8_t> m_is_arrived;
   std::vector<Vec3> m_start; // where vertices came from; of new ones, between those of the edge
+  std::vector<std::uint8_t> m_is_held;
+  std::vector<Vertex_index> m_crossing; // in the end
   Mixed_mesh_optimization_result_3 m_result;
 
   // Costs are ratios, 1 for the ideal element: none of these numbers has a unit. They decide how soon and how
   // far bad elements are tolerated, never whether a mesh is valid: that each move proves. While the boundary
   // arrives, elements may become that bad; in each round more, as what does not go gently shall go
   // nevertheless: from 4, 15 rounds lead to 100. A smaller limit leaves more vertices off the surface, a
-  // larger one worse elements.
+  // larger one worse elements. The quality bound of the criteria is above all of them.
   static constexpr double acceptable_at_first = 4, acceptable_growth = 1.25, acceptable_at_most = 100,
                           acceptable_late = 10;
   static constexpr int arrival_rounds = 40, arrival_sweeps = 2, rounds_until_new_target = 8;
@@ -77,15 +86,22 @@ public:
                     const Quality& quality)
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality), m_project(domain),
       m_boundary(boundary_faces(mesh)), m_working(mesh, m_boundary),
-      m_moves(m_working, m_quality, m_project, criteria.sliding_threshold()), m_samples(surface_samples()),
-      m_attraction(m_working, m_project, m_samples, criteria.tolerance()),
-      m_is_arrived(m_working.points.size(), 0), m_start(m_working.points)
+      m_moves(m_working, m_quality, m_project, criteria.sliding_threshold(), bound_for_doubles(criteria)),
+      m_samples(surface_samples()), m_attraction(m_working, m_project, m_samples, criteria.tolerance()),
+      m_is_arrived(m_working.points.size(), 0), m_start(m_working.points),
+      m_is_held(m_working.points.size(), 0)
   {
     m_attraction.set_boundary(m_boundary);
   }
 
   Surface_optimizer(const Surface_optimizer&) = delete; // members refer to each other
   Surface_optimizer& operator=(const Surface_optimizer&) = delete;
+
+  /// Boundary vertices that stay where they are, for each vertex whether it does.
+  void hold(const std::vector<std::uint8_t>& is_held)
+  {
+    std::copy(is_held.begin(), is_held.end(), m_is_held.begin());
+  }
 
   template <class Go_on>
   Mixed_mesh_optimization_result_3 operator()(const Go_on& go_on)
@@ -106,6 +122,9 @@ public:
                                                                            : Status::SUCCESS;
     return m_result;
   }
+
+  /// Those of boundary faces that cut each other in the end.
+  const std::vector<Vertex_index>& crossing_vertices() const { return m_crossing; }
 
 private:
   // Closer ones than twice the tolerance would rarely be farther off; much closer ones than the boundary's
@@ -140,6 +159,8 @@ private:
     const Surface_targets targets = surface_targets(m_boundary, m_working.points, m_domain);
     m_result.number_of_boundary_vertices = targets.vertices.size();
     for(std::size_t i = 0; i < targets.vertices.size(); ++i) {
+      if(m_is_held[targets.vertices[i]])
+        continue;
       // what is on the surface stays, even if its faces are folded
       const Vec3& p = m_working.points[targets.vertices[i]];
       const Vec3 q = m_project(p, targets.positions[i]);
@@ -163,10 +184,10 @@ private:
   // towards where they came from, where no faces met, until none meet.
   void retreat_from_self_intersections()
   {
-    std::vector<Vertex_index> crossing = vertices_of_self_intersections(m_working.points, m_boundary);
-    for(int round = 0; round < retreat_rounds && !crossing.empty(); ++round) {
+    m_crossing = vertices_of_self_intersections(m_working.points, m_boundary);
+    for(int round = 0; round < retreat_rounds && !m_crossing.empty(); ++round) {
       const double share = round < retreat_rounds / 2 ? 0.25 : 1;
-      for(Vertex_index v : crossing)
+      for(Vertex_index v : m_crossing)
         if(m_moves.try_move(v, m_working.points[v] + share * (m_start[v] - m_working.points[v]),
                             retreat_cost)) {
           m_moves.fix(v);
@@ -174,9 +195,9 @@ private:
           m_is_arrived[v] = 0;
         }
       m_moves.run(8, good_enough[1], arrival_sweeps);
-      crossing = vertices_of_self_intersections(m_working.points, m_boundary);
+      m_crossing = vertices_of_self_intersections(m_working.points, m_boundary);
     }
-    m_result.is_boundary_simple = crossing.empty();
+    m_result.is_boundary_simple = m_crossing.empty();
   }
 
   // The boundary vertices that are not on the surface go on.
@@ -223,11 +244,13 @@ private:
   template <class Gain>
   void bisect(std::size_t number, const Gain& gain)
   {
-    const auto gain_if_arrived = [&](Vertex_index a, Vertex_index b, const std::array<Vertex_index, 2>& apexes) {
+    const auto gain_if_arrived = [&](Vertex_index a, Vertex_index b,
+                                     const std::array<Vertex_index, 2>& apexes) {
       return m_is_arrived[a] && m_is_arrived[b] ? gain(a, b, apexes) : 0.;
     };
     m_is_arrived.resize(m_working.points.size() + number, 1);
-    Boundary_bisector bisector(m_working, m_quality, m_project, gain_if_arrived, m_boundary, worst_half);
+    Boundary_bisector bisector(m_working, m_quality, m_project, gain_if_arrived, m_boundary,
+                               (std::min)(worst_half, bound_for_doubles(m_criteria)));
     for(const auto& [a, b] : bisector(number))
       m_start.push_back(0.5 * (m_start[a] + m_start[b]));
     m_is_arrived.resize(m_working.points.size());
@@ -251,7 +274,9 @@ private:
       const Vec3 middle = 0.5 * (p[a] + p[b]);
       const double distance = (std::max)(norm(m_project(middle, p[a]) - middle),
                                          far == far_edges.end() ? 0. : far->second);
-      return distance * (norm(cross(p[b] - p[a], p[apexes[0]] - p[a])) + norm(cross(p[b] - p[a], p[apexes[1]] - p[a])));
+      return distance
+             * (norm(cross(p[b] - p[a], p[apexes[0]] - p[a]))
+                + norm(cross(p[b] - p[a], p[apexes[1]] - p[a])));
     });
     m_result.number_of_bisections = p.size() - before;
     m_result.number_of_boundary_vertices += m_result.number_of_bisections;
@@ -266,7 +291,7 @@ private:
     const bool has_tolerance = m_criteria.tolerance() > 0;
     const int rounds = m_criteria.number_of_rounds(), first = int(share_of_first_power * rounds + 0.5);
     const int sweeps = has_tolerance ? 3 : 8, rounds_to_flip = has_tolerance ? 3 : 1;
-    Tetrahedron_flipper<Quality> flipper(m_working, m_quality);
+    Tetrahedron_flipper<Quality> flipper(m_working, m_quality, bound_for_doubles(m_criteria));
     for(int round = 0; round < rounds; ++round) {
       if(!go_on())
         return false;

@@ -30,7 +30,8 @@ struct Attraction
 
 /*!
 Descends, vertex after vertex, on the sum of the powers of the costs of the elements around it. A move is made
-only if that sum falls and all these elements are proved positive, so validity is never left.
+only if that sum falls, none of these elements gets a cost above the bound (or, where one has, above the worst
+one), and all are proved positive: neither validity nor the bound is ever left.
 
 Boundary vertices slide on the surface, and only where an element is bad (free sliding would lose volume) or
 an attraction draws them.
@@ -45,6 +46,7 @@ class Vertex_optimizer
   const Quality& m_quality;
   const Project& m_project;
   const double m_worth_sliding;
+  const double m_bound;
   std::vector<double> m_radii;           // of the next trial step of each vertex; 0: not known
   std::vector<std::uint8_t> m_is_active; // whether it may have something to gain
   std::vector<std::uint8_t> m_is_fixed;
@@ -62,8 +64,10 @@ class Vertex_optimizer
 
 public:
   /// \param worth_sliding boundary vertices slide if an element has a larger cost
-  Vertex_optimizer(Working_mesh& mesh, const Quality& quality, const Project& project, double worth_sliding)
-    : m_mesh(mesh), m_quality(quality), m_project(project), m_worth_sliding(worth_sliding),
+  /// \param bound no element gets a larger cost
+  Vertex_optimizer(Working_mesh& mesh, const Quality& quality, const Project& project, double worth_sliding,
+                   double bound)
+    : m_mesh(mesh), m_quality(quality), m_project(project), m_worth_sliding(worth_sliding), m_bound(bound),
       m_radii(mesh.points.size(), 0), m_is_active(mesh.points.size(), 0), m_is_fixed(mesh.is_on_boundary)
   {
   }
@@ -116,11 +120,11 @@ public:
     }
   }
 
-  /// Moves a vertex if all elements around it stay positive, and none gets worse than `acceptable`, or than
-  /// the worst of them is.
+  /// Moves a vertex if all elements around it stay positive, and none gets worse than `acceptable` and the
+  /// bound, or than the worst of them is.
   bool try_move(Vertex_index v, const Vec3& p, double acceptable)
   {
-    double limit = acceptable;
+    double limit = (std::min)(acceptable, m_bound);
     for(Element_index e : m_mesh.incident[v])
       limit = (std::max)(limit, known_cost(e));
     const Vec3 old = m_mesh.points[v];
@@ -184,15 +188,15 @@ private:
     return a.weight * dot(d, d);
   }
 
-  // Infinity if it is not less than the limit.
-  double energy(Vertex_index v, double limit)
+  // Infinity if it is not less than the limit, or if an element costs more than `most`.
+  double energy(Vertex_index v, double limit, double most)
   {
     double sum = attraction_energy(v);
     m_trial_costs.clear();
     for(Element_index e : m_mesh.incident[v]) {
       m_trial_costs.push_back(cost(e));
       sum += power(m_trial_costs.back(), m_power);
-      if(!(sum < limit))
+      if(!(sum < limit && m_trial_costs.back() <= most))
         return infinity;
     }
     return sum;
@@ -237,7 +241,7 @@ private:
       if(slides)
         p = m_project(p, old);
       m_mesh.points[v] = p;
-      const double now = energy(v, sum);
+      const double now = energy(v, sum, (std::max)(m_bound, worst));
       if(now < sum && is_valid(v)) {
         accept(v);
         m_radii[v] = radius == m_radii[v] ? growth * radius : radius;

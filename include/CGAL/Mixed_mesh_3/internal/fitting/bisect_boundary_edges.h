@@ -111,8 +111,8 @@ class Boundary_bisector
 
 public:
   /// \param worst no tetrahedron may cost more
-  Boundary_bisector(Working_mesh& mesh, const Quality& quality, const Project& project,
-                    const Gain& gain, const std::vector<Face>& boundary, double worst)
+  Boundary_bisector(Working_mesh& mesh, const Quality& quality, const Project& project, const Gain& gain,
+                    const std::vector<Face>& boundary, double worst)
     : m_mesh(mesh), m_quality(quality), m_project(project), m_gain(gain), m_worst(worst)
   {
     constexpr std::array<Vertex_index, 2> none{no_vertex, no_vertex};

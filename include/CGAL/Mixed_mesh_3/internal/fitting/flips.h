@@ -24,7 +24,8 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-Flips tetrahedra where the sum of the powers of their costs falls. The new ones fill what the old ones did,
+Flips tetrahedra where the sum of the powers of their costs falls, and none gets a cost above the bound, or,
+where one has, above the worst one. The new ones fill what the old ones did,
 and are positive by exact orientation, so conformity and validity stay; the boundary does not change, but
 where flat tetrahedra with two faces on it are removed.
 
@@ -37,6 +38,7 @@ class Tetrahedron_flipper
 
   Working_mesh& m_mesh;
   const Quality& m_quality;
+  const double m_bound;
   double m_power = 4;
   std::size_t m_number_of_removals = 0;
 
@@ -48,7 +50,11 @@ class Tetrahedron_flipper
   static constexpr double least_gain = 1e-6;
 
 public:
-  Tetrahedron_flipper(Working_mesh& mesh, const Quality& quality) : m_mesh(mesh), m_quality(quality) {}
+  /// \param bound no tetrahedron gets a larger cost
+  Tetrahedron_flipper(Working_mesh& mesh, const Quality& quality, double bound)
+    : m_mesh(mesh), m_quality(quality), m_bound(bound)
+  {
+  }
 
   /// Tries all tetrahedra of a cost above `worst`; the new ones too. Calls `changed(v)` for the vertices
   /// of new and removed ones, and returns the number of flips.
@@ -89,7 +95,12 @@ private:
     return power(m_quality(TETRAHEDRON, m_mesh.relative_points(Element_view(TETRAHEDRON, v))), m_power);
   }
 
-  double cost(const Tetrahedron& t) const { return cost(t.data()); }
+  // Of a new one: infinity if it is above `most`.
+  double cost(const Tetrahedron& t, double most) const
+  {
+    const double c = cost(t.data());
+    return c <= most ? c : infinity;
+  }
 
   // Replaces elements if the new tetrahedra are positive.
   bool replace(const std::vector<Element_index>& old, const std::vector<Tetrahedron>& tetrahedra)
@@ -173,9 +184,12 @@ private:
     const int n = int(ring.size());
     if(n < 3)
       return false;
-    double before = 0;
-    for(Element_index e : old)
-      before += cost(m_mesh.elements[e].vertices.data());
+    double before = 0, most = power(m_bound, m_power);
+    for(Element_index e : old) {
+      const double c = cost(m_mesh.elements[e].vertices.data());
+      before += c;
+      most = (std::max)(most, c);
+    }
     const double limit = (1 - least_gain) * before;
     std::array<std::array<double, largest_ring>, largest_ring> best{};
     std::array<std::array<int, largest_ring>, largest_ring> middle{};
@@ -186,9 +200,9 @@ private:
         for(int j = i + 1; j < k; ++j) {
           double sum = best[i][j] + best[j][k];
           if(sum < limit)
-            sum += cost({ring[i], ring[j], ring[k], b});
+            sum += cost({ring[i], ring[j], ring[k], b}, most);
           if(sum < limit)
-            sum += cost({ring[k], ring[j], ring[i], a});
+            sum += cost({ring[k], ring[j], ring[i], a}, most);
           if(sum < limit && sum < best[i][k]) {
             best[i][k] = sum;
             middle[i][k] = j;
@@ -281,11 +295,13 @@ private:
             o.vertices[std::size_t(6 - o.position(a) - o.position(b) - o.position(c))];
           // (a, b, c) is seen counter-clockwise from outside, where the apex is
           const std::vector<Tetrahedron> tetrahedra{{a, b, d, apex}, {b, c, d, apex}, {c, a, d, apex}};
-          const double limit = (1 - least_gain) * (cost(v.data()) + cost(o.vertices.data()));
+          const double first = cost(v.data()), second = cost(o.vertices.data());
+          const double limit = (1 - least_gain) * (first + second);
+          const double most = (std::max)({power(m_bound, m_power), first, second});
           double sum = 0;
           for(const Tetrahedron& t : tetrahedra)
             if(sum < limit)
-              sum += cost(t);
+              sum += cost(t, most);
           if(sum < limit && replace({e, other}, tetrahedra))
             return true;
           break;

@@ -53,10 +53,10 @@ class Surface_attraction
   double m_largest_distance = 0;
   // Most samples are near: they need not be measured again until the boundary next to them has moved so far
   // that they might draw.
-  std::vector<Vec3> m_last_points;             // of the vertices
-  std::vector<double> m_moved;                 // each vertex, since the last measurement
-  std::vector<double> m_slack_of_samples;      // how far the boundary may move until the sample draws
-  std::vector<std::size_t> m_nearest;          // triangle of each sample
+  std::vector<Vec3> m_last_points;        // of the vertices
+  std::vector<double> m_moved;            // each vertex, since the last measurement
+  std::vector<double> m_slack_of_samples; // how far the boundary may move until the sample draws
+  std::vector<std::size_t> m_nearest;     // triangle of each sample
   std::vector<double> m_slack_of_triangles;
 
   // Samples nearer than this share of the tolerance draw nothing.

@@ -12,7 +12,7 @@
 #include <CGAL/Mixed_mesh_3/Default_visitor.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/assemble_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/lost_cells.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Surface_optimizer.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Bounded_optimization.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Candidate.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Tolerance_search.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/base_level.h>
@@ -110,11 +110,12 @@ private:
     const Scope scope(m_visitor, Stage::OPTIMIZATION);
     const auto criteria = Mixed_mesh_optimization_criteria_3()
                             .tolerance(m_result.tolerance)
+                            .quality_bound(m_criteria.quality_bound())
                             .number_of_bisections(m_criteria.maximal_number_of_vertices()
                                                   - m_best.number_of_vertices);
     const Aspect_ratio_quality_3 quality;
-    Surface_optimizer optimizer(mesh, m_root.domain(), criteria, quality);
-    m_result.optimization = optimizer([this] { return m_visitor.go_on(); });
+    Bounded_optimization optimize(mesh, m_root.domain(), criteria, quality);
+    m_result.optimization = optimize([this] { return m_visitor.go_on(); });
     const bool is_only_wished = m_criteria.tolerance() == Mixed_mesh_criteria_3::automatic
                                 && m_result.optimization.status
                                      == Mixed_mesh_optimization_status::TOLERANCE_NOT_REACHED;
@@ -211,7 +212,8 @@ private:
     };
     m_result.status = Status::SUCCESS;
     note(m_tolerance_search.is_stopped() || m_best.is_stopped, Status::STOPPED);
-    note(m_result.number_of_vertices_needed > m_criteria.maximal_number_of_vertices(), Status::BUDGET_TOO_SMALL);
+    note(m_result.number_of_vertices_needed > m_criteria.maximal_number_of_vertices(),
+         Status::BUDGET_TOO_SMALL);
     note(n == 0, Status::EMPTY);
     note(!meets_region, Status::REGION_NOT_MET);
     note(!m_best.is_manifold(), Status::BOUNDARY_NOT_MANIFOLD);

@@ -43,7 +43,7 @@ class Tolerance_search
   const Mixed_mesh_criteria_3& m_criteria;
   Visitor& m_visitor;
   Mixed_mesh_result_3& m_result;
-  std::vector<Vec3> m_samples; // of the surface
+  std::vector<Vec3> m_samples;                 // of the surface
   std::vector<std::vector<Vec3>> m_far_points; // of the surface, where cells are split
   bool m_is_stopped = false;                   // by the visitor
 

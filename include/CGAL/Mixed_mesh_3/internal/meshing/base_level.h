@@ -24,7 +24,8 @@ inline constexpr double tolerated_share_of_lost_cells = 0.05;
 /// The level that the criteria give, or the default.
 inline int first_base_level(const Mixed_mesh_criteria_3& criteria)
 {
-  return criteria.base_level() != Mixed_mesh_criteria_3::automatic ? criteria.base_level() : default_base_level;
+  return criteria.base_level() != Mixed_mesh_criteria_3::automatic ? criteria.base_level()
+                                                                   : default_base_level;
 }
 
 /// Refines what meets the domain to a level, unless there would be far more cells than vertices are allowed.

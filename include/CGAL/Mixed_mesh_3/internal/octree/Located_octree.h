@@ -99,7 +99,10 @@ public:
 
   /// A length in units of 2^-24 of the root, rounded: lengths that are equal but for rounding rarely
   /// differ, so that symmetric input does not depend on it.
-  double quantized(double length) const { return std::floor(length * (std::ldexp(1., 24) / m_diagonal) + 0.3); }
+  double quantized(double length) const
+  {
+    return std::floor(length * (std::ldexp(1., 24) / m_diagonal) + 0.3);
+  }
 
   /// That length in its own unit.
   double rounded(double length) const { return quantized(length) * std::ldexp(m_diagonal, -24); }
@@ -169,7 +172,8 @@ public:
     };
     constexpr std::uint32_t side = Octree::root_side;
     const auto o = at(0, 0, 0);
-    return std::ldexp(std::abs(CGAL::determinant(at(side, 0, 0) - o, at(0, side, 0) - o, at(0, 0, side) - o)), -3 * level);
+    return std::ldexp(std::abs(CGAL::determinant(at(side, 0, 0) - o, at(0, side, 0) - o, at(0, 0, side) - o)),
+                      -3 * level);
   }
 
   /// The edge length of a cell, or, where edges are not equal, the root of their mean square.

@@ -36,9 +36,8 @@ double mean_radius_of_region(const Octree_& root)
   Octree_ octree = root;
   for(int level = 0; level < Octree::max_level; ++level) {
     const std::vector<Octree::Node_index> leaves = octree.leaves_to_refine(level, true);
-    const auto count = std::count_if(leaves.begin(), leaves.end(), [&](Octree::Node_index n) {
-      return octree.depth_in_region(n) >= 0;
-    });
+    const auto count = std::count_if(leaves.begin(), leaves.end(),
+                                     [&](Octree::Node_index n) { return octree.depth_in_region(n) >= 0; });
     if(count > 0)
       radius = std::cbrt(0.75 / M_PI * double(count)) * octree.edge_length(leaves.front());
     if(leaves.empty() || std::size_t(count) >= enough)
@@ -147,7 +146,7 @@ private:
   double depth(Node_index n) const
   {
     return n > 0 && m_octree.edge_length(n) < m_radius / 2 ? m_depths[m_octree.octree().parent(n)]
-                                                            : m_octree.depth_in_region(n);
+                                                           : m_octree.depth_in_region(n);
   }
 
   double key(Node_index n) const

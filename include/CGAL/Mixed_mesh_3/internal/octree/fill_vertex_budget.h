@@ -113,7 +113,8 @@ private:
       const std::size_t n = attempt(m_sequence.octree(steps));
       if(n <= m_budget) {
         m_steps = steps;
-        rate = (std::max)(0.5, (double(n) - double(n_low)) / (double(m_sequence.number_of_cells(steps)) - cells));
+        rate = (std::max)(0.5,
+                          (double(n) - double(n_low)) / (double(m_sequence.number_of_cells(steps)) - cells));
       } else {
         high = steps;
         n_high = n;

@@ -1,0 +1,184 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The optimization with its two promises: no element above the quality bound, and no faces that cut each
+// other.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_BOUNDED_OPTIMIZATION_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_BOUNDED_OPTIMIZATION_H
+
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/element_points.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Surface_optimizer.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
+#include <CGAL/Mixed_mesh_optimization_criteria_3.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/*!
+Runs the optimization as often as it takes, each time from the start:
+
+- *freely*: on the way to the surface, elements may get worse than the bound, and better again. If all of the
+  boundary arrives, and no element is above the bound in the end, as for most surfaces, that is the result;
+- *within the bound*, which no step leaves;
+- where faces cut each other in the end, once more, with their vertices *held* where they are, and each time
+  more of those around them; at last all of the boundary, which does not cut itself then if it did not at the
+  start.
+
+If no element is above the bound at the start, none is in the end; else none is worse than the worst of the
+start.
+
+\tparam Quality a model of `MixedMeshQuality_3`
+*/
+template <class Mesh, class Domain, class Quality>
+class Bounded_optimization
+{
+  using Criteria = Mixed_mesh_optimization_criteria_3;
+  using Result = Mixed_mesh_optimization_result_3;
+  using Status = Mixed_mesh_optimization_status;
+
+  Mesh& m_mesh; // the start, until the end
+  const Domain& m_domain;
+  const Criteria& m_criteria;
+  const Quality& m_quality;
+  std::vector<std::uint8_t> m_is_held; // for each vertex
+
+  // How many rings of faces around those that cut each other are held in addition, time after time.
+  static constexpr int rings[] = {0, 1, 2, 4, 8};
+
+public:
+  Bounded_optimization(Mesh& mesh, const Domain& domain, const Criteria& criteria, const Quality& quality)
+    : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality),
+      m_is_held(mesh.number_of_vertices(), 0)
+  {
+  }
+
+  template <class Go_on>
+  Result operator()(const Go_on& go_on)
+  {
+    Result result = optimize(go_on);
+    const double bound = bound_for_doubles(m_criteria);
+    result.quality_bound = m_criteria.quality_bound();
+    for(std::size_t e = 0; e < m_mesh.number_of_elements(); ++e)
+      result.number_of_elements_above_bound += cost(m_mesh, e) > bound;
+    return result;
+  }
+
+private:
+  template <class Go_on>
+  Result optimize(const Go_on& go_on)
+  {
+    Mesh free = m_mesh;
+    Surface_optimizer optimizer(free, m_domain, Criteria(m_criteria).quality_bound(0), m_quality);
+    Result result = optimizer(go_on);
+    const bool is_stopped = result.status == Status::STOPPED, is_within = is_within_bound(free);
+    const bool is_all = m_criteria.quality_bound() == std::numeric_limits<double>::infinity()
+                          ? result.is_boundary_simple
+                          : is_fitted(result);
+    if(is_within && (is_all || is_stopped)) { // no other run would do better
+      m_mesh = std::move(free);
+      return result;
+    }
+    if(is_stopped) { // what had arrived has come back
+      result.number_of_arrived_vertices = result.number_of_flips = 0;
+      return result;
+    }
+    Mesh bounded;
+    const Result second = optimize_within(bounded, go_on);
+    const bool is_free_better = is_within && result.is_boundary_simple && second.status != Status::STOPPED
+                                && number_off(result) <= number_off(second);
+    m_mesh = std::move(is_free_better ? free : bounded);
+    return is_free_better ? result : second;
+  }
+
+  static std::size_t number_off(const Result& r)
+  {
+    return r.number_of_boundary_vertices - r.number_of_arrived_vertices;
+  }
+
+  static bool is_fitted(const Result& r) { return r.is_boundary_simple && number_off(r) == 0; }
+
+  // Within the bound, and until no faces cut each other.
+  template <class Go_on>
+  Result optimize_within(Mesh& mesh, const Go_on& go_on)
+  {
+    for(std::size_t i = 0;; ++i) {
+      mesh = m_mesh;
+      Criteria criteria = m_criteria;
+      if(i > 0)
+        criteria.number_of_bisections(0);
+      Surface_optimizer optimizer(mesh, m_domain, criteria, m_quality);
+      optimizer.hold(m_is_held);
+      const Result result = optimizer(go_on);
+      if(result.is_boundary_simple || result.status == Status::STOPPED || i > std::size(rings)
+         || (i == 0 && is_start_crossing()))
+        return result;
+      if(i == std::size(rings))
+        std::fill(m_is_held.begin(), m_is_held.end(), 1);
+      else
+        hold(optimizer.crossing_vertices(), rings[i]);
+    }
+  }
+
+  bool is_start_crossing() const
+  {
+    std::vector<Vec3> points;
+    for(const auto& p : m_mesh.points())
+      points.push_back(to_vec3(p));
+    return !vertices_of_self_intersections(points, boundary_faces(m_mesh)).empty();
+  }
+
+  void hold(const std::vector<Vertex_index>& vertices, int number_of_rings)
+  {
+    for(Vertex_index v : vertices)
+      if(v < m_is_held.size()) // the others are between them
+        m_is_held[v] = 1;
+    for(int ring = 0; ring < number_of_rings; ++ring) {
+      const std::vector<std::uint8_t> is_inner = m_is_held;
+      for(const Face& face : boundary_faces(m_mesh))
+        if(std::any_of(face.vertices().begin(), face.vertices().end(),
+                       [&](Vertex_index v) { return is_inner[v] != 0; }))
+          for(Vertex_index v : face.vertices())
+            m_is_held[v] = 1;
+    }
+  }
+
+  double cost(const Mesh& mesh, std::size_t e) const
+  {
+    const Element_view element = mesh.element(e);
+    return m_quality(element.kind(), element_points(mesh, element));
+  }
+
+  double largest_cost(const Mesh& mesh) const
+  {
+    double largest = 0;
+    for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
+      largest = (std::max)(largest, cost(mesh, e));
+    return largest;
+  }
+
+  bool is_within_bound(const Mesh& mesh) const
+  {
+    const double cost = largest_cost(mesh);
+    return cost <= bound_for_doubles(m_criteria) || cost <= largest_cost(m_mesh);
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_BOUNDED_OPTIMIZATION_H
