@@ -56,9 +56,9 @@ splitting a cell of side h removes error w h^5 and costs a fixed number of verti
 like a power of the distance d: the key is (1 + d / r)^-6 h^5. With r = 0 that is the rule of the paper: what
 meets the region is split, the largest cells first.
 
-Cells at the surface come two levels of 32^(1/2) earlier: there displacements are prescribed and elements are
-tetrahedra, which are less accurate. And they remove volume between the surface and the boundary, which falls
-like h^4: so they get a share of the error that does not depend on the region.
+Cells at the surface come earlier, by a factor of 4 (a level is one of 32): there displacements are prescribed
+and elements are tetrahedra, which are less accurate. And the volume between the surface and the boundary is an
+error, which falls like h^4: so they get a share that does not depend on the distance.
 
 As nodes of an octree are numbered in the order of the splits, the octree after any number of steps is a prefix
 of that after all.

@@ -27,7 +27,7 @@ class Budget_search
   using Candidate = decltype(std::declval<const Try&>()(std::declval<const Octree_&>()));
 
   // A budget filled to 99.8 % is full enough while large steps are tried: with millions of vertices a
-  // further trial costs more than it brings. Below 98 % single cells are tried.
+  // further trial costs more than it brings. Below 99 % single cells are tried.
   static constexpr double full_enough = 0.998, worth_single_cells = 0.99;
   static constexpr std::size_t number_of_single_cells = 24;
 
