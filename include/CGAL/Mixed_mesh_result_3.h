@@ -86,8 +86,8 @@ struct Mixed_mesh_result_3
   std::size_t number_of_lost_cells = 0;
   Bbox_3 lost_cells;                            ///< what contains those cells
   std::size_t number_of_vertices_in_region = 0; ///< before bisections
-  /// How far boundary and surface may be from each other: what the criteria say, or, if they leave it open, the
-  /// default for this domain and budget.
+  /// How far boundary and surface may be from each other: what the criteria say, or, if they leave it open,
+  /// the default for this domain and budget.
   double tolerance = 0;
   /// What the coarse mesh (of the base level, and finer where the tolerance asks for it, without the region)
   /// takes of the budget; 0 without a tolerance.

@@ -31,8 +31,8 @@ surface where an element is bad, or towards places of the surface that are farth
 the improvement of slivers that the paper announces (Lobos, Bucki, Hitschfeld, Payan: section 7).
 
 Up to `criteria.number_of_bisections()` edges of the boundary, none by default, are bisected after the first
-round: the middle goes to the closest point of the surface, and the tetrahedra around the edge are split in two.
-Each adds one vertex, on the surface, behind those that are there already.
+round: the middle goes to the closest point of the surface, and the tetrahedra around the edge are split in
+two. Each adds one vertex, on the surface, behind those that are there already.
 
 No element gets a cost above `criteria.quality_bound()`, or, where one has, above the worst one at the start:
 where that bound and the surface conflict, boundary vertices stay off the surface.

@@ -52,10 +52,10 @@ public:
   CGAL::Bounded_side locate(const Cell& cell, const Surface_part& parent, Surface_part& part) const;
 
   /// How deep a point is in the region; negative outside: minus the distance from the region, or about that.
-  /// The farther the center of a cell is outside, the less it counts (`CGAL::Mixed_mesh_criteria_3::grading()`);
-  /// a depth that overstates the distance makes the mesh coarse around the region. Inside, depths decide between
-  /// cells of one size that count the same: the deepest is refined first. Cells that are small against the
-  /// region share the depth of an ancestor.
+  /// The farther the center of a cell is outside, the less it counts
+  /// (`CGAL::Mixed_mesh_criteria_3::grading()`); a depth that overstates the distance makes the mesh coarse
+  /// around the region. Inside, depths decide between cells of one size that count the same: the deepest is
+  /// refined first. Cells that are small against the region share the depth of an ancestor.
   ///
   /// Depths are lengths, in the unit of the points: they are rounded to units of \f$ 2^{-24} \f$ of
   /// the diagonal of the root cell. They must not be NaN.

@@ -78,7 +78,8 @@ class Surface_optimizer
   static constexpr double good_enough[2] = {1.02, 1.4}, worth_flipping[2] = {1.2, 1.4};
   static constexpr double share_of_first_power = 0.6;
   // No half of a bisected tetrahedron may cost more. And how many edges are bisected in the region, times the
-  // number of vertices to the power of 2/3, like that of all vertices on the surface: 30 of 660, 190 of 10,000.
+  // number of vertices to the power of 2/3, like that of all vertices on the surface: 30 of 660, 190 of
+  // 10,000.
   static constexpr double worst_half = 3.2, bisections_in_region = 0.4;
 
 public:

@@ -94,8 +94,8 @@ private:
     return n - std::size_t(m_criteria.share_of_bisections() * double(n));
   }
 
-  // Smaller ones take too many vertices from the region, larger ones leave furrows unresolved: with 0.45, brains
-  // of 660 to 10,000 vertices are nowhere farther than that from their surface, nearly.
+  // Smaller ones take too many vertices from the region, larger ones leave furrows unresolved: with 0.45,
+  // brains of 660 to 10,000 vertices are nowhere farther than that from their surface, nearly.
   double tolerance() const
   {
     constexpr double share_of_edge = 0.45;

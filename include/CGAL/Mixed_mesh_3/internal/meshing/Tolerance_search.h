@@ -28,8 +28,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Puts the boundary of the base level's mesh on the surface, without regard to elements, splits cells where it is
-/// too far from the surface nevertheless, and again.
+/// Puts the boundary of the base level's mesh on the surface, without regard to elements, splits cells where
+/// it is too far from the surface nevertheless, and again.
 template <class Octree_, class Mesh, class Visitor>
 class Tolerance_search
 {
