@@ -23,8 +23,9 @@ class Mixed_mesh_criteria_3
 {
 public:
   static constexpr int automatic = -1;
-  /// The share of the budget that is to be used; else the status tells. Single cells take 7 to 20 vertices:
-  /// with the smallest budgets that make sense, a few hundred, some 3 % may be left over.
+  /// The share that the octree is to use of what bisections leave of the budget; else the status tells.
+  /// Single cells take 7 to 20 vertices: with the smallest budgets that make sense, a few hundred, some 3 %
+  /// may be left over.
   static constexpr double full_share = 0.97;
 
   /// A number is a vertex budget with the default settings.
@@ -39,9 +40,10 @@ public:
 
   std::size_t maximal_number_of_vertices() const { return m_maximal_number_of_vertices; }
 
-  /// The octree level to which the whole domain is refined at least; cells of level `l` are 2^l times smaller
-  /// than the root. Default: 3; coarser, down to 1, if the budget is too small for it; finer, up to 6, if no
-  /// octree vertex would be inside a thin domain, or more than 5 % of its cells would be lost.
+  /// The octree level to which the whole domain is refined at least, in the region or not; cells of level `l`
+  /// are 2^l times smaller than the root. Default: 3; coarser, down to 1, if the budget is too small for it;
+  /// finer, up to 6, if no octree vertex would be inside a thin domain, or more than 5 % of its cells would
+  /// be lost.
   /// \pre `automatic`, or from 0 to 10
   Mixed_mesh_criteria_3& base_level(int level)
   {
@@ -51,9 +53,11 @@ public:
   }
   int base_level() const { return m_base_level; }
 
-  /// How far from the region cells are refined on its behalf: the distance at which a cell of half the size is
-  /// as urgent as one of the size at the region is there grows with it. As a share of the region's mean radius;
-  /// 0: the region only, as the paper does. Default: 0.35.
+  /// How gently cells grow with the distance from the region. A cell is worth (1 + d/r)^-6 h^5, with its
+  /// side h and its distance d from the region, and what is worth most is split first; r is the grading
+  /// times the region's mean radius, that of a ball with the volume that region and domain have in common.
+  /// At the distance r cells are 2.3 times as large as in the region, up to a power of two. 0: only what
+  /// meets the region is split, the largest cells first, as in the paper. Default: 0.35.
   /// \pre at least 0
   Mixed_mesh_criteria_3& grading(double share_of_radius)
   {
@@ -63,10 +67,10 @@ public:
   }
   double grading() const { return m_grading; }
 
-  /// The share of the budget for vertices on the surface that the optimization inserts by bisecting edges of the
-  /// boundary: each costs one vertex, where an octree cell costs 8 to 19. If the boundary is not fitted, so many
-  /// vertices are left over for a later `optimize_mixed_mesh_3()`. Default: 0.07, and 0 if the boundary is not
-  /// fitted. \pre `automatic`, or in [0, 0.5]
+  /// The share of the budget for bisections: vertices on the surface that the optimization inserts at the
+  /// middles of boundary edges. Each costs one vertex, where an octree cell costs 8 to 19. Without
+  /// `fit_to_surface()`, so many vertices are left over, for a later `optimize_mixed_mesh_3()`. Default:
+  /// 0.07, or 0 without `fit_to_surface()`. \pre `automatic`, or in [0, 0.5]
   Mixed_mesh_criteria_3& share_of_bisections(double share)
   {
     CGAL_precondition(share == automatic || (share >= 0 && share <= 0.5));
@@ -113,10 +117,10 @@ public:
   bool fit_to_surface() const { return m_fit_to_surface; }
 
   /// How far boundary and surface may be from each other, in the surface's unit. If positive, part of the
-  /// budget is spent on cells where the boundary would be much farther, and boundary vertices slide towards
-  /// places that are; the status tells if that was not enough. 0: no more is asked for than that vertices are on
-  /// the surface. Default: 0.42 of the edge of a cube with the volume that one vertex of the budget has to
-  /// serve; that is a wish: the status is not concerned.
+  /// budget, at most half of it, is spent on cells outside the region where the boundary would be much
+  /// farther, and boundary vertices slide towards places that are; the status tells if that was not enough.
+  /// 0: no more is asked for than that vertices are on the surface. Default: 0.42 of the edge of a cube with
+  /// the volume that one vertex of the budget has to serve; that is a wish: the status does not tell.
   /// \pre `automatic`, or at least 0
   Mixed_mesh_criteria_3& tolerance(double distance)
   {
@@ -124,6 +128,7 @@ public:
     m_tolerance = distance;
     return *this;
   }
+  /// `automatic` if none is given: see `Mixed_mesh_result_3::tolerance`.
   double tolerance() const { return m_tolerance; }
 
   /// The largest aspect-ratio coefficient (ARC) of an element, if the boundary is fitted. From the default on

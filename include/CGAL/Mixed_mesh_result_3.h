@@ -17,9 +17,11 @@ namespace CGAL {
 /// How `make_mixed_mesh_3()` ended. In the order of precedence: if several are true, the last of them is
 /// given.
 enum class Mixed_mesh_status {
-  SUCCESS,               ///< the budget is filled to at least 97 %, and the boundary is where it should be
+  SUCCESS,               ///< the octree fills its share of the budget to at least 97 %, and the boundary is
+                         ///< where it should be
   BUDGET_NOT_FILLED,     ///< valid, but below 97 %: each cell tried would exceed the budget
   TOLERANCE_NOT_REACHED, ///< valid, on the surface, but farther from it between vertices than the tolerance
+                         ///< given
   PARTS_LOST,            ///< valid, but parts of the domain thinner than a cell are not meshed
   NOT_ALL_ARRIVED, ///< valid, but some boundary vertices stay off the surface: elements would be too bad,
                    ///< or faces of the boundary would cut each other
@@ -72,7 +74,8 @@ struct Mixed_mesh_result_3
   int base_level = 0;
   int deepest_level = 0;
   std::size_t number_of_cells = 0; ///< leaves that meet the domain
-  /// Those of the mesh; without one, those (at least) of the coarsest mesh at `base_level`.
+  /// Those of the octree's mesh, before bisections; without a mesh, those (at least) of the coarsest one at
+  /// `base_level`.
   std::size_t number_of_vertices_needed = 0;
   std::size_t number_of_transition_vertices = 0;        ///< inserted by the transition templates
   std::size_t number_of_boundary_vertices_inserted = 0; ///< inserted by the boundary stage
@@ -81,13 +84,13 @@ struct Mixed_mesh_result_3
   /// Cells that meet the domain, but are more than a cell away from the mesh: parts of the domain
   /// thinner than a cell that no octree vertex is inside of.
   std::size_t number_of_lost_cells = 0;
-  Bbox_3 lost_cells; ///< what contains those cells
-  std::size_t number_of_vertices_in_region = 0;
-  /// How far boundary and surface were wished to be from each other at most: what the criteria say, or what
-  /// that means if they leave it open.
+  Bbox_3 lost_cells;                            ///< what contains those cells
+  std::size_t number_of_vertices_in_region = 0; ///< before bisections
+  /// How far boundary and surface may be from each other: what the criteria say, or, if they leave it open,
+  /// the default for this domain and budget.
   double tolerance = 0;
-  /// What the coarse mesh (as fine as the tolerance asks for, without the region) takes of the budget; 0
-  /// without a tolerance.
+  /// What the coarse mesh (of the base level, and finer where the tolerance asks for it, without the region)
+  /// takes of the budget; 0 without a tolerance.
   std::size_t number_of_vertices_for_tolerance = 0;
   /// What fitting and optimization did; its status is `EMPTY` if they did not run.
   Mixed_mesh_optimization_result_3 optimization;

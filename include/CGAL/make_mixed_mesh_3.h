@@ -24,12 +24,14 @@ namespace CGAL {
 
 \brief Meshes a domain with mixed elements, fine in a region of interest, within a vertex budget.
 
-The octree of the domain is split in the region only (single cells around it apart, where a small budget
-would be left over), balanced across faces and edges, and made conforming by transition templates;
-elements at the surface are split so that they can follow it (Lobos, Bucki, Hitschfeld, Payan: sections
-5.1 and 5.2). Then the boundary is carried onto the surface and the elements are optimized, as
-`optimize_mixed_mesh_3()` does; with `criteria.fit_to_surface(false)` boundary vertices stay where the octree
-has them, all outside or on the surface.
+The octree of the domain is split where a vertex removes most of the error of the solution in the region:
+cells are smallest in the region and grow with the distance from it (`criteria.grading()`). Before that,
+cells are split where the boundary would be farther from the surface than `criteria.tolerance()`. The octree
+is balanced across faces and edges, and made conforming by transition templates; elements at the surface are
+split so that they can follow it (Lobos, Bucki, Hitschfeld, Payan: sections 5.1 and 5.2). Then the boundary
+is carried onto the surface, some of its edges are bisected (`criteria.share_of_bisections()`), and the
+elements are optimized, as `optimize_mixed_mesh_3()` does; with `criteria.fit_to_surface(false)` boundary
+vertices stay where the octree has them, all outside or on the surface.
 
 Guarantees if `result.has_mesh()`: at most `criteria.maximal_number_of_vertices()` vertices; conforming;
 the Jacobian of every element is positive on the whole element; no element has an aspect-ratio coefficient
@@ -69,7 +71,8 @@ threads.
 \cgalNamedParamsEnd
 
 \return the status and what was done
-\cost linear in the number of vertices, and in the number of triangles of the surfaces
+\cost for n vertices and t triangles of the surfaces O(n log n + t log t), nearly linear; a query for a
+      closest point for each boundary vertex that moves, and for each sample point of a tolerance
 */
 template <class Domain, class Region, class CellTraits, class GeomTraits,
           class NamedParameters = parameters::Default_named_parameters,
@@ -112,7 +115,7 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
 /*!
 \ingroup PkgMixedMesh3Ref
 
-As above, refined everywhere alike.
+As above, refined everywhere alike, and somewhat more at the surface.
 */
 template <class Domain, class GeomTraits, class NamedParameters = parameters::Default_named_parameters>
 Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Mixed_mesh_criteria_3& criteria,

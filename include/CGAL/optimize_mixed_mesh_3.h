@@ -21,7 +21,7 @@ namespace CGAL {
 \ingroup PkgMixedMesh3Ref
 
 \brief Brings the boundary of a mixed mesh onto a surface, moves vertices and flips tetrahedra to improve
-elements.
+elements, and bisects edges of the boundary if asked to.
 
 Boundary vertices that are not on the surface yet are brought there, each as far at a time as its elements
 allow, while inner vertices give way. Then, in turns, each vertex descends on the sum of the powers (4, later
@@ -30,21 +30,25 @@ sum falls: 2-3 flips, and the removal of edges with up to 7 tetrahedra around. B
 surface where an element is bad, or towards places of the surface that are farther than the tolerance. This is
 the improvement of slivers that the paper announces (Lobos, Bucki, Hitschfeld, Payan: section 7).
 
+Up to `criteria.number_of_bisections()` edges of the boundary, none by default, are bisected after the first
+round: the middle goes to the closest point of the surface, and the tetrahedra around the edge are split in
+two. Each adds one vertex, on the surface, behind those that are there already.
+
 No element gets a cost above `criteria.quality_bound()`, or, where one has, above the worst one at the start:
 where that bound and the surface conflict, boundary vertices stay off the surface.
 
 Guarantees: if the mesh was valid, it is valid after each move and in the end (the Jacobian of each element is
 proved positive on the whole element, on the coordinates as they are); boundary vertices counted in
 `number_of_arrived_vertices` are on the surface up to the rounding of `double`; the boundary does not cut
-itself (if it does at the start, `is_boundary_simple` may be false); hexahedra, prisms and pyramids stay, no
-vertex is added or removed, and the boundary's faces stay but where a flat tetrahedron on it is removed; the
-same input gives the same mesh.
+itself (if it does at the start, `is_boundary_simple` may be false); hexahedra, prisms and pyramids stay; no
+vertex is removed, and none is added but by bisections; the boundary's faces stay but for those at bisected
+edges and where a flat tetrahedron on it is removed; the same input gives the same mesh.
 
 \tparam GeomTraits a model of `MixedMeshTraits_3`
 \tparam Surface a model of `MixedMeshSurface_3`, or of `FaceListGraph`
 \tparam Quality a model of `MixedMeshQuality_3`
 \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
-\param mesh its points and tetrahedra are changed
+\param mesh its points and tetrahedra are changed; bisections add some
 \param surface where boundary vertices are to be. \pre a `FaceListGraph` is closed and triangulated
 \param quality the cost of an element
 \param criteria what to reach

@@ -44,19 +44,21 @@ public:
   \param parent the part of a cell that contains it: of its parent in the octree, or
          `surface_part()`
   \param part default constructed; to be filled if the answer is `ON_BOUNDARY`, and ignored if not
-  \return `ON_BOUNDED_SIDE` if the cell and all cells in it are to be refined; `ON_UNBOUNDED_SIDE`
-          if none is; `ON_BOUNDARY` if the cell is to be refined, and its children asked about
+  \return `ON_BOUNDED_SIDE` if the cell and all cells in it meet the region; `ON_UNBOUNDED_SIDE`
+          if none does; `ON_BOUNDARY` if the cell counts as meeting it, and its children are to be
+          asked about
   */
   template <class Cell>
   CGAL::Bounded_side locate(const Cell& cell, const Surface_part& parent, Surface_part& part) const;
 
-  /// How deep a point is in the region; negative outside, and the less so the nearer it is. Of two
-  /// cells of one size, that with the deeper center is refined first; where there are thousands, cells
-  /// share the depth of an ancestor. Of equally deep ones, those at the domain's surface come first.
-  /// Cells outside the region come last, to use up a small budget.
+  /// How deep a point is in the region; negative outside: minus the distance from the region, or about that.
+  /// The farther the center of a cell is outside, the less it counts
+  /// (`CGAL::Mixed_mesh_criteria_3::grading()`); a depth that overstates the distance makes the mesh coarse
+  /// around the region. Inside, depths decide between cells of one size that count the same: the deepest is
+  /// refined first. Cells that are small against the region share the depth of an ancestor.
   ///
-  /// Depths are lengths, in the unit of the points: they are compared in units of \f$ 2^{-24} \f$ of
-  /// the diagonal of the root cell. But for that, only their order matters; they must not be NaN.
+  /// Depths are lengths, in the unit of the points: they are rounded to units of \f$ 2^{-24} \f$ of
+  /// the diagonal of the root cell. They must not be NaN.
   /// \param p a `CGAL::Mixed_meshes_3::Predicates_kernel::Point_3`, as cell traits return it
   double depth(const Point_3& p) const;
 };

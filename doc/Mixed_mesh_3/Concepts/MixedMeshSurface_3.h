@@ -41,7 +41,8 @@ public:
   Point_3 closest_point(const Point_3& p) const;
 
   /// Points of the surface, such that none of its points is much farther than `spacing` from one of them.
-  /// Asked for only if there is a tolerance; its distance from the surface is measured there. The result
-  /// is a range of points, in a fixed order; neighbors in that order should be near to each other.
+  /// Asked for only if there is a tolerance, as `CGAL::make_mixed_mesh_3()` has by default; the distance from
+  /// the mesh is measured there. The result is a range of points, in a fixed order; neighbors in that order
+  /// should be near to each other.
   std::vector<Point_3> surface_samples(double spacing) const;
 };

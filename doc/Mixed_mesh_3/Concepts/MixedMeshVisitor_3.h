@@ -18,10 +18,9 @@ The search for the budget tries several octrees. For each of them, the calls are
 
 They are followed by one `begin_stage(OCTREE)` and `end_stage(OCTREE)` for what remains of the
 search, and, if there is a mesh, by the stages `ASSEMBLY` and, unless the boundary shall stay where the
-octree has it, `OPTIMIZATION`, in which `go_on()` is asked before each round. With a tolerance,
-coarse meshes are fitted between octrees, each in a stage `OPTIMIZATION` of its own, and all of this may be
-repeated for several roots of the octree. Stages are neither nested nor left open. All calls come from the
-thread that called `CGAL::make_mixed_mesh_3()`.
+octree has it, `OPTIMIZATION`, in which `go_on()` is asked before each round. With a tolerance, as by default,
+octrees of coarse meshes come first, with the same calls. Stages are neither nested nor left open. All calls
+come from the thread that called `CGAL::make_mixed_mesh_3()`.
 
 `CGAL::optimize_mixed_mesh_3()` and `CGAL::fit_mixed_mesh_to_surface()` ask `go_on()` only.
 

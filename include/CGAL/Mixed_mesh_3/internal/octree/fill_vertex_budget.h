@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The octree of a vertex budget (section 5.1 of the paper): as many splits of the sequence as the *final* mesh
-// has room for.
+// The octree of a vertex budget (section 5.1 of the paper): as many splits of the sequence as the *final*
+// mesh has room for.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_OCTREE_FILL_VERTEX_BUDGET_H
 #define CGAL_MIXED_MESH_3_INTERNAL_OCTREE_FILL_VERTEX_BUDGET_H
@@ -27,7 +27,7 @@ class Budget_search
   using Candidate = decltype(std::declval<const Try&>()(std::declval<const Octree_&>()));
 
   // A budget filled to 99.8 % is full enough while large steps are tried: with millions of vertices a
-  // further trial costs more than it brings. Below 98 % single cells are tried.
+  // further trial costs more than it brings. Below 99 % single cells are tried.
   static constexpr double full_enough = 0.998, worth_single_cells = 0.99;
   static constexpr std::size_t number_of_single_cells = 24;
 
@@ -90,8 +90,8 @@ private:
     return (std::min)(steps, m_sequence.number_of_steps());
   }
 
-  // The number of vertices grows with that of cells, nearly at a fixed rate. `low` steps fit; `high` do not, or
-  // are not known to.
+  // The number of vertices grows with that of cells, nearly at a fixed rate. `low` steps fit; `high` do not,
+  // or are not known to.
   void search()
   {
     constexpr std::size_t unknown = std::size_t(-1);
