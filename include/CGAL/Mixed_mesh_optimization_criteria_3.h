@@ -34,16 +34,19 @@ public:
   }
   double tolerance() const { return m_tolerance; }
 
-  /// How often moves and flips alternate. Default: 4; 12 with a tolerance. \pre at least 1
+  /// How often moves and flips alternate. Default: 4; 12 with a tolerance and at most 20,000 vertices.
+  /// \pre at least 1
   Mixed_mesh_optimization_criteria_3& number_of_rounds(int rounds)
   {
     CGAL_precondition(rounds > 0);
     m_number_of_rounds = rounds;
     return *this;
   }
-  int number_of_rounds() const
+  /// For a mesh of so many vertices.
+  int number_of_rounds(std::size_t number_of_vertices) const
   {
-    return m_number_of_rounds > 0 ? m_number_of_rounds : m_tolerance > 0 ? 12 : 4;
+    const bool is_patient = m_tolerance > 0 && number_of_vertices <= 20000;
+    return m_number_of_rounds > 0 ? m_number_of_rounds : is_patient ? 12 : 4;
   }
 
   /// Boundary vertices slide on the surface only where an element has a larger cost: free sliding would lose
