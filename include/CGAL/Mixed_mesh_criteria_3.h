@@ -23,9 +23,8 @@ class Mixed_mesh_criteria_3
 {
 public:
   static constexpr int automatic = -1;
-  /// The share that the octree is to use of what bisections leave of the budget; else the status tells.
-  /// Single cells take 7 to 20 vertices: with the smallest budgets that make sense, a few hundred, some 3 %
-  /// may be left over.
+  /// The share of the budget that is to be used, after bisections; else the status tells. Single cells take
+  /// 7 to 20 vertices: with the smallest budgets that make sense, a few hundred, some 3 % may be left over.
   static constexpr double full_share = 0.97;
 
   /// A number is a vertex budget with the default settings.
@@ -69,8 +68,9 @@ public:
 
   /// The share of the budget for bisections: vertices on the surface that the optimization inserts at the
   /// middles of boundary edges. Each costs one vertex, where an octree cell costs 8 to 19. Without
-  /// `fit_to_surface()`, so many vertices are left over, for a later `optimize_mixed_mesh_3()`. Default:
-  /// 0.07, or 0 without `fit_to_surface()`. \pre `automatic`, or in [0, 0.5]
+  /// `fit_to_surface()`, so many vertices are left over, for a later `optimize_mixed_mesh_3()`. 0: none is
+  /// bisected, even if the octree leaves vertices over. Default: 0.07, or 0 without `fit_to_surface()`.
+  /// \pre `automatic`, or in [0, 0.5]
   Mixed_mesh_criteria_3& share_of_bisections(double share)
   {
     CGAL_precondition(share == automatic || (share >= 0 && share <= 0.5));

@@ -17,8 +17,7 @@ namespace CGAL {
 /// How `make_mixed_mesh_3()` ended. In the order of precedence: if several are true, the last of them is
 /// given.
 enum class Mixed_mesh_status {
-  SUCCESS,               ///< the octree fills its share of the budget to at least 97 %, and the boundary is
-                         ///< where it should be
+  SUCCESS,               ///< the budget is filled to at least 97 %, and the boundary is where it should be
   BUDGET_NOT_FILLED,     ///< valid, but below 97 %: each cell tried would exceed the budget
   TOLERANCE_NOT_REACHED, ///< valid, on the surface, but farther from it between vertices than the tolerance
                          ///< given

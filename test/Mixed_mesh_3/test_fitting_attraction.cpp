@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What draws boundary vertices: distances that are remembered, against those measured anew; distances of samples,
-// against all triangles.
+// What draws boundary vertices: distances that are remembered, against those measured anew; distances of
+// samples, against all triangles.
 
 #include "test_fitting.h"
 

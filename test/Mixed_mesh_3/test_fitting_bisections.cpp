@@ -128,8 +128,8 @@ std::multiset<Polygon> other_elements(const Mesh& mesh)
   return result;
 }
 
-// What holds for any bisections: valid elements, the same body, and the boundary with just these edges bisected,
-// each of them the longest of those that `is_allowed`, if none was refused for quality.
+// What holds for any bisections: valid elements, the same body, and the boundary with just these edges
+// bisected, each of them the longest of those that `is_allowed`, if none was refused for quality.
 template <class Is_allowed>
 void check(const Mesh& start, const Bisected& result, std::size_t number, double worst,
            const Is_allowed& is_allowed)
@@ -271,7 +271,8 @@ void test_other_elements()
     }
 }
 
-// Two tetrahedra, or four, with nothing but an edge, the longest, in common: four faces of the boundary meet there.
+// Two tetrahedra, or four, with nothing but an edge, the longest, in common: four faces of the boundary meet
+// there.
 void test_nonmanifold_edge()
 {
   for(int n : {2, 4}) {

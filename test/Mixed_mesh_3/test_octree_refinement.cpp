@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// In which order cells are split, against a choice among all leaves, and how many of the splits a budget gets,
-// against all numbers of them.
+// In which order cells are split, against a choice among all leaves, and how many of the splits a budget
+// gets, against all numbers of them.
 
 #include "test_lattice.h"
 

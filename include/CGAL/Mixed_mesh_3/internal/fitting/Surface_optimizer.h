@@ -58,8 +58,8 @@ class Surface_optimizer
   Attraction_ m_attraction;
   std::vector<std::pair<Vertex_index, Vec3>> m_travelers; // not on the surface yet, with their targets
   std::vector<std::uint8_t> m_is_arrived;
-  // Where no faces cut each other: at the start, then the last time that was seen; and what was on the surface.
-  // Of new vertices, between those of the edge.
+  // Where no faces cut each other: at the start, then the last time that was seen; and what was on the
+  // surface. Of new vertices, between those of the edge.
   std::vector<Vec3> m_simple_points;
   std::vector<std::uint8_t> m_simple_is_arrived;
   std::vector<std::uint8_t> m_is_held;
@@ -83,7 +83,8 @@ class Surface_optimizer
   static constexpr double good_enough[2] = {1.02, 1.4}, worth_flipping[2] = {1.2, 1.4};
   static constexpr double share_of_first_power = 0.6;
   // No half of a bisected tetrahedron may cost more. And how many edges are bisected in the region, times the
-  // number of vertices to the power of 2/3, like that of all vertices on the surface: 110 of 2,000, 320 of 10,000.
+  // number of vertices to the power of 2/3, like that of all vertices on the surface: 110 of 2,000, 320 of
+  // 10,000.
   static constexpr double worst_half = 3.2, bisections_in_region = 0.7;
 
 public:

@@ -95,8 +95,8 @@ private:
     return n - std::size_t(m_criteria.share_of_bisections() * double(n));
   }
 
-  // Smaller ones take too many vertices from the region, larger ones leave furrows unresolved: with 0.42, brains
-  // of 660 to 10,000 vertices are nowhere farther than that from their surface, nearly.
+  // Smaller ones take too many vertices from the region, larger ones leave furrows unresolved: with 0.42,
+  // brains of 660 to 10,000 vertices are nowhere farther than that from their surface, nearly.
   double tolerance() const
   {
     constexpr double share_of_edge = 0.42;
@@ -224,7 +224,8 @@ private:
   // Of the whole budget, or of what is not left over for a later optimization.
   void note_share_filled(std::size_t n)
   {
-    const std::size_t whole = m_criteria.fit_to_surface() ? m_criteria.maximal_number_of_vertices() : budget();
+    const std::size_t whole = m_criteria.fit_to_surface() ? m_criteria.maximal_number_of_vertices()
+                                                          : budget();
     if(double(n) < Mixed_mesh_criteria_3::full_share * double(whole))
       m_result.status = worse(m_result.status, Mixed_mesh_status::BUDGET_NOT_FILLED);
   }

@@ -125,8 +125,8 @@ private:
     std::size_t number_of_defects;
   };
 
-  // From the boundary with its vertices on the surface, where the optimization will bring them nearly. Where its
-  // faces are folded or cut each other, it would have to leave vertices behind.
+  // From the boundary with its vertices on the surface, where the optimization will bring them nearly. Where
+  // its faces are folded or cut each other, it would have to leave vertices behind.
   Estimate estimate_boundary(const Octree_& octree, const Candidate& candidate) const
   {
     Mesh mesh;

@@ -52,16 +52,16 @@ The splits of an octree, in the order of a key: how much error a vertex removes 
 
 For linear elements, the error of a functional of the solution in the region is the sum of w h^2 over the
 volume, where w is the product of the second derivatives of the solution and of the functional's influence;
-splitting a cell of side h removes error w h^5 and costs a fixed number of vertices. Outside the region w falls
-like a power of the distance d: the key is (1 + d / r)^-6 h^5. With r = 0 that is the rule of the paper: what
-meets the region is split, the largest cells first.
+splitting a cell of side h removes error w h^5 and costs a fixed number of vertices. Outside the region w
+falls like a power of the distance d: the key is (1 + d / r)^-6 h^5. With r = 0 that is the rule of the
+paper: what meets the region is split, the largest cells first.
 
 Cells at the surface come two levels of 32^(1/2) earlier: there displacements are prescribed and elements are
 tetrahedra, which are less accurate. And they remove volume between the surface and the boundary, which falls
 like h^4: so they get a share of the error that does not depend on the region.
 
-As nodes of an octree are numbered in the order of the splits, the octree after any number of steps is a prefix
-of that after all.
+As nodes of an octree are numbered in the order of the splits, the octree after any number of steps is a
+prefix of that after all.
 */
 template <class Octree_>
 class Refinement_sequence
@@ -71,10 +71,10 @@ class Refinement_sequence
   using Entry = std::tuple<double, double, std::uint64_t, Node_index>;
 
 public:
-  // Measured on five regions and patches of a brain (benchmark/Linear_elasticity_3): exponents from 5 to 7 and
-  // factors from 2 to 16 differ by less than 10 %; without the factor, errors of prescribed displacements are
-  // half as large again at 2,000 vertices. With ten times as much for the volume, a sixth less is left for the
-  // region at 10,000 vertices.
+  // Measured on five regions and patches of a brain (benchmark/Linear_elasticity_3): exponents from 5 to 7
+  // and factors from 2 to 16 differ by less than 10 %; without the factor, errors of prescribed
+  // displacements are half as large again at 2,000 vertices. With ten times as much for the volume, a sixth
+  // less is left for the region at 10,000 vertices.
   static constexpr double exponent = 6, factor_at_surface = 4, weight_of_volume = 3e-4;
 
 private:
