@@ -508,7 +508,7 @@ void test_visitor()
 {
   const Domain_archetype domain(0);
   const Region_archetype region(0);
-  const CGAL::Mixed_mesh_criteria_3 criteria(700);
+  const auto criteria = CGAL::Mixed_mesh_criteria_3(700).tolerance(0);
   CGAL::Mixed_mesh_3<Mesh_traits_archetype> mesh;
 
   Visitor_archetype patient(0);
@@ -539,7 +539,7 @@ void test_visitor()
   BOOST_TEST(log.front() == std::make_pair(Stage::OCTREE, true));
   BOOST_TEST(log.back() == std::make_pair(Stage::OPTIMIZATION, false));
 
-  // On the way to a tolerance, where coarse meshes are fitted between octrees.
+  // On the way to a tolerance, where coarse meshes are measured first, and more rounds follow.
   const CGAL::Mixed_mesh_criteria_3 with_tolerance = CGAL::Mixed_mesh_criteria_3(criteria).tolerance(0.05);
   const auto questions_until = [&](int n) {
     Visitor_archetype visitor(n);

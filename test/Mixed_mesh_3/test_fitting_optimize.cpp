@@ -280,6 +280,35 @@ void test_criteria()
   }
 }
 
+// Each bisection adds a vertex of the surface, as many as are allowed; elements that are no tetrahedra stay.
+void test_bisections()
+{
+  const Test_surface surface = ball_surface();
+  const Polyhedral_mixed_mesh_domain_3 domain(surface);
+  const Mesh start = unfitted(surface, 300);
+  Mesh plain = start;
+  const auto without = optimize_mixed_mesh_3(plain, domain, Criteria());
+  BOOST_TEST_EQ(without.number_of_bisections, 0u);
+  for(double tolerance : {0., 0.02})
+    for(std::size_t number : {1, 7, 40}) {
+      Mesh mesh = start, again = start;
+      const auto criteria = Criteria().tolerance(tolerance).number_of_bisections(number);
+      const auto result = optimize_mixed_mesh_3(mesh, domain, criteria);
+      BOOST_TEST(result.status == Status::SUCCESS || tolerance > 0);
+      BOOST_TEST_EQ(result.number_of_bisections, number);
+      BOOST_TEST_EQ(mesh.number_of_vertices(), start.number_of_vertices() + number);
+      BOOST_TEST_EQ(result.number_of_boundary_vertices, without.number_of_boundary_vertices + number);
+      BOOST_TEST_EQ(result.number_of_arrived_vertices, result.number_of_boundary_vertices);
+      BOOST_TEST_EQ(number_of_vertices_off_surface(mesh, surface), 0u);
+      BOOST_TEST(find_defects(mesh).none() && is_positive(mesh));
+      BOOST_TEST_EQ(boundary_vertices(mesh).size(), result.number_of_boundary_vertices);
+      BOOST_TEST(other_elements(mesh) == other_elements(start));
+      BOOST_TEST_GT(volume(mesh), volume(plain)); // of a ball, from inside
+      optimize_mixed_mesh_3(again, domain, criteria);
+      BOOST_TEST(is_same(mesh, again));
+    }
+}
+
 // ---- the brain ---------------------------------------------------------------------------------
 
 void test_brain(const Test_surface& brain, const Test_surface& region_surface)
@@ -287,8 +316,9 @@ void test_brain(const Test_surface& brain, const Test_surface& region_surface)
   const Polyhedral_mixed_mesh_domain_3 domain(brain);
   const Polyhedral_mixed_mesh_region_3 region(region_surface);
   Mesh before, mesh;
-  make_mixed_mesh_3(domain, region, Mixed_mesh_criteria_3(660).fit_to_surface(false), before);
-  const auto made = make_mixed_mesh_3(domain, region, Mixed_mesh_criteria_3(660), mesh);
+  const auto plain = Mixed_mesh_criteria_3(660).tolerance(0).share_of_bisections(0);
+  make_mixed_mesh_3(domain, region, Mixed_mesh_criteria_3(plain).fit_to_surface(false), before);
+  const auto made = make_mixed_mesh_3(domain, region, plain, mesh);
   BOOST_TEST(made.status == CGAL::Mixed_mesh_status::SUCCESS);
   check(before, mesh, made.optimization, brain);
 
@@ -363,6 +393,7 @@ int main(int argc, char** argv)
   test_distorted(Scaled_jacobian_quality_3());
   test_statuses();
   test_criteria();
+  test_bisections();
   test_brain(brain, region);
   return boost::report_errors();
 }

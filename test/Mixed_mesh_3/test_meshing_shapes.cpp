@@ -21,8 +21,8 @@
 #include <cstdint>
 #include <functional>
 #include <iostream>
-#include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -33,66 +33,57 @@ using CGAL::Polyhedral_mixed_mesh_region_3;
 
 // ---- awkward domains ---------------------------------------------------------------------------
 
-// How it ended, exactly: a change that is not meant shall not pass for another way of ending well.
-struct Outcome
+// Cells are lost if that is the status, or if one of precedence is.
+void check_lost(const Mixed_mesh_result_3& result)
 {
-  Status status;
-  std::size_t number_of_vertices, number_of_lost_cells;
-
-  friend bool operator==(const Outcome& a, const Outcome& b)
-  {
-    return a.status == b.status && a.number_of_vertices == b.number_of_vertices
-           && a.number_of_lost_cells == b.number_of_lost_cells;
-  }
-  friend std::ostream& operator<<(std::ostream& out, const Outcome& o)
-  {
-    return out << "status " << int(o.status) << ", " << o.number_of_vertices << " vertices, "
-               << o.number_of_lost_cells << " lost cells";
-  }
-};
-
-Outcome outcome(const Mesh& mesh, const Mixed_mesh_result_3& result)
-{
-  return {result.status, mesh.number_of_vertices(), result.number_of_lost_cells};
+  BOOST_TEST(result.status != Status::PARTS_LOST || result.number_of_lost_cells > 0);
+  BOOST_TEST(result.number_of_lost_cells == 0 || result.status >= Status::PARTS_LOST);
+  BOOST_TEST_EQ(result.number_of_lost_cells > 0, result.lost_cells != CGAL::Bbox_3());
 }
 
-// Returns the volume of the mesh that is not fitted; the fitted one is valid, too, and on the surface.
-// expected: of the mesh that is not fitted, with a cube and with a box as root
-// fitted: likewise its status after fitting; convex surfaces and small budgets only, to save time
+// Returns the volume of the mesh that is not fitted; the fitted one is valid, too, and nearer.
+// expected: how the mesh that is not fitted ends, with a cube and with a box as root
+// fitted: likewise after fitting, without more vertices; convex surfaces and small budgets only, to save time
 double mesh_shape(const std::string& name, const Surface& surface, std::size_t budget,
-                  const std::array<Outcome, 2>& expected, const std::vector<Status>& fitted_status = {})
+                  const std::array<Status, 2>& expected, const std::vector<Status>& fitted_status = {})
 {
   const Polyhedral_mixed_mesh_domain_3 domain(surface);
+  const Everywhere_mixed_mesh_region_3 everywhere;
   double first_volume = 0;
   for(Root_cell root : {Root_cell::CUBE, Root_cell::BOX}) {
     const std::string shape = name + (root == Root_cell::BOX ? " (box)" : "");
-    Mesh mesh, fitted;
-    const auto result = run(domain, Everywhere_mixed_mesh_region_3(), unfitted(budget).root_cell(root), mesh);
-    if(!BOOST_TEST_EQ(outcome(mesh, result), expected[root == Root_cell::BOX]))
+    const auto plain = Mixed_mesh_criteria_3(budget).root_cell(root).tolerance(0).share_of_bisections(0);
+    Mesh mesh, fitted, bisected;
+    const auto result = run(domain, everywhere, Mixed_mesh_criteria_3(plain).fit_to_surface(false), mesh);
+    if(!BOOST_TEST_EQ(int(result.status), int(expected[root == Root_cell::BOX])))
       std::cout << shape << ": needed " << result.number_of_vertices_needed << std::endl;
+    check_lost(result);
     check_sides(mesh, result, domain);
     if(root == Root_cell::CUBE && !mesh.is_empty())
       first_volume = volume(mesh);
 
     if(fitted_status.empty())
       continue;
-    const auto with = run(domain, Everywhere_mixed_mesh_region_3(),
-                          Mixed_mesh_criteria_3(budget).root_cell(root), fitted);
+    const auto with = run(domain, everywhere, plain, fitted);
     BOOST_TEST_EQ(int(with.status), int(fitted_status[root == Root_cell::BOX]));
     BOOST_TEST(with.status == result.status || with.status == Status::NOT_ALL_ARRIVED);
-    BOOST_TEST_EQ(fitted.is_empty(), mesh.is_empty());
-    if(fitted.is_empty())
-      continue;
-    const std::size_t off = number_of_vertices_off_surface(fitted, surface);
-    BOOST_TEST_LE(off, with.optimization.number_of_boundary_vertices
-                         - with.optimization.number_of_arrived_vertices);
-    BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED || off == 0);
-    // the chords of a convex surface are inside
-    const double exact = CGAL::to_double(CGAL::Polygon_mesh_processing::volume(surface));
-    BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED || volume(fitted) < exact * (1 + 1e-9));
-    const auto rows = quality_statistics(fitted);
-    std::cout << shape << ": " << off << " off, ARC " << rows[number_of_element_kinds].mean << ", at most "
-              << rows[number_of_element_kinds].maximum << std::endl;
+    BOOST_TEST_EQ(fitted.number_of_vertices(), mesh.number_of_vertices());
+    BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED || volume(fitted) < volume(mesh) * (1 + 1e-12));
+    const auto by_default = run(domain, everywhere, Mixed_mesh_criteria_3(budget).root_cell(root), bisected);
+    check_lost(by_default);
+    for(const auto& [m, r] : {std::make_pair(&fitted, &with), std::make_pair(&bisected, &by_default)}) {
+      const std::size_t off = number_of_vertices_off_surface(*m, surface);
+      BOOST_TEST_LE(off,
+                    r->optimization.number_of_boundary_vertices - r->optimization.number_of_arrived_vertices);
+      BOOST_TEST(r->status == Status::NOT_ALL_ARRIVED || off == 0);
+      // the chords of a convex surface are inside
+      const double exact = CGAL::to_double(CGAL::Polygon_mesh_processing::volume(surface));
+      BOOST_TEST(r->status == Status::NOT_ALL_ARRIVED || volume(*m) < exact * (1 + 1e-9));
+      const auto rows = quality_statistics(*m);
+      std::cout << shape << ": status " << int(r->status) << ", " << m->number_of_vertices() << " vertices, " << off
+                << " off, ARC " << rows[number_of_element_kinds].mean << ", at most "
+                << rows[number_of_element_kinds].maximum << std::endl;
+    }
   }
   return first_volume;
 }
@@ -107,7 +98,7 @@ void test_shapes()
   double volume_of_mesh;
   Surface cube;
   add_box(cube, {0, 0, 0}, {1, 1, 1});
-  volume_of_mesh = mesh_shape("cube", cube, 1000, {{{Status::SUCCESS, 994, 0}, {Status::SUCCESS, 995, 0}}},
+  volume_of_mesh = mesh_shape("cube", cube, 1000, {Status::SUCCESS, Status::SUCCESS},
                               {Status::SUCCESS, Status::SUCCESS});
   BOOST_TEST(is_near(volume_of_mesh, 1));
 
@@ -120,34 +111,34 @@ void test_shapes()
   for(const auto& f : {std::array<int, 3>{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}})
     tetrahedron.add_face(V(f[0]), V(f[1]), V(f[2]));
   volume_of_mesh = mesh_shape("tetrahedron", tetrahedron, 2000,
-                              {{{Status::SUCCESS, 1996, 0}, {Status::PARTS_LOST, 1998, 9}}});
+                              {Status::SUCCESS, Status::PARTS_LOST});
   BOOST_TEST(is_near(volume_of_mesh, 4.5));
 
   Surface plate;
   add_box(plate, {0, 0, 0}, {100, 100, 1});
-  mesh_shape("plate", plate, 20000, {{{Status::SUCCESS, 19990, 0}, {Status::SUCCESS, 20000, 0}}});
-  mesh_shape("plate, few", plate, 300, {{{Status::SUCCESS, 298, 0}, {Status::SUCCESS, 299, 0}}},
-             {Status::NOT_ALL_ARRIVED, Status::SUCCESS}); // with elements as flat as the plate
-  const auto tilt = [](const Point_3& p) {                // a rotation
+  mesh_shape("plate", plate, 20000, {Status::SUCCESS, Status::SUCCESS});
+  mesh_shape("plate, few", plate, 300, {Status::SUCCESS, Status::SUCCESS},
+             {Status::NOT_ALL_ARRIVED, Status::NOT_ALL_ARRIVED});
+  const auto tilt = [](const Point_3& p) { // a rotation
     const double c = 0.8, s = 0.6;
     const Point_3 q(c * p.x() - s * p.z(), p.y(), s * p.x() + c * p.z());
     return Point_3(q.x(), c * q.y() - s * q.z(), s * q.y() + c * q.z());
   };
   mesh_shape("tilted plate", transformed(plate, tilt), 20000,
-             {{{Status::SUCCESS, 19999, 0}, {Status::SUCCESS, 19966, 0}}});
+             {Status::SUCCESS, Status::SUCCESS});
 
   Surface needle;
   add_box(needle, {0, 0, 0}, {100, 1, 1});
-  mesh_shape("needle", needle, 2000, {{{Status::SUCCESS, 1995, 0}, {Status::SUCCESS, 1993, 0}}});
+  mesh_shape("needle", needle, 2000, {Status::SUCCESS, Status::SUCCESS});
   mesh_shape("tilted needle", transformed(needle, tilt), 2000,
-             {{{Status::SUCCESS, 1994, 0}, {Status::SUCCESS, 2000, 0}}});
+             {Status::SUCCESS, Status::SUCCESS});
 
   Surface two;
   add_sphere(two, {0, 0, 0}, 1, 8);
   add_sphere(two, {5, 0.3, 0.1}, 1, 8);
   const double sphere = 4 * CGAL_PI / 3;
   volume_of_mesh = mesh_shape("two spheres", two, 4000,
-                              {{{Status::SUCCESS, 3997, 0}, {Status::SUCCESS, 3996, 0}}});
+                              {Status::SUCCESS, Status::SUCCESS});
   BOOST_TEST(is_near(volume_of_mesh, 2 * sphere));
 
   // Two plates between the planes of the coarse octree: the default base level would lose one of them.
@@ -166,9 +157,8 @@ void test_shapes()
     BOOST_TEST(has_both || result.status == Status::PARTS_LOST || result.status == Status::BUDGET_TOO_SMALL
                || result.status == Status::EMPTY);
     BOOST_TEST(n < 20000 || has_both);
-    BOOST_TEST_EQ(outcome(mesh, result), (n == 100   ? Outcome{Status::PARTS_LOST, 98, 492}
-                                          : n == 500 ? Outcome{Status::PARTS_LOST, 494, 444}
-                                                     : Outcome{Status::SUCCESS, 19966, 0}));
+    check_lost(result);
+    BOOST_TEST(n < 20000 || result.status == Status::SUCCESS);
   }
 
   // almost touching: pinched without the repair
@@ -176,14 +166,14 @@ void test_shapes()
   add_sphere(touching, {0, 0, 0}, 1, 8);
   add_sphere(touching, {1.3, 1.3, 1.2}, 1, 8);
   volume_of_mesh = mesh_shape("touching spheres", touching, 4000,
-                              {{{Status::SUCCESS, 3999, 0}, {Status::SUCCESS, 3998, 0}}});
+                              {Status::SUCCESS, Status::SUCCESS});
   BOOST_TEST(is_near(volume_of_mesh, 2 * sphere));
 
   Surface cavity;
   add_sphere(cavity, {0, 0, 0}, 1, 10);
   add_sphere(cavity, {0.1, 0, 0}, 0.5, 8);
   volume_of_mesh = mesh_shape("cavity", cavity, 4000,
-                              {{{Status::SUCCESS, 3991, 0}, {Status::SUCCESS, 3995, 0}}});
+                              {Status::SUCCESS, Status::SUCCESS});
   BOOST_TEST(is_near(volume_of_mesh, sphere * 7 / 8));
 
   // inside out; the sphere is symmetric, so that many cells are equally deep, but for rounding
@@ -222,7 +212,7 @@ void test_statuses()
     return run(sphere, everywhere, criteria, mesh).status;
   };
   BOOST_TEST(status(Mixed_mesh_criteria_3(1000)) == Status::SUCCESS);
-  const Mixed_mesh_criteria_3 boxed = Mixed_mesh_criteria_3(300).root_cell(Root_cell::BOX); // one root only
+  const Mixed_mesh_criteria_3 boxed = Mixed_mesh_criteria_3(300).root_cell(Root_cell::BOX);
   BOOST_TEST(status(Mixed_mesh_criteria_3(boxed).tolerance(1)) == Status::SUCCESS);
   BOOST_TEST(status(Mixed_mesh_criteria_3(boxed).tolerance(0.03)) == Status::TOLERANCE_NOT_REACHED);
   BOOST_TEST(find_defects(mesh).none());

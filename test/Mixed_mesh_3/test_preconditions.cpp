@@ -77,7 +77,16 @@ void test_criteria()
     ALLOWED(criteria.base_level(level));
   for(double distance : {-1e-9, nan})
     FORBIDDEN(criteria.tolerance(distance));
-  ALLOWED(criteria.tolerance(0));
+  for(double distance : {double(Criteria::automatic), 0., 2.})
+    ALLOWED(criteria.tolerance(distance));
+  for(double share : {-1e-9, nan})
+    FORBIDDEN(criteria.grading(share));
+  for(double share : {0., 3.})
+    ALLOWED(criteria.grading(share));
+  for(double share : {-1e-9, 0.51, nan})
+    FORBIDDEN(criteria.share_of_bisections(share));
+  for(double share : {double(Criteria::automatic), 0., 0.5})
+    ALLOWED(criteria.share_of_bisections(share));
   FORBIDDEN(criteria.number_of_threads(0));
   ALLOWED(criteria.number_of_threads(1));
 
