@@ -80,8 +80,8 @@ double mesh_shape(const std::string& name, const Surface& surface, std::size_t b
       const double exact = CGAL::to_double(CGAL::Polygon_mesh_processing::volume(surface));
       BOOST_TEST(r->status == Status::NOT_ALL_ARRIVED || volume(*m) < exact * (1 + 1e-9));
       const auto rows = quality_statistics(*m);
-      std::cout << shape << ": status " << int(r->status) << ", " << m->number_of_vertices() << " vertices, " << off
-                << " off, ARC " << rows[number_of_element_kinds].mean << ", at most "
+      std::cout << shape << ": status " << int(r->status) << ", " << m->number_of_vertices() << " vertices, "
+                << off << " off, ARC " << rows[number_of_element_kinds].mean << ", at most "
                 << rows[number_of_element_kinds].maximum << std::endl;
     }
   }
@@ -110,8 +110,7 @@ void test_shapes()
   using V = Surface::Vertex_index;
   for(const auto& f : {std::array<int, 3>{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}})
     tetrahedron.add_face(V(f[0]), V(f[1]), V(f[2]));
-  volume_of_mesh = mesh_shape("tetrahedron", tetrahedron, 2000,
-                              {Status::SUCCESS, Status::PARTS_LOST});
+  volume_of_mesh = mesh_shape("tetrahedron", tetrahedron, 2000, {Status::SUCCESS, Status::PARTS_LOST});
   BOOST_TEST(is_near(volume_of_mesh, 4.5));
 
   Surface plate;
@@ -124,21 +123,18 @@ void test_shapes()
     const Point_3 q(c * p.x() - s * p.z(), p.y(), s * p.x() + c * p.z());
     return Point_3(q.x(), c * q.y() - s * q.z(), s * q.y() + c * q.z());
   };
-  mesh_shape("tilted plate", transformed(plate, tilt), 20000,
-             {Status::SUCCESS, Status::SUCCESS});
+  mesh_shape("tilted plate", transformed(plate, tilt), 20000, {Status::SUCCESS, Status::SUCCESS});
 
   Surface needle;
   add_box(needle, {0, 0, 0}, {100, 1, 1});
   mesh_shape("needle", needle, 2000, {Status::SUCCESS, Status::SUCCESS});
-  mesh_shape("tilted needle", transformed(needle, tilt), 2000,
-             {Status::SUCCESS, Status::SUCCESS});
+  mesh_shape("tilted needle", transformed(needle, tilt), 2000, {Status::SUCCESS, Status::SUCCESS});
 
   Surface two;
   add_sphere(two, {0, 0, 0}, 1, 8);
   add_sphere(two, {5, 0.3, 0.1}, 1, 8);
   const double sphere = 4 * CGAL_PI / 3;
-  volume_of_mesh = mesh_shape("two spheres", two, 4000,
-                              {Status::SUCCESS, Status::SUCCESS});
+  volume_of_mesh = mesh_shape("two spheres", two, 4000, {Status::SUCCESS, Status::SUCCESS});
   BOOST_TEST(is_near(volume_of_mesh, 2 * sphere));
 
   // Two plates between the planes of the coarse octree: the default base level would lose one of them.
@@ -165,15 +161,13 @@ void test_shapes()
   Surface touching;
   add_sphere(touching, {0, 0, 0}, 1, 8);
   add_sphere(touching, {1.3, 1.3, 1.2}, 1, 8);
-  volume_of_mesh = mesh_shape("touching spheres", touching, 4000,
-                              {Status::SUCCESS, Status::SUCCESS});
+  volume_of_mesh = mesh_shape("touching spheres", touching, 4000, {Status::SUCCESS, Status::SUCCESS});
   BOOST_TEST(is_near(volume_of_mesh, 2 * sphere));
 
   Surface cavity;
   add_sphere(cavity, {0, 0, 0}, 1, 10);
   add_sphere(cavity, {0.1, 0, 0}, 0.5, 8);
-  volume_of_mesh = mesh_shape("cavity", cavity, 4000,
-                              {Status::SUCCESS, Status::SUCCESS});
+  volume_of_mesh = mesh_shape("cavity", cavity, 4000, {Status::SUCCESS, Status::SUCCESS});
   BOOST_TEST(is_near(volume_of_mesh, sphere * 7 / 8));
 
   // inside out; the sphere is symmetric, so that many cells are equally deep, but for rounding
