@@ -59,9 +59,12 @@ void test_budgets(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& do
     BOOST_TEST_GE(double(mesh.number_of_vertices()), 0.97 * double(n));
     BOOST_TEST(find_defects(mesh).none());
     BOOST_TEST_EQ(result.number_of_boundary_vertices_inserted, 0u);
-    BOOST_TEST_EQ(result.base_level, n < 10000 ? 3 : 4); // at most half of the budget
+    BOOST_TEST_EQ(result.base_level, 3);
     BOOST_TEST(result.optimization.status == CGAL::Mixed_mesh_optimization_status::EMPTY);
-    BOOST_TEST_EQ(result.number_of_vertices_for_tolerance, 0u);
+    BOOST_TEST_EQ(result.number_of_vertices_needed, mesh.number_of_vertices());
+    BOOST_TEST_GT(result.tolerance, 0);
+    BOOST_TEST(result.number_of_vertices_for_tolerance > 0
+               && 2 * result.number_of_vertices_for_tolerance <= n);
     check_sides(mesh, result, domain);
     if(n == 660) {
       const auto rows = quality_statistics(mesh);
@@ -76,29 +79,121 @@ void test_budgets(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& do
     // The same vertices, moved onto the surface.
     if(n > 2000) // see test_optimize
       continue;
-    const Mixed_mesh_result_3 with = run(domain, region, Mixed_mesh_criteria_3(n), fitted);
+    const auto criteria = Mixed_mesh_criteria_3(n).share_of_bisections(0);
+    const Mixed_mesh_result_3 with = run(domain, region, criteria, fitted);
     BOOST_TEST(with.status == Status::SUCCESS);
-    BOOST_TEST(with.optimization.status == CGAL::Mixed_mesh_optimization_status::SUCCESS);
+    BOOST_TEST_EQ(with.tolerance, result.tolerance);
+    BOOST_TEST(with.optimization.status
+               == (with.optimization.largest_distance > with.tolerance
+                     ? CGAL::Mixed_mesh_optimization_status::TOLERANCE_NOT_REACHED
+                     : CGAL::Mixed_mesh_optimization_status::SUCCESS));
+    BOOST_TEST_EQ(with.optimization.number_of_bisections, 0u);
     BOOST_TEST_EQ(fitted.number_of_vertices(), mesh.number_of_vertices());
     BOOST_TEST_EQ(with.number_of_vertices_in_region, result.number_of_vertices_in_region);
     BOOST_TEST_GT(number_of_vertices_off_surface(mesh, brain), 100u);
     BOOST_TEST_EQ(number_of_vertices_off_surface(fitted, brain), 0u);
     BOOST_TEST(find_defects(fitted).none());
     const auto rows = quality_statistics(fitted);
-    BOOST_TEST_LE(rows[number_of_element_kinds].mean, 1.45);
-    BOOST_TEST_LE(rows[number_of_element_kinds].maximum, 2.8);
+    BOOST_TEST_LE(rows[number_of_element_kinds].mean, 1.47);
+    BOOST_TEST_LE(rows[number_of_element_kinds].maximum, Mixed_mesh_criteria_3(n).quality_bound());
     BOOST_TEST_LT(volume(fitted), volume(mesh));
   }
 }
 
-// The search for a tolerance, with the root given.
+// The octree leaves a share of the budget, and bisections fill it.
+void test_bisections(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& domain,
+                     const Polyhedral_mixed_mesh_region_3& region)
+{
+  for(std::size_t n : {300, 660, 2000})
+    for(double share : {double(Mixed_mesh_criteria_3::automatic), 0.03, 0.2}) {
+      Mesh mesh;
+      const auto criteria = Mixed_mesh_criteria_3(n).share_of_bisections(share);
+      const double used = criteria.share_of_bisections();
+      BOOST_TEST(share >= 0 ? used == share : used > 0);
+      const auto result = run(domain, region, criteria, mesh);
+      BOOST_TEST(result.status == Status::SUCCESS);
+      BOOST_TEST_GE(double(mesh.number_of_vertices()), 0.97 * double(n));
+      BOOST_TEST_LE(double(result.number_of_vertices_needed), (1 - used) * double(n) + 1);
+      BOOST_TEST_EQ(result.number_of_vertices_needed + result.optimization.number_of_bisections,
+                    mesh.number_of_vertices());
+      BOOST_TEST_GT(result.optimization.number_of_bisections, 0u);
+      BOOST_TEST_EQ(result.optimization.number_of_boundary_vertices, boundary_vertices(mesh).size());
+      BOOST_TEST_EQ(number_of_vertices_off_surface(mesh, brain), 0u);
+
+      // what is left over without fitting
+      Mesh before;
+      const auto rest = make_mixed_mesh_3(domain, region, unfitted(n).share_of_bisections(used), before);
+      check(before, rest, n - std::size_t(used * double(n)));
+      BOOST_TEST(rest.status == Status::SUCCESS);
+      BOOST_TEST_EQ(before.number_of_vertices(), result.number_of_vertices_needed);
+    }
+  BOOST_TEST_EQ(unfitted(660).share_of_bisections(), 0);
+  BOOST_TEST_EQ(Mixed_mesh_criteria_3(660).share_of_bisections(0).share_of_bisections(), 0);
+}
+
+// The octree of the paper: no cell is deeper than the base level but in the region, or for the balance. The
+// mesh is that of an octree made here, of which that is checked.
+void test_paper(const Polyhedral_mixed_mesh_domain_3& domain, const Polyhedral_mixed_mesh_region_3& region)
+{
+  using Octree_ = internal::Located_octree<Polyhedral_mixed_mesh_domain_3, Polyhedral_mixed_mesh_region_3,
+                                           Axis_aligned_octree_cell_traits_3>;
+  const Axis_aligned_octree_cell_traits_3 traits(domain.bbox());
+  for(int base_level : {2, 3}) {
+    const auto criteria = unfitted(1500).base_level(base_level).grading(0).tolerance(0);
+    Mesh mesh, expected;
+    const auto result = run(domain, region, criteria, mesh);
+    BOOST_TEST(result.status == Status::SUCCESS);
+    BOOST_TEST_EQ(result.tolerance, 0);
+    BOOST_TEST_EQ(result.number_of_vertices_for_tolerance, 0u);
+
+    Octree_ octree(domain, region, traits);
+    BOOST_TEST(internal::refine_to_level(octree, base_level, 1500));
+    Default_visitor visitor;
+    const auto candidate = internal::fill_vertex_budget(octree, 1500, 0, [&](const Octree_& o) {
+      return internal::make_candidate(o, criteria, visitor);
+    });
+    internal::assemble_mesh(octree, candidate.mesh, candidate.boundary, expected);
+    BOOST_TEST(content(mesh) == content(expected));
+
+    const internal::Octree& nodes = octree.octree();
+    const auto touches = [&](internal::Octree::Node_index a, internal::Octree::Node_index b) {
+      for(int k = 0; k < 3; ++k)
+        if(nodes.corner(a)[k] > nodes.corner(b)[k] + nodes.side(b)
+           || nodes.corner(b)[k] > nodes.corner(a)[k] + nodes.side(a))
+          return false;
+      return true;
+    };
+    std::size_t in_region = 0, for_balance = 0;
+    for(internal::Octree::Node_index n = 0; n < nodes.size(); ++n) {
+      if(nodes.is_leaf(n) || nodes.level(n) < base_level)
+        continue;
+      if(octree.is_in_region(n)) {
+        ++in_region;
+        continue;
+      }
+      ++for_balance;
+      bool has_reason = false; // a smaller cell beside it that is split, too
+      for(internal::Octree::Node_index m = 0; m < nodes.size() && !has_reason; ++m)
+        has_reason = !nodes.is_leaf(m) && nodes.level(m) == nodes.level(n) + 1 && touches(n, m);
+      BOOST_TEST(has_reason);
+    }
+    BOOST_TEST(in_region > 20 && for_balance > 0);
+
+    // and with grading more than that is split
+    Mesh graded;
+    run(domain, region, unfitted(1500).base_level(base_level).tolerance(0), graded);
+    BOOST_TEST(!(content(graded) == content(mesh)));
+  }
+}
+
+// The search for a tolerance, with the root given. One that is not given is a wish.
 void test_tolerance(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& domain,
                     const Polyhedral_mixed_mesh_region_3& region)
 {
   const Axis_aligned_octree_cell_traits_3 traits(domain.bbox());
   Mesh mesh;
   double last = std::numeric_limits<double>::infinity();
-  for(double tolerance : {0., 5.}) {
+  for(double tolerance : {0., 8.}) {
     const auto criteria = Mixed_mesh_criteria_3(660).tolerance(tolerance);
     const auto result = make_mixed_mesh_3(domain, region, criteria, traits, mesh);
     check(mesh, result, 660);
@@ -106,6 +201,7 @@ void test_tolerance(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& 
     BOOST_TEST_EQ(number_of_vertices_off_surface(mesh, brain), 0u);
     const double distance = hausdorff_distance(mesh, brain, 1e-3).distance();
     BOOST_TEST_LT(distance, last);
+    BOOST_TEST_EQ(result.tolerance, tolerance);
     BOOST_TEST_EQ(result.number_of_vertices_for_tolerance > 0, tolerance > 0);
     BOOST_TEST_EQ(result.optimization.largest_distance > 0, tolerance > 0);
     if(result.status == Status::SUCCESS && tolerance > 0)
@@ -117,6 +213,19 @@ void test_tolerance(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& 
     make_mixed_mesh_3(domain, region, Mixed_mesh_criteria_3(660).tolerance(tolerance).number_of_threads(3),
                       traits, again);
     BOOST_TEST(content(again) == content(mesh));
+  }
+  last = std::numeric_limits<double>::infinity();
+  for(std::size_t n : {150, 300, 1000}) {
+    const auto result = run(domain, region, Mixed_mesh_criteria_3(n), mesh);
+    BOOST_TEST(result.tolerance > 0 && result.tolerance < last); // finer with more vertices
+    last = result.tolerance;
+    BOOST_TEST(result.status != Status::TOLERANCE_NOT_REACHED);
+    Mesh asked; // where it is no wish, the status tells
+    const auto same = run(domain, region, Mixed_mesh_criteria_3(n).tolerance(last), asked);
+    BOOST_TEST_EQ(same.status == Status::TOLERANCE_NOT_REACHED,
+                  same.status < Status::PARTS_LOST
+                    && same.optimization.status
+                         == CGAL::Mixed_mesh_optimization_status::TOLERANCE_NOT_REACHED);
   }
 }
 
@@ -282,6 +391,7 @@ void test_invariance(const Surface& brain, const Surface& region)
     return content(mesh);
   };
   const Content expected = make(brain, region, false), fitted = make(brain, region, true);
+  const double mean = quality_statistics(mesh)[number_of_element_kinds].mean;
   for(double scale : {std::ldexp(1., 20), std::ldexp(1., -20), 1e6, 1e-6, 25.4}) {
     const auto f = [&](const Point_3& p) { return Point_3(scale * p.x(), scale * p.y(), scale * p.z()); };
     const Surface surface = transformed(brain, f), region_surface = transformed(region, f);
@@ -303,7 +413,7 @@ void test_invariance(const Surface& brain, const Surface& region)
     BOOST_TEST(make(surface, region_surface, false).has_same_topology(expected) || offset > 1e6);
     // flips may differ, by the rounding of the closest points; the elements are as good
     make(surface, region_surface, true);
-    BOOST_TEST_LE(quality_statistics(mesh)[number_of_element_kinds].mean, 1.43);
+    BOOST_TEST_LE(std::abs(quality_statistics(mesh)[number_of_element_kinds].mean - mean), 0.02);
     BOOST_TEST_EQ(number_of_vertices_off_surface(mesh, surface), 0u);
   }
   Surface inside_out = brain, region_inside_out = region;
@@ -346,7 +456,14 @@ void test_visitor(const Surface& brain, const Surface& region)
     BOOST_TEST_GT(n, 0u);
   BOOST_TEST_EQ(all.begun[int(Stage::ASSEMBLY)], 1u);
   BOOST_TEST_EQ(all.number_of_trials, result.number_of_trials);
-  BOOST_TEST_EQ(all.largest_accepted, mesh.number_of_vertices());
+  const auto criteria = Mixed_mesh_criteria_3(660);
+  const std::size_t octree_budget = 660 - std::size_t(criteria.share_of_bisections() * 660);
+  std::size_t largest_accepted = 0;
+  for(std::size_t n : all.sizes)
+    if(n <= octree_budget)
+      largest_accepted = (std::max)(largest_accepted, n);
+  BOOST_TEST_EQ(largest_accepted, result.number_of_vertices_needed);
+  BOOST_TEST_EQ(largest_accepted + result.optimization.number_of_bisections, mesh.number_of_vertices());
   BOOST_TEST_EQ(all.begun[int(Stage::OPTIMIZATION)], 1u);
   BOOST_TEST_GT(all.number_of_questions, all.number_of_trials + 2);
 
@@ -388,6 +505,8 @@ int main(int argc, char** argv)
     last = now;
   };
   timed("budgets", [&] { test_budgets(brain, domain, region); });
+  timed("bisections", [&] { test_bisections(brain, domain, region); });
+  timed("paper", [&] { test_paper(domain, region); });
   timed("tolerance", [&] { test_tolerance(brain, domain, region); });
   timed("repeatability", [&] { test_repeatability(domain, region); });
   timed("kernels", [&] { test_kernels(brain, region_surface); });

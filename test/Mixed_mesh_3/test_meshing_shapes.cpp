@@ -68,7 +68,6 @@ double mesh_shape(const std::string& name, const Surface& surface, std::size_t b
     BOOST_TEST_EQ(int(with.status), int(fitted_status[root == Root_cell::BOX]));
     BOOST_TEST(with.status == result.status || with.status == Status::NOT_ALL_ARRIVED);
     BOOST_TEST_EQ(fitted.number_of_vertices(), mesh.number_of_vertices());
-    BOOST_TEST(with.status == Status::NOT_ALL_ARRIVED || volume(fitted) < volume(mesh) * (1 + 1e-12));
     const auto by_default = run(domain, everywhere, Mixed_mesh_criteria_3(budget).root_cell(root), bisected);
     check_lost(by_default);
     for(const auto& [m, r] : {std::make_pair(&fitted, &with), std::make_pair(&bisected, &by_default)}) {
@@ -117,8 +116,8 @@ void test_shapes()
   add_box(plate, {0, 0, 0}, {100, 100, 1});
   mesh_shape("plate", plate, 20000, {Status::SUCCESS, Status::SUCCESS});
   mesh_shape("plate, few", plate, 300, {Status::SUCCESS, Status::SUCCESS},
-             {Status::NOT_ALL_ARRIVED, Status::NOT_ALL_ARRIVED});
-  const auto tilt = [](const Point_3& p) { // a rotation
+             {Status::NOT_ALL_ARRIVED, Status::SUCCESS}); // with elements as flat as the plate
+  const auto tilt = [](const Point_3& p) {                // a rotation
     const double c = 0.8, s = 0.6;
     const Point_3 q(c * p.x() - s * p.z(), p.y(), s * p.x() + c * p.z());
     return Point_3(q.x(), c * q.y() - s * q.z(), s * q.y() + c * q.z());
@@ -212,10 +211,13 @@ void test_statuses()
   BOOST_TEST(find_defects(mesh).none());
   BOOST_TEST(status(Mixed_mesh_criteria_3(1000).base_level(6)) == Status::BUDGET_TOO_SMALL);
   // One more cell is worth so many vertices of a small mesh that some budgets cannot be filled.
-  bool is_filled_always = true;
-  for(std::size_t n = 30; n < 60; ++n)
-    is_filled_always = is_filled_always && status(Mixed_mesh_criteria_3(n)) != Status::BUDGET_NOT_FILLED;
-  BOOST_TEST(!is_filled_always);
+  // Bisections fill more of them.
+  std::size_t number_not_filled = 0, number_bisected_not_filled = 0;
+  for(std::size_t n = 30; n < 60; ++n) {
+    number_bisected_not_filled += status(Mixed_mesh_criteria_3(n)) == Status::BUDGET_NOT_FILLED;
+    number_not_filled += status(Mixed_mesh_criteria_3(n).share_of_bisections(0)) == Status::BUDGET_NOT_FILLED;
+  }
+  BOOST_TEST_LT(number_bisected_not_filled, number_not_filled);
 
   BOOST_TEST(run(sphere, Ball_mixed_mesh_region_3({9, 9, 9}, 1), Mixed_mesh_criteria_3(1000), mesh).status
              == Status::REGION_NOT_MET);

@@ -131,7 +131,7 @@ struct Recording_visitor
 {
   std::size_t stop_at = std::numeric_limits<std::size_t>::max();
   std::size_t number_of_questions = 0, number_of_trials = 0, number_of_errors = 0;
-  std::size_t largest_accepted = 0;
+  std::vector<std::size_t> sizes; // of the meshes tried
   std::array<std::size_t, number_of_stages> begun{}, ended{};
   int open = -1; // the stage under way
 
@@ -147,11 +147,10 @@ struct Recording_visitor
     open = -1;
     ++ended[int(s)];
   }
-  void progress(std::size_t number_of_vertices, std::size_t budget)
+  void progress(std::size_t number_of_vertices, std::size_t)
   {
     ++number_of_trials;
-    if(number_of_vertices <= budget)
-      largest_accepted = (std::max)(largest_accepted, number_of_vertices);
+    sizes.push_back(number_of_vertices);
   }
   bool go_on() { return number_of_questions++ < stop_at; }
 };
