@@ -42,8 +42,8 @@ public:
     m_number_of_rounds = rounds;
     return *this;
   }
-  /// For a mesh of so many vertices.
-  int number_of_rounds(std::size_t number_of_vertices) const
+  /// Those of a mesh of so many vertices.
+  int number_of_rounds_for(std::size_t number_of_vertices) const
   {
     const bool is_patient = m_tolerance > 0 && number_of_vertices <= 20000;
     return m_number_of_rounds > 0 ? m_number_of_rounds : is_patient ? 12 : 4;

@@ -317,7 +317,7 @@ private:
   bool alternate(const Go_on& go_on)
   {
     const bool has_tolerance = m_criteria.tolerance() > 0;
-    const int rounds = m_criteria.number_of_rounds(m_working.points.size());
+    const int rounds = m_criteria.number_of_rounds_for(m_working.points.size());
     const int first = int(share_of_first_power * rounds + 0.5);
     const bool is_patient = rounds
                             > 6; // many short rounds, so that boundary vertices can follow what draws them
