@@ -414,9 +414,9 @@ class CommandLine(unittest.TestCase):
                 (["--no-optimize", "--acceptable-quality", "inf"], "--acceptable-quality"),
                 (["--no-optimize", "--layers", -1], "--layers"),
                 (["--no-optimize", "--solver", "lu"], "--solver"),
-                (["--grading", -0.1], "--grading"),
-                (["--grading", "nan"], "--grading"),
-                (["--grading", "much"], "--grading"),
+                (["--grading", -0.1], "--grading: expected a number from 0 to 100"),
+                (["--grading", "nan"], "--grading: expected a number from 0 to 100"),
+                (["--grading", "much"], "--grading: expected a number from 0 to 100"),
                 (["--tolerance", 0], "--tolerance: expected a number greater than 0"),
                 (["--tolerance", "nan"], "--tolerance"),
                 (["--tolerance", "much"], "--tolerance")):
