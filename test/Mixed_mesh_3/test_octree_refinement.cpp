@@ -207,6 +207,14 @@ void test_ends()
     const double mean = mean_radius_of_region(Ball_octree(domain, region, traits));
     BOOST_TEST(0.9 * radius < mean && mean < 1.1 * radius);
   }
+  // a sheet that no center is in, until cells are as small as it is thick
+  for(double thickness : {1e-3, 1e-7}) {
+    const CGAL::Implicit_mixed_mesh_region_3 sheet(
+      [&](const Test_point& p) { return thickness / 2 - std::abs(p.z() - 0.5); });
+    const double exact = std::cbrt(0.75 * 0.09 * thickness);
+    const double mean = mean_radius_of_region(Located_octree(domain, sheet, traits));
+    BOOST_TEST(0.9 * exact < mean && mean < 0.3);
+  }
 }
 
 // ---- the rule of the paper ---------------------------------------------------------------------

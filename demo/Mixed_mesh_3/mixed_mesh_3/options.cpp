@@ -59,7 +59,7 @@ CLI::Option* add_fit(CLI::App& app, Options& o)
       "--grading", o.grading,
       "How gently cells grow with the distance from the region, as a share of its mean radius; 0: only "
       "the region is refined, as in the paper")
-    ->check(CLI::Range(0., 100.))
+    ->check(number("from 0 to 100", [](double x) { return x >= 0 && x <= 100; }))
     ->type_name("G")
     ->capture_default_str();
   CLI::Option* no_fit = app.add_flag("--no-fit", o.no_fit,

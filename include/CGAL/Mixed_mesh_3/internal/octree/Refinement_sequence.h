@@ -26,12 +26,13 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /// The radius of a ball with the volume that the region has in common with the domain, by the centers of some
-/// hundred cells; 0 if they do not meet.
+/// hundred cells; 0 if they do not meet. Of a region too thin for that, at most that of the cells it meets.
 /// \param root the octree with nothing but its root
 template <class Octree_>
 double mean_radius_of_region(const Octree_& root)
 {
-  constexpr std::size_t enough = 100;
+  constexpr std::size_t enough = 100, too_many = 20000;
+  const auto radius_of = [](double number, double edge) { return std::cbrt(0.75 / M_PI * number) * edge; };
   double radius = 0;
   Octree_ octree = root;
   for(int level = 0; level < Octree::max_level; ++level) {
@@ -39,9 +40,11 @@ double mean_radius_of_region(const Octree_& root)
     const auto count = std::count_if(leaves.begin(), leaves.end(),
                                      [&](Octree::Node_index n) { return octree.depth_in_region(n) >= 0; });
     if(count > 0)
-      radius = std::cbrt(0.75 / M_PI * double(count)) * octree.edge_length(leaves.front());
+      radius = radius_of(double(count), octree.edge_length(leaves.front()));
     if(leaves.empty() || std::size_t(count) >= enough)
       break;
+    if(leaves.size() > too_many) // between their centers
+      return count > 0 ? radius : radius_of(double(leaves.size()), octree.edge_length(leaves.front()));
     octree.refine(leaves);
   }
   return radius;
