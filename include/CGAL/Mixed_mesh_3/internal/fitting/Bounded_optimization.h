@@ -29,10 +29,12 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-Runs the optimization as often as it takes, each time from the start:
+Runs the optimization as often as it takes, each time from the start, and takes the result within the bound
+that has most of the boundary on the surface:
 
 - *freely*: on the way to the surface, elements may get worse than the bound, and better again. If all of the
   boundary arrives, and no element is above the bound in the end, as for most surfaces, that is the result;
+- *calmly*: the same, but for what draws the boundary to places that are too far, and for bisections;
 - *within the bound*, which no step leaves;
 - where faces cut each other in the end, once more, with their vertices *held* where they are, and each time
   more of those around them; at last all of the boundary, which does not cut itself then if it did not at the
@@ -96,12 +98,31 @@ private:
       result.number_of_arrived_vertices = result.number_of_flips = 0;
       return result;
     }
+    // What draws the boundary to places that are too far may be in the way.
+    Mesh calm = m_mesh;
+    Surface_optimizer calm_optimizer(calm, m_domain, Criteria(m_criteria).quality_bound(0), m_quality);
+    calm_optimizer.only_arrive();
+    const Result first = calm_optimizer(go_on);
+    const bool is_calm_within = first.status != Status::STOPPED && first.is_boundary_simple
+                                && is_within_bound(calm);
+    if(is_calm_within && is_fitted(first)) {
+      m_mesh = std::move(calm);
+      return first;
+    }
     Mesh bounded;
     const Result second = optimize_within(bounded, go_on);
-    const bool is_free_better = is_within && result.is_boundary_simple && second.status != Status::STOPPED
-                                && number_off(result) <= number_off(second);
-    m_mesh = std::move(is_free_better ? free : bounded);
-    return is_free_better ? result : second;
+    const bool is_free_within = is_within && result.is_boundary_simple;
+    if(second.status != Status::STOPPED && is_free_within && number_off(result) <= number_off(second)
+       && !(is_calm_within && number_off(first) < number_off(result))) {
+      m_mesh = std::move(free);
+      return result;
+    }
+    if(second.status != Status::STOPPED && is_calm_within && number_off(first) <= number_off(second)) {
+      m_mesh = std::move(calm);
+      return first;
+    }
+    m_mesh = std::move(bounded);
+    return second;
   }
 
   static std::size_t number_off(const Result& r)
@@ -117,11 +138,9 @@ private:
   {
     for(std::size_t i = 0;; ++i) {
       mesh = m_mesh;
-      Criteria criteria = m_criteria;
-      if(i > 0)
-        criteria.number_of_bisections(0);
-      Surface_optimizer optimizer(mesh, m_domain, criteria, m_quality);
+      Surface_optimizer optimizer(mesh, m_domain, m_criteria, m_quality);
       optimizer.hold(m_is_held);
+      optimizer.only_arrive(); // where that is hard, the rest would make it harder
       const Result result = optimizer(go_on);
       if(result.is_boundary_simple || result.status == Status::STOPPED || i > std::size(rings)
          || (i == 0 && is_start_crossing()))

@@ -44,6 +44,7 @@ class Surface_optimizer
 {
   using Project = Surface_projection<Domain>;
   using Moves = Vertex_optimizer<Quality, Project>;
+  using Criteria = Mixed_mesh_optimization_criteria_3;
   using Attraction_ = Surface_attraction<Project>;
 
   Mesh& m_mesh;
@@ -63,6 +64,7 @@ class Surface_optimizer
   std::vector<Vec3> m_simple_points;
   std::vector<std::uint8_t> m_simple_is_arrived;
   std::vector<std::uint8_t> m_is_held;
+  bool m_only_arrives = false;
   std::vector<Vertex_index> m_crossing; // in the end
   Mixed_mesh_optimization_result_3 m_result;
 
@@ -108,6 +110,10 @@ public:
   {
     std::copy(is_held.begin(), is_held.end(), m_is_held.begin());
   }
+
+  /// Boundary vertices are not drawn to places that are too far, which are measured only; no edge is
+  /// bisected.
+  void only_arrive() { m_only_arrives = true; }
 
   template <class Go_on>
   Mixed_mesh_optimization_result_3 operator()(const Go_on& go_on)
@@ -316,8 +322,9 @@ private:
   template <class Go_on>
   bool alternate(const Go_on& go_on)
   {
-    const bool has_tolerance = m_criteria.tolerance() > 0;
-    const int rounds = m_criteria.number_of_rounds_for(m_working.points.size());
+    const bool has_tolerance = m_criteria.tolerance() > 0 && !m_only_arrives;
+    const int rounds = has_tolerance ? m_criteria.number_of_rounds_for(m_working.points.size())
+                                     : Criteria(m_criteria).tolerance(0).number_of_rounds_for(0);
     const int first = int(share_of_first_power * rounds + 0.5);
     const bool is_patient = rounds
                             > 6; // many short rounds, so that boundary vertices can follow what draws them
@@ -342,7 +349,7 @@ private:
         m_moves.attract(m_attraction.attractions(phase == 0 ? 1 : 16));
       }
       m_moves.run(power, good_enough[phase], sweeps);
-      if(round == 0)
+      if(round == 0 && !m_only_arrives)
         bisect();
       ++m_result.number_of_rounds;
     }
