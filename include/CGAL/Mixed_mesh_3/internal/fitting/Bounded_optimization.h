@@ -94,17 +94,16 @@ private:
       m_mesh = std::move(free);
       return result;
     }
-    if(is_stopped) { // what had arrived has come back
-      result.number_of_arrived_vertices = result.number_of_flips = 0;
-      return result;
-    }
+    if(is_stopped)
+      return stopped(result);
     // What draws the boundary to places that are too far may be in the way.
     Mesh calm = m_mesh;
     Surface_optimizer calm_optimizer(calm, m_domain, Criteria(m_criteria).quality_bound(0), m_quality);
     calm_optimizer.only_arrive();
     const Result first = calm_optimizer(go_on);
-    const bool is_calm_within = first.status != Status::STOPPED && first.is_boundary_simple
-                                && is_within_bound(calm);
+    if(first.status == Status::STOPPED)
+      return stopped(first);
+    const bool is_calm_within = first.is_boundary_simple && is_within_bound(calm);
     if(is_calm_within && is_fitted(first)) {
       m_mesh = std::move(calm);
       return first;
@@ -123,6 +122,13 @@ private:
     }
     m_mesh = std::move(bounded);
     return second;
+  }
+
+  // The mesh is the start: what had arrived has come back.
+  static Result stopped(Result result)
+  {
+    result.number_of_arrived_vertices = result.number_of_flips = result.number_of_bisections = 0;
+    return result;
   }
 
   static std::size_t number_off(const Result& r)
