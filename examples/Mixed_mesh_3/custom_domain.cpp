@@ -94,7 +94,9 @@ int main()
   const Ring_domain ring;
   const CGAL::Ball_mixed_mesh_region_3 ball({3, 0, 0}, 1.5);
   Mesh mesh;
-  const auto result = CGAL::make_mixed_mesh_3(ring, ball, 5000, mesh);
+  // Nowhere are cells larger than a quarter of the ring's thickness.
+  const auto criteria = CGAL::Mixed_mesh_criteria_3(5000).base_level(4);
+  const auto result = CGAL::make_mixed_mesh_3(ring, ball, criteria, mesh);
   if(result.status != CGAL::Mixed_mesh_status::SUCCESS)
     return EXIT_FAILURE;
 
