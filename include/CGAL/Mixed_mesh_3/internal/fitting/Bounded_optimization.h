@@ -96,14 +96,20 @@ private:
     }
     if(is_stopped)
       return stopped(result);
-    // What draws the boundary to places that are too far may be in the way.
-    Mesh calm = m_mesh;
-    Surface_optimizer calm_optimizer(calm, m_domain, Criteria(m_criteria).quality_bound(0), m_quality);
-    calm_optimizer.only_arrive();
-    const Result first = calm_optimizer(go_on);
-    if(first.status == Status::STOPPED)
-      return stopped(first);
-    const bool is_calm_within = first.is_boundary_simple && is_within_bound(calm);
+    // What draws the boundary to places that are too far may be in the way, if anything does.
+    const bool is_drawn = m_criteria.tolerance() > 0 || m_criteria.number_of_bisections() > 0;
+    Mesh calm;
+    Result first;
+    bool is_calm_within = false;
+    if(is_drawn) {
+      calm = m_mesh;
+      Surface_optimizer calm_optimizer(calm, m_domain, Criteria(m_criteria).quality_bound(0), m_quality);
+      calm_optimizer.only_arrive();
+      first = calm_optimizer(go_on);
+      if(first.status == Status::STOPPED)
+        return stopped(first);
+      is_calm_within = first.is_boundary_simple && is_within_bound(calm);
+    }
     if(is_calm_within && is_fitted(first)) {
       m_mesh = std::move(calm);
       return first;
