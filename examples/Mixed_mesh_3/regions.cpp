@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Regions of interest: a path given by a surface and a second target given as a ball; cells parallel
-// to the axes, then turned so that they are parallel to the path.
+// Regions of interest: a path given by a surface and a second target given as a ball, where errors count
+// half as much; cells parallel to the axes, then turned so that they are parallel to the path.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
@@ -56,10 +56,9 @@ try {
     return EXIT_FAILURE;
   }
 
-  // Where the budget does not reach the whole region, what is deep in any of its parts comes first.
   const CGAL::Polyhedral_mixed_mesh_domain_3 brain(brain_surface);
-  const CGAL::Union_mixed_mesh_region_3 region(CGAL::Polyhedral_mixed_mesh_region_3(path_surface),
-                                               CGAL::Ball_mixed_mesh_region_3({-30, -20, 30}, 12));
+  const CGAL::Weighted_mixed_mesh_region_3 second(CGAL::Ball_mixed_mesh_region_3({-30, -20, 30}, 12), 0.5);
+  const CGAL::Union_mixed_mesh_region_3 region(CGAL::Polyhedral_mixed_mesh_region_3(path_surface), second);
 
   // From the tumor to the skull opening; the frame of the cells is exactly orthogonal, its third
   // axis within a few degrees of the wanted one.

@@ -8,6 +8,7 @@
 #ifndef CGAL_MIXED_MESH_REGIONS_3_H
 #define CGAL_MIXED_MESH_REGIONS_3_H
 
+#include <CGAL/Mixed_mesh_3/internal/octree/weight_in_region.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3.h>
 
 #include <CGAL/Bbox_3.h>
@@ -19,8 +20,12 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <tuple>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace CGAL {
 
@@ -135,7 +140,52 @@ public:
 };
 
 /*!
+\brief A region with a weight: how many times as much an error counts there.
+
+Where the weight is \f$ w \f$, cells become smaller by a factor of about \f$ w^{1/5} \f$. Weights are relative
+to those of other places, and to 1, for which the share of the budget that serves the volume is set.
+
+\tparam Region a model of `MixedMeshRegion_3`
+\cgalModels{MixedMeshRegion_3}
+*/
+template <class Region>
+class Weighted_mixed_mesh_region_3 : public Region
+{
+public:
+  using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
+
+  /// Takes the region over (wrap it in `std::move` if it cannot be copied).
+  /// \param region the region
+  /// \param weight the same everywhere. \pre positive and finite
+  Weighted_mixed_mesh_region_3(Region region, double weight)
+    : Weighted_mixed_mesh_region_3(std::move(region), [weight](const Point_3&) { return weight; })
+  {
+    CGAL_precondition(weight > 0 && std::isfinite(weight));
+  }
+
+  /// As above.
+  /// \param region the region
+  /// \param weight a function of the point, inside the region or not: finite, and not negative. Where it is 0
+  ///        no cell is split for the sake of the region
+  Weighted_mixed_mesh_region_3(Region region, std::function<double(const Point_3&)> weight)
+    : Region(std::move(region)), m_weight(std::move(weight))
+  {
+  }
+
+  double weight(const Point_3& p, double reach) const
+  {
+    const Region& region = *this;
+    return m_weight(p) * Mixed_meshes_3::internal::weight_in_region(region, p, reach);
+  }
+
+private:
+  std::function<double(const Point_3&)> m_weight;
+};
+
+/*!
 \brief The union of regions.
+
+An error counts as in that of them in which it counts most.
 
 \tparam Regions models of `MixedMeshRegion_3`
 \cgalModels{MixedMeshRegion_3}
@@ -175,6 +225,18 @@ public:
     return std::apply([&](const auto&... r) { return (std::max)({r.depth(p)...}); }, m_regions);
   }
 
+  double weight(const Point_3& p, double reach) const
+  {
+    using namespace Mixed_meshes_3::internal;
+    if constexpr((!Has_weight<Regions, Point_3>::value && ...)) {
+      return 1;
+    } else {
+      const auto of = [&](const auto& r) { return std::pair(r.depth(p), weight_in_region(r, p, reach)); };
+      return std::apply([&](const auto&... r) { return weight_in_union(std::array{of(r)...}, reach); },
+                        m_regions);
+    }
+  }
+
 private:
   // Inside one is inside; a boundary may lie within another region, which does no harm. A region whose
   // surface does not meet the parent is not asked.
@@ -191,6 +253,103 @@ private:
   }
 
   std::tuple<Regions...> m_regions;
+};
+
+/*!
+\brief The union of any number of regions inside closed triangulated surfaces, each with a weight.
+
+An error counts as in that of them in which it counts most. Without regions, it counts everywhere alike, as with
+`Everywhere_mixed_mesh_region_3`. Copies share the regions.
+
+\cgalModels{MixedMeshRegion_3}
+*/
+class Polyhedral_mixed_mesh_regions_3
+{
+  using Region = Polyhedral_mixed_mesh_region_3;
+
+public:
+  using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
+  /// The parts of the regions, and where the cell is relative to each.
+  struct Surface_part
+  {
+    std::vector<Region::Surface_part> parts;
+    std::vector<Bounded_side> sides;
+  };
+
+  /// Adds a region.
+  /// \param region shared by copies
+  /// \param weight as that of a `Weighted_mixed_mesh_region_3`. \pre positive and finite
+  void add(std::shared_ptr<const Polyhedral_mixed_mesh_region_3> region, double weight = 1)
+  {
+    CGAL_precondition(weight > 0 && std::isfinite(weight));
+    m_has_weights = m_has_weights || (size() > 0 && weight != m_regions.front().weight);
+    m_regions.push_back({std::move(region), weight});
+  }
+
+  /// Adds the region inside a surface.
+  /// \param surface,np as for `Polyhedral_mixed_mesh_region_3`
+  /// \param weight as above
+  template <class FaceListGraph, class NamedParameters = parameters::Default_named_parameters,
+            std::enable_if_t<!std::is_convertible_v<FaceListGraph, std::shared_ptr<const Region>>>* = nullptr>
+  void add(const FaceListGraph& surface, double weight = 1,
+           const NamedParameters& np = parameters::default_values())
+  {
+    add(std::make_shared<const Region>(surface, np), weight);
+  }
+
+  /// The number of regions.
+  std::size_t size() const { return m_regions.size(); }
+
+  Surface_part surface_part() const
+  {
+    Surface_part part;
+    for(const Weighted& r : m_regions)
+      part.parts.push_back(r.region->surface_part());
+    part.sides.assign(size(), ON_BOUNDARY);
+    return part;
+  }
+
+  template <class Cell>
+  Bounded_side locate(const Cell& cell, const Surface_part& parent, Surface_part& part) const
+  {
+    if(size() == 0)
+      return ON_BOUNDED_SIDE;
+    part.parts.resize(size());
+    part.sides = parent.sides;
+    for(std::size_t i = 0; i < size(); ++i)
+      if(part.sides[i] == ON_BOUNDARY)
+        part.sides[i] = m_regions[i].region->locate(cell, parent.parts[i], part.parts[i]);
+    return *std::max_element(part.sides.begin(), part.sides.end());
+  }
+
+  double depth(const Point_3& p) const
+  {
+    if(size() == 0)
+      return 0;
+    double depth = -std::numeric_limits<double>::infinity();
+    for(const Weighted& r : m_regions)
+      depth = (std::max)(depth, r.region->depth(p));
+    return depth;
+  }
+
+  double weight(const Point_3& p, double reach) const
+  {
+    if(!m_has_weights)
+      return size() == 0 ? 1 : m_regions.front().weight;
+    std::vector<std::pair<double, double>> depths_and_weights;
+    for(const Weighted& r : m_regions)
+      depths_and_weights.emplace_back(r.region->depth(p), r.weight);
+    return Mixed_meshes_3::internal::weight_in_union(depths_and_weights, reach);
+  }
+
+private:
+  struct Weighted
+  {
+    std::shared_ptr<const Region> region;
+    double weight;
+  };
+  std::vector<Weighted> m_regions;
+  bool m_has_weights = false; // that differ
 };
 
 } // namespace CGAL

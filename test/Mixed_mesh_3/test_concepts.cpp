@@ -364,7 +364,9 @@ using CGAL::Everywhere_mixed_mesh_region_3;
 using CGAL::Implicit_mixed_mesh_region_3;
 using CGAL::Polyhedral_mixed_mesh_domain_3;
 using CGAL::Polyhedral_mixed_mesh_region_3;
+using CGAL::Polyhedral_mixed_mesh_regions_3;
 using CGAL::Union_mixed_mesh_region_3;
+using CGAL::Weighted_mixed_mesh_region_3;
 using mm3::Axis_aligned_octree_cell_traits_3;
 using mm3::Rotated_octree_cell_traits_3;
 
@@ -377,6 +379,8 @@ constexpr bool is_cell_traits_with_all()
          && is_domain<Domain_archetype, Cell>() && is_region<Polyhedral_mixed_mesh_region_3, Cell>()
          && is_region<Implicit_mixed_mesh_region_3, Cell>() && is_region<Ball_mixed_mesh_region_3, Cell>()
          && is_region<Everywhere_mixed_mesh_region_3, Cell>() && is_region<Union, Cell>()
+         && is_region<Polyhedral_mixed_mesh_regions_3, Cell>()
+         && is_region<Weighted_mixed_mesh_region_3<Region_archetype>, Cell>()
          && is_region<Region_archetype, Cell>();
 }
 static_assert(is_cell_traits_with_all<Axis_aligned_octree_cell_traits_3>());

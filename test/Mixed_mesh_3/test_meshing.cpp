@@ -353,6 +353,16 @@ void test_regions(const Polyhedral_mixed_mesh_domain_3& domain, const Surface& r
   for(std::size_t e = 0; e < everywhere.number_of_elements(); ++e)
     BOOST_TEST(everywhere.is_in_region(e));
 
+  // any number of surfaces: the same as one, or none
+  CGAL::Polyhedral_mixed_mesh_regions_3 regions;
+  run(domain, regions, criteria, same);
+  BOOST_TEST(content(everywhere) == content(same));
+  regions.add(region_surface);
+  Mesh one;
+  run(domain, Polyhedral_mixed_mesh_region_3(region_surface), criteria, one);
+  run(domain, regions, criteria, same);
+  BOOST_TEST(content(one) == content(same));
+
   using Union = Union_mixed_mesh_region_3<Polyhedral_mixed_mesh_region_3, Ball_mixed_mesh_region_3>;
   const auto result = run(domain,
                           Union(Polyhedral_mixed_mesh_region_3(region_surface),

@@ -33,7 +33,15 @@ using CGAL::Bbox_3;
 using internal::Refinement_sequence;
 using internal::fill_vertex_budget;
 using Node_index = Octree::Node_index;
-using Ball_octree = Located_octree<Analytic_domain, Ball_mixed_mesh_region_3, Aligned_traits>;
+using Region = CGAL::Weighted_mixed_mesh_region_3<Ball_mixed_mesh_region_3>;
+using Ball_octree = Located_octree<Analytic_domain, Region, Aligned_traits>;
+using Weight = std::function<double(const Test_point&)>;
+
+Region ball_region(
+  const Test_point& center, double radius, const Weight& weight = [](const Test_point&) { return 1; })
+{
+  return Region(Ball_mixed_mesh_region_3(center, radius), weight);
+}
 
 // ---- octrees -----------------------------------------------------------------------------------
 
@@ -100,12 +108,12 @@ void test_truncate()
 class Rule
 {
   using Sequence = Refinement_sequence<Ball_octree>;
-  const Ball_mixed_mesh_region_3& m_region;
+  const Region& m_region;
   const Aligned_traits& m_traits;
   const double m_radius;
 
 public:
-  Rule(const Ball_mixed_mesh_region_3& region, const Aligned_traits& traits, double radius)
+  Rule(const Region& region, const Aligned_traits& traits, double radius)
     : m_region(region), m_traits(traits), m_radius(radius)
   {
   }
@@ -115,7 +123,12 @@ public:
   {
     while(n > 0 && octree.edge_length(n) < m_radius / 2)
       n = octree.octree().parent(n);
-    return m_region.depth(m_traits.cell(octree.octree().corner(n), octree.octree().side(n)).center());
+    return m_region.depth(center(octree, n));
+  }
+
+  Test_point center(const Ball_octree& octree, Node_index n) const
+  {
+    return m_traits.cell(octree.octree().corner(n), octree.octree().side(n)).center();
   }
 
   double key(const Ball_octree& octree, Node_index n) const
@@ -126,8 +139,9 @@ public:
     double weight = 1;
     if(!octree.is_in_region(n)) {
       const double d = (std::max)(0., -octree.rounded(depth(octree, n)) - h / 2);
-      weight = std::pow(1 + d / m_radius, -Sequence::exponent);
+      weight = std::pow(1 + d / m_radius, -6);
     }
+    weight *= m_region.weight(center(octree, n), m_radius);
     if(octree.side(n) == CGAL::ON_BOUNDARY)
       weight = Sequence::factor_at_surface * weight + Sequence::weight_of_volume * m_radius / h;
     return weight * std::pow(h, 5);
@@ -184,11 +198,14 @@ void test_sequences()
                                       std::make_pair(Test_point(0.31, 0.62, 0.48), 0.13),
                                       std::make_pair(Test_point(0.1, 0.5, 0.4), 0.01)}) {
       const Aligned_traits traits(root, Root_cell::BOX);
-      const Ball_mixed_mesh_region_3 region(center, size);
-      const Ball_octree octree(domain, region, traits);
-      for(double radius : {0., 0.02, 0.1, 1.})
-        for(int level : {0, 3})
-          test_sequence(refined(octree, level), Rule(region, traits, radius), radius, 120);
+      const auto test = [&](const Region& region) {
+        const Ball_octree octree(domain, region, traits);
+        for(double radius : {0., 0.02, 0.1, 1.})
+          for(int level : {0, 3})
+            test_sequence(refined(octree, level), Rule(region, traits, radius), radius, 120);
+      };
+      test(ball_region(center, size));
+      test(ball_region(center, size, [](const Test_point& p) { return p.y() < 0.3 ? 0 : 1 + 3 * p.x(); }));
     }
 }
 
@@ -197,13 +214,13 @@ void test_ends()
 {
   const Analytic_domain domain(ball({0.5, 0.5, 0.5}, 0.3));
   const Aligned_traits traits({0, 0, 0, 1, 1, 1});
-  const Ball_mixed_mesh_region_3 away({5, 5, 5}, 0.1);
+  const Region away = ball_region({5, 5, 5}, 0.1);
   const Ball_octree octree(domain, away, traits);
   BOOST_TEST_EQ(mean_radius_of_region(octree), 0.);
   Refinement_sequence<Ball_octree> sequence(octree, 0);
   BOOST_TEST(!sequence.extend() && sequence.number_of_steps() == 0);
   for(double radius : {0.01, 0.1, 0.25}) {
-    const Ball_mixed_mesh_region_3 region({0.5, 0.4, 0.5}, radius);
+    const Region region = ball_region({0.5, 0.4, 0.5}, radius);
     const double mean = mean_radius_of_region(Ball_octree(domain, region, traits));
     BOOST_TEST(0.9 * radius < mean && mean < 1.1 * radius);
   }
@@ -225,7 +242,7 @@ void test_only_for_balance()
 {
   const Analytic_domain domain(ball({0.5, 0.5, 0.5}, 0.45));
   const Aligned_traits traits({0, 0, 0, 1, 1, 1});
-  const Ball_mixed_mesh_region_3 region({0.4, 0.5, 0.6}, 0.02);
+  const Region region = ball_region({0.4, 0.5, 0.6}, 0.02);
   const Ball_octree start = refined(Ball_octree(domain, region, traits), 2);
   Refinement_sequence<Ball_octree> sequence(start, 0);
   while(sequence.number_of_steps() < 300 && sequence.extend()) {
@@ -298,7 +315,7 @@ void test_budgets()
 {
   const Analytic_domain domain(ball({0.5, 0.5, 0.5}, 0.45));
   const Aligned_traits traits({0, 0, 0, 1, 1, 1});
-  const Ball_mixed_mesh_region_3 region({0.35, 0.55, 0.5}, 0.15);
+  const Region region = ball_region({0.35, 0.55, 0.5}, 0.15);
   const Ball_octree start = refined(Ball_octree(domain, region, traits), 2);
   const Count counts[] = {[](std::size_t n) { return n; },
                           [](std::size_t n) { return n + n / 4 + 8; },
@@ -331,7 +348,7 @@ void test_other_candidates()
 {
   const Analytic_domain domain(ball({0.5, 0.5, 0.5}, 0.45));
   const Aligned_traits traits({0, 0, 0, 1, 1, 1});
-  const Ball_mixed_mesh_region_3 region({0.35, 0.55, 0.5}, 0.15);
+  const Region region = ball_region({0.35, 0.55, 0.5}, 0.15);
   const Ball_octree start = refined(Ball_octree(domain, region, traits), 2);
   const std::size_t first = start.number_of_cells();
   for(std::size_t one_in : {2, 3, 5})

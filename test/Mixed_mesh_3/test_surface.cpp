@@ -22,6 +22,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <random>
 #include <type_traits>
 #include <utility>
@@ -252,6 +253,56 @@ void test_moved_union()
   BOOST_TEST_LT(second.depth({1.5, 0, 0}), 0.);
 }
 
+// Of the regions around a point, or near it, that counts where an error counts most; against brute force.
+void test_weights_in_unions()
+{
+  using CGAL::Ball_mixed_mesh_region_3;
+  using CGAL::Polyhedral_mixed_mesh_region_3;
+  using CGAL::Weighted_mixed_mesh_region_3;
+  const std::vector<std::pair<Surface, double>> boxes{{box({0, 0, 0}, {1, 1, 1}), 1},
+                                                      {box({0.5, 0, 0}, {3, 1, 1}), 8},
+                                                      {box({5, 0, 0}, {6, 1, 1}), 0.01}};
+  CGAL::Polyhedral_mixed_mesh_regions_3 regions, equal;
+  std::vector<std::shared_ptr<const Polyhedral_mixed_mesh_region_3>> parts;
+  for(const auto& [surface, weight] : boxes) {
+    parts.push_back(std::make_shared<const Polyhedral_mixed_mesh_region_3>(surface));
+    regions.add(parts.back(), weight);
+    equal.add(parts.back(), 3);
+  }
+  BOOST_TEST_EQ(regions.size(), 3u);
+  // the same of three types
+  const CGAL::Union_mixed_mesh_region_3 united(
+    Polyhedral_mixed_mesh_region_3(boxes[0].first),
+    Weighted_mixed_mesh_region_3(Polyhedral_mixed_mesh_region_3(boxes[1].first), 8),
+    Weighted_mixed_mesh_region_3(Polyhedral_mixed_mesh_region_3(boxes[2].first),
+                                 [](const Point_3&) { return 0.01; }));
+  const auto falling = [](double depth, double reach) {
+    return depth >= 0 ? 1 : reach == 0 ? 0 : std::pow(1 - depth / reach, -6);
+  };
+  std::size_t number_by_farther = 0;
+  for(double reach : {0., 0.2, 5.})
+    for(double x = -2; x < 8; x += 0.0703)
+      for(double y : {0.5, 1.7}) {
+        const Point_3 p(x, y, 0.4);
+        double depth = -1e9, largest = 0, nearest = 0;
+        for(std::size_t i = 0; i < parts.size(); ++i) {
+          const double d = parts[i]->depth(p), w = boxes[i].second * falling(d, reach);
+          nearest = d > depth ? w : nearest;
+          depth = (std::max)(depth, d);
+          largest = (std::max)(largest, w);
+        }
+        number_by_farther += largest > nearest;
+        BOOST_TEST_EQ(regions.depth(p), depth);
+        BOOST_TEST_EQ(united.depth(p), depth);
+        for(double weight : {regions.weight(p, reach), united.weight(p, reach)})
+          BOOST_TEST_LE(std::abs(weight * falling(depth, reach) - largest), 1e-12 * largest);
+        BOOST_TEST_EQ(equal.weight(p, reach), 3.);
+      }
+  BOOST_TEST_GT(number_by_farther, 50u);
+  BOOST_TEST_EQ(CGAL::Polyhedral_mixed_mesh_regions_3().depth({1, 2, 3}), 0.);
+  BOOST_TEST_EQ(CGAL::Polyhedral_mixed_mesh_regions_3().weight({1, 2, 3}, 1), 1.);
+}
+
 } // namespace
 
 int main()
@@ -261,5 +312,6 @@ int main()
   test_moved<Polyhedral_mixed_mesh_domain_3>();
   test_moved<CGAL::Polyhedral_mixed_mesh_region_3>();
   test_moved_union();
+  test_weights_in_unions();
   return boost::report_errors();
 }

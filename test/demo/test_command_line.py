@@ -170,6 +170,17 @@ class CommandLine(unittest.TestCase):
         self.fails(self.good, "--region", region, "--vertices", 500, "--output", self.output,
                    names=region, words="does not meet")
 
+        self.fails(self.good, "--region", region, "--region", region, "--vertices", 500, "--output", self.output,
+                   names=self.good, words="none of the regions meets")
+
+    def test_bad_weights(self):
+        for weight in ("0", "-1", "2x", "nan", "inf", "1e7", ""):
+            with self.subTest(weight):
+                self.fails(self.good, "--region", f"{self.good}:{weight}", "--vertices", 500, status=2,
+                           names=f"--region {self.good}:{weight}", words="is not a number from")
+        self.fails(self.good, "--region", WORK / "none.off:2", "--vertices", 500,
+                   names=WORK / "none.off", words="No such file")
+
     def test_outputs_that_cannot_be_written(self):
         for path in (WORK / "none" / "mesh.vtu", WORK / "good.off" / "mesh.vtu", WORK / "mesh.txt"):
             self.fails(self.good, "--vertices", 500, "--output", path, names=path)
@@ -396,6 +407,24 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(default["quality"], told[0.35]["quality"])
         # the gentler, the fewer vertices are left for the region
         self.assertGreater(told[0]["mesh"]["vertices in region"], told[2]["mesh"]["vertices in region"])
+
+    def test_several_regions(self):
+        """A light region gets fewer of the vertices, a heavy one leaves fewer to the other."""
+        low, edge = (-42, -32, 18), 24
+        box = self.file("box.off", off(moved(CUBE, edge, low), TRIANGLES))
+        output = WORK / "regions.mesh"
+        numbers, others = [], []
+        for weight in ("", ":1", ":0.01", ":100"):
+            told, _ = self.brain("--region", f"{box}{weight}", "--output", output, vertices=1500)
+            self.assertEqual([r["weight"] for r in told["inputs"]["regions"]], [1, float(weight[1:] or 1)])
+            lines = output.read_text().split("\n")
+            first = lines.index("Vertices") + 2
+            points = [[float(x) for x in line.split()[:3]] for line in lines[first:first + told["mesh"]["vertices"]]]
+            numbers.append(sum(all(l <= x <= l + edge for l, x in zip(low, p)) for p in points))
+            others.append(told["mesh"]["vertices in region"] - numbers[-1])
+        self.assertEqual((numbers[0], others[0]), (numbers[1], others[1]))
+        self.assertLess(2 * numbers[2], numbers[1])
+        self.assertLess(2 * others[3], others[1])
 
     def test_wrong_use(self):
         for arguments, words in (

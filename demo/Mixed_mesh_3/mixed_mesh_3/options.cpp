@@ -11,6 +11,7 @@
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/version.h>
 
+#include <filesystem>
 #include <map>
 #include <stdexcept>
 
@@ -25,12 +26,34 @@ constexpr bool has_eigen = true;
 constexpr bool has_eigen = false;
 #endif
 
+// A file whose name ends like a weight is that file.
+Region_option region_option(const std::string& text)
+{
+  const std::size_t colon = text.rfind(':');
+  if(colon == std::string::npos || std::filesystem::exists(text))
+    return {text, 1};
+  const std::string file = text.substr(0, colon), number = text.substr(colon + 1);
+  double weight = 0;
+  if(!CLI::detail::lexical_cast(number, weight) || !(weight >= 1e-6 && weight <= 1e6))
+    throw CLI::ValidationError("--region " + text,
+                               "the weight '" + number + "' is not a number from 0.000001 to 1000000");
+  return {file, weight};
+}
+
 void add_files(CLI::App& app, Options& o)
 {
   app.add_option("SURFACE", o.surface, "Closed surface of the domain: .off, .obj, .stl or .ply")->required();
-  app.add_option("--region", o.region,
-                 "Closed surface of the region of interest, in the same coordinates (default: refine "
-                 "everywhere)");
+  app
+    .add_option_function<std::vector<std::string>>(
+      "--region",
+      [&o](const std::vector<std::string>& texts) {
+        for(const std::string& text : texts)
+          o.regions.push_back(region_option(text));
+      },
+      "Closed surface of a region of interest, in the same coordinates; an error counts W times as much "
+      "there as in a region without weight. Can be given several times (default: refine everywhere)")
+    ->type_name("FILE[:W]")
+    ->allow_extra_args(false);
   app.add_option("--vertices", o.vertices, "Vertex budget: the mesh has at most that many vertices")
     ->required()
     ->check(CLI::PositiveNumber)
@@ -212,7 +235,10 @@ std::optional<int> parse_command_line(int argc, char** argv, Options& options)
 
 void check_feasible(const Options& o)
 {
-  Output_paths outputs({o.surface, o.region});
+  std::vector<std::string> inputs{o.surface};
+  for(const Region_option& r : o.regions)
+    inputs.push_back(r.file);
+  Output_paths outputs(inputs);
   for(const std::string& path : o.outputs)
     require([&](std::string* error) { return mm3::IO::check_output_path(path, error); });
   if(!o.report.empty())

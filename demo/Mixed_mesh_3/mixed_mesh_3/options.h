@@ -22,11 +22,19 @@ enum class Fit { NONE, OPTIMIZATION, ALGORITHM_1 };
 /// What solves the linear systems of Algorithm 1.
 enum class Solver { CG, LDLT, CHOLMOD };
 
+/// A closed surface of a region of interest, and how many times as much an error counts in it.
+struct Region_option
+{
+  std::string file;
+  double weight;
+};
+
 struct Options
 {
   using Templates = CGAL::Mixed_meshes_3::Transition_templates_choice;
 
-  std::string surface, region, report;
+  std::string surface, report;
+  std::vector<Region_option> regions;
   std::vector<std::string> outputs;
   std::size_t vertices = 0;
   int base_level = CGAL::Mixed_mesh_criteria_3::automatic;

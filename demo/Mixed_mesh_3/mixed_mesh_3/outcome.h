@@ -77,7 +77,7 @@ struct Check
 struct Outcome
 {
   Surface_facts surface;
-  std::optional<Surface_facts> region;
+  std::vector<Surface_facts> regions;
   CGAL::Mixed_mesh_result_3 result;
   CGAL::Mixed_mesh_fit_result_3 algorithm_1;
   Mesh_facts mesh;

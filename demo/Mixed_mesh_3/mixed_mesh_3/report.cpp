@@ -219,8 +219,11 @@ std::string report(const Options& o, const Outcome& outcome, const Stage_log& lo
 {
   Json report;
   report["program"] = describe_program("mixed_mesh_3");
-  report["inputs"] = {{"surface", describe(outcome.surface)},
-                      {"region", outcome.region ? describe(*outcome.region) : Json()}};
+  report["inputs"] = {{"surface", describe(outcome.surface)}, {"regions", Json::array()}};
+  for(std::size_t i = 0; i < o.regions.size(); ++i) {
+    report["inputs"]["regions"].push_back(describe(outcome.regions[i]));
+    report["inputs"]["regions"].back()["weight"] = o.regions[i].weight;
+  }
   report["options"] = describe(o);
   report["units"] = {{"lengths and distances", "unit of the surface's file"},
                      {"volumes", "cube of the unit of the surface's file"},

@@ -23,6 +23,7 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
+#include <memory>
 #include <stdexcept>
 
 #include <unistd.h>
@@ -53,7 +54,8 @@ void check_tolerance(const Options& o, const Surface& surface)
 
 struct Inputs
 {
-  Surface surface, region; // the latter without faces if there is none
+  Surface surface;
+  std::vector<Surface> regions;
 };
 
 Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
@@ -63,14 +65,28 @@ Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
                        [&] { return read_surface(o.surface, outcome.surface, outcome.warnings); });
   if(o.tolerance > 0)
     check_tolerance(o, inputs.surface);
-  if(!o.region.empty())
-    inputs.region = log("read region",
-                        [&] { return read_surface(o.region, outcome.region.emplace(), outcome.warnings); });
+  for(const Region_option& r : o.regions)
+    inputs.regions.push_back(log("read region", [&] {
+      return read_surface(r.file, outcome.regions.emplace_back(), outcome.warnings);
+    }));
   return inputs;
 }
 
-Mesh make_mesh(const Domain& domain, const Surface& region_surface, const Options& o, Stage_log& log,
-               CGAL::Mixed_mesh_result_3& result)
+// None: everywhere.
+CGAL::Polyhedral_mixed_mesh_regions_3 make_regions(const std::vector<Surface>& surfaces, const Options& o,
+                                                   Stage_log& log)
+{
+  CGAL::Polyhedral_mixed_mesh_regions_3 regions;
+  for(std::size_t i = 0; i < surfaces.size(); ++i)
+    log("AABB tree of region", [&] {
+      regions.add(std::make_shared<const CGAL::Polyhedral_mixed_mesh_region_3>(surfaces[i]),
+                  o.regions[i].weight);
+    });
+  return regions;
+}
+
+Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3& regions, const Options& o,
+               Stage_log& log, CGAL::Mixed_mesh_result_3& result)
 {
   // The boundary is fitted later, so that the mesh before is seen.
   auto criteria = CGAL::Mixed_mesh_criteria_3(o.vertices)
@@ -84,15 +100,8 @@ Mesh make_mesh(const Domain& domain, const Surface& region_surface, const Option
   criteria.share_of_bisections(criteria.share_of_bisections()).fit_to_surface(false);
   if(o.tolerance > 0)
     criteria.tolerance(o.tolerance);
-  const auto np = CGAL::parameters::visitor(std::ref(log));
   Mesh mesh;
-  if(o.region.empty()) {
-    result = CGAL::make_mixed_mesh_3(domain, CGAL::Everywhere_mixed_mesh_region_3(), criteria, mesh, np);
-  } else {
-    const auto region = log("AABB tree of region",
-                            [&] { return CGAL::Polyhedral_mixed_mesh_region_3(region_surface); });
-    result = CGAL::make_mixed_mesh_3(domain, region, criteria, mesh, np);
-  }
+  result = CGAL::make_mixed_mesh_3(domain, regions, criteria, mesh, CGAL::parameters::visitor(std::ref(log)));
   refuse(result, o);
   if(o.tetrahedra) // now, so that what is fitted, checked and reported is what is written
     return log("split to tetrahedra", [&] { return mm3::split_to_tetrahedra(mesh); });
@@ -169,7 +178,7 @@ void run(const Options& o)
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);
   const Domain domain = log("AABB tree of surface", [&] { return Domain(inputs.surface); });
-  Mesh mesh = make_mesh(domain, inputs.region, o, log, outcome.result);
+  Mesh mesh = make_mesh(domain, make_regions(inputs.regions, o, log), o, log, outcome.result);
   if(o.fit() != Fit::NONE) {
     outcome.before = log("quality", [&] { return aspect_ratios_of(mesh); });
     fit(mesh, domain, o, log, outcome);

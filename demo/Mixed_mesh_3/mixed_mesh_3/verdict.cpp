@@ -50,7 +50,9 @@ void refuse(const CGAL::Mixed_mesh_result_3& result, const Options& o)
                              + ": too thin for this budget, no octree vertex is inside; try "
                                "more vertices or a larger --base-level");
   case Status::REGION_NOT_MET:
-    throw std::runtime_error(o.region + ": the region does not meet the domain of " + o.surface);
+    throw std::runtime_error(
+      o.regions.size() == 1 ? o.regions.front().file + ": the region does not meet the domain of " + o.surface
+                            : o.surface + ": none of the regions meets the domain");
   case Status::STOPPED: throw std::runtime_error("stopped");
   case Status::BOUNDARY_NOT_MANIFOLD:
     throw Invalid_mesh("the boundary is pinched at the border of the root cell; try another --base-level");

@@ -21,6 +21,8 @@ A model need not be copied. It must outlive the call.
 \cgalHasModels{CGAL::Ball_mixed_mesh_region_3}
 \cgalHasModels{CGAL::Everywhere_mixed_mesh_region_3}
 \cgalHasModels{CGAL::Union_mixed_mesh_region_3<Regions...>}
+\cgalHasModels{CGAL::Polyhedral_mixed_mesh_regions_3}
+\cgalHasModels{CGAL::Weighted_mixed_mesh_region_3<Region>}
 \cgalHasModelsEnd
 
 \sa `MixedMeshDomain_3`
@@ -61,4 +63,15 @@ public:
   /// the diagonal of the root cell. They must not be NaN.
   /// \param p a `CGAL::Mixed_meshes_3::Predicates_kernel::Point_3`, as cell traits return it
   double depth(const Point_3& p) const;
+
+  /*!
+  How many times as much an error counts at a point as it would if only its distance from the region did.
+  Optional: 1 in a model without this function.
+
+  \param p the center of a cell, as that of `depth()`
+  \param reach over what distance from a region the weight falls: at a distance d, the weight 1 has fallen to
+         \f$ (1 + d / reach)^{-6} \f$; 0 if it counts in the region only
+  \return 0 or more, finite
+  */
+  double weight(const Point_3& p, double reach) const;
 };

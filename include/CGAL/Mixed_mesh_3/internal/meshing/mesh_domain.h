@@ -20,6 +20,7 @@
 #include <CGAL/Mixed_mesh_result_3.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 
+#include <memory>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -42,10 +43,33 @@ Mixed_mesh_result_3 mesh_domain(const Domain& domain, const Region& region,
 
 /// As above: the case of nearly all users.
 Mixed_mesh_result_3 mesh_domain(const Polyhedral_mixed_mesh_domain_3& domain,
-                                const Polyhedral_mixed_mesh_region_3& region,
+                                const Polyhedral_mixed_mesh_regions_3& regions,
                                 const Mixed_mesh_criteria_3& criteria,
                                 const Axis_aligned_octree_cell_traits_3& cell_traits, Any_visitor& visitor,
                                 Core_mesh& mesh);
+
+/// As above, with one region.
+inline Mixed_mesh_result_3 mesh_domain(const Polyhedral_mixed_mesh_domain_3& domain,
+                                       const Polyhedral_mixed_mesh_region_3& region,
+                                       const Mixed_mesh_criteria_3& criteria,
+                                       const Axis_aligned_octree_cell_traits_3& cell_traits,
+                                       Any_visitor& visitor, Core_mesh& mesh)
+{
+  const auto keep = [](const Polyhedral_mixed_mesh_region_3*) {}; // it is the caller's
+  Polyhedral_mixed_mesh_regions_3 regions;
+  regions.add(std::shared_ptr<const Polyhedral_mixed_mesh_region_3>(&region, keep));
+  return mesh_domain(domain, regions, criteria, cell_traits, visitor, mesh);
+}
+
+/// As above, everywhere.
+inline Mixed_mesh_result_3 mesh_domain(const Polyhedral_mixed_mesh_domain_3& domain,
+                                       const Everywhere_mixed_mesh_region_3&,
+                                       const Mixed_mesh_criteria_3& criteria,
+                                       const Axis_aligned_octree_cell_traits_3& cell_traits,
+                                       Any_visitor& visitor, Core_mesh& mesh)
+{
+  return mesh_domain(domain, Polyhedral_mixed_mesh_regions_3(), criteria, cell_traits, visitor, mesh);
+}
 
 /// Runs the driver, and hands the mesh over in the kernel of the user.
 template <class Domain, class Region, class CellTraits, class Visitor, class GeomTraits>

@@ -10,6 +10,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/balance.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/weight_in_region.h>
 
 #include <CGAL/enum.h>
 #include <CGAL/squared_distance_3.h>
@@ -162,6 +163,13 @@ public:
   double depth_in_region(Node_index n) const
   {
     return m_region->depth(m_traits->cell(m_octree.corner(n), m_octree.side(n)).center());
+  }
+
+  /// The weight of an error at the center of a cell, not counting how far it is from the region.
+  double weight_in_region(Node_index n, double reach) const
+  {
+    return internal::weight_in_region(*m_region,
+                                      m_traits->cell(m_octree.corner(n), m_octree.side(n)).center(), reach);
   }
 
   /// The volume of a cell of a level.

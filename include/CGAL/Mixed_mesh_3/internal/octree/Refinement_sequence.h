@@ -9,6 +9,7 @@
 #define CGAL_MIXED_MESH_3_INTERNAL_OCTREE_REFINEMENT_SEQUENCE_H
 
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/weight_in_region.h>
 
 #include <CGAL/enum.h>
 
@@ -56,8 +57,8 @@ The splits of an octree, in the order of a key: how much error a vertex removes 
 For linear elements, the error of a functional of the solution in the region is the sum of w h^2 over the
 volume, where w is the product of the second derivatives of the solution and of the functional's influence;
 splitting a cell of side h removes error w h^5 and costs a fixed number of vertices. Outside the region w
-falls like a power of the distance d: the key is (1 + d / r)^-6 h^5. With r = 0 that is the rule of the
-paper: what meets the region is split, the largest cells first.
+falls like a power of the distance d: the key is (1 + d / r)^-6 h^5, times the weight that the region gives
+the place. With r = 0 that is the rule of the paper: what meets the region is split, the largest cells first.
 
 Cells at the surface come two levels of 32^(1/2) earlier: there displacements are prescribed and elements are
 tetrahedra, which are less accurate. And they remove volume between the surface and the boundary, which falls
@@ -74,11 +75,10 @@ class Refinement_sequence
   using Entry = std::tuple<double, double, std::uint64_t, Node_index>;
 
 public:
-  // Measured on five regions and patches of a brain (benchmark/Linear_elasticity_3): exponents from 5 to 7
-  // and factors from 2 to 16 differ by less than 10 %; without the factor, errors of prescribed
-  // displacements are half as large again at 2,000 vertices. With ten times as much for the volume, a sixth
-  // less is left for the region at 10,000 vertices.
-  static constexpr double exponent = 6, factor_at_surface = 4, weight_of_volume = 3e-4;
+  // Measured as the exponent: factors from 2 to 16 differ by less than 10 %; without the factor, errors of
+  // prescribed displacements are half as large again at 2,000 vertices. With ten times as much for the volume, a
+  // sixth less is left for the region at 10,000 vertices.
+  static constexpr double factor_at_surface = 4, weight_of_volume = 3e-4;
 
 private:
   Octree_ m_octree; // after all steps
@@ -157,16 +157,13 @@ private:
   double key(Node_index n) const
   {
     const double edge = m_octree.edge_length(n);
-    double weight = 1, weight_of_surface = 0;
-    if(m_radius > 0) {
-      const double distance = (std::max)(0., -m_octree.rounded(m_depths[n]) - edge / 2);
-      weight = m_octree.is_in_region(n) ? 1 : std::pow(1 + distance / m_radius, -exponent);
-      weight_of_surface = weight_of_volume * m_radius / edge;
-    } else if(!m_octree.is_in_region(n)) {
-      return 0;
-    }
+    double weight = m_octree.is_in_region(n) ? 1
+                    : m_radius > 0 ? weight_of_distance(-m_octree.rounded(m_depths[n]) - edge / 2, m_radius)
+                                   : 0;
+    if(weight > 0)
+      weight *= m_octree.weight_in_region(n, m_radius);
     if(m_octree.side(n) == ON_BOUNDARY)
-      weight = factor_at_surface * weight + weight_of_surface;
+      weight = factor_at_surface * weight + weight_of_volume * m_radius / edge;
     return weight * std::pow(edge, 5);
   }
 };
