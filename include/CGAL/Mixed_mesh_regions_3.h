@@ -258,8 +258,8 @@ private:
 /*!
 \brief The union of any number of regions inside closed triangulated surfaces, each with a weight.
 
-An error counts as in that of them in which it counts most. Without regions, it counts everywhere alike, as with
-`Everywhere_mixed_mesh_region_3`. Copies share the regions.
+An error counts as in that of them in which it counts most. Without regions, it counts everywhere alike, as
+with `Everywhere_mixed_mesh_region_3`. Copies share the regions.
 
 \cgalModels{MixedMeshRegion_3}
 */

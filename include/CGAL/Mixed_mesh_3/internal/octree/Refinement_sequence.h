@@ -76,8 +76,8 @@ class Refinement_sequence
 
 public:
   // Measured as the exponent: factors from 2 to 16 differ by less than 10 %; without the factor, errors of
-  // prescribed displacements are half as large again at 2,000 vertices. With ten times as much for the volume, a
-  // sixth less is left for the region at 10,000 vertices.
+  // prescribed displacements are half as large again at 2,000 vertices. With ten times as much for the
+  // volume, a sixth less is left for the region at 10,000 vertices.
   static constexpr double factor_at_surface = 4, weight_of_volume = 3e-4;
 
 private:

@@ -50,8 +50,8 @@ double weight_in_region(const Region& region, const Point& p, double reach)
     return 1;
 }
 
-/// That of the region in which an error counts most, against what it would count if only the distance from the
-/// union did.
+/// That of the region in which an error counts most, against what it would count if only the distance from
+/// the union did.
 /// \param regions depth and weight in each, as pairs
 template <class Range>
 double weight_in_union(const Range& regions, double reach)
