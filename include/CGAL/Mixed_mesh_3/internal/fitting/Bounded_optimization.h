@@ -32,9 +32,10 @@ namespace internal {
 Runs the optimization as often as it takes, each time from the start, and takes the result within the bound
 that has most of the boundary on the surface:
 
-- *freely*: on the way to the surface, elements may get worse than the bound, and better again. If all of the
+- *freely*: on the way to the surface, elements may get worse than the bound, and better again; those that are
+  above the bound in the end are mended, at last by boundary vertices that leave the surface. If all of the
   boundary arrives, and no element is above the bound in the end, as for most surfaces, that is the result;
-- *calmly*: the same, but for what draws the boundary to places that are too far, and for bisections;
+- *calmly*: the same, but for what draws the boundary to places that are too far;
 - *within the bound*, which no step leaves;
 - where faces cut each other in the end, once more, with their vertices *held* where they are, and each time
   more of those around them; at last all of the boundary, which does not cut itself then if it did not at the
@@ -80,54 +81,66 @@ public:
   }
 
 private:
+  struct Outcome
+  {
+    Mesh mesh;
+    Result result;
+    bool is_within = false; // the bound, and the boundary does not cut itself
+    bool is_drawn = false;  // to places that are too far
+  };
+
   template <class Go_on>
   Result optimize(const Go_on& go_on)
   {
-    Mesh free = m_mesh;
-    Surface_optimizer optimizer(free, m_domain, Criteria(m_criteria).quality_bound(0), m_quality);
-    Result result = optimizer(go_on);
-    const bool is_stopped = result.status == Status::STOPPED, is_within = is_within_bound(free);
-    const bool is_all = m_criteria.quality_bound() == std::numeric_limits<double>::infinity()
-                          ? result.is_boundary_simple
-                          : is_fitted(result);
-    if(is_within && (is_all || is_stopped)) { // no other run would do better
-      m_mesh = std::move(free);
-      return result;
-    }
-    if(is_stopped)
-      return stopped(result);
+    Outcome best = optimize_freely(false, go_on);
+    if(best.result.status == Status::STOPPED)
+      return best.is_within ? take(best) : stopped(best.result);
+    if(best.is_within && (is_fitted(best.result) || !has_bound())) // no other run would do better
+      return take(best);
     // What draws the boundary to places that are too far may be in the way, if anything does.
-    const bool is_drawn = m_criteria.tolerance() > 0 || m_criteria.number_of_bisections() > 0;
-    Mesh calm;
-    Result first;
-    bool is_calm_within = false;
-    if(is_drawn) {
-      calm = m_mesh;
-      Surface_optimizer calm_optimizer(calm, m_domain, Criteria(m_criteria).quality_bound(0), m_quality);
-      calm_optimizer.only_arrive();
-      first = calm_optimizer(go_on);
-      if(first.status == Status::STOPPED)
-        return stopped(first);
-      is_calm_within = first.is_boundary_simple && is_within_bound(calm);
+    if(best.is_drawn) {
+      Outcome calm = optimize_freely(true, go_on);
+      if(calm.result.status == Status::STOPPED)
+        return stopped(calm.result);
+      if(is_better(calm, best))
+        best = std::move(calm);
+      if(best.is_within && is_fitted(best.result))
+        return take(best);
     }
-    if(is_calm_within && is_fitted(first)) {
-      m_mesh = std::move(calm);
-      return first;
-    }
-    Mesh bounded;
-    const Result second = optimize_within(bounded, go_on);
-    const bool is_free_within = is_within && result.is_boundary_simple;
-    if(second.status != Status::STOPPED && is_free_within && number_off(result) <= number_off(second)
-       && !(is_calm_within && number_off(first) < number_off(result))) {
-      m_mesh = std::move(free);
-      return result;
-    }
-    if(second.status != Status::STOPPED && is_calm_within && number_off(first) <= number_off(second)) {
-      m_mesh = std::move(calm);
-      return first;
-    }
-    m_mesh = std::move(bounded);
-    return second;
+    Outcome bounded;
+    bounded.result = optimize_within(bounded.mesh, go_on);
+    bounded.is_within = true;
+    return take(bounded.result.status == Status::STOPPED || is_better(bounded, best) ? bounded : best);
+  }
+
+  bool has_bound() const { return m_criteria.quality_bound() < std::numeric_limits<double>::infinity(); }
+
+  static bool is_better(const Outcome& a, const Outcome& b)
+  {
+    return a.is_within && (!b.is_within || number_off(a.result) < number_off(b.result));
+  }
+
+  Result take(Outcome& outcome)
+  {
+    m_mesh = std::move(outcome.mesh);
+    return outcome.result;
+  }
+
+  // Elements may get worse than the bound on the way.
+  template <class Go_on>
+  Outcome optimize_freely(bool only_arrives, const Go_on& go_on) const
+  {
+    Outcome outcome;
+    outcome.mesh = m_mesh;
+    Surface_optimizer optimizer(outcome.mesh, m_domain, Criteria(m_criteria).quality_bound(0), m_quality);
+    optimizer.finish_within(bound_for_doubles(m_criteria));
+    if(only_arrives)
+      optimizer.only_arrive();
+    outcome.result = optimizer(go_on);
+    outcome.is_within = is_within_bound(outcome.mesh) && outcome.result.is_boundary_simple;
+    outcome.is_drawn = (m_criteria.tolerance() > 0 || m_criteria.number_of_bisections() > 0)
+                       && !optimizer.has_only_arrived();
+    return outcome;
   }
 
   // The mesh is the start: what had arrived has come back.

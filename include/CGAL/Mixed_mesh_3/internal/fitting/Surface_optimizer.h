@@ -21,6 +21,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -65,6 +66,7 @@ class Surface_optimizer
   std::vector<std::uint8_t> m_simple_is_arrived;
   std::vector<std::uint8_t> m_is_held;
   bool m_only_arrives = false;
+  double m_final_bound = std::numeric_limits<double>::infinity();
   std::vector<Vertex_index> m_crossing; // in the end
   Mixed_mesh_optimization_result_3 m_result;
 
@@ -75,8 +77,19 @@ class Surface_optimizer
   // larger one worse elements. The quality bound of the criteria is above all of them.
   static constexpr double acceptable_at_first = 4, acceptable_growth = 1.25, acceptable_at_most = 100,
                           acceptable_late = 10;
-  static constexpr int arrival_rounds = 40, arrival_sweeps = 2, rounds_until_new_target = 8;
+  static constexpr int arrival_rounds = 40, arrival_sweeps = 2, rounds_until_new_target = 8,
+                       rounds_until_check = 2, return_rounds = 8;
   static constexpr int retreat_rounds = 24;
+  // Of the boundary vertices: if more have not arrived then, what draws the others would be in their way, and
+  // take most of the time.
+  static constexpr double share_left_behind = 0.02;
+  // Of the boundary vertices: if faces of more of them cut each other after the arrival, mending has never led
+  // to a mesh that is better than that of the run within the bound, and took most of the time.
+  static constexpr double hopeless_share = 0.07;
+  // Of mending: rounds with all on the surface, then others. The costs are raised to a power at which only the
+  // worst elements count. A mesh with a larger share of vertices of such elements is not worth it.
+  static constexpr int mending_rounds_on_surface = 6, mending_rounds = 24, rounds_until_flips = 3;
+  static constexpr double mending_power = 16, mending_goal = 0.8, worth_mending = 0.1;
   // Once the boundary has arrived, nothing gets worse than that, for the sake of the tolerance for example.
   static constexpr double acceptable_in_the_end = 3;
   static constexpr double retreat_cost = 1000;
@@ -111,9 +124,15 @@ public:
     std::copy(is_held.begin(), is_held.end(), m_is_held.begin());
   }
 
-  /// Boundary vertices are not drawn to places that are too far, which are measured only; no edge is
-  /// bisected.
+  /// Boundary vertices are not drawn to places that are too far, which are measured only; edges are bisected
+  /// late.
   void only_arrive() { m_only_arrives = true; }
+  /// So it is by itself where much of the boundary does not arrive, or cuts itself.
+  bool has_only_arrived() const { return m_only_arrives; }
+
+  /// On the way, elements may get worse than that, but in the end they are mended, as far as that is possible:
+  /// boundary vertices leave the surface for it.
+  void finish_within(double cost) { m_final_bound = cost; }
 
   template <class Go_on>
   Mixed_mesh_optimization_result_3 operator()(const Go_on& go_on)
@@ -121,10 +140,20 @@ public:
     using Status = Mixed_mesh_optimization_status;
     bool is_stopped = !arrive(go_on);
     if(!is_stopped) {
-      remember_if_simple();
+      const double crossing = double(remember_if_simple()),
+                   boundary = double(m_result.number_of_boundary_vertices);
+      if(crossing > hopeless_share * boundary && m_final_bound < std::numeric_limits<double>::infinity())
+        return give_up();
+      m_only_arrives = m_only_arrives || double(m_travelers.size()) > share_left_behind * boundary;
       is_stopped = !alternate(go_on);
     }
     retreat_from_self_intersections();
+    if(!is_stopped && m_crossing.empty()) {
+      if(mend())
+        retreat_from_self_intersections();
+      if(m_crossing.empty())
+        return_to_surface();
+    }
     if(m_criteria.tolerance() > 0) {
       m_attraction.measure();
       m_result.largest_distance = m_attraction.largest_distance();
@@ -183,12 +212,23 @@ private:
       const bool is_there = norm(q - p) <= 1e-14 * (norm(p) + norm(targets.positions[i] - p));
       m_travelers.emplace_back(targets.vertices[i], is_there ? p : targets.positions[i]);
     }
+    // What has not arrived when all others have may come later; those whose faces cut others stay behind.
+    const bool is_careful = m_only_arrives && find_crossing().empty();
+    State simple = state();
     double acceptable = acceptable_at_first;
     for(int round = 0; round < arrival_rounds && !m_travelers.empty(); ++round) {
       if(!go_on())
         return false;
       advance(acceptable);
       m_moves.run(4, good_enough[0], arrival_sweeps);
+      if(is_careful && (round % rounds_until_check == rounds_until_check - 1 || m_travelers.empty())) {
+        const std::vector<Vertex_index> crossing = find_crossing();
+        if(!crossing.empty()) {
+          restore(simple);
+          leave_behind(crossing);
+        }
+        simple = state();
+      }
       acceptable = (std::min)(acceptable_growth * acceptable, acceptable_at_most);
       if(round % rounds_until_new_target == rounds_until_new_target - 1)
         choose_new_targets();
@@ -196,19 +236,107 @@ private:
     return true;
   }
 
-  void remember_if_simple()
+  struct State
   {
-    if(vertices_of_self_intersections(m_working.points, m_boundary).empty()) {
+    std::vector<Vec3> points;
+    std::vector<std::uint8_t> is_arrived;
+    std::vector<std::pair<Vertex_index, Vec3>> travelers;
+    std::size_t number_of_arrived_vertices;
+  };
+
+  State state() const
+  {
+    return {m_working.points, m_is_arrived, m_travelers, m_result.number_of_arrived_vertices};
+  }
+
+  // \pre no elements were changed since
+  void restore(const State& s)
+  {
+    m_working.points = s.points;
+    m_is_arrived = s.is_arrived;
+    m_travelers = s.travelers;
+    m_result.number_of_arrived_vertices = s.number_of_arrived_vertices;
+    for(const auto& [v, target] : m_travelers)
+      m_moves.fix(v);
+    m_moves.forget_costs();
+    m_moves.activate_all();
+  }
+
+  std::vector<Vertex_index> find_crossing() const
+  {
+    return vertices_of_self_intersections(m_working.points, m_boundary);
+  }
+
+  // They stay where they are.
+  void leave_behind(const std::vector<Vertex_index>& vertices)
+  {
+    for(Vertex_index v : vertices)
+      m_moves.fix(v);
+    m_travelers.erase(std::remove_if(m_travelers.begin(), m_travelers.end(),
+                                     [&](const auto& t) {
+                                       return std::binary_search(vertices.begin(), vertices.end(), t.first);
+                                     }),
+                      m_travelers.end());
+  }
+
+  // What has stayed off the surface goes there at last, where its faces cut no others then.
+  void return_to_surface()
+  {
+    m_moves.set_bound((std::min)(m_final_bound, bound_for_doubles(m_criteria)));
+    std::vector<Vertex_index> off;
+    for(Vertex_index v = 0; v < m_working.points.size(); ++v)
+      if(m_working.is_on_boundary[v] && !m_is_arrived[v] && !(v < m_is_held.size() && m_is_held[v]))
+        off.push_back(v);
+    m_travelers.clear();
+    for(int round = 0; round < return_rounds && !off.empty(); ++round) {
+      const State simple = state();
+      for(Vertex_index v : off)
+        move_to(v, m_project(m_working.points[v]), acceptable_at_first);
+      if(m_result.number_of_arrived_vertices == simple.number_of_arrived_vertices) {
+        restore(simple);
+        return;
+      }
+      const std::vector<Vertex_index> crossing = find_crossing();
+      const auto is_crossing = [&](Vertex_index v) {
+        return std::binary_search(crossing.begin(), crossing.end(), v);
+      };
+      if(!crossing.empty()) {
+        restore(simple);
+        if(std::none_of(off.begin(), off.end(), is_crossing))
+          return;
+      }
+      off.erase(std::remove_if(off.begin(), off.end(),
+                               [&](Vertex_index v) { return m_is_arrived[v] || is_crossing(v); }),
+                off.end());
+    }
+  }
+
+  // \return the number of vertices of faces that cut each other
+  std::size_t remember_if_simple()
+  {
+    const std::size_t crossing = find_crossing().size();
+    if(crossing == 0) {
       m_simple_points = m_working.points;
       m_simple_is_arrived = m_is_arrived;
     }
+    return crossing;
+  }
+
+  // Where the surface is too fine for the mesh in so many places, only small steps lead to a boundary that does
+  // not cut itself.
+  Mixed_mesh_optimization_result_3 give_up()
+  {
+    m_only_arrives = true;
+    m_result.is_boundary_simple = false;
+    m_result.status = Mixed_mesh_optimization_status::NOT_ALL_ARRIVED;
+    return m_result;
   }
 
   // Where the surface comes near to itself, faces between its vertices may meet. Their vertices go back
   // towards where no faces met, on the surface if they were there already, until none meet.
   void retreat_from_self_intersections()
   {
-    m_crossing = vertices_of_self_intersections(m_working.points, m_boundary);
+    m_crossing = find_crossing();
     for(int round = 0; round < retreat_rounds && !m_crossing.empty(); ++round) {
       const double share = round < retreat_rounds / 2 ? 0.25 : 1;
       for(Vertex_index v : m_crossing) {
@@ -227,9 +355,47 @@ private:
         }
       }
       m_moves.run(8, good_enough[1], arrival_sweeps);
-      m_crossing = vertices_of_self_intersections(m_working.points, m_boundary);
+      m_crossing = find_crossing();
     }
     m_result.is_boundary_simple = m_crossing.empty();
+  }
+
+  // Elements above the final bound get better at the cost of those around them; where that does not help,
+  // boundary vertices leave the surface, and come back where it has helped.
+  // \return whether a vertex was moved
+  bool mend()
+  {
+    std::vector<Vertex_index> bad = m_moves.vertices_above(m_final_bound);
+    if(bad.empty() || double(bad.size()) > worth_mending * double(m_working.points.size()))
+      return false;
+    Tetrahedron_flipper<Quality> flipper(m_working, m_quality, m_final_bound);
+    m_moves.attract({});
+    m_moves.set_bound(m_final_bound);
+    for(int round = 0; round < mending_rounds && !bad.empty(); ++round) {
+      for(Vertex_index v : bad) {
+        if(round >= mending_rounds_on_surface && m_working.is_on_boundary[v])
+          leave_surface(v);
+        m_moves.activate_around(v);
+      }
+      if(m_criteria.flips() && round % rounds_until_flips == 0)
+        m_result.number_of_flips += flip(flipper, mending_power, mending_goal * m_final_bound);
+      m_moves.reset_steps();
+      m_moves.run(mending_power, mending_goal * m_final_bound, arrival_sweeps);
+      choose_new_targets();
+      advance(m_final_bound);
+      bad = m_moves.vertices_above(m_final_bound);
+    }
+    return true;
+  }
+
+  void leave_surface(Vertex_index v)
+  {
+    if(m_is_arrived[v]) {
+      m_is_arrived[v] = 0;
+      --m_result.number_of_arrived_vertices;
+      m_travelers.emplace_back(v, m_working.points[v]);
+    }
+    m_moves.loosen(v);
   }
 
   // The boundary vertices that are not on the surface go on.
@@ -302,6 +468,8 @@ private:
     bisect((std::min)(number, in_region), [&](Vertex_index a, Vertex_index b, const auto&) {
       return m_working.is_edge_in_region(a, b) ? norm(p[a] - p[b]) : 0;
     });
+    if(m_only_arrives)
+      m_attraction.measure();
     const auto far_edges = m_attraction.far_edges();
     bisect(number - (p.size() - before), [&](Vertex_index a, Vertex_index b, const auto& apexes) {
       const auto far = far_edges.find(std::minmax(a, b));
@@ -349,7 +517,7 @@ private:
         m_moves.attract(m_attraction.attractions(phase == 0 ? 1 : 16));
       }
       m_moves.run(power, good_enough[phase], sweeps);
-      if(round == 0 && !m_only_arrives)
+      if(round == (m_only_arrives ? first : 0))
         bisect();
       ++m_result.number_of_rounds;
     }

@@ -50,6 +50,7 @@ class Vertex_optimizer
   std::vector<double> m_radii;           // of the next trial step of each vertex; 0: not known
   std::vector<std::uint8_t> m_is_active; // whether it may have something to gain
   std::vector<std::uint8_t> m_is_fixed;
+  std::vector<std::uint8_t> m_is_loose;  // boundary vertices that need not stay on the surface
   std::vector<Attraction> m_attractions; // one for each vertex, or none
   std::vector<double> m_costs;           // of each element; negative: not known
   std::vector<double> m_trial_costs;     // of the elements around the vertex that is moved
@@ -68,7 +69,8 @@ public:
   Vertex_optimizer(Working_mesh& mesh, const Quality& quality, const Project& project, double worth_sliding,
                    double bound)
     : m_mesh(mesh), m_quality(quality), m_project(project), m_worth_sliding(worth_sliding), m_bound(bound),
-      m_radii(mesh.points.size(), 0), m_is_active(mesh.points.size(), 0), m_is_fixed(mesh.is_on_boundary)
+      m_radii(mesh.points.size(), 0), m_is_active(mesh.points.size(), 0), m_is_fixed(mesh.is_on_boundary),
+      m_is_loose(mesh.points.size(), 0)
   {
   }
 
@@ -81,11 +83,24 @@ public:
     m_radii.resize(m_mesh.points.size(), 0);
     m_is_active.resize(m_mesh.points.size(), 1);
     m_is_fixed.resize(m_mesh.points.size(), 0);
+    m_is_loose.resize(m_mesh.points.size(), 0);
   }
 
   /// Boundary vertices are fixed until they are on the surface.
-  void release(Vertex_index v) { m_is_fixed[v] = 0; }
+  void release(Vertex_index v) { m_is_fixed[v] = m_is_loose[v] = 0; }
   void fix(Vertex_index v) { m_is_fixed[v] = 1; }
+  /// From now on it may move off the surface, until it is released.
+  void loosen(Vertex_index v)
+  {
+    m_is_fixed[v] = 0;
+    m_is_loose[v] = 1;
+  }
+
+  /// Steps that failed have become short: the next ones are long again.
+  void reset_steps() { std::fill(m_radii.begin(), m_radii.end(), 0); }
+
+  /// To be called when positions were changed from outside.
+  void forget_costs() { m_costs.clear(); }
 
   void activate(Vertex_index v) { m_is_active[v] = 1; }
   void activate_all() { std::fill(m_is_active.begin(), m_is_active.end(), 1); }
@@ -121,6 +136,17 @@ public:
           moved = improve(v) || moved;
         }
     }
+  }
+
+  /// The vertices of the elements that cost more than `cost`, ascending.
+  std::vector<Vertex_index> vertices_above(double cost)
+  {
+    std::vector<Vertex_index> vertices;
+    for(Vertex_index v = 0; v < m_mesh.points.size(); ++v)
+      if(std::any_of(m_mesh.incident[v].begin(), m_mesh.incident[v].end(),
+                     [&](Element_index e) { return known_cost(e) > cost; }))
+        vertices.push_back(v);
+    return vertices;
   }
 
   /// Moves a vertex if all elements around it stay positive, and none gets worse than `acceptable` and the
@@ -209,7 +235,7 @@ private:
   {
     if(m_is_fixed[v])
       return false;
-    const bool slides = m_mesh.is_on_boundary[v];
+    const bool slides = m_mesh.is_on_boundary[v] && !m_is_loose[v];
     const Attraction a = attraction(v);
     double sum = attraction_energy(v), worst = 0;
     for(Element_index e : m_mesh.incident[v]) {
