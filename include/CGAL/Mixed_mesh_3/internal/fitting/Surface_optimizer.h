@@ -212,8 +212,11 @@ private:
       const bool is_there = norm(q - p) <= 1e-14 * (norm(p) + norm(targets.positions[i] - p));
       m_travelers.emplace_back(targets.vertices[i], is_there ? p : targets.positions[i]);
     }
-    // In small steps that are checked: vertices whose faces would cut others stay behind.
-    const bool is_careful = m_only_arrives && find_crossing().empty();
+    // In small steps that are checked: vertices whose faces would cut others stay behind. Not without a
+    // bound: where elements may get that bad, too many would.
+    const bool has_bound = (std::min)(m_final_bound, m_criteria.quality_bound())
+                           < std::numeric_limits<double>::infinity();
+    const bool is_careful = m_only_arrives && has_bound && find_crossing().empty();
     State simple = state();
     double acceptable = acceptable_at_first;
     for(int round = 0; round < arrival_rounds && !m_travelers.empty(); ++round) {
