@@ -56,12 +56,11 @@ class Vertex_optimizer
   std::vector<double> m_trial_costs;     // of the elements around the vertex that is moved
   double m_power = 4;
   double m_good_enough = 1;
+  double m_notable_gain = 3e-3;
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   // The first trial step, as a share of the shortest edge; steps grow and shrink by how they succeed.
   static constexpr double first_step = 0.1, growth = 1.5, shrinkage = 0.4, smallest_step = 0.01;
-  // A gain that wakes the neighbors, as a share of the sum.
-  static constexpr double notable_gain = 3e-3;
 
 public:
   /// \param worth_sliding boundary vertices slide if an element has a larger cost
@@ -76,6 +75,9 @@ public:
 
   /// From now on, no element gets a larger cost.
   void set_bound(double cost) { m_bound = cost; }
+
+  /// The gain that wakes the neighbors of a vertex, as a share of its sum. Default: 0.003.
+  void set_notable_gain(double share) { m_notable_gain = share; }
 
   /// Vertices that the mesh has more than before are free to move.
   void add_vertices()
@@ -274,7 +276,7 @@ private:
       if(now < sum && is_valid(v)) {
         accept(v);
         m_radii[v] = radius == m_radii[v] ? growth * radius : radius;
-        if(sum - now > notable_gain * sum)
+        if(sum - now > m_notable_gain * sum)
           activate_around(v);
         return true;
       }

@@ -14,6 +14,7 @@
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_optimizer.h>
 
 #include <CGAL/AABB_tree.h>
+#include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
 #include <array>
@@ -193,7 +194,8 @@ private:
 
   void measure_from_surface()
   {
-    using Kernel = Predicates_kernel;
+    using Kernel =
+      CGAL::Simple_cartesian<double>; // it does not matter which of two points is nearer by rounding
     using Traits = AABB_triangle_traits<Kernel, std::vector<Kernel::Triangle_3>::const_iterator>;
     const auto point = [](const Vec3& p) { return Kernel::Point_3(p[0], p[1], p[2]); };
     if(m_samples.empty() || m_triangles.empty())

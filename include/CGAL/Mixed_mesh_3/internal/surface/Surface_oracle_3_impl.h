@@ -6,10 +6,14 @@
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SURFACE_ORACLE_3_IMPL_H
 #define CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SURFACE_ORACLE_3_IMPL_H
 
+#include <CGAL/Mixed_mesh_3/internal/base/compatibility.h>
 #include <CGAL/Mixed_mesh_3/internal/base/compiled.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3.h>
 
+#include <CGAL/AABB_tree.h>
+#include <CGAL/Cartesian_converter.h>
 #include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
@@ -32,9 +36,16 @@ struct Surface_oracle_3::Trees
   using Side_of_surface = CGAL::Side_of_triangle_mesh<Surface, Kernel>;
   using Tree = Side_of_surface::AABB_tree; // its traits have another name in each CGAL version
 
+  // For closest points, on which no decision depends that rounding could make wrong: half as fast again.
+  using Doubles = CGAL::Simple_cartesian<double>;
+  using Triangles = std::vector<Doubles::Triangle_3>;
+  using Tree_of_doubles = CGAL::AABB_tree<AABB_triangle_traits<Doubles, Triangles::const_iterator>>;
+
   Surface surface;
   Tree tree;
   std::optional<Side_of_surface> side_of_surface;
+  Triangles triangles;
+  Tree_of_doubles tree_of_doubles;
 };
 
 CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::Delete_trees::operator()(Trees* trees) const { delete trees; }
@@ -56,9 +67,14 @@ Surface_oracle_3::build(const std::vector<Point_3>& points,
     m_bbox += m_boxes.back();
   }
   m_trees->tree.insert(faces(s).first, faces(s).second, s, get(CGAL::vertex_point, std::as_const(s)));
-  m_trees->tree.do_not_accelerate_distance_queries(); // hints serve better
   m_trees->tree.build();
   m_trees->side_of_surface.emplace(m_trees->tree);
+  const CGAL::Cartesian_converter<Kernel, Trees::Doubles> to_doubles;
+  for(const Triangle_3& t : m_triangles)
+    m_trees->triangles.push_back(to_doubles(t));
+  m_trees->tree_of_doubles.insert(m_trees->triangles.cbegin(), m_trees->triangles.cend());
+  m_trees->tree_of_doubles.do_not_accelerate_distance_queries(); // hints serve better
+  m_trees->tree_of_doubles.build();
 }
 
 CGAL_MIXED_MESH_3_INLINE Bounded_side Surface_oracle_3::bounded_side(const Point_3& p) const
@@ -69,7 +85,9 @@ CGAL_MIXED_MESH_3_INLINE Bounded_side Surface_oracle_3::bounded_side(const Point
 CGAL_MIXED_MESH_3_INLINE Surface_oracle_3::Point_3 Surface_oracle_3::closest_point(const Point_3& p,
                                                                                    const Point_3& hint) const
 {
-  return m_trees->tree.closest_point(p, hint);
+  const auto q = m_trees->tree_of_doubles.closest_point({p.x(), p.y(), p.z()},
+                                                        {hint.x(), hint.y(), hint.z()});
+  return Point_3(q.x(), q.y(), q.z());
 }
 
 CGAL_MIXED_MESH_3_INLINE std::vector<Surface_oracle_3::Point_3>
