@@ -28,7 +28,7 @@ namespace CGAL {
 \brief Small-strain linear elasticity on a mixed mesh: factored once, solved for many load cases.
 
 Elements are isoparametric; those of the four kinds fit together. What resists a change of volume is the mean
-dilatation of a hexahedron or pyramid, of two prisms, and of a patch of tetrahedra, so that nearly
+dilatation of a hexahedron, of two prisms, and of a patch of tetrahedra and pyramids, so that nearly
 incompressible materials do not lock. In a patch, as much of the bulk modulus as twice the shear modulus
 counts in each element by itself.
 

@@ -294,7 +294,7 @@ void test_locking()
         reference = ours;
         standard_reference = standard;
       } else {
-        BOOST_TEST_LT(ours, 3 * reference);
+        BOOST_TEST_LT(ours, (kind == PYRAMID ? 1.3 : 3) * reference); // with a dilatation each: 1.6
       }
       if(nu == 0.499) {
         BOOST_TEST_GT(standard, 3 * ours);

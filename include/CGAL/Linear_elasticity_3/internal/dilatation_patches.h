@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Tetrahedra and prisms in patches of which each has one dilatation, against volumetric locking:
+// Tetrahedra, pyramids and prisms in patches of which each has one dilatation, against volumetric locking:
 // E. A. de Souza Neto, F. M. Andrade Pires, D. R. J. Owen: "F-bar-based linear triangles and tetrahedra for
 // finite strain analysis of nearly incompressible solids. Part I", Int. J. Numer. Meth. Engng 62, 2005.
 
@@ -32,18 +32,20 @@ enum class Patch_form { STAR_OF_VERTEX, PAIR, NONE };
 inline Patch_form patch_form(Element_kind kind)
 {
   switch(kind) {
-  case TETRAHEDRON: return Patch_form::STAR_OF_VERTEX;
+  case TETRAHEDRON:
+  case PYRAMID: return Patch_form::STAR_OF_VERTEX;
   case PRISM: return Patch_form::PAIR;
-  case PYRAMID:
   case HEXAHEDRON: return Patch_form::NONE;
   }
   CGAL_unreachable();
 }
 
 /*!
-A partition of the tetrahedra: stars of vertices, the largest first, as far as their tetrahedra are not taken
-yet. What is left in smaller stars joins the smallest patch around it. A linear tetrahedron alone has a third
-of the displacements that its constraint of volume takes; a patch of `wanted_size` or more has enough.
+A partition of the tetrahedra and pyramids: stars of vertices, the largest first, as far as their elements are
+not taken yet. What is left in smaller stars joins the smallest patch around it. A linear tetrahedron alone
+has a third of the displacements that its constraint of volume takes; a patch of `wanted_size` or more has
+enough. Pyramids are those of cells divided from their centers: a vertex more for six of them, so that each
+alone has little more than a tetrahedron.
 
 Then prisms in pairs with a common quadrilateral: a prism alone has half of the displacements that a
 hexahedron has for its constraint, and bent in the plane of its triangles it locks as these do. What finds no
