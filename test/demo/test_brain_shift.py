@@ -68,7 +68,8 @@ BAD_POINTS = [
     ("header_only.csv", HEADER, "has no control points"),
     ("no_header.csv", "\n".join(ROWS) + "\n", "line 1: expected the header x,y,z,dx,dy,dz"),
     ("other_header.csv", "x,y,z,u,v,w\n" + "\n".join(ROWS), "line 1: expected the header"),
-    ("semicolons.csv", POINTS.replace(",", ";"), "expected the header"),
+    ("colons.csv", POINTS.replace(",", ":"), "expected the header"),
+    ("mixed.csv", HEADER + ROWS[0].replace(",", ";") + "\n", "line 2: expected 6 columns, x,y,z,dx,dy,dz, not 1"),
     ("five_columns.csv", HEADER + "\n\n# comment\n1,2,3,4,5\n", "line 5: expected 6 columns, x,y,z,dx,dy,dz, not 5"),
     ("seven_columns.csv", HEADER + ROWS[0] + ",\n", "line 2: expected 6 columns, x,y,z,dx,dy,dz, not 7"),
     ("word.csv", with_value(1, 4, "much"), 'line 3: "much" is not a number'),
@@ -366,6 +367,59 @@ class BrainShift(unittest.TestCase):
         self.assertTrue(0 < told["inputs"]["image"]["share of the mesh's vertices inside"] < 1)
 
     # Bad input
+
+    def test_formats_of_points(self):
+        """Tables with other separators, and fiducials of 3D Slicer: the same points."""
+        before, after = VALUES[:, :3], VALUES[:, :3] + VALUES[:, 3:]
+        flip = np.array([-1, -1, 1])
+
+        def fcsv(points, system):
+            return "\n".join(["# Markups fiducial file version = 4.11", f"# CoordinateSystem = {system}",
+                              "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID",
+                              *(f"{i},{x},{y},{z},0,0,0,1,1,1,0,F-{i},," for i, (x, y, z) in enumerate(points))])
+
+        def markups(points, system):
+            return json.dumps({"markups": [{"type": "Fiducial", "coordinateSystem": system, "controlPoints": [
+                {"id": str(i), "label": f"F-{i}", "position": list(p)} for i, p in enumerate(points)]}]})
+
+        inputs = [[self.file(f"points{i}.csv", POINTS.replace(",", separator))]
+                  for i, separator in enumerate((",", ";", " ; ", "\t", " ", "   "))]
+        for system, points, others in (("RAS", before, after), ("0", before, after),
+                                       ("LPS", before * flip, after * flip), ("1", before * flip, after * flip)):
+            inputs.append([self.file(f"before{system}.fcsv", fcsv(points, system)), "--control-points-after",
+                           self.file(f"after{system}.fcsv", fcsv(others, system))])
+        inputs.append([self.file("before.mrk.json", markups(before, "RAS")), "--control-points-after",
+                       self.file("after.mrk.json", markups(after * flip, "LPS"))])
+        largest = []
+        for arguments in inputs:
+            report = WORK / "points.json"
+            run = self.shift(self.mesh, "--control-points", *arguments, "--report", report)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            told = json.loads(report.read_text())
+            np.testing.assert_allclose([p["position"] for p in told["control points"]], before, atol=1e-12)
+            np.testing.assert_allclose([p["displacement"] for p in told["control points"]], VALUES[:, 3:], atol=1e-12)
+            largest.append(told["shift"]["largest displacement"])
+        np.testing.assert_allclose(largest, largest[0], rtol=1e-9)
+
+    def test_bad_fiducials(self):
+        good = self.file("good.fcsv", "a,1,2,3\nb,4,5,6\n")
+        for name, contents, words in (
+                ("empty.fcsv", "# nothing\n", "has no points"),
+                ("one.fcsv", "a,1,2,3\n", "has 1 points, but"),
+                ("columns.fcsv", "a,1,2\n", "line 1: expected a name and three numbers, not 3 columns"),
+                ("word.fcsv", "# c\na,1,much,3\n", 'line 2: "much" is not a number'),
+                ("system.fcsv", "# CoordinateSystem = IJK\na,1,2,3\n", 'unknown coordinate system "IJK"'),
+                ("far.fcsv", "a,1,2,3\nb,1,2,3e7\n", "point 2 is more than a kilometer away"),
+                ("text.mrk.json", "hello", "is no list of markups"),
+                ("empty.mrk.json", '{"markups": []}', "has 0 lists of points"),
+                ("two.mrk.json", '{"markups": [{"controlPoints": [{"position": [1, 2]}]}]}', "is no list of markups"),
+                ("table.csv", POINTS, "unknown format")):
+            with self.subTest(name):
+                path = self.file(name, contents)
+                self.fails(self.mesh, "--control-points", good, "--control-points-after", path, names=path, words=words)
+        self.fails(self.mesh, "--control-points", good, names="--control-points-after", words="before and after", status=2)
+        self.fails(self.mesh, "--control-points", self.file("t.csv", POINTS), "--control-points-after", good,
+                   names="--control-points-after", words="is for fiducials", status=2)
 
     def test_bad_points(self):
         for name, contents, words in BAD_POINTS:

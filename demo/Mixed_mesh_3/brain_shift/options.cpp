@@ -46,9 +46,13 @@ CLI::Option* add_inputs(CLI::App& app, Options& o)
   app
     .add_option("--control-points", o.control_points,
                 "Table of points with given displacements, in mm: a header x,y,z,dx,dy,dz, then a line for "
-                "each")
+                "each; or a list of fiducials before, .fcsv or .mrk.json")
     ->required()
     ->type_name("FILE.csv");
+  app
+    .add_option("--control-points-after", o.control_points_after,
+                "Where the fiducials of --control-points are after, in the same order: .fcsv or .mrk.json")
+    ->type_name("FILE");
   app
     .add_option("--tumor,--tumour", o.tumor,
                 "Closed surface: elements whose centroid is inside are removed, after the shift")
@@ -184,6 +188,10 @@ std::array<double, 3> vector_of(const char* option, const std::string& text)
 // What the parser does not check.
 void check_use(Options& o)
 {
+  if(is_fiducials(o.control_points) != !o.control_points_after.empty())
+    throw CLI::ValidationError("--control-points-after", o.control_points_after.empty()
+                                                           ? "fiducials are needed before and after"
+                                                           : "is for fiducials, .fcsv or .mrk.json, only");
   const std::string axes = "xyz";
   const bool is_downwards = o.up.size() == 2 && o.up[0] == '-';
   const std::size_t axis = o.up.size() == 1 || is_downwards ? axes.find(o.up.back()) : axes.npos;
@@ -236,7 +244,7 @@ void check_feasible(const Options& o)
     outputs.push_back(path);
   if(!o.report.empty())
     outputs.push_back(o.report);
-  Output_paths paths({o.mesh, o.control_points, o.tumor, o.image});
+  Output_paths paths({o.mesh, o.control_points, o.control_points_after, o.tumor, o.image});
   for(const std::string& path : outputs) {
     require([&](std::string* error) { return mm3::IO::check_output_directory(path, error); });
     paths.add(path);

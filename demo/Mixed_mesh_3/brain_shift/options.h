@@ -19,7 +19,8 @@
 
 struct Options
 {
-  std::string mesh, control_points, tumor, image, output_image, report, up = "z", gravity = "0,0,0";
+  std::string mesh, control_points, control_points_after, tumor, image, output_image, report,
+    up = "z", gravity = "0,0,0";
   std::vector<std::string> outputs, deformed_outputs;
   double fixed_below = 0.3, slide_below = 0, slide_beyond = std::numeric_limits<double>::infinity();
   double max_distance = 5, compliance = 0, control_radius = 0;

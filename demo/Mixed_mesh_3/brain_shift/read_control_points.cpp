@@ -5,6 +5,8 @@
 
 #include "brain_shift/read_control_points.h"
 
+#include <nlohmann/json.hpp>
+
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -25,13 +27,23 @@ static std::string_view trimmed(std::string_view text)
                             : text.substr(first, text.find_last_not_of(blanks) + 1 - first);
 }
 
-std::vector<std::string_view> columns(std::string_view line)
+std::vector<std::string_view> columns(std::string_view line, char separator)
 {
   std::vector<std::string_view> result;
-  for(std::size_t comma; (comma = line.find(',')) != line.npos; line.remove_prefix(comma + 1))
-    result.push_back(trimmed(line.substr(0, comma)));
+  for(std::size_t end; (end = line.find(separator)) != line.npos; line.remove_prefix(end + 1))
+    if(separator != ' ' || end > 0)
+      result.push_back(trimmed(line.substr(0, end)));
   result.push_back(trimmed(line));
   return result;
+}
+
+// The first of those that there are.
+static char separator_of(std::string_view line)
+{
+  for(char c : {',', ';', '\t'})
+    if(line.find(c) != line.npos)
+      return c;
+  return ' ';
 }
 
 std::string quoted(std::string_view text)
@@ -64,7 +76,7 @@ static Control_point point_of(const std::vector<std::string_view>& cells, std::s
   using namespace control_points;
   constexpr double largest = 1e6; // mm: nothing in a body is a kilometer away
   Control_point point;
-  point.line = line;
+  point.number = line;
   for(std::size_t i = 0; i < 6; ++i) {
     double& x = i < 3 ? point.position[i] : point.displacement[i - 3];
     const std::string defect = read_number(cells[i], x);
@@ -90,6 +102,7 @@ std::vector<Control_point> read_control_points(const std::string& path)
   const std::string header = "x,y,z,dx,dy,dz";
   std::vector<Control_point> points;
   bool has_header = false;
+  char separator = ',';
   std::string text;
   for(std::size_t number = 1; std::getline(file, text); ++number) {
     std::string_view line = text;
@@ -101,7 +114,9 @@ std::vector<Control_point> read_control_points(const std::string& path)
     const auto refuse_line = [&](const std::string& defect) {
       refuse("line " + std::to_string(number) + ": " + defect);
     };
-    const std::vector<std::string_view> cells = columns(line);
+    if(!has_header)
+      separator = separator_of(line);
+    const std::vector<std::string_view> cells = columns(line, separator);
     if(!has_header) {
       if(cells != columns(header))
         refuse_line("expected the header " + header + ", not " + quoted(line));
@@ -118,5 +133,113 @@ std::vector<Control_point> read_control_points(const std::string& path)
     refuse("is empty: expected the header " + header);
   if(points.empty())
     refuse("has no control points");
+  return points;
+}
+
+bool is_fiducials(const std::string& path)
+{
+  const auto ends_with = [&path](std::string_view end) {
+    return path.size() >= end.size() && path.compare(path.size() - end.size(), end.size(), end) == 0;
+  };
+  return ends_with(".fcsv") || ends_with(".mrk.json");
+}
+
+namespace {
+
+using Point = std::array<double, 3>;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& defect)
+{
+  throw std::runtime_error(path + ": " + defect);
+}
+
+// Versions of 3D Slicer write RAS, LPS, or 0 and 1 for them.
+bool is_lps(const std::string& path, const std::string& system)
+{
+  const bool is_lps = system == "LPS" || system == "1";
+  if(!is_lps && system != "RAS" && system != "0")
+    refuse(path, "unknown coordinate system " + control_points::quoted(system) + ": expected RAS or LPS");
+  return is_lps;
+}
+
+std::vector<Point> read_fcsv(const std::string& path, std::istream& file, bool& has_lps)
+{
+  using namespace control_points;
+  std::vector<Point> points;
+  std::string text;
+  for(std::size_t number = 1; std::getline(file, text); ++number) {
+    const std::string_view line = trimmed(text), system = "# CoordinateSystem =";
+    if(line.substr(0, system.size()) == system)
+      has_lps = is_lps(path, std::string(trimmed(line.substr(system.size()))));
+    if(line.empty() || line[0] == '#')
+      continue;
+    const std::vector<std::string_view> cells = columns(line); // a name, then x, y, z
+    const auto refuse_line = [&](const std::string& defect) {
+      refuse(path, "line " + std::to_string(number) + ": " + defect);
+    };
+    if(cells.size() < 4)
+      refuse_line("expected a name and three numbers, not " + std::to_string(cells.size()) + " columns");
+    Point p;
+    for(std::size_t i = 0; i < 3; ++i) {
+      const std::string defect = read_number(cells[i + 1], p[i]);
+      if(!defect.empty())
+        refuse_line(defect);
+    }
+    points.push_back(p);
+  }
+  return points;
+}
+
+std::vector<Point> read_markups(const std::string& path, std::istream& file, bool& has_lps)
+{
+  std::vector<Point> points;
+  try {
+    const nlohmann::json markups = nlohmann::json::parse(file).at("markups");
+    if(markups.size() != 1)
+      refuse(path, "has " + std::to_string(markups.size()) + " lists of points, expected one");
+    has_lps = is_lps(path, markups[0].value("coordinateSystem", "RAS"));
+    for(const auto& point : markups[0].at("controlPoints"))
+      points.push_back(point.at("position").get<Point>());
+  } catch(const nlohmann::json::exception& e) {
+    refuse(path, std::string("is no list of markups: ") + e.what());
+  }
+  return points;
+}
+
+std::vector<Point> read_points(const std::string& path)
+{
+  if(!is_fiducials(path))
+    refuse(path, "unknown format; expected fiducials, .fcsv or .mrk.json, as the points before");
+  if(std::filesystem::is_directory(path))
+    refuse(path, "is a directory");
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if(!file)
+    refuse(path, std::string("cannot be opened: ") + std::strerror(errno));
+  bool has_lps = false;
+  std::vector<Point> points = path.back() == 'v' ? read_fcsv(path, file, has_lps)
+                                                 : read_markups(path, file, has_lps);
+  if(points.empty())
+    refuse(path, "has no points");
+  for(std::size_t i = 0; i < points.size(); ++i)
+    for(int k = 0; k < 3; ++k) {
+      points[i][k] *= has_lps && k < 2 ? -1 : 1;
+      if(!(std::abs(points[i][k]) <= 1e6)) // as in a table
+        refuse(path, "point " + std::to_string(i + 1) + " is more than a kilometer away");
+    }
+  return points;
+}
+
+} // namespace
+
+std::vector<Control_point> read_fiducials(const std::string& before, const std::string& after)
+{
+  const std::vector<Point> p = read_points(before), q = read_points(after);
+  if(p.size() != q.size())
+    refuse(after,
+           "has " + std::to_string(q.size()) + " points, but " + before + " has " + std::to_string(p.size()));
+  std::vector<Control_point> points;
+  for(std::size_t i = 0; i < p.size(); ++i)
+    points.push_back({p[i], {q[i][0] - p[i][0], q[i][1] - p[i][1], q[i][2] - p[i][2]}, i + 1, "point"});
   return points;
 }

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Points with given displacements, from a table of numbers with commas between them.
+// Points with given displacements: from a table of numbers, or from two lists of fiducials.
 
 #ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_READ_CONTROL_POINTS_H
 #define MIXED_MESH_3_DEMO_BRAIN_SHIFT_READ_CONTROL_POINTS_H
@@ -18,13 +18,16 @@
 struct Control_point
 {
   std::array<double, 3> position, displacement; // mm
-  std::size_t line;                             // in the file, from 1
+  std::size_t number;                           // of the line in the file, or of the point: from 1
+  const char* unit = "line";                    // or "point"
+
+  std::string place() const { return unit + (' ' + std::to_string(number)); }
 };
 
 namespace control_points {
 
-/// What is between commas, without the blanks around it.
-std::vector<std::string_view> columns(std::string_view line);
+/// What is between separators, without the blanks around it. If these are blanks, several are one.
+std::vector<std::string_view> columns(std::string_view line, char separator = ',');
 
 /// As a message can show it: short, and nothing that a terminal would take for more than a character.
 std::string quoted(std::string_view text);
@@ -36,10 +39,22 @@ std::string read_number(std::string_view text, double& x);
 
 /*!
 Reads control points: a header `x,y,z,dx,dy,dz`, then a point and its displacement in each line, in mm. Blank
-lines, and those that start with #, are skipped.
+lines, and those that start with #, are skipped. Columns are separated as in the header: by commas, semicolons,
+tabs or blanks.
 
 \throw std::runtime_error a line naming the file, the line and the defect
 */
 std::vector<Control_point> read_control_points(const std::string& path);
+
+/// Whether a file is a list of fiducials of 3D Slicer, by its name: `.fcsv` or `.mrk.json`.
+bool is_fiducials(const std::string& path);
+
+/*!
+Reads control points from two lists of fiducials, before and after, paired in their order. The result is right,
+anterior, superior; lists that say they are LPS are converted.
+
+\throw std::runtime_error a line naming the file and the defect
+*/
+std::vector<Control_point> read_fiducials(const std::string& before, const std::string& after);
 
 #endif // MIXED_MESH_3_DEMO_BRAIN_SHIFT_READ_CONTROL_POINTS_H

@@ -65,7 +65,7 @@ Json describe_points(const Outcome& outcome)
 {
   Json controls = Json::array();
   for(std::size_t i = 0; i < outcome.points.size(); ++i)
-    controls.push_back({{"line", outcome.points[i].line},
+    controls.push_back({{outcome.points[i].unit, outcome.points[i].number},
                         {"position", outcome.points[i].position},
                         {"displacement", outcome.points[i].displacement},
                         {"element", std::uint32_t(outcome.locations[i].element)},
@@ -78,7 +78,7 @@ Json describe(const Shift& shift, const std::vector<Control_point>& points)
   Json controls = Json::array();
   for(std::size_t i = 0; i < points.size(); ++i) {
     const Control& c = shift.controls[i];
-    Json control = {{"line", points[i].line}, {"used", c.is_used}};
+    Json control = {{points[i].unit, points[i].number}, {"used", c.is_used}};
     if(c.is_used) {
       control["displacement"] = c.displacement;
       control["missed by"] = c.miss;
@@ -129,7 +129,11 @@ std::string report(const Options& o, const Outcome& outcome, const Stage_log& lo
   Json report;
   report["program"] = describe_program("brain_shift");
   report["inputs"] = {{"mesh", describe_mesh(o, outcome)},
-                      {"control points", {{"file", o.control_points}, {"number", outcome.points.size()}}},
+                      {"control points",
+                       {{"file", o.control_points},
+                        {"file of points after",
+                         o.control_points_after.empty() ? Json() : Json(o.control_points_after)},
+                        {"number", outcome.points.size()}}},
                       {"tumor", outcome.tumor ? describe(*outcome.tumor) : Json()},
                       {"image", outcome.image ? describe(*outcome.image, o) : Json()}};
   report["parameters"] = parameters_of(o);

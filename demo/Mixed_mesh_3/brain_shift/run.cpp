@@ -40,7 +40,8 @@ struct Inputs
 Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
 {
   Inputs inputs;
-  outcome.points = read_control_points(o.control_points);
+  outcome.points = o.control_points_after.empty() ? read_control_points(o.control_points)
+                                                  : read_fiducials(o.control_points, o.control_points_after);
   inputs.mesh = log("read mesh", [&] { return read_mesh(o.mesh, outcome.warnings); });
   outcome.mesh = facts_of(inputs.mesh);
   outcome.volume = mm3::volume(inputs.mesh);

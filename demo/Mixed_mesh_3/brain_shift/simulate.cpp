@@ -27,9 +27,7 @@ namespace {
 [[noreturn]] void refuse(const CGAL::Linear_elasticity_result_3& result, const Options& o,
                          const std::vector<Control_point>& points)
 {
-  const auto at_line = [&] {
-    return o.control_points + ": line " + std::to_string(points[result.control_point].line) + ": ";
-  };
+  const auto at_line = [&] { return o.control_points + ": " + points[result.control_point].place() + ": "; };
   switch(result.status) {
   case Elasticity_status::CONTROL_POINT_OUTSIDE:
     throw std::runtime_error(at_line() + "the control point is " + rounded(result.distance) + " mm outside "
@@ -189,7 +187,7 @@ void remove(Elasticity& elasticity, const std::vector<bool>& is_removed, const O
     if(is_used.back()) {
       left.push_back(outcome.points[i]);
     } else {
-      outcome.warnings.push_back(o.control_points + ": line " + std::to_string(outcome.points[i].line)
+      outcome.warnings.push_back(o.control_points + ": " + outcome.points[i].place()
                                  + ": the control point is in tissue removed: it is not used after the "
                                    "resection");
     }

@@ -11,6 +11,7 @@
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/version.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <stdexcept>
@@ -26,23 +27,89 @@ constexpr bool has_eigen = true;
 constexpr bool has_eigen = false;
 #endif
 
+double weight_option(const std::string& option, const std::string& text)
+{
+  double weight = 0;
+  if(!CLI::detail::lexical_cast(text, weight) || !(weight >= 1e-6 && weight <= 1e6))
+    throw CLI::ValidationError(option, "the weight '" + text + "' is not a number from 0.000001 to 1000000");
+  return weight;
+}
+
 // A file whose name ends like a weight is that file.
 Region_option region_option(const std::string& text)
 {
   const std::size_t colon = text.rfind(':');
   if(colon == std::string::npos || std::filesystem::exists(text))
     return {text, 1};
-  const std::string file = text.substr(0, colon), number = text.substr(colon + 1);
-  double weight = 0;
-  if(!CLI::detail::lexical_cast(number, weight) || !(weight >= 1e-6 && weight <= 1e6))
-    throw CLI::ValidationError("--region " + text,
-                               "the weight '" + number + "' is not a number from 0.000001 to 1000000");
-  return {file, weight};
+  return {text.substr(0, colon), weight_option("--region " + text, text.substr(colon + 1))};
+}
+
+// Labels, and after a colon a weight.
+Region_option region_of_labels(const std::string& text)
+{
+  const std::size_t colon = text.find(':');
+  const auto labels = labels_selection(text.substr(0, colon));
+  if(!labels)
+    throw CLI::ValidationError("--region-labels " + text, "expected labels as in 1-189,200");
+  return {"",
+          colon == std::string::npos ? 1 : weight_option("--region-labels " + text, text.substr(colon + 1)),
+          *labels};
+}
+
+// The domain and regions out of a segmentation.
+void add_labels(CLI::App& app, Options& o)
+{
+  const char* const group = "Options of images";
+  CLI::Option* const labels = app
+                                .add_option_function<std::string>(
+                                  "--labels",
+                                  [&o](const std::string& text) {
+                                    const auto selection = labels_selection(text);
+                                    if(!selection)
+                                      throw CLI::ValidationError("--labels " + text,
+                                                                 "expected labels as in 1-189,200");
+                                    o.voxels = *selection;
+                                  },
+                                  "Labels of the domain in the image SURFACE (default: all but 0)")
+                                ->type_name("LIST")
+                                ->group(group);
+  app
+    .add_option_function<double>(
+      "--threshold", [&o](double t) { o.voxels = threshold_selection(t); },
+      "The domain is where the image SURFACE has at least that value")
+    ->check(number("that is finite", [](double) { return true; }))
+    ->type_name("T")
+    ->excludes(labels)
+    ->group(group);
+  app
+    .add_option_function<std::vector<std::string>>(
+      "--region-labels",
+      [&o](const std::vector<std::string>& texts) {
+        for(const std::string& text : texts)
+          o.regions.push_back(region_of_labels(text));
+      },
+      "Labels of a region of interest in the image SURFACE, with a weight as that of --region; can be given "
+      "several times")
+    ->type_name("LIST[:W]")
+    ->allow_extra_args(false)
+    ->group(group);
+  app
+    .add_option(
+      "--smoothing", o.smoothing,
+      "Standard deviation, in mm, of the Gaussian that smoothes labels before their surface is made; "
+      "0: none (default: the largest distance between voxels)")
+    ->check(number("of at least 0", [](double x) { return x >= 0; }))
+    ->type_name("MM")
+    ->group(group);
 }
 
 void add_files(CLI::App& app, Options& o)
 {
-  app.add_option("SURFACE", o.surface, "Closed surface of the domain: .off, .obj, .stl or .ply")->required();
+  app
+    .add_option(
+      "SURFACE", o.surface,
+      "Closed surface of the domain: .off, .obj, .stl or .ply; or an image of labels: .nii, .nii.gz")
+    ->required();
   app
     .add_option_function<std::vector<std::string>>(
       "--region",
@@ -199,6 +266,7 @@ void set_up(CLI::App& app, Options& o)
   add_files(app, o);
   CLI::Option* const no_optimize = add_fit(app, o);
   add_stages(app, o);
+  add_labels(app, o);
   app.add_flag("--msh2", o.msh2, "Write .msh files in Gmsh's format 2.2 instead of 4.1");
   app.add_flag("--tetrahedra", o.tetrahedra,
                "Split all elements to tetrahedra, for solvers without the other kinds");
@@ -212,11 +280,20 @@ void set_up(CLI::App& app, Options& o)
              "  mixed_mesh_3 data/brain.off --region data/region.off --vertices 660 --output brain.vtu");
 }
 
-// What this program was built without is wrong use.
-void check_built_with(const Options& o)
+// What options say together, and what this program was built without, is wrong use.
+void check_options(Options& o)
 {
   if(o.no_optimize && !has_eigen)
     throw CLI::ValidationError("--no-optimize", "this program was built without Eigen");
+  const bool has_image = is_image(o.surface);
+  for(Region_option& r : o.regions)
+    if(r.file.empty())
+      r.file = o.surface;
+  if(!has_image
+     && (!o.voxels.ranges.empty()
+         || std::any_of(o.regions.begin(), o.regions.end(),
+                        [](const Region_option& r) { return !r.voxels.ranges.empty(); })))
+    throw CLI::ValidationError(o.surface, "labels and thresholds need an image: .nii or .nii.gz");
 #ifndef CGAL_MIXED_MESH_3_USE_CHOLMOD
   if(o.solver == Solver::CHOLMOD)
     throw CLI::ValidationError("--solver cholmod", "this program was built without CHOLMOD");
@@ -230,7 +307,7 @@ std::optional<int> parse_command_line(int argc, char** argv, Options& options)
   CLI::App app("Makes a mixed-element (hexahedra, prisms, pyramids, tetrahedra) finite-element mesh of the "
                "domain inside a closed surface, fine in a region of interest, within a vertex budget.");
   set_up(app, options);
-  return parse(app, argc, argv, [&] { check_built_with(options); });
+  return parse(app, argc, argv, [&] { check_options(options); });
 }
 
 void check_feasible(const Options& o)

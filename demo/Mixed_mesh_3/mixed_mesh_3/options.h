@@ -8,6 +8,8 @@
 #ifndef MIXED_MESH_3_DEMO_MIXED_MESH_3_OPTIONS_H
 #define MIXED_MESH_3_DEMO_MIXED_MESH_3_OPTIONS_H
 
+#include "common/voxel_selection.h"
+
 #include <CGAL/Mixed_mesh_3/options.h>
 #include <CGAL/Mixed_mesh_criteria_3.h>
 #include <CGAL/Mixed_mesh_fit_criteria_3.h>
@@ -27,6 +29,7 @@ struct Region_option
 {
   std::string file;
   double weight;
+  Voxel_selection voxels = {}; // of an image
 };
 
 struct Options
@@ -35,6 +38,8 @@ struct Options
 
   std::string surface, report;
   std::vector<Region_option> regions;
+  Voxel_selection voxels; // of an image, the domain
+  std::optional<double> smoothing;
   std::vector<std::string> outputs;
   std::size_t vertices = 0;
   int base_level = CGAL::Mixed_mesh_criteria_3::automatic;

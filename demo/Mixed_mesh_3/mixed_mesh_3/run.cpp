@@ -7,7 +7,7 @@
 
 #include "common/Stage_log.h"
 #include "common/messages.h"
-#include "common/read_surface.h"
+#include "common/read_label_surface.h"
 #include "common/resources.h"
 #include "common/write_files.h"
 #include "mixed_mesh_3/algorithm_1.h"
@@ -58,16 +58,27 @@ struct Inputs
   std::vector<Surface> regions;
 };
 
+Surface read(const std::string& file, const Voxel_selection& voxels, const Options& o, Surface_facts& facts,
+             std::vector<std::string>& warnings)
+{
+  if(!is_image(file))
+    return read_surface(file, facts, warnings);
+  // several times as many as the mesh has at its boundary
+  const double vertices = 20 * std::pow(double(o.vertices), 2. / 3);
+  return read_label_surface(file, voxels, {o.smoothing, (std::max)(std::size_t(vertices), std::size_t(2000))},
+                            facts, warnings);
+}
+
 Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
 {
   Inputs inputs;
   inputs.surface = log("read surface",
-                       [&] { return read_surface(o.surface, outcome.surface, outcome.warnings); });
+                       [&] { return read(o.surface, o.voxels, o, outcome.surface, outcome.warnings); });
   if(o.tolerance > 0)
     check_tolerance(o, inputs.surface);
   for(const Region_option& r : o.regions)
     inputs.regions.push_back(log("read region", [&] {
-      return read_surface(r.file, outcome.regions.emplace_back(), outcome.warnings);
+      return read(r.file, r.voxels, o, outcome.regions.emplace_back(), outcome.warnings);
     }));
   return inputs;
 }

@@ -1,0 +1,68 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "common/read_label_surface.h"
+
+#include "common/resources.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#if MIXED_MESH_3_HAS_NIFTI
+#include <CGAL/Mixed_mesh_image_3/IO/NIFTI.h>
+#include <CGAL/Mixed_mesh_image_3/make_label_surface.h>
+#include <CGAL/Mixed_mesh_image_3/simplify_closed_surface.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#endif
+
+namespace mm3 = CGAL::Mixed_meshes_3;
+
+#if MIXED_MESH_3_HAS_NIFTI
+
+Surface read_label_surface(const std::string& path, const Voxel_selection& selection,
+                           const Label_surface_options& options, Surface_facts& facts,
+                           std::vector<std::string>& warnings)
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  mm3::Voxel_image_3 image;
+  require([&](std::string* error) { return mm3::IO::read_NIFTI(path, image, error); });
+  const auto spacing = mm3::voxel_spacing(image.grid);
+  const double smoothing = options.smoothing.value_or(*std::max_element(spacing.begin(), spacing.end()));
+  Surface surface;
+  mm3::make_label_surface(image, selection, smoothing, surface);
+  if(surface.is_empty())
+    throw std::runtime_error(
+      path + ": "
+      + (std::any_of(image.values.begin(), image.values.end(), selection)
+           ? "nothing is left of the voxels " + selection.text + " after smoothing, see --smoothing"
+           : "there are no voxels " + selection.text));
+  const std::size_t vertices = surface.number_of_vertices(), triangles = surface.number_of_faces();
+  mm3::simplify_closed_surface(surface, options.vertices);
+  auto component = surface.add_property_map<Surface::Face_index, std::size_t>("f:component", 0).first;
+  const std::size_t components = PMP::connected_components(surface, component);
+  surface.remove_property_map(component);
+  if(components > 1)
+    warnings.push_back(path + ": the voxels " + selection.text + " have a surface of "
+                       + std::to_string(components) + " components");
+  facts = {path,
+           vertices,
+           triangles,
+           surface.number_of_vertices(),
+           surface.number_of_faces(),
+           components,
+           PMP::volume(surface)};
+  return surface;
+}
+
+#else
+
+Surface read_label_surface(const std::string& path, const Voxel_selection&, const Label_surface_options&,
+                           Surface_facts&, std::vector<std::string>&)
+{
+  throw std::runtime_error(path + ": this program was built without nifti_clib");
+}
+
+#endif

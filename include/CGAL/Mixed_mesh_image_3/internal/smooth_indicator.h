@@ -1,0 +1,131 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_IMAGE_3_INTERNAL_SMOOTH_INDICATOR_H
+#define CGAL_MIXED_MESH_IMAGE_3_INTERNAL_SMOOTH_INDICATOR_H
+
+#include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// Values on a box of voxels, which may reach beyond the image: 0 at its border.
+struct Indicator
+{
+  std::array<std::int64_t, 3> first{}; // index in the image of the box's first voxel
+  std::array<std::size_t, 3> size{};
+  std::vector<float> values; // the first index runs fastest; none if no voxel has the label
+  float level = 0.5f;        // as many values are above it as voxels have the label, but for equal ones
+};
+
+/// Half of the kernel of a Gaussian, from the middle on; its sum over both sides is 1.
+inline std::vector<float> gaussian_kernel(double deviation)
+{
+  constexpr double width = 3; // what is beyond that many deviations does not matter: 0.3 %
+  std::vector<double> kernel{1};
+  for(int i = 1; i <= int(std::ceil(width * deviation)); ++i)
+    kernel.push_back(std::exp(-0.5 * (i / deviation) * (i / deviation)));
+  double sum = -kernel[0];
+  for(double k : kernel)
+    sum += 2 * k;
+  std::vector<float> result;
+  for(double k : kernel)
+    result.push_back(float(k / sum));
+  return result;
+}
+
+/// Convolution along an axis, with 0 outside.
+inline void convolve(Indicator& indicator, int axis, const std::vector<float>& kernel)
+{
+  const std::size_t n = indicator.size[axis], last = kernel.size() - 1;
+  const std::size_t stride = axis == 0   ? 1
+                             : axis == 1 ? indicator.size[0]
+                                         : indicator.size[0] * indicator.size[1];
+  std::vector<float> line(n + 2 * last, 0.f);
+  for(std::size_t start = 0; start < indicator.values.size(); ++start) {
+    if(start / stride % n != 0)
+      continue; // not the first of a line
+    float* const values = indicator.values.data() + start;
+    for(std::size_t i = 0; i < n; ++i)
+      line[last + i] = values[i * stride];
+    for(std::size_t i = 0; i < n; ++i) {
+      const float* const middle = line.data() + last + i;
+      float sum = kernel[0] * middle[0];
+      for(std::size_t k = 1; k <= last; ++k)
+        sum += kernel[k] * (middle[-std::ptrdiff_t(k)] + middle[k]);
+      values[i * stride] = sum;
+    }
+  }
+}
+
+/// A level that so many values are above; fewer, if there are equal ones. \pre less than there are
+inline float level_above(std::vector<float> values, std::size_t number)
+{
+  const auto next = values.begin() + std::ptrdiff_t(number);
+  std::nth_element(values.begin(), next, values.end(), std::greater<float>());
+  return (*next + *std::min_element(values.begin(), next)) / 2;
+}
+
+/// The indicator of a label in the box around it, smoothed.
+/// \param deviations of the Gaussian, in voxels along each axis
+template <class HasLabel>
+Indicator smooth_indicator(const Voxel_image_3& image, const HasLabel& has_label,
+                           const std::array<double, 3>& deviations)
+{
+  Indicator indicator;
+  const Voxel_grid_3& grid = image.grid;
+  std::array<std::size_t, 3> low = grid.size, high{};
+  const auto for_each_voxel = [&](const auto& f) {
+    for(std::size_t k = 0; k < grid.size[2]; ++k)
+      for(std::size_t j = 0; j < grid.size[1]; ++j)
+        for(std::size_t i = 0; i < grid.size[0]; ++i)
+          if(has_label(image.values[grid.offset(i, j, k)]))
+            f(std::array<std::size_t, 3>{i, j, k});
+  };
+  for_each_voxel([&](const std::array<std::size_t, 3>& voxel) {
+    for(int i = 0; i < 3; ++i) {
+      low[i] = (std::min)(low[i], voxel[i]);
+      high[i] = (std::max)(high[i], voxel[i] + 1);
+    }
+  });
+  if(high[0] == 0)
+    return indicator;
+  std::array<std::vector<float>, 3> kernels;
+  std::size_t number_of_values = 1, number_with_label = 0;
+  for(int i = 0; i < 3; ++i) {
+    kernels[i] = gaussian_kernel(deviations[i]);
+    const std::size_t margin = kernels[i].size(); // one more than what is reached
+    indicator.first[i] = std::int64_t(low[i]) - std::int64_t(margin);
+    indicator.size[i] = high[i] - low[i] + 2 * margin;
+    number_of_values *= indicator.size[i];
+  }
+  indicator.values.assign(number_of_values, 0.f);
+  for_each_voxel([&](const std::array<std::size_t, 3>& voxel) {
+    std::array<std::size_t, 3> p;
+    for(int i = 0; i < 3; ++i)
+      p[i] = std::size_t(std::int64_t(voxel[i]) - indicator.first[i]);
+    indicator.values[p[0] + indicator.size[0] * (p[1] + indicator.size[1] * p[2])] = 1;
+    ++number_with_label;
+  });
+  for(int axis = 0; axis < 3; ++axis)
+    convolve(indicator, axis, kernels[axis]);
+  indicator.level = level_above(indicator.values, number_with_label);
+  return indicator;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_IMAGE_3_INTERNAL_SMOOTH_INDICATOR_H

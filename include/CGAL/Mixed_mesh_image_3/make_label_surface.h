@@ -1,0 +1,96 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// From a segmentation to a closed surface: a level of the label's indicator, smoothed.
+
+#ifndef CGAL_MIXED_MESH_IMAGE_3_MAKE_LABEL_SURFACE_H
+#define CGAL_MIXED_MESH_IMAGE_3_MAKE_LABEL_SURFACE_H
+
+#include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>
+#include <CGAL/Mixed_mesh_image_3/internal/Marching_tetrahedra.h>
+#include <CGAL/Mixed_mesh_image_3/internal/smooth_indicator.h>
+
+#include <CGAL/assertions.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+
+/// The distance between the centers of neighboring voxels, in millimeters, along each index.
+inline std::array<double, 3> voxel_spacing(const Voxel_grid_3& grid)
+{
+  std::array<double, 3> spacing;
+  for(int i = 0; i < 3; ++i) {
+    const auto& m = grid.index_to_world;
+    spacing[i] = std::hypot(m[0][i], m[1][i], m[2][i]);
+  }
+  return spacing;
+}
+
+/*!
+\brief The closed surface around the voxels that have a label.
+
+The indicator of these voxels, 1 in them and 0 elsewhere and outside the image, is smoothed by a Gaussian. The
+surface is a level of it, by marching tetrahedra: each cube between eight centers of voxels is split into six
+tetrahedra (Kuhn). So the surface is a closed oriented 2-manifold that does not cut itself, for every image.
+
+The level is that which has as many centers of voxels inside as have the label, nearly one half: volume is
+kept, where one half would take a layer of \f$ \sigma^2 / R \f$ from a ball of radius \f$ R \f$, and all of a
+small one. What is small or thin beside the rest of the label gets smaller, or is lost. Without voxels that
+have the label, the surface is empty.
+
+\tparam HasLabel `bool(float)`
+\tparam Surface_mesh_ a `CGAL::Surface_mesh` with points that can be made of three `double`
+\param image a segmentation. Its `index_to_world` may be oblique, or mirror
+\param has_label whether voxels of a value have the label
+\param smoothing the standard deviation of the Gaussian, in millimeters; without (0), the surface has the
+       steps of the voxels. The largest spacing of voxels is a good choice
+\param surface the result, in millimeters, outward oriented; cleared first
+\pre `smoothing >= 0`, the determinant of `image.grid.index_to_world` is not 0
+
+\cost linear in the number of voxels of the box around the label, times the width of the Gaussian in voxels
+*/
+template <class HasLabel, class Surface_mesh_>
+void make_label_surface(const Voxel_image_3& image, const HasLabel& has_label, double smoothing,
+                        Surface_mesh_& surface)
+{
+  CGAL_precondition(smoothing >= 0 && determinant(image.grid.index_to_world) != 0);
+  surface.clear();
+  std::array<double, 3> deviations = voxel_spacing(image.grid);
+  for(double& d : deviations)
+    d = smoothing / d;
+  const internal::Indicator indicator = internal::smooth_indicator(image, has_label, deviations);
+  if(indicator.values.empty())
+    return;
+  using Point = typename Surface_mesh_::Point;
+  using Vertex = typename Surface_mesh_::Vertex_index;
+  const auto add_point = [&](const std::array<double, 3>& p) {
+    std::array<double, 3> index;
+    for(int i = 0; i < 3; ++i)
+      index[i] = p[i] + double(indicator.first[i]);
+    const std::array<double, 3> q = transform(image.grid.index_to_world, index);
+    surface.add_vertex(Point(q[0], q[1], q[2]));
+  };
+  const bool is_mirrored = determinant(image.grid.index_to_world) < 0;
+  const auto add_triangle = [&](std::size_t a, std::size_t b, std::size_t c) {
+    if(is_mirrored)
+      std::swap(b, c);
+    using Index = typename Vertex::size_type;
+    const auto face = surface.add_face(Vertex(Index(a)), Vertex(Index(b)), Vertex(Index(c)));
+    CGAL_assertion(face != Surface_mesh_::null_face());
+    CGAL_USE(face);
+  };
+  internal::Marching_tetrahedra march(indicator.size, indicator.values, indicator.level);
+  march(add_point, add_triangle);
+}
+
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_IMAGE_3_MAKE_LABEL_SURFACE_H

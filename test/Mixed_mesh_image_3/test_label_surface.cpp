@@ -1,0 +1,225 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Surfaces of labels: closed, manifold and without cuts for all patterns of a cube and for random images;
+// round where the label is; in the right place of the world.
+
+#include "test_images.h"
+
+#include <CGAL/Mixed_mesh_image_3/make_label_surface.h>
+#include <CGAL/Mixed_mesh_image_3/simplify_closed_surface.h>
+
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <boost/core/lightweight_test.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <iostream>
+#include <random>
+#include <vector>
+
+namespace {
+
+using namespace CGAL::Mixed_meshes_3;
+using Point_3 = Predicates_kernel::Point_3;
+using Surface = CGAL::Surface_mesh<Point_3>;
+
+const auto is_label = [](float value) { return value == 1; };
+
+Voxel_image_3 image_of(const std::array<std::size_t, 3>& size, const Affine_map_3& map,
+                       const std::function<bool(const std::array<double, 3>&)>& has_label)
+{
+  Voxel_image_3 image;
+  image.grid.size = size;
+  image.grid.index_to_world = map;
+  for(std::size_t k = 0; k < size[2]; ++k)
+    for(std::size_t j = 0; j < size[1]; ++j)
+      for(std::size_t i = 0; i < size[0]; ++i)
+        image.values.push_back(has_label({double(i), double(j), double(k)}));
+  return image;
+}
+
+constexpr Affine_map_3 identity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+
+Surface surface_of(const Voxel_image_3& image, double smoothing)
+{
+  Surface surface;
+  make_label_surface(image, is_label, smoothing, surface);
+  return surface;
+}
+
+double volume(const Surface& s)
+{
+  double sum = 0;
+  for(auto f : s.faces()) {
+    const auto h = s.halfedge(f);
+    const Vec3 a = to_vec3(s.point(s.target(h))), b = to_vec3(s.point(s.target(s.next(h)))),
+               c = to_vec3(s.point(s.target(s.next(s.next(h)))));
+    sum += dot(a, cross(b, c)) / 6;
+  }
+  return sum;
+}
+
+// Closed, each vertex with one fan of faces, and no two faces that meet where they should not.
+bool is_clean(const Surface& s)
+{
+  for(auto h : s.halfedges())
+    if(s.is_border(h))
+      return false;
+  std::vector<std::size_t> number_of_faces(s.number_of_vertices());
+  for(auto f : s.faces())
+    for(auto v : s.vertices_around_face(s.halfedge(f)))
+      ++number_of_faces[v];
+  for(auto v : s.vertices()) // a fan is all there is
+    if(number_of_faces[v] < 3 || s.degree(v) != number_of_faces[v])
+      return false;
+  return !CGAL::Polygon_mesh_processing::does_self_intersect(s);
+}
+
+// All patterns of a cube, alone and beside each other, with no smoothing.
+void test_all_patterns()
+{
+  for(int pattern = 0; pattern < 256; ++pattern) {
+    const Voxel_image_3 image = image_of({2, 2, 2}, identity, [&](const std::array<double, 3>& p) {
+      return (pattern >> int(p[0] + 2 * p[1] + 4 * p[2]) & 1) != 0;
+    });
+    const Surface s = surface_of(image, 0);
+    BOOST_TEST(is_clean(s));
+    BOOST_TEST_EQ(s.number_of_faces() > 0, pattern != 0);
+    BOOST_TEST(pattern == 0 || volume(s) > 0);
+  }
+}
+
+void test_random_images()
+{
+  std::mt19937 random(7);
+  std::size_t number_lost = 0;
+  for(int i = 0; i < 200; ++i) {
+    const unsigned rarity = 2 + unsigned(i % 7);
+    const std::array<std::size_t, 3> size{3 + random() % 8, 3 + random() % 8, 1 + random() % 8};
+    const Voxel_image_3 image = image_of(size, oblique({0.7, 1.1, 2.3}, {-100, 20, 3000}, i % 2 == 0),
+                                         [&](const std::array<double, 3>& p) {
+                                           return i % 10 == 0
+                                                    ? int(p[0] + p[1] + p[2]) % 2 == 0 // checkerboard
+                                                    : random() % rarity == 0;
+                                         });
+    const Surface s = surface_of(image, i % 3 == 0 ? 0 : 0.4 * (i % 3));
+    BOOST_TEST(is_clean(s));
+    number_lost += s.is_empty();
+    BOOST_TEST(s.is_empty() || volume(s) > 0);
+  }
+  BOOST_TEST_LT(number_lost, 10u);
+}
+
+// Voxels of a ball: no steps, and the ball's place, size and side in the world.
+void test_ball()
+{
+  for(bool mirror : {false, true}) {
+    const Vec3 spacing{1, 1.2, 0.8};
+    const Affine_map_3 map = oblique(spacing, {10, -20, 30}, mirror);
+    const std::array<double, 3> middle{16.3, 14.8, 19.1};
+    const Vec3 center = transform(map, middle);
+    const double radius = 10;
+    const Voxel_image_3 image = image_of({34, 30, 40}, map, [&](const std::array<double, 3>& p) {
+      return norm(Vec3(transform(map, p)) - center) < radius;
+    });
+    double error[2];
+    for(bool is_smooth : {false, true}) {
+      const Surface s = surface_of(image, is_smooth ? 1.2 : 0);
+      BOOST_TEST(is_clean(s));
+      double sum = 0;
+      for(auto v : s.vertices())
+        sum += std::pow(norm(to_vec3(s.point(v)) - center) - radius, 2);
+      error[is_smooth] = std::sqrt(sum / double(s.number_of_vertices()));
+      const double ball = 4. / 3 * M_PI * radius * radius * radius;
+      BOOST_TEST(0.95 * ball < volume(s) && volume(s) < 1.02 * ball);
+    }
+    std::cout << "ball: radius off by " << error[0] << ", smoothed " << error[1] << " (RMS)\n";
+    BOOST_TEST_LE(error[1], 0.1);
+    BOOST_TEST_LT(2.5 * error[1], error[0]);
+  }
+}
+
+// At the border of an image the label ends; a label that is not there has no surface.
+void test_borders()
+{
+  const Voxel_image_3 full = image_of({6, 5, 4}, identity, [](const auto&) { return true; });
+  const Surface box = surface_of(full, 0);
+  BOOST_TEST(is_clean(box));
+  BOOST_TEST(100 < volume(box) && volume(box) < 120); // edges are cut off
+  const Voxel_image_3 none = image_of({6, 5, 4}, identity, [](const auto&) { return false; });
+  BOOST_TEST(surface_of(none, 1).is_empty());
+  const Voxel_image_3 single = image_of({9, 9, 9}, identity, [](const std::array<double, 3>& p) {
+    return p[0] == 4 && p[1] == 4 && p[2] == 4;
+  });
+  BOOST_TEST(!surface_of(single, 0).is_empty());
+  const Surface ball = surface_of(single, 1);
+  BOOST_TEST(is_clean(ball) && 0.2 < volume(ball) && volume(ball) < 2);
+}
+
+// Fewer vertices, the same body; nothing happens to what is small already.
+void test_simplification()
+{
+  std::mt19937 random(11);
+  for(int i = 0; i < 10; ++i) {
+    const Voxel_image_3 image = image_of({20, 20, 20}, identity, [&](const std::array<double, 3>& p) {
+      return norm(Vec3(p) - Vec3{10, 9, 8}) < 7 && (i < 5 || random() % 4 != 0); // in the end with holes
+    });
+    const Surface full = surface_of(image, 1);
+    Surface s = full;
+    simplify_closed_surface(s, 150);
+    BOOST_TEST(is_clean(s));
+    BOOST_TEST_LT(s.number_of_vertices(), i < 5 ? 160 : full.number_of_vertices());
+    BOOST_TEST(std::abs(volume(s) - volume(full)) < 0.02 * volume(full));
+    BOOST_TEST_EQ(s.number_of_vertices() + s.number_of_faces() - s.number_of_edges(),
+                  full.number_of_vertices() + full.number_of_faces() - full.number_of_edges());
+    const std::size_t n = s.number_of_vertices();
+    simplify_closed_surface(s, n + 1);
+    BOOST_TEST_EQ(s.number_of_vertices(), n);
+  }
+}
+
+// The kernel keeps volumes: what it takes from a voxel it gives to others.
+void test_smoothing()
+{
+  for(double deviation : {0., 0.3, 1., 2.5}) {
+    const std::vector<float> kernel = internal::gaussian_kernel(deviation);
+    double sum = kernel[0];
+    for(std::size_t i = 1; i < kernel.size(); ++i) {
+      sum += 2 * double(kernel[i]);
+      BOOST_TEST_LT(kernel[i], kernel[i - 1]);
+    }
+    BOOST_TEST(std::abs(sum - 1) < 1e-6);
+  }
+  const Voxel_image_3 image = image_of({5, 6, 7}, identity,
+                                       [](const std::array<double, 3>& p) { return p[0] == 2 || p[1] == 3; });
+  const auto raw = internal::smooth_indicator(image, is_label, {0, 0, 0}),
+             smooth = internal::smooth_indicator(image, is_label, {0.5, 1, 1.5});
+  const auto sum = [](const std::vector<float>& values) {
+    double sum = 0;
+    for(float v : values)
+      sum += double(v);
+    return sum;
+  };
+  BOOST_TEST(std::abs(sum(raw.values) - sum(smooth.values)) < 1e-3 * sum(raw.values));
+}
+
+} // namespace
+
+int main()
+{
+  test_all_patterns();
+  test_random_images();
+  test_ball();
+  test_borders();
+  test_simplification();
+  test_smoothing();
+  return boost::report_errors();
+}

@@ -1,0 +1,178 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""mixed_mesh_3 on images of labels: the mesh covers the voxels, in the world of the image; bad input.
+
+  test_segmentation.py MESHER WORK_DIRECTORY
+"""
+
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import unittest
+
+MESHER, WORK = sys.argv[1], pathlib.Path(sys.argv[2])
+
+try:
+    import nibabel
+    import numpy as np
+    import vtk
+    from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+except ImportError as error:
+    print("skipped:", error)
+    sys.exit(77)
+
+SIZE = (60, 50, 40)
+HEAD, LESION = 7, 200  # labels
+
+
+def rotation(a, b):
+    turn_x = [[1, 0, 0], [0, np.cos(a), -np.sin(a)], [0, np.sin(a), np.cos(a)]]
+    turn_z = [[np.cos(b), -np.sin(b), 0], [np.sin(b), np.cos(b), 0], [0, 0, 1]]
+    return np.array(turn_x) @ np.array(turn_z)
+
+
+def affine(spacing, turn=np.eye(3), origin=(20, -30, 40)):
+    result = np.eye(4)
+    result[:3, :3] = turn @ np.diag(spacing)
+    result[:3, 3] = origin
+    return result
+
+
+AFFINES = {"oblique": affine((2, 2.4, 3), rotation(0.4, -0.7)), "x negated": affine((-2, 2.4, 3))}
+
+
+def labels():
+    """A bent ellipsoid with a ball in it."""
+    x, y, z = np.meshgrid(*(np.arange(n) for n in SIZE), indexing="ij")
+    x, y, z = (2 * x - 60) / 48, (2.4 * y - 60) / 45, (3 * z - 60) / 42
+    values = np.where(x**2 + (y + 0.3 * x**2)**2 + z**2 < 1, HEAD, 0)
+    values[(x - 0.3)**2 + (y + 0.1)**2 + (z - 0.2)**2 < 0.04] = LESION
+    return values.astype(np.int16)
+
+
+def centers(to_world):
+    indices = np.stack(np.meshgrid(*(np.arange(n) for n in SIZE), indexing="ij"), -1).reshape(-1, 3)
+    return indices @ to_world[:3, :3].T + to_world[:3, 3]
+
+
+def is_in_mesh(path, points):
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(path))
+    surface = vtk.vtkDataSetSurfaceFilter()
+    surface.SetInputConnection(reader.GetOutputPort())
+    surface.Update()
+    coordinates = vtk.vtkPoints()
+    coordinates.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))
+    cloud = vtk.vtkPolyData()
+    cloud.SetPoints(coordinates)
+    enclosed = vtk.vtkSelectEnclosedPoints()
+    enclosed.SetInputData(cloud)
+    enclosed.SetSurfaceData(surface.GetOutput())
+    enclosed.Update()
+    return vtk_to_numpy(enclosed.GetOutput().GetPointData().GetArray("SelectedPoints")) != 0
+
+
+class Test_segmentation(unittest.TestCase):
+    def setUp(self):
+        shutil.rmtree(WORK, ignore_errors=True)
+        WORK.mkdir(parents=True)
+        self.output, self.report = WORK / "mesh.vtu", WORK / "mesh.json"
+
+    def image(self, name, values, to_world):
+        path = WORK / name
+        image = nibabel.Nifti1Image(values, to_world)
+        image.set_sform(to_world, 1)
+        nibabel.save(image, str(path))
+        return path
+
+    def mesh(self, *arguments):
+        run = subprocess.run([MESHER, *map(str, arguments), "--output", self.output, "--report", self.report],
+                             capture_output=True, text=True)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return json.loads(self.report.read_text()), run
+
+    def fails(self, *arguments, words, status=1):
+        run = subprocess.run([MESHER, *map(str, arguments), "--output", self.output], capture_output=True, text=True)
+        self.assertEqual(run.returncode, status, run.stderr)
+        self.assertIn(words, run.stderr)
+        self.assertFalse(self.output.exists())
+
+    def dice(self, is_label, to_world):
+        is_in = is_in_mesh(self.output, centers(to_world)).reshape(SIZE)
+        return 2 * np.count_nonzero(is_in & is_label) / (np.count_nonzero(is_in) + np.count_nonzero(is_label))
+
+    def test_mesh_covers_labels(self):
+        values = labels()
+        for name, to_world in AFFINES.items():
+            for vertices, least in ((660, 0.95), (10000, 0.98)):
+                with self.subTest(name, vertices=vertices):
+                    path = self.image("labels.nii.gz", values, to_world)
+                    told, run = self.mesh(path, "--labels", f"1-9,{LESION}", "--region-labels", f"{LESION}:2",
+                                          "--vertices", vertices)
+                    self.assertEqual(run.stderr, "")
+                    self.assertEqual(told["status"], "success")
+                    self.assertGreater(self.dice(values != 0, to_world), least)
+                    self.assertEqual(told["inputs"]["regions"][0]["weight"], 2)
+                    volume = np.count_nonzero(values) * 2 * 2.4 * 3
+                    self.assertAlmostEqual(told["inputs"]["surface"]["volume"] / volume, 1, delta=0.02)
+
+    def test_selections(self):
+        """One label, a threshold and all that is not 0 say the same of the images for it."""
+        values = labels()
+        to_world = AFFINES["oblique"]
+        all_labels = self.image("all.nii", values, to_world)
+        one = self.image("one.nii", np.where(values == LESION, LESION, 0).astype(np.int16), to_world)
+        intensities = self.image("float.nii.gz", np.where(values == LESION, 3.5, -1 + values / 4).astype(np.float32),
+                                 to_world)
+        contents = []
+        for arguments in ((all_labels, "--labels", LESION), (one,), (intensities, "--threshold", 3.25)):
+            told, _ = self.mesh(*arguments, "--vertices", 500)
+            self.assertEqual(told["inputs"]["surface"]["file"], str(arguments[0]))
+            contents.append(self.output.read_bytes())
+        self.assertTrue(contents[0] == contents[1] == contents[2])
+        # without smoothing there are steps, and more surface
+        smooth, _ = self.mesh(one, "--vertices", 500)
+        steps, _ = self.mesh(one, "--vertices", 500, "--smoothing", 0)
+        self.assertNotEqual(smooth["inputs"]["surface"], steps["inputs"]["surface"])
+
+    def test_region_image(self):
+        """A region may be an image of its own, with another grid."""
+        values = labels()
+        path = self.image("labels.nii", values, AFFINES["oblique"])
+        mask = self.image("mask.nii.gz", (values == LESION).astype(np.uint8), AFFINES["oblique"])
+        first, _ = self.mesh(path, "--vertices", 800, "--region", mask)
+        content = self.output.read_bytes()
+        second, _ = self.mesh(path, "--vertices", 800, "--region-labels", LESION)
+        self.assertEqual(content, self.output.read_bytes())
+        self.assertGreater(first["mesh"]["elements in region"], 50)
+
+    def test_several_components(self):
+        values = labels()
+        values[2:6, 2:6, 2:6] = HEAD
+        path = self.image("two.nii", values, AFFINES["x negated"])
+        told, run = self.mesh(path, "--vertices", 1000)
+        self.assertIn("warning: " + str(path) + ": the voxels that are not 0 have a surface of 2 components", run.stderr)
+        self.assertEqual(told["inputs"]["surface"]["components"], 2)
+
+    def test_bad_input(self):
+        path = self.image("labels.nii", labels(), AFFINES["oblique"])
+        for text in ("", "a", "1-", "-1", "3-1", "1,,2", "1,", "1.5", "99999999999"):
+            self.fails(path, "--labels", text, "--vertices", 500, words="--labels", status=2)
+            self.fails(path, "--region-labels", text, "--vertices", 500, words="--region-labels", status=2)
+        self.fails(path, "--region-labels", f"{LESION}:0", "--vertices", 500, words="is not a number from", status=2)
+        self.fails(path, "--labels", 1, "--threshold", 1, "--vertices", 500, words="--threshold", status=2)
+        self.fails(path, "--threshold", "nan", "--vertices", 500, words="--threshold", status=2)
+        self.fails(path, "--smoothing", -1, "--vertices", 500, words="--smoothing", status=2)
+        self.fails(path, "--labels", 4, "--vertices", 500, words=f"{path}: there are no voxels with the labels 4")
+        surface = WORK / "surface.off"
+        surface.write_text("OFF\n")
+        self.fails(surface, "--labels", 1, "--vertices", 500, words="need an image", status=2)
+        truncated = WORK / "truncated.nii"
+        truncated.write_bytes(path.read_bytes()[:1000])
+        self.fails(truncated, "--vertices", 500, words=str(truncated))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
