@@ -38,9 +38,9 @@ std::string read_number(std::string_view text, double& x);
 } // namespace control_points
 
 /*!
-Reads control points: a header `x,y,z,dx,dy,dz`, then a point and its displacement in each line, in mm. Blank
-lines, and those that start with #, are skipped. Columns are separated as in the header: by commas, semicolons,
-tabs or blanks.
+Reads control points: a header `x,y,z,dx,dy,dz`, then a point and its displacement in each line, in mm.
+Blank lines, and those that start with #, are skipped. Columns are separated as in the header: by commas,
+semicolons, tabs or blanks.
 
 \throw std::runtime_error a line naming the file, the line and the defect
 */
@@ -50,8 +50,8 @@ std::vector<Control_point> read_control_points(const std::string& path);
 bool is_fiducials(const std::string& path);
 
 /*!
-Reads control points from two lists of fiducials, before and after, paired in their order. The result is right,
-anterior, superior; lists that say they are LPS are converted.
+Reads control points from two lists of fiducials, before and after, paired in their order. The result is
+right, anterior, superior; lists that say they are LPS are converted.
 
 \throw std::runtime_error a line naming the file and the defect
 */

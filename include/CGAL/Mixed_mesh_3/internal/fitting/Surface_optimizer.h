@@ -98,7 +98,7 @@ class Surface_optimizer
   static constexpr double good_enough[2] = {1.02, 1.4}, worth_flipping[2] = {1.2, 1.4};
   static constexpr double share_of_first_power = 0.6;
   // Of that many vertices most are inside, where much time gains little: with 50,000, the thresholds of
-  // smaller meshes would take a third more time, for a mean aspect-ratio coefficient of 1.378 instead of 1.381.
+  // smaller meshes would take a third more, for a mean aspect-ratio coefficient of 1.378 instead of 1.381.
   static constexpr std::size_t many_vertices = 20000;
   static constexpr double good_enough_of_many = 1.15, notable_gain_of_many = 0.01;
   // No half of a bisected tetrahedron may cost more. And how many edges are bisected in the region, times the
