@@ -69,7 +69,7 @@ public:
   /// The share of the budget for bisections: vertices on the surface that the optimization inserts at the
   /// middles of boundary edges. Each costs one vertex, where an octree cell costs 8 to 19. Without
   /// `fit_to_surface()`, so many vertices are left over, for a later `optimize_mixed_mesh_3()`. 0: none is
-  /// bisected, even if the octree leaves vertices over. Default: 0.07, or 0 without `fit_to_surface()`.
+  /// bisected, even if the octree leaves vertices over. Default: 0.08, or 0 without `fit_to_surface()`.
   /// \pre `automatic`, or in [0, 0.5]
   Mixed_mesh_criteria_3& share_of_bisections(double share)
   {
@@ -79,7 +79,7 @@ public:
   }
   double share_of_bisections() const
   {
-    return m_share_of_bisections != automatic ? m_share_of_bisections : m_fit_to_surface ? 0.07 : 0;
+    return m_share_of_bisections != automatic ? m_share_of_bisections : m_fit_to_surface ? 0.08 : 0;
   }
 
   /// The shape of the root, hence of all cells. Default: a cube.

@@ -104,7 +104,7 @@ class Surface_optimizer
   // No half of a bisected tetrahedron may cost more. And how many edges are bisected in the region, times the
   // number of vertices to the power of 2/3, like that of all vertices on the surface: 110 of 2,000, 320 of
   // 10,000.
-  static constexpr double worst_half = 3.2, bisections_in_region = 0.7;
+  static constexpr double worst_half = 3.2, bisections_in_region = 0.7, share_of_late_bisections = 0.3;
 
 public:
   Surface_optimizer(Mesh& mesh, const Domain& domain, const Mixed_mesh_optimization_criteria_3& criteria,
@@ -468,39 +468,48 @@ private:
     for(const auto& [a, b] : bisector(number)) {
       m_simple_points.push_back(0.5 * (m_simple_points[a] + m_simple_points[b]));
       m_simple_is_arrived.push_back(0);
+      ++m_result.number_of_bisections;
+      ++m_result.number_of_boundary_vertices;
+      ++m_result.number_of_arrived_vertices;
     }
     m_is_arrived.resize(m_working.points.size(), 1);
     m_boundary = m_working.boundary_faces();
+    m_moves.add_vertices();
+    m_attraction.set_boundary(m_boundary);
   }
 
-  // In the region the longest edges, then those that are farthest from the surface, by the volume between.
+  // In the region the longest edges, then those that are far from the surface.
   void bisect()
   {
-    const std::size_t before = m_working.points.size(), number = m_criteria.number_of_bisections();
+    const std::size_t all = m_criteria.number_of_bisections(),
+                      early = all - std::size_t(share_of_late_bisections * double(all)),
+                      in_region = std::size_t(bisections_in_region
+                                              * std::pow(double(m_working.points.size()), 2. / 3));
+    bisect((std::min)(early, in_region), [&](Vertex_index a, Vertex_index b, const auto&) {
+      return m_working.is_edge_in_region(a, b) ? norm(m_working.points[a] - m_working.points[b]) : 0;
+    });
+    bisect_far(early - m_result.number_of_bisections, 2);
+  }
+
+  // By the area of the faces, and a power of the distance: with 1, it is the volume between that counts, with
+  // a high one the largest distance.
+  void bisect_far(std::size_t number, double power)
+  {
     if(number == 0)
       return;
-    const std::vector<Vec3>& p = m_working.points;
-    const std::size_t in_region = std::size_t(bisections_in_region * std::pow(double(before), 2. / 3));
-    bisect((std::min)(number, in_region), [&](Vertex_index a, Vertex_index b, const auto&) {
-      return m_working.is_edge_in_region(a, b) ? norm(p[a] - p[b]) : 0;
-    });
     if(m_only_arrives)
       m_attraction.measure();
     const auto far_edges = m_attraction.far_edges();
-    bisect(number - (p.size() - before), [&](Vertex_index a, Vertex_index b, const auto& apexes) {
+    const std::vector<Vec3>& p = m_working.points;
+    bisect(number, [&](Vertex_index a, Vertex_index b, const std::array<Vertex_index, 2>& apexes) {
       const auto far = far_edges.find(std::minmax(a, b));
       const Vec3 middle = 0.5 * (p[a] + p[b]);
       const double distance = (std::max)(norm(m_project(middle, p[a]) - middle),
                                          far == far_edges.end() ? 0. : far->second);
-      return distance
+      return std::pow(distance, power)
              * (norm(cross(p[b] - p[a], p[apexes[0]] - p[a]))
                 + norm(cross(p[b] - p[a], p[apexes[1]] - p[a])));
     });
-    m_result.number_of_bisections = p.size() - before;
-    m_result.number_of_boundary_vertices += m_result.number_of_bisections;
-    m_result.number_of_arrived_vertices += m_result.number_of_bisections;
-    m_moves.add_vertices();
-    m_attraction.set_boundary(m_boundary);
   }
 
   template <class Go_on>
@@ -510,6 +519,7 @@ private:
     const int rounds = has_tolerance ? m_criteria.number_of_rounds_for(m_working.points.size())
                                      : Criteria(m_criteria).tolerance(0).number_of_rounds_for(0);
     const int first = int(share_of_first_power * rounds + 0.5);
+    const int late = rounds / 4;
     const bool is_patient = rounds
                             > 6; // many short rounds, so that boundary vertices can follow what draws them
     const int sweeps = is_patient ? 3 : 8, rounds_to_flip = is_patient ? 3 : 1;
@@ -535,6 +545,8 @@ private:
       m_moves.run(power, good_enough_in(phase), sweeps);
       if(round == (m_only_arrives ? first : 0))
         bisect();
+      if(round == (m_only_arrives ? first : late)) // for what is far yet
+        bisect_far(m_criteria.number_of_bisections() - m_result.number_of_bisections, 4);
       ++m_result.number_of_rounds;
     }
     return true;
