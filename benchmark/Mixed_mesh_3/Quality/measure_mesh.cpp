@@ -30,12 +30,14 @@ try {
   CLI::App app("Makes a mesh of mixed elements and measures it.");
   std::string surface_file, region_file, output_file;
   std::size_t number_of_vertices = 0;
-  double tolerance = 0;
+  double tolerance = CGAL::Mixed_mesh_criteria_3::automatic;
   bool only_time = false;
   app.add_option("surface", surface_file, "closed surface of the domain")->required();
   app.add_option("region", region_file, "closed surface of the region of interest")->required();
   app.add_option("vertices", number_of_vertices, "vertex budget")->required()->check(CLI::PositiveNumber);
-  app.add_option("--tolerance", tolerance, "how far the boundary may be from the surface; 0: unbounded")
+  app
+    .add_option("--tolerance", tolerance,
+                "how far the boundary may be from the surface; 0: any (default: as the budget allows)")
     ->check(CLI::NonNegativeNumber);
   app.add_option("--output", output_file, "also write the mesh, to a .vtu file for example");
   app.add_flag("--only-time", only_time, "measure the time only");
@@ -60,7 +62,7 @@ try {
   nlohmann::ordered_json line = {{"mesher", "Mixed_mesh_3"},
                                  {"wanted vertices", number_of_vertices},
                                  {"vertices", mesh.number_of_vertices()},
-                                 {"tolerance", tolerance},
+                                 {"tolerance", result.tolerance},
                                  {"vertices for tolerance", result.number_of_vertices_for_tolerance},
                                  {"CPU seconds", seconds}};
   Mesh_measures::finish(line, mesh, surface, region_surface, only_time, output_file);
