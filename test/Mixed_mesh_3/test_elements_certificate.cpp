@@ -223,6 +223,33 @@ void test_undecided()
   BOOST_TEST(!defects.positive() && !defects.none());
 }
 
+// A tetrahedron has one Jacobian, whose sign is that of an exact predicate: also if it is flat up to rounding,
+// or far too large.
+void test_flat_tetrahedra()
+{
+  using Kernel = Predicates_kernel;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  std::size_t number_of_sides[3] = {0, 0, 0};
+  for(double scale : {1., 1e-100, 1e80, 1e307})
+    for(int run = 0; run < 500; ++run) {
+      std::array<std::array<double, 3>, 8> p{};
+      for(int i = 0; i < 3; ++i)
+        for(double& x : p[std::size_t(i)])
+          x = scale * coordinate(random);
+      for(std::size_t k = 0; k < 3; ++k) // in the plane of the others, rounded
+        p[3][k] = 0.3 * p[0][k] + 0.5 * p[1][k] + 0.2 * p[2][k];
+      std::array<Kernel::Point_3, 4> q;
+      for(std::size_t i = 0; i < 4; ++i)
+        q[i] = Kernel::Point_3(p[i][0], p[i][1], p[i][2]);
+      const CGAL::Orientation side = CGAL::orientation(q[0], q[1], q[2], q[3]);
+      ++number_of_sides[side + 1];
+      BOOST_TEST(jacobian_sign(TETRAHEDRON, p)
+                 == (side == CGAL::POSITIVE ? Jacobian_sign::POSITIVE : Jacobian_sign::NOT_POSITIVE));
+    }
+  BOOST_TEST(number_of_sides[0] > 100 && number_of_sides[2] > 100);
+}
+
 int main()
 {
   test_random<TETRAHEDRON>(2000);
@@ -232,5 +259,6 @@ int main()
   test_known_hexahedron();
   test_exact();
   test_undecided();
+  test_flat_tetrahedra();
   return boost::report_errors();
 }

@@ -74,7 +74,8 @@ public:
         }
     if(all_positive)
       return Jacobian_sign::POSITIVE;
-    if(subdivisions == 0)
+    const bool is_constant = m_degrees == std::array<int, 3>{};
+    if(subdivisions == 0 || is_constant)
       return Jacobian_sign::UNDECIDED;
     int axis = subdivisions % 3; // the directions in turn
     while(m_degrees[std::size_t(axis)] == 0)
