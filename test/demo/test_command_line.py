@@ -408,6 +408,20 @@ class CommandLine(unittest.TestCase):
         # the gentler, the fewer vertices are left for the region
         self.assertGreater(told[0]["mesh"]["vertices in region"], told[2]["mesh"]["vertices in region"])
 
+    def test_far_from_the_origin(self):
+        """Volumes are those of the body, wherever it is."""
+        ratios = []
+        for shift in (0, 1e6, 3e8):
+            path = self.file("far.off", off(moved(CUBE, 1, (shift, -shift, shift)), TRIANGLES))
+            report = WORK / "far.json"
+            run = self.mesher(path, "--vertices", 300, "--report", report)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            told = json.loads(report.read_text())["surface"]
+            self.assertAlmostEqual(told["volume of surface"], 1, 6)
+            ratios.append(told["ratio of volumes"])
+        self.assertAlmostEqual(ratios[1], ratios[0], 2)
+        self.assertAlmostEqual(ratios[2], ratios[0], 2)
+
     def test_several_regions(self):
         """A light region gets fewer of the vertices, a heavy one leaves fewer to the other."""
         low, edge = (-42, -32, 18), 24

@@ -14,7 +14,6 @@
 
 #include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
-#include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
@@ -236,6 +235,18 @@ inline void refuse_self_intersections(const std::string& path, const Surface& me
   refuse(path, text);
 }
 
+// Seen from a vertex: far from the origin, the digits would be lost.
+inline double enclosed_volume(const Surface& mesh)
+{
+  const Surface::Point origin = mesh.point(*vertices(mesh).first);
+  double volume = 0;
+  for(Surface::Face_index face : faces(mesh)) {
+    const Triangle_view t(face, mesh);
+    volume += CGAL::volume(origin, t.points[0], t.points[1], t.points[2]);
+  }
+  return volume;
+}
+
 // Orients the components such that the solid is on their inner side; returns the number of components.
 // PMP::orient_to_bound_a_volume() looks at one vertex of a component only; where components touch, that
 // vertex may be in both.
@@ -390,7 +401,7 @@ CGAL_MIXED_MESH_3_INLINE void read_surface(const std::string& path, Surface& mes
                              + " components: one inside another is a cavity");
   else if(number_of_reversed == 1)
     input.warnings.push_back("turned the surface inside out: it was oriented inwards");
-  input.volume = PMP::volume(mesh);
+  input.volume = enclosed_volume(mesh);
   if(!(input.volume > 1e-12 * box))
     refuse(path, "the surface encloses no volume");
 }
