@@ -223,8 +223,8 @@ void test_undecided()
   BOOST_TEST(!defects.positive() && !defects.none());
 }
 
-// A tetrahedron has one Jacobian, whose sign is that of an exact predicate: also if it is flat up to rounding,
-// or far too large.
+// A tetrahedron has one Jacobian, whose sign is that of an exact predicate: also if it is flat up to
+// rounding, or far too large.
 void test_flat_tetrahedra()
 {
   using Kernel = Predicates_kernel;

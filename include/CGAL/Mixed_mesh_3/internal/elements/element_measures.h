@@ -25,16 +25,15 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-// A quadrilateral as a bilinear patch: its flux is the mean of the two triangulations'. Seen from a vertex: far
-// from the origin, the digits would be lost.
+// A quadrilateral as a bilinear patch: its flux is the mean of the two triangulations'. Seen from a vertex:
+// far from the origin, the digits would be lost.
 inline double volume(Element_kind kind, const Element_points& p)
 {
   const Reference_element& reference = reference_elements[kind];
   double six_volumes = 0;
   for(int f = 0; f < reference.number_of_faces; ++f) {
     const Element_face& face = reference.faces[f];
-    const Vec3 a = p[face.vertices[0]] - p[0], b = p[face.vertices[1]] - p[0],
-               c = p[face.vertices[2]] - p[0];
+    const Vec3 a = p[face.vertices[0]] - p[0], b = p[face.vertices[1]] - p[0], c = p[face.vertices[2]] - p[0];
     if(face.size == 3) {
       six_volumes += determinant(a, b, c);
     } else {
