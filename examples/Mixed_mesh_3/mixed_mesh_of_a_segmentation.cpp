@@ -29,8 +29,8 @@ constexpr float brain = 1, tumor = 2;
 mm3::Voxel_image_3 make_image()
 {
   mm3::Voxel_image_3 image;
-  image.grid.size = {90, 75, 70};
-  image.grid.index_to_world = {{{2, 0, 0, -90}, {0, 2, 0, -75}, {0, 0, 2, -70}}}; // voxels of 2 mm
+  image.grid.size = {45, 38, 35};
+  image.grid.index_to_world = {{{4, 0, 0, -90}, {0, 4, 0, -75}, {0, 0, 4, -70}}}; // voxels of 4 mm
   for(std::size_t k = 0; k < image.grid.size[2]; ++k)
     for(std::size_t j = 0; j < image.grid.size[1]; ++j)
       for(std::size_t i = 0; i < image.grid.size[0]; ++i) {
@@ -49,14 +49,14 @@ try {
   const mm3::Voxel_image_3 image = make_image();
 
   // The indicator of the labels, smoothed by a Gaussian of a voxel: closed surfaces without steps.
-  const double smoothing = 2; // mm
+  const double smoothing = 4; // mm
   Surface domain, region;
   mm3::make_label_surface(
     image, [](float label) { return label != 0; }, smoothing, domain);
   mm3::make_label_surface(
     image, [](float label) { return label == tumor; }, smoothing, region);
   std::cout << "surface of " << domain.number_of_vertices() << " vertices, simplified to ";
-  mm3::simplify_closed_surface(domain, 4000); // what the mesh can follow, several times
+  mm3::simplify_closed_surface(domain, 3000); // what the mesh can follow, several times
   std::cout << domain.number_of_vertices() << '\n';
 
   CGAL::Mixed_mesh_3<Kernel> mesh;
