@@ -165,6 +165,9 @@ class Test_segmentation(unittest.TestCase):
         self.fails(path, "--labels", 1, "--threshold", 1, "--vertices", 500, words="--threshold", status=2)
         self.fails(path, "--threshold", "nan", "--vertices", 500, words="--threshold", status=2)
         self.fails(path, "--smoothing", -1, "--vertices", 500, words="--smoothing", status=2)
+        self.fails(path, "--smoothing", 1e9, "--vertices", 500, words="is more than 100 voxels wide, see --smoothing")
+        needles = self.image("needles.nii", labels(), affine((1e-5, 1, 1)))
+        self.fails(needles, "--vertices", 500, words=f"{needles}: smoothing by 1 mm is more than 100 voxels")
         self.fails(path, "--labels", 4, "--vertices", 500, words=f"{path}: there are no voxels with the labels 4")
         surface = WORK / "surface.off"
         surface.write_text("OFF\n")

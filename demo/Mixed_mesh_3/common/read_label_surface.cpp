@@ -5,6 +5,7 @@
 
 #include "common/read_label_surface.h"
 
+#include "common/messages.h"
 #include "common/resources.h"
 
 #include <algorithm>
@@ -31,6 +32,10 @@ Surface read_label_surface(const std::string& path, const Voxel_selection& selec
   require([&](std::string* error) { return mm3::IO::read_NIFTI(path, image, error); });
   const auto spacing = mm3::voxel_spacing(image.grid);
   const double smoothing = options.smoothing.value_or(*std::max_element(spacing.begin(), spacing.end()));
+  constexpr double most_voxels = 100; // the box around the label grows by three times as many
+  if(smoothing > most_voxels * *std::min_element(spacing.begin(), spacing.end()))
+    throw std::runtime_error(path + ": smoothing by " + rounded(smoothing) + " mm is more than "
+                             + rounded(most_voxels) + " voxels wide, see --smoothing");
   Surface surface;
   mm3::make_label_surface(image, selection, smoothing, surface);
   if(surface.is_empty())
