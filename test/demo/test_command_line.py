@@ -178,6 +178,7 @@ class CommandLine(unittest.TestCase):
             with self.subTest(weight):
                 self.fails(self.good, "--region", f"{self.good}:{weight}", "--vertices", 500, status=2,
                            names=f"--region {self.good}:{weight}", words="is not a number from")
+        self.fails(self.good, "--region", "x" * 5000 + ":2", "--vertices", 500, names="x" * 5000, words="unknown format")
         self.fails(self.good, "--region", WORK / "none.off:2", "--vertices", 500,
                    names=WORK / "none.off", words="No such file")
 

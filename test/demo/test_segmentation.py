@@ -115,6 +115,8 @@ class Test_segmentation(unittest.TestCase):
                     self.assertEqual(told["status"], "success")
                     self.assertGreater(self.dice(values != 0, to_world), least)
                     self.assertEqual(told["inputs"]["regions"][0]["weight"], 2)
+                    self.assertEqual(told["inputs"]["regions"][0]["voxels"], f"with the labels {LESION}")
+                    self.assertEqual(told["inputs"]["surface"]["voxels"], f"with the labels 1-9,{LESION}")
                     volume = np.count_nonzero(values) * 2 * 2.4 * 3
                     self.assertAlmostEqual(told["inputs"]["surface"]["volume"] / volume, 1, delta=0.02)
 

@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <map>
 #include <stdexcept>
+#include <system_error>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 
@@ -39,7 +40,8 @@ double weight_option(const std::string& option, const std::string& text)
 Region_option region_option(const std::string& text)
 {
   const std::size_t colon = text.rfind(':');
-  if(colon == std::string::npos || std::filesystem::exists(text))
+  std::error_code ignored;
+  if(colon == std::string::npos || std::filesystem::exists(text, ignored))
     return {text, 1};
   return {text.substr(0, colon), weight_option("--region " + text, text.substr(colon + 1))};
 }

@@ -220,9 +220,13 @@ std::string report(const Options& o, const Outcome& outcome, const Stage_log& lo
   Json report;
   report["program"] = describe_program("mixed_mesh_3");
   report["inputs"] = {{"surface", describe(outcome.surface)}, {"regions", Json::array()}};
+  if(is_image(o.surface))
+    report["inputs"]["surface"]["voxels"] = o.voxels.text;
   for(std::size_t i = 0; i < o.regions.size(); ++i) {
     report["inputs"]["regions"].push_back(describe(outcome.regions[i]));
     report["inputs"]["regions"].back()["weight"] = o.regions[i].weight;
+    if(is_image(o.regions[i].file))
+      report["inputs"]["regions"].back()["voxels"] = o.regions[i].voxels.text;
   }
   report["options"] = describe(o);
   report["units"] = {{"lengths and distances", "unit of the surface's file"},
