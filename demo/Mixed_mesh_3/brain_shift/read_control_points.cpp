@@ -5,6 +5,8 @@
 
 #include "brain_shift/read_control_points.h"
 
+#include "common/resources.h"
+
 #include <nlohmann/json.hpp>
 
 #include <cerrno>
@@ -69,12 +71,33 @@ std::string read_number(std::string_view text, double& x)
 
 } // namespace control_points
 
+namespace {
+
+constexpr double largest_coordinate = 1e6; // mm: nothing in a body is a kilometer away
+
+[[noreturn]] void refuse(const std::string& path, const std::string& defect)
+{
+  throw std::runtime_error(path + ": " + defect);
+}
+
+std::ifstream opened(const std::string& path)
+{
+  if(std::filesystem::is_directory(path))
+    refuse(path, "is a directory");
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if(!file)
+    refuse(path, std::string("cannot be opened: ") + std::strerror(errno));
+  return file;
+}
+
+} // namespace
+
 // The point of a line of the table.
 static Control_point point_of(const std::vector<std::string_view>& cells, std::size_t line,
                               const std::function<void(const std::string&)>& refuse)
 {
   using namespace control_points;
-  constexpr double largest = 1e6; // mm: nothing in a body is a kilometer away
   Control_point point;
   point.number = line;
   for(std::size_t i = 0; i < 6; ++i) {
@@ -82,7 +105,7 @@ static Control_point point_of(const std::vector<std::string_view>& cells, std::s
     const std::string defect = read_number(cells[i], x);
     if(!defect.empty())
       refuse(defect);
-    if(std::abs(x) > largest)
+    if(std::abs(x) > largest_coordinate)
       refuse(quoted(cells[i]) + " mm is more than a kilometer");
   }
   return point;
@@ -91,14 +114,7 @@ static Control_point point_of(const std::vector<std::string_view>& cells, std::s
 std::vector<Control_point> read_control_points(const std::string& path)
 {
   using namespace control_points;
-  const auto refuse = [&path](const std::string& defect) { throw std::runtime_error(path + ": " + defect); };
-  if(std::filesystem::is_directory(path))
-    refuse("is a directory");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if(!file)
-    refuse(std::string("cannot be opened: ") + std::strerror(errno));
-
+  std::ifstream file = opened(path);
   const std::string header = "x,y,z,dx,dy,dz";
   std::vector<Control_point> points;
   bool has_header = false;
@@ -112,7 +128,7 @@ std::vector<Control_point> read_control_points(const std::string& path)
     if(line.empty() || line[0] == '#')
       continue;
     const auto refuse_line = [&](const std::string& defect) {
-      refuse("line " + std::to_string(number) + ": " + defect);
+      refuse(path, "line " + std::to_string(number) + ": " + defect);
     };
     if(!has_header)
       separator = separator_of(line);
@@ -128,30 +144,22 @@ std::vector<Control_point> read_control_points(const std::string& path)
     points.push_back(point_of(cells, number, refuse_line));
   }
   if(file.bad())
-    refuse("cannot be read");
+    refuse(path, "cannot be read");
   if(!has_header)
-    refuse("is empty: expected the header " + header);
+    refuse(path, "is empty: expected the header " + header);
   if(points.empty())
-    refuse("has no control points");
+    refuse(path, "has no control points");
   return points;
 }
 
 bool is_fiducials(const std::string& path)
 {
-  const auto ends_with = [&path](std::string_view end) {
-    return path.size() >= end.size() && path.compare(path.size() - end.size(), end.size(), end) == 0;
-  };
-  return ends_with(".fcsv") || ends_with(".mrk.json");
+  return ends_with(path, ".fcsv") || ends_with(path, ".mrk.json");
 }
 
 namespace {
 
 using Point = std::array<double, 3>;
-
-[[noreturn]] void refuse(const std::string& path, const std::string& defect)
-{
-  throw std::runtime_error(path + ": " + defect);
-}
 
 // Versions of 3D Slicer write RAS, LPS, or 0 and 1 for them.
 bool is_lps(const std::string& path, const std::string& system)
@@ -210,12 +218,7 @@ std::vector<Point> read_points(const std::string& path)
 {
   if(!is_fiducials(path))
     refuse(path, "unknown format; expected fiducials, .fcsv or .mrk.json, as the points before");
-  if(std::filesystem::is_directory(path))
-    refuse(path, "is a directory");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if(!file)
-    refuse(path, std::string("cannot be opened: ") + std::strerror(errno));
+  std::ifstream file = opened(path);
   bool has_lps = false;
   std::vector<Point> points = path.back() == 'v' ? read_fcsv(path, file, has_lps)
                                                  : read_markups(path, file, has_lps);
@@ -224,7 +227,7 @@ std::vector<Point> read_points(const std::string& path)
   for(std::size_t i = 0; i < points.size(); ++i)
     for(int k = 0; k < 3; ++k) {
       points[i][k] *= has_lps && k < 2 ? -1 : 1;
-      if(!(std::abs(points[i][k]) <= 1e6)) // as in a table
+      if(!(std::abs(points[i][k]) <= largest_coordinate))
         refuse(path, "point " + std::to_string(i + 1) + " is more than a kilometer away");
     }
   return points;

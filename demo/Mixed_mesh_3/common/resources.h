@@ -28,6 +28,9 @@ private:
   std::set<std::string> m_outputs;
 };
 
+/// Whether a file's name ends like that.
+bool ends_with(const std::string& path, const std::string& end);
+
 /// Calls `io(&error)`, a function of the library that reads or writes, and throws what it says is wrong.
 template <class Io>
 void require(const Io& io)

@@ -6,6 +6,7 @@
 #include "common/voxel_selection.h"
 
 #include "common/messages.h"
+#include "common/resources.h"
 
 #include <algorithm>
 #include <charconv>
@@ -15,11 +16,6 @@
 #include <system_error>
 
 namespace {
-
-bool ends_with(const std::string& text, const std::string& end)
-{
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 // The whole text as a number that is not negative.
 std::optional<double> label(const std::string& text)

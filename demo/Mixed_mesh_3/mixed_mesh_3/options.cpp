@@ -46,16 +46,36 @@ Region_option region_option(const std::string& text)
   return {text.substr(0, colon), weight_option("--region " + text, text.substr(colon + 1))};
 }
 
+Voxel_selection labels_option(const std::string& option, const std::string& text)
+{
+  const auto labels = labels_selection(text);
+  if(!labels)
+    throw CLI::ValidationError(option, "expected labels as in 1-189,200");
+  return *labels;
+}
+
 // Labels, and after a colon a weight.
 Region_option region_of_labels(const std::string& text)
 {
+  const std::string option = "--region-labels " + text;
   const std::size_t colon = text.find(':');
-  const auto labels = labels_selection(text.substr(0, colon));
-  if(!labels)
-    throw CLI::ValidationError("--region-labels " + text, "expected labels as in 1-189,200");
-  return {"",
-          colon == std::string::npos ? 1 : weight_option("--region-labels " + text, text.substr(colon + 1)),
-          *labels};
+  return {"", colon == std::string::npos ? 1 : weight_option(option, text.substr(colon + 1)),
+          labels_option(option, text.substr(0, colon))};
+}
+
+// An option that can be given several times.
+CLI::Option* add_regions(CLI::App& app, Options& o, const char* name, const char* what,
+                         Region_option (*region)(const std::string&))
+{
+  return app
+    .add_option_function<std::vector<std::string>>(
+      name,
+      [&o, region](const std::vector<std::string>& texts) {
+        for(const std::string& text : texts)
+          o.regions.push_back(region(text));
+      },
+      what)
+    ->allow_extra_args(false);
 }
 
 // The domain and regions out of a segmentation.
@@ -66,11 +86,7 @@ void add_labels(CLI::App& app, Options& o)
                                 .add_option_function<std::string>(
                                   "--labels",
                                   [&o](const std::string& text) {
-                                    const auto selection = labels_selection(text);
-                                    if(!selection)
-                                      throw CLI::ValidationError("--labels " + text,
-                                                                 "expected labels as in 1-189,200");
-                                    o.voxels = *selection;
+                                    o.voxels = labels_option("--labels " + text, text);
                                   },
                                   "Labels of the domain in the image SURFACE (default: all but 0)")
                                 ->type_name("LIST")
@@ -83,17 +99,12 @@ void add_labels(CLI::App& app, Options& o)
     ->type_name("T")
     ->excludes(labels)
     ->group(group);
-  app
-    .add_option_function<std::vector<std::string>>(
-      "--region-labels",
-      [&o](const std::vector<std::string>& texts) {
-        for(const std::string& text : texts)
-          o.regions.push_back(region_of_labels(text));
-      },
-      "Labels of a region of interest in the image SURFACE, with a weight as that of --region; can be given "
-      "several times")
+  add_regions(
+    app, o, "--region-labels",
+    "Labels of a region of interest in the image SURFACE, with a weight as that of --region; can be given "
+    "several times",
+    region_of_labels)
     ->type_name("LIST[:W]")
-    ->allow_extra_args(false)
     ->group(group);
   app
     .add_option(
@@ -112,17 +123,12 @@ void add_files(CLI::App& app, Options& o)
       "SURFACE", o.surface,
       "Closed surface of the domain: .off, .obj, .stl or .ply; or an image of labels: .nii, .nii.gz")
     ->required();
-  app
-    .add_option_function<std::vector<std::string>>(
-      "--region",
-      [&o](const std::vector<std::string>& texts) {
-        for(const std::string& text : texts)
-          o.regions.push_back(region_option(text));
-      },
-      "Closed surface of a region of interest, in the same coordinates; an error counts W times as much "
-      "there as in a region without weight. Can be given several times (default: refine everywhere)")
-    ->type_name("FILE[:W]")
-    ->allow_extra_args(false);
+  add_regions(
+    app, o, "--region",
+    "Closed surface of a region of interest, in the same coordinates; an error counts W times as much "
+    "there as in a region without weight. Can be given several times (default: refine everywhere)",
+    region_option)
+    ->type_name("FILE[:W]");
   app.add_option("--vertices", o.vertices, "Vertex budget: the mesh has at most that many vertices")
     ->required()
     ->check(CLI::PositiveNumber)

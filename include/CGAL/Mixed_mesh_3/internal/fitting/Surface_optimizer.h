@@ -520,8 +520,8 @@ private:
                                      : Criteria(m_criteria).tolerance(0).number_of_rounds_for(0);
     const int first = int(share_of_first_power * rounds + 0.5);
     const int late = rounds / 4;
-    const bool is_patient = rounds
-                            > 6; // many short rounds, so that boundary vertices can follow what draws them
+    // many short rounds, so that boundary vertices can follow what draws them
+    const bool is_patient = rounds > 6;
     const int sweeps = is_patient ? 3 : 8, rounds_to_flip = is_patient ? 3 : 1;
     Tetrahedron_flipper<Quality> flipper(m_working, m_quality, bound_for_doubles(m_criteria));
     m_moves.set_bound((std::min)(acceptable_in_the_end, bound_for_doubles(m_criteria)));

@@ -194,8 +194,8 @@ private:
 
   void measure_from_surface()
   {
-    using Kernel =
-      CGAL::Simple_cartesian<double>; // it does not matter which of two points is nearer by rounding
+    // It does not matter which of two points is nearer by a rounding error.
+    using Kernel = CGAL::Simple_cartesian<double>;
     using Traits = AABB_triangle_traits<Kernel, std::vector<Kernel::Triangle_3>::const_iterator>;
     const auto point = [](const Vec3& p) { return Kernel::Point_3(p[0], p[1], p[2]); };
     if(m_samples.empty() || m_triangles.empty())

@@ -119,8 +119,7 @@ public:
       double least = std::numeric_limits<double>::infinity();
       const Node_index first = m_octree.child(n, 0);
       for(Node_index c = first; c < first + 8; ++c) {
-        const auto p = m_traits->cell(m_octree.corner(c), m_octree.side(c)).center();
-        const double d = CGAL::squared_distance(p, q);
+        const double d = CGAL::squared_distance(center(c), q);
         if(d < least) {
           least = d;
           nearest = c;
@@ -160,16 +159,12 @@ public:
   }
 
   /// Depth of the center of a cell in the region; negative outside.
-  double depth_in_region(Node_index n) const
-  {
-    return m_region->depth(m_traits->cell(m_octree.corner(n), m_octree.side(n)).center());
-  }
+  double depth_in_region(Node_index n) const { return m_region->depth(center(n)); }
 
   /// The weight of an error at the center of a cell, not counting how far it is from the region.
   double weight_in_region(Node_index n, double reach) const
   {
-    return internal::weight_in_region(*m_region,
-                                      m_traits->cell(m_octree.corner(n), m_octree.side(n)).center(), reach);
+    return internal::weight_in_region(*m_region, center(n), reach);
   }
 
   /// The volume of a cell of a level.
@@ -196,6 +191,8 @@ private:
     std::int8_t domain, region;             // Bounded_side
     std::uint32_t domain_part, region_part; // 0: none (or, for the root, the whole)
   };
+
+  auto center(Node_index n) const { return m_traits->cell(m_octree.corner(n), m_octree.side(n)).center(); }
 
   void split(Node_index n)
   {
