@@ -23,6 +23,8 @@
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
+#include <iterator>
+#include <map>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -36,10 +38,11 @@ namespace internal {
 struct Boundary_pieces
 {
   Element_list pieces;
-  std::vector<Element_index> origins;    ///< for each piece, the element it comes from; sorted
-  std::vector<std::uint8_t> is_replaced; ///< for each element, whether its pieces stand for it
-  std::vector<std::uint8_t> is_used;     ///< for each vertex, whether the result has it
-  std::size_t number_of_vertices = 0;    ///< of the result
+  std::vector<Element_index> origins;     ///< for each piece, the element it comes from; sorted
+  std::vector<Subdomain_rank> subdomains; ///< for each piece
+  std::vector<std::uint8_t> is_replaced;  ///< for each element, whether its pieces stand for it
+  std::vector<std::uint8_t> is_used;      ///< for each vertex, whether the result has it
+  std::size_t number_of_vertices = 0;     ///< of the result
   std::size_t number_of_relabeled_vertices = 0;
   std::size_t number_of_inserted_vertices = 0;
   Manifold_defects defects; ///< that relabeling could not repair
@@ -48,32 +51,38 @@ struct Boundary_pieces
 template <class Octree_>
 class Boundary_stage : private Boundary_pieces
 {
+  using Polygons = std::vector<Face_vertices>;
+
   const Octree_& m_located;
   Lattice_mesh& m_mesh;
   const Boundary_mode m_mode;
   const unsigned m_threads;
-  std::vector<Element_index> m_outer; // elements that have a vertex not inside
-  std::vector<double> m_distances;    // of vertices not inside, where asked for
+  const std::size_t m_number_of_subdomains;
+  // Interface vertices are not inside of the subdomain of some element: on the boundary, or between two.
+  std::vector<std::uint8_t> m_is_on_interface;
+  std::vector<Element_index> m_outer; // elements outside, or with interface vertices
+  std::vector<double> m_distances;    // of vertices, where asked for
   std::vector<std::uint32_t> m_ranks;
+  std::map<Vertex_index, std::map<Subdomain_rank, int>> m_around; // pieces of each subdomain, of several
 
   static constexpr std::uint32_t last_rank = std::uint32_t(-1);
 
 public:
   Boundary_stage(const Octree_& located, Lattice_mesh& mesh, Boundary_mode mode, unsigned threads)
-    : m_located(located), m_mesh(mesh), m_mode(mode), m_threads(threads)
+    : m_located(located), m_mesh(mesh), m_mode(mode), m_threads(threads),
+      m_number_of_subdomains(subdomain_indices(located.domain()).size())
   {
-    for(Element_index e = 0; e < mesh.elements.size(); ++e)
-      if(!has_only_inside_vertices(mesh.elements[e]))
-        m_outer.push_back(e);
+    CGAL_precondition(mode == Boundary_mode::VERTEX_ORDER || m_number_of_subdomains == 1);
     m_distances.assign(mesh.vertices.size(), -1);
-    m_ranks.assign(mesh.vertices.size(), last_rank);
     const std::size_t first_inserted = mesh.vertices.size();
     do {
       while(mesh.vertices.size() > first_inserted)
         mesh.remove_last_vertex();
+      find_interface();
       rank_vertices();
       split_elements();
-      defects = manifold_defects(boundary_polygons());
+      if(m_number_of_subdomains > 1)
+        join_flat_pieces();
     } while(relabel());
     number_of_inserted_vertices = mesh.vertices.size() - first_inserted;
     count_vertices();
@@ -82,45 +91,62 @@ public:
   Boundary_pieces result() && { return std::move(*this); }
 
 private:
-  // Works for vertices inserted later too.
-  auto inside() const
+  bool is_on_interface(Vertex_index v) const // works for vertices inserted later too
   {
-    return [this](Vertex_index v) { return m_mesh.is_inside(v); };
+    return v < m_is_on_interface.size() && m_is_on_interface[v];
   }
 
-  bool has_inside_vertex(const Element_view& element) const
+  bool has_only_interface_vertices(const Element_view& element) const
   {
-    return std::any_of(element.begin(), element.end(), inside());
+    return std::all_of(element.begin(), element.end(), [this](Vertex_index v) { return is_on_interface(v); });
   }
 
-  bool has_only_inside_vertices(const Element_view& element) const
+  // That of the vertices which comes first.
+  Subdomain_rank subdomain(const Element_view& element) const
   {
-    return std::all_of(element.begin(), element.end(), inside());
+    Subdomain_rank first = outside_rank;
+    for(Vertex_index v : element)
+      first = (std::min)(first, m_mesh.subdomain(v));
+    return first;
   }
 
-  // The order: vertices outside first, nearest to the surface first, ties by lattice position.
+  void find_interface()
+  {
+    m_is_on_interface.assign(m_mesh.vertices.size(), 0);
+    for(Element_index e = 0; e < m_mesh.elements.size(); ++e) {
+      const Element_view element = m_mesh.elements[e];
+      const Subdomain_rank mine = subdomain(element);
+      for(Vertex_index v : element)
+        if(m_mesh.subdomain(v) != mine)
+          m_is_on_interface[v] = 1;
+    }
+    m_outer.clear();
+    for(Element_index e = 0; e < m_mesh.elements.size(); ++e) {
+      const Element_view element = m_mesh.elements[e];
+      if(!m_mesh.is_inside(element[0]) || std::any_of(element.begin(), element.end(), [this](Vertex_index v) {
+           return is_on_interface(v);
+         }))
+        m_outer.push_back(e);
+    }
+  }
+
+  // The order: interface vertices first, nearest to the surface first, ties by lattice position.
   void rank_vertices()
   {
-    std::vector<Vertex_index> outside;
-    std::fill(m_ranks.begin(), m_ranks.end(), last_rank);
-    for(Element_index e : m_outer) {
-      const Element_view element = m_mesh.elements[e];
-      if(has_inside_vertex(element))
-        for(Vertex_index v : element)
-          if(!m_mesh.is_inside(v) && m_ranks[v] == last_rank) {
-            m_ranks[v] = 0;
-            outside.push_back(v);
-          }
-    }
-    parallel_for(outside.size(), m_threads, [&](std::size_t i) {
-      const Vertex_index v = outside[i];
+    std::vector<Vertex_index> vertices;
+    for(Vertex_index v = 0; v < m_is_on_interface.size(); ++v)
+      if(m_is_on_interface[v])
+        vertices.push_back(v);
+    parallel_for(vertices.size(), m_threads, [&](std::size_t i) {
+      const Vertex_index v = vertices[i];
       if(m_distances[v] < 0)
         m_distances[v] = m_mesh.sides[v] == ON_BOUNDARY ? 0 : distance(v);
     });
     std::vector<std::tuple<double, std::uint64_t, Vertex_index>> order;
-    for(Vertex_index v : outside)
+    for(Vertex_index v : vertices)
       order.emplace_back(m_located.quantized(m_distances[v]), lattice_key(m_mesh.vertices[v]), v);
     std::sort(order.begin(), order.end());
+    m_ranks.assign(m_mesh.vertices.size(), last_rank);
     for(std::size_t i = 0; i < order.size(); ++i)
       m_ranks[std::get<2>(order[i])] = std::uint32_t(i);
   }
@@ -136,9 +162,10 @@ private:
   {
     pieces = Element_list();
     origins.clear();
+    subdomains.clear();
     is_replaced.assign(m_mesh.elements.size(), 0);
-    for(Element_index e : m_outer) // all its vertices may have been labeled inside since
-      is_replaced[e] = !has_only_inside_vertices(m_mesh.elements[e]);
+    for(Element_index e : m_outer)
+      is_replaced[e] = 1;
     if(m_mode == Boundary_mode::PAPER) {
       const auto meets_surface = [&](Element_index e) {
         return m_located.side(m_mesh.cells[e]) == ON_BOUNDARY;
@@ -147,65 +174,143 @@ private:
                                                  const Vertex_index* v) { add_piece(e, kind, v); },
                                              is_replaced);
     } else {
-      for(Element_index e : m_outer) {
-        const Element_view element = m_mesh.elements[e];
-        if(is_replaced[e] && has_inside_vertex(element))
+      for(Element_index e : m_outer)
+        if(subdomain(m_mesh.elements[e]) != outside_rank)
           split_element(
-            element, [&](Vertex_index v) { return m_ranks[v]; }, inside(),
+            m_mesh.elements[e], [&](Vertex_index v) { return m_ranks[v]; },
+            [&](Vertex_index v) { return !is_on_interface(v); },
             [&](Element_kind kind, std::initializer_list<Vertex_index> v) { add_piece(e, kind, v.begin()); });
-      }
     }
   }
 
   void add_piece(Element_index origin, Element_kind kind, const Vertex_index* v)
   {
-    if(has_inside_vertex(Element_view(kind, v))) {
+    const Subdomain_rank mine = subdomain(Element_view(kind, v));
+    if(mine != outside_rank) {
       pieces.add(kind, v);
       origins.push_back(origin);
+      subdomains.push_back(mine);
     }
   }
 
-  // Every vertex inside has all its elements, so the boundary is among the faces with none.
-  std::vector<Face_vertices> boundary_polygons() const
+  // A piece all of whose vertices an earlier subdomain has too would be flat once they are on its surface: it
+  // joins that one, in whose inside its vertices may be then.
+  void join_flat_pieces()
   {
-    std::vector<std::pair<std::array<Vertex_index, 3>, Face_vertices>> faces;
+    m_around.clear();
+    std::vector<std::size_t> flat;
     for(std::size_t i = 0; i < pieces.size(); ++i) {
-      const Element_view piece = pieces[i];
-      for(int f = 0; f < piece.reference().number_of_faces; ++f) {
-        const Face_vertices vertices = Face(pieces, Element_index(i), f).vertices();
-        if(std::none_of(vertices.begin(), vertices.end(), inside())) {
-          CGAL_assertion(vertices.size() == 3);
-          std::array<Vertex_index, 3> key{vertices[0], vertices[1], vertices[2]};
-          std::sort(key.begin(), key.end());
-          faces.emplace_back(key, vertices);
+      for(Vertex_index v : pieces[i])
+        if(is_on_interface(v))
+          ++m_around[v][subdomains[i]];
+      if(has_only_interface_vertices(pieces[i]))
+        flat.push_back(i);
+    }
+    for(bool changed = true; changed;) {
+      changed = false;
+      for(std::size_t i : flat) {
+        const Element_view piece = pieces[i];
+        for(const auto& [earlier, count] : m_around[piece[0]]) {
+          const Subdomain_rank a = earlier;
+          if(a >= subdomains[i])
+            break;
+          if(std::all_of(piece.begin(), piece.end(),
+                         [&](Vertex_index v) { return m_around[v].count(a) > 0; })) {
+            join(i, a);
+            changed = true;
+            break;
+          }
         }
       }
     }
-    std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::vector<Face_vertices> polygons;
-    for(std::size_t i = 0; i < faces.size(); ++i)
-      if((i == 0 || faces[i - 1].first != faces[i].first)
-         && (i + 1 == faces.size() || faces[i + 1].first != faces[i].first))
-        polygons.push_back(faces[i].second);
-    return polygons;
   }
 
-  // Labels pinched vertices inside; of a bad edge, the end nearer to the surface.
-  bool relabel()
+  void join(std::size_t piece, Subdomain_rank a)
   {
-    std::vector<Vertex_index> candidates = defects.vertices;
+    for(Vertex_index v : pieces[piece]) {
+      std::map<Subdomain_rank, int>& around = m_around[v];
+      ++around[a];
+      if(--around[subdomains[piece]] == 0)
+        around.erase(subdomains[piece]);
+    }
+    subdomains[piece] = a;
+  }
+
+  // Those of the whole boundary, and, if there are several subdomains, those of each. All are between
+  // interface vertices.
+  std::pair<Polygons, std::map<Subdomain_rank, Polygons>> boundary_polygons() const
+  {
+    struct Piece_face
+    {
+      std::array<Vertex_index, 3> key;
+      Face_vertices vertices;
+      Subdomain_rank subdomain;
+    };
+    std::vector<Piece_face> faces;
+    for(std::size_t i = 0; i < pieces.size(); ++i)
+      for(int f = 0; f < pieces[i].reference().number_of_faces; ++f) {
+        const Face_vertices vertices = Face(pieces, Element_index(i), f).vertices();
+        if(std::all_of(vertices.begin(), vertices.end(),
+                       [this](Vertex_index v) { return is_on_interface(v); })) {
+          CGAL_assertion(vertices.size() == 3);
+          faces.push_back({{vertices[0], vertices[1], vertices[2]}, vertices, subdomains[i]});
+          std::sort(faces.back().key.begin(), faces.back().key.end());
+        }
+      }
+    std::sort(faces.begin(), faces.end(),
+              [](const Piece_face& a, const Piece_face& b) { return a.key < b.key; });
+    Polygons whole;
+    std::map<Subdomain_rank, Polygons> of_subdomains;
+    for(std::size_t i = 0, n = 0; i < faces.size(); i += n) {
+      n = i + 1 < faces.size() && faces[i + 1].key == faces[i].key ? 2 : 1;
+      if(n == 1)
+        whole.push_back(faces[i].vertices);
+      if(m_number_of_subdomains > 1 && (n == 1 || faces[i].subdomain != faces[i + 1].subdomain))
+        for(std::size_t j = i; j < i + n; ++j)
+          of_subdomains[faces[j].subdomain].push_back(faces[j].vertices);
+    }
+    return {std::move(whole), std::move(of_subdomains)};
+  }
+
+  // Of the ends of bad edges, those nearer to the surface.
+  std::vector<Vertex_index> pinched_vertices(const Manifold_defects& defects) const
+  {
+    std::vector<Vertex_index> pinched = defects.vertices;
     for(const auto& [a, b] : defects.edges) {
       const bool first = m_mesh.is_on_rim[b] || (!m_mesh.is_on_rim[a] && m_ranks[a] < m_ranks[b]);
-      candidates.push_back(first ? a : b);
+      pinched.push_back(first ? a : b);
     }
+    return pinched;
+  }
+
+  // Labels pinched vertices: those of the boundary inside, those of a subdomain with the one before it.
+  bool relabel()
+  {
+    const auto [whole, of_subdomains] = boundary_polygons();
+    defects = manifold_defects(whole);
     bool changed = false;
-    for(Vertex_index v : candidates)
-      if(!m_mesh.is_on_rim[v] && !m_mesh.is_inside(v)) {
-        m_mesh.sides[v] = ON_BOUNDED_SIDE;
-        ++number_of_relabeled_vertices;
-        changed = true;
-      }
+    for(Vertex_index v : pinched_vertices(defects))
+      changed = relabel(v, outside_rank) || changed;
+    for(const auto& [pinched, polygons] : of_subdomains)
+      for(Vertex_index v : pinched_vertices(manifold_defects(polygons)))
+        changed = relabel(v, pinched) || changed;
     return changed;
+  }
+
+  bool relabel(Vertex_index v, Subdomain_rank pinched)
+  {
+    Subdomain_rank label = 0;
+    if(m_number_of_subdomains > 1) {
+      const std::map<Subdomain_rank, int>& around = m_around[v];
+      const auto mine = around.lower_bound(pinched);
+      label = mine == around.begin() ? mine->first : std::prev(mine)->first;
+    }
+    if((m_mesh.is_on_rim[v] && !m_mesh.is_inside(v)) || m_mesh.subdomain(v) <= label)
+      return false;
+    m_mesh.sides[v] = ON_BOUNDED_SIDE;
+    m_mesh.subdomains[v] = label;
+    ++number_of_relabeled_vertices;
+    return true;
   }
 
   void count_vertices()
@@ -226,7 +331,11 @@ boundary vertices are labeled inside until the boundary is a closed oriented 2-m
 tells what remains: it can only be where a leaf around the vertex has no elements, at the border of the
 root cell or beside dead leaves.
 
+So it is for each subdomain of a labeled domain, as if what comes after it were outside: an element belongs to
+the first subdomain that one of its vertices is inside of.
+
 \param mesh the labels of pinched vertices change; in the paper's mode vertices are added
+\param mode the paper's knows one subdomain only
 \cost O(n + m log m) for n elements, m of them at the surface, plus m closest-point queries
 */
 template <class Octree_>

@@ -35,7 +35,8 @@ void assemble_mesh(const Octree_& octree, const Lattice_mesh& lattice, const Bou
   elements.reserve(lattice.elements.size(), lattice.elements.connectivity().size());
   attributes.reserve(lattice.elements.size());
 
-  const auto add = [&](const Element_view& element, Element_index origin) {
+  const std::vector<Subdomain_index> indices = subdomain_indices(octree.domain());
+  const auto add = [&](const Element_view& element, Element_index origin, Subdomain_rank subdomain) {
     Vertex_index v[8];
     for(int i = 0; i < element.size(); ++i) {
       Vertex_index& number = numbers[element[i]];
@@ -47,14 +48,14 @@ void assemble_mesh(const Octree_& octree, const Lattice_mesh& lattice, const Bou
       v[i] = number;
     }
     elements.add(element.kind(), &v[0]);
-    attributes.push_back({1, octree.is_in_region(lattice.cells[origin])});
+    attributes.push_back({indices[subdomain], octree.is_in_region(lattice.cells[origin])});
   };
   std::size_t piece = 0;
   for(Element_index e = 0; e < lattice.elements.size(); ++e) {
     if(!boundary.is_replaced[e])
-      add(lattice.elements[e], e);
+      add(lattice.elements[e], e, lattice.subdomain(lattice.elements[e][0]));
     for(; piece < boundary.pieces.size() && boundary.origins[piece] == e; ++piece)
-      add(boundary.pieces[piece], e);
+      add(boundary.pieces[piece], e, boundary.subdomains[piece]);
   }
   mesh.assign(std::move(points), std::move(elements), std::move(attributes));
 }

@@ -12,6 +12,8 @@
 #include <CGAL/Mixed_mesh_3/internal/fitting/bisect_boundary_edges.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/flips.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Strata.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_attraction.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_optimizer.h>
@@ -37,7 +39,8 @@ inline double bound_for_doubles(const Mixed_mesh_optimization_criteria_3& criter
 }
 
 /*!
-\tparam Domain has `Point_3`, `closest_point(p)`, `closest_point(p, hint)` and `surface_samples(spacing)`
+\tparam Domain a model of `MixedMeshSurface_3`, or of `MixedMeshLabeledDomain_3`: then interfaces between
+        subdomains are brought onto their surfaces like the boundary
 \tparam Quality a model of `MixedMeshQuality_3`
 */
 template <class Mesh, class Domain, class Quality>
@@ -52,8 +55,9 @@ class Surface_optimizer
   const Domain& m_domain;
   const Mixed_mesh_optimization_criteria_3 m_criteria;
   const Quality m_quality;
-  Project m_project;
-  std::vector<Face> m_boundary;
+  Strata m_strata;
+  const Project m_project;
+  Interface_faces m_boundary; // interfaces, too
   Working_mesh m_working;
   Moves m_moves;
   std::vector<Vec3> m_samples;
@@ -109,8 +113,9 @@ class Surface_optimizer
 public:
   Surface_optimizer(Mesh& mesh, const Domain& domain, const Mixed_mesh_optimization_criteria_3& criteria,
                     const Quality& quality)
-    : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality), m_project(domain),
-      m_boundary(boundary_faces(mesh)), m_working(mesh, m_boundary),
+    : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality), m_strata(domain),
+      m_project(domain, m_strata), m_boundary(m_strata.sorted_faces(mesh)),
+      m_working(mesh, m_strata.of_vertices(mesh.number_of_vertices(), m_boundary)),
       m_moves(m_working, m_quality, m_project, criteria.sliding_threshold(), bound_for_doubles(criteria)),
       m_samples(surface_samples()), m_attraction(m_working, m_project, m_samples, criteria.tolerance()),
       m_is_arrived(m_working.points.size(), 0), m_simple_points(m_working.points),
@@ -201,7 +206,7 @@ private:
   {
     double sum = 0;
     std::size_t count = 0;
-    for(const Face& face : m_boundary) {
+    for(const Face& face : m_boundary.faces) {
       const Face_vertices& v = face.vertices();
       for(int i = 0; i < v.size(); ++i, ++count)
         sum += norm(m_working.points[v[i]] - m_working.points[v[(i + 1) % v.size()]]);
@@ -214,14 +219,15 @@ private:
   template <class Go_on>
   bool arrive(const Go_on& go_on)
   {
-    const Surface_targets targets = surface_targets(m_boundary, m_working.points, m_domain);
+    const Surface_targets targets = surface_targets(m_boundary.faces, m_working.points, m_project,
+                                                    m_working.strata);
     m_result.number_of_boundary_vertices = targets.vertices.size();
     for(std::size_t i = 0; i < targets.vertices.size(); ++i) {
       if(m_is_held[targets.vertices[i]])
         continue;
       // what is on the surface stays, even if its faces are folded
       const Vec3& p = m_working.points[targets.vertices[i]];
-      const Vec3 q = m_project(p, targets.positions[i]);
+      const Vec3 q = m_project(p, targets.positions[i], m_working.strata[targets.vertices[i]]);
       const bool is_there = norm(q - p) <= 1e-14 * (norm(p) + norm(targets.positions[i] - p));
       m_travelers.emplace_back(targets.vertices[i], is_there ? p : targets.positions[i]);
     }
@@ -280,7 +286,12 @@ private:
 
   std::vector<Vertex_index> find_crossing() const
   {
-    return vertices_of_self_intersections(m_working.points, m_boundary);
+    // interfaces can not cut anything where no element is inverted
+    std::vector<Face> faces;
+    for(std::size_t f = 0; f < m_boundary.faces.size(); ++f)
+      if(m_strata.is_on_boundary(m_boundary.strata[f]))
+        faces.push_back(m_boundary.faces[f]);
+    return vertices_of_self_intersections(m_working.points, faces);
   }
 
   // They stay where they are.
@@ -301,13 +312,13 @@ private:
     m_moves.set_bound((std::min)(m_final_bound, bound_for_doubles(m_criteria)));
     std::vector<Vertex_index> off;
     for(Vertex_index v = 0; v < m_working.points.size(); ++v)
-      if(m_working.is_on_boundary[v] && !m_is_arrived[v] && !(v < m_is_held.size() && m_is_held[v]))
+      if(m_working.is_on_boundary(v) && !m_is_arrived[v] && !(v < m_is_held.size() && m_is_held[v]))
         off.push_back(v);
     m_travelers.clear();
     for(int round = 0; round < return_rounds && !off.empty(); ++round) {
       const State simple = state();
       for(Vertex_index v : off)
-        move_to(v, m_project(m_working.points[v]), acceptable_at_first);
+        move_to(v, m_project(m_working.points[v], m_working.strata[v]), acceptable_at_first);
       if(m_result.number_of_arrived_vertices == simple.number_of_arrived_vertices) {
         restore(simple);
         return;
@@ -360,7 +371,7 @@ private:
         const Vec3 p = m_working.points[v], back = p + share * (m_simple_points[v] - p);
         if(m_moves.try_move(v,
                             share == 1 ? m_simple_points[v]
-                            : stays    ? m_project(back, p)
+                            : stays    ? m_project(back, p, m_working.strata[v])
                                        : back,
                             retreat_cost)) {
           m_moves.fix(v);
@@ -389,7 +400,7 @@ private:
     m_moves.set_bound(m_final_bound);
     for(int round = 0; round < mending_rounds && !bad.empty(); ++round) {
       for(Vertex_index v : bad) {
-        if(round >= mending_rounds_on_surface && m_working.is_on_boundary[v])
+        if(round >= mending_rounds_on_surface && m_working.is_on_boundary(v))
           leave_surface(v);
         m_moves.activate_around(v);
       }
@@ -426,12 +437,14 @@ private:
   void choose_new_targets()
   {
     for(auto& [v, target] : m_travelers)
-      target = m_project(m_working.points[v], target);
+      target = m_project(m_working.points[v], target, m_working.strata[v]);
   }
 
   bool move_to(Vertex_index v, const Vec3& target, double acceptable)
   {
     if(m_moves.try_move(v, target, acceptable)) {
+      if(!m_project.is_reached(target, m_working.strata[v]))
+        return false;
       m_moves.release(v);
       m_is_arrived[v] = 1;
       ++m_result.number_of_arrived_vertices;
@@ -449,7 +462,7 @@ private:
     const std::size_t removals = flipper.number_of_removals();
     const std::size_t flips = flipper.run(power, worst, [&](Vertex_index v) { m_moves.activate(v); });
     if(flipper.number_of_removals() != removals) {
-      m_boundary = m_working.boundary_faces();
+      m_boundary = m_working.interface_faces(m_strata);
       m_attraction.set_boundary(m_boundary);
     }
     return flips;
@@ -473,7 +486,7 @@ private:
       ++m_result.number_of_arrived_vertices;
     }
     m_is_arrived.resize(m_working.points.size(), 1);
-    m_boundary = m_working.boundary_faces();
+    m_boundary = m_working.interface_faces(m_strata);
     m_moves.add_vertices();
     m_attraction.set_boundary(m_boundary);
   }
@@ -504,8 +517,10 @@ private:
     bisect(number, [&](Vertex_index a, Vertex_index b, const std::array<Vertex_index, 2>& apexes) {
       const auto far = far_edges.find(std::minmax(a, b));
       const Vec3 middle = 0.5 * (p[a] + p[b]);
-      const double distance = (std::max)(norm(m_project(middle, p[a]) - middle),
-                                         far == far_edges.end() ? 0. : far->second);
+      const Vec3 place = m_working.strata[a] == m_working.strata[b]
+                           ? m_project(middle, p[a], m_working.strata[a])
+                           : middle;
+      const double distance = (std::max)(norm(place - middle), far == far_edges.end() ? 0. : far->second);
       return std::pow(distance, power)
              * (norm(cross(p[b] - p[a], p[apexes[0]] - p[a]))
                 + norm(cross(p[b] - p[a], p[apexes[1]] - p[a])));

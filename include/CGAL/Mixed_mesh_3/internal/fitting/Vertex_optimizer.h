@@ -37,7 +37,7 @@ Boundary vertices slide on the surface, and only where an element is bad (free s
 an attraction draws them.
 
 \tparam Quality a model of `MixedMeshQuality_3`
-\tparam Project `Vec3(Vec3 p, Vec3 hint)`: a point of the surface near p; the hint is on the surface
+\tparam Project as `Surface_projection`
 */
 template <class Quality, class Project>
 class Vertex_optimizer
@@ -68,9 +68,11 @@ public:
   Vertex_optimizer(Working_mesh& mesh, const Quality& quality, const Project& project, double worth_sliding,
                    double bound)
     : m_mesh(mesh), m_quality(quality), m_project(project), m_worth_sliding(worth_sliding), m_bound(bound),
-      m_radii(mesh.points.size(), 0), m_is_active(mesh.points.size(), 0), m_is_fixed(mesh.is_on_boundary),
+      m_radii(mesh.points.size(), 0), m_is_active(mesh.points.size(), 0), m_is_fixed(mesh.points.size(), 0),
       m_is_loose(mesh.points.size(), 0)
   {
+    for(Vertex_index v = 0; v < mesh.points.size(); ++v)
+      m_is_fixed[v] = mesh.is_on_boundary(v);
   }
 
   /// From now on, no element gets a larger cost.
@@ -237,7 +239,7 @@ private:
   {
     if(m_is_fixed[v])
       return false;
-    const bool slides = m_mesh.is_on_boundary[v] && !m_is_loose[v];
+    const bool slides = m_mesh.is_on_boundary(v) && !m_is_loose[v];
     const Attraction a = attraction(v);
     double sum = attraction_energy(v), worst = 0;
     for(Element_index e : m_mesh.incident[v]) {
@@ -269,8 +271,11 @@ private:
       m_radii[v] = first_step * shortest;
     for(double radius = m_radii[v]; radius > smallest_step * m_radii[v]; radius *= shrinkage) {
       Vec3 p = old - (radius / slope) * gradient;
-      if(slides)
-        p = m_project(p, old);
+      if(slides) {
+        p = m_project(p, old, m_mesh.strata[v]);
+        if(!m_project.is_reached(p, m_mesh.strata[v]))
+          continue;
+      }
       m_mesh.points[v] = p;
       const double now = energy(v, sum, (std::max)(m_bound, worst));
       if(now < sum && is_valid(v)) {

@@ -12,9 +12,9 @@
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
-#include <CGAL/Mixed_mesh_3/internal/elements/for_each_face.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/element_measures.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Strata.h>
 
 #include <algorithm>
 #include <array>
@@ -63,7 +63,8 @@ struct Working_mesh
 
     const Reference_element& reference() const { return reference_elements[kind]; }
     const Vertex_index* begin() const { return vertices.data(); }
-    const Vertex_index* end() const { return vertices.data() + reference().number_of_vertices; }
+    const Vertex_index* end() const { return vertices.data() + size(); }
+    int size() const { return reference().number_of_vertices; }
     operator Element_view() const { return {kind, begin()}; }
     int position(Vertex_index v) const { return int(std::find(begin(), end(), v) - begin()); }
   };
@@ -71,12 +72,12 @@ struct Working_mesh
   std::vector<Vec3> points;
   std::vector<Element> elements;
   std::vector<std::vector<Element_index>> incident; ///< for each vertex, its elements, in any fixed order
-  std::vector<std::uint8_t> is_on_boundary;         ///< for each vertex
+  std::vector<Stratum> strata;                      ///< of the vertices
 
-  /// \param boundary the faces on the boundary
+  /// \param strata_of_vertices on which surfaces they are to be
   template <class Mesh>
-  Working_mesh(const Mesh& mesh, const std::vector<Face>& boundary)
-    : incident(mesh.number_of_vertices()), is_on_boundary(mesh.number_of_vertices(), 0)
+  Working_mesh(const Mesh& mesh, std::vector<Stratum> strata_of_vertices)
+    : incident(mesh.number_of_vertices()), strata(std::move(strata_of_vertices))
   {
     points.reserve(mesh.number_of_vertices());
     for(const auto& p : mesh.points())
@@ -88,30 +89,24 @@ struct Working_mesh
       std::copy(element.begin(), element.end(), mine.vertices.begin());
       add(mine);
     }
-    for(const Face& face : boundary)
-      for(Vertex_index v : face.vertices())
-        is_on_boundary[v] = 1;
   }
 
-  /// The boundary, which changes when elements on it are removed: not in the order of the elements, and with
-  /// those in the numbers of `element_list()`.
-  std::vector<Face> boundary_faces() const
+  /// Or on an interface.
+  bool is_on_boundary(Vertex_index v) const { return strata[v] != free_stratum; }
+
+  /// What changes when elements on the boundary are removed: not in the order of the elements, and with those
+  /// in the numbers of `element_list()`.
+  Interface_faces interface_faces(Strata& all) const
   {
-    std::vector<Face> faces;
-    for_each_face(
-      element_list(), points.size(), [this](Vertex_index v) { return is_on_boundary[v] != 0; },
-      [&](const auto& group) {
-        if(group.size() == 1)
-          faces.push_back(group[0]);
-      });
-    return faces;
+    return all.faces(element_list(), attributes(), points.size(),
+                     [this](Vertex_index v) { return is_on_boundary(v); });
   }
 
-  Vertex_index add_vertex(const Vec3& p, bool on_boundary)
+  Vertex_index add_vertex(const Vec3& p, Stratum stratum)
   {
     points.push_back(p);
     incident.emplace_back();
-    is_on_boundary.push_back(on_boundary);
+    strata.push_back(stratum);
     return Vertex_index(points.size() - 1);
   }
 
@@ -120,7 +115,7 @@ struct Working_mesh
   {
     points.pop_back();
     incident.pop_back();
-    is_on_boundary.pop_back();
+    strata.pop_back();
   }
 
   Element_index add(const Element& element)
@@ -181,11 +176,7 @@ struct Working_mesh
       mesh.points() = std::move(new_points);
       return;
     }
-    std::vector<Element_attributes> attributes;
-    for(const Element& element : elements)
-      if(!element.is_removed)
-        attributes.push_back(element.attributes);
-    mesh.assign(std::move(new_points), element_list(), std::move(attributes));
+    mesh.assign(std::move(new_points), element_list(), attributes());
   }
 
   /// The elements that are not removed.
@@ -195,6 +186,16 @@ struct Working_mesh
     for(const Element& element : elements)
       if(!element.is_removed)
         list.add(element.kind, element.vertices.data());
+    return list;
+  }
+
+  /// Theirs.
+  std::vector<Element_attributes> attributes() const
+  {
+    std::vector<Element_attributes> list;
+    for(const Element& element : elements)
+      if(!element.is_removed)
+        list.push_back(element.attributes);
     return list;
   }
 };

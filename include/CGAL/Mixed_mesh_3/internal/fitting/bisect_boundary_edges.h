@@ -23,11 +23,11 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /// Splits the tetrahedra around an edge in two, by a new vertex at `p`, if the new ones are positive and cost
-/// at most `worst`. The new vertex is the last one.
+/// at most `worst`. The new vertex is the last one, of the given stratum.
 /// \return whether it did so
 template <class Quality>
 bool bisect_edge(Working_mesh& mesh, const Quality& quality, Vertex_index a, Vertex_index b, const Vec3& p,
-                 double worst)
+                 Stratum stratum, double worst)
 {
   std::vector<Element_index> old;
   for(Element_index e : mesh.incident[a]) {
@@ -38,7 +38,7 @@ bool bisect_edge(Working_mesh& mesh, const Quality& quality, Vertex_index a, Ver
       return false;
     old.push_back(e);
   }
-  const Vertex_index middle = mesh.add_vertex(p, true);
+  const Vertex_index middle = mesh.add_vertex(p, stratum);
   std::vector<Working_mesh::Element> halves;
   for(Element_index e : old)
     for(Vertex_index end : {a, b}) {
@@ -63,44 +63,54 @@ surface.
 
 \tparam Gain `double(a, b, apexes)`: what bisecting the edge ab gains, between triangles with these apexes; 0:
         nothing
-\tparam Project `Vec3(Vec3 p, Vec3 hint)`: a point of the surface near p
+\tparam Project as `Surface_projection`
 */
 template <class Quality, class Project, class Gain>
 class Boundary_bisector
 {
   using Edge = std::pair<Vertex_index, Vertex_index>; // the smaller one first
 
+  struct Triangles
+  {
+    std::array<Vertex_index, 2> apexes; // of two of them
+    Stratum stratum;
+    bool are_alone; // no more than two, both of the stratum
+  };
+
   Working_mesh& m_mesh;
   const Quality& m_quality;
   const Project& m_project;
   const Gain& m_gain;
   const double m_worst;
-  std::map<Edge, std::array<Vertex_index, 2>> m_apexes; // of the two triangles at an edge
+  std::map<Edge, Triangles> m_triangles;                // at each edge
   std::priority_queue<std::pair<double, Edge>> m_queue; // by gain
 
   static Edge edge(Vertex_index a, Vertex_index b) { return std::minmax(a, b); }
 
   void push(Vertex_index a, Vertex_index b)
   {
-    const std::array<Vertex_index, 2>& apexes = m_apexes.at(edge(a, b));
-    const double gain = apexes[0] == no_vertex || apexes[1] == no_vertex ? 0 : m_gain(a, b, apexes);
+    const Triangles& triangles = m_triangles.at(edge(a, b));
+    const double gain = triangles.are_alone && triangles.apexes[1] != no_vertex
+                          ? m_gain(a, b, triangles.apexes)
+                          : 0;
     if(gain > 0)
       m_queue.emplace(gain, edge(a, b));
   }
 
   void replace_apex(Edge e, Vertex_index old, Vertex_index apex)
   {
-    std::array<Vertex_index, 2>& apexes = m_apexes.at(e);
-    apexes[apexes[0] == old ? 0 : 1] = apex;
+    std::array<Vertex_index, 2>& apexes = m_triangles.at(e).apexes;
+    if(apexes[0] == old || apexes[1] == old)
+      apexes[apexes[0] == old ? 0 : 1] = apex;
   }
 
   void update(Vertex_index a, Vertex_index b, Vertex_index middle)
   {
-    const std::array<Vertex_index, 2> apexes = m_apexes.at(edge(a, b));
-    m_apexes.erase(edge(a, b));
-    m_apexes[edge(a, middle)] = m_apexes[edge(b, middle)] = apexes;
-    for(Vertex_index c : apexes) {
-      m_apexes[edge(c, middle)] = {a, b};
+    const Triangles old = m_triangles.at(edge(a, b));
+    m_triangles.erase(edge(a, b));
+    m_triangles[edge(a, middle)] = m_triangles[edge(b, middle)] = old;
+    for(Vertex_index c : old.apexes) {
+      m_triangles[edge(c, middle)] = {{a, b}, old.stratum, true};
       replace_apex(edge(c, a), b, middle);
       replace_apex(edge(c, b), a, middle);
       push(c, middle);
@@ -110,24 +120,25 @@ class Boundary_bisector
   }
 
 public:
+  /// \param boundary triangles, with their strata: edges between two of the same stratum are bisected
   /// \param worst no tetrahedron may cost more
   Boundary_bisector(Working_mesh& mesh, const Quality& quality, const Project& project, const Gain& gain,
-                    const std::vector<Face>& boundary, double worst)
+                    const Interface_faces& boundary, double worst)
     : m_mesh(mesh), m_quality(quality), m_project(project), m_gain(gain), m_worst(worst)
   {
-    constexpr std::array<Vertex_index, 2> none{no_vertex, no_vertex};
-    for(const Face& face : boundary) {
-      const Face_vertices& v = face.vertices();
+    for(std::size_t f = 0; f < boundary.faces.size(); ++f) {
+      const Face_vertices& v = boundary.faces[f].vertices();
       for(int i = 0; i < v.size(); ++i) {
-        const Edge e = edge(v[i], v[(i + 1) % v.size()]);
-        std::array<Vertex_index, 2>& apexes = m_apexes.emplace(e, none).first->second;
-        if(apexes[1] != no_vertex) // more than two faces
-          apexes[0] = no_vertex;
+        const Triangles none{{no_vertex, no_vertex}, boundary.strata[f], true};
+        Triangles& triangles = m_triangles.emplace(edge(v[i], v[(i + 1) % v.size()]), none).first->second;
+        std::array<Vertex_index, 2>& apexes = triangles.apexes;
+        if(apexes[1] != no_vertex || triangles.stratum != boundary.strata[f])
+          triangles.are_alone = false;
         else
           apexes[apexes[0] == no_vertex ? 0 : 1] = v[(i + 2) % v.size()];
       }
     }
-    for(const auto& [e, apexes] : m_apexes)
+    for(const auto& [e, triangles] : m_triangles)
       push(e.first, e.second);
   }
 
@@ -139,7 +150,10 @@ public:
       const auto [a, b] = m_queue.top().second;
       m_queue.pop();
       const Vec3 middle = 0.5 * (m_mesh.points[a] + m_mesh.points[b]);
-      if(bisect_edge(m_mesh, m_quality, a, b, m_project(middle, m_mesh.points[a]), m_worst)) {
+      const Stratum stratum = m_triangles.at({a, b}).stratum;
+      const Vec3 p = m_mesh.strata[a] == stratum ? m_project(middle, m_mesh.points[a], stratum)
+                                                 : m_project(middle, stratum);
+      if(bisect_edge(m_mesh, m_quality, a, b, p, stratum, m_worst)) {
         update(a, b, Vertex_index(m_mesh.points.size() - 1));
         bisected.emplace_back(a, b);
       }

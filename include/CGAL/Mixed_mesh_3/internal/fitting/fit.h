@@ -8,8 +8,9 @@
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_FIT_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_FIT_H
 
-#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Strata.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/relax_to_surface.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
@@ -41,9 +42,12 @@ Mixed_mesh_fit_result_3 fit(Mesh& mesh, const Domain& domain, const Quality& qua
   points.reserve(mesh.number_of_vertices());
   for(const auto& p : mesh.points())
     points.push_back(to_vec3(p));
-  const std::vector<Face> boundary = boundary_faces(mesh);
+  Strata strata(domain);
+  const Interface_faces boundary = strata.sorted_faces(mesh);
+  const std::vector<Stratum> of_vertices = strata.of_vertices(points.size(), boundary);
+  const Surface_projection project(domain, strata);
   for(int attempt = 0; attempt < maximal_number_of_attempts; ++attempt) {
-    const Surface_targets targets = surface_targets(boundary, points, domain);
+    const Surface_targets targets = surface_targets(boundary.faces, points, project, of_vertices);
     Surface_relaxation relaxation(mesh.elements(), targets, criteria, quality, solver, go_on, points);
     result = relaxation(result);
     if(result.status != Mixed_mesh_fit_status::NOT_ALL_ARRIVED)

@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -81,7 +82,7 @@ public:
     return flips;
   }
 
-  /// Of tetrahedra on the boundary.
+  /// Of tetrahedra from the boundary or from their subdomain.
   std::size_t number_of_removals() const { return m_number_of_removals; }
 
 private:
@@ -225,15 +226,17 @@ private:
     return replace(old, tetrahedra);
   }
 
-  // Whether all of some vertices are of another element too.
+  // Whether all of some vertices are of another element too, of the same subdomain.
   bool is_shared(Element_index e, std::initializer_list<Vertex_index> vertices) const
   {
     const std::vector<Element_index>& around = m_mesh.incident[*vertices.begin()];
+    const Subdomain_index mine = m_mesh.elements[e].attributes.subdomain_index;
     return std::any_of(around.begin(), around.end(), [&](Element_index other) {
       const Working_mesh::Element& element = m_mesh.elements[other];
-      return other != e && std::all_of(vertices.begin(), vertices.end(), [&](Vertex_index v) {
-               return std::find(element.begin(), element.end(), v) != element.end();
-             });
+      return other != e && element.attributes.subdomain_index == mine
+             && std::all_of(vertices.begin(), vertices.end(), [&](Vertex_index v) {
+                  return std::find(element.begin(), element.end(), v) != element.end();
+                });
     });
   }
 
@@ -255,26 +258,53 @@ private:
     return false;
   }
 
-  // A tetrahedron with two faces on the boundary, which meet in the edge ab: its other two faces take their
-  // place. That keeps the boundary a manifold if the edge between them is not on it yet.
+  // A tetrahedron with two faces on the boundary of its subdomain, which meet in the edge ab: the other two
+  // faces can take their place. That keeps the boundary a manifold if the edge between them is not on it yet.
+  // On the boundary of the mesh the tetrahedron is removed; on an interface it goes to the other subdomain if
+  // the edge can be flipped there.
   bool remove_from_boundary(Element_index e)
   {
     if(cost(m_mesh.elements[e].vertices.data()) < power(worth_removing, m_power))
       return false;
     const std::array<Vertex_index, 8> v = m_mesh.elements[e].vertices;
+    if(!std::all_of(v.begin(), v.begin() + 4, [this](Vertex_index u) { return m_mesh.is_on_boundary(u); }))
+      return false;
     constexpr int edges[6][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2},
                                  {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};
     for(const auto& k : edges) {
       const Vertex_index a = v[k[0]], b = v[k[1]], c = v[k[2]], d = v[k[3]];
-      if(m_mesh.is_on_boundary[a] && m_mesh.is_on_boundary[b] && m_mesh.is_on_boundary[c]
-         && m_mesh.is_on_boundary[d] && !is_shared(e, {a, b}) && is_shared(e, {a, c, d})
-         && is_shared(e, {b, c, d}) && !is_edge_of_boundary(c, d)) {
+      if(is_shared(e, {a, b}) || !is_shared(e, {a, c, d}) || !is_shared(e, {b, c, d})
+         || is_edge_of_boundary(c, d))
+        continue;
+      const Subdomain_index first = subdomain_behind(e, {a, b, c}), second = subdomain_behind(e, {a, b, d});
+      if(first != second)
+        continue;
+      if(first == 0) {
         m_mesh.remove(e);
         ++m_number_of_removals;
         return true;
       }
+      Subdomain_index& mine = m_mesh.elements[e].attributes.subdomain_index;
+      const Subdomain_index before = std::exchange(mine, first);
+      if(remove_edge(a, b)) {
+        ++m_number_of_removals;
+        return true;
+      }
+      m_mesh.elements[e].attributes.subdomain_index = before;
     }
     return false;
+  }
+
+  // That of the other element of a face; 0 if there is none.
+  Subdomain_index subdomain_behind(Element_index e, const std::array<Vertex_index, 3>& face) const
+  {
+    for(Element_index other : m_mesh.incident[face[0]]) {
+      const Working_mesh::Element& element = m_mesh.elements[other];
+      if(other != e && element.position(face[1]) < element.size()
+         && element.position(face[2]) < element.size())
+        return element.attributes.subdomain_index;
+    }
+    return 0;
   }
 
   bool try_faces(Element_index e)

@@ -34,7 +34,7 @@ where to slide: samples that are too far draw the boundary face nearest to them,
 the iterative-closest-point method. The farther a sample is, the more it counts; and what has drawn in vain
 draws stronger.
 
-\tparam Project `Vec3(Vec3 p, Vec3 hint)`: a point of the surface near p; the hint is on the surface
+\tparam Project as `Surface_projection`
 */
 template <class Project>
 class Surface_attraction
@@ -46,6 +46,7 @@ class Surface_attraction
   const std::vector<Vec3>& m_samples; // of the surface
   const double m_tolerance;
   std::vector<Triangle> m_triangles; // of the boundary
+  std::vector<Stratum> m_strata;     // theirs
   std::vector<double> m_stiffness;   // of each vertex: how often it was drawn in vain
   std::vector<Vec3> m_shifts;        // of each vertex, the mean of what draws it, weighted
   std::vector<double> m_weights;
@@ -75,14 +76,19 @@ public:
   {
   }
 
-  void set_boundary(const std::vector<Face>& faces)
+  void set_boundary(const Interface_faces& boundary)
   {
     m_triangles.clear();
+    m_strata.clear();
     m_stiffness.resize(m_mesh.points.size(), 1);
     m_last_points.clear();
-    for(const Face& face : faces)
-      for(int i = 2; i < face.vertices().size(); ++i)
-        m_triangles.push_back({face.vertices()[0], face.vertices()[i - 1], face.vertices()[i]});
+    for(std::size_t f = 0; f < boundary.faces.size(); ++f) {
+      const Face_vertices& v = boundary.faces[f].vertices();
+      for(int i = 2; i < v.size(); ++i) {
+        m_triangles.push_back({v[0], v[i - 1], v[i]});
+        m_strata.push_back(boundary.strata[f]);
+      }
+    }
     m_slack_of_samples.assign(m_samples.size(), 0);
     m_nearest.assign(m_samples.size(), 0);
     m_slack_of_triangles.assign(m_triangles.size(), 0);
@@ -139,7 +145,7 @@ public:
         continue;
       const Vec3& p = m_mesh.points[v];
       const double length = mean_edge_length(v);
-      result[v] = {m_project(p + (1 / m_weights[v]) * m_shifts[v], p),
+      result[v] = {m_project(p + (1 / m_weights[v]) * m_shifts[v], p, m_mesh.strata[v]),
                    scale * weight * m_stiffness[v] / (length * length)};
       m_stiffness[v] = (std::min)(stiffening * m_stiffness[v], stiffest);
     }
@@ -262,7 +268,7 @@ private:
             const std::array<double, 3> b{1 - double(i + j) / n, double(i) / n, double(j) / n};
             const Vec3 p = b[0] * m_mesh.points[t[0]]
                            + (b[1] * m_mesh.points[t[1]] + b[2] * m_mesh.points[t[2]]);
-            hint = m_project(p, hint);
+            hint = m_project(p, hint, m_strata[k]);
             m_slack_of_triangles[k] = (std::min)(m_slack_of_triangles[k], threshold() - norm(hint - p));
             add(k, b, hint - p, hint, share);
           }

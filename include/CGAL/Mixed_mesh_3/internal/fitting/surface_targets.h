@@ -12,6 +12,7 @@
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Strata.h>
 
 #include <algorithm>
 #include <array>
@@ -23,26 +24,6 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
-
-/// The point of a domain's surface that is closest to a given one.
-template <class Domain>
-class Surface_projection
-{
-  using Point_3 = typename Domain::Point_3;
-
-  const Domain* m_domain;
-
-public:
-  explicit Surface_projection(const Domain& domain) : m_domain(&domain) {}
-
-  Vec3 operator()(const Vec3& p) const { return to_vec3(m_domain->closest_point(Point_3(p[0], p[1], p[2]))); }
-
-  /// Faster if `hint`, a point of the surface, is near.
-  Vec3 operator()(const Vec3& p, const Vec3& hint) const
-  {
-    return to_vec3(m_domain->closest_point(Point_3(p[0], p[1], p[2]), Point_3(hint[0], hint[1], hint[2])));
-  }
-};
 
 /// What `surface_targets()` found.
 struct Surface_targets
@@ -148,15 +129,15 @@ The target of each boundary vertex.
 
 \param boundary the boundary faces
 \param points positions of all vertices
-\param oracle has `closest_point(p)` and `closest_point(p, hint)`
+\param closest as `Surface_projection`
+\param strata of all vertices
 \cost one query per boundary vertex, and one for each vertex of a folded face in each round
 */
-template <class Oracle>
+template <class Project>
 Surface_targets surface_targets(const std::vector<Face>& boundary, const std::vector<Vec3>& points,
-                                const Oracle& oracle)
+                                const Project& closest, const std::vector<Stratum>& strata)
 {
   constexpr int maximal_number_of_rounds = 100, rounds_until_wider = 10;
-  const Surface_projection closest(oracle);
 
   // Number the boundary vertices.
   Surface_targets result;
@@ -180,9 +161,9 @@ Surface_targets surface_targets(const std::vector<Face>& boundary, const std::ve
   std::vector<Vec3>& targets = result.positions;
   for(std::size_t i = 0; i < n; ++i) {
     const Vec3& p = sources[i];
-    targets.push_back(!neighbors_of[i].empty() && neighbors_of[i][0] < i
-                        ? closest(p, targets[neighbors_of[i][0]])
-                        : closest(p));
+    const Stratum s = strata[result.vertices[i]];
+    const std::size_t j = neighbors_of[i].empty() ? n : neighbors_of[i][0];
+    targets.push_back(j < i && strata[result.vertices[j]] == s ? closest(p, targets[j], s) : closest(p, s));
   }
 
   // Unfold. Where that takes long, the neighbors must give way too.
@@ -202,7 +183,8 @@ Surface_targets surface_targets(const std::vector<Face>& boundary, const std::ve
         Vec3 offset{}; // from there to the mean of the neighbors
         for(std::size_t j : neighbors_of[i])
           offset = offset + (targets[j] - targets[i]);
-        targets[i] = closest(targets[i] + (1. / double(neighbors_of[i].size())) * offset, targets[i]);
+        targets[i] = closest(targets[i] + (1. / double(neighbors_of[i].size())) * offset, targets[i],
+                             strata[result.vertices[i]]);
       }
   }
   result.number_of_folded_faces = folds.find(targets, 0, is_folded);

@@ -131,17 +131,20 @@ private:
   {
     Mesh mesh;
     assemble_mesh(octree, candidate.mesh, candidate.boundary, mesh);
-    const std::vector<Face> boundary = boundary_faces(mesh);
-    Working_mesh projected(mesh, boundary);
-    const Surface_targets targets = surface_targets(boundary, projected.points, m_root.domain());
+    Strata strata(m_root.domain());
+    const Interface_faces boundary = strata.sorted_faces(mesh);
+    Working_mesh projected(mesh, strata.of_vertices(mesh.number_of_vertices(), boundary));
+    const Surface_projection project(m_root.domain(), strata);
+    const Surface_targets targets = surface_targets(boundary.faces, projected.points, project,
+                                                    projected.strata);
     for(std::size_t i = 0; i < targets.vertices.size(); ++i)
       projected.points[targets.vertices[i]] = targets.positions[i];
-    const Surface_projection<typename Octree_::Domain_3> project(m_root.domain());
     Surface_attraction attraction(projected, project, m_samples, m_result.tolerance);
     attraction.set_boundary(boundary);
     attraction.measure();
     Estimate estimate{attraction.far_points(), {}, targets.number_of_folded_faces};
-    const std::vector<Vertex_index> crossing = vertices_of_self_intersections(projected.points, boundary);
+    const std::vector<Vertex_index> crossing = vertices_of_self_intersections(projected.points,
+                                                                              boundary.faces);
     estimate.number_of_defects += crossing.size();
     for(const std::vector<Vertex_index>& vertices : {targets.folded_vertices, crossing})
       for(Vertex_index v : vertices)

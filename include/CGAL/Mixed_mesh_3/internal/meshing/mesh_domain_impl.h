@@ -13,13 +13,13 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-CGAL_MIXED_MESH_3_INLINE Mixed_mesh_result_3 mesh_domain(const Polyhedral_mixed_mesh_domain_3& domain,
+CGAL_MIXED_MESH_3_INLINE Mixed_mesh_result_3 mesh_domain(const Labeled_polyhedral_mixed_mesh_domain_3& domain,
                                                          const Polyhedral_mixed_mesh_regions_3& regions,
                                                          const Mixed_mesh_criteria_3& criteria,
                                                          const Axis_aligned_octree_cell_traits_3& cell_traits,
                                                          Any_visitor& visitor, Core_mesh& mesh)
 {
-  return mesh_domain<Polyhedral_mixed_mesh_domain_3, Polyhedral_mixed_mesh_regions_3,
+  return mesh_domain<Labeled_polyhedral_mixed_mesh_domain_3, Polyhedral_mixed_mesh_regions_3,
                      Axis_aligned_octree_cell_traits_3>(domain, regions, criteria, cell_traits, visitor,
                                                         mesh);
 }

@@ -8,6 +8,7 @@
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_OCTREE_LOCATED_OCTREE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_OCTREE_LOCATED_OCTREE_H
 
+#include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/balance.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/weight_in_region.h>
@@ -72,10 +73,21 @@ public:
     return m_locations[leaf].region == ON_BOUNDED_SIDE
            || (m_locations[leaf].region == ON_BOUNDARY && m_region->depth(m_traits->point(p)) >= 0);
   }
-  /// The part of the domain's surface that meets the cell; a default one if none does.
+  /// The part of the domain's surface that meets the cell; a default one if none does, but for cells inside
+  /// labeled domains.
   const Surface_part& surface_part(Node_index n) const
   {
-    return *(side(n) == ON_BOUNDARY ? m_domain_parts[m_locations[n].domain_part] : m_no_part);
+    return *(has_part<Domain>(side(n)) ? m_domain_parts[m_locations[n].domain_part] : m_no_part);
+  }
+
+  /// The rank of the subdomain of a lattice point of a leaf, inside the domain.
+  Subdomain_rank subdomain_rank(const Lattice_point& p, Node_index leaf) const
+  {
+    if constexpr(Is_labeled_domain<Domain>::value)
+      return rank_of(m_domain->subdomain_indices(),
+                     m_domain->subdomain_index(m_traits->point(p), surface_part(leaf)));
+    else
+      return 0;
   }
 
   typename Domain::Point_3 point(const Lattice_point& p) const { return m_traits->point(p); }
@@ -221,6 +233,13 @@ private:
     parts.push_back(std::make_shared<const Part>(std::move(part)));
   }
 
+  // Inside, it tells the subdomain.
+  template <class Oracle>
+  static bool has_part(Bounded_side side)
+  {
+    return side == ON_BOUNDARY || (Is_labeled_domain<Oracle>::value && side == ON_BOUNDED_SIDE);
+  }
+
   template <class Oracle, class Cell, class Part>
   static std::int8_t locate(const Oracle& oracle, const Cell& cell, std::int8_t parent_side,
                             std::uint32_t& part, Parts<Part>& parts)
@@ -230,7 +249,7 @@ private:
     Part mine;
     const Bounded_side side = oracle.locate(cell, *parts[part], mine);
     part = 0;
-    if(side == ON_BOUNDARY) {
+    if(has_part<Oracle>(side)) {
       part = std::uint32_t(parts.size());
       add_part(parts, std::move(mine));
     }

@@ -45,7 +45,7 @@ public:
   struct Surface_part
   {
     std::vector<std::uint32_t> facets;
-    Point_3 reference;
+    Point_3 reference = ORIGIN;
     Bounded_side reference_side = ON_UNBOUNDED_SIDE;
   };
 

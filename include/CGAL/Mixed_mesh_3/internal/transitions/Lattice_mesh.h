@@ -9,6 +9,7 @@
 #define CGAL_MIXED_MESH_3_INTERNAL_TRANSITIONS_LATTICE_MESH_H
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
 
 #include <CGAL/enum.h>
@@ -28,6 +29,7 @@ struct Lattice_mesh
 
   std::vector<Lattice_point> vertices;
   std::vector<std::int8_t> sides;         ///< `Bounded_side` of each vertex, or unknown
+  std::vector<Subdomain_rank> subdomains; ///< for each vertex inside, the rank of its subdomain
   std::vector<Octree::Node_index> leaves; ///< for each vertex, a leaf that touches it
   std::vector<std::uint8_t> is_on_rim;    ///< not all leaves around the vertex have elements
   Element_list elements;
@@ -39,6 +41,7 @@ struct Lattice_mesh
   {
     vertices.push_back(p);
     sides.push_back(side);
+    subdomains.push_back(0);
     leaves.push_back(leaf);
     is_on_rim.push_back(rim);
     return Vertex_index(vertices.size() - 1);
@@ -48,11 +51,13 @@ struct Lattice_mesh
   {
     vertices.pop_back();
     sides.pop_back();
+    subdomains.pop_back();
     leaves.pop_back();
     is_on_rim.pop_back();
   }
 
   bool is_inside(Vertex_index v) const { return sides[v] == ON_BOUNDED_SIDE; }
+  Subdomain_rank subdomain(Vertex_index v) const { return is_inside(v) ? subdomains[v] : outside_rank; }
 };
 
 } // namespace internal

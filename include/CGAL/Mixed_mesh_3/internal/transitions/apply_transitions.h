@@ -186,6 +186,12 @@ private:
         m_located.domain().bounded_side(m_located.point(m_mesh.vertices[v]),
                                         m_located.surface_part(m_mesh.leaves[v])));
     });
+    if(Is_labeled_domain<typename Octree_::Domain_3>::value)
+      parallel_for(m_mesh.vertices.size(), threads, [&](std::size_t i) {
+        const Vertex_index v = Vertex_index(i);
+        if(m_mesh.is_inside(v))
+          m_mesh.subdomains[v] = m_located.subdomain_rank(m_mesh.vertices[v], m_mesh.leaves[v]);
+      });
   }
 };
 

@@ -1,0 +1,252 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_LABELED_POLYHEDRAL_MIXED_MESH_DOMAIN_3_H
+#define CGAL_LABELED_POLYHEDRAL_MIXED_MESH_DOMAIN_3_H
+
+#include <CGAL/Mixed_mesh_3/Element_attributes.h>
+#include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
+
+#include <CGAL/Named_function_parameters.h>
+#include <CGAL/assertions.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+
+/*!
+\ingroup PkgMixedMesh3Ref
+
+\brief The domain inside one or more closed triangulated surfaces, each of which encloses a subdomain.
+
+Where surfaces overlap, the one that was added first counts: a tumor, then the ventricles, then the brain
+around both. So surfaces may be nested, disjoint, touch, or cross each other; each interface lies on a given
+surface, on that of the subdomain that was added first. The subdomain with index 0 is a cavity: it belongs to
+the outside.
+
+As for `Polyhedral_mixed_mesh_domain_3`, all answers are exact on the coordinates of the surfaces, rounded to
+double.
+
+\cgalModels{MixedMeshLabeledDomain_3}
+*/
+class Labeled_polyhedral_mixed_mesh_domain_3
+{
+  using Surface = Polyhedral_mixed_mesh_domain_3;
+
+public:
+  using Point_3 = Surface::Point_3;
+  using Subdomain_index = Mixed_meshes_3::Subdomain_index;
+
+  /// The surfaces that are seen in a cell: those that meet it and are not hidden inside an earlier one.
+  struct Surface_part
+  {
+    std::vector<std::pair<std::size_t, Surface::Surface_part>> parts; ///< numbers of surfaces ascend
+    std::size_t background = std::size_t(-1); ///< the first surface around the whole cell, if there is one
+  };
+
+  /// Adds a subdomain, behind those that are there.
+  /// \param surface shared by copies
+  /// \param index not negative; 0 is a cavity. \pre surfaces of the same index are added one after the other
+  void add(std::shared_ptr<const Polyhedral_mixed_mesh_domain_3> surface, Subdomain_index index)
+  {
+    CGAL_precondition(index >= 0);
+    CGAL_precondition(index == 0 || std::find(m_indices.begin(), m_indices.end(), index) == m_indices.end()
+                      || m_surfaces.back().index == index);
+    if(index == 0) {
+      m_cavities.push_back(surface.get());
+      for(Subdomain_index i : m_indices)
+        m_surfaces_of[{i, true}].push_back(surface.get());
+    } else {
+      if(m_indices.empty() || m_indices.back() != index) {
+        m_indices.push_back(index);
+        m_surfaces_of[{index, true}] = m_cavities;
+      }
+      for(bool is_to_outside : {false, true})
+        m_surfaces_of[{index, is_to_outside}].push_back(surface.get());
+    }
+    m_bbox += surface->bbox();
+    m_surfaces.push_back({std::move(surface), index});
+  }
+
+  /// Adds the subdomain inside a surface.
+  /// \param surface,np as for `Polyhedral_mixed_mesh_domain_3`
+  /// \param index as above
+  template <class FaceListGraph, class NamedParameters = parameters::Default_named_parameters,
+            std::enable_if_t<!std::is_convertible_v<
+              FaceListGraph, std::shared_ptr<const Polyhedral_mixed_mesh_domain_3>>>* = nullptr>
+  void add(const FaceListGraph& surface, Subdomain_index index,
+           const NamedParameters& np = parameters::default_values())
+  {
+    add(std::make_shared<const Polyhedral_mixed_mesh_domain_3>(surface, np), index);
+  }
+
+  /// Those that are not 0, in the order in which they were added.
+  const std::vector<Subdomain_index>& subdomain_indices() const { return m_indices; }
+
+  const Bbox_3& bbox() const { return m_bbox; }
+
+  Surface_part surface_part() const
+  {
+    Surface_part part;
+    for(std::size_t i = 0; i < m_surfaces.size(); ++i)
+      part.parts.emplace_back(i, m_surfaces[i].surface->surface_part());
+    return part;
+  }
+
+  template <class Cell>
+  Bounded_side locate(const Cell& cell, const Surface_part& parent, Surface_part& part) const
+  {
+    part.parts.clear();
+    part.background = parent.background;
+    for(const auto& [i, of_parent] : parent.parts) {
+      part.parts.emplace_back(i, Surface::Surface_part());
+      const Bounded_side side = m_surfaces[i].surface->locate(cell, of_parent, part.parts.back().second);
+      if(side != ON_BOUNDARY)
+        part.parts.pop_back();
+      if(side == ON_BOUNDED_SIDE) { // what follows is hidden
+        part.background = i;
+        break;
+      }
+    }
+    return !part.parts.empty()              ? ON_BOUNDARY
+           : index_of(part.background) != 0 ? ON_BOUNDED_SIDE
+                                            : ON_UNBOUNDED_SIDE;
+  }
+
+  Bounded_side bounded_side(const Point_3& p, const Surface_part& part) const
+  {
+    bool is_on_surface = false; // of the outside, if the point is not inside of a later one
+    for(const auto& [i, of_surface] : part.parts) {
+      const Bounded_side side = m_surfaces[i].surface->bounded_side(p, of_surface);
+      if(side == ON_BOUNDED_SIDE || (side == ON_BOUNDARY && m_surfaces[i].index == 0))
+        return m_surfaces[i].index != 0 ? ON_BOUNDED_SIDE
+               : side == ON_BOUNDARY    ? ON_BOUNDARY
+                                        : ON_UNBOUNDED_SIDE;
+      is_on_surface = is_on_surface || side == ON_BOUNDARY;
+    }
+    return index_of(part.background) != 0 ? ON_BOUNDED_SIDE : is_on_surface ? ON_BOUNDARY : ON_UNBOUNDED_SIDE;
+  }
+
+  /// The subdomain of a point inside the domain. A point on an interface belongs to the later subdomain.
+  /// \param part as for `bounded_side()`, or as `locate()` filled it for a cell in the interior
+  Subdomain_index subdomain_index(const Point_3& p, const Surface_part& part) const
+  {
+    for(const auto& [i, of_surface] : part.parts)
+      if(m_surfaces[i].surface->bounded_side(p, of_surface) == ON_BOUNDED_SIDE)
+        return m_surfaces[i].index;
+    return index_of(part.background);
+  }
+
+  /// The subdomain of any point; 0 outside.
+  /// \cost a ray through the AABB tree of each surface, until one has the point inside
+  Subdomain_index subdomain_index(const Point_3& p) const
+  {
+    const auto around = std::find_if(m_surfaces.begin(), m_surfaces.end(), [&](const Labeled& s) {
+      return s.surface->bounded_side(p) == ON_BOUNDED_SIDE;
+    });
+    return around == m_surfaces.end() ? 0 : around->index;
+  }
+
+  Point_3 closest_point(const Point_3& p, const Surface_part& part) const
+  {
+    if(part.parts.empty())
+      return closest_point(p);
+    return nearest(p, part.parts, [&](const auto& one) {
+      return m_surfaces[one.first].surface->closest_point(p, one.second);
+    });
+  }
+
+  Point_3 closest_point(const Point_3& p) const
+  {
+    return nearest(p, m_surfaces, [&](const Labeled& s) { return s.surface->closest_point(p); });
+  }
+
+  Point_3 closest_point(const Point_3& p, const Point_3& hint) const
+  {
+    return m_surfaces.size() == 1 ? m_surfaces.front().surface->closest_point(p, hint) : closest_point(p);
+  }
+
+  /// A point as near as any of the interface between two subdomains, of which the first was added first; or
+  /// between a subdomain and the outside, 0. It is on the surface of the first one, or that of a cavity.
+  /// \pre `first` is one of `subdomain_indices()`
+  Point_3 closest_point(const Point_3& p, Subdomain_index first, Subdomain_index second) const
+  {
+    return nearest(p, surfaces_of(first, second), [&](const Surface* s) { return s->closest_point(p); });
+  }
+
+  /// Faster if `hint`, a point of that interface, is near.
+  Point_3 closest_point(const Point_3& p, const Point_3& hint, Subdomain_index first,
+                        Subdomain_index second) const
+  {
+    // of several surfaces, the hint is on one only
+    const std::vector<const Surface*>& surfaces = surfaces_of(first, second);
+    return surfaces.size() == 1 ? surfaces.front()->closest_point(p, hint) : closest_point(p, first, second);
+  }
+
+  /// Points of the interfaces, as those of `Polyhedral_mixed_mesh_domain_3`.
+  std::vector<Point_3> surface_samples(double spacing) const
+  {
+    std::vector<Point_3> samples;
+    for(std::size_t i = 0; i < m_surfaces.size(); ++i)
+      for(const Point_3& p : m_surfaces[i].surface->surface_samples(spacing))
+        if(std::none_of(m_surfaces.begin(), m_surfaces.begin() + std::ptrdiff_t(i), [&](const Labeled& s) {
+             return CGAL::do_overlap(p.bbox(), s.surface->bbox())
+                    && s.surface->bounded_side(p) == ON_BOUNDED_SIDE;
+           }))
+          samples.push_back(p);
+    return samples;
+  }
+
+private:
+  struct Labeled
+  {
+    std::shared_ptr<const Polyhedral_mixed_mesh_domain_3> surface;
+    Subdomain_index index;
+  };
+
+  Subdomain_index index_of(std::size_t surface) const
+  {
+    return surface < m_surfaces.size() ? m_surfaces[surface].index : 0;
+  }
+
+  template <class Range, class Closest>
+  static Point_3 nearest(const Point_3& p, const Range& range, const Closest& closest)
+  {
+    CGAL_precondition(!range.empty());
+    auto one = range.begin();
+    Point_3 best = closest(*one);
+    while(++one != range.end()) {
+      const Point_3 q = closest(*one);
+      if(CGAL::compare_squared_distance(p, q, CGAL::squared_distance(p, best)) == SMALLER)
+        best = q;
+    }
+    return best;
+  }
+
+  // Those of the interface between a subdomain and a later one, or the outside.
+  const std::vector<const Surface*>& surfaces_of(Subdomain_index first, Subdomain_index second) const
+  {
+    const auto found = m_surfaces_of.find({first, second == 0});
+    CGAL_precondition(found != m_surfaces_of.end());
+    return found->second;
+  }
+
+  std::vector<Labeled> m_surfaces;
+  std::map<std::pair<Subdomain_index, bool>, std::vector<const Surface*>> m_surfaces_of; // is to the outside
+  std::vector<const Surface*> m_cavities;
+  std::vector<Subdomain_index> m_indices;
+  Bbox_3 m_bbox;
+};
+
+} // namespace CGAL
+
+#endif // CGAL_LABELED_POLYHEDRAL_MIXED_MESH_DOMAIN_3_H

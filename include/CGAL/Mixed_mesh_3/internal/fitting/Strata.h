@@ -1,0 +1,165 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which surfaces a vertex is to be on: that of the domain, or, between several subdomains, one or more.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_STRATA_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_STRATA_H
+
+#include <CGAL/Mixed_mesh_3/Element_attributes.h>
+#include <CGAL/Mixed_mesh_3/Face.h>
+#include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/for_each_face.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// The number of a set of interfaces: vertices on the same ones have the same.
+using Stratum = std::uint32_t;
+
+/// Of vertices that may be anywhere, and of those on the boundary of a domain without labels.
+inline constexpr Stratum free_stratum = 0, boundary_stratum = 1;
+
+/// Between a subdomain and a later one, or the outside, 0.
+struct Interface
+{
+  Subdomain_index first, second;
+};
+
+/// Faces on interfaces, seen from their first subdomains, and their strata.
+struct Interface_faces
+{
+  std::vector<Face> faces;
+  std::vector<Stratum> strata;
+};
+
+/*!
+The strata of the boundary of a mesh, and, if its domain is labeled, of the interfaces between subdomains.
+
+Where subdomains \f$ a_1, \dots, a_n \f$ meet, in the order of the domain and the outside last, the interface of
+any two is on the surface of the first of them: it is enough to be on those of \f$ a_i \f$ and
+\f$ a_{i+1} \f$ for all i.
+*/
+class Strata
+{
+  std::vector<Subdomain_index> m_order; // of a labeled domain
+  std::vector<std::vector<Interface>> m_interfaces = {{}, {{1, 0}}};
+  std::map<std::vector<Subdomain_rank>, Stratum> m_numbers; // by the ranks of the subdomains that meet
+
+public:
+  template <class Domain>
+  explicit Strata(const Domain& domain)
+  {
+    if constexpr(Is_labeled_domain<Domain>::value)
+      m_order = subdomain_indices(domain);
+  }
+
+  /// Two vertices that are on several interfaces need not be on the same surface, even if these are the same.
+  const std::vector<Interface>& interfaces(Stratum s) const { return m_interfaces[s]; }
+  /// Whether a face is on the boundary of the domain.
+  bool is_on_boundary(Stratum of_face) const { return m_interfaces[of_face].back().second == 0; }
+
+  /// The faces on the boundary and on interfaces, among those all of whose vertices are candidates; not in the
+  /// order of the elements.
+  template <class Is_candidate>
+  Interface_faces faces(const Element_list& elements, const std::vector<Element_attributes>& attributes,
+                        std::size_t number_of_vertices, const Is_candidate& is_candidate)
+  {
+    Interface_faces result;
+    for_each_face(elements, number_of_vertices, is_candidate, [&](const auto& group) {
+      if(group.size() == 1) {
+        result.faces.push_back(group[0]);
+        result.strata.push_back(number({rank(attributes[group.element(0)]), outside_rank}));
+      } else if(!m_order.empty()) {
+        const Subdomain_rank r[2] = {rank(attributes[group.element(0)]), rank(attributes[group.element(1)])};
+        if(r[0] != r[1]) {
+          result.faces.push_back(group[r[0] < r[1] ? 0 : 1]);
+          result.strata.push_back(number({(std::min)(r[0], r[1]), (std::max)(r[0], r[1])}));
+        }
+      }
+    });
+    return result;
+  }
+
+  /// All of them, in the order of the elements.
+  template <class Mesh>
+  Interface_faces sorted_faces(const Mesh& mesh)
+  {
+    const Interface_faces unsorted = faces(mesh.elements(), mesh.attributes(), mesh.number_of_vertices(),
+                                           [](Vertex_index) { return true; });
+    std::vector<std::size_t> order(unsorted.faces.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t i, std::size_t j) { return unsorted.faces[i] < unsorted.faces[j]; });
+    Interface_faces sorted;
+    for(std::size_t i : order) {
+      sorted.faces.push_back(unsorted.faces[i]);
+      sorted.strata.push_back(unsorted.strata[i]);
+    }
+    return sorted;
+  }
+
+  /// The strata of vertices, from those of their faces.
+  std::vector<Stratum> of_vertices(std::size_t number_of_vertices, const Interface_faces& faces)
+  {
+    std::vector<Stratum> result(number_of_vertices, free_stratum);
+    std::map<Vertex_index, std::set<Stratum>> several;
+    for(std::size_t i = 0; i < faces.faces.size(); ++i)
+      for(Vertex_index v : faces.faces[i].vertices()) {
+        if(result[v] == free_stratum)
+          result[v] = faces.strata[i];
+        else if(result[v] != faces.strata[i])
+          several[v].insert({result[v], faces.strata[i]});
+      }
+    for(const auto& [v, strata] : several) {
+      std::set<Subdomain_rank> ranks;
+      for(const auto& [key, s] : m_numbers)
+        if(strata.count(s) > 0)
+          ranks.insert(key.begin(), key.end());
+      result[v] = number({ranks.begin(), ranks.end()});
+    }
+    return result;
+  }
+
+private:
+  // What the domain does not know is as its last subdomain.
+  Subdomain_rank rank(const Element_attributes& attributes) const
+  {
+    if(m_order.empty())
+      return 0;
+    return (std::min)(rank_of(m_order, attributes.subdomain_index), Subdomain_rank(m_order.size() - 1));
+  }
+
+  // \pre the ranks ascend
+  Stratum number(const std::vector<Subdomain_rank>& ranks)
+  {
+    if(m_order.empty())
+      return boundary_stratum;
+    const auto [known, is_new] = m_numbers.try_emplace(ranks, Stratum(m_interfaces.size()));
+    if(is_new) {
+      m_interfaces.emplace_back();
+      for(std::size_t i = 0; i + 1 < ranks.size(); ++i)
+        m_interfaces.back().push_back(
+          {m_order[ranks[i]], ranks[i + 1] == outside_rank ? 0 : m_order[ranks[i + 1]]});
+    }
+    return known->second;
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_STRATA_H

@@ -1,0 +1,111 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_PROJECTION_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_PROJECTION_H
+
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Strata.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// Points of the surfaces of a domain near given ones: the closest ones, where a stratum is on one interface.
+template <class Domain>
+class Surface_projection
+{
+  using Point_3 = typename Domain::Point_3;
+
+  const Domain* m_domain;
+  const Strata* m_strata;
+
+  static constexpr int maximal_number_of_cycles = 20;
+  static constexpr double accuracy = 1e-9; // in diagonals of the domain
+
+  static Point_3 point(const Vec3& p) { return Point_3(p[0], p[1], p[2]); }
+
+public:
+  /// \param strata to be kept by the caller
+  Surface_projection(const Domain& domain, const Strata& strata) : m_domain(&domain), m_strata(&strata) {}
+
+  Vec3 operator()(const Vec3& p, Stratum stratum) const
+  {
+    if constexpr(Is_labeled_domain<Domain>::value) {
+      const std::vector<Interface>& interfaces = m_strata->interfaces(stratum);
+      return interfaces.size() == 1 ? closest(p, interfaces[0]) : junction(p, interfaces);
+    } else {
+      return to_vec3(m_domain->closest_point(point(p)));
+    }
+  }
+
+  /// Faster if `hint`, a point of the same stratum, is near.
+  Vec3 operator()(const Vec3& p, const Vec3& hint, Stratum stratum) const
+  {
+    if constexpr(Is_labeled_domain<Domain>::value) {
+      const std::vector<Interface>& interfaces = m_strata->interfaces(stratum);
+      return interfaces.size() == 1 ? to_vec3(
+               m_domain->closest_point(point(p), point(hint), interfaces[0].first, interfaces[0].second))
+                                    : junction(p, interfaces);
+    } else {
+      return to_vec3(m_domain->closest_point(point(p), point(hint)));
+    }
+  }
+
+  /// Whether what the projection gave is on all interfaces: where several meet, it need not be.
+  bool is_reached(const Vec3& p, Stratum stratum) const
+  {
+    if constexpr(Is_labeled_domain<Domain>::value) {
+      const std::vector<Interface>& interfaces = m_strata->interfaces(stratum);
+      return interfaces.size() == 1
+             || std::all_of(interfaces.begin(), interfaces.end(), [&](const Interface& i) {
+                  return norm(closest(p, i) - p) <= accuracy * diagonal();
+                });
+    } else {
+      return true;
+    }
+  }
+
+private:
+  double diagonal() const
+  {
+    const auto& box = m_domain->bbox();
+    return norm({box.x_span(), box.y_span(), box.z_span()});
+  }
+
+  Vec3 closest(const Vec3& p, const Interface& i) const
+  {
+    return to_vec3(m_domain->closest_point(point(p), i.first, i.second));
+  }
+
+  // Alternating projections. Between two planes each cycle is shorter than the one before by the square of the
+  // cosine of their angle, so that one cycle tells where they lead.
+  Vec3 junction(const Vec3& start, const std::vector<Interface>& interfaces) const
+  {
+    Vec3 p = closest(start, interfaces[0]);
+    for(int cycle = 0; cycle < maximal_number_of_cycles; ++cycle) {
+      Vec3 q = p;
+      for(const Interface& i : interfaces)
+        q = closest(q, i);
+      const double there = norm(q - p);
+      if(there <= 0.1 * accuracy * diagonal())
+        break;
+      const Vec3 back = closest(q, interfaces[0]);
+      const double ratio = norm(back - q) / there, share = 1 - ratio * ratio;
+      // steep angles only: where surfaces touch, it would lead far away
+      p = closest(share > 0.05 ? p + (1 / share) * (back - p) : back, interfaces[0]);
+    }
+    return p;
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_PROJECTION_H
