@@ -192,18 +192,36 @@ public:
     return surfaces.size() == 1 ? surfaces.front()->closest_point(p, hint) : closest_point(p, first, second);
   }
 
-  /// Points of the interfaces, as those of `Polyhedral_mixed_mesh_domain_3`.
+  /// Points of the surfaces that are seen, as those of `Polyhedral_mixed_mesh_domain_3`.
   std::vector<Point_3> surface_samples(double spacing) const
   {
     std::vector<Point_3> samples;
     for(std::size_t i = 0; i < m_surfaces.size(); ++i)
-      for(const Point_3& p : m_surfaces[i].surface->surface_samples(spacing))
-        if(std::none_of(m_surfaces.begin(), m_surfaces.begin() + std::ptrdiff_t(i), [&](const Labeled& s) {
-             return CGAL::do_overlap(p.bbox(), s.surface->bbox())
-                    && s.surface->bounded_side(p) == ON_BOUNDED_SIDE;
-           }))
-          samples.push_back(p);
+      add_samples(i, spacing, samples);
     return samples;
+  }
+
+  /// Those of one subdomain, or of the cavities, 0.
+  std::vector<Point_3> surface_samples(double spacing, Subdomain_index index) const
+  {
+    std::vector<Point_3> samples;
+    for(std::size_t i = 0; i < m_surfaces.size(); ++i)
+      if(m_surfaces[i].index == index)
+        add_samples(i, spacing, samples);
+    return samples;
+  }
+
+  /// Four times the volume by the area, of the surfaces of a subdomain: of a convex body, the mean length of
+  /// the segments that lines leave in it.
+  double mean_chord_length(Subdomain_index index) const
+  {
+    double area = 0, volume = 0;
+    for(const Labeled& s : m_surfaces)
+      if(s.index == index) {
+        area += s.surface->area();
+        volume += s.surface->volume();
+      }
+    return 4 * volume / area;
   }
 
 private:
@@ -216,6 +234,17 @@ private:
   Subdomain_index index_of(std::size_t surface) const
   {
     return surface < m_surfaces.size() ? m_surfaces[surface].index : 0;
+  }
+
+  // Without those inside earlier surfaces.
+  void add_samples(std::size_t number, double spacing, std::vector<Point_3>& samples) const
+  {
+    for(const Point_3& p : m_surfaces[number].surface->surface_samples(spacing))
+      if(std::none_of(m_surfaces.begin(), m_surfaces.begin() + std::ptrdiff_t(number), [&](const Labeled& s) {
+           return CGAL::do_overlap(p.bbox(), s.surface->bbox())
+                  && s.surface->bounded_side(p) == ON_BOUNDED_SIDE;
+         }))
+        samples.push_back(p);
   }
 
   template <class Range, class Closest>

@@ -24,6 +24,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -60,7 +61,8 @@ class Surface_optimizer
   Interface_faces m_boundary; // interfaces, too
   Working_mesh m_working;
   Moves m_moves;
-  std::vector<Vec3> m_samples;
+  const Surface_tolerances m_tolerances;
+  const std::vector<Surface_sample> m_samples;
   Attraction_ m_attraction;
   std::vector<std::pair<Vertex_index, Vec3>> m_travelers; // not on the surface yet, with their targets
   std::vector<std::uint8_t> m_is_arrived;
@@ -117,11 +119,11 @@ public:
       m_project(domain, m_strata), m_boundary(m_strata.sorted_faces(mesh)),
       m_working(mesh, m_strata.of_vertices(mesh.number_of_vertices(), m_boundary)),
       m_moves(m_working, m_quality, m_project, criteria.sliding_threshold(), bound_for_doubles(criteria)),
-      m_samples(surface_samples()), m_attraction(m_working, m_project, m_samples, criteria.tolerance()),
+      m_tolerances(tolerances()), m_samples(surface_samples()), m_attraction(m_working, m_project, m_samples),
       m_is_arrived(m_working.points.size(), 0), m_simple_points(m_working.points),
       m_simple_is_arrived(m_working.points.size(), 0), m_is_held(m_working.points.size(), 0)
   {
-    m_attraction.set_boundary(m_boundary);
+    attract_boundary();
     if(has_many_vertices())
       m_moves.set_notable_gain(notable_gain_of_many);
   }
@@ -190,28 +192,49 @@ private:
     return (std::max)(good_enough[phase], has_many_vertices() ? good_enough_of_many : 1);
   }
 
-  // Closer ones than twice the tolerance would rarely be farther off; much closer ones than the boundary's
-  // vertices could not draw these to different places.
-  std::vector<Vec3> surface_samples() const
+  Subdomain_index first_subdomain(Stratum of_face) const { return m_strata.interfaces(of_face)[0].first; }
+
+  void attract_boundary()
   {
-    std::vector<Vec3> samples;
-    if(m_criteria.tolerance() > 0)
-      for(const auto& p :
-          m_domain.surface_samples((std::max)(2 * m_criteria.tolerance(), mean_edge_length() / 6)))
-        samples.push_back(to_vec3(p));
-    return samples;
+    m_attraction.set_boundary(m_boundary, [this](Stratum s) { return m_tolerances(first_subdomain(s)); });
   }
 
-  double mean_edge_length() const
+  // Of the edges of interfaces, by the first subdomain.
+  std::map<Subdomain_index, double> mean_edge_lengths() const
   {
-    double sum = 0;
-    std::size_t count = 0;
-    for(const Face& face : m_boundary.faces) {
-      const Face_vertices& v = face.vertices();
-      for(int i = 0; i < v.size(); ++i, ++count)
+    std::map<Subdomain_index, std::pair<double, std::size_t>> edges; // sum of lengths, number
+    for(std::size_t f = 0; f < m_boundary.faces.size(); ++f) {
+      const Face_vertices& v = m_boundary.faces[f].vertices();
+      auto& [sum, number] = edges[first_subdomain(m_boundary.strata[f])];
+      for(int i = 0; i < v.size(); ++i, ++number)
         sum += norm(m_working.points[v[i]] - m_working.points[v[(i + 1) % v.size()]]);
     }
-    return count > 0 ? sum / double(count) : 0;
+    std::map<Subdomain_index, double> means;
+    for(const auto& [index, sum] : edges)
+      means[index] = sum.first / double(sum.second);
+    return means;
+  }
+
+  // What is nearer than a tenth of an edge is the curvature of the surface: no sliding brings it nearer.
+  Surface_tolerances tolerances()
+  {
+    Surface_tolerances t(m_domain, m_criteria.tolerance(), m_working.points.size());
+    t.enlarge([edges = mean_edge_lengths()](Subdomain_index index) {
+      const auto edge = edges.find(index);
+      return edge == edges.end() ? 0. : 0.1 * edge->second;
+    });
+    return t;
+  }
+
+  // Much closer ones than the boundary's vertices could not draw these to different places.
+  std::vector<Surface_sample> surface_samples() const
+  {
+    if(!(m_criteria.tolerance() > 0))
+      return {};
+    return m_tolerances.samples(m_domain, [edges = mean_edge_lengths()](Subdomain_index index) {
+      const auto edge = edges.find(index);
+      return edge == edges.end() ? 0. : edge->second / 6;
+    });
   }
 
   // Each boundary vertex goes to its target, all the way or part of it, as far as validity and quality
@@ -463,7 +486,7 @@ private:
     const std::size_t flips = flipper.run(power, worst, [&](Vertex_index v) { m_moves.activate(v); });
     if(flipper.number_of_removals() != removals) {
       m_boundary = m_working.interface_faces(m_strata);
-      m_attraction.set_boundary(m_boundary);
+      attract_boundary();
     }
     return flips;
   }
@@ -473,8 +496,8 @@ private:
   {
     const auto is_arrived = [&](Vertex_index v) { return v >= m_is_arrived.size() || m_is_arrived[v]; };
     const auto gain_if_arrived = [&](Vertex_index a, Vertex_index b,
-                                     const std::array<Vertex_index, 2>& apexes) {
-      return is_arrived(a) && is_arrived(b) ? gain(a, b, apexes) : 0.;
+                                     const std::array<Vertex_index, 2>& apexes, Stratum stratum) {
+      return is_arrived(a) && is_arrived(b) ? gain(a, b, apexes, stratum) : 0.;
     };
     Boundary_bisector bisector(m_working, m_quality, m_project, gain_if_arrived, m_boundary,
                                (std::min)(worst_half, bound_for_doubles(m_criteria)));
@@ -488,7 +511,7 @@ private:
     m_is_arrived.resize(m_working.points.size(), 1);
     m_boundary = m_working.interface_faces(m_strata);
     m_moves.add_vertices();
-    m_attraction.set_boundary(m_boundary);
+    attract_boundary();
   }
 
   // In the region the longest edges, then those that are far from the surface.
@@ -498,14 +521,14 @@ private:
                       early = all - std::size_t(share_of_late_bisections * double(all)),
                       in_region = std::size_t(bisections_in_region
                                               * std::pow(double(m_working.points.size()), 2. / 3));
-    bisect((std::min)(early, in_region), [&](Vertex_index a, Vertex_index b, const auto&) {
+    bisect((std::min)(early, in_region), [&](Vertex_index a, Vertex_index b, const auto&, Stratum) {
       return m_working.is_edge_in_region(a, b) ? norm(m_working.points[a] - m_working.points[b]) : 0;
     });
     bisect_far(early - m_result.number_of_bisections, 2);
   }
 
   // By the area of the faces, and a power of the distance: with 1, it is the volume between that counts, with
-  // a high one the largest distance.
+  // a high one the largest distance. The smaller a tolerance is, the more it counts.
   void bisect_far(std::size_t number, double power)
   {
     if(number == 0)
@@ -514,14 +537,14 @@ private:
       m_attraction.measure();
     const auto far_edges = m_attraction.far_edges();
     const std::vector<Vec3>& p = m_working.points;
-    bisect(number, [&](Vertex_index a, Vertex_index b, const std::array<Vertex_index, 2>& apexes) {
+    bisect(number, [&](Vertex_index a, Vertex_index b, const std::array<Vertex_index, 2>& apexes,
+                       Stratum stratum) {
       const auto far = far_edges.find(std::minmax(a, b));
       const Vec3 middle = 0.5 * (p[a] + p[b]);
-      const Vec3 place = m_working.strata[a] == m_working.strata[b]
-                           ? m_project(middle, p[a], m_working.strata[a])
-                           : middle;
+      const Vec3 place = m_working.strata[a] == stratum ? m_project(middle, p[a], stratum)
+                                                        : m_project(middle, stratum);
       const double distance = (std::max)(norm(place - middle), far == far_edges.end() ? 0. : far->second);
-      return std::pow(distance, power)
+      return std::pow(distance, power) * m_tolerances.weight(first_subdomain(stratum))
              * (norm(cross(p[b] - p[a], p[apexes[0]] - p[a]))
                 + norm(cross(p[b] - p[a], p[apexes[1]] - p[a])));
     });

@@ -10,6 +10,7 @@
 #include <CGAL/Mixed_mesh_3/internal/fitting/Strata.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace CGAL {
@@ -27,6 +28,7 @@ class Surface_projection
 
   static constexpr int maximal_number_of_cycles = 20;
   static constexpr double accuracy = 1e-9; // in diagonals of the domain
+  static constexpr double least_progress = 0.7; // surfaces that do not meet there are given up soon
 
   static Point_3 point(const Vec3& p) { return Point_3(p[0], p[1], p[2]); }
 
@@ -88,13 +90,15 @@ private:
   Vec3 junction(const Vec3& start, const std::vector<Interface>& interfaces) const
   {
     Vec3 p = closest(start, interfaces[0]);
+    double last = std::numeric_limits<double>::infinity();
     for(int cycle = 0; cycle < maximal_number_of_cycles; ++cycle) {
       Vec3 q = p;
-      for(const Interface& i : interfaces)
-        q = closest(q, i);
+      for(auto i = interfaces.begin() + 1; i != interfaces.end(); ++i)
+        q = closest(q, *i);
       const double there = norm(q - p);
-      if(there <= 0.1 * accuracy * diagonal())
+      if(there <= 0.1 * accuracy * diagonal() || there > least_progress * last)
         break;
+      last = there;
       const Vec3 back = closest(q, interfaces[0]);
       const double ratio = norm(back - q) / there, share = 1 - ratio * ratio;
       // steep angles only: where surfaces touch, it would lead far away

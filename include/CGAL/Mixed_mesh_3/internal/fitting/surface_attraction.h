@@ -11,6 +11,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/base/compatibility.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Surface_tolerances.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_optimizer.h>
 
 #include <CGAL/AABB_tree.h>
@@ -43,8 +44,8 @@ class Surface_attraction
 
   const Working_mesh& m_mesh;
   const Project& m_project;
-  const std::vector<Vec3>& m_samples; // of the surface
-  const double m_tolerance;
+  const std::vector<Surface_sample>& m_samples;
+  std::vector<double> m_tolerances_of_triangles;
   std::vector<Triangle> m_triangles; // of the boundary
   std::vector<Stratum> m_strata;     // theirs
   std::vector<double> m_stiffness;   // of each vertex: how often it was drawn in vain
@@ -69,15 +70,17 @@ class Surface_attraction
 
 public:
   /// \param samples of the surface; may be empty
-  Surface_attraction(const Working_mesh& mesh, const Project& project, const std::vector<Vec3>& samples,
-                     double tolerance)
-    : m_mesh(mesh), m_project(project), m_samples(samples), m_tolerance(tolerance),
-      m_stiffness(mesh.points.size(), 1)
+  Surface_attraction(const Working_mesh& mesh, const Project& project,
+                     const std::vector<Surface_sample>& samples)
+    : m_mesh(mesh), m_project(project), m_samples(samples), m_stiffness(mesh.points.size(), 1)
   {
   }
 
-  void set_boundary(const Interface_faces& boundary)
+  /// \param tolerance `double(Stratum)`: of a face
+  template <class Tolerance>
+  void set_boundary(const Interface_faces& boundary, const Tolerance& tolerance)
   {
+    m_tolerances_of_triangles.clear();
     m_triangles.clear();
     m_strata.clear();
     m_stiffness.resize(m_mesh.points.size(), 1);
@@ -87,6 +90,7 @@ public:
       for(int i = 2; i < v.size(); ++i) {
         m_triangles.push_back({v[0], v[i - 1], v[i]});
         m_strata.push_back(boundary.strata[f]);
+        m_tolerances_of_triangles.push_back(tolerance(boundary.strata[f]));
       }
     }
     m_slack_of_samples.assign(m_samples.size(), 0);
@@ -98,7 +102,7 @@ public:
   /// An upper bound, at the last measurement.
   double largest_distance() const { return m_largest_distance; }
   /// Points of the surface, at the last measurement, farther from the boundary than the tolerance, and those
-  /// next to places of the boundary that are; with their distances.
+  /// next to places of the boundary that are; with their distances, in tolerances.
   const std::vector<std::pair<double, Vec3>>& far_points() const { return m_far_points; }
 
   /// For the longest edge of each triangle that has farther samples than the tolerance: the largest distance.
@@ -106,7 +110,7 @@ public:
   {
     std::map<std::pair<Vertex_index, Vertex_index>, double> edges;
     for(std::size_t t = 0; t < m_farthest.size(); ++t)
-      if(m_farthest[t] > m_tolerance) {
+      if(m_farthest[t] > m_tolerances_of_triangles[t]) {
         std::pair<double, std::pair<Vertex_index, Vertex_index>> longest{};
         for(int i = 0; i < 3; ++i) {
           const Vertex_index a = m_triangles[t][i], b = m_triangles[t][(i + 1) % 3];
@@ -166,29 +170,29 @@ private:
     return sum / count;
   }
 
-  double threshold() const { return tolerated_share * m_tolerance; }
+  static double threshold(double tolerance) { return tolerated_share * tolerance; }
 
-  // Whether what was at a distance of `threshold() - slack` is still nearer than the threshold.
-  bool is_near(double& slack, const Triangle& t)
+  // Whether what was at a distance of the threshold minus the slack is still nearer than the threshold.
+  bool is_near(double& slack, const Triangle& t, double tolerance)
   {
     slack -= (std::max)({m_moved[t[0]], m_moved[t[1]], m_moved[t[2]]});
     if(!(slack > 0))
       return false;
-    m_largest_distance = (std::max)(m_largest_distance, threshold() - slack);
+    m_largest_distance = (std::max)(m_largest_distance, threshold(tolerance) - slack);
     return true;
   }
 
   // The point of the triangle with barycentric coordinates b should be at `where`, a point of the surface.
   void add(std::size_t number, const std::array<double, 3>& b, const Vec3& shift, const Vec3& where,
-           double share)
+           double share, double tolerance)
   {
     const Triangle& t = m_triangles[number];
-    const double distance = norm(shift), excess = distance - 0.7 * tolerated_share * m_tolerance;
+    const double distance = norm(shift), excess = distance - 0.7 * threshold(tolerance);
     m_largest_distance = (std::max)(m_largest_distance, distance);
     m_farthest[number] = (std::max)(m_farthest[number], distance);
-    if(distance > m_tolerance)
-      m_far_points.emplace_back(distance, where);
-    if(distance < threshold())
+    if(distance > tolerance)
+      m_far_points.emplace_back(distance / tolerance, where);
+    if(distance < threshold(tolerance))
       return;
     for(int i = 0; i < 3; ++i)
       if(b[i] > 0) {
@@ -208,7 +212,7 @@ private:
       return;
     std::vector<std::size_t> asked;
     for(std::size_t i = 0; i < m_samples.size(); ++i)
-      if(!is_near(m_slack_of_samples[i], m_triangles[m_nearest[i]]))
+      if(!is_near(m_slack_of_samples[i], m_triangles[m_nearest[i]], m_samples[i].tolerance))
         asked.push_back(i);
     if(asked.empty())
       return;
@@ -221,12 +225,13 @@ private:
     tree.build();
     auto nearest = std::make_pair(triangles[0][0], triangles.cbegin());
     for(std::size_t i : asked) {
-      const Vec3& s = m_samples[i];
+      const Vec3& s = m_samples[i].point;
       nearest = tree.closest_point_and_primitive(point(s), nearest);
       m_nearest[i] = std::size_t(nearest.second - triangles.cbegin());
       const Vec3 p = to_vec3(nearest.first);
-      m_slack_of_samples[i] = threshold() - norm(s - p);
-      add(m_nearest[i], barycentric_coordinates(m_triangles[m_nearest[i]], p), s - p, s, 1);
+      m_slack_of_samples[i] = threshold(m_samples[i].tolerance) - norm(s - p);
+      add(m_nearest[i], barycentric_coordinates(m_triangles[m_nearest[i]], p), s - p, s, 1,
+          m_samples[i].tolerance);
     }
   }
 
@@ -242,23 +247,24 @@ private:
   }
 
   // On a grid, the finer the larger the triangle is.
-  int number_of_steps(const Triangle& t) const
+  int number_of_steps(const Triangle& t, double tolerance) const
   {
     constexpr double largest = 8;
     double longest = 0;
     for(int i = 0; i < 3; ++i)
       longest = (std::max)(longest, norm(m_mesh.points[t[i]] - m_mesh.points[t[(i + 1) % 3]]));
-    return int((std::min)((std::max)(std::ceil(longest / m_tolerance), 2.), largest));
+    return int((std::min)((std::max)(std::ceil(longest / tolerance), 2.), largest));
   }
 
   void measure_from_boundary()
   {
     for(std::size_t k = 0; k < m_triangles.size(); ++k) {
       const Triangle& t = m_triangles[k];
-      const int n = number_of_steps(t);
-      if(n == m_steps_of_triangles[k] && is_near(m_slack_of_triangles[k], t))
+      const double tolerance = m_tolerances_of_triangles[k];
+      const int n = number_of_steps(t, tolerance);
+      if(n == m_steps_of_triangles[k] && is_near(m_slack_of_triangles[k], t, tolerance))
         continue;
-      m_slack_of_triangles[k] = threshold();
+      m_slack_of_triangles[k] = threshold(tolerance);
       m_steps_of_triangles[k] = n;
       Vec3 hint = m_mesh.points[t[0]];
       const double share = 4. / ((n + 1) * (n + 2) / 2 - 3); // as if it were four samples
@@ -269,8 +275,9 @@ private:
             const Vec3 p = b[0] * m_mesh.points[t[0]]
                            + (b[1] * m_mesh.points[t[1]] + b[2] * m_mesh.points[t[2]]);
             hint = m_project(p, hint, m_strata[k]);
-            m_slack_of_triangles[k] = (std::min)(m_slack_of_triangles[k], threshold() - norm(hint - p));
-            add(k, b, hint - p, hint, share);
+            m_slack_of_triangles[k] = (std::min)(m_slack_of_triangles[k],
+                                                 threshold(tolerance) - norm(hint - p));
+            add(k, b, hint - p, hint, share, tolerance);
           }
     }
   }

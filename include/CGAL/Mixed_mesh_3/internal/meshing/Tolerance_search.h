@@ -40,22 +40,26 @@ class Tolerance_search
   // for the region). Places farther than the first of these multiples of the tolerance are split for: nearer
   // ones the sliding of boundary vertices reaches. The others follow where that takes too much.
   static constexpr int rounds = 6;
-  static constexpr double largest_share = 0.5;
+  static constexpr double largest_share = 0.5, largest_share_of_subdomains = 0.75;
   static constexpr double multiples[] = {1.6, 2, 2.5, 3}, multiples_of_wish[] = {2.5, 3.2, 4};
+  static constexpr int number_of_trials = 5; // of a search for such a multiple
 
   const Octree_& m_root;
   const Mixed_mesh_criteria_3& m_criteria;
   Visitor& m_visitor;
   Mixed_mesh_result_3& m_result;
-  std::vector<Vec3> m_samples;                 // of the surface
+  const bool m_has_subdomains;
+  std::vector<Surface_sample> m_samples;
   std::vector<std::vector<Vec3>> m_far_points; // of the surface, where cells are split
   bool m_is_stopped = false;                   // by the visitor
+  bool m_is_full = false;                      // there is no room for more splits
 
 public:
   /// \param root the octree with nothing but its root
   Tolerance_search(const Octree_& root, const Mixed_mesh_criteria_3& criteria, Visitor& visitor,
                    Mixed_mesh_result_3& result)
-    : m_root(root), m_criteria(criteria), m_visitor(visitor), m_result(result)
+    : m_root(root), m_criteria(criteria), m_visitor(visitor), m_result(result),
+      m_has_subdomains(subdomain_indices(root.domain()).size() > 1)
   {
   }
 
@@ -64,9 +68,14 @@ public:
   /// To be called in the stage `OCTREE`.
   void run()
   {
-    const double limit = largest_share * double(m_criteria.maximal_number_of_vertices());
-    for(const auto& p : m_root.domain().surface_samples(2 * m_result.tolerance))
-      m_samples.push_back(to_vec3(p));
+    const double limit = (m_has_subdomains ? largest_share_of_subdomains : largest_share)
+                         * double(m_criteria.maximal_number_of_vertices());
+    m_samples = tolerances().samples(m_root.domain(),
+                                     [this](Subdomain_index) { return m_result.tolerance / 2; });
+    const auto is_in_region = [&](const Surface_sample& s) { // where cells are split anyway
+      return m_root.region().depth({s.point[0], s.point[1], s.point[2]}) >= 0;
+    };
+    m_samples.erase(std::remove_if(m_samples.begin(), m_samples.end(), is_in_region), m_samples.end());
     Octree_ octree = m_root;
     Candidate candidate = try_base_octree(octree);
     std::size_t best = 0, least_defects = std::size_t(-1); // after how many rounds
@@ -79,7 +88,7 @@ public:
         best = m_far_points.size();
         m_result.number_of_vertices_for_tolerance = candidate.number_of_vertices;
       }
-      if(round == rounds || !split(estimate, limit, octree, candidate))
+      if(round == rounds || m_is_full || !split(estimate, limit, octree, candidate))
         break;
     }
     m_far_points.resize(best);
@@ -102,6 +111,11 @@ public:
   }
 
 private:
+  Surface_tolerances tolerances() const
+  {
+    return {m_root.domain(), m_result.tolerance, m_criteria.maximal_number_of_vertices()};
+  }
+
   Candidate try_base_octree(Octree_& octree)
   {
     if(!refine_to_level(octree, first_base_level(m_criteria), m_criteria.maximal_number_of_vertices()))
@@ -118,10 +132,13 @@ private:
     return m_is_stopped;
   }
 
+  enum class Outcome { NOTHING, FITS, TOO_MANY };
+
   struct Estimate
   {
-    std::vector<std::pair<double, Vec3>> far_points; // of the surface, with their distances
-    std::vector<Vec3> defects;                       // where the surface is too fine for the cells
+    std::vector<std::pair<double, Vec3>> far_points; // of the surface, with their distances in tolerances
+    std::vector<Vec3>
+      defects; // where the boundary folds or cuts itself: the surface is too fine for the cells
     std::size_t number_of_defects;
   };
 
@@ -139,39 +156,82 @@ private:
                                                     projected.strata);
     for(std::size_t i = 0; i < targets.vertices.size(); ++i)
       projected.points[targets.vertices[i]] = targets.positions[i];
-    Surface_attraction attraction(projected, project, m_samples, m_result.tolerance);
-    attraction.set_boundary(boundary);
+    Surface_attraction attraction(projected, project, m_samples);
+    attraction.set_boundary(boundary, [&, tolerance = tolerances()](Stratum s) {
+      return tolerance(strata.interfaces(s)[0].first);
+    });
     attraction.measure();
-    Estimate estimate{attraction.far_points(), {}, targets.number_of_folded_faces};
+    Estimate estimate{attraction.far_points(), {}, 0};
     const std::vector<Vertex_index> crossing = vertices_of_self_intersections(projected.points,
                                                                               boundary.faces);
-    estimate.number_of_defects += crossing.size();
+    // interfaces fold where a part is small, at first: no reason to take splits back
+    estimate.number_of_defects = m_has_subdomains ? 0 : targets.number_of_folded_faces + crossing.size();
     for(const std::vector<Vertex_index>& vertices : {targets.folded_vertices, crossing})
       for(Vertex_index v : vertices)
-        estimate.defects.push_back(projected.points[v]);
+        if(strata.is_on_boundary(projected.strata[v]))
+          estimate.defects.push_back(projected.points[v]);
     return estimate;
   }
 
   // Splits cells at all defects, and at as many far points as fit into the limit, the farthest ones.
+  // \return whether more might be split
   bool split(const Estimate& estimate, double limit, Octree_& octree, Candidate& candidate)
   {
-    const bool is_wish = m_criteria.tolerance() == Mixed_mesh_criteria_3::automatic;
-    for(const double* multiple = is_wish ? std::begin(multiples_of_wish) : std::begin(multiples);
-        multiple != (is_wish ? std::end(multiples_of_wish) : std::end(multiples)); ++multiple) {
+    const auto try_beyond = [&](double multiple) {
       std::vector<Vec3> points = estimate.defects;
       for(const auto& [distance, point] : estimate.far_points)
-        if(distance > *multiple * m_result.tolerance)
+        if(distance > multiple)
           points.push_back(point);
       if(points.empty())
-        return false;
-      m_far_points.push_back(points);
+        return Outcome::NOTHING;
+      const std::size_t before = candidate.number_of_vertices;
+      m_far_points.push_back(std::move(points));
       octree = m_root;
       candidate = try_base_octree(octree);
-      if(candidate.is_stopped || double(candidate.number_of_vertices) <= limit)
-        return true;
+      if(candidate.is_stopped)
+        return Outcome::FITS;
+      if(double(candidate.number_of_vertices) <= limit)
+        return candidate.number_of_vertices == before ? Outcome::NOTHING : Outcome::FITS;
       m_far_points.pop_back();
-    }
+      return Outcome::TOO_MANY;
+    };
+    if(m_has_subdomains)
+      return split_subdomains(estimate, try_beyond);
+    const bool is_wish = m_criteria.tolerance() == Mixed_mesh_criteria_3::automatic;
+    for(const double* multiple = is_wish ? std::begin(multiples_of_wish) : std::begin(multiples);
+        multiple != (is_wish ? std::end(multiples_of_wish) : std::end(multiples)); ++multiple)
+      if(const Outcome outcome = try_beyond(*multiple); outcome != Outcome::TOO_MANY)
+        return outcome == Outcome::FITS;
     return false;
+  }
+
+  // The tolerances of small subdomains are so small that all of their surface may be far: how far is too far is
+  // searched for, by bisection.
+  template <class Try>
+  bool split_subdomains(const Estimate& estimate, const Try& try_beyond)
+  {
+    if(estimate.far_points.empty())
+      return false;
+    double too_near = *std::begin(multiples_of_wish);
+    if(const Outcome outcome = try_beyond(too_near); outcome != Outcome::TOO_MANY)
+      return outcome == Outcome::FITS;
+    double far_enough = std::max_element(estimate.far_points.begin(), estimate.far_points.end())->first;
+    std::vector<Vec3> best;
+    for(int trial = 0; trial < number_of_trials; ++trial) {
+      const double multiple = std::sqrt(too_near * far_enough);
+      if(try_beyond(multiple) == Outcome::TOO_MANY) {
+        too_near = multiple;
+      } else {
+        far_enough = multiple;
+        best = std::move(m_far_points.back());
+        m_far_points.pop_back();
+      }
+    }
+    m_is_full = true;
+    if(best.empty())
+      return false;
+    m_far_points.push_back(std::move(best));
+    return true;
   }
 };
 

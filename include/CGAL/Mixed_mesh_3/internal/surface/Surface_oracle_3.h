@@ -75,6 +75,8 @@ public:
   }
 
   const Bbox_3& bbox() const { return m_bbox; }
+  double area() const;
+  double volume() const;
   std::size_t number_of_facets() const { return m_triangles.size(); }
 
   /// The whole surface, with a point outside as reference: the paper's P_out.

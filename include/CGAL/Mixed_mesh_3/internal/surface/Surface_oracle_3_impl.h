@@ -77,6 +77,23 @@ Surface_oracle_3::build(const std::vector<Point_3>& points,
   m_trees->tree_of_doubles.build();
 }
 
+CGAL_MIXED_MESH_3_INLINE double Surface_oracle_3::area() const
+{
+  double sum = 0;
+  for(const Trees::Doubles::Triangle_3& t : m_trees->triangles)
+    sum += std::sqrt(t.squared_area());
+  return sum;
+}
+
+CGAL_MIXED_MESH_3_INLINE double Surface_oracle_3::volume() const
+{
+  double sum = 0;
+  const Trees::Doubles::Point_3 o = m_trees->triangles.front()[0];
+  for(const Trees::Doubles::Triangle_3& t : m_trees->triangles)
+    sum += CGAL::volume(o, t[0], t[1], t[2]);
+  return std::abs(sum);
+}
+
 CGAL_MIXED_MESH_3_INLINE Bounded_side Surface_oracle_3::bounded_side(const Point_3& p) const
 {
   return (*m_trees->side_of_surface)(p);
