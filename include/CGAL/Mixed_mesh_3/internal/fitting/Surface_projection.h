@@ -86,7 +86,8 @@ private:
   }
 
   // Alternating projections. Between two planes each cycle is shorter than the one before by the square of the
-  // cosine of their angle, so that one cycle tells where they lead.
+  // cosine of their angle, so that one cycle tells where they lead. Where surfaces do not meet nearby, the mean
+  // of the closest points on each.
   Vec3 junction(const Vec3& start, const std::vector<Interface>& interfaces) const
   {
     Vec3 p = closest(start, interfaces[0]);
@@ -96,7 +97,9 @@ private:
       for(auto i = interfaces.begin() + 1; i != interfaces.end(); ++i)
         q = closest(q, *i);
       const double there = norm(q - p);
-      if(there <= 0.1 * accuracy * diagonal() || there > least_progress * last)
+      if(there <= 0.1 * accuracy * diagonal())
+        return p;
+      if(there > least_progress * last)
         break;
       last = there;
       const Vec3 back = closest(q, interfaces[0]);
@@ -104,7 +107,10 @@ private:
       // steep angles only: where surfaces touch, it would lead far away
       p = closest(share > 0.05 ? p + (1 / share) * (back - p) : back, interfaces[0]);
     }
-    return p;
+    Vec3 sum{};
+    for(const Interface& i : interfaces)
+      sum = sum + closest(start, i);
+    return (1. / double(interfaces.size())) * sum;
   }
 };
 

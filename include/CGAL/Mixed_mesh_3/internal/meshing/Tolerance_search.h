@@ -164,12 +164,12 @@ private:
     Estimate estimate{attraction.far_points(), {}, 0};
     const std::vector<Vertex_index> crossing = vertices_of_self_intersections(projected.points,
                                                                               boundary.faces);
-    // interfaces fold where a part is small, at first: no reason to take splits back
-    estimate.number_of_defects = m_has_subdomains ? 0 : targets.number_of_folded_faces + crossing.size();
+    if(m_has_subdomains) // interfaces fold where a part is small, at first; that splits lead to more says nothing
+      return estimate;
+    estimate.number_of_defects = targets.number_of_folded_faces + crossing.size();
     for(const std::vector<Vertex_index>& vertices : {targets.folded_vertices, crossing})
       for(Vertex_index v : vertices)
-        if(strata.is_on_boundary(projected.strata[v]))
-          estimate.defects.push_back(projected.points[v]);
+        estimate.defects.push_back(projected.points[v]);
     return estimate;
   }
 
