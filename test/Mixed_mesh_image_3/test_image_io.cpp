@@ -264,6 +264,66 @@ void test_orientation()
   BOOST_TEST_EQ(difference(read_image(file("image_second.nii")).grid.index_to_world, sform), 0.);
 }
 
+// Numbers that nifti_clib replaces by others: voxels would be read from another place, mean something else,
+// or be elsewhere in the world.
+void test_numbers_of_headers()
+{
+  const float nan = std::nanf(""), infinity = std::numeric_limits<float>::infinity();
+  const auto defect_of = [](const std::function<void(nifti_1_header&)>& change) {
+    nifti_1_header header = small_header();
+    header.sform_code = 0;
+    header.qform_code = 1;
+    change(header);
+    write_bytes(file("image_bad.nii"), header, no_extension + small_voxels);
+    const std::string text = defect(file("image_bad.nii"));
+    swap_nifti_header(&header, 1);
+    write_bytes(file("image_bad.nii"), header, no_extension + small_voxels);
+    BOOST_TEST_EQ(text, defect(file("image_bad.nii")));
+    return text;
+  };
+  const auto refused = [](const std::string& field, const std::string& value, const std::string& expected) {
+    return "cannot be read: its " + field + " is " + value + "; expected " + expected;
+  };
+  BOOST_TEST_EQ(defect_of([](nifti_1_header&) {}), "none");
+  for(const auto& [offset, text] : {std::pair<float, const char*>{nan, "nan"},
+                                    {-1.f, "-1"},
+                                    {1e15f, "1e+15"},
+                                    {348.f, "348"},
+                                    {0.f, "0"},
+                                    {352.5f, "352.5"},
+                                    {infinity, "inf"}})
+    BOOST_TEST_EQ(defect_of([value = offset](nifti_1_header& h) { h.vox_offset = value; }),
+                  refused("vox_offset", text, "an integer from 352 to the size of the file"));
+  BOOST_TEST_EQ(defect_of([](nifti_1_header& h) { h.vox_offset = 353; }),
+                "is truncated: 4 x 3 x 2 voxels expected");
+  struct Field
+  {
+    const char* name;
+    std::function<float&(nifti_1_header&)> value;
+  };
+  for(const Field& field : {Field{"scl_slope", [](nifti_1_header& h) -> float& { return h.scl_slope; }},
+                            {"scl_inter", [](nifti_1_header& h) -> float& { return h.scl_inter; }},
+                            {"pixdim[0]", [](nifti_1_header& h) -> float& { return h.pixdim[0]; }},
+                            {"pixdim[2]", [](nifti_1_header& h) -> float& { return h.pixdim[2]; }},
+                            {"quatern_b", [](nifti_1_header& h) -> float& { return h.quatern_b; }},
+                            {"quatern_d", [](nifti_1_header& h) -> float& { return h.quatern_d; }},
+                            {"qoffset_z", [](nifti_1_header& h) -> float& { return h.qoffset_z; }}}) {
+    BOOST_TEST_EQ(defect_of([&](nifti_1_header& h) { field.value(h) = nan; }),
+                  refused(field.name, "nan", "a finite number"));
+    BOOST_TEST_EQ(defect_of([&](nifti_1_header& h) { field.value(h) = -infinity; }),
+                  refused(field.name, "-inf", "a finite number"));
+  }
+  for(const auto& [size, text] : {std::pair<float, const char*>{0.f, "0"}, {-2.f, "-2"}})
+    BOOST_TEST_EQ(defect_of([value = size](nifti_1_header& h) { h.pixdim[3] = value; }),
+                  refused("pixdim[3]", text, "a size greater than 0"));
+  BOOST_TEST_EQ(defect_of([](nifti_1_header& h) { h.quatern_b = 2; }),
+                refused("quaternion (quatern_b, quatern_c, quatern_d)", "2", "at most 1, its length"));
+  // What does not count may be anything.
+  BOOST_TEST_EQ(defect_of([&](nifti_1_header& h) { h.scl_slope = 0, h.scl_inter = nan; }), "none");
+  BOOST_TEST_EQ(defect_of([&](nifti_1_header& h) { h.qform_code = 0, h.quatern_b = nan; }), "none");
+  BOOST_TEST_EQ(defect_of([&](nifti_1_header& h) { h.pixdim[4] = nan; }), "none");
+}
+
 void test_bad_input()
 {
   const auto defect_of = [](const std::function<void(nifti_1_header&)>& change, const std::string& voxels) {
@@ -289,7 +349,9 @@ void test_bad_input()
                 "has voxels of type DT_UNKNOWN; expected one real number in a voxel");
   BOOST_TEST_EQ(defect_of([](nifti_1_header& h) { h.srow_x[0] = 0; }, small_voxels), "its sform is singular");
   BOOST_TEST_EQ(defect_of([](nifti_1_header& h) { h.srow_x[3] = std::nanf(""); }, small_voxels),
-                "its orientation has entries that are not finite numbers");
+                "cannot be read: its srow_x[3] is nan; expected a finite number");
+  BOOST_TEST_EQ(defect_of([](nifti_1_header& h) { h.srow_x[3] = 1e20f; }, small_voxels),
+                "its orientation has entries that are too large");
   BOOST_TEST_EQ(defect_of([](nifti_1_header& h) { std::memcpy(h.magic, "abc", 4); }, small_voxels),
                 "cannot be read: not a NIfTI image");
   BOOST_TEST_EQ(defect_of([](nifti_1_header& h) { std::memcpy(h.magic, "ni1", 4); }, small_voxels),
@@ -383,6 +445,7 @@ int main(int argc, char** argv)
   fs::create_directories(directory);
   test_round_trips();
   test_orientation();
+  test_numbers_of_headers();
   test_bad_input();
   test_warped_files();
   return boost::report_errors();

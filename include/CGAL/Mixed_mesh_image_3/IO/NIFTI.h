@@ -26,8 +26,10 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <locale>
 #include <memory>
 #include <ostream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -164,6 +166,69 @@ std::string header_defect(const Header& header)
   return std::string();
 }
 
+// A value of a header that is refused, with its name there.
+template <class Number>
+std::string field_defect(const std::string& field, Number value, const std::string& expected)
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << "cannot be read: its " << field << " is " << value << "; expected " << expected;
+  return text.str();
+}
+
+template <class Number>
+std::string finite_field_defect(const std::string& field, const Number* values, int begin, int end)
+{
+  for(int i = begin; i < end; ++i)
+    if(!std::isfinite(values[i]))
+      return field_defect(field + (end == 1 ? std::string() : '[' + std::to_string(i) + ']'), values[i],
+                          "a finite number");
+  return std::string();
+}
+
+// As above for the numbers that say where voxels are, in the file and in the world, and what they mean:
+// nifti_clib replaces those that are not finite or not possible by others. `largest_size` is that of the file.
+template <class Header>
+std::string header_number_defect(const Header& header, double largest_size)
+{
+  const double offset = double(header.vox_offset), first = double(sizeof(Header) + 4);
+  if(!(offset >= first && offset <= largest_size && offset == std::floor(offset)))
+    return field_defect("vox_offset", header.vox_offset,
+                        "an integer from " + std::to_string(sizeof(Header) + 4) + " to the size of the file");
+  std::string defect = finite_field_defect("scl_slope", &header.scl_slope, 0, 1);
+  const auto check = [&](const char* field, const auto* values, int begin, int end) {
+    if(defect.empty())
+      defect = finite_field_defect(field, values, begin, end);
+  };
+  if(header.scl_slope != 0)
+    check("scl_inter", &header.scl_inter, 0, 1);
+  check("pixdim", header.pixdim, 0, 4);
+  if(header.qform_code > 0) {
+    check("quatern_b", &header.quatern_b, 0, 1);
+    check("quatern_c", &header.quatern_c, 0, 1);
+    check("quatern_d", &header.quatern_d, 0, 1);
+    check("qoffset_x", &header.qoffset_x, 0, 1);
+    check("qoffset_y", &header.qoffset_y, 0, 1);
+    check("qoffset_z", &header.qoffset_z, 0, 1);
+  }
+  if(header.sform_code > 0) {
+    check("srow_x", header.srow_x, 0, 4);
+    check("srow_y", header.srow_y, 0, 4);
+    check("srow_z", header.srow_z, 0, 4);
+  }
+  if(!defect.empty() || header.sform_code > 0)
+    return defect;
+  // Voxels' sizes count; and a rotation, whose quaternion is rounded to floats, more or less.
+  for(int i = 1; i <= (std::min)(int(header.dim[0]), 3); ++i)
+    if(!(header.pixdim[i] > 0))
+      return field_defect("pixdim[" + std::to_string(i) + ']', header.pixdim[i], "a size greater than 0");
+  const double length = std::hypot(double(header.quatern_b), double(header.quatern_c),
+                                   double(header.quatern_d));
+  return header.qform_code > 0 && length > 1.001
+           ? field_defect("quaternion (quatern_b, quatern_c, quatern_d)", length, "at most 1, its length")
+           : std::string();
+}
+
 template <class Header, class Convert>
 Nifti_header read_header(const std::string& path, Input_file& file, std::int32_t first, int version,
                          const char* magic, const Convert& convert)
@@ -179,7 +244,9 @@ Nifti_header read_header(const std::string& path, Input_file& file, std::int32_t
   Header native = header;
   if(native.sizeof_hdr != int(sizeof(Header)))
     swap_nifti_header(&native, version);
-  const std::string defect = header_defect(native);
+  std::string defect = header_defect(native);
+  if(defect.empty())
+    defect = header_number_defect(native, file.largest_size());
   if(!defect.empty())
     refuse(path, defect);
   nifti_set_debug_level(0); // or it prints
@@ -226,7 +293,7 @@ inline Voxel_grid_3 read_grid(const std::string& path, const nifti_image& header
       length = std::hypot(length, grid.index_to_world[i][j]);
     }
     if(!(length < 1e15))
-      refuse(path, "its orientation has entries that are not finite numbers");
+      refuse(path, "its orientation has entries that are too large");
     scale *= j < 3 ? length : 1;
   }
   if(!(std::abs(Mixed_meshes_3::determinant(grid.index_to_world)) > 1e-6 * scale))
@@ -410,8 +477,6 @@ inline Voxel_image_3 read_image(const std::string& path)
     image.slope = header.scl_slope;
     image.intercept = header.scl_inter;
   }
-  if(!std::isfinite(image.slope) || !std::isfinite(image.intercept))
-    refuse(path, "its slope or intercept is not a finite number");
 
   const std::size_t count = image.grid.number_of_voxels();
   with_voxel_type(header.datatype, [&](auto zero) {
@@ -443,7 +508,8 @@ integers beyond 2^24 lose digits. Not for several threads at once.
 
 \param path the file
 \param image the result; as it was if the file cannot be read, is truncated or damaged, does not have three
-       dimensions, or has voxels that are not finite real numbers
+       dimensions, has a number in its header that is not finite or not possible (the line names the field),
+       or has voxels that are not finite real numbers
 \param error if not null, receives then a line that names the file and the defect
 \return whether all went well
 */
