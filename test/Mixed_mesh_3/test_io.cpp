@@ -461,6 +461,107 @@ void test_split()
   }
 }
 
+#if defined(__unix__)
+const auto text_writer = [](const std::string& text) {
+  return [text](std::ostream& stream) { return bool(stream << text); };
+};
+
+// Files appear all or none: here the third one cannot, since a folder took its name in the meantime.
+void test_outputs_together(const fs::path& directory)
+{
+  const fs::path place = directory / "together";
+  fs::create_directory(place);
+  const auto path = [&](const char* name) { return (place / name).string(); };
+  std::ofstream(path("old")) << "old";
+  std::string error;
+  {
+    IO::Output_files files;
+    for(const char* name : {"old", "new", "folder"})
+      BOOST_TEST(files.write(path(name), text_writer("content")));
+    fs::create_directory(place / "folder");
+    std::ofstream(path("folder/file")) << "a";
+    BOOST_TEST(!files.commit(&error));
+  }
+  BOOST_TEST(mentions(error, path("folder") + ": cannot replace: "));
+  BOOST_TEST_EQ(contents(path("old")), "old");
+  BOOST_TEST_EQ(number_of_files(place), 2u); // nothing new, nothing left behind
+  fs::remove_all(place / "folder");
+  IO::Output_files files;
+  for(const char* name : {"old", "new", "third"})
+    BOOST_TEST(files.write(path(name), text_writer("content")));
+  BOOST_TEST_EQ(contents(path("old")), "old");
+  BOOST_TEST(files.commit());
+  for(const char* name : {"old", "new", "third"})
+    BOOST_TEST_EQ(contents(path(name)), "content");
+  BOOST_TEST_EQ(number_of_files(place), 3u);
+  fs::remove_all(place);
+}
+
+void test_names_and_modes(const fs::path& directory)
+{
+  const fs::path place = directory / "names";
+  fs::create_directory(place);
+  const auto write = [&](const fs::path& path) {
+    IO::Output_files files;
+    std::string error;
+    if(files.write(path.string(), text_writer("content"), &error))
+      BOOST_TEST(files.commit(&error));
+    return error;
+  };
+  // As long as the system allows, and longer.
+  for(std::size_t length : {1u, 251u, 255u}) {
+    const fs::path path = place / std::string(length, 'a');
+    BOOST_TEST_EQ(write(path), "");
+    BOOST_TEST_EQ(contents(path), "content");
+  }
+  BOOST_TEST(mentions(write(place / std::string(256, 'a')), "File name too long"));
+  // The mode of a file is kept; what nobody else may read is never readable.
+  for(unsigned mode : {0600u, 0640u, 0444u, 0666u}) {
+    const fs::path path = place / "mode";
+    std::ofstream(path) << "old";
+    fs::permissions(path, fs::perms(mode));
+    IO::Output_files files;
+    const auto permissions = [](const fs::path& p) { return unsigned(fs::status(p).permissions()); };
+    BOOST_TEST(files.write(path.string(), [&](std::ostream& stream) {
+      for(const fs::directory_entry& entry : fs::directory_iterator(place))
+        if(entry.path().extension() == ".tmp")
+          BOOST_TEST_EQ(permissions(entry.path()), mode | 0200u);
+      return bool(stream << "content");
+    }));
+    BOOST_TEST(files.commit());
+    BOOST_TEST_EQ(contents(path), "content");
+    BOOST_TEST_EQ(permissions(path), mode);
+    fs::remove(path);
+  }
+  // Links that lead to no file yet are written through; those that go round are refused.
+  fs::create_directory(place / "folder");
+  fs::create_symlink("folder/second", place / "first");
+  fs::create_symlink("third", place / "folder/second");
+  BOOST_TEST_EQ(write(place / "first"), "");
+  BOOST_TEST(fs::is_symlink(place / "first") && fs::is_symlink(place / "folder/second"));
+  BOOST_TEST_EQ(contents(place / "folder/third"), "content");
+  fs::create_symlink("round", place / "round");
+  BOOST_TEST(mentions(write(place / "round"), "Too many levels of symbolic links"));
+  // Stopped while it is written: nothing is left.
+  bool go_on = true;
+  std::string error;
+  {
+    IO::Output_files files([&] { return go_on; });
+    BOOST_TEST(files.write((place / "stopped").string(), text_writer("content")));
+    BOOST_TEST(!files.write((place / "other").string(),
+                            [&](std::ostream& stream) {
+                              stream << std::string(100000, 'a');
+                              go_on = false;
+                              return bool(stream << std::string(100000, 'a'));
+                            },
+                            &error));
+  }
+  BOOST_TEST(mentions(error, "not written: stopped"));
+  BOOST_TEST_EQ(number_of_files(place), 6u);
+  fs::remove_all(place);
+}
+#endif
+
 void test_errors(const fs::path& directory)
 {
   const Mesh mesh = one_of_each_kind();
@@ -524,6 +625,9 @@ void test_errors(const fs::path& directory)
   }
   BOOST_TEST_EQ(contents(old), "old");
   BOOST_TEST_EQ(number_of_files(place), 4u);
+
+  test_outputs_together(place);
+  test_names_and_modes(place);
 
   // A link stays, and what it points to is replaced or, if a device, written to.
   fs::create_symlink("old.vtu", place / "link.vtu");

@@ -19,6 +19,7 @@
 #include <cstddef>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -98,14 +99,34 @@ inline std::optional<Format> format_of(const std::string& path)
 /*!
 \brief Files that appear together, when all of them are complete.
 
-Each is written under another name in its directory; `commit()` renames them. Files not committed are
-removed by the destructor, and what was there before stays.
+Each is written under another, hidden name in its directory; `commit()` renames them, all or none. Files not
+committed are removed by the destructor, and what was there before stays. A file that replaces another one has
+its mode, and its owner and group as far as the system allows; hard links and access control lists go with
+the old one. Symbolic links are followed, also one that leads to no file yet. A device or pipe is written to
+at once.
 */
 class Output_files
 {
   std::deque<std::pair<std::string, internal::Output_file>> m_files;
+  std::function<bool()> m_go_on;
+
+  // What went wrong, and what more goes wrong when the first `n` files are as they were.
+  std::string undo(std::size_t n, std::string reason)
+  {
+    while(n-- != 0) {
+      const std::string defect = internal::with_path(m_files[n].first, m_files[n].second.undo());
+      if(!defect.empty())
+        reason += "; " + defect;
+    }
+    return reason;
+  }
 
 public:
+  Output_files() = default;
+
+  /// \param go_on asked often while files are written; as soon as it returns `false`, `write()` fails
+  explicit Output_files(std::function<bool()> go_on) : m_go_on(std::move(go_on)) {}
+
   /// Writes a file.
   /// \param path the file, once committed
   /// \param write called as `bool(std::ostream&)`; returns whether all went well
@@ -118,16 +139,22 @@ public:
       m_files.emplace_back(std::piecewise_construct, std::make_tuple(path), std::make_tuple(path)).second;
     std::string reason = file.error();
     if(reason.empty())
-      reason = file.write(write);
+      reason = file.write(write, m_go_on);
     return internal::is_success(internal::with_path(path, reason), error);
   }
 
-  /// Gives all files written their names; `write()` says what parameter and result are.
+  /// Gives all files written their names; `write()` says what parameter and result are. If one cannot have its
+  /// name, those before are removed, and what was there is back.
   [[nodiscard]] bool commit(std::string* error = nullptr)
   {
+    for(std::size_t i = 0; i < m_files.size(); ++i) {
+      auto& [path, file] = m_files[i];
+      const std::string defect = internal::with_path(path, file.commit(i + 1 != m_files.size()));
+      if(!defect.empty())
+        return internal::is_success(undo(i + 1, defect), error);
+    }
     for(auto& [path, file] : m_files)
-      if(!internal::is_success(internal::with_path(path, file.commit()), error))
-        return false;
+      file.finish();
     m_files.clear();
     return true;
   }

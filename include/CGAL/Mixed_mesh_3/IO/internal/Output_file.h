@@ -12,10 +12,18 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <ios>
 #include <ostream>
+#include <random>
 #include <string>
 #include <system_error>
 #include <utility>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/stat.h>
+#include <unistd.h>
+#endif
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -27,45 +35,134 @@ inline std::string system_message(int error_number)
   return error_number != 0 ? std::generic_category().message(error_number) : "unknown error";
 }
 
-// Where to write: symbolic links are followed, so that they stay. A device or pipe is written to; a
-// file is replaced by a new one when that is complete.
-class Output_file
+// What a path leads to: other than `weakly_canonical()`, also where a link leads to nothing yet.
+inline std::filesystem::path follow_links(std::filesystem::path path)
 {
-  std::filesystem::path m_target, m_temporary;
-  std::string m_error;
-  bool m_is_direct = false;
+  namespace fs = std::filesystem;
+  std::error_code error;
+  for(int i = 0; i < 40 && fs::is_symlink(fs::symlink_status(path, error)); ++i) { // as many as Linux follows
+    const fs::path next = fs::read_symlink(path, error);
+    if(error)
+      break;
+    path = path.parent_path() / next; // which is `next` if that is absolute
+  }
+  const fs::path target = fs::weakly_canonical(path, error);
+  return error || target.empty() ? path : target;
+}
+
+// A name beside a file that no other has: short, or the file's could not be as long as the system allows.
+inline std::filesystem::path hidden_name_beside(const std::filesystem::path& path)
+{
+  std::random_device random; // names are not part of the output
+  char name[32];
+  std::snprintf(name, sizeof(name), ".%08x%08x.tmp", unsigned(random()), unsigned(random()));
+  return path.parent_path() / name;
+}
+
+// Gives a new file owner and group of the old one as far as the system allows.
+inline void copy_owner(const std::filesystem::path& from, const std::filesystem::path& to)
+{
+#if defined(__unix__) || defined(__APPLE__)
+  struct stat status;
+  if(::stat(from.c_str(), &status) == 0 && ::chown(to.c_str(), status.st_uid, status.st_gid) != 0
+     && ::chown(to.c_str(), uid_t(-1), status.st_gid) != 0)
+    return; // not the user's to give
+#else
+  (void)from, (void)to;
+#endif
+}
+
+// A file to write to, which fails as soon as `go_on()` is false.
+class Stoppable_buffer : public std::filebuf
+{
+  const std::function<bool()>& m_go_on;
+  bool m_is_stopped = false;
+
+  bool go_on()
+  {
+    m_is_stopped = m_is_stopped || (m_go_on && !m_go_on());
+    return !m_is_stopped;
+  }
+
+protected:
+  std::streamsize xsputn(const char* bytes, std::streamsize n) override
+  {
+    return go_on() ? std::filebuf::xsputn(bytes, n) : 0;
+  }
+  int_type overflow(int_type c) override { return go_on() ? std::filebuf::overflow(c) : traits_type::eof(); }
 
 public:
-  explicit Output_file(const std::string& path) : m_target(path)
-  {
-    namespace fs = std::filesystem;
-    std::error_code ignored;
-    fs::path target = fs::weakly_canonical(path, ignored);
-    if(!ignored && !target.empty())
-      m_target = std::move(target);
-    const fs::file_status status = fs::status(m_target, ignored);
-    if(fs::is_directory(status)) {
-      m_error = "is a directory";
-      return;
-    }
-    m_is_direct = fs::exists(status) && !fs::is_regular_file(status);
-    if(m_is_direct)
-      return;
+  explicit Stoppable_buffer(const std::function<bool()>& go_on) : m_go_on(go_on) {}
+  bool is_stopped() const { return m_is_stopped; }
+};
 
-    // Mode "x" creates the file or fails, so that nobody else's file is hit.
-    for(int i = 0; i < 1000; ++i) {
-      fs::path candidate = m_target;
-      candidate += ".tmp" + std::to_string(i);
+// Where to write: symbolic links are followed, so that they stay. A device or pipe is written to; a
+// file is replaced by a new one, with its owner and mode, when that is complete.
+class Output_file
+{
+  std::filesystem::path m_target, m_temporary, m_aside; // the last one: what was there before
+  std::filesystem::perms m_permissions = std::filesystem::perms::unknown;
+  std::string m_error;
+  bool m_is_direct = false, m_is_in_place = false;
+
+  // Mode "x" creates the file or fails, so that nobody else's file is hit.
+  bool create_temporary()
+  {
+    for(int i = 0; i < 10; ++i) {
+      std::filesystem::path candidate = hidden_name_beside(m_target);
       errno = 0;
       if(std::FILE* const file = std::fopen(candidate.string().c_str(), "wbx")) {
         std::fclose(file);
         m_temporary = std::move(candidate);
-        return;
+        return true;
       }
       if(errno != EEXIST)
-        break;
+        return false;
     }
-    m_error = "cannot create a file in its directory: " + system_message(errno);
+    return false;
+  }
+
+  // A second name for what is there: so the first one is never without a file. Some file systems do not
+  // have that; then it gets another name.
+  std::string put_aside()
+  {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    if(!fs::exists(fs::status(m_target, error)))
+      return std::string();
+    const fs::path aside = hidden_name_beside(m_target);
+    fs::create_hard_link(m_target, aside, error);
+    if(error)
+      fs::rename(m_target, aside, error);
+    if(error)
+      return "cannot replace: " + error.message();
+    m_aside = aside;
+    return std::string();
+  }
+
+public:
+  explicit Output_file(const std::string& path) : m_target(follow_links(path))
+  {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    const fs::file_status status = fs::status(m_target, error);
+    if(status.type() == fs::file_type::none) // a name that is too long, links that go round
+      m_error = "cannot be written: " + error.message();
+    else if(fs::is_directory(status))
+      m_error = "is a directory";
+    m_is_direct = fs::exists(status) && !fs::is_regular_file(status);
+    if(!m_error.empty() || m_is_direct)
+      return;
+    if(!create_temporary()) {
+      m_error = "cannot create a file in its directory: " + system_message(errno);
+      return;
+    }
+    if(!fs::exists(status))
+      return;
+    // At once, so that what nobody else may read cannot be read in between.
+    m_permissions = status.permissions();
+    copy_owner(m_target, m_temporary);
+    fs::permissions(m_temporary, m_permissions | fs::perms::owner_write, error);
   }
 
   Output_file(const Output_file&) = delete;
@@ -83,31 +180,71 @@ public:
 
   // Calls `write(stream)`; the result is empty if all of it is in the temporary file.
   template <class Write>
-  std::string write(const Write& write)
+  std::string write(const Write& write, const std::function<bool()>& go_on = {})
   {
     errno = 0;
-    std::ofstream stream(m_is_direct ? m_target : m_temporary, std::ios_base::binary);
-    if(!stream)
+    Stoppable_buffer buffer(go_on);
+    if(buffer.open(m_is_direct ? m_target : m_temporary, std::ios_base::out | std::ios_base::binary)
+       == nullptr)
       return "cannot open: " + system_message(errno);
-    const bool is_written = write(static_cast<std::ostream&>(stream));
+    std::ostream stream(&buffer);
+    const bool is_written = write(stream) && stream;
     const int write_errno = errno;
-    stream.close(); // may find that the disk is full
-    if(!is_written || !stream)
+    const bool is_closed = buffer.close() != nullptr; // may find that the disk is full
+    if(buffer.is_stopped())
+      return "not written: stopped";
+    if(!is_written || !is_closed)
       return "cannot write: " + system_message(is_written ? errno : write_errno);
     return std::string();
   }
 
-  // Gives the temporary file its name; the result is empty if that went well.
-  std::string commit()
+  // Gives the temporary file its name; the result is empty if that went well. With `can_be_undone`, what was
+  // there stays beside it until `finish()`.
+  std::string commit(bool can_be_undone)
   {
     if(m_is_direct)
       return std::string();
     std::error_code error;
+    if(m_permissions != std::filesystem::perms::unknown)
+      std::filesystem::permissions(m_temporary, m_permissions, error);
+    if(can_be_undone) {
+      const std::string defect = put_aside();
+      if(!defect.empty())
+        return defect;
+    }
     std::filesystem::rename(m_temporary, m_target, error);
     if(error)
       return "cannot replace: " + error.message();
     m_temporary.clear();
+    m_is_in_place = true;
     return std::string();
+  }
+
+  // Brings back what was there before `commit(true)`; the result is empty if that went well.
+  std::string undo()
+  {
+    std::error_code error;
+    if(!m_aside.empty())
+      std::filesystem::rename(m_aside, m_target, error);
+    else if(m_is_in_place)
+      std::filesystem::remove(m_target, error);
+    m_is_in_place = false;
+    if(error)
+      return "what was there is now in " + m_aside.string() + ": " + error.message();
+    // Two names of one file are not renamed to each other; this is when it had not been replaced.
+    if(!m_aside.empty())
+      std::filesystem::remove(m_aside, error);
+    m_aside.clear();
+    return std::string();
+  }
+
+  // Removes what was there before.
+  void finish()
+  {
+    std::error_code ignored;
+    if(!m_aside.empty())
+      std::filesystem::remove(m_aside, ignored);
+    m_aside.clear();
   }
 };
 
