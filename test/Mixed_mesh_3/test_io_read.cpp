@@ -412,6 +412,9 @@ void test_errors(const fs::path& directory)
   check(".msh", replaced(msh2, "5 0 0 0", "4 0 0 0"), "two nodes have the number 4");
   check(".msh", replaced(msh2, "5 0 0 0", "5 0 0 1e999"), "\"1e999\" where a number");
   check(".msh", replaced(msh2, "5 0 0 0", "5 0 0 inf"), "vertex 1 has a coordinate");
+  for(const char* large : {"1.1e30", "-1e200", "1e307"})
+    check(".msh", replaced(msh2, "5 0 0 0", std::string("5 0 0 ") + large),
+          "vertex 1 has a coordinate beyond 1e30");
   check(".msh", replaced(msh2, "$Nodes\n6", "$Nodes\n2147483647"), "a count of 2147483647 in $Nodes");
   check(".msh", replaced(msh2, "$Nodes\n6", "$Nodes\n-6"), "a count of -6");
   check(".msh", replaced(msh2, "$Nodes\n6", "$Nodes\n7"), "where a number is expected");

@@ -7,8 +7,10 @@
 
 import hashlib
 import json
+import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import unittest
@@ -111,6 +113,9 @@ HARMLESS_SURFACES = [
 ]
 
 
+NOTHING_WRITTEN = "note: nothing will be written, without --output and --report"
+
+
 class CommandLine(unittest.TestCase):
     def setUp(self):
         shutil.rmtree(WORK, ignore_errors=True)
@@ -131,8 +136,9 @@ class CommandLine(unittest.TestCase):
         before = sorted(WORK.iterdir())
         run = self.mesher(*arguments)
         self.assertEqual(run.returncode, status, run.stderr)
-        if status == 1:
-            self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
+        errors = [line for line in run.stderr.splitlines() if line != NOTHING_WRITTEN]
+        self.assertEqual(len(errors), 1, run.stderr)
+        self.assertTrue(errors[0].startswith("mixed_mesh_3: error: "), run.stderr)
         self.assertIn(str(names), run.stderr)
         self.assertIn(words, run.stderr)
         self.assertEqual(run.stdout, "")
@@ -152,12 +158,15 @@ class CommandLine(unittest.TestCase):
         self.fails(WORK / "directory.off", "--vertices", 500, names="directory.off", words="directory")
 
     def test_bad_budgets(self):
-        for n in ("0", "-5", "many", "1.5", ""):
+        for n in ("0", "-5", "many", "1.5", "1e4", "0x10", "99999999999999999999999", "1000000001", "5\n\x1b[31m"):
             with self.subTest(n):
-                self.fails(self.good, "--vertices", n, names="--vertices", status=2)
+                shown = n.replace("\n", "\\x0a").replace("\x1b", "\\x1b")
+                self.fails(self.good, "--vertices", n, status=2, names="--vertices: expected a whole number from 1 to "
+                           f"1000000000, not {shown}; see --help")
+        self.fails(self.good, "--vertices", "", names="--vertices", status=2)
         self.fails(self.good, "--vertices", 1, "--output", self.output, names="--vertices 1",
                    words="has at least 7 vertices")
-        self.fails(self.good, "--vertices", 10**12, names="--vertices", words="GiB")
+        self.fails(self.good, "--vertices", 10**9, names="--vertices", words="GiB")
         self.fails(self.good, "--vertices", 100, "--base-level", 5, names="--vertices", words="base level 5")
         self.fails(self.good, "--vertices", 100, "--base-level", 10, names="--vertices", words="at least")
         self.fails(self.good, "--vertices", 100, "--base-level", 11, names="--base-level", status=2)
@@ -194,6 +203,61 @@ class CommandLine(unittest.TestCase):
         self.fails(self.file("open2.off", off(CUBE, TRIANGLES[:-1])), "--vertices", 500, "--output",
                    self.output, names="open2.off")
         self.assertEqual(self.output.read_text(), "precious")
+
+    def test_names(self):
+        """What is in names reaches the terminal in one line, without control characters; system errors are ours."""
+        odd = WORK / "a\nb\x1b[31m\u009b31m\u00e9.off"
+        shown = "a\\x0ab\\x1b[31m\\x9b31m\u00e9.off"
+        self.fails(odd, "--vertices", 100, names=shown, words="No such file")
+        self.fails(self.good, "--vertices", 100, "--output", odd, names=shown, words="unknown extension")
+        self.fails(self.good, "--vertices", 100, "--" + odd.name, names=shown, status=2)
+        report = WORK / (odd.name + ".json")
+        run = self.mesher(self.good, "--vertices", 100, "--report", report)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn(f"wrote {WORK / shown}.json\n", run.stdout)
+        long = WORK / ("x" * 300 + ".off")
+        self.fails(long, "--vertices", 100, names=f"{long}: cannot be opened: File name too long")
+        self.fails(self.good, "--vertices", 100, "--report", long, names=f"{long}: ", words="File name too long")
+        loop = WORK / "loop.off"
+        loop.symlink_to(loop)
+        self.fails(loop, "--vertices", 100, names=f"{loop}: cannot be opened: Too many levels of symbolic links")
+
+    def test_nothing_will_be_written(self):
+        run = self.mesher(self.good, "--vertices", 100)
+        self.assertEqual((run.returncode, run.stderr), (0, NOTHING_WRITTEN + "\n"))
+
+    def test_files_that_are_replaced(self):
+        """They keep their modes; a link keeps leading where it leads, also to a file that is not there yet."""
+        self.output.write_text("old")
+        self.output.chmod(0o600)
+        link = WORK / "link.msh"
+        link.symlink_to("target.msh")
+        long = WORK / ("x" * 251 + ".vtu")
+        run = self.mesher(self.good, "--vertices", 100, "--output", self.output, "--output", link, "--output", long)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(self.output.stat().st_mode & 0o777, 0o600)
+        self.assertTrue(link.is_symlink())
+        self.assertGreater((WORK / "target.msh").stat().st_size, 1000)
+        self.assertEqual(self.output.read_bytes(), long.read_bytes())
+
+    def test_interrupted_while_it_writes(self):
+        """The signal comes while a pipe waits for its reader: no file appears, and none is left behind."""
+        pipe = WORK / "pipe.vtu"
+        os.mkfifo(pipe)
+        for number in (signal.SIGINT, signal.SIGTERM):
+            before = sorted(WORK.iterdir())
+            run = subprocess.Popen([MESHER, DATA / "brain.off", "--vertices", "5000", "--output", self.output,
+                                    "--output", pipe], stderr=subprocess.PIPE, stdout=subprocess.PIPE)
+            reader = os.open(pipe, os.O_RDONLY)
+            os.read(reader, 100)
+            self.assertEqual(len(sorted(WORK.iterdir())), len(before) + 1)  # the mesh under its hidden name
+            run.send_signal(number)
+            while os.read(reader, 1 << 16):
+                pass
+            os.close(reader)
+            run.communicate()
+            self.assertEqual(run.returncode, -number)
+            self.assertEqual(sorted(WORK.iterdir()), before)
 
     def test_harmless_surfaces(self):
         for name, contents, words in HARMLESS_SURFACES:

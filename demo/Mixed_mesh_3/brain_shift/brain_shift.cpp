@@ -11,6 +11,7 @@
 
 #include "brain_shift/options.h"
 #include "brain_shift/run.h"
+#include "common/messages.h"
 
 #include <exception>
 #include <iostream>
@@ -23,7 +24,7 @@ int main(int argc, char** argv)
   if(const auto status = parse_command_line(argc, argv, options))
     return *status;
   const auto fail = [](const std::string& what) {
-    std::cerr << "brain_shift: error: " << what << '\n';
+    std::cerr << "brain_shift: error: " << printable(what) << '\n';
     return 1;
   };
   try {

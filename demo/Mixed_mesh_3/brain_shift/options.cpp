@@ -6,6 +6,7 @@
 #include "brain_shift/options.h"
 
 #include "brain_shift/read_control_points.h"
+#include "common/Deferred_signals.h"
 #include "common/command_line.h"
 #include "common/resources.h"
 
@@ -90,11 +91,11 @@ void add_supports(CLI::App& app, Options& o)
 void add_physics(CLI::App& app, Options& o)
 {
   app.add_option("--young-modulus", o.material.young_modulus, "Young's modulus")
-    ->check(number("greater than 0", [](double x) { return x > 0; }))
+    ->check(number("from 1e-9 to 1e12", [](double x) { return x >= 1e-9 && x <= 1e12; }))
     ->type_name("KPA")
     ->capture_default_str();
   app.add_option("--poisson-ratio", o.material.poisson_ratio, "Poisson's ratio")
-    ->check(number("of at least 0 and below 0.5", [](double x) { return x >= 0 && x < 0.5; }))
+    ->check(poisson_ratio())
     ->type_name("NU")
     ->capture_default_str();
   app
@@ -217,7 +218,7 @@ std::optional<int> parse_command_line(int argc, char** argv, Options& options)
   CLI::App app("Computes how a brain shifts from the displacements of some points, before and after a tumor "
                "is resected, and deforms the image with it. Linear elasticity, small strain.");
   set_up(app, options);
-  return parse(app, argc, argv, [&] { check_use(options); });
+  return parse("brain_shift", app, argc, argv, [&] { check_use(options); });
 }
 
 // The names are those of `write_warped_image()`.
@@ -230,8 +231,20 @@ std::vector<std::string> image_outputs(const Options& o)
   return paths;
 }
 
+std::vector<std::string> outputs_of(const Options& o)
+{
+  std::vector<std::string> outputs;
+  for(const auto& paths : {o.outputs, o.deformed_outputs, image_outputs(o)})
+    outputs.insert(outputs.end(), paths.begin(), paths.end());
+  if(!o.report.empty())
+    outputs.push_back(o.report);
+  return outputs;
+}
+
 void check_feasible(const Options& o)
 {
+  // while a temporary file is there to see whether a file can be written
+  const Deferred_signals deferred({SIGINT, SIGTERM, SIGHUP}, Deferred_signals::Second::DEFERRED);
   std::vector<std::string> outputs = o.outputs;
   for(const std::string& path : o.outputs)
     if(mm3::IO::format_of(path) != mm3::IO::Format::VTU)

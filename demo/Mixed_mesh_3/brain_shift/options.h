@@ -42,6 +42,9 @@ std::optional<int> parse_command_line(int argc, char** argv, Options& options);
 /// The images that are written.
 std::vector<std::string> image_outputs(const Options& options);
 
+/// All files that are written.
+std::vector<std::string> outputs_of(const Options& options);
+
 /// Throws if files cannot be written.
 void check_feasible(const Options& options);
 

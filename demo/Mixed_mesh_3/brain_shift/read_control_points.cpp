@@ -82,7 +82,8 @@ constexpr double largest_coordinate = 1e6; // mm: nothing in a body is a kilomet
 
 std::ifstream opened(const std::string& path)
 {
-  if(std::filesystem::is_directory(path))
+  std::error_code ignored; // opening it says more
+  if(std::filesystem::is_directory(path, ignored))
     refuse(path, "is a directory");
   errno = 0;
   std::ifstream file(path, std::ios::binary);

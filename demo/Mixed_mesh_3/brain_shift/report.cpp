@@ -112,16 +112,6 @@ Json describe(const Resection_facts& resection)
           {"elements left", resection.left.elements}};
 }
 
-std::vector<std::string> outputs_of(const Options& o)
-{
-  std::vector<std::string> outputs;
-  for(const auto& paths : {o.outputs, o.deformed_outputs, image_outputs(o)})
-    outputs.insert(outputs.end(), paths.begin(), paths.end());
-  if(!o.report.empty())
-    outputs.push_back(o.report);
-  return outputs;
-}
-
 } // namespace
 
 std::string report(const Options& o, const Outcome& outcome, const Stage_log& log)
@@ -185,5 +175,5 @@ void print_summary(const Options& o, const Outcome& outcome, const Stage_log& lo
   if(!o.image.empty())
     std::cout << "image: " << ms("warp image") << '\n';
   for(const std::string& path : outputs_of(o))
-    std::cout << "wrote " << path << '\n';
+    std::cout << "wrote " << printable(path) << '\n';
 }

@@ -12,7 +12,9 @@
 #include "brain_shift/report.h"
 #include "brain_shift/resection.h"
 #include "brain_shift/simulate.h"
+#include "common/Deferred_signals.h"
 #include "common/Stage_log.h"
+#include "common/messages.h"
 #include "common/resources.h"
 #include "common/write_files.h"
 
@@ -98,7 +100,8 @@ void write_deformed_meshes(mm3::IO::Output_files& files, const Remaining_mesh& r
 void write_files(const Inputs& inputs, const std::vector<bool>& is_removed, const Remaining_mesh& remaining,
                  const Options& o, Stage_log& log, Outcome& outcome)
 {
-  mm3::IO::Output_files files; // appear together, at the end
+  const Deferred_signals deferred({SIGINT, SIGTERM, SIGHUP}, Deferred_signals::Second::DEFERRED);
+  mm3::IO::Output_files files([] { return !Deferred_signals::has_come(); }); // appear together, at the end
   if(!o.image.empty())
     write_images(files, inputs.image, inputs.mesh, inputs.tumor.get(), is_removed, o, log, outcome);
   log("write meshes", [&] {
@@ -117,6 +120,9 @@ void write_files(const Inputs& inputs, const std::vector<bool>& is_removed, cons
 void run(const Options& o)
 {
   check_feasible(o);
+  if(!o.quiet && outputs_of(o).empty())
+    std::cerr << "note: nothing will be written, without --output, --output-deformed, --output-image and "
+                 "--report\n";
   Stage_log log(!o.quiet && isatty(STDERR_FILENO));
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);
@@ -125,7 +131,7 @@ void run(const Options& o)
   write_files(inputs, is_removed, remaining, o, log, outcome);
   log.finish_progress();
   for(const std::string& warning : outcome.warnings)
-    std::cerr << "warning: " << warning << '\n';
+    std::cerr << "warning: " << printable(warning) << '\n';
   if(!o.quiet)
     print_summary(o, outcome, log);
 }

@@ -8,6 +8,8 @@
 #ifndef MIXED_MESH_3_DEMO_COMMON_STAGE_LOG_H
 #define MIXED_MESH_3_DEMO_COMMON_STAGE_LOG_H
 
+#include "common/messages.h"
+
 #include <CGAL/Mixed_mesh_3/Default_visitor.h>
 
 #include <algorithm>
@@ -85,7 +87,8 @@ public:
       return;
     clear_line();
     for(const Stage_cost& cost : m_costs)
-      std::fprintf(stderr, "%9.3f s %6zu MiB  %s\n", cost.seconds, cost.peak_bytes >> 20, cost.name.c_str());
+      std::fprintf(stderr, "%9.3f s %6zu MiB  %s\n", cost.seconds, cost.peak_bytes >> 20,
+                   printable(cost.name).c_str());
   }
 
   /// Largest resident memory of the process since the log was made, in all stages and between them.
@@ -100,7 +103,7 @@ private:
     std::fprintf(stderr, "\r\033[K%7.2f s  ", seconds_since(m_start));
     if(m_number_of_meshes > 1)
       std::fprintf(stderr, "octree %zu to compare: ", m_number_of_meshes);
-    std::fputs(what.c_str(), stderr);
+    std::fputs(printable(what).c_str(), stderr);
   }
 
   void clear_line() const

@@ -5,7 +5,12 @@
 
 #include "common/command_line.h"
 
+#include "common/messages.h"
+
+#include <charconv>
 #include <cmath>
+#include <iostream>
+#include <system_error>
 
 CLI::Validator number(const std::string& wanted, const std::function<bool(double)>& is_valid)
 {
@@ -19,13 +24,36 @@ CLI::Validator number(const std::string& wanted, const std::function<bool(double
     "");
 }
 
-std::optional<int> parse(CLI::App& app, int argc, char** argv, const std::function<void()>& check)
+CLI::Validator poisson_ratio()
+{
+  return number("of at least 0 and at most 0.499999", [](double x) { return x >= 0 && x <= 0.499999; });
+}
+
+CLI::Validator count(std::size_t largest)
+{
+  return CLI::Validator(
+    [=](const std::string& text) {
+      std::size_t n = 0;
+      const char* const end = text.data() + text.size();
+      const std::from_chars_result result = std::from_chars(text.data(), end, n);
+      return result.ec == std::errc() && result.ptr == end && n >= 1 && n <= largest
+               ? std::string()
+               : "expected a whole number from 1 to " + std::to_string(largest) + ", not " + text;
+    },
+    "");
+}
+
+std::optional<int> parse(const char* name, CLI::App& app, int argc, char** argv,
+                         const std::function<void()>& check)
 {
   try {
     app.parse(argc, argv);
     check();
     return std::nullopt;
   } catch(const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
+    if(e.get_exit_code() == 0)
+      return app.exit(e);
+    std::cerr << name << ": error: " << printable(e.what()) << "; see --help\n";
+    return 2;
   }
 }

@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -17,8 +18,16 @@
 /// Accepts numbers for which `is_valid` holds, NaN never.
 CLI::Validator number(const std::string& wanted, const std::function<bool(double)>& is_valid);
 
+/// Accepts whole numbers from 1 on, as they are written without a fraction or an exponent.
+CLI::Validator count(std::size_t largest);
+
+/// Accepts Poisson's ratios: with larger ones, what is left of 1/2 drowns in rounding errors.
+CLI::Validator poisson_ratio();
+
 /// Parses, then calls `check`, which throws a `CLI::ParseError` for wrong use that the parser does not see.
+/// What is wrong becomes one line.
 /// Returns the exit status if the program ends there: help, the version, or wrong use.
-std::optional<int> parse(CLI::App& app, int argc, char** argv, const std::function<void()>& check);
+std::optional<int> parse(const char* name, CLI::App& app, int argc, char** argv,
+                         const std::function<void()>& check);
 
 #endif // MIXED_MESH_3_DEMO_COMMON_COMMAND_LINE_H

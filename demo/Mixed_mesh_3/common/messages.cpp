@@ -5,8 +5,27 @@
 
 #include "common/messages.h"
 
+#include <cstdio>
 #include <iomanip>
 #include <sstream>
+
+std::string printable(const std::string& text)
+{
+  std::string result;
+  for(std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = [&](std::size_t j) { return j < text.size() ? (unsigned char)(text[j]) : 0; };
+    const bool is_second_set = byte(i) == 0xc2 && byte(i + 1) >= 0x80 && byte(i + 1) < 0xa0; // of UTF-8
+    if(byte(i) >= ' ' && byte(i) != 0x7f && !is_second_set) {
+      result += text[i];
+      continue;
+    }
+    i += is_second_set;
+    char code[8];
+    std::snprintf(code, sizeof(code), "\\x%02x", unsigned(byte(i)));
+    result += code;
+  }
+  return result;
+}
 
 std::string rounded(double x)
 {

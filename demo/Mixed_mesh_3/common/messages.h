@@ -12,6 +12,9 @@
 #include <cstddef>
 #include <string>
 
+/// A text for the terminal: in one line, and without control characters, which may be in names of files.
+std::string printable(const std::string& text);
+
 /// A number with three digits.
 std::string rounded(double x);
 

@@ -7,6 +7,7 @@
 // report. Exit status: 0 all checks hold; 1 bad input, or no mesh for it, or a file that cannot be
 // written; 2 wrong use; 3 the mesh failed a check (nothing is written).
 
+#include "common/messages.h"
 #include "mixed_mesh_3/options.h"
 #include "mixed_mesh_3/run.h"
 #include "mixed_mesh_3/verdict.h"
@@ -22,7 +23,7 @@ int main(int argc, char** argv)
   if(const auto status = parse_command_line(argc, argv, options))
     return *status;
   const auto fail = [](const std::exception& e, int status) {
-    std::cerr << "mixed_mesh_3: error: " << e.what() << '\n';
+    std::cerr << "mixed_mesh_3: error: " << printable(e.what()) << '\n';
     return status;
   };
   try {

@@ -5,6 +5,7 @@
 
 #include "mixed_mesh_3/options.h"
 
+#include "common/Deferred_signals.h"
 #include "common/command_line.h"
 #include "common/resources.h"
 
@@ -131,7 +132,7 @@ void add_files(CLI::App& app, Options& o)
     ->type_name("FILE[:W]");
   app.add_option("--vertices", o.vertices, "Vertex budget: the mesh has at most that many vertices")
     ->required()
-    ->check(CLI::PositiveNumber)
+    ->check(count(1000000000)) // of 32-bit indices in files
     ->type_name("N");
   app
     .add_option("--output", o.outputs,
@@ -223,15 +224,13 @@ void add_algorithm_1(CLI::App& app, Options& o, CLI::Option* no_optimize)
                                               {"ldlt", Solver::LDLT},
                                               {"cholmod", Solver::CHOLMOD}};
   const auto at_least_1 = number("of at least 1", [](double x) { return x >= 1; });
-  const auto below_one_half = number("of at least 0 and below 0.5",
-                                     [](double x) { return x >= 0 && x < 0.5; });
   std::vector<CLI::Option*> options{
     app.add_option("--steps", o.steps, "Steps to the surface, the paper's MAX_STEP")
       ->check(CLI::Range(1, 1000))
       ->type_name("N")
       ->capture_default_str(),
     app.add_option("--poisson-ratio", o.poisson_ratio, "Poisson's ratio of the elastic medium")
-      ->check(below_one_half)
+      ->check(poisson_ratio())
       ->type_name("NU")
       ->capture_default_str(),
     app
@@ -315,11 +314,13 @@ std::optional<int> parse_command_line(int argc, char** argv, Options& options)
   CLI::App app("Makes a mixed-element (hexahedra, prisms, pyramids, tetrahedra) finite-element mesh of the "
                "domain inside a closed surface, fine in a region of interest, within a vertex budget.");
   set_up(app, options);
-  return parse(app, argc, argv, [&] { check_options(options); });
+  return parse("mixed_mesh_3", app, argc, argv, [&] { check_options(options); });
 }
 
 void check_feasible(const Options& o)
 {
+  // while a temporary file is there to see whether a file can be written
+  const Deferred_signals deferred({SIGINT, SIGTERM, SIGHUP}, Deferred_signals::Second::DEFERRED);
   std::vector<std::string> inputs{o.surface};
   for(const Region_option& r : o.regions)
     inputs.push_back(r.file);
@@ -335,7 +336,7 @@ void check_feasible(const Options& o)
   // More than measured with 100,000 and 200,000 vertices; a direct solver takes more.
   const double bytes_per_vertex = o.fit() == Fit::ALGORITHM_1 ? 3000 : o.tetrahedra ? 1500 : 1100;
   check_memory("--vertices " + std::to_string(o.vertices) + ":", double(o.vertices) * bytes_per_vertex);
-  if(o.vertices > 1000000000u || (o.tetrahedra && o.vertices > 500000000u))
+  if(o.tetrahedra && o.vertices > 500000000u)
     throw std::runtime_error("--vertices " + std::to_string(o.vertices)
                              + ": more than the 32-bit indices of the files allow");
 }

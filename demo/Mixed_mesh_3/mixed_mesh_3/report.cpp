@@ -5,6 +5,7 @@
 
 #include "mixed_mesh_3/report.h"
 
+#include "common/messages.h"
 #include "common/report_json.h"
 
 #include <CGAL/Mixed_mesh_3/quality_bound.h>
@@ -261,7 +262,7 @@ void print_summary(const Options& o, const Outcome& outcome)
             << outcome.fidelity.ratio_of_volumes() << " times the surface's volume\n"
             << "all checks hold; " << outcome.seconds << " s\n";
   for(const std::string& path : o.outputs)
-    std::cout << "wrote " << path << '\n';
+    std::cout << "wrote " << printable(path) << '\n';
   if(!o.report.empty())
-    std::cout << "wrote " << o.report << '\n';
+    std::cout << "wrote " << printable(o.report) << '\n';
 }

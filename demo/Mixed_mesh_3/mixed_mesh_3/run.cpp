@@ -5,6 +5,7 @@
 
 #include "mixed_mesh_3/run.h"
 
+#include "common/Deferred_signals.h"
 #include "common/Stage_log.h"
 #include "common/messages.h"
 #include "common/read_label_surface.h"
@@ -170,7 +171,8 @@ void write_files(const Mesh& mesh, const Options& o, Stage_log& log, Outcome& ou
 {
   mm3::IO::Write_options write_options;
   write_options.msh_2_2 = o.msh2;
-  mm3::IO::Output_files files; // appear together, at the end
+  const Deferred_signals deferred({SIGINT, SIGTERM, SIGHUP}, Deferred_signals::Second::DEFERRED);
+  mm3::IO::Output_files files([] { return !Deferred_signals::has_come(); }); // appear together, at the end
   for(const std::string& path : o.outputs)
     log("write " + path, [&] { write_mesh(files, path, mesh, write_options); });
   outcome.seconds = log.seconds();
@@ -185,6 +187,8 @@ void write_files(const Mesh& mesh, const Options& o, Stage_log& log, Outcome& ou
 void run(const Options& o)
 {
   check_feasible(o);
+  if(!o.quiet && o.outputs.empty() && o.report.empty())
+    std::cerr << "note: nothing will be written, without --output and --report\n";
   Stage_log log(!o.quiet && isatty(STDERR_FILENO));
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);
@@ -198,7 +202,7 @@ void run(const Options& o)
   write_files(mesh, o, log, outcome);
   log.finish_progress();
   for(const std::string& warning : outcome.warnings)
-    std::cerr << "warning: " << warning << '\n';
+    std::cerr << "warning: " << printable(warning) << '\n';
   if(!o.quiet)
     print_summary(o, outcome);
 }

@@ -63,7 +63,8 @@ struct Linear_elasticity_result_3
           << "other control points or supports in the same element: it misses it by " << distance << " mm";
       break;
     case Linear_elasticity_status::SOLVER_FAILED:
-      out << "the system cannot be solved: parts hang together by a vertex or an edge only";
+      out << "the system cannot be solved: parts hang together by a vertex or an edge only, or elements are "
+             "flat up to rounding";
       break;
     }
     return out.str();

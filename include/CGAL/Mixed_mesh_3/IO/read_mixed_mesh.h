@@ -40,7 +40,7 @@ and names such as "subdomain_2_rest", tell the subdomain, a positive integer; wi
 `write_mixed_mesh()` sorts the elements of a
 `.vtu` file by kind.
 
-The file is checked, but not the mesh: elements may be inverted, or not fit together; see `find_defects()`.
+The file is checked, and coordinates are finite and at most 1e30, but not the mesh: elements may be inverted, or not fit together; see `find_defects()`.
 
 \tparam Mesh a `Mixed_mesh_3`
 \param file the file
@@ -72,6 +72,10 @@ template <class Mesh>
         if(!std::isfinite(x))
           refuse(file,
                  "vertex " + std::to_string(points.size()) + " has a coordinate that is not a finite number");
+        else if(std::abs(x) > internal::largest_coordinate)
+          refuse(file, "vertex " + std::to_string(points.size())
+                         + " has a coordinate beyond 1e30: volumes and "
+                           "areas of its elements would overflow");
       points.emplace_back(p[0], p[1], p[2]);
     }
     if(input.elements.empty())

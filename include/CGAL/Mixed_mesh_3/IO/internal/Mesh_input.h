@@ -43,6 +43,9 @@ struct Mesh_input
 // Vertices and elements are counted in 32 bits, with one value to spare.
 constexpr std::uint64_t largest_mesh_size = 0xfffffffe;
 
+// Of eight lengths the product is a double: squares of what is computed in elements, and of their inverses.
+constexpr double largest_coordinate = 1e30;
+
 /// A part of a file for a message: short, and on one line.
 inline std::string in_quotes(std::string_view text)
 {

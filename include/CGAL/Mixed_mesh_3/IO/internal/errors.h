@@ -10,6 +10,7 @@
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_ERRORS_H
 
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -51,6 +52,8 @@ bool is_read(const std::string& path, std::string* error, const Read& read)
     return is_success(too_large, error);
   } catch(const std::length_error&) {
     return is_success(too_large, error);
+  } catch(const std::filesystem::filesystem_error& e) { // names that are too long, links that go round
+    return is_success(path + ": cannot be opened: " + e.code().message(), error);
   } catch(const std::runtime_error& e) { // ours
     return is_success(e.what(), error);
   } catch(const std::exception& e) { // an assertion of CGAL

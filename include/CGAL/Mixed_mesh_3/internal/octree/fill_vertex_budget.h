@@ -31,6 +31,10 @@ class Budget_search
   static constexpr double full_enough = 0.998, worth_single_cells = 0.99;
   static constexpr std::size_t number_of_single_cells = 24;
 
+  // Cells that meet the domain have a vertex and more each, unless the domain is thinner than they are: along
+  // a spike there may be any number without. Where so many do not fill the budget, more will not.
+  static constexpr double most_cells_for_a_vertex = 8, most_cells_at_least = 1000;
+
   const std::size_t m_budget;
   const Try& m_try;
   Sequence m_sequence;
@@ -66,10 +70,16 @@ private:
     return n;
   }
 
+  bool extend()
+  {
+    const double cells = double(m_sequence.number_of_cells(m_sequence.number_of_steps()));
+    return cells < most_cells_for_a_vertex * double(m_budget) + most_cells_at_least && m_sequence.extend();
+  }
+
   // The first step with so many cells.
   std::size_t steps_for(double cells)
   {
-    while(double(m_sequence.number_of_cells(m_sequence.number_of_steps())) < cells && m_sequence.extend()) {
+    while(double(m_sequence.number_of_cells(m_sequence.number_of_steps())) < cells && extend()) {
     }
     std::size_t low = 0, high = m_sequence.number_of_steps();
     while(low < high) {
@@ -82,10 +92,10 @@ private:
     return low;
   }
 
-  // Extends the sequence as far as needed and there is something to split.
+  // Extends the sequence as far as needed and there is something to split, and not too many cells.
   std::size_t available(std::size_t steps)
   {
-    while(m_sequence.number_of_steps() < steps && m_sequence.extend()) {
+    while(m_sequence.number_of_steps() < steps && extend()) {
     }
     return (std::min)(steps, m_sequence.number_of_steps());
   }
@@ -109,7 +119,7 @@ private:
                                          : steps_for(cells + double(m_budget - n_low) / rate);
       const std::size_t steps = available((std::min)((std::max)(wanted, low + 1), high - 1));
       if(steps <= low)
-        return; // there is nothing left to split
+        return; // there is nothing left to split, or too many cells
       const std::size_t n = attempt(m_sequence.octree(steps));
       if(n <= m_budget) {
         m_steps = steps;

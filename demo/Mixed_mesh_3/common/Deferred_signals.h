@@ -1,0 +1,38 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef MIXED_MESH_3_DEMO_COMMON_DEFERRED_SIGNALS_H
+#define MIXED_MESH_3_DEMO_COMMON_DEFERRED_SIGNALS_H
+
+#include <utility>
+#include <vector>
+
+#include <signal.h>
+
+/// Signals that shall not end the program as long as the object lives: what asks for its end can be put into
+/// order first. One that came, and was not taken, ends the program when the object is destroyed. Those that
+/// are ignored stay so. One object at a time.
+class Deferred_signals
+{
+public:
+  enum class Second { DEFERRED, ENDS };
+
+  /// \param signals what is deferred
+  /// \param second whether a second signal of a kind ends the program at once
+  Deferred_signals(const std::vector<int>& signals, Second second);
+  ~Deferred_signals();
+  Deferred_signals(const Deferred_signals&) = delete;
+  Deferred_signals& operator=(const Deferred_signals&) = delete;
+
+  /// Whether one came.
+  static bool has_come();
+  /// The signal has been obeyed: it does not end the program any more.
+  static void take();
+
+private:
+  std::vector<std::pair<int, struct sigaction>> m_former;
+};
+
+#endif // MIXED_MESH_3_DEMO_COMMON_DEFERRED_SIGNALS_H
