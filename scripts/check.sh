@@ -14,6 +14,8 @@
 #   benchmarks  the benchmarks are built
 #   debug       the examples run with CGAL's assertions and preconditions
 #   sanitize    short tests run with these, AddressSanitizer and UndefinedBehaviorSanitizer
+#   fuzz        targets of libFuzzer, one a reader, run for FUZZ_SECONDS each (default: 12), from test/fuzz/corpus;
+#               what makes one fail is kept in the build directory
 #   cgal61      headers, examples and short tests are built with another CGAL, if CGAL_DIR_61 names the folder
 #               that has its include/CGAL/version.h
 #
@@ -27,7 +29,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/scripts/setup.sh"
 
 build=$(realpath -m "${BUILD_DIR:-$root/build/check}")
-parts=(format shell python layers doc headers benchmarks debug sanitize cgal61)
+parts=(format shell python layers doc headers benchmarks debug sanitize fuzz cgal61)
 
 # The tests that sanitizers run. Not those that read a surface or mesh one: with sanitizers, a compiler takes three
 # minutes and 4 GB for CGAL's polygon meshes. `cmake --preset sanitize` and `ctest --preset sanitize` run all.
@@ -130,6 +132,27 @@ check_sanitize() {
   build "$build/sanitize" "${short_tests[@]}"
   export UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=detect_stack_use_after_return=1
   run_tests "$build/sanitize" -R "^($(IFS='|' && echo "${short_tests[*]}"))\$"
+}
+
+check_fuzz() {
+  local reader work failed=0
+  local -a readers=(VTU MSH NIFTI control_points surface)
+  configure "$build/fuzz" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ -DBUILD_TESTING=OFF \
+    -DMIXED_MESH_3_BUILD_DEMOS=OFF -DMIXED_MESH_3_BUILD_FUZZERS=ON
+  build "$build/fuzz" "${readers[@]/#/fuzz_}"
+  for reader in "${readers[@]}"; do
+    work=$build/fuzz/$reader # what is found new is put there, and not into the corpus
+    mkdir -p "$work"
+    if "$build/fuzz/bin/fuzz_$reader" -max_total_time="${FUZZ_SECONDS:-12}" -timeout=10 -rss_limit_mb=2048 \
+      -max_len=4096 -artifact_prefix="$work-" "$work" "test/fuzz/corpus/$reader" \
+      > "$work.log" 2>&1; then
+      echo "fuzz_$reader: nothing found"
+    else
+      tail -n 40 "$work.log"
+      failed=1
+    fi
+  done
+  [[ $failed -eq 0 ]] || fail "a reader fails: see the files in $build/fuzz"
 }
 
 check_cgal61() {

@@ -30,7 +30,7 @@ packages_for() {
     # An MRI image of a brain, of which data/brain.off is the surface.
     image) echo mricron-data ;;
     # What scripts/check.sh runs besides the compiler.
-    checks) echo clang-format-14 doxygen pyflakes3 shellcheck ;;
+    checks) echo clang clang-format-14 doxygen pyflakes3 shellcheck ;;
     *) fail "unknown purpose '$1': expected build, pictures, tests, image or checks" ;;
   esac
 }

@@ -153,6 +153,16 @@ public:
   }
   unsigned number_of_threads() const { return m_number_of_threads; }
 
+  /// Whether the best mesh so far, if there is one, is kept when the visitor stops the run: valid, within the
+  /// budget, but its boundary may be off the surface; `Mixed_mesh_result_3::has_mesh()` tells. Default: no,
+  /// the mesh is empty then.
+  Mixed_mesh_criteria_3& keep_mesh_if_stopped(bool keep)
+  {
+    m_keep_mesh_if_stopped = keep;
+    return *this;
+  }
+  bool keep_mesh_if_stopped() const { return m_keep_mesh_if_stopped; }
+
 private:
   std::size_t m_maximal_number_of_vertices;
   int m_base_level = automatic;
@@ -160,7 +170,7 @@ private:
   Mixed_meshes_3::Transition_templates_choice m_transition_templates =
     Mixed_meshes_3::Transition_templates_choice::FEWEST_VERTICES;
   Mixed_meshes_3::Boundary_mode m_boundary_mode = Mixed_meshes_3::Boundary_mode::VERTEX_ORDER;
-  bool m_fit_to_surface = true;
+  bool m_fit_to_surface = true, m_keep_mesh_if_stopped = false;
   double m_grading = 0.35;
   double m_share_of_bisections = automatic;
   double m_tolerance = automatic;

@@ -26,9 +26,9 @@ enum class Mixed_mesh_status {
                    ///< or faces of the boundary would cut each other
   BOUNDARY_NOT_MANIFOLD, ///< the boundary is pinched where no further cell can be added
   REGION_NOT_MET,        ///< no mesh: the region does not meet the domain
-  EMPTY,                 ///< no mesh: no octree vertex is inside the domain
+  EMPTY,                 ///< no mesh: no octree vertex is inside the domain, which is too thin for the budget
   BUDGET_TOO_SMALL,      ///< no mesh: the coarsest one has more vertices than the budget
-  STOPPED                ///< no mesh: the visitor said so
+  STOPPED                ///< the visitor said so: no mesh, unless the criteria say that it is kept
 };
 
 /// The one of two statuses that has precedence: what every function of the package decides by.
@@ -94,8 +94,11 @@ struct Mixed_mesh_result_3
   /// What fitting and optimization did; its status is `EMPTY` if they did not run.
   Mixed_mesh_optimization_result_3 optimization;
 
-  /// Whether there is a mesh, and it is what was asked for or as close to it as possible.
-  bool has_mesh() const { return status <= Mixed_mesh_status::BOUNDARY_NOT_MANIFOLD; }
+  bool is_kept = false; ///< whether the mesh is what there was when the visitor stopped the run
+
+  /// Whether there is a mesh, and it is what was asked for or as close to it as possible, or as far as it
+  /// went.
+  bool has_mesh() const { return status <= Mixed_mesh_status::BOUNDARY_NOT_MANIFOLD || is_kept; }
 };
 
 } // namespace CGAL

@@ -19,6 +19,7 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
+#include <CGAL/boost/graph/generators.h>
 
 #include <boost/core/lightweight_test.hpp>
 
@@ -491,6 +492,45 @@ void test_visitor(const Surface& brain, const Surface& region)
     BOOST_TEST_EQ(visitor.begun[int(Stage::ASSEMBLY)], is_in_search ? 0u : 1u);
     BOOST_TEST_EQ(visitor.begun[int(Stage::OPTIMIZATION)], is_in_search ? 0u : 1u);
   }
+
+  // What there is can be kept: valid, and the more the later.
+  std::size_t last = 0, first_kept = 0;
+  for(std::size_t i = 0; i < all.number_of_questions; i += 2) {
+    Recording_visitor visitor;
+    visitor.stop_at = i;
+    const auto stopped = make_mixed_mesh_3(brain, region,
+                                           Mixed_mesh_criteria_3(660).keep_mesh_if_stopped(true), mesh,
+                                           CGAL::parameters::visitor(std::ref(visitor)));
+    BOOST_TEST(stopped.status == Status::STOPPED);
+    BOOST_TEST_EQ(stopped.has_mesh(), stopped.is_kept);
+    BOOST_TEST_EQ(stopped.has_mesh(), !mesh.is_empty());
+    BOOST_TEST_EQ(visitor.number_of_questions, i + 1);
+    BOOST_TEST(visitor.begun == visitor.ended);
+    BOOST_TEST(last == 0 || stopped.has_mesh());
+    BOOST_TEST_LE(mesh.number_of_vertices(), 660u);
+    first_kept += !stopped.has_mesh();
+    if(stopped.has_mesh()) {
+      const Mesh_defects defects = find_defects(mesh);
+      BOOST_TEST(defects.none());
+      last = mesh.number_of_vertices();
+    }
+  }
+  BOOST_TEST(last > 500 && first_kept < result.number_of_trials);
+}
+
+// Along a spike there are cells without vertices, any number of them: their number is bounded.
+void test_spikes()
+{
+  for(double length : {1e3, 1e5, 1e9})
+    for(std::size_t n : {60, 600}) {
+      Surface spike;
+      CGAL::make_tetrahedron(Kernel::Point_3(0, 0, 0), Kernel::Point_3(1, 0, 0), Kernel::Point_3(0, 1, 0),
+                             Kernel::Point_3(0, 0, length), spike);
+      Mesh mesh;
+      const auto result = make_mixed_mesh_3(spike, n, mesh);
+      BOOST_TEST(result.status == Status::EMPTY || result.status >= Status::PARTS_LOST);
+      BOOST_TEST_LE(result.number_of_cells, 9 * n + 2000);
+    }
 }
 
 } // namespace
@@ -524,6 +564,7 @@ int main(int argc, char** argv)
   timed("regions", [&] { test_regions(domain, region_surface); });
   timed("invariance", [&] { test_invariance(brain, region_surface); });
   timed("small budgets", [&] { test_small_budgets(domain, region); });
+  timed("spikes", test_spikes);
   timed("visitor", [&] { test_visitor(brain, region_surface); });
   return boost::report_errors();
 }

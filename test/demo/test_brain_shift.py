@@ -7,6 +7,7 @@
 
 import gzip
 import json
+import os
 import pathlib
 import shutil
 import subprocess
@@ -111,8 +112,9 @@ class BrainShift(unittest.TestCase):
         path.write_bytes(contents if isinstance(contents, bytes) else contents.encode("latin-1"))
         return path
 
-    def shift(self, *arguments):
-        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+    def shift(self, *arguments, **environment):
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120,
+                              env={**os.environ, **environment})
 
     def fails(self, *arguments, names, status=1, words=""):
         """One line on stderr that names the culprit, no output, nothing left behind."""
@@ -130,9 +132,9 @@ class BrainShift(unittest.TestCase):
         path = self.file("these.csv", points)
         self.fails(self.mesh, "--control-points", path, *arguments, names=names or path, words=words)
 
-    def succeeds(self, *arguments):
+    def succeeds(self, *arguments, **environment):
         """The report, and what was printed."""
-        run = self.shift(*arguments, "--report", WORK / "report.json")
+        run = self.shift(*arguments, "--report", WORK / "report.json", **environment)
         self.assertEqual(run.returncode, 0, run.stderr)
         return json.loads((WORK / "report.json").read_text()), run
 
@@ -330,14 +332,16 @@ class BrainShift(unittest.TestCase):
         self.assertEqual([p["used"] for p in told["shift"]["control points"]], [True] * 5)
 
     def test_same_bytes(self):
+        """Also where the environment says that the BLAS shall use several threads."""
         outputs = []
-        for name in ("a", "b"):
+        for name, threads in (("a", "1"), ("b", "1"), ("c", "4")):
             self.succeeds(self.mesh, "--control-points", self.points, "--tumor", self.tumor, "--image", self.image,
                           "--output", WORK / f"{name}.vtu", "--output-deformed", WORK / f"{name}.msh",
-                          "--output-image", WORK / f"{name}")
+                          "--output-image", WORK / f"{name}", OPENBLAS_NUM_THREADS=threads, OMP_NUM_THREADS=threads)
             outputs.append([(WORK / (name + end)).read_bytes() for end in (
                 ".vtu", ".msh", ".nii.gz", "_forward.nii.gz", "_backward.nii.gz", "_mask.nii.gz")])
         self.assertEqual(outputs[0], outputs[1])
+        self.assertEqual(outputs[0], outputs[2])
 
     def test_pictures(self):
         if shutil.which("Xvfb") is None:

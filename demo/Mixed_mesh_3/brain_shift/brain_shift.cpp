@@ -11,6 +11,7 @@
 
 #include "brain_shift/options.h"
 #include "brain_shift/run.h"
+#include "brain_shift/use_one_thread.h"
 #include "common/messages.h"
 
 #include <exception>
@@ -27,6 +28,7 @@ int main(int argc, char** argv)
     std::cerr << "brain_shift: error: " << printable(what) << '\n';
     return 1;
   };
+  use_one_thread();
   try {
     run(options);
     return 0;

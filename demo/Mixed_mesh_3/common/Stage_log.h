@@ -14,11 +14,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <ctime>
 #include <fstream>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <sys/resource.h>
@@ -30,6 +33,14 @@ struct Stage_cost
   double seconds = 0;         // wall clock
   double cpu_seconds = 0;     // of all threads
   std::size_t peak_bytes = 0; // largest resident memory of the process during the stage
+};
+
+/// How a run is expected to go, for the share of it that is over.
+struct Work_plan
+{
+  double search = 0,
+         fit = 0; // shares of the seconds, until the end of the search for an octree, and of fitting
+  std::size_t trials = 1, rounds = 1;
 };
 
 /// Model of `MixedMeshVisitor_3`; also times the stages outside the library.
@@ -52,6 +63,7 @@ public:
 
   void progress(std::size_t number_of_vertices, std::size_t budget)
   {
+    ++m_number_of_trials;
     show("trial of " + std::to_string(number_of_vertices) + " of " + std::to_string(budget) + " vertices");
   }
 
@@ -60,10 +72,30 @@ public:
   {
     if(m_is_running)
       show(m_current + ", round " + std::to_string(++m_round));
-    return true;
+    return !m_is_over || !m_is_over();
   }
 
-  /// Runs `f` as a stage of the given name; returns its result.
+  /// What makes `go_on()` false.
+  void stop_when(std::function<bool()> is_over) { m_is_over = std::move(is_over); }
+
+  /// For progress to be shown as a share of the work, and as the time that is left.
+  void expect(const Work_plan& plan) { m_plan = plan; }
+
+  /// Runs `f` as a stage of the given name, the one that fits the boundary; returns its result.
+  template <class F>
+  auto fit(const std::string& name, const F& f)
+  {
+    m_is_fitting = true;
+    struct Fitted
+    {
+      Stage_log& log;
+      ~Fitted() { log.m_is_fitted = true; }
+    };
+    const Fitted fitted{*this};
+    return (*this)(name, f);
+  }
+
+  /// As above, any other stage.
   template <class F>
   auto operator()(const std::string& name, const F& f)
   {
@@ -100,10 +132,26 @@ private:
   {
     if(!m_show_progress)
       return;
-    std::fprintf(stderr, "\r\033[K%7.2f s  ", seconds_since(m_start));
+    const double seconds = seconds_since(m_start), share = share_of_work();
+    std::fprintf(stderr, "\r\033[K%7.2f s  ", seconds);
+    if(share > 0.05)
+      std::fprintf(stderr, "about %2.0f %%, %.0f s left: ", 100 * share,
+                   std::ceil(seconds * (1 - share) / share));
     if(m_number_of_meshes > 1)
       std::fprintf(stderr, "octree %zu to compare: ", m_number_of_meshes);
     std::fputs(printable(what).c_str(), stderr);
+  }
+
+  // Of a search or a fit that takes longer than expected, two steps are always left.
+  double share_of_work() const
+  {
+    const auto done = [](std::size_t n, std::size_t expected) {
+      return double(n) / double((std::max)(expected, n + 2));
+    };
+    if(m_is_fitted)
+      return m_plan.fit;
+    return m_is_fitting ? m_plan.search + (m_plan.fit - m_plan.search) * done(m_round, m_plan.rounds)
+                        : m_plan.search * done(m_number_of_trials, m_plan.trials);
   }
 
   void clear_line() const
@@ -161,7 +209,10 @@ private:
   std::size_t m_peak = 0;
   std::string m_current;
   bool m_is_running = false;
-  std::size_t m_round = 0, m_number_of_meshes = 0;
+  bool m_is_fitting = false, m_is_fitted = false;
+  std::size_t m_round = 0, m_number_of_meshes = 0, m_number_of_trials = 0;
+  Work_plan m_plan;
+  std::function<bool()> m_is_over;
   std::vector<Stage_cost> m_costs;
 };
 

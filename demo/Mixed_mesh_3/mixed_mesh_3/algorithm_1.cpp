@@ -30,11 +30,6 @@ CGAL::Mixed_mesh_fit_result_3 run_algorithm_1(Mesh& mesh, const CGAL::Polyhedral
   switch(o.solver) {
   case Solver::CG: break; // the library's default, and how it sets it
   case Solver::LDLT: return fit_with(mm3::Simplicial_solver_traits());
-  case Solver::CHOLMOD:
-#ifdef CGAL_MIXED_MESH_3_USE_CHOLMOD
-    return fit_with(mm3::Cholmod_solver_traits());
-#endif
-    break;
   }
   return CGAL::fit_mixed_mesh_to_surface(mesh, domain, criteria, np);
 }

@@ -5,7 +5,8 @@
 //
 // The command-line mesher: from a surface, a region of interest and a vertex budget to mesh files and a
 // report. Exit status: 0 all checks hold; 1 bad input, or no mesh for it, or a file that cannot be
-// written; 2 wrong use; 3 the mesh failed a check (nothing is written).
+// written; 2 wrong use; 3 the mesh failed a check (nothing is written); 4 stopped,
+// what there was is written.
 
 #include "common/messages.h"
 #include "mixed_mesh_3/options.h"
@@ -27,8 +28,7 @@ int main(int argc, char** argv)
     return status;
   };
   try {
-    run(options);
-    return 0;
+    return run(options) ? 0 : 4;
   } catch(const Invalid_mesh& e) {
     return fail(e, 3);
   } catch(const std::bad_alloc&) {

@@ -220,9 +220,7 @@ void add_stages(CLI::App& app, Options& o)
 // The options of the paper's way onto the surface; they need --no-optimize.
 void add_algorithm_1(CLI::App& app, Options& o, CLI::Option* no_optimize)
 {
-  const std::map<std::string, Solver> solvers{{"cg", Solver::CG},
-                                              {"ldlt", Solver::LDLT},
-                                              {"cholmod", Solver::CHOLMOD}};
+  const std::map<std::string, Solver> solvers{{"cg", Solver::CG}, {"ldlt", Solver::LDLT}};
   const auto at_least_1 = number("of at least 1", [](double x) { return x >= 1; });
   std::vector<CLI::Option*> options{
     app.add_option("--steps", o.steps, "Steps to the surface, the paper's MAX_STEP")
@@ -253,9 +251,8 @@ void add_algorithm_1(CLI::App& app, Options& o, CLI::Option* no_optimize)
       ->capture_default_str(),
     app
       .add_option("--solver", o.solver,
-                  "Linear solver: cg (conjugate gradients), ldlt (Eigen's simplicial factorization), or "
-                  "cholmod (SuiteSparse's supernodal one, if built with it)")
-      ->transform(CLI::CheckedTransformer(solvers, CLI::ignore_case).description("{cg,ldlt,cholmod}"))
+                  "Linear solver: cg (conjugate gradients), or ldlt (Eigen's simplicial factorization)")
+      ->transform(CLI::CheckedTransformer(solvers, CLI::ignore_case).description("{cg,ldlt}"))
       ->type_name("SOLVER")
       ->default_str("cg")};
   options.push_back(app
@@ -277,6 +274,13 @@ void set_up(CLI::App& app, Options& o)
   app.add_flag("--msh2", o.msh2, "Write .msh files in Gmsh's format 2.2 instead of 4.1");
   app.add_flag("--tetrahedra", o.tetrahedra,
                "Split all elements to tetrahedra, for solvers without the other kinds");
+  app
+    .add_option(
+      "--time-limit", o.time_limit,
+      "Seconds after which the best mesh so far is checked and written, with exit status 4; as after "
+      "Ctrl-C (default: none)")
+    ->check(number("greater than 0", [](double x) { return x > 0; }))
+    ->type_name("S");
   app.add_flag("--quiet", o.quiet, "Print errors and warnings only");
   app.add_option("--threads", o.threads, "Threads for queries on the surface; the mesh is the same")
     ->check(CLI::Range(1, 256))
@@ -301,10 +305,6 @@ void check_options(Options& o)
          || std::any_of(o.regions.begin(), o.regions.end(),
                         [](const Region_option& r) { return !r.voxels.ranges.empty(); })))
     throw CLI::ValidationError(o.surface, "labels and thresholds need an image: .nii or .nii.gz");
-#ifndef CGAL_MIXED_MESH_3_USE_CHOLMOD
-  if(o.solver == Solver::CHOLMOD)
-    throw CLI::ValidationError("--solver cholmod", "this program was built without CHOLMOD");
-#endif
 }
 
 } // namespace

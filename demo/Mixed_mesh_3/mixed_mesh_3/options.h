@@ -15,6 +15,7 @@
 #include <CGAL/Mixed_mesh_fit_criteria_3.h>
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +23,7 @@
 /// How the boundary gets onto the surface.
 enum class Fit { NONE, OPTIMIZATION, ALGORITHM_1 };
 /// What solves the linear systems of Algorithm 1.
-enum class Solver { CG, LDLT, CHOLMOD };
+enum class Solver { CG, LDLT };
 
 /// A closed surface of a region of interest, and how many times as much an error counts in it.
 struct Region_option
@@ -49,6 +50,7 @@ struct Options
   bool no_fit = false, no_optimize = false, msh2 = false, tetrahedra = false, quiet = false;
   double tolerance = 0; // automatic
   double grading = 0.35;
+  double time_limit = std::numeric_limits<double>::infinity();                          // seconds
   double largest_arc = CGAL::Mixed_mesh_optimization_criteria_3::default_quality_bound; // 0: any
   unsigned threads = 1;
 

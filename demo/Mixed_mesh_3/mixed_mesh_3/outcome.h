@@ -80,6 +80,7 @@ struct Outcome
   std::vector<Surface_facts> regions;
   CGAL::Mixed_mesh_result_3 result;
   CGAL::Mixed_mesh_fit_result_3 algorithm_1;
+  bool is_stopped = false; // by a signal or the limit of time
   Mesh_facts mesh;
   std::size_t elements_in_region = 0, boundary_faces = 0;
   std::optional<Aspect_ratios> before; // the boundary is fitted

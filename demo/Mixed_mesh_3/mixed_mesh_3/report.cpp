@@ -10,6 +10,7 @@
 
 #include <CGAL/Mixed_mesh_3/quality_bound.h>
 
+#include <cmath>
 #include <cstddef>
 #include <iomanip>
 #include <iostream>
@@ -20,7 +21,7 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 namespace {
 
 const char* const fit_names[] = {"none", "optimization", "Algorithm 1"};
-const char* const solver_names[] = {"cg", "ldlt", "cholmod"};
+const char* const solver_names[] = {"cg", "ldlt"};
 
 Json describe(const Surface_facts& s)
 {
@@ -40,6 +41,7 @@ Json describe(const Options& o)
                   o.templates == mm3::Transition_templates_choice::CENTERED ? "centered" : "fewest"},
                  {"fit", fit_names[int(o.fit())]},
                  {"grading", o.grading},
+                 {"time limit", std::isfinite(o.time_limit) ? Json(o.time_limit) : Json()},
                  {"tolerance", o.tolerance > 0 ? Json(o.tolerance) : Json("automatic")},
                  {"max ARC", o.has_quality_bound() ? Json(o.largest_arc) : Json()},
                  {"tetrahedra", o.tetrahedra},

@@ -53,7 +53,10 @@ void refuse(const CGAL::Mixed_mesh_result_3& result, const Options& o)
     throw std::runtime_error(
       o.regions.size() == 1 ? o.regions.front().file + ": the region does not meet the domain of " + o.surface
                             : o.surface + ": none of the regions meets the domain");
-  case Status::STOPPED: throw std::runtime_error("stopped");
+  case Status::STOPPED:
+    if(result.is_kept)
+      return;
+    throw std::runtime_error("stopped before there was a mesh: nothing is written");
   case Status::BOUNDARY_NOT_MANIFOLD:
     throw Invalid_mesh("the boundary is pinched at the border of the root cell; try another --base-level");
   case Status::BUDGET_NOT_FILLED:

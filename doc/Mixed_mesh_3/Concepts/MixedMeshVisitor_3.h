@@ -51,7 +51,7 @@ public:
 
   /// Whether to go on. Asked for each mesh that is tried, when its octree is there and its elements are
   /// not, and before each round of the optimization. After `false` it is not asked again, and the result
-  /// has the status `STOPPED`. The mesh of `CGAL::make_mixed_mesh_3()` is empty then, that of other
-  /// functions valid, as far as it went.
+  /// has the status `STOPPED`. The mesh of `CGAL::make_mixed_mesh_3()` is empty then, unless the criteria say
+  /// `keep_mesh_if_stopped(true)`; that of other functions is valid, as far as it went.
   bool go_on();
 };

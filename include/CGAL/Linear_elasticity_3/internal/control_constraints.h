@@ -213,18 +213,12 @@ private:
       m_augmentation = s.trace() > 0 ? s.trace() / held.trace() : 1;
       s += m_augmentation * m_g * m_g.transpose();
     }
-    find_independent(s);
+    factor_independent(std::move(s));
     const Index size = Index(m_independent.size());
-    Matrix independent(size, size);
     m_g_independent.resize(size, motions);
-    for(Index i = 0; i < size; ++i) {
-      for(Index j = 0; j < size; ++j)
-        independent(i, j) = s(m_independent[std::size_t(i)], m_independent[std::size_t(j)]);
+    for(Index i = 0; i < size; ++i)
       m_g_independent.row(i) = m_g.row(m_independent[std::size_t(i)]);
-    }
     m_eliminated.resize(size, motions);
-    if(size > 0)
-      m_factor.emplace(independent);
     if(motions > 0) {
       if(m_factor)
         m_eliminated = m_factor->solve(m_g_independent);
@@ -232,19 +226,36 @@ private:
     }
   }
 
-  // Cholesky's factorization, which as a rule shows that all constraints are independent; else with pivots,
-  // as long as these are not negligible.
-  void find_independent(Matrix s)
+  // Cholesky's factorization, which as a rule shows that all constraints are independent; else of those that
+  // are. That is what takes the time of many control points: the cube of their number.
+  void factor_independent(Matrix s)
   {
     const Index n = s.rows();
-    const double bound = n > 0 ? dependence * s.diagonal().maxCoeff() : 0;
-    const Eigen::LLT<Matrix> factor(s);
-    if(n == 0
-       || (factor.info() == Eigen::Success && factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() > bound)) {
+    if(n == 0)
+      return;
+    const double bound = dependence * s.diagonal().maxCoeff();
+    m_factor.emplace(s);
+    if(m_factor->info() == Eigen::Success
+       && m_factor->matrixLLT().diagonal().cwiseAbs2().minCoeff() > bound) {
       for(Index i = 0; i < n; ++i)
         m_independent.push_back(i);
       return;
     }
+    m_factor.reset();
+    find_independent(s, bound);
+    const Index size = Index(m_independent.size());
+    Matrix independent(size, size);
+    for(Index i = 0; i < size; ++i)
+      for(Index j = 0; j < size; ++j)
+        independent(i, j) = s(m_independent[std::size_t(i)], m_independent[std::size_t(j)]);
+    if(size > 0)
+      m_factor.emplace(independent);
+  }
+
+  // By Cholesky's factorization with pivots, as long as these are not negligible.
+  void find_independent(Matrix s, double bound)
+  {
+    const Index n = s.rows();
     for(Index step = 0; step < n; ++step) {
       Index pivot = 0;
       const double largest = s.diagonal().maxCoeff(&pivot);

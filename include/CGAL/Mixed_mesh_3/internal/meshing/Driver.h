@@ -81,7 +81,7 @@ public:
       const Scope scope(m_visitor, Stage::ASSEMBLY);
       assemble_mesh(m_octree, m_best.mesh, m_best.boundary, mesh);
     }
-    if(m_criteria.fit_to_surface())
+    if(m_criteria.fit_to_surface() && !m_result.is_kept)
       optimize(mesh);
     note_share_filled(mesh.number_of_vertices());
     return m_result;
@@ -122,7 +122,9 @@ private:
                                      == Mixed_mesh_optimization_status::TOLERANCE_NOT_REACHED;
     if(!is_only_wished)
       m_result.status = worse(m_result.status, status_of(m_result.optimization.status));
-    if(m_result.status == Mixed_mesh_status::STOPPED)
+    m_result.is_kept = m_result.status == Mixed_mesh_status::STOPPED && m_best.is_manifold()
+                       && m_criteria.keep_mesh_if_stopped();
+    if(!m_result.has_mesh())
       mesh.clear();
   }
 
@@ -145,10 +147,12 @@ private:
       const bool is_above = candidate.number_of_vertices > m_criteria.maximal_number_of_vertices();
       if(is_above && step > 0)
         return; // the coarser one, which fits, stays
+      if(candidate.is_stopped && candidate.number_of_vertices == 0) {
+        m_best.is_stopped = true; // so does that one, if there is one
+        return;
+      }
       m_octree = std::move(octree);
       m_best = std::move(candidate);
-      if(m_best.is_stopped)
-        return;
       // without vertices, the last level that had too many tells more
       if(m_best.number_of_vertices != 0 || m_result.number_of_vertices_needed == 0) {
         m_result.base_level = level;
@@ -159,6 +163,8 @@ private:
       const bool is_too_coarse = m_best.number_of_vertices == 0
                                  || double(m_lost.size())
                                       > tolerated_share_of_lost_cells * double(m_result.number_of_cells);
+      if(m_best.is_stopped)
+        return;
       if(is_automatic && is_above && level > coarsest_automatic_base_level)
         step = -1;
       else if(is_automatic && !is_above && step >= 0 && is_too_coarse && level < finest_automatic_base_level)
@@ -212,13 +218,16 @@ private:
         m_result.status = worse(m_result.status, status);
     };
     m_result.status = Status::SUCCESS;
-    note(m_tolerance_search.is_stopped() || m_best.is_stopped, Status::STOPPED);
     note(m_result.number_of_vertices_needed > m_criteria.maximal_number_of_vertices(),
          Status::BUDGET_TOO_SMALL);
     note(n == 0, Status::EMPTY);
     note(!meets_region, Status::REGION_NOT_MET);
     note(!m_best.is_manifold(), Status::BOUNDARY_NOT_MANIFOLD);
     note(!m_lost.empty(), Status::PARTS_LOST);
+    if(m_tolerance_search.is_stopped() || m_best.is_stopped) {
+      m_result.is_kept = m_result.status < Status::BOUNDARY_NOT_MANIFOLD && m_criteria.keep_mesh_if_stopped();
+      m_result.status = Status::STOPPED;
+    }
   }
 
   // Of the whole budget, or of what is not left over for a later optimization.

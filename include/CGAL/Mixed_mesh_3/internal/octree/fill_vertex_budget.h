@@ -56,14 +56,18 @@ private:
   std::size_t size() const { return m_best.number_of_vertices; }
   bool is_done() const { return m_best.is_stopped || size() >= m_budget; }
 
-  // Tries an octree; takes it over if it fits (or the user stops).
+  // Tries an octree; takes it over if it fits.
   std::size_t attempt(Octree_ trial)
   {
     Candidate candidate = m_try(trial);
     const std::size_t n = candidate.number_of_vertices;
-    if(!candidate.is_stopped && !candidate.is_manifold() && m_best.is_manifold())
+    if(candidate.is_stopped) {
+      m_best.is_stopped = true;
+      return m_budget + 1;
+    }
+    if(!candidate.is_manifold() && m_best.is_manifold())
       return m_budget + 1; // rare: another number of cells will do
-    if(candidate.is_stopped || n <= m_budget) {
+    if(n <= m_budget) {
       m_octree = std::move(trial);
       m_best = std::move(candidate);
     }
@@ -153,7 +157,8 @@ private:
 Finds the finest octree of a sequence whose mesh fits the budget.
 
 A candidate is an octree with the mesh made of it. `Candidate::number_of_vertices` is what is bounded;
-`Candidate::is_stopped` tells that the user wants to stop.
+`Candidate::is_stopped` tells that the user wants to stop; the result is the best one before, then, and says
+so, too.
 
 \param octree the located octree to begin with; becomes that of the result
 \param radius see `Refinement_sequence`
