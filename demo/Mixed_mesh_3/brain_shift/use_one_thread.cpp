@@ -11,7 +11,7 @@
 
 void use_one_thread()
 {
-  // Which BLAS there is, and whether there is any, is known when the program runs: Debian lets the user choose.
+  // Which BLAS there is, if any, is known when the program runs: Debian lets the user choose.
   for(const char* name : {"openblas_set_num_threads", "bli_thread_set_num_threads", "MKL_Set_Num_Threads",
                           "omp_set_num_threads"})
     if(void* const function = dlsym(RTLD_DEFAULT, name))

@@ -6,8 +6,8 @@
 #ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_USE_ONE_THREAD_H
 #define MIXED_MESH_3_DEMO_BRAIN_SHIFT_USE_ONE_THREAD_H
 
-/// Makes the BLAS that CHOLMOD uses, and OpenMP, use one thread, whatever the environment says: several add up
-/// sums in another order, and results differ in their last digits.
+/// Makes the BLAS that CHOLMOD uses, and OpenMP, use one thread, whatever the environment says: several may
+/// add up in another order, and results differ in their last digits.
 void use_one_thread();
 
 #endif // MIXED_MESH_3_DEMO_BRAIN_SHIFT_USE_ONE_THREAD_H

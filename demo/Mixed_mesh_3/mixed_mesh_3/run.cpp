@@ -172,7 +172,7 @@ void fit(Mesh& mesh, const Domain& domain, const Options& o, Stage_log& log, Out
     outcome.result.status = CGAL::Mixed_mesh_status::NOT_ALL_ARRIVED;
 }
 
-// Shares of the seconds that the brain takes with 660 to 50,000 vertices, and numbers of its octrees and rounds.
+// As the brain goes with 660 to 50,000 vertices.
 Work_plan plan_for(const Options& o)
 {
   if(o.fit() == Fit::NONE)

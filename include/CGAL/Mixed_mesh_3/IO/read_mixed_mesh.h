@@ -40,7 +40,8 @@ and names such as "subdomain_2_rest", tell the subdomain, a positive integer; wi
 `write_mixed_mesh()` sorts the elements of a
 `.vtu` file by kind.
 
-The file is checked, and coordinates are finite and at most 1e30, but not the mesh: elements may be inverted, or not fit together; see `find_defects()`.
+The file is checked, and coordinates are finite and at most 1e30, but not the mesh: elements may be inverted,
+or not fit together; see `find_defects()`.
 
 \tparam Mesh a `Mixed_mesh_3`
 \param file the file

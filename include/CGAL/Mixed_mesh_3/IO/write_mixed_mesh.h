@@ -143,8 +143,8 @@ public:
     return internal::is_success(internal::with_path(path, reason), error);
   }
 
-  /// Gives all files written their names; `write()` says what parameter and result are. If one cannot have its
-  /// name, those before are removed, and what was there is back.
+  /// Gives all files written their names; `write()` says what parameter and result are. If one cannot have
+  /// its name, those before are removed, and what was there is back.
   [[nodiscard]] bool commit(std::string* error = nullptr)
   {
     for(std::size_t i = 0; i < m_files.size(); ++i) {

@@ -187,7 +187,8 @@ std::string finite_field_defect(const std::string& field, const Number* values, 
 }
 
 // As above for the numbers that say where voxels are, in the file and in the world, and what they mean:
-// nifti_clib replaces those that are not finite or not possible by others. `largest_size` is that of the file.
+// nifti_clib replaces those that are not finite or not possible by others. The file has at most
+// `largest_size` bytes.
 template <class Header>
 std::string header_number_defect(const Header& header, double largest_size)
 {
