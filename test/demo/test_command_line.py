@@ -9,6 +9,7 @@ import hashlib
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -306,6 +307,25 @@ class CommandLine(unittest.TestCase):
         # before there is a mesh
         self.fails(*arguments, "--time-limit", 1e-9, names="stopped before there was a mesh: nothing is written")
         self.fails(*arguments, "--time-limit", 0, names="--time-limit", status=2)
+
+    def test_progress(self):
+        """On a terminal: a share of the work that never falls, and the time that is left."""
+        terminal, stderr = os.openpty()
+        run = subprocess.Popen([MESHER, DATA / "brain.off", "--vertices", "2000", "--output", self.output], stderr=stderr,
+                               stdout=subprocess.DEVNULL)
+        os.close(stderr)
+        text = b""
+        try:
+            while piece := os.read(terminal, 1 << 16):
+                text += piece
+        except OSError:  # the end of a terminal
+            pass
+        os.close(terminal)
+        self.assertEqual(run.wait(), 0)
+        shares = [int(share) for share in re.findall(rb"about +(\d+) %, \d+ s left: ", text)]
+        self.assertGreater(len(shares), 10)
+        self.assertEqual(shares, sorted(shares))
+        self.assertTrue(shares[0] < 15 and 85 < shares[-1] < 100)
 
     def test_spike(self):
         """A vertex far away: no cell is small enough, however many there are."""

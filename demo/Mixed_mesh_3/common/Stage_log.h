@@ -38,8 +38,7 @@ struct Stage_cost
 /// How a run is expected to go, for the share of it that is over.
 struct Work_plan
 {
-  double search = 0,
-         fit = 0; // shares of the seconds, until the end of the search for an octree, and of fitting
+  double search = 0, fit = 0; // at their ends: shares of the seconds
   std::size_t trials = 1, rounds = 1;
 };
 
