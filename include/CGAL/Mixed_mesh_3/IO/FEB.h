@@ -6,6 +6,7 @@
 #ifndef CGAL_MIXED_MESH_3_IO_FEB_H
 #define CGAL_MIXED_MESH_3_IO_FEB_H
 
+#include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
@@ -19,11 +20,32 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace IO {
 
+namespace internal {
+
+// FEBio does not accept empty sections.
+inline void write_FEB_surface(Buffered_output& out, const std::string& name, const std::vector<Face>& faces)
+{
+  if(faces.empty())
+    return;
+  out << "    <Surface name=\"" << name << "\">\n";
+  std::size_t number = 0;
+  for(const Face& face : faces) {
+    const char* const type = face.vertices().size() == 3 ? "tri3" : "quad4";
+    out << "      <" << type << " id=\"" << ++number << "\">";
+    write_vertices(out, face.vertices(), ',');
+    out << "</" << type << ">\n";
+  }
+  out << "    </Surface>\n";
+}
+
+} // namespace internal
+
 /*!
 \brief Writes a mesh as model of FEBio (`.feb`), version 4.0.
 
 The mesh: node set `all`, element sets such as `region_hex8` and `rest_tet4` (of other subdomains than 1
-`subdomain_2_rest_tet4` and so on), surface `boundary` (counter-clockwise seen from outside). FEBio takes no
+`subdomain_2_rest_tet4` and so on), surface `boundary` (counter-clockwise seen from outside) and a surface for
+each facet set, with its name. FEBio takes no
 mesh without materials: there are `region` and `rest`, and those of other subdomains, with numbers to be
 replaced (neo-Hookean, Young's modulus 1, Poisson's ratio 0.45). There are no boundary conditions, loads or
 steps. The numbers of nodes and elements are the indices plus 1.
@@ -31,7 +53,7 @@ steps. The numbers of nodes and elements are the indices plus 1.
 \return whether the stream took everything.
 */
 template <class Mesh>
-bool write_FEB(std::ostream& stream, const Mesh& mesh)
+bool write_FEB(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_set>& facet_sets = {})
 {
   using namespace internal;
   const Element_blocks blocks(mesh);
@@ -72,18 +94,9 @@ bool write_FEB(std::ostream& stream, const Mesh& mesh)
     out << "    </Elements>\n";
   }
 
-  // FEBio does not accept empty sections.
-  if(!mesh.is_empty()) {
-    out << "    <Surface name=\"boundary\">\n";
-    std::size_t number = 0;
-    for(const Face& face : boundary_faces(mesh)) {
-      const char* const type = face.vertices().size() == 3 ? "tri3" : "quad4";
-      out << "      <" << type << " id=\"" << ++number << "\">";
-      write_vertices(out, face.vertices(), ',');
-      out << "</" << type << ">\n";
-    }
-    out << "    </Surface>\n";
-  }
+  write_FEB_surface(out, "boundary", boundary_faces(mesh));
+  for(const Facet_set& set : facet_sets)
+    write_FEB_surface(out, set.name, set.faces);
 
   out << "  </Mesh>\n"
       << "  <MeshDomains>\n";

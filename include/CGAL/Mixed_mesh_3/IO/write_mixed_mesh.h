@@ -7,12 +7,14 @@
 #define CGAL_MIXED_MESH_3_IO_WRITE_MIXED_MESH_H
 
 #include <CGAL/Mixed_mesh_3/IO/FEB.h>
+#include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
 #include <CGAL/Mixed_mesh_3/IO/INP.h>
 #include <CGAL/Mixed_mesh_3/IO/MEDIT.h>
 #include <CGAL/Mixed_mesh_3/IO/MSH.h>
 #include <CGAL/Mixed_mesh_3/IO/VTU.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Output_file.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/facet_sets.h>
 #include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
 
 #include <cmath>
@@ -43,6 +45,8 @@ struct Write_options
   std::vector<Data_array> vertex_data;
   /// Values to write with the mesh; `Format::VTU` only.
   std::vector<Data_array> element_data;
+  /// Named faces of elements, in all formats. `Format::MSH_2_2` and `Format::MEDIT` take no face in two sets.
+  std::vector<Facet_set> facet_sets = {};
 };
 
 namespace internal {
@@ -61,13 +65,14 @@ inline constexpr Extension extensions[] = {{".vtu", Format::VTU},      {".msh", 
 template <class Mesh>
 bool write(std::ostream& stream, const Mesh& mesh, Format format, const Write_options& options)
 {
+  const std::vector<Facet_set>& sets = options.facet_sets;
   switch(format) {
-  case Format::VTU: return write_VTU(stream, mesh, {options.vertex_data, options.element_data});
-  case Format::MSH_4_1: return write_MSH(stream, mesh, MSH_version::V4_1);
-  case Format::MSH_2_2: return write_MSH(stream, mesh, MSH_version::V2_2);
-  case Format::MEDIT: return write_MEDIT(stream, mesh);
-  case Format::INP: return write_INP(stream, mesh);
-  case Format::FEB: return write_FEB(stream, mesh);
+  case Format::VTU: return write_VTU(stream, mesh, {options.vertex_data, options.element_data, sets});
+  case Format::MSH_4_1: return write_MSH(stream, mesh, MSH_version::V4_1, sets);
+  case Format::MSH_2_2: return write_MSH(stream, mesh, MSH_version::V2_2, sets);
+  case Format::MEDIT: return write_MEDIT(stream, mesh, sets);
+  case Format::INP: return write_INP(stream, mesh, sets);
+  case Format::FEB: return write_FEB(stream, mesh, sets);
   }
   return false;
 }
@@ -179,11 +184,18 @@ template <class Mesh>
       if(!std::isfinite(x))
         return refused("the mesh's vertex " + std::to_string(v) + " has no finite position");
 
+  const Format used = options.msh_2_2 && *format == Format::MSH_4_1 ? Format::MSH_2_2 : *format;
+  const bool has_one_number = used == Format::MSH_2_2 || used == Format::MEDIT;
+  const std::string defect = internal::facet_set_defect(mesh, options.facet_sets, has_one_number);
+  if(!defect.empty())
+    return refused(defect);
+
   if(options.tetrahedra) {
     std::vector<Element_index> origins;
     const Mesh tetrahedra = split_to_tetrahedra(mesh, &origins);
     Write_options new_options = options;
     new_options.tetrahedra = false;
+    new_options.facet_sets = internal::split_facet_sets(tetrahedra, origins, options.facet_sets);
     std::vector<std::vector<double>> values;
     values.reserve(options.element_data.size());
     for(Data_array& array : new_options.element_data) {
@@ -197,8 +209,6 @@ template <class Mesh>
     }
     return write_mixed_mesh(files, path, tetrahedra, new_options, error);
   }
-  const Format used = options.msh_2_2 && *format == Format::MSH_4_1 ? Format::MSH_2_2 : *format;
-
   return files.write(
     path, [&](std::ostream& stream) { return internal::write(stream, mesh, used, options); }, error);
 }
