@@ -165,7 +165,7 @@ class BrainShift(unittest.TestCase):
         told, run = self.succeeds(self.mesh, "--control-points", self.points, "--tumor", self.tumor, "--image",
                                   self.image, "--output", WORK / "all.vtu", "--output-deformed", WORK / "left.vtu",
                                   "--output-deformed", WORK / "left.msh", "--output-image", WORK / "all",
-                                  "--interpolation", "linear")
+                                  "--interpolation", "linear", "--field", "nifti")
         self.assertIn("wrote", run.stdout)
         grid, left = self.read(WORK / "all.vtu"), self.read(WORK / "left.vtu")
         displacement = vtk_to_numpy(grid.GetPointData().GetArray("displacement"))
@@ -247,7 +247,8 @@ class BrainShift(unittest.TestCase):
 
     def test_interpolation(self):
         run = lambda name, *more: self.succeeds(self.mesh, "--control-points", self.points, "--control-radius", 8,
-                                                "--image", self.image, "--output-image", WORK / name, *more)[0]
+                                                "--image", self.image, "--output-image", WORK / name, "--field",
+                                                "nifti", *more)[0]
         data = lambda name: np.asarray(nibabel.load(WORK / f"{name}.nii.gz").dataobj)
         told = run("default")
         self.assertEqual(told["parameters"]["interpolation between vertices"], "recovered")
@@ -259,6 +260,65 @@ class BrainShift(unittest.TestCase):
             difference = data("default" + direction) - data("linear" + direction)
             largest = np.linalg.norm(difference[inside], axis=-1).max()
             self.assertTrue(0.05 < largest < 0.2 * told["shift"]["largest displacement"], largest)
+
+    def test_fields(self):
+        """None unless asked for; and what another program makes of them."""
+        arguments = [self.mesh, "--control-points", self.points, "--image", self.image, "--tumor", self.tumor,
+                     "--output-image", WORK / "fields"]
+        written = lambda: sorted(path.name for path in WORK.glob("fields*"))
+        told, _ = self.succeeds(*arguments)
+        self.assertEqual(written(), ["fields.nii.gz", "fields_mask.nii.gz"])
+        self.assertEqual([pathlib.Path(p).name for p in told["outputs"]][:-1], written())
+        told, _ = self.succeeds(*arguments, "--field", "itk", "--field", "nrrd")
+        self.assertEqual(written(), ["fields.nii.gz", "fields_backward.nrrd", "fields_backward_itk.nii.gz",
+                                     "fields_forward.nrrd", "fields_forward_itk.nii.gz", "fields_mask.nii.gz"])
+        self.assertEqual(sorted(pathlib.Path(p).name for p in told["outputs"])[:-1], written())
+        if shutil.which("plastimatch") is None:
+            self.skipTest("no plastimatch")
+        ours, mask = nibabel.load(WORK / "fields.nii.gz").get_fdata(), nibabel.load(WORK / "fields_mask.nii.gz")
+        tissue = np.asarray(mask.dataobj) == 1
+        self.assertGreater(np.abs(ours - self.values)[tissue].max(), 10)
+        for field in ("fields_backward.nrrd", "fields_backward_itk.nii.gz"):
+            output = WORK / "by_plastimatch.nii.gz"
+            subprocess.run(["plastimatch", "convert", "--input", self.image, "--xf", WORK / field, "--output-img",
+                            output, "--output-type", "float", "--algorithm", "itk"], check=True, capture_output=True)
+            self.assertLess(np.abs(nibabel.load(output).get_fdata() - ours)[tissue].max(), 0.01)
+            output.unlink()
+
+    def test_labels(self):
+        """Labels come from the nearest voxel, and keep their type."""
+        labels = np.floor(np.indices(self.values.shape).sum(0) / 5).astype(np.int16) % 7 * 100 - 200
+        nibabel.save(nibabel.Nifti1Image(labels, self.affine), WORK / "labels.nii.gz")
+        arguments = [self.mesh, "--control-points", self.points, "--image", self.image]
+        told, _ = self.succeeds(*arguments, "--labels", WORK / "labels.nii.gz", "--tumor", self.tumor, "--field",
+                                "nifti", "--output-image", WORK / "labeled")
+        self.assertEqual(told["inputs"]["labels"], str(WORK / "labels.nii.gz"))
+        self.assertIn(str(WORK / "labeled_labels.nii.gz"), told["outputs"])
+        after = nibabel.load(WORK / "labeled_labels.nii.gz")
+        mask = np.asarray(nibabel.load(WORK / "labeled_mask.nii.gz").dataobj)
+        self.assertEqual(after.get_data_dtype(), np.int16)
+        after = np.asarray(after.dataobj)
+        self.assertEqual(set(np.unique(after)), set(np.unique(labels)))
+        self.assertTrue(np.all(after[mask == 2] == 0))
+        vectors = np.asarray(nibabel.load(WORK / "labeled_backward.nii.gz").dataobj)[:, :, :, 0]
+        source = np.indices(labels.shape) + np.einsum("ij,xyzj->ixyz", np.linalg.inv(self.affine[:3, :3]), vectors)
+        top = np.array(labels.shape).reshape(3, 1, 1, 1) - 1
+        nearest = np.clip(np.floor(source + 0.5), 0, top).astype(int)
+        sure = (mask != 2) & np.all(np.abs(source - np.floor(source) - 0.5) > 1e-4, axis=0)
+        self.assertTrue(np.array_equal(after[sure], labels[tuple(nearest)][sure]))
+        self.assertGreater(np.count_nonzero(after[sure] != labels[sure]), 300)
+        # bad labels
+        nibabel.save(nibabel.Nifti1Image(labels + np.float32(0.5), self.affine), WORK / "halves.nii")
+        nibabel.save(nibabel.Nifti1Image(labels[1:], self.affine), WORK / "smaller.nii")
+        shifted = self.affine.copy()
+        shifted[0, 3] += 0.1
+        nibabel.save(nibabel.Nifti1Image(labels, shifted), WORK / "shifted.nii")
+        for name, words in (("halves.nii", "is no label; expected integers"),
+                            ("smaller.nii", "does not have the voxels of " + str(self.image)),
+                            ("shifted.nii", "does not have the voxels of"), ("none.nii", "No such file")):
+            with self.subTest(name):
+                self.fails(*arguments, "--output-image", WORK / "no", "--labels", WORK / name, names=WORK / name,
+                           words=words)
 
     def test_rigid_motion_is_exact(self):
         # All control points move alike, nothing is fixed: everything follows.
@@ -335,9 +395,10 @@ class BrainShift(unittest.TestCase):
         for name in ("a", "b"):
             self.succeeds(self.mesh, "--control-points", self.points, "--tumor", self.tumor, "--image", self.image,
                           "--output", WORK / f"{name}.vtu", "--output-deformed", WORK / f"{name}.msh",
-                          "--output-image", WORK / f"{name}")
+                          "--output-image", WORK / f"{name}", "--field", "nifti", "--field", "itk", "--field", "NRRD")
             outputs.append([(WORK / (name + end)).read_bytes() for end in (
-                ".vtu", ".msh", ".nii.gz", "_forward.nii.gz", "_backward.nii.gz", "_mask.nii.gz")])
+                ".vtu", ".msh", ".nii.gz", "_forward.nii.gz", "_backward.nii.gz", "_forward_itk.nii.gz",
+                "_backward_itk.nii.gz", "_forward.nrrd", "_backward.nrrd", "_mask.nii.gz")])
         self.assertEqual(outputs[0], outputs[1])
 
     def test_pictures(self):
@@ -533,7 +594,9 @@ class BrainShift(unittest.TestCase):
                             (["--interpolation", "cubic"], "--interpolation"), (["--max-distance", -1], "--max-distance"),
                             (["--control-compliance", -1], "--control-compliance"),
                             (["--image", self.image], "--output-image"),
-                            (["--output-image", WORK / "no"], "--image")):
+                            (["--output-image", WORK / "no"], "--image"), (["--field", "itk"], "--output-image"),
+                            (["--image", self.image, "--output-image", WORK / "no", "--field", "dicom"], "--field"),
+                            (["--labels", self.image], "--image")):
             with self.subTest(more):
                 self.fails(*(arguments if more else arguments[:1]), *more, names=words, status=2)
         run = self.shift("--version")

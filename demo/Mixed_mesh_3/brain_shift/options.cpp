@@ -57,7 +57,15 @@ CLI::Option* add_inputs(CLI::App& app, Options& o)
     .add_option("--tumor,--tumour", o.tumor,
                 "Closed surface: elements whose centroid is inside are removed, after the shift")
     ->type_name("SURFACE");
-  return app.add_option("--image", o.image, "Image before the shift: .nii or .nii.gz")->type_name("IMAGE");
+  CLI::Option* image = app.add_option("--image", o.image, "Image before the shift: .nii or .nii.gz")
+                         ->type_name("IMAGE");
+  app
+    .add_option(
+      "--labels", o.labels,
+      "Label image on the voxels of --image: is deformed with it, by the nearest voxel: .nii or .nii.gz")
+    ->needs(image)
+    ->type_name("IMAGE");
+  return image;
 }
 
 void add_supports(CLI::App& app, Options& o)
@@ -139,11 +147,25 @@ void add_outputs(CLI::App& app, Options& o, CLI::Option* image)
   CLI::Option* output_image =
     app
       .add_option("--output-image", o.output_image,
-                  "Start of the names of images: PREFIX.nii.gz (deformed), PREFIX_forward.nii.gz, "
-                  "PREFIX_backward.nii.gz (displacements), PREFIX_mask.nii.gz (1 tissue, 2 resected)")
+                  "Start of the names of images: PREFIX.nii.gz (deformed), PREFIX_mask.nii.gz (1 tissue, "
+                  "2 resected), PREFIX_labels.nii.gz with --labels, and the fields of --field")
       ->needs(image)
       ->type_name("PREFIX");
   image->needs(output_image);
+  const std::vector<std::pair<std::string, mm3::IO::Field_format>> formats{
+    {"itk", mm3::IO::Field_format::ITK},
+    {"nifti", mm3::IO::Field_format::NIFTI},
+    {"nrrd", mm3::IO::Field_format::NRRD}};
+  app
+    .add_option(
+      "--field", o.field_formats,
+      "Displacement fields, PREFIX_backward... to deform images with and PREFIX_forward... for points: "
+      "itk (NIfTI with LPS vectors for ITK, ANTs, plastimatch; ..._itk.nii.gz), nifti (RAS vectors; "
+      "....nii.gz), nrrd (3D Slicer; ....nrrd); can be given several times")
+    ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case).description("{itk,nifti,nrrd}"))
+    ->needs(output_image)
+    ->type_name("FORMAT")
+    ->allow_extra_args(false);
   using Interpolation = mm3::Displacement_interpolation;
   const std::vector<std::pair<std::string, Interpolation>> interpolations{{"linear", Interpolation::LINEAR},
                                                                           {"recovered",
@@ -220,13 +242,21 @@ std::optional<int> parse_command_line(int argc, char** argv, Options& options)
   return parse(app, argc, argv, [&] { check_use(options); });
 }
 
-// The names are those of `write_warped_image()`.
+std::string labels_output(const Options& o) { return o.output_image + "_labels.nii.gz"; }
+
+// The names are those of `write_warped_image()`, and that of the labels.
 std::vector<std::string> image_outputs(const Options& o)
 {
   std::vector<std::string> paths;
-  if(!o.output_image.empty())
-    for(const char* name : {"", "_forward", "_backward", "_mask"})
-      paths.push_back(o.output_image + name + ".nii.gz");
+  if(o.output_image.empty())
+    return paths;
+  for(const char* name : {"", "_mask"})
+    paths.push_back(o.output_image + name + ".nii.gz");
+  if(!o.labels.empty())
+    paths.push_back(labels_output(o));
+  for(mm3::IO::Field_format format : o.field_formats)
+    for(const char* name : {"_forward", "_backward"})
+      paths.push_back(o.output_image + name + mm3::IO::end_of_field_name(format));
   return paths;
 }
 
@@ -244,7 +274,7 @@ void check_feasible(const Options& o)
     outputs.push_back(path);
   if(!o.report.empty())
     outputs.push_back(o.report);
-  Output_paths paths({o.mesh, o.control_points, o.control_points_after, o.tumor, o.image});
+  Output_paths paths({o.mesh, o.control_points, o.control_points_after, o.tumor, o.image, o.labels});
   for(const std::string& path : outputs) {
     require([&](std::string* error) { return mm3::IO::check_output_directory(path, error); });
     paths.add(path);

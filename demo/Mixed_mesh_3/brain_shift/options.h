@@ -10,6 +10,7 @@
 
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
 #include <CGAL/Mixed_mesh_3/Recovered_displacement_3.h>
+#include <CGAL/Mixed_mesh_image_3/IO/Field_format.h>
 
 #include <array>
 #include <limits>
@@ -19,7 +20,7 @@
 
 struct Options
 {
-  std::string mesh, control_points, control_points_after, tumor, image, output_image, report,
+  std::string mesh, control_points, control_points_after, tumor, image, labels, output_image, report,
     up = "z", gravity = "0,0,0";
   std::vector<std::string> outputs, deformed_outputs;
   double fixed_below = 0.3, slide_below = 0, slide_beyond = std::numeric_limits<double>::infinity();
@@ -27,6 +28,7 @@ struct Options
   CGAL::Mixed_meshes_3::Elastic_material material;
   CGAL::Mixed_meshes_3::Displacement_interpolation interpolation =
     CGAL::Mixed_meshes_3::Displacement_interpolation::RECOVERED;
+  std::vector<CGAL::Mixed_meshes_3::IO::Field_format> field_formats;
   bool quiet = false;
 
   // of the two texts
@@ -38,6 +40,9 @@ struct Options
 
 /// Returns the exit status if the program ends with its command line: help, the version, or wrong use.
 std::optional<int> parse_command_line(int argc, char** argv, Options& options);
+
+/// The label image that is written.
+std::string labels_output(const Options& options);
 
 /// The images that are written.
 std::vector<std::string> image_outputs(const Options& options);

@@ -135,7 +135,8 @@ std::string report(const Options& o, const Outcome& outcome, const Stage_log& lo
                          o.control_points_after.empty() ? Json() : Json(o.control_points_after)},
                         {"number", outcome.points.size()}}},
                       {"tumor", outcome.tumor ? describe(*outcome.tumor) : Json()},
-                      {"image", outcome.image ? describe(*outcome.image, o) : Json()}};
+                      {"image", outcome.image ? describe(*outcome.image, o) : Json()},
+                      {"labels", o.labels.empty() ? Json() : Json(o.labels)}};
   report["parameters"] = parameters_of(o);
   report["units"] = {{"lengths", "mm"},
                      {"areas", "mm^2"},

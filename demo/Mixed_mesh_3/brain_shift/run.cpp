@@ -34,7 +34,7 @@ struct Inputs
 {
   Mesh mesh;
   std::unique_ptr<const Tumor> tumor; // null if there is none
-  mm3::Voxel_image_3 image;           // empty if there is none
+  mm3::Voxel_image_3 image, labels;   // empty if there is none
 };
 
 Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
@@ -56,6 +56,8 @@ Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
     });
   if(!o.image.empty())
     inputs.image = log("read image", [&] { return read_image(o, inputs.mesh, outcome); });
+  if(!o.labels.empty())
+    inputs.labels = log("read labels", [&] { return read_labels(o, inputs.image.grid); });
   return inputs;
 }
 
@@ -100,7 +102,8 @@ void write_files(const Inputs& inputs, const std::vector<bool>& is_removed, cons
 {
   mm3::IO::Output_files files; // appear together, at the end
   if(!o.image.empty())
-    write_images(files, inputs.image, inputs.mesh, inputs.tumor.get(), is_removed, o, log, outcome);
+    write_images(files, inputs.image, inputs.labels, inputs.mesh, inputs.tumor.get(), is_removed, o, log,
+                 outcome);
   log("write meshes", [&] {
     write_meshes(files, inputs.mesh, is_removed, o, outcome);
     write_deformed_meshes(files, remaining, o, outcome);
