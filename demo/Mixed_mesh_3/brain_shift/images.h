@@ -22,8 +22,8 @@
 /// \throw std::runtime_error a line naming the file and the defect: it has to overlap the mesh, for one
 CGAL::Mixed_meshes_3::Voxel_image_3 read_image(const Options& options, const Mesh& mesh, Outcome& outcome);
 
-/// \throw std::runtime_error a line naming the file and the defect: it has to have the voxels of the image, and
-///        integers
+/// \throw std::runtime_error a line naming the file and the defect: it has to have the voxels of the image,
+///        and integers
 CGAL::Mixed_meshes_3::Voxel_image_3 read_labels(const Options& options,
                                                 const CGAL::Mixed_meshes_3::Voxel_grid_3& grid);
 

@@ -140,8 +140,8 @@ inline float interpolate(const Voxel_image_3& image, const std::array<double, 3>
   return a + t[2] * (b - a);
 }
 
-/// The value of the voxel nearest to a point, in indices; of equally near ones that of larger index. Outside the
-/// image it is the value of the voxel nearest to it.
+/// The value of the voxel nearest to a point, in indices; of equally near ones that of larger index. Outside
+/// the image it is the value of the voxel nearest to it.
 inline float nearest_value(const Voxel_image_3& image, const std::array<double, 3>& p)
 {
   std::size_t voxel[3];
