@@ -283,6 +283,11 @@ std::size_t number_of_boundary_faces(const Mesh& mesh, int size)
 // Whether facet sets can share faces in the format.
 bool can_share_faces(const std::string& extension) { return extension != ".msh2" && extension != ".mesh"; }
 
+bool can_have_vertex_data(const std::string& extension)
+{
+  return extension != ".inp" && extension != ".mesh";
+}
+
 class Expectations
 {
   fs::path m_directory;
@@ -294,7 +299,7 @@ public:
     m_json << std::setprecision(17) << "[";
   }
 
-  // Writes the mesh in all formats, twice, and what readers must find.
+  // Writes the mesh in all formats, twice, and what readers must find. Vertex data are the positions.
   void write(const std::string& name, const Mesh& mesh,
              const IO::Write_options& vtu_options = IO::Write_options(),
              const std::vector<IO::Facet_set>& facet_sets = {}, bool share_faces = false)
@@ -305,6 +310,8 @@ public:
       const std::string path = (m_directory / (name + extension)).string();
       IO::Write_options options = std::string(extension) == ".vtu" ? vtu_options : IO::Write_options();
       options.facet_sets = facet_sets;
+      if(can_have_vertex_data(extension))
+        options.vertex_data = vtu_options.vertex_data;
       BOOST_TEST(IO::check_output_path(path));
       BOOST_TEST(IO::write_mixed_mesh(path, mesh, options));
       const std::string first = contents(path);
@@ -317,8 +324,9 @@ public:
       region += mesh.is_in_region(e);
     const auto counts = mesh.elements().counts();
     m_json << (m_json.str().size() > 1 ? ",\n" : "\n") << " {\"name\": \"" << name
-           << "\", \"share_faces\": " << (share_faces ? "true" : "false")
-           << ", \"vertices\": " << mesh.number_of_vertices() << ", \"kinds\": [" << counts[0] << ", "
+           << "\", \"share_faces\": " << (share_faces ? "true" : "false") << ", \"vertex_data\": \""
+           << (vtu_options.vertex_data.empty() ? "" : vtu_options.vertex_data.front().name)
+           << "\", \"vertices\": " << mesh.number_of_vertices() << ", \"kinds\": [" << counts[0] << ", "
            << counts[1] << ", " << counts[2] << ", " << counts[3] << "], \"region\": " << region
            << ", \"triangles\": " << number_of_boundary_faces(mesh, 3)
            << ", \"quadrilaterals\": " << number_of_boundary_faces(mesh, 4)
@@ -506,6 +514,24 @@ void test_writers(const fs::path& directory)
   IO::Write_options with_data;
   with_data.vertex_data = {{"position & <copy>", &positions, 3}};
   with_data.element_data = {{"element", &element_numbers}};
+  // A vertex without an element keeps its values where it is written.
+  Mesh with_loose_vertex = cells;
+  with_loose_vertex.add_vertex(Point(7, 8, 9));
+  std::vector<double> more_positions = positions;
+  more_positions.insert(more_positions.end(), {7, 8, 9});
+  for(const char* extension : {".msh", ".msh2", ".feb"}) {
+    IO::Write_options loose;
+    loose.vertex_data = {{"position", &more_positions, 3}};
+    const fs::path path = directory / (std::string("io_loose") + extension);
+    BOOST_TEST(IO::write_mixed_mesh(path.string(), with_loose_vertex, loose));
+    BOOST_TEST_EQ(contents(path).find("7 8 9\n") != std::string::npos, std::string(extension) == ".msh2");
+    Mesh read;
+    if(std::string(extension) != ".feb") {
+      BOOST_TEST(IO::read_mixed_mesh(path.string(), read));
+      BOOST_TEST_EQ(read.number_of_elements(), cells.number_of_elements());
+    }
+    fs::remove(path);
+  }
   expectations.write("io_grid", cells, with_data);
   expectations.write("io_tetrahedra", split_to_tetrahedra(cells));
   test_facet_sets(expectations, directory, cells);
@@ -639,6 +665,15 @@ void test_errors(const fs::path& directory)
   IO::Write_options options;
   options.vertex_data = {{"data", &values}};
   BOOST_TEST(mentions(write_error(old.string(), mesh, options), "size of the mesh"));
+  BOOST_TEST(mentions(write_error((place / "old.msh").string(), mesh, options), "size of the mesh"));
+  for(const char* name : {"old.inp", "old.mesh"})
+    BOOST_TEST(mentions(write_error((place / name).string(), mesh, options), "to .msh and .feb, only"));
+  options.vertex_data = {{"data", &values, 2}};
+  BOOST_TEST(mentions(write_error((place / "old.feb").string(), mesh, options), "to .msh and .feb, only"));
+  options.vertex_data = {{"da\"ta", &values}};
+  BOOST_TEST(mentions(write_error((place / "old.msh").string(), mesh, options), "to .msh and .feb, only"));
+  options.vertex_data.clear();
+  options.element_data = {{"data", &values}};
   BOOST_TEST(mentions(write_error((place / "old.msh").string(), mesh, options), ".vtu only"));
   std::ostringstream stream;
   BOOST_TEST(!IO::write_VTU(stream, mesh, {{{"data", &values}}, {}}));

@@ -256,6 +256,14 @@ def check_msh(path, version, expected):
                 if dim == 3:
                     check(list(gmsh.model.getAdjacencies(3, tag)[1]) == [3], path, "boundary of", tag)
     check_faces(path, expected, points, faces, has_one_number=version == 2.2)
+    views = {gmsh.option.getString("View[%d].Name" % gmsh.view.getIndex(tag)): tag for tag in gmsh.view.getTags()}
+    check(list(views) == [expected["vertex_data"]] * bool(expected["vertex_data"]), path, "views", list(views))
+    for tag in views.values():
+        kind, tags, data, _, components = gmsh.view.getModelData(tag, 0)
+        check(kind == "NodeData" and components == 3 and len(tags) == n, path, "view", kind, components)
+        check(np.array_equal(np.asarray(data), np.asarray(expected["points"])[np.asarray(tags, int) - 1]), path,
+              "values at the vertices")
+        gmsh.view.remove(tag)
 
 
 def check_boundary(path, expected, points, faces):
@@ -355,7 +363,8 @@ def check_inp(path, expected):
 def check_feb(path, expected):
     root = ElementTree.parse(path).getroot()
     check(root.tag == "febio_spec" and root.get("version") == "4.0", path, "root")
-    check([c.tag for c in root] == ["Module", "Material", "Mesh", "MeshDomains"], path, "sections")
+    sections = ["Module", "Material", "Mesh", "MeshDomains"] + ["MeshData"] * bool(expected["vertex_data"])
+    check([c.tag for c in root] == sections, path, "sections")
     mesh = root.find("Mesh")
     points = [[float(w) for w in node.text.split(",")] for node in mesh.find("Nodes")]
     domains = {d.get("name"): d.get("mat") for d in root.find("MeshDomains")}
@@ -376,6 +385,10 @@ def check_feb(path, expected):
         check(all(len(f) == {"tri3": 3, "quad4": 4}[x.tag]
                   for f, x in zip(faces[surface.get("name")], surface)), path, "types of faces")
     check_faces(path, expected, points, faces, has_one_number=False)
+    for data in root.findall("MeshData/NodeData"):
+        check(data.attrib == {"name": expected["vertex_data"], "node_set": "all", "data_type": "vec3"}, path, "data")
+        check([node.get("lid") for node in data] == [str(i + 1) for i in range(len(points))], path, "lists of nodes")
+        check([[float(w) for w in node.text.split(",")] for node in data] == points, path, "values at the vertices")
 
 
 def main():

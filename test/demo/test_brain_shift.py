@@ -12,6 +12,7 @@ import shutil
 import subprocess
 import sys
 import unittest
+import xml.etree.ElementTree as ElementTree
 
 MESHER, PROGRAM, DATA, WORK = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
 
@@ -368,6 +369,165 @@ class BrainShift(unittest.TestCase):
         other, _ = self.succeeds(self.mesh, "--control-points", self.points, "--poisson-ratio", 0.3)
         self.assertNotEqual(at(other), at(base))
 
+    def volume_below(self, level):
+        """Of the mesh below a height, by VTK."""
+        plane = vtk.vtkPlane()
+        plane.SetOrigin(0, 0, level)
+        plane.SetNormal(0, 0, -1)
+        clip = vtk.vtkTableBasedClipDataSet()
+        clip.SetInputData(self.read(self.mesh))
+        clip.SetClipFunction(plane)
+        sizes = vtk.vtkCellSizeFilter()
+        sizes.SetInputConnection(clip.GetOutputPort())
+        sizes.Update()
+        return np.abs(vtk_to_numpy(sizes.GetOutput().GetCellData().GetArray("Volume"))).sum()
+
+    def test_weight_in_a_fluid(self):
+        still = self.file("still.csv", HEADER + "".join(",".join(map(str, (*p[:3], 0, 0, 0))) + "\n" for p in VALUES))
+        at = lambda told: told["shift"]["largest displacement"]
+        run = lambda *more: self.succeeds(self.mesh, "--control-points", still, "--gravity", "0,0,-9810", *more)[0]
+        dry = run("--density", 1, "--fluid-density", 0)
+        wet = run()  # brain in cerebrospinal fluid
+        self.assertAlmostEqual(at(wet) / at(dry), 0.04, 9)
+        self.assertAlmostEqual(at(run("--fluid-level", -1000)) / at(dry), 1.04, 9)
+        self.assertAlmostEqual(at(run("--fluid-level", 1000)), at(wet), 9)
+        self.assertLess(at(run("--density", 1)), 1e-9)
+        drained = run("--fluid-level", 20)
+        self.assertTrue(at(wet) < at(drained) < 1.04 * at(dry))
+        self.assertEqual(drained["parameters"]["level of the fluid"], {"value": 20, "unit": "mm"})
+        self.assertEqual(wet["parameters"]["level of the fluid"], {"value": None, "unit": "mm"})
+        self.assertEqual(wet["parameters"]["density"], {"value": 1.04, "unit": "g/cm^3"})
+        # Control points alone bear the weight that is left.
+        for level in (-20, 20, 45.5):
+            told = run("--fluid-level", level, "--fixed-below", 0)
+            force = np.sum([p["force"] for p in told["shift"]["control points"]], axis=0)
+            below = self.volume_below(level)
+            self.assertTrue(0.01 < below / told["inputs"]["mesh"]["volume"] < 0.99)
+            wanted = 9810e-6 * (1.04 * told["inputs"]["mesh"]["volume"] - below)
+            self.assertTrue(np.allclose(force / wanted, [0, 0, 1], atol=2e-3), (level, force, wanted))
+
+    def surfaces_of(self, path):
+        """Of a model of FEBio: the faces of each surface, positions and displacements of nodes, from 0."""
+        root = ElementTree.parse(path).getroot()
+        vector = lambda node: [float(x) for x in node.text.split(",")]
+        surfaces = {s.get("name"): [[int(v) - 1 for v in face.text.split(",")] for face in s]
+                    for s in root.findall("Mesh/Surface")}
+        data = {d.get("name"): np.array([vector(n) for n in d]) for d in root.findall("MeshData/NodeData")}
+        return surfaces, np.array([vector(n) for n in root.find("Mesh/Nodes")]), data
+
+    def test_patches(self):
+        """The opening is free, the skull holds the rest, the base is fixed: in the solution, and as facet sets."""
+        width, middle = 60, VALUES[:, :3].mean(0)
+        opening = self.file("opening.off", cube_off(middle, width))
+        outputs = [x for name in ("patches.feb", "patches.msh", "patches.vtu") for x in ("--output", WORK / name)]
+        outputs += [x for name in ("left.feb", "left.inp", "left.msh", "left.mesh", "left.msh2")
+                    for x in ("--output-deformed", WORK / name)]
+        told, _ = self.succeeds(self.mesh, "--control-points", self.points, "--opening", opening, "--slide", "skull",
+                                "--fixed", "base", "--tumor", self.tumor, *outputs)
+        surfaces, points, data = self.surfaces_of(WORK / "patches.feb")
+        self.assertEqual(sorted(surfaces), ["boundary", "fixed", "opening", "sliding"])
+        displacement = data["displacement"]
+        grid = self.read(WORK / "patches.vtu")
+        self.assertTrue(np.array_equal(vtk_to_numpy(grid.GetPointData().GetArray("displacement")), displacement))
+        for name in ("fixed", "sliding", "opening"):
+            numbers = vtk_to_numpy(grid.GetCellData().GetArray("facets_" + name))
+            self.assertEqual(numbers.sum(), len(surfaces[name]))
+        is_inside = lambda face: np.all(np.abs(points[face].mean(0) - middle) < width / 2)
+        self.assertEqual(sorted(surfaces["opening"]), sorted(f for f in surfaces["boundary"] if is_inside(f)))
+        of = {name: {v for face in faces for v in face} for name, faces in surfaces.items()}
+        self.assertEqual(len(of["boundary"]), told["supports"]["boundary vertices"])
+        self.assertTrue(np.all(displacement[list(of["fixed"])] == 0))
+        self.assertEqual(len(of["fixed"] | of["sliding"]), told["supports"]["fixed"] + told["supports"]["sliding"])
+        self.assertEqual(len(surfaces["fixed"]) + len(surfaces["sliding"]) + len(surfaces["opening"]),
+                         len(surfaces["boundary"]))
+        height = np.ptp(points[:, 2]) * 0.3 + points[:, 2].min()
+        for face in surfaces["fixed"]:
+            self.assertLess(points[face, 2].max(), height)
+        # What slides stays in its tangential plane, unless it is on an edge: the displacement has no normal part.
+        normals = np.zeros_like(points)
+        for face in surfaces["boundary"]:
+            p = points[face]
+            d, e = (p[2] - p[0], p[3] - p[1]) if len(face) == 4 else (p[1] - p[0], p[2] - p[0])
+            normals[face] += np.cross(d, e)
+        sliding = sorted(of["sliding"] - of["fixed"])
+        normal = np.einsum("ij,ij->i", displacement, normals)[sliding] / np.linalg.norm(normals[sliding], axis=1)
+        self.assertLess(np.quantile(np.abs(normal), 0.9), 0.15 * told["shift"]["largest displacement"])
+        free = sorted(of["opening"] - of["sliding"] - of["fixed"])
+        self.assertGreater(np.linalg.norm(displacement[free], axis=1).max(), 5)
+        # After the resection there is a cavity; the other sets are as before, but for what is removed.
+        left, _, _ = self.surfaces_of(WORK / "left.feb")
+        self.assertEqual(sorted(left), sorted([*surfaces, "cavity"]))
+        self.assertEqual(len(left["fixed"]), len(surfaces["fixed"]))
+        self.assertTrue(0 < len(left["opening"]) <= len(surfaces["opening"]))
+        self.assertEqual(sum(map(len, left.values())), 2 * len(left["boundary"]))
+        text = (WORK / "left.inp").read_text()
+        for name in ("FIXED", "SLIDING", "OPENING", "CAVITY"):
+            self.assertIn(f"*SURFACE, NAME={name}, TYPE=ELEMENT\n", text)
+        for name in ("left.msh", "left.msh2", "patches.msh"):
+            self.assertIn('"sliding"', (WORK / name).read_text())
+        self.assertIn('$NodeData\n1\n"displacement"\n', (WORK / "patches.msh").read_text())
+        self.assertEqual(told["parameters"]["openings"], [str(opening)])
+
+    def test_patches_on_top_of_other_options(self):
+        report = lambda *more: self.succeeds(self.mesh, "--control-points", self.points, *more)[0]
+        plain = report("--output", WORK / "without.feb")
+        surfaces, _, data = self.surfaces_of(WORK / "without.feb")
+        self.assertEqual((list(surfaces), list(data)), (["boundary"], ["displacement"]))
+        # base is what is fixed by default; other patches replace it, unless it is asked for
+        self.assertEqual(report("--fixed", "base")["shift"], plain["shift"])
+        everything = self.file("everything.off", cube_off((0, 0, 0), 1000))
+        low = self.file("low.off", cube_off((0, 0, -1000), 1900))
+        self.assertEqual(report("--slide", low)["supports"]["fixed"], plain["supports"]["fixed"])
+        only_low = report("--fixed", low)["supports"]
+        both = report("--fixed", low, "--fixed", "base")["supports"]
+        below = report("--fixed", low, "--fixed-below", 0.3)["supports"]
+        self.assertEqual(both, below)
+        self.assertTrue(0 < only_low["fixed"] < both["fixed"] or only_low["fixed"] == both["fixed"])
+        # an opening comes before all
+        free = report("--opening", everything, "--fixed", everything, "--slide", "skull")["supports"]
+        self.assertEqual((free["fixed"], free["sliding"]), (0, 0))
+        self.assertEqual(report("--opening", everything, "--slide-beyond", 0, "--fixed-below", 0.3)["supports"], free)
+        held = report("--fixed", everything, "--slide", "skull", "--control-compliance", 1)["supports"]
+        self.assertEqual((held["fixed"], held["sliding"]), (held["boundary vertices"], 0))
+
+    def test_labels_as_patches(self):
+        grid = self.read(self.mesh)
+        subdomain = vtk_to_numpy(grid.GetCellData().GetArray("subdomain"))
+        is_right = np.array([np.mean(vtk_to_numpy(grid.GetCell(i).GetPoints().GetData())[:, 0]) > 30
+                             for i in range(grid.GetNumberOfCells())])
+        subdomain[is_right] = 4
+        writer = vtk.vtkXMLUnstructuredGridWriter()
+        writer.SetFileName(str(WORK / "labels.vtu"))
+        writer.SetInputData(grid)
+        writer.SetDataModeToAscii()
+        writer.Write()
+        points = self.file("left_points.csv", HEADER + "-40,0,50,0,0,-4\n")
+        told, _ = self.succeeds(WORK / "labels.vtu", "--control-points", points, "--max-distance", 60, "--fixed",
+                                "label:4", "--output", WORK / "labels.feb", "--output", WORK / "labels_out.vtu")
+        surfaces, _, data = self.surfaces_of(WORK / "labels.feb")
+        fixed = sorted({v for face in surfaces["fixed"] for v in face})
+        self.assertEqual(len(fixed), told["supports"]["fixed"])
+        self.assertTrue(np.all(data["displacement"][fixed] == 0))
+        after = self.read(WORK / "labels_out.vtu").GetCellData()
+        # every boundary face of the label is fixed, and those of others only where all vertices are
+        has_label = vtk_to_numpy(after.GetArray("subdomain")) == 4
+        self.assertGreater(np.count_nonzero(vtk_to_numpy(after.GetArray("facets_fixed"))[has_label]), 10)
+        self.assertGreater(np.count_nonzero(has_label), np.count_nonzero(is_right) - 1)
+        self.fails(WORK / "labels.vtu", "--control-points", points, "--max-distance", 60, "--slide", "label:9",
+                   names="label:9", words="no face of the boundary of")
+
+    def test_bad_patches(self):
+        arguments = [self.mesh, "--control-points", self.points]
+        for option, patch in (("--fixed", "skull"), ("--slide", "base"), ("--opening", "skull"), ("--opening", "base"),
+                              ("--fixed", "label:"), ("--slide", "label:0"), ("--opening", "label:3x")):
+            with self.subTest(option=option, patch=patch):
+                self.fails(*arguments, option, patch, names=option, words="is no patch for this option", status=2)
+        far = self.file("far.off", cube_off((500, 0, 0), 10))
+        self.fails(*arguments, "--opening", far, names=far, words="has its center inside")
+        self.fails(*arguments, "--fixed", WORK / "none.off", names="none.off", words="No such file")
+        opened = self.file("opened.off", cube_off((28, 18, 28), 20, TRIANGLES[:-1]))
+        self.fails(*arguments, "--slide", opened, names=opened, words="not closed")
+
     def test_harmless_points(self):
         self.succeeds(self.mesh, "--control-points", self.points, "--output", WORK / "plain.vtu")
         wanted = (WORK / "plain.vtu").read_bytes()
@@ -566,7 +726,7 @@ class BrainShift(unittest.TestCase):
         (WORK / "directory.vtu").mkdir(exist_ok=True)
         for option, path, words in (("--output", WORK / "none" / "a.vtu", "No such file"),
                                     ("--output", WORK / "directory.vtu", "is a directory"),
-                                    ("--output", WORK / "a.msh", ".vtu only"),
+                                    ("--output", WORK / "a.inp", ".vtu, .msh and .feb only"),
                                     ("--output", WORK / "no.vtu", "twice"),
                                     ("--output", self.mesh, "twice"),
                                     ("--output-deformed", WORK / "a.txt", "unknown extension"),
@@ -588,6 +748,9 @@ class BrainShift(unittest.TestCase):
                             (["--young-modulus", 0], "--young-modulus: expected a number greater than 0"),
                             (["--young-modulus", "inf"], "--young-modulus"),
                             (["--poisson-ratio", 0.5], "--poisson-ratio: expected a number of at least 0"),
+                            (["--density", -1], "--density"), (["--fluid-density", "nan"], "--fluid-density"),
+                            (["--gravity", "0,0,-9810", "--fluid-level", "inf"], "--fluid-level"),
+                            (["--fluid-level", 10], "--gravity"),
                             (["--gravity", "1,2"], "--gravity: expected three numbers"),
                             (["--gravity", "0,0,nan"], "--gravity"), (["--up", "w"], "--up"),
                             (["--up", "0,0,0"], "--up"),

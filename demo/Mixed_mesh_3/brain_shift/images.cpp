@@ -121,7 +121,7 @@ mm3::Voxel_image_3 read_image(const Options& o, const Mesh& mesh, Outcome& outco
 }
 
 void write_images(mm3::IO::Output_files& files, const mm3::Voxel_image_3& image,
-                  const mm3::Voxel_image_3& labels, const Mesh& mesh, const Tumor* tumor,
+                  const mm3::Voxel_image_3& labels, const Mesh& mesh, const Closed_surface* tumor,
                   const std::vector<bool>& is_removed, const Options& o, Stage_log& log, Outcome& outcome)
 {
   mm3::Warp_options warp;
@@ -162,7 +162,7 @@ mm3::Voxel_image_3 read_labels(const Options&, const mm3::Voxel_grid_3&)
 }
 
 void write_images(mm3::IO::Output_files&, const mm3::Voxel_image_3&, const mm3::Voxel_image_3&, const Mesh&,
-                  const Tumor*, const std::vector<bool>&, const Options&, Stage_log&, Outcome&)
+                  const Closed_surface*, const std::vector<bool>&, const Options&, Stage_log&, Outcome&)
 {
 }
 

@@ -6,6 +6,7 @@
 #ifndef CGAL_MIXED_MESH_3_IO_FEB_H
 #define CGAL_MIXED_MESH_3_IO_FEB_H
 
+#include <CGAL/Mixed_mesh_3/IO/Data_array.h>
 #include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
@@ -38,6 +39,20 @@ inline void write_FEB_surface(Buffered_output& out, const std::string& name, con
   out << "    </Surface>\n";
 }
 
+inline void write_FEB_node_data(Buffered_output& out, const Data_array& data, std::size_t n)
+{
+  const std::size_t components = std::size_t(data.number_of_components);
+  out << "    <NodeData name=\"" << escaped_for_XML(data.name) << "\" node_set=\"all\" data_type=\""
+      << (components == 3 ? "vec3" : "scalar") << "\">\n";
+  for(std::size_t v = 0; v < n; ++v) {
+    out << "      <node lid=\"" << v + 1 << "\">";
+    for(std::size_t i = 0; i < components; ++i)
+      out << (i == 0 ? "" : ",") << (*data.values)[v * components + i];
+    out << "</node>\n";
+  }
+  out << "    </NodeData>\n";
+}
+
 } // namespace internal
 
 /*!
@@ -50,10 +65,19 @@ mesh without materials: there are `region` and `rest`, and those of other subdom
 replaced (neo-Hookean, Young's modulus 1, Poisson's ratio 0.45). There are no boundary conditions, loads or
 steps. The numbers of nodes and elements are the indices plus 1.
 
+Values at the vertices become mesh data, `NodeData` on the set `all`, which a prescribed displacement of the
+model can refer to, for example.
+
+\param stream the stream
+\param mesh the mesh
+\param facet_sets named faces
+\param vertex_data of one or three components, as many as vertices
+
 \return whether the stream took everything.
 */
 template <class Mesh>
-bool write_FEB(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_set>& facet_sets = {})
+bool write_FEB(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_set>& facet_sets = {},
+               const std::vector<Data_array>& vertex_data = {})
 {
   using namespace internal;
   const Element_blocks blocks(mesh);
@@ -104,8 +128,14 @@ bool write_FEB(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_s
     out << "    <SolidDomain name=\"" << name(block) << "\" mat=\"" << blocks.parts()[block.part].name()
         << "\"/>\n";
   }
-  out << "  </MeshDomains>\n"
-      << "</febio_spec>\n";
+  out << "  </MeshDomains>\n";
+  if(!mesh.is_empty() && !vertex_data.empty()) {
+    out << "  <MeshData>\n";
+    for(const Data_array& data : vertex_data)
+      write_FEB_node_data(out, data, mesh.number_of_vertices());
+    out << "  </MeshData>\n";
+  }
+  out << "</febio_spec>\n";
   return out.finish();
 }
 

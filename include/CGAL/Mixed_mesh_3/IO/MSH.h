@@ -6,6 +6,7 @@
 #ifndef CGAL_MIXED_MESH_3_IO_MSH_H
 #define CGAL_MIXED_MESH_3_IO_MSH_H
 
+#include <CGAL/Mixed_mesh_3/IO/Data_array.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/facet_sets.h>
@@ -132,6 +133,7 @@ public:
   const std::vector<MSH_group>& groups() const { return m_groups; }
   const std::vector<MSH_entity>& entities() const { return m_entities; }
   const MSH_entity& entity_of_face(std::size_t i) const { return m_entities[m_patches.patch_of(i)]; }
+  bool is_vertex_used(std::size_t v) const { return m_vertex_entity[v] != no_entity; }
   bool is_vertex_on(std::size_t v, std::size_t entity) const { return m_vertex_entity[v] == entity; }
   const Element_blocks& blocks() const { return m_blocks; }
   int tag(const Element_block& block) const { return m_blocks.tag(block.part); }
@@ -258,6 +260,28 @@ void write_MSH_2_2_nodes_and_elements(Buffered_output& out, const Mesh& mesh, co
   out << "$EndElements\n";
 }
 
+// A view of Gmsh, at time 0. Version 4.1 has no vertices without an element.
+inline void write_MSH_node_data(Buffered_output& out, const Data_array& data, std::size_t number_of_vertices,
+                                const MSH_model& model, MSH_version version)
+{
+  const auto is_written = [&](std::size_t v) {
+    return version == MSH_version::V2_2 || model.is_vertex_used(v);
+  };
+  std::size_t n = 0;
+  for(std::size_t v = 0; v < number_of_vertices; ++v)
+    n += is_written(v);
+  const std::size_t components = std::size_t(data.number_of_components);
+  out << "$NodeData\n1\n\"" << data.name << "\"\n1\n0\n3\n0\n" << components << '\n' << n << '\n';
+  for(std::size_t v = 0; v < number_of_vertices; ++v)
+    if(is_written(v)) {
+      out << v + 1;
+      for(std::size_t i = 0; i < components; ++i)
+        out << ' ' << (*data.values)[v * components + i];
+      out << '\n';
+    }
+  out << "$EndNodeData\n";
+}
+
 } // namespace internal
 
 /*!
@@ -272,11 +296,19 @@ The surfaces of facet sets follow, with their names and the next numbers. Each f
 version 4.1 a boundary face of sets is in their groups and in "boundary"; in 2.2, where it can be in one group
 only, it is in that of its first set, and "boundary" is what is left.
 
+Values at the vertices become views, at time 0.
+
+\param stream the stream
+\param mesh the mesh
+\param version of the format
+\param facet_sets named faces
+\param vertex_data of one or three components, as many as vertices; names without quotes
+
 \return whether the stream took everything.
 */
 template <class Mesh>
 bool write_MSH(std::ostream& stream, const Mesh& mesh, MSH_version version = MSH_version::V4_1,
-               const std::vector<Facet_set>& facet_sets = {})
+               const std::vector<Facet_set>& facet_sets = {}, const std::vector<Data_array>& vertex_data = {})
 {
   using namespace internal;
   const MSH_model model(mesh, facet_sets, version == MSH_version::V2_2);
@@ -290,6 +322,8 @@ bool write_MSH(std::ostream& stream, const Mesh& mesh, MSH_version version = MSH
   } else {
     write_MSH_2_2_nodes_and_elements(out, mesh, model);
   }
+  for(const Data_array& data : vertex_data)
+    write_MSH_node_data(out, data, mesh.number_of_vertices(), model, version);
   return out.finish();
 }
 

@@ -7,6 +7,7 @@
 #define CGAL_MIXED_MESH_3_IO_VTU_H
 
 #include <CGAL/Mixed_mesh_3.h>
+#include <CGAL/Mixed_mesh_3/IO/Data_array.h>
 #include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
@@ -31,24 +32,6 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace IO {
-
-//----------------------------------------------------------------------------------------------
-
-/// Values at the vertices or at the elements, to be written with a mesh. Does not own the values:
-/// they must stay until the mesh is written.
-struct Data_array
-{
-  std::string name;
-  const std::vector<double>* values; ///< the components of the first vertex or element, and so on
-  int number_of_components = 1;
-
-  /// Whether there are values for `n` vertices or elements.
-  bool has_size(std::size_t n) const
-  {
-    return values != nullptr && number_of_components > 0
-           && values->size() == n * std::size_t(number_of_components);
-  }
-};
 
 struct VTU_options
 {
@@ -133,20 +116,6 @@ VTU_arrays cell_arrays(const Mesh& mesh)
           element_array<std::uint8_t>("types", mesh, [&mesh](Element_index e) {
             return element_names[mesh.element(e).kind()].vtk_type;
           })};
-}
-
-inline std::string escaped_for_XML(const std::string& text)
-{
-  std::string result;
-  for(char c : text)
-    switch(c) {
-    case '&': result += "&amp;"; break;
-    case '<': result += "&lt;"; break;
-    case '>': result += "&gt;"; break;
-    case '"': result += "&quot;"; break;
-    default: result += c;
-    }
-  return result;
 }
 
 } // namespace internal
