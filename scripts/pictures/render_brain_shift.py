@@ -380,14 +380,17 @@ class Panels:
         flat = vtk.vtkPolyData()
         flat.ShallowCopy(data)
         flat.SetPoints(points)
-        box = vtk.vtkBox()
-        box.SetBounds(-self.width / 2, self.width / 2, -self.height / 2, self.height / 2, -1, 1)
-        clip = vtk.vtkClipPolyData()
-        clip.SetInputData(flat)
-        clip.SetClipFunction(box)
-        clip.InsideOutOn()
-        clip.Update()
-        return clip.GetOutput()
+        for k, half in ((0, self.width / 2), (1, self.height / 2)):
+            for sign in (1, -1):  # a box would be clipped at inexactly, its function is not linear
+                plane = vtk.vtkPlane()
+                plane.SetOrigin([sign * half if i == k else 0 for i in range(3)])
+                plane.SetNormal([-sign if i == k else 0 for i in range(3)])
+                clip = vtk.vtkClipPolyData()
+                clip.SetInputData(flat)
+                clip.SetClipFunction(plane)
+                clip.Update()
+                flat = clip.GetOutput()
+        return flat
 
     def add_labels(self, panel, mesh, labels):
         """The elements in the plane, translucent, in the color of their subdomain; nothing if there is one only."""
@@ -410,13 +413,13 @@ class Panels:
         actor.GetProperty().LightingOff()
         self.canvas.renderer.AddActor(actor)
 
-    def add_letters(self, panel, place, color):
+    def add_letters(self, panel, place, color, paper):
         """Names of the directions at the edges; `place` leads from coordinates of the panel to pixels."""
         for across, along in ((1, 0), (-1, 0), (0, 1), (0, -1)):
             direction = [across * a + along * b for a, b in zip(self.view.right, self.view.up)]
             name = direction_name(self.view.world, direction)
             x, y = place(panel, 0.46 * across * self.width, 0.46 * along * self.height)
-            self.canvas.add_text(name, x - 8 * len(name), y - 9, 24, color, bold=True)
+            self.canvas.add_text(name, x - 8 * len(name), y - 9, 24, color, bold=True, paper=paper)
 
     def add_lines(self, panel, lines, color, width, opacity=1.0):
         """Lines of the plane, as far as they are in the panel."""
@@ -501,10 +504,10 @@ def draw_image(size, mesh, tumor, view, image, warped, path):
         x, y = place(panel, -panels.width / 2, -panels.height / 2)
         canvas.add_text(name, x, y - 44, 28, bold=True)
         canvas.add_text(text.strip("; "), x, y - 84, 22, GREY)
-        color = (1, 1, 1) if panel < 2 else INK
+        color, paper = ((1, 1, 1), INK) if panel < 2 else (INK, (0.97, 0.97, 0.97))
         if WORLDS[view.world] is not None:
-            panels.add_letters(panel, place, color)
-            canvas.add_scale_bar(1 / world / canvas.unit, x + 14, y + 16, color, most=150)
+            panels.add_letters(panel, place, color, paper)
+            canvas.add_scale_bar(1 / world / canvas.unit, x + 20, y + 20, color, most=200, paper=paper)
     canvas.write(path)
 
 

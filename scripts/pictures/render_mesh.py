@@ -315,8 +315,10 @@ class Canvas:
         self.add_box(REGION_COLOR, 48, -211, 34, 5)
         self.add_text("region of interest", 96, -220, 26)
 
-    def add_text(self, text, x, y, size, color=INK, bold=False, right=False):
-        """Writes at pixels (x, y) of the default size; negative: counted from the right or the top."""
+    def add_text(self, text, x, y, size, color=INK, bold=False, right=False, paper=None):
+        """Writes at pixels (x, y) of the default size; negative: counted from the right or the top.
+
+        With paper, a color, what is behind may be of any color."""
         actor = vtk.vtkTextActor()
         actor.SetInput(text)
         style = actor.GetTextProperty()
@@ -326,6 +328,9 @@ class Canvas:
         style.SetBold(bold)
         if right:
             style.SetJustificationToRight()
+        if paper:
+            style.SetBackgroundColor(paper)
+            style.SetBackgroundOpacity(1)
         actor.SetPosition(*self.pixels(x, y))
         self.renderer.AddActor2D(actor)
 
@@ -368,11 +373,13 @@ class Canvas:
         actor.GetProperty().SetLineWidth(width * self.unit)
         self.renderer.AddActor2D(actor)
 
-    def add_scale_bar(self, pixels_per_mm, x, y, color=INK, right=False, most=240):
+    def add_scale_bar(self, pixels_per_mm, x, y, color=INK, right=False, most=240, paper=None):
         """A bar from (or, with `right`, to) pixels (x, y) of the default size, with its length."""
         length = bar_length(pixels_per_mm, most)
         width = length * pixels_per_mm
         left = x - width if right else x
+        if paper:
+            self.add_box(paper, left - 10, y - 10, width + 20, 58)
         self.add_box(color, left, y, width, 5)
         for end in (left, left + width - 3):
             self.add_box(color, end, y - 5, 3, 15)

@@ -577,12 +577,61 @@ class BrainShift(unittest.TestCase):
                         self.points, "--image", self.image, "--warped-image", WORK / "drawn.nii.gz", "--output-prefix",
                         WORK / "drawn", "--size", "400x300"], check=True, timeout=120)
         for name, height in (("before", 300), ("shifted", 300), ("resected", 300), ("image", 200)):
-            reader = vtk.vtkPNGReader()
-            reader.SetFileName(str(WORK / f"drawn_{name}.png"))
-            reader.Update()
-            self.assertEqual(reader.GetOutput().GetDimensions(), (400, height, 1))
-            pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
-            self.assertGreater(len(np.unique(pixels, axis=0)), 200, name)
+            pixels = self.pixels_of(WORK / f"drawn_{name}.png")
+            self.assertEqual(pixels.shape, (height, 400, 3))
+            self.assertGreater(len(np.unique(pixels.reshape(-1, 3), axis=0)), 200, name)
+
+    def pixels_of(self, path):
+        """Rows from below."""
+        reader = vtk.vtkPNGReader()
+        reader.SetFileName(str(path))
+        reader.Update()
+        width, height, _ = reader.GetOutput().GetDimensions()
+        return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).reshape(height, width, 3).astype(int)
+
+    def test_lengths_in_pictures(self):
+        """The bar below the last slice is as long as it says: slices are 92 mm wide."""
+        if shutil.which("Xvfb") is None:
+            self.skipTest("no Xvfb")
+        grid = self.read(self.mesh)
+        subdomain = vtk_to_numpy(grid.GetCellData().GetArray("subdomain"))
+        subdomain[::2] = 3
+        writer = vtk.vtkXMLUnstructuredGridWriter()
+        writer.SetFileName(str(WORK / "measured_in.vtu"))
+        writer.SetInputData(grid)
+        writer.Write()
+        pictures = {}
+        for name, mesh, world in (("plain", self.mesh, "none"), ("measured", self.mesh, "ras"),
+                                  ("labels", WORK / "measured_in.vtu", "ras")):
+            self.succeeds(mesh, "--control-points", self.points, "--image", self.image, "--output",
+                          WORK / "measured.vtu", "--output-image", WORK / "measured")
+            script = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "pictures" / "render_brain_shift.py"
+            subprocess.run(["/usr/bin/python3", script, WORK / "measured.vtu", "--tumor", self.tumor,
+                            "--control-points", self.points, "--image", self.image, "--warped-image",
+                            WORK / "measured.nii.gz", "--output-prefix", WORK / name, "--world", world, "--size",
+                            "800x600"], check=True, timeout=120)
+            pictures[name] = [self.pixels_of(WORK / f"{name}_{what}.png") for what in ("image", "before")]
+        new = np.any(pictures["measured"][0] != pictures["plain"][0], axis=2)
+        longest = lambda picture: max(max(len(run) for run in "".join(".x"[int(p)] for p in row).split("."))
+                                      for row in picture)  # of pixels side by side
+        slice_width = longest(np.all(np.abs(pictures["plain"][0] - 247) <= 1, axis=2))  # light without a difference
+        dark = np.all(pictures["measured"][0] < 80, axis=2)
+        third = slice(-new.shape[1] // 3, None)
+        lowest = np.nonzero(new[:, third].any(axis=1))[0].min()
+        bar = longest(dark[lowest:lowest + 10, third])
+        self.assertAlmostEqual(bar / slice_width, 20 / 92, delta=0.01)
+        for panel in range(3):  # letters at the four sides of each slice, and nothing new in the middle
+            columns = new[:, panel * new.shape[1] // 3:(panel + 1) * new.shape[1] // 3]
+            rows = np.nonzero(columns.any(axis=1))[0]
+            self.assertGreater(np.ptp(rows), 0.85 * slice_width)
+            self.assertGreater(np.ptp(np.nonzero(columns.any(axis=0))[0]), 0.85 * slice_width)
+        # below on the right of the mesh: a bar and a cross
+        new = np.any(pictures["measured"][1] != pictures["plain"][1], axis=2)
+        rows, columns = np.nonzero(new)
+        self.assertTrue(rows.max() < 200 and columns.min() > 650 and np.count_nonzero(new) > 150)
+        # the colors of subdomains, in the sections and in the list
+        for i in range(2):
+            self.assertGreater(np.count_nonzero(np.any(pictures["labels"][i] != pictures["measured"][i], axis=2)), 1200)
 
     def test_image_beside_the_mesh(self):
         affine = self.affine.copy()
