@@ -21,6 +21,7 @@ enum class Field_format {
 };
 
 /// The end of the name of a field's file, after `_forward` or `_backward`.
+/// \param format of the field
 /// \param extension of the image it belongs to: `.nii` or `.nii.gz`
 inline std::string end_of_field_name(Field_format format, const std::string& extension = ".nii.gz")
 {
