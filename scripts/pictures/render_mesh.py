@@ -389,7 +389,7 @@ class Canvas:
         """A cross of the axes as they are seen, around pixels (x, y) of the default size."""
         if WORLDS[world] is None:
             return
-        view, radius = self.renderer.GetActiveCamera().GetViewTransformMatrix(), 62
+        view, radius = self.renderer.GetActiveCamera().GetViewTransformMatrix(), 54
         for k in range(3):
             seen = [view.GetElement(row, k) for row in range(2)]
             if math.hypot(*seen) < 0.25:  # towards the reader
@@ -405,7 +405,7 @@ class Canvas:
         if WORLDS[world] is None:
             return
         self.add_scale_bar(self.pixels_per_mm / self.unit, -48, 48, right=True)
-        self.add_orientation(world, -150, 210)
+        self.add_orientation(world, -130, 188)
 
     def add_labels(self, labels, y=60):
         """The colors of subdomains, from pixel y upwards."""
