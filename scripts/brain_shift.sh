@@ -39,7 +39,8 @@ mkdir -p "$out"
 
 "$build/bin/brain_shift" "$out/brain.vtu" --control-points "$root/data/control_points.csv" \
   --control-radius 8 --tumor "$root/data/tumour.off" --image "$IMAGE" --output "$out/brain_shift.vtu" \
-  --output-deformed "$out/brain_deformed.vtu" --output-image "$out/brain_shift" --report "$out/brain_shift.json"
+  --output-deformed "$out/brain_deformed.vtu" --output-image "$out/brain_shift" --field nrrd \
+  --report "$out/brain_shift.json"
 
 # Debian's Python, which has Debian's VTK, whatever other Python the PATH leads to.
 timeout --foreground 600 /usr/bin/python3 "$root/scripts/pictures/render_brain_shift.py" "$out/brain_shift.vtu" \
@@ -51,7 +52,7 @@ cat << END
 mesh:     $out/brain_shift.vtu (ParaView: Warp By Vector, displacement; Threshold, resected)
           $out/brain_deformed.vtu (what is left, deformed)
 image:    $out/brain_shift.nii.gz, $out/brain_shift_mask.nii.gz (deformed; what it shows)
-          $out/brain_shift_forward.nii.gz, $out/brain_shift_backward.nii.gz (displacements)
+          $out/brain_shift_forward.nrrd, $out/brain_shift_backward.nrrd (displacements, for 3D Slicer and ITK)
 report:   $out/brain_shift.json
 pictures: $out/brain_shift_before.png
           $out/brain_shift_shifted.png

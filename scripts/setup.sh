@@ -25,8 +25,8 @@ packages_for() {
                 libopenblas0-serial ;; # several times faster than the reference BLAS, for CHOLMOD
     # VTK opens an X display even to render off-screen: Xvfb and Mesa's software renderer provide it.
     pictures) echo python3-vtk9 xvfb libgl1-mesa-dri ;;
-    # Peers that read back the files that we write.
-    tests) echo python3-getfem python3-gmsh python3-nibabel python3-vtk9 ;;
+    # Peers that read back the files that we write; plastimatch deforms images by fields.
+    tests) echo plastimatch python3-getfem python3-gmsh python3-nibabel python3-vtk9 ;;
     # An MRI image of a brain, of which data/brain.off is the surface.
     image) echo mricron-data ;;
     # What scripts/check.sh runs besides the compiler.

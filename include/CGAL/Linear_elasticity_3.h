@@ -10,6 +10,7 @@
 #define CGAL_LINEAR_ELASTICITY_3_H
 
 #include <CGAL/Linear_elasticity_3/Linear_elasticity_result_3.h>
+#include <CGAL/Linear_elasticity_3/buoyant_forces.h>
 #include <CGAL/Linear_elasticity_3/internal/Elasticity_model.h>
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
@@ -38,8 +39,8 @@ volume in mN/mm^3.
 The order of use:
 -# *supports*: `prescribe()` and `slide()` vertices; the others are free;
 -# `factor()`;
--# *loads*: `set_body_force()`, `set_gravity()`, `set_support_displacement()`, `set_control_points()`; in any
-   order, and again as often as wanted;
+-# *loads*: `set_body_force()` or `set_body_forces()`, `set_gravity()`, `set_support_displacement()`,
+   `set_control_points()`; in any order, and again as often as wanted;
 -# `solve()`, and read `displacements()`.
 
 After a resection, `remove_elements()`: supports, loads, control points and the factorization stay.
@@ -159,10 +160,20 @@ public:
   /// @{
 
   /// A force by volume, in mN/mm^3, the same everywhere.
-  void set_body_force(const Vector& force) { m_model.body().set_body_force(force); }
+  void set_body_force(const Vector& force) { m_model.body().set_body_forces({force}); }
+
+  /// As above, one for each element, such as the `Mixed_meshes_3::buoyant_forces()` of a fluid.
+  /// \pre as many as elements
+  void set_body_forces(std::vector<Vector> forces)
+  {
+    CGAL_precondition(forces.size() == mesh().number_of_elements());
+    if(forces.empty())
+      forces.push_back(Vector{});
+    m_model.body().set_body_forces(std::move(forces));
+  }
 
   /// Gravity: an acceleration in mm/s^2, times the density of each element; (0, 0, -9810) on the Earth,
-  /// upright.
+  /// upright. It is added to the body forces; in a fluid, set those as well.
   void set_gravity(const Vector& acceleration) { m_model.body().set_gravity(acceleration); }
 
   /// Another displacement of a vertex that was prescribed, in mm. No new factorization.

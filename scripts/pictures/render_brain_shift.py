@@ -8,7 +8,11 @@
 
 writes out/brain_shift_before.png, out/brain_shift_shifted.png and out/brain_shift_resected.png (the mesh cut
 open along the way from the control points to the tumor), and, if images are given,
-out/brain_shift_image.png (a slice of the image there, before and after, and their difference).
+out/brain_shift_image.png (a slice of the image there, before and after, and their difference). Elements have the color
+of their subdomain if there are several.
+
+Bars are lengths in mm. Letters are directions: R, L, A, P, S and I for right, left, front (anterior), back (posterior),
+top (superior) and bottom (inferior); the nearest one comes first.
 
 Needs what render_mesh.py beside it needs.
 """
@@ -20,8 +24,8 @@ import sys
 
 sys.dont_write_bytecode = True  # no files beside the scripts
 import render_mesh
-from render_mesh import (GREY, INK, Canvas, cells, counted, mesh_title, number, read_off, skin_of, start_display,
-                         vtk)
+from render_mesh import (GREY, INK, WORLDS, Canvas, cells, counted, direction_name, label_table, labels_of, mesh_title,
+                         number, read_off, skin_of, start_display, vtk)
 
 TISSUE_COLOR = (0.93, 0.86, 0.80)
 TUMOR_COLOR = (0.80, 0.10, 0.16)
@@ -104,7 +108,8 @@ class View:
     In the plane through the tumor and the control points: `right` and `up` span it, `normal` looks at the
     reader."""
 
-    def __init__(self, tumor, points, mesh):
+    def __init__(self, tumor, points, mesh, world):
+        self.world = world
         self.origin = list(tumor.GetCenter())
         axis = unit(add(mean([p for p, _ in points]), self.origin, -1))
         k = min(range(3), key=lambda i: abs(axis[i]))
@@ -181,13 +186,16 @@ def lengths(mesh, array):
 
 # The mesh
 
-def add_mesh(canvas, skin, table=None):
-    """Adds flat faces with their edges, of one color or colored by `mm`."""
+def add_mesh(canvas, skin, table=None, array="mm"):
+    """Adds flat faces with their edges, of one color, or colored by the point data `mm` or by other cell data."""
     mapper = canvas.mapper(skin)
     if table is not None:
         mapper.ScalarVisibilityOn()
-        mapper.SetScalarModeToUsePointFieldData()
-        mapper.SelectColorArray("mm")
+        if array == "mm":
+            mapper.SetScalarModeToUsePointFieldData()
+        else:
+            mapper.SetScalarModeToUseCellFieldData()
+        mapper.SelectColorArray(array)
         mapper.SetLookupTable(table)
         mapper.UseLookupTableScalarRangeOn()
         mapper.InterpolateScalarsBeforeMappingOn()
@@ -263,10 +271,16 @@ def shift_table(canvas, top):
     return table
 
 
-def draw_mesh(size, path, title, subtitle, view, whole, tumor, skin, points=(), top=None, outline=None):
+def draw_mesh(size, path, title, subtitle, view, whole, tumor, skin, points=(), top=None, outline=None, labels=()):
     """\\param whole skin of the cut mesh before: all pictures have its camera"""
     canvas = Canvas(size, path)
-    add_mesh(canvas, skin, shift_table(canvas, top) if top else None)
+    if top:
+        add_mesh(canvas, skin, shift_table(canvas, top))
+    elif len(labels) > 1:
+        add_mesh(canvas, skin, label_table(labels), "subdomain")
+        canvas.add_labels(labels, 170)
+    else:
+        add_mesh(canvas, skin)
     if not top:
         canvas.add_surface(tumor, TUMOR_COLOR)
         canvas.add_box(TUMOR_COLOR, 48, 110, 34, 34)
@@ -284,6 +298,7 @@ def draw_mesh(size, path, title, subtitle, view, whole, tumor, skin, points=(), 
     add_arrows(canvas, points)
     canvas.add_title(title, subtitle)
     canvas.look_at(whole, tumor, view.plane)
+    canvas.add_measures(view.world)
     canvas.write(path)
 
 
@@ -301,7 +316,7 @@ def draw_meshes(size, mesh, tumor, points, view, prefix):
 
     # The elements of the tumor are left out of the first picture: it is shown itself.
     draw_mesh(size, prefix + "_before.png", "Before the shift", mesh_title(mesh), view, whole, tumor,
-              cut_open(left, view.plane), points)
+              cut_open(left, view.plane), points, labels=labels_of(mesh))
     draw_mesh(size, prefix + "_shifted.png", "Brain shift", "%s; displacement up to %.1f mm"
               % (counted(len(points), "control points"), before), view, whole, tumor,
               cut_open(displaced(mesh, first), view.plane), (), top, outline)
@@ -356,24 +371,60 @@ class Panels:
         actor.SetPosition(self.offset(panel), 0, 0)
         self.canvas.renderer.AddActor(actor)
 
-    def add_lines(self, panel, lines, color, width, opacity=1.0):
-        """Lines of the plane, as far as they are in the panel."""
+    def flat(self, data):
+        """What is in the plane, in the coordinates of the panel, and as far as it is in it."""
         points = vtk.vtkPoints()
-        for i in range(lines.GetNumberOfPoints()):
-            p = add(lines.GetPoint(i), self.center, -1)
+        for i in range(data.GetNumberOfPoints()):
+            p = add(data.GetPoint(i), self.center, -1)
             points.InsertNextPoint(dot(p, self.view.right), dot(p, self.view.up), 0)
         flat = vtk.vtkPolyData()
+        flat.ShallowCopy(data)
         flat.SetPoints(points)
-        flat.SetLines(lines.GetLines())
-        box = vtk.vtkBox()
-        box.SetBounds(-self.width / 2, self.width / 2, -self.height / 2, self.height / 2, -1, 1)
-        clip = vtk.vtkClipPolyData()
-        clip.SetInputData(flat)
-        clip.SetClipFunction(box)
-        clip.InsideOutOn()
-        clip.Update()
+        for k, half in ((0, self.width / 2), (1, self.height / 2)):
+            for sign in (1, -1):  # a box would be clipped at inexactly, its function is not linear
+                plane = vtk.vtkPlane()
+                plane.SetOrigin([sign * half if i == k else 0 for i in range(3)])
+                plane.SetNormal([-sign if i == k else 0 for i in range(3)])
+                clip = vtk.vtkClipPolyData()
+                clip.SetInputData(flat)
+                clip.SetClipFunction(plane)
+                clip.Update()
+                flat = clip.GetOutput()
+        return flat
+
+    def add_labels(self, panel, mesh, labels):
+        """The elements in the plane, translucent, in the color of their subdomain; nothing if there is one only."""
+        if len(labels) < 2:
+            return
+        cutter = vtk.vtkCutter()
+        cutter.SetInputData(mesh)
+        cutter.SetCutFunction(self.view.plane)
+        cutter.Update()
+        mapper = self.canvas.mapper(self.flat(cutter.GetOutput()))
+        mapper.ScalarVisibilityOn()
+        mapper.SetScalarModeToUseCellFieldData()
+        mapper.SelectColorArray("subdomain")
+        mapper.SetLookupTable(label_table(labels))
+        mapper.UseLookupTableScalarRangeOn()
         actor = vtk.vtkActor()
-        actor.SetMapper(self.canvas.mapper(clip.GetOutput()))
+        actor.SetMapper(mapper)
+        actor.SetPosition(self.offset(panel), 0, 0.05)
+        actor.GetProperty().SetOpacity(0.4)
+        actor.GetProperty().LightingOff()
+        self.canvas.renderer.AddActor(actor)
+
+    def add_letters(self, panel, place, color, paper):
+        """Names of the directions at the edges; `place` leads from coordinates of the panel to pixels."""
+        for across, along in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+            direction = [across * a + along * b for a, b in zip(self.view.right, self.view.up)]
+            name = direction_name(self.view.world, direction)
+            x, y = place(panel, 0.46 * across * self.width, 0.46 * along * self.height)
+            self.canvas.add_text(name, x - 8 * len(name), y - 9, 24, color, bold=True, paper=paper)
+
+    def add_lines(self, panel, lines, color, width, opacity=1.0):
+        """Lines of the plane, as far as they are in the panel."""
+        actor = vtk.vtkActor()
+        actor.SetMapper(self.canvas.mapper(self.flat(lines)))
         actor.SetPosition(self.offset(panel), 0, 0.1)
         actor.GetProperty().SetColor(color)
         actor.GetProperty().SetOpacity(opacity)
@@ -417,6 +468,8 @@ def draw_image(size, mesh, tumor, view, image, warped, path):
     mesh_before, mesh_after = cut_lines(mesh, view.plane), cut_lines(moved, view.plane)
     border_before, border_after = cut_lines(skin_of(mesh), view.plane), cut_lines(skin_of(moved), view.plane)
     tumor_lines = cut_lines(tumor, view.plane)
+    panels.add_labels(0, mesh, labels_of(mesh))
+    panels.add_labels(1, moved, labels_of(mesh))
     panels.add_lines(0, mesh_before, AFTER_COLOR, 1.6, 0.8)
     panels.add_lines(0, tumor_lines, TUMOR_COLOR, 4)
     panels.add_lines(1, mesh_after, AFTER_COLOR, 1.6, 0.8)
@@ -441,11 +494,20 @@ def draw_image(size, mesh, tumor, view, image, warped, path):
     texts = (("before", "mesh, and tumor (red)"),
              ("after", "mesh that is left, deformed; %s" % ("black: resected" if has_resection else "")),
              ("after minus before", "red: brighter, blue: darker; gray, black: outlines"))
+
+    def place(panel, x, y):
+        """Where a point of a panel is, in pixels of the default size."""
+        return [((a - b) / world + pixels / 2) / canvas.unit
+                for a, b, pixels in ((panels.offset(panel) + x, center[0], width), (y, center[1], height))]
+
     for panel, (name, text) in enumerate(texts):
-        x = (panels.offset(panel) - panels.width / 2 - center[0]) / world + width / 2
-        y = (-panels.height / 2 - center[1]) / world + height / 2
-        canvas.add_text(name, x / canvas.unit, y / canvas.unit - 44, 28, bold=True)
-        canvas.add_text(text.strip("; "), x / canvas.unit, y / canvas.unit - 84, 22, GREY)
+        x, y = place(panel, -panels.width / 2, -panels.height / 2)
+        canvas.add_text(name, x, y - 44, 28, bold=True)
+        canvas.add_text(text.strip("; "), x, y - 84, 22, GREY)
+        color, paper = ((1, 1, 1), INK) if panel < 2 else (INK, (0.97, 0.97, 0.97))
+        if WORLDS[view.world] is not None:
+            panels.add_letters(panel, place, color, paper)
+            canvas.add_scale_bar(1 / world / canvas.unit, x + 20, y + 20, color, most=200, paper=paper)
     canvas.write(path)
 
 
@@ -458,6 +520,9 @@ def main():
     parser.add_argument("--warped-image", metavar="IMAGE", help="the image that brain_shift wrote")
     parser.add_argument("--output-prefix", required=True, metavar="PREFIX", help="start of the pictures' names")
     parser.add_argument("--size", default="1600x1200", help="of the pictures, in pixels (default: %(default)s)")
+    parser.add_argument("--world", choices=sorted(WORLDS), default="ras",
+                        help="coordinates, in mm: ras (to the right, front, top), lps, or none: no bar, no letters "
+                             "(default: %(default)s)")
     options = parser.parse_args()
     try:
         size = [int(x) for x in options.size.split("x")]
@@ -470,7 +535,7 @@ def main():
     vtk.vtkObject.GlobalWarningDisplayOff()  # errors are one line of ours
     mesh, tumor = read_shift(options.mesh), read_off(options.tumor)
     points = read_control_points(options.control_points)
-    view = View(tumor, points, mesh)
+    view = View(tumor, points, mesh, options.world)
     start_display()
     draw_meshes(size, mesh, tumor, points, view, options.output_prefix)
     if options.image is not None:

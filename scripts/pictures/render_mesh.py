@@ -7,7 +7,11 @@
 
 writes out/brain_surface.png (what was given: the surface, the region inside),
 out/brain_kinds.png (the cut mesh colored by kind of element) and
-out/brain_ARC.png (the same colored by aspect-ratio coefficient).
+out/brain_ARC.png (the same colored by aspect-ratio coefficient); and if there are
+several subdomains out/brain_labels.png (colored by subdomain).
+
+A bar is a length across the view, in mm; a cross has R, L, A, P, S and I for right,
+left, front (anterior), back (posterior), top (superior) and bottom (inferior).
 
 Needs Debian's packages python3-vtk9 and xvfb: hence Debian's own Python. No
 display is needed: the script starts an Xvfb of its own and ends it.
@@ -42,6 +46,12 @@ KINDS = [  # by value of the cell data `kind`
     ("prisms", (0.55, 0.42, 0.68)),
     ("hexahedra", (0.42, 0.65, 0.83)),
 ]
+LABEL_COLORS = [(0.93, 0.86, 0.80), (0.36, 0.62, 0.80), (0.95, 0.62, 0.30), (0.45, 0.70, 0.42), (0.72, 0.52, 0.75),
+                (0.87, 0.42, 0.42), (0.60, 0.50, 0.42), (0.90, 0.85, 0.40)]  # by turns
+WORLDS = {  # for each axis the letters of its two directions, the positive one first
+    "ras": (("R", "L"), ("A", "P"), ("S", "I")),
+    "lps": (("L", "R"), ("P", "A"), ("S", "I")),
+    "none": None}
 ARC_COLORS = [(0.55, 0.72, 0.84), (0.97, 0.90, 0.62), (0.96, 0.62, 0.26), (0.83, 0.24, 0.16), (0.45, 0.02, 0.10)]
 
 
@@ -191,6 +201,42 @@ def cells_behind(plane, mesh):
     return skin_of(cells(mesh, lambda i: plane.EvaluateFunction(centers.GetPoint(i)) < 0))
 
 
+def labels_of(mesh):
+    """The subdomains that the mesh has, ascending; none if the file does not tell."""
+    array = mesh.GetCellData().GetArray("subdomain")
+    return sorted({int(array.GetTuple1(i)) for i in range(mesh.GetNumberOfCells())}) if array else []
+
+
+def label_color(labels, label):
+    return LABEL_COLORS[labels.index(label) % len(LABEL_COLORS)]
+
+
+def label_table(labels):
+    """Colors of subdomains, which need not follow each other."""
+    table = vtk.vtkLookupTable()
+    size = labels[-1] - labels[0] + 1
+    table.SetNumberOfTableValues(size)
+    table.SetTableRange(labels[0] - 0.5, labels[-1] + 0.5)
+    for i in range(size):
+        color = label_color(labels, labels[0] + i) if labels[0] + i in labels else GREY
+        table.SetTableValue(i, *color, 1)
+    return table
+
+
+def direction_name(world, direction):
+    """What a direction of length 1 is called: "R", or "RA" between right and front; empty without a world."""
+    if WORLDS[world] is None:
+        return ""
+    letters = [(abs(x), WORLDS[world][k][0 if x > 0 else 1]) for k, x in enumerate(direction)]
+    return "".join(letter for size, letter in sorted(letters, reverse=True) if size > 0.4)
+
+
+def bar_length(pixels_per_mm, most):
+    """The longest length of 1, 2 or 5 times a power of ten that takes so many pixels at most."""
+    lengths = [digit * 10.0**power for power in range(-6, 7) for digit in (1, 2, 5)]
+    return max([length for length in lengths if length * pixels_per_mm <= most] or lengths[:1])
+
+
 # Drawing
 
 class Canvas:
@@ -269,8 +315,10 @@ class Canvas:
         self.add_box(REGION_COLOR, 48, -211, 34, 5)
         self.add_text("region of interest", 96, -220, 26)
 
-    def add_text(self, text, x, y, size, color=INK, bold=False, right=False):
-        """Writes at pixels (x, y) of the default size; negative: counted from the right or the top."""
+    def add_text(self, text, x, y, size, color=INK, bold=False, right=False, paper=None):
+        """Writes at pixels (x, y) of the default size; negative: counted from the right or the top.
+
+        With paper, a color, what is behind may be of any color."""
         actor = vtk.vtkTextActor()
         actor.SetInput(text)
         style = actor.GetTextProperty()
@@ -280,6 +328,9 @@ class Canvas:
         style.SetBold(bold)
         if right:
             style.SetJustificationToRight()
+        if paper:
+            style.SetBackgroundColor(paper)
+            style.SetBackgroundOpacity(1)
         actor.SetPosition(*self.pixels(x, y))
         self.renderer.AddActor2D(actor)
 
@@ -305,6 +356,63 @@ class Canvas:
     def pixels(self, x, y):
         x, y = x * self.unit, y * self.unit
         return (x if x >= 0 else self.size[0] + x), (y if y >= 0 else self.size[1] + y)
+
+    def add_line(self, color, start, end, width):
+        """A line between pixels of the default size."""
+        points, cells, data = vtk.vtkPoints(), vtk.vtkCellArray(), vtk.vtkPolyData()
+        for x, y in (start, end):
+            points.InsertNextPoint(*self.pixels(x, y), 0)
+        cells.InsertNextCell(2, [0, 1])
+        data.SetPoints(points)
+        data.SetLines(cells)
+        mapper = vtk.vtkPolyDataMapper2D()
+        mapper.SetInputData(data)
+        actor = vtk.vtkActor2D()
+        actor.SetMapper(mapper)
+        actor.GetProperty().SetColor(color)
+        actor.GetProperty().SetLineWidth(width * self.unit)
+        self.renderer.AddActor2D(actor)
+
+    def add_scale_bar(self, pixels_per_mm, x, y, color=INK, right=False, most=240, paper=None):
+        """A bar from (or, with `right`, to) pixels (x, y) of the default size, with its length."""
+        length = bar_length(pixels_per_mm, most)
+        width = length * pixels_per_mm
+        left = x - width if right else x
+        if paper:
+            self.add_box(paper, left - 10, y - 10, width + 20, 58)
+        self.add_box(color, left, y, width, 5)
+        for end in (left, left + width - 3):
+            self.add_box(color, end, y - 5, 3, 15)
+        self.add_text("%g mm" % length, left, y + 16, 24, color)
+
+    def add_orientation(self, world, x, y):
+        """A cross of the axes as they are seen, around pixels (x, y) of the default size."""
+        if WORLDS[world] is None:
+            return
+        view, radius = self.renderer.GetActiveCamera().GetViewTransformMatrix(), 54
+        for k in range(3):
+            seen = [view.GetElement(row, k) for row in range(2)]
+            if math.hypot(*seen) < 0.25:  # towards the reader
+                continue
+            self.add_line(GREY, [x - radius * seen[0], y - radius * seen[1]], [x + radius * seen[0], y + radius * seen[1]],
+                          2.5)
+            for sign, letter in zip((1, -1), WORLDS[world][k]):
+                reach = sign * (radius + 20 / math.hypot(*seen))
+                self.add_text(letter, x + reach * seen[0] - 8, y + reach * seen[1] - 9, 24, bold=True)
+
+    def add_measures(self, world):
+        """Below on the right: how long a millimeter is, and where is what. After `look_at`."""
+        if WORLDS[world] is None:
+            return
+        self.add_scale_bar(self.pixels_per_mm / self.unit, -48, 48, right=True)
+        self.add_orientation(world, -130, 188)
+
+    def add_labels(self, labels, y=60):
+        """The colors of subdomains, from pixel y upwards."""
+        for row, label in enumerate(reversed(labels[:12])):
+            self.add_box(label_color(labels, label), 48, y + 50 * row, 34, 34)
+            self.add_box(None, 48, y + 50 * row, 34, 34)
+            self.add_text("subdomain %d" % label, 96, y + 7 + 50 * row, 26)
 
     def add_title(self, title, subtitle):
         self.add_text(title, 48, -76, 42, bold=True)
@@ -333,6 +441,7 @@ class Canvas:
         left, right, top, bottom = [self.unit * margin for margin in (300, 50, 150, 40)]
         world = max((x1 - x0) / (width - left - right), (y1 - y0) / (height - top - bottom))  # length of a pixel
         camera.SetParallelScale(world * height / 2)
+        self.pixels_per_mm = 1 / world
         # Window center: of the middle of the window, in half windows from the focal point.
         camera.SetWindowCenter(((x0 + x1) / world + right - left) / width,
                                ((y0 + y1) / world + top - bottom) / height)
@@ -377,7 +486,7 @@ def mesh_title(mesh):
     return "%s vertices, %s elements" % (number(mesh.GetNumberOfPoints()), number(mesh.GetNumberOfCells()))
 
 
-def draw_surface(size, surface, region, plane, path):
+def draw_surface(size, surface, region, plane, world, path):
     canvas = Canvas(size, path)
     # The front of the surface translucent, its back solid: the region is seen within a body.
     canvas.add_surface(surface, SURFACE_COLOR).GetProperty().FrontfaceCullingOn()
@@ -391,10 +500,22 @@ def draw_surface(size, surface, region, plane, path):
                      % tuple(number(n) for s in (surface, region)
                              for n in (s.GetNumberOfPoints(), s.GetNumberOfCells())))
     canvas.look_at(surface, region, plane)
+    canvas.add_measures(world)
     canvas.write(path)
 
 
-def draw_kinds(size, mesh, skin, surface, region, plane, path):
+def draw_labels(size, mesh, labels, skin, surface, region, plane, world, path):
+    canvas = Canvas(size, path)
+    canvas.add_cells(skin, "subdomain", label_table(labels))
+    canvas.add_outline(region, plane)
+    canvas.add_title("Elements by subdomain", mesh_title(mesh))
+    canvas.add_labels(labels)
+    canvas.look_at(surface, region, plane, skin)
+    canvas.add_measures(world)
+    canvas.write(path)
+
+
+def draw_kinds(size, mesh, skin, surface, region, plane, world, path):
     canvas = Canvas(size, path)
     table = vtk.vtkLookupTable()
     table.SetNumberOfTableValues(len(KINDS))
@@ -414,10 +535,11 @@ def draw_kinds(size, mesh, skin, surface, region, plane, path):
         canvas.add_box(None, 48, 210 - 50 * row, 34, 34)
         canvas.add_text(counted(counts[kind], name), 96, 217 - 50 * row, 26)
     canvas.look_at(surface, region, plane, skin)
+    canvas.add_measures(world)
     canvas.write(path)
 
 
-def draw_arc(size, mesh, skin, surface, region, plane, path):
+def draw_arc(size, mesh, skin, surface, region, plane, world, path):
     canvas = Canvas(size, path)
     arcs = mesh.GetCellData().GetArray("ARC")
     values = sorted(arcs.GetTuple1(i) for i in range(mesh.GetNumberOfCells()))
@@ -443,6 +565,7 @@ def draw_arc(size, mesh, skin, surface, region, plane, path):
     canvas.add_title("Elements by aspect-ratio coefficient (ideal: 1)",
                      "%s; mean %.2f, largest %.3g" % (mesh_title(mesh), mean, values[-1]))
     canvas.look_at(surface, region, plane, skin)
+    canvas.add_measures(world)
     canvas.write(path)
 
 
@@ -453,6 +576,9 @@ def main():
     parser.add_argument("--region", required=True, metavar="R.off", help="the region of interest")
     parser.add_argument("--output-prefix", required=True, metavar="PREFIX", help="start of the pictures' names")
     parser.add_argument("--size", default="1600x1200", help="of the pictures, in pixels (default: %(default)s)")
+    parser.add_argument("--world", choices=sorted(WORLDS), default="ras",
+                        help="coordinates, in mm: ras (to the right, front, top), lps, or none: no bar, no letters "
+                             "(default: %(default)s)")
     options = parser.parse_args()
     try:
         size = [int(x) for x in options.size.split("x")]
@@ -465,9 +591,13 @@ def main():
     plane = cut_plane(surface, region)
     skin = cells_behind(plane, mesh)
     start_display()
-    draw_surface(size, surface, region, plane, options.output_prefix + "_surface.png")
-    draw_kinds(size, mesh, skin, surface, region, plane, options.output_prefix + "_kinds.png")
-    draw_arc(size, mesh, skin, surface, region, plane, options.output_prefix + "_ARC.png")
+    world = options.world
+    draw_surface(size, surface, region, plane, world, options.output_prefix + "_surface.png")
+    draw_kinds(size, mesh, skin, surface, region, plane, world, options.output_prefix + "_kinds.png")
+    draw_arc(size, mesh, skin, surface, region, plane, world, options.output_prefix + "_ARC.png")
+    labels = labels_of(mesh)
+    if len(labels) > 1:
+        draw_labels(size, mesh, labels, skin, surface, region, plane, world, options.output_prefix + "_labels.png")
 
 
 if __name__ == "__main__":

@@ -9,10 +9,12 @@
 #include "elasticity_test.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -170,6 +172,112 @@ void test_supports(int kind)
   BOOST_TEST_LT(norm(moment), 1e-9 * weight);
 }
 
+// The share of a tetrahedron below a height: by points all over it, and by what must be the same.
+void test_share_below()
+{
+  Noise random;
+  for(int trial = 0; trial < 200; ++trial) {
+    std::array<double, 4> h{};
+    for(double& x : h)
+      x = trial % 4 == 0 ? std::floor(3 * random()) : random(); // equal heights, too
+    const int n = 40;
+    double below = 0, all = 0;
+    for(int i = 0; i < n; ++i)
+      for(int j = 0; i + j < n; ++j)
+        for(int k = 0; i + j + k < n; ++k) {
+          const double a = (i + 0.25) / n, b = (j + 0.25) / n, c = (k + 0.25) / n;
+          const double height = a * h[0] + b * h[1] + c * h[2] + (1 - a - b - c) * h[3];
+          below += height < 0 ? 1 : height == 0 ? 0.5 : 0;
+          ++all;
+        }
+    const double share = share_below(h);
+    BOOST_TEST_LT(std::abs(share - below / all), 0.06);
+    BOOST_TEST(share >= 0 && share <= 1);
+    std::array<double, 4> mirrored{-h[2], -h[0], -h[3], -h[1]};
+    const bool is_flat = h == std::array<double, 4>{};
+    if(!is_flat)
+      BOOST_TEST_LT(std::abs(share + share_below(mirrored) - 1), 1e-12);
+  }
+  // The edge between two heights of 0 and 1 and two of -1 and -2, by hand: simple cases.
+  BOOST_TEST_LT(std::abs(share_below({-1, 1, 1, 1}) - 0.125), 1e-15);
+  BOOST_TEST_LT(std::abs(share_below({-1, -1, 1, 1}) - 0.5), 1e-15);
+  BOOST_TEST_LT(std::abs(share_below({-3, 1, 1, 1}) - 27. / 64), 1e-15);
+}
+
+// A body in a fluid, up to a level: a column with the weight of the difference below, and all of it above.
+void test_fluid(int kind)
+{
+  const double g = 9810, density = 1.04e-6, fluid = 1e-6, nu = 0.3;
+  const Elastic_material material{3, nu, density};
+  const Vec3 acceleration{0, 0, -g};
+  const Mesh column = any_grid(4, kind);
+  Elasticity problem(column, material);
+  slide_on_sides(problem, true, true);
+  BOOST_TEST(is_success(problem.factor()));
+  problem.set_gravity(acceleration);
+  BOOST_TEST(is_success(problem.solve()));
+  const Field dry = problem.displacements();
+
+  // All in the fluid: the difference of the densities, as a share of the weight; none in it: the weight.
+  problem.set_body_forces(buoyant_forces(column, acceleration, fluid));
+  BOOST_TEST(is_success(problem.solve()));
+  for(Vertex_index v = 0; v < dry.size(); ++v)
+    BOOST_TEST_LT(norm(problem.displacements()[v] - (1 - fluid / density) * dry[v]), 1e-12 * largest(dry));
+  for(double level : {-1e-9, -std::numeric_limits<double>::infinity()}) {
+    problem.set_body_forces(buoyant_forces(column, acceleration, fluid, level));
+    BOOST_TEST(is_success(problem.solve()));
+    BOOST_TEST_LT(difference(problem.displacements(), dry), 1e-12 * largest(dry));
+  }
+  // As heavy as the fluid, in the fluid: nothing moves.
+  problem.set_body_forces(buoyant_forces(column, acceleration, density, 1));
+  BOOST_TEST(is_success(problem.solve()));
+  BOOST_TEST_LT(largest(problem.displacements()), 1e-12 * largest(dry));
+
+  // Half in it: stress is the weight of what is above, and exact at vertices of regular hexahedra and prisms.
+  const double modulus = material.lambda() + 2 * material.mu(), level = 0.5;
+  const auto sunk = [&](const Vec3& p) {
+    const double z = p[2], low = (std::min)(z, level);
+    const double u = density * (z - z * z / 2) - fluid * (level * low - low * low / 2);
+    return Vec3{0, 0, -g * u / modulus};
+  };
+  problem.set_body_forces(buoyant_forces(column, acceleration, fluid, level));
+  BOOST_TEST(is_success(problem.solve()));
+  const Field expected = at_vertices(column, sunk);
+  const bool is_exact = kind == HEXAHEDRON || kind == PRISM;
+  BOOST_TEST_LT(difference(problem.displacements(), expected), (is_exact ? 1e-10 : 0.1) * largest(expected));
+
+  // Control points bear the difference, whatever the level and the direction; elements are cut, and warped.
+  const Mesh mesh = any_grid(4, kind, 0.15, Moved::INNER);
+  double volume_of_mesh = 0;
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
+    volume_of_mesh += volume(mesh, e);
+  BOOST_TEST_LT(std::abs(volume_of_mesh - 1), 1e-12);
+  Elasticity hung(mesh, material);
+  BOOST_TEST(is_success(hung.factor()));
+  BOOST_TEST(is_success(hung.set_control_points(
+    std::vector<Vec3>{{0.1, 0.2, 0.9}, {0.8, 0.1, 0.7}, {0.4, 0.9, 0.6}, {0.3, 0.5, 0.2}})));
+  for(const Vec3& direction : {Vec3{0, 0, -1}, Vec3{0.6, 0, -0.8}})
+    for(double height : {0.1, 0.37, 0.625}) {
+      hung.set_gravity(g * direction);
+      hung.set_body_forces(buoyant_forces(mesh, g * direction, fluid, height));
+      BOOST_TEST(is_success(hung.solve(Field(4, Vec3{}))));
+      Vec3 force{};
+      for(const Vec3& f : hung.control_forces())
+        force = force + f;
+      // The part of the cube below: of unit width along y, and a polygon across.
+      const int n = 2000;
+      double below = 0;
+      for(int i = 0; i < n; ++i) {
+        const double x = (i + 0.5) / n;
+        const double z = (height + x * direction[0]) / -direction[2];
+        below += (std::min)(1., (std::max)(0., z)) / n;
+      }
+      const Vec3 wanted = -g * (density - below * fluid) * direction;
+      BOOST_TEST_LT(norm(force - wanted), 2e-3 * norm(wanted));
+    }
+  BOOST_TEST(buoyant_forces(mesh, Vec3{}, fluid, 0.5) == Field(mesh.number_of_elements(), Vec3{}));
+}
+
 // Rotations about the center are free if every vertex of the boundary slides around it.
 void test_free_motions()
 {
@@ -261,6 +369,9 @@ int main()
 {
   for(int kind = 0; kind <= number_of_element_kinds; ++kind)
     test_supports(kind);
+  test_share_below();
+  for(int kind = 0; kind <= number_of_element_kinds; ++kind)
+    test_fluid(kind);
   test_free_motions();
   return boost::report_errors();
 }

@@ -9,6 +9,7 @@
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
+#include <CGAL/Mixed_mesh_3/IO/read_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
@@ -33,6 +34,7 @@
 #include <limits>
 #include <locale>
 #include <map>
+#include <numeric>
 #include <random>
 #include <sstream>
 #include <stdexcept>
@@ -278,6 +280,14 @@ std::size_t number_of_boundary_faces(const Mesh& mesh, int size)
                                    [size](const Face& face) { return face.vertices().size() == size; }));
 }
 
+// Whether facet sets can share faces in the format.
+bool can_share_faces(const std::string& extension) { return extension != ".msh2" && extension != ".mesh"; }
+
+bool can_have_vertex_data(const std::string& extension)
+{
+  return extension != ".inp" && extension != ".mesh";
+}
+
 class Expectations
 {
   fs::path m_directory;
@@ -289,13 +299,19 @@ public:
     m_json << std::setprecision(17) << "[";
   }
 
-  // Writes the mesh in all formats, twice, and what readers must find.
+  // Writes the mesh in all formats, twice, and what readers must find. Vertex data are the positions.
   void write(const std::string& name, const Mesh& mesh,
-             const IO::Write_options& vtu_options = IO::Write_options())
+             const IO::Write_options& vtu_options = IO::Write_options(),
+             const std::vector<IO::Facet_set>& facet_sets = {}, bool share_faces = false)
   {
     for(const char* extension : extensions) {
+      if(share_faces && !can_share_faces(extension))
+        continue;
       const std::string path = (m_directory / (name + extension)).string();
-      const IO::Write_options options = std::string(extension) == ".vtu" ? vtu_options : IO::Write_options();
+      IO::Write_options options = std::string(extension) == ".vtu" ? vtu_options : IO::Write_options();
+      options.facet_sets = facet_sets;
+      if(can_have_vertex_data(extension))
+        options.vertex_data = vtu_options.vertex_data;
       BOOST_TEST(IO::check_output_path(path));
       BOOST_TEST(IO::write_mixed_mesh(path, mesh, options));
       const std::string first = contents(path);
@@ -308,6 +324,8 @@ public:
       region += mesh.is_in_region(e);
     const auto counts = mesh.elements().counts();
     m_json << (m_json.str().size() > 1 ? ",\n" : "\n") << " {\"name\": \"" << name
+           << "\", \"share_faces\": " << (share_faces ? "true" : "false") << ", \"vertex_data\": \""
+           << (vtu_options.vertex_data.empty() ? "" : vtu_options.vertex_data.front().name)
            << "\", \"vertices\": " << mesh.number_of_vertices() << ", \"kinds\": [" << counts[0] << ", "
            << counts[1] << ", " << counts[2] << ", " << counts[3] << "], \"region\": " << region
            << ", \"triangles\": " << number_of_boundary_faces(mesh, 3)
@@ -334,6 +352,28 @@ public:
     m_json << "]}";
   }
 
+  // Facet sets of the last mesh: of each face its element, whether it is on the boundary, and its vertices.
+  void add_facet_sets(const Mesh& mesh, const std::vector<IO::Facet_set>& sets)
+  {
+    const std::vector<Face> boundary = find_boundary_faces(mesh);
+    std::string json = m_json.str();
+    json.pop_back(); // the end of the mesh
+    m_json.str("");
+    m_json << json << ",\n  \"facet_sets\": {";
+    for(const IO::Facet_set& set : sets) {
+      m_json << (m_json.str().back() == '{' ? "" : ",\n   ") << '"' << set.name << "\": [";
+      for(const Face& face : set.faces) {
+        m_json << (m_json.str().back() == '[' ? "" : ", ") << "[" << face.element() << ", "
+               << int(std::binary_search(boundary.begin(), boundary.end(), face));
+        for(Vertex_index v : face.vertices())
+          m_json << ", " << v;
+        m_json << "]";
+      }
+      m_json << "]";
+    }
+    m_json << "}}";
+  }
+
   void finish()
   {
     std::ofstream out(m_directory / "io_expected.json");
@@ -341,6 +381,111 @@ public:
     BOOST_TEST(out.good());
   }
 };
+
+std::string facet_set_error(const Mesh& mesh, const std::vector<IO::Facet_set>& sets, const std::string& file)
+{
+  IO::Write_options options;
+  options.facet_sets = sets;
+  return write_error(file, mesh, options);
+}
+
+double area_of(const Mesh& mesh, const std::vector<Face>& faces)
+{
+  return std::accumulate(faces.begin(), faces.end(), 0.,
+                         [&mesh](double sum, const Face& face) { return sum + area(mesh, face); });
+}
+
+// The faces of the boundary that look in a direction; those of the elements of a subdomain, all around.
+std::vector<IO::Facet_set> facet_sets_of(const Mesh& mesh)
+{
+  std::vector<IO::Facet_set> sets{{"Left-side", {}}, {"right_2", {}}, {"empty", {}}, {"around", {}}};
+  for(const Face& face : boundary_faces(mesh)) {
+    const double x = vector_area(mesh, face)[0];
+    if(std::abs(x) > 0.5 * area(mesh, face))
+      sets[x > 0].faces.push_back(face);
+  }
+  for(std::size_t e = 0; e < mesh.number_of_elements(); e += 41)
+    for(int f = 0; f < mesh.element(e).reference().number_of_faces; ++f)
+      sets[3].faces.emplace_back(mesh.elements(), Element_index(e), f);
+  return sets;
+}
+
+// Faces of sets that are in none before, so that all formats hold them.
+void make_disjoint(std::vector<IO::Facet_set>& sets)
+{
+  std::vector<Face> used;
+  for(IO::Facet_set& set : sets) {
+    std::vector<Face> left;
+    for(const Face& face : set.faces)
+      if(std::find(used.begin(), used.end(), face) == used.end())
+        left.push_back(face);
+    set.faces = left;
+    used.insert(used.end(), left.begin(), left.end());
+  }
+}
+
+void test_facet_sets(Expectations& expectations, const fs::path& directory, const Mesh& mesh)
+{
+  std::vector<IO::Facet_set> sets = facet_sets_of(mesh);
+  // A face in two sets is in both, or refused.
+  for(const char* extension : extensions)
+    if(!can_share_faces(extension))
+      BOOST_TEST(
+        mentions(facet_set_error(mesh, sets, std::string("io_refused") + extension), "share a face"));
+  expectations.write("io_shared_facets", mesh, {}, sets, true);
+  expectations.add_facet_sets(mesh, sets);
+  make_disjoint(sets);
+  expectations.write("io_facets", mesh, {}, sets);
+  expectations.add_facet_sets(mesh, sets);
+
+  // What is on the mesh is on its tetrahedra: faces are planar here.
+  std::vector<Element_index> origins;
+  const Mesh tetrahedra = split_to_tetrahedra(mesh, &origins);
+  const std::vector<IO::Facet_set> split = IO::internal::split_facet_sets(tetrahedra, origins, sets);
+  expectations.write("io_facet_tetrahedra", tetrahedra, {}, split);
+  expectations.add_facet_sets(tetrahedra, split);
+  for(std::size_t i = 0; i < sets.size(); ++i) {
+    BOOST_TEST_EQ(split[i].name, sets[i].name);
+    BOOST_TEST_LT(std::abs(area_of(tetrahedra, split[i].faces) - area_of(mesh, sets[i].faces)), 1e-11);
+    for(const Face& face : split[i].faces)
+      BOOST_TEST(std::any_of(sets[i].faces.begin(), sets[i].faces.end(),
+                             [&](const Face& whole) { return whole.element() == origins[face.element()]; }));
+  }
+  for(const char* extension : extensions) {
+    IO::Write_options options;
+    options.facet_sets = sets;
+    options.tetrahedra = true;
+    const std::string path = (directory / (std::string("io_option") + extension)).string();
+    BOOST_TEST(IO::write_mixed_mesh(path, mesh, options));
+    BOOST_TEST(contents(path) == contents(directory / (std::string("io_facet_tetrahedra") + extension)));
+    fs::remove(path);
+  }
+
+  // Readers of meshes find the mesh as without sets.
+  for(const char* extension : {".vtu", ".msh", ".msh2"}) {
+    Mesh with, without;
+    const std::string path = (directory / (std::string("io_plain") + extension)).string();
+    BOOST_TEST(IO::write_mixed_mesh(path, mesh));
+    BOOST_TEST(IO::read_mixed_mesh(path, without));
+    BOOST_TEST(IO::read_mixed_mesh((directory / (std::string("io_facets") + extension)).string(), with));
+    BOOST_TEST(with.points() == without.points());
+    BOOST_TEST(with.elements().connectivity() == without.elements().connectivity());
+    BOOST_TEST_EQ(with.number_of_elements(), mesh.number_of_elements());
+    for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
+      BOOST_TEST(with.attributes(e) == without.attributes(e));
+    fs::remove(path);
+  }
+
+  const char* const file = "io_refused.vtu";
+  for(const char* name :
+      {"", "1a", "with space", "a,b", "\"", "Boundary", "ALL", "rest", "region_hex8", "subdomain_2_rest"})
+    BOOST_TEST(mentions(facet_set_error(mesh, {{name, {}}}, file), "needs another name"));
+  BOOST_TEST(mentions(facet_set_error(mesh, {{"a", {}}, {"A", {}}}, file), "needs another name"));
+  const Face face(mesh.elements(), 0, 0);
+  BOOST_TEST(mentions(facet_set_error(mesh, {{"a", {face, face}}}, file), "a face twice"));
+  BOOST_TEST(mentions(facet_set_error(tetrahedra, {{"a", {face}}}, file), "not a face of the mesh"));
+  BOOST_TEST(!fs::exists(file));
+}
 
 void test_writers(const fs::path& directory)
 {
@@ -369,8 +514,27 @@ void test_writers(const fs::path& directory)
   IO::Write_options with_data;
   with_data.vertex_data = {{"position & <copy>", &positions, 3}};
   with_data.element_data = {{"element", &element_numbers}};
+  // A vertex without an element keeps its values where it is written.
+  Mesh with_loose_vertex = cells;
+  with_loose_vertex.add_vertex(Point(7, 8, 9));
+  std::vector<double> more_positions = positions;
+  more_positions.insert(more_positions.end(), {7, 8, 9});
+  for(const char* extension : {".msh", ".msh2", ".feb"}) {
+    IO::Write_options loose;
+    loose.vertex_data = {{"position", &more_positions, 3}};
+    const fs::path path = directory / (std::string("io_loose") + extension);
+    BOOST_TEST(IO::write_mixed_mesh(path.string(), with_loose_vertex, loose));
+    BOOST_TEST_EQ(contents(path).find("7 8 9\n") != std::string::npos, std::string(extension) == ".msh2");
+    Mesh read;
+    if(std::string(extension) != ".feb") {
+      BOOST_TEST(IO::read_mixed_mesh(path.string(), read));
+      BOOST_TEST_EQ(read.number_of_elements(), cells.number_of_elements());
+    }
+    fs::remove(path);
+  }
   expectations.write("io_grid", cells, with_data);
   expectations.write("io_tetrahedra", split_to_tetrahedra(cells));
+  test_facet_sets(expectations, directory, cells);
 
   // The option is the function; element data follow their elements.
   const std::string path = (directory / "io_option.vtu").string();
@@ -602,6 +766,15 @@ void test_errors(const fs::path& directory)
   IO::Write_options options;
   options.vertex_data = {{"data", &values}};
   BOOST_TEST(mentions(write_error(old.string(), mesh, options), "size of the mesh"));
+  BOOST_TEST(mentions(write_error((place / "old.msh").string(), mesh, options), "size of the mesh"));
+  for(const char* name : {"old.inp", "old.mesh"})
+    BOOST_TEST(mentions(write_error((place / name).string(), mesh, options), "to .msh and .feb, only"));
+  options.vertex_data = {{"data", &values, 2}};
+  BOOST_TEST(mentions(write_error((place / "old.feb").string(), mesh, options), "to .msh and .feb, only"));
+  options.vertex_data = {{"da\"ta", &values}};
+  BOOST_TEST(mentions(write_error((place / "old.msh").string(), mesh, options), "to .msh and .feb, only"));
+  options.vertex_data.clear();
+  options.element_data = {{"data", &values}};
   BOOST_TEST(mentions(write_error((place / "old.msh").string(), mesh, options), ".vtu only"));
   std::ostringstream stream;
   BOOST_TEST(!IO::write_VTU(stream, mesh, {{{"data", &values}}, {}}));

@@ -33,6 +33,12 @@ GMSH_REFERENCE_VOLUMES = [1 / 6, 4 / 3, 1, 8]
 MEDIT_KEYWORDS = {"Tetrahedra": 4, "Pyramids": 5, "Prisms": 6, "Hexahedra": 8, "Triangles": 3,
                   "Quadrilaterals": 4}
 ABAQUS_TYPES = ["C3D4", "C3D5", "C3D6", "C3D8"]
+# Abaqus, Analysis User's Guide, "Three-dimensional solid element library": faces S1, S2 and so on.
+ABAQUS_FACES = {
+    "C3D4": [(1, 2, 3), (1, 4, 2), (2, 4, 3), (3, 4, 1)],
+    "C3D5": [(1, 2, 3, 4), (1, 5, 2), (2, 5, 3), (3, 5, 4), (4, 5, 1)],
+    "C3D6": [(1, 2, 3), (4, 6, 5), (1, 4, 5, 2), (2, 5, 6, 3), (3, 6, 4, 1)],
+    "C3D8": [(1, 2, 3, 4), (5, 8, 7, 6), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 8, 4), (4, 8, 5, 1)]}
 FEBIO_TYPES = ["tet4", "pyra5", "penta6", "hex8"]
 
 failures = 0
@@ -73,6 +79,37 @@ def part_tags(expected):
     return tags
 
 
+def facet_sets(expected):
+    """The sets that have faces: of each face its element, whether it is on the boundary, and its vertices."""
+    return {name: [(f[0], f[1], f[2:]) for f in faces]
+            for name, faces in expected.get("facet_sets", {}).items() if faces}
+
+
+def facet_set_tags(expected):
+    """The number of each set, also of those without faces: after those of parts."""
+    first = max([3, *part_tags(expected).values()]) + 1
+    return {name: first + i for i, name in enumerate(expected.get("facet_sets", {}))
+            if name in facet_sets(expected)}
+
+
+def canonical(faces):
+    """Faces as lists of vertices, each from its smallest vertex on: orientation counts."""
+    return sorted(tuple(f[f.index(min(f)):] + f[:f.index(min(f))]) for f in
+                  ([int(v) for v in face] for face in faces))
+
+
+def check_faces(path, expected, points, groups, has_one_number):
+    """Faces by name of their group. A face with one number is in its set, and not in "boundary"."""
+    sets = facet_sets(expected)
+    check(sorted(groups) == sorted([*sets, "boundary"]), path, "groups of faces", sorted(groups))
+    boundary = list(groups["boundary"])
+    for name, faces in sets.items():
+        check(canonical(groups.get(name, [])) == canonical(f for _, _, f in faces), path, "facet set", name)
+        if has_one_number:
+            boundary += [f for _, is_on_boundary, f in faces if is_on_boundary]
+    check_boundary(path, expected, points, [[f for f in boundary if len(f) == size] for size in (3, 4)])
+
+
 def check_vtu(path, expected):
     errors = []
     reader = vtk.vtkXMLUnstructuredGridReader()
@@ -103,6 +140,12 @@ def check_vtu(path, expected):
     check(list(kinds) == sorted(kinds), path, "elements are sorted by kind")
     check(np.array_equal(vtk_to_numpy(data.GetArray("subdomain")), np.array(expected["subdomains"])[order]), path,
           "subdomain")
+
+    arrays = [data.GetArrayName(i) for i in range(data.GetNumberOfArrays())]
+    check(sorted(a[7:] for a in arrays if a.startswith("facets_")) == sorted(facet_sets(expected)), path, "facet sets")
+    for name, faces in facet_sets(expected).items():
+        numbers = np.bincount([face[0] for face in faces], minlength=n)[order]
+        check(np.array_equal(vtk_to_numpy(data.GetArray("facets_" + name)), numbers), path, "facets_" + name)
 
     # VTK's filter for volumes, which are signed.
     sizes = vtk.vtkCellSizeFilter()
@@ -181,35 +224,46 @@ def check_msh(path, version, expected):
         volume += volumes.sum()
     check(close(volume, expected["volume"]), path, "total volume")
 
-    # Groups and entities: volumes 1 (region) and 2 (rest) of subdomain 1, surface 3, other volumes.
+    # Groups: volumes 1 (region) and 2 (rest) of subdomain 1, surface 3, other volumes, facet sets. Each is an
+    # entity, but where facet sets share faces with the boundary or with each other.
     names = part_names(expected)
-    numbers = {tag: names.count(name) for name, tag in part_tags(expected).items()}
-    numbers[3] = expected["triangles"] + expected["quadrilaterals"]
     groups = {(dim, tag): gmsh.model.getPhysicalName(dim, tag)
               for dim, tag in gmsh.model.getPhysicalGroups()}
     wanted = {(2, 3): "boundary", **{(3, tag): name for name, tag in part_tags(expected).items()}}
-    check(groups == wanted, path, "physical groups", groups)
-    check(sorted(gmsh.model.getEntities()) == sorted(wanted), path, "entities",
-          gmsh.model.getEntities())
-    for dim, tag in wanted:
-        check(list(gmsh.model.getEntitiesForPhysicalGroup(dim, tag)) == [tag], path, "group", tag)
-        number = sum(map(len, mesh.getElements(dim, tag)[1]))
-        check(number == numbers[tag], path, "number of elements of", wanted[dim, tag])
+    check(groups == {**wanted, **{(2, tag): name for name, tag in facet_set_tags(expected).items()}}, path,
+          "physical groups", groups)
+    entities = gmsh.model.getEntities()
+    if not facet_sets(expected):
+        check(sorted(entities) == sorted(wanted), path, "entities", entities)
+    faces = {}
+    for (dim, tag), name in groups.items():
+        of_group = gmsh.model.getEntitiesForPhysicalGroup(dim, tag)
+        if dim == 3:
+            check(list(of_group) == [tag], path, "group", tag)
+            number = sum(map(len, mesh.getElements(dim, tag)[1]))
+            check(number == names.count(name), path, "number of elements of", name)
+        else:
+            faces[name] = [face - 1 for entity in of_group for kind, _, nodes in zip(*mesh.getElements(2, entity))
+                           for face in np.asarray(nodes, int).reshape(-1, kind + 1)]
     if version == 4.1:
-        tags = np.concatenate([mesh.getNodes(*entity)[0] for entity in wanted])
+        tags = np.concatenate([mesh.getNodes(*entity)[0] for entity in entities])
         check(sorted(tags) == list(range(1, n + 1)), path, "each vertex is on one entity")
-        tags = mesh.getNodes(2, 3)[0]
-        ours = np.unique(np.concatenate(mesh.getElements(2, 3)[2]))
-        check(np.array_equal(np.sort(tags), ours), path, "vertices of the boundary")
+        tags = np.concatenate([mesh.getNodes(*entity)[0] for entity in entities if entity[0] == 2])
+        ours = 1 + np.unique([v for some in faces.values() for face in some for v in face])
+        check(np.array_equal(np.sort(tags), ours), path, "vertices of the faces")
         if n < 20:  # the volumes know their surface
             for dim, tag in wanted:
                 if dim == 3:
                     check(list(gmsh.model.getAdjacencies(3, tag)[1]) == [3], path, "boundary of", tag)
-
-    check_boundary(path, expected, points,
-                   [np.asarray(nodes, int).reshape(-1, size) - 1
-                    for nodes, size in ((mesh.getElementsByType(2)[1], 3),
-                                        (mesh.getElementsByType(3)[1], 4))])
+    check_faces(path, expected, points, faces, has_one_number=version == 2.2)
+    views = {gmsh.option.getString("View[%d].Name" % gmsh.view.getIndex(tag)): tag for tag in gmsh.view.getTags()}
+    check(list(views) == [expected["vertex_data"]] * bool(expected["vertex_data"]), path, "views", list(views))
+    for tag in views.values():
+        kind, tags, data, _, components = gmsh.view.getModelData(tag, 0)
+        check(kind == "NodeData" and components == 3 and len(tags) == n, path, "view", kind, components)
+        check(np.array_equal(np.asarray(data), np.asarray(expected["points"])[np.asarray(tags, int) - 1]), path,
+              "values at the vertices")
+        gmsh.view.remove(tag)
 
 
 def check_boundary(path, expected, points, faces):
@@ -255,12 +309,16 @@ def check_medit(path, expected):
     names = {tag: name for name, tag in part_tags(expected).items()}
     parts = [names[r] for b in volumes for r in b[:, -1]]
     check_elements(path, expected, points, [b[:, :-1] - 1 for b in volumes], parts)
-    check_boundary(path, expected, points,
-                   [blocks.get(k, none)[:, :-1] - 1 for k in ("Triangles", "Quadrilaterals")])
+    faces = {name: [row[:-1] - 1 for k in ("Triangles", "Quadrilaterals") for row in blocks.get(k, none)
+                    if row[-1] == tag] for name, tag in {"boundary": 3, **facet_set_tags(expected)}.items()}
+    check_faces(path, expected, points, faces, has_one_number=True)
+    check(sum(map(len, faces.values())) == sum(len(blocks.get(k, none)) for k in ("Triangles", "Quadrilaterals")),
+          path, "each face has a known number")
 
 
 def check_inp(path, expected):
-    points, elements, sets, members, boundary = [], [[] for _ in KINDS], {}, {}, []
+    points, elements, sets, members, boundary, surfaces = [], [[] for _ in KINDS], {}, {}, [], {}
+    vertices, sets_of_faces = {}, {}
     for line in open(path):
         check(len(line) <= 256, path, "long line")
         line = line.strip().rstrip(",")
@@ -272,13 +330,29 @@ def check_inp(path, expected):
         elif keyword == "*ELEMENT":
             numbers = [int(w) for w in line.split(",")]
             elements[ABAQUS_TYPES.index(values["TYPE"])].append([v - 1 for v in numbers[1:]])
+            vertices[numbers[0]] = values["TYPE"], [v - 1 for v in numbers[1:]]
             sets.setdefault(values["ELSET"], []).append(numbers[0])
+        elif keyword == "*ELSET" and line[0].isdigit():
+            numbers = [int(w) for w in line.split(",")]
+            check(len(numbers) <= 16, path, "numbers on a line")
+            sets_of_faces.setdefault(values["ELSET"], []).extend(numbers)
         elif keyword == "*ELSET":
             members.setdefault(values["ELSET"], []).append(line)
         elif keyword == "*NSET":
             numbers = [int(w) for w in line.split(",")]
             check(len(numbers) <= 16, path, "numbers on a line")
             boundary += numbers
+        elif keyword == "*SURFACE":
+            check(values["TYPE"] == "ELEMENT", path, "type of surface")
+            of_set, side = [w.strip() for w in line.split(",")]
+            surfaces.setdefault(values["NAME"], []).extend(
+                (vertices[e], side) for e in sets_of_faces.pop(of_set))
+    check(not sets_of_faces, path, "sets without a surface")
+    check(sorted(surfaces) == sorted(name.upper() for name in facet_sets(expected)), path, "surfaces")
+    for name, faces in facet_sets(expected).items():
+        found = [[v[i - 1] for i in ABAQUS_FACES[kind][int(side[1:]) - 1]]
+                 for (kind, v), side in surfaces[name.upper()]]
+        check(sorted(map(sorted, found)) == sorted(sorted(f) for _, _, f in faces), path, "surface", name)
     parts = [name.lower() for name, of in members.items() for s in of for _ in sets[s]]
     check_elements(path, expected, points, elements, parts)
     check(0 < len(set(boundary)) == len(boundary) <= expected["vertices"], path, "boundary nodes")
@@ -289,7 +363,8 @@ def check_inp(path, expected):
 def check_feb(path, expected):
     root = ElementTree.parse(path).getroot()
     check(root.tag == "febio_spec" and root.get("version") == "4.0", path, "root")
-    check([c.tag for c in root] == ["Module", "Material", "Mesh", "MeshDomains"], path, "sections")
+    sections = ["Module", "Material", "Mesh", "MeshDomains"] + ["MeshData"] * bool(expected["vertex_data"])
+    check([c.tag for c in root] == sections, path, "sections")
     mesh = root.find("Mesh")
     points = [[float(w) for w in node.text.split(",")] for node in mesh.find("Nodes")]
     domains = {d.get("name"): d.get("mat") for d in root.find("MeshDomains")}
@@ -303,9 +378,17 @@ def check_feb(path, expected):
     check(sorted(names) == sorted(set(domains)), path, "domains")
     check(set(domains.values()) <= {m.get("name") for m in root.find("Material")}, path, "materials")
     check_elements(path, expected, points, elements, parts)
-    check_boundary(path, expected, points,
-                   [[[int(w) - 1 for w in f.text.split(",")] for f in mesh.find("Surface").iter(tag)]
-                    for tag in ("tri3", "quad4")])
+    faces = {}
+    for surface in mesh.findall("Surface"):
+        check([f.get("id") for f in surface] == [str(i + 1) for i in range(len(surface))], path, "numbers of faces")
+        faces[surface.get("name")] = [[int(w) - 1 for w in f.text.split(",")] for f in surface]
+        check(all(len(f) == {"tri3": 3, "quad4": 4}[x.tag]
+                  for f, x in zip(faces[surface.get("name")], surface)), path, "types of faces")
+    check_faces(path, expected, points, faces, has_one_number=False)
+    for data in root.findall("MeshData/NodeData"):
+        check(data.attrib == {"name": expected["vertex_data"], "node_set": "all", "data_type": "vec3"}, path, "data")
+        check([node.get("lid") for node in data] == [str(i + 1) for i in range(len(points))], path, "lists of nodes")
+        check([[float(w) for w in node.text.split(",")] for node in data] == points, path, "values at the vertices")
 
 
 def main():
@@ -318,12 +401,13 @@ def main():
         path = os.path.join(directory, expected["name"])
         check_vtu(path + ".vtu", expected)
         check_msh(path + ".msh", 4.1, expected)
-        check_msh(path + ".msh2", 2.2, expected)
-        check_medit(path + ".mesh", expected)
+        if not expected["share_faces"]:
+            check_msh(path + ".msh2", 2.2, expected)
+            check_medit(path + ".mesh", expected)
         check_inp(path + ".inp", expected)
         check_feb(path + ".feb", expected)
     gmsh.finalize()
-    check(len(expectations) == 7, "number of meshes", len(expectations))
+    check(len(expectations) == 10, "number of meshes", len(expectations))
     print("%d meshes, %d failures" % (len(expectations), failures))
     return 1 if failures else 0
 

@@ -136,6 +136,47 @@ void test_fields_are_inverse(bool mirror, Displacement_interpolation interpolati
   BOOST_TEST_LT(worst, 1.5);             // at the surface, where the fields have a kink
 }
 
+// Labels: the voxel whose center is nearest, by brute force; nothing between them appears.
+void test_labels()
+{
+  Scene scene(true);
+  std::mt19937 random(3);
+  for(float& value : scene.image.values)
+    value = float(random() % 5);
+  scene.image.type = Voxel_type::INT16;
+  const auto u = scene.displacements(bend);
+  Warp_options options;
+  options.image_interpolation = Image_interpolation::NEAREST;
+  const Warped_image_3 warped = warp_image(scene.image, scene.mesh, u, options);
+  BOOST_TEST(warped.image.type == Voxel_type::INT16);
+  BOOST_TEST(warped.image.values
+             == resample_image(scene.image, warped.backward, Image_interpolation::NEAREST).values);
+  const auto& map = scene.image.grid.index_to_world;
+  const double diagonal = norm(Vec3{map[0][0], map[1][0], map[2][0]})
+                          + norm(Vec3{map[0][1], map[1][1], map[2][1]})
+                          + norm(Vec3{map[0][2], map[1][2], map[2][2]});
+  std::vector<Vec3> centers;
+  for_each_voxel_center(scene.image.grid, [&](std::size_t, const Vec3& x) { centers.push_back(x); });
+  std::size_t moved = 0;
+  for(std::size_t offset = 0; offset < centers.size(); offset += 499) {
+    const Vec3 from = centers[offset] + to_doubles(warped.backward.vectors[offset]);
+    double least = std::numeric_limits<double>::infinity();
+    for(const Vec3& c : centers)
+      least = (std::min)(least, norm(c - from));
+    if(least > diagonal) // far outside
+      continue;
+    bool is_nearest = false; // voxels have right angles
+    for(std::size_t i = 0; i < centers.size(); ++i)
+      if(norm(centers[i] - from) < least + 1e-4)
+        is_nearest = is_nearest || scene.image.values[i] == warped.image.values[offset];
+    BOOST_TEST(is_nearest);
+    moved += least > 1e-3;
+  }
+  BOOST_TEST_GT(moved, 50u);
+  for(float value : warped.image.values)
+    BOOST_TEST(value == std::floor(value) && value >= 0 && value < 5);
+}
+
 void test_outside()
 {
   const Scene scene(false);
@@ -271,6 +312,7 @@ int main()
     test_fields_are_inverse(mirror, Displacement_interpolation::LINEAR);
     test_fields_are_inverse(mirror, Displacement_interpolation::RECOVERED);
   }
+  test_labels();
   test_outside();
   test_fade();
   test_resection();

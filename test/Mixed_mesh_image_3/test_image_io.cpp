@@ -11,6 +11,7 @@
 #include "test_images.h"
 
 #include <CGAL/Mixed_mesh_image_3/IO/NIFTI.h>
+#include <CGAL/Mixed_mesh_image_3/IO/write_warped_image.h>
 #include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>
 #include <CGAL/Mixed_mesh_image_3/warp_image.h>
 
@@ -429,8 +430,23 @@ void test_warped_files()
   const Scene scene(false);
   const Warped_image_3 warped = warp_image(scene.image, scene.mesh, scene.displacements(bend));
   IO::Output_files files;
-  BOOST_TEST(IO::write_warped_image(files, file("image_warped.nii.gz"), warped));
+  const std::vector<IO::Field_format> formats{IO::Field_format::NIFTI, IO::Field_format::ITK,
+                                              IO::Field_format::NRRD};
+  BOOST_TEST(IO::write_warped_image(files, file("image_warped.nii.gz"), warped, formats));
+  BOOST_TEST(IO::write_NRRD(files, file("image_raw.nrrd"), warped.backward, false));
+  BOOST_TEST(IO::write_NIFTI(files, file("image_unwarped.nii.gz"), scene.image));
   BOOST_TEST(files.commit());
+  // Fields are written when they are asked for.
+  BOOST_TEST(IO::write_warped_image(files, file("image_only.nii"), warped));
+  BOOST_TEST(files.commit());
+  BOOST_TEST(fs::exists(file("image_only_mask.nii")) && !fs::exists(file("image_only_backward.nii")));
+  std::string error;
+  BOOST_TEST(!IO::write_NRRD(files, file("image.nii"), warped.backward, true, &error));
+  BOOST_TEST_EQ(error, file("image.nii") + ": unknown extension, known is .nrrd");
+  Displacement_field_3 short_field = warped.backward;
+  short_field.vectors.pop_back();
+  BOOST_TEST(!IO::write_NRRD(files, file("image.nrrd"), short_field, true, &error));
+  BOOST_TEST_EQ(error, file("image.nrrd") + ": the field does not have the size of its grid");
   BOOST_TEST(read_image(file("image_warped.nii.gz")).values == warped.image.values);
   BOOST_TEST(read_image(file("image_warped_mask.nii.gz")).values == warped.mask.values);
   for(const char* name : {"image_warped_forward.nii.gz", "image_warped_backward.nii.gz"})

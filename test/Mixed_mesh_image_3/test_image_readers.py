@@ -8,11 +8,14 @@
 
 Usage: test_image_readers.py [directory that test_image_io wrote to]
 
-Exit code 77 (skipped) if a module is missing: python3-nibabel.
+Exit code 77 (skipped) if a module is missing: python3-nibabel. With plastimatch, if there, fields are applied.
 """
 
+import gzip
 import json
 import os
+import shutil
+import subprocess
 import sys
 
 try:
@@ -35,6 +38,67 @@ def check(condition, *text):
 
 def affine_of(rows):
     return np.vstack([rows, [0, 0, 0, 1]])
+
+
+def read_nrrd(path):
+    """The header of a NRRD file as a dictionary, and its data as an array with the fastest axis first."""
+    with open(path, "rb") as file:
+        text, _, data = file.read().partition(b"\n\n")
+    lines = text.decode("ascii").splitlines()
+    check(lines[0] == "NRRD0004", path, "magic")
+    header = dict(line.split(": ", 1) for line in lines[1:])
+    if header["encoding"] == "gzip":
+        data = gzip.decompress(data)
+    sizes = [int(n) for n in header["sizes"].split()]
+    return header, np.frombuffer(data, "<f4" if header["endian"] == "little" else ">f4").reshape(sizes, order="F")
+
+
+def check_fields(directory, load):
+    """The formats say the same: components to the left and to the back where ITK reads them."""
+    lps = np.array([-1, -1, 1])
+    for direction in ("forward", "backward"):
+        plain = load(f"image_warped_{direction}.nii.gz")
+        itk = load(f"image_warped_{direction}_itk.nii.gz")
+        vectors = np.asarray(plain.dataobj)
+        check(np.abs(vectors).max() > 1, "a field without displacements")
+        check(itk.header["intent_code"] == 1007 and itk.shape == plain.shape, direction, "field for ITK")
+        check(np.array_equal(itk.affine, plain.affine), direction, "affine of the field for ITK")
+        check(np.array_equal(np.asarray(itk.dataobj), vectors * lps), direction, "vectors for ITK")
+        names = [f"image_warped_{direction}.nrrd"] + (["image_raw.nrrd"] if direction == "backward" else [])
+        for name in names:
+            header, data = read_nrrd(os.path.join(directory, name))
+            check(header["kinds"] == "vector domain domain domain" and header["type"] == "float"
+                  and header["space"] == "left-posterior-superior" and header["dimension"] == "4", name, header)
+            check(np.array_equal(data, np.moveaxis(vectors[:, :, :, 0] * lps, 3, 0)), name, "vectors")
+            columns = [c.strip("()").split(",") for c in header["space directions"].split()[1:]]
+            columns.append(header["space origin"].strip("()").split(","))
+            check(np.allclose(np.array(columns, float).T, lps[:, None] * plain.affine[:3], rtol=1e-6, atol=1e-5), name,
+                  "grid")
+
+
+def check_with_plastimatch(directory, load, mask, backward):
+    """Another program, with ITK, resamples the image by the backward field."""
+    if shutil.which("plastimatch") is None:
+        print("skipped: no plastimatch")
+        return
+    image, ours = load("image_unwarped.nii.gz"), load("image_warped.nii.gz").get_fdata()
+    # Where the image is asked beyond its voxels, programs differ.
+    inverse = np.linalg.inv(image.affine)
+    ijk = np.indices(image.shape).reshape(3, -1)
+    vectors = np.asarray(backward.dataobj)[:, :, :, 0].reshape(-1, 3).T
+    source = inverse[:3, :3] @ (image.affine[:3, :3] @ ijk + image.affine[:3, 3:] + vectors) + inverse[:3, 3:]
+    inside = np.all((source > 0) & (source < np.array(image.shape)[:, None] - 1), axis=0).reshape(image.shape)
+    moved = np.abs(ours - image.get_fdata())[inside].max()
+    for field in ("image_warped_backward_itk.nii.gz", "image_warped_backward.nrrd", "image_raw.nrrd"):
+        output = os.path.join(directory, "image_by_plastimatch.nii.gz")
+        run = subprocess.run(["plastimatch", "convert", "--input", os.path.join(directory, "image_unwarped.nii.gz"),
+                              "--xf", os.path.join(directory, field), "--output-img", output, "--output-type",
+                              "float", "--algorithm", "itk"], capture_output=True, text=True)
+        check(run.returncode == 0 and os.path.exists(output), field, run.stdout, run.stderr)
+        if os.path.exists(output):
+            difference = np.abs(nibabel.load(output).get_fdata() - ours)[inside].max()
+            check(difference < 1e-3 * moved, field, "plastimatch against ours", difference, moved)
+            os.remove(output)
 
 
 def main():
@@ -92,6 +156,8 @@ def main():
     shown = image.get_fdata().ravel()[mask.ravel() == 1]
     check(np.allclose(shown, 100 + [0.7, -0.4, 0.9] @ source, atol=1e-4), "warped image against field")
 
+    check_fields(directory, load)
+    check_with_plastimatch(directory, load, mask, backward)
     print(failures, "failures")
     return 1 if failures else 0
 

@@ -13,6 +13,7 @@ import shutil
 import subprocess
 import sys
 import unittest
+import xml.etree.ElementTree as ElementTree
 
 MESHER, PROGRAM, DATA, WORK = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
 
@@ -166,7 +167,7 @@ class BrainShift(unittest.TestCase):
         told, run = self.succeeds(self.mesh, "--control-points", self.points, "--tumor", self.tumor, "--image",
                                   self.image, "--output", WORK / "all.vtu", "--output-deformed", WORK / "left.vtu",
                                   "--output-deformed", WORK / "left.msh", "--output-image", WORK / "all",
-                                  "--interpolation", "linear")
+                                  "--interpolation", "linear", "--field", "nifti")
         self.assertIn("wrote", run.stdout)
         grid, left = self.read(WORK / "all.vtu"), self.read(WORK / "left.vtu")
         displacement = vtk_to_numpy(grid.GetPointData().GetArray("displacement"))
@@ -248,7 +249,8 @@ class BrainShift(unittest.TestCase):
 
     def test_interpolation(self):
         run = lambda name, *more: self.succeeds(self.mesh, "--control-points", self.points, "--control-radius", 8,
-                                                "--image", self.image, "--output-image", WORK / name, *more)[0]
+                                                "--image", self.image, "--output-image", WORK / name, "--field",
+                                                "nifti", *more)[0]
         data = lambda name: np.asarray(nibabel.load(WORK / f"{name}.nii.gz").dataobj)
         told = run("default")
         self.assertEqual(told["parameters"]["interpolation between vertices"], "recovered")
@@ -260,6 +262,65 @@ class BrainShift(unittest.TestCase):
             difference = data("default" + direction) - data("linear" + direction)
             largest = np.linalg.norm(difference[inside], axis=-1).max()
             self.assertTrue(0.05 < largest < 0.2 * told["shift"]["largest displacement"], largest)
+
+    def test_fields(self):
+        """None unless asked for; and what another program makes of them."""
+        arguments = [self.mesh, "--control-points", self.points, "--image", self.image, "--tumor", self.tumor,
+                     "--output-image", WORK / "fields"]
+        written = lambda: sorted(path.name for path in WORK.glob("fields*"))
+        told, _ = self.succeeds(*arguments)
+        self.assertEqual(written(), ["fields.nii.gz", "fields_mask.nii.gz"])
+        self.assertEqual([pathlib.Path(p).name for p in told["outputs"]][:-1], written())
+        told, _ = self.succeeds(*arguments, "--field", "itk", "--field", "nrrd")
+        self.assertEqual(written(), ["fields.nii.gz", "fields_backward.nrrd", "fields_backward_itk.nii.gz",
+                                     "fields_forward.nrrd", "fields_forward_itk.nii.gz", "fields_mask.nii.gz"])
+        self.assertEqual(sorted(pathlib.Path(p).name for p in told["outputs"])[:-1], written())
+        if shutil.which("plastimatch") is None:
+            self.skipTest("no plastimatch")
+        ours, mask = nibabel.load(WORK / "fields.nii.gz").get_fdata(), nibabel.load(WORK / "fields_mask.nii.gz")
+        tissue = np.asarray(mask.dataobj) == 1
+        self.assertGreater(np.abs(ours - self.values)[tissue].max(), 10)
+        for field in ("fields_backward.nrrd", "fields_backward_itk.nii.gz"):
+            output = WORK / "by_plastimatch.nii.gz"
+            subprocess.run(["plastimatch", "convert", "--input", self.image, "--xf", WORK / field, "--output-img",
+                            output, "--output-type", "float", "--algorithm", "itk"], check=True, capture_output=True)
+            self.assertLess(np.abs(nibabel.load(output).get_fdata() - ours)[tissue].max(), 0.01)
+            output.unlink()
+
+    def test_labels(self):
+        """Labels come from the nearest voxel, and keep their type."""
+        labels = np.floor(np.indices(self.values.shape).sum(0) / 5).astype(np.int16) % 7 * 100 - 200
+        nibabel.save(nibabel.Nifti1Image(labels, self.affine), WORK / "labels.nii.gz")
+        arguments = [self.mesh, "--control-points", self.points, "--image", self.image]
+        told, _ = self.succeeds(*arguments, "--labels", WORK / "labels.nii.gz", "--tumor", self.tumor, "--field",
+                                "nifti", "--output-image", WORK / "labeled")
+        self.assertEqual(told["inputs"]["labels"], str(WORK / "labels.nii.gz"))
+        self.assertIn(str(WORK / "labeled_labels.nii.gz"), told["outputs"])
+        after = nibabel.load(WORK / "labeled_labels.nii.gz")
+        mask = np.asarray(nibabel.load(WORK / "labeled_mask.nii.gz").dataobj)
+        self.assertEqual(after.get_data_dtype(), np.int16)
+        after = np.asarray(after.dataobj)
+        self.assertEqual(set(np.unique(after)), set(np.unique(labels)))
+        self.assertTrue(np.all(after[mask == 2] == 0))
+        vectors = np.asarray(nibabel.load(WORK / "labeled_backward.nii.gz").dataobj)[:, :, :, 0]
+        source = np.indices(labels.shape) + np.einsum("ij,xyzj->ixyz", np.linalg.inv(self.affine[:3, :3]), vectors)
+        top = np.array(labels.shape).reshape(3, 1, 1, 1) - 1
+        nearest = np.clip(np.floor(source + 0.5), 0, top).astype(int)
+        sure = (mask != 2) & np.all(np.abs(source - np.floor(source) - 0.5) > 1e-4, axis=0)
+        self.assertTrue(np.array_equal(after[sure], labels[tuple(nearest)][sure]))
+        self.assertGreater(np.count_nonzero(after[sure] != labels[sure]), 300)
+        # bad labels
+        nibabel.save(nibabel.Nifti1Image(labels + np.float32(0.5), self.affine), WORK / "halves.nii")
+        nibabel.save(nibabel.Nifti1Image(labels[1:], self.affine), WORK / "smaller.nii")
+        shifted = self.affine.copy()
+        shifted[0, 3] += 0.1
+        nibabel.save(nibabel.Nifti1Image(labels, shifted), WORK / "shifted.nii")
+        for name, words in (("halves.nii", "is no label; expected integers"),
+                            ("smaller.nii", "does not have the voxels of " + str(self.image)),
+                            ("shifted.nii", "does not have the voxels of"), ("none.nii", "No such file")):
+            with self.subTest(name):
+                self.fails(*arguments, "--output-image", WORK / "no", "--labels", WORK / name, names=WORK / name,
+                           words=words)
 
     def test_rigid_motion_is_exact(self):
         # All control points move alike, nothing is fixed: everything follows.
@@ -309,6 +370,171 @@ class BrainShift(unittest.TestCase):
         other, _ = self.succeeds(self.mesh, "--control-points", self.points, "--poisson-ratio", 0.3)
         self.assertNotEqual(at(other), at(base))
 
+    def volume_below(self, level):
+        """Of the mesh below a height, by VTK."""
+        plane = vtk.vtkPlane()
+        plane.SetOrigin(0, 0, level)
+        plane.SetNormal(0, 0, -1)
+        clip = vtk.vtkTableBasedClipDataSet()
+        clip.SetInputData(self.read(self.mesh))
+        clip.SetClipFunction(plane)
+        sizes = vtk.vtkCellSizeFilter()
+        sizes.SetInputConnection(clip.GetOutputPort())
+        sizes.Update()
+        return np.abs(vtk_to_numpy(sizes.GetOutput().GetCellData().GetArray("Volume"))).sum()
+
+    def test_weight_in_a_fluid(self):
+        still = self.file("still.csv", HEADER + "".join(",".join(map(str, (*p[:3], 0, 0, 0))) + "\n" for p in VALUES))
+        at = lambda told: told["shift"]["largest displacement"]
+        run = lambda *more: self.succeeds(self.mesh, "--control-points", still, "--gravity", "0,0,-9810", *more)[0]
+        dry = run("--density", 1, "--fluid-density", 0)
+        wet = run()  # brain in cerebrospinal fluid
+        self.assertAlmostEqual(at(wet) / at(dry), 0.04, 9)
+        self.assertAlmostEqual(at(run("--fluid-level", -1000)) / at(dry), 1.04, 9)
+        self.assertAlmostEqual(at(run("--fluid-level", 1000)), at(wet), 9)
+        self.assertLess(at(run("--density", 1)), 1e-9)
+        drained = run("--fluid-level", 20)
+        self.assertTrue(at(wet) < at(drained) < 1.04 * at(dry))
+        self.assertEqual(drained["parameters"]["level of the fluid"], {"value": 20, "unit": "mm"})
+        self.assertEqual(wet["parameters"]["level of the fluid"], {"value": None, "unit": "mm"})
+        self.assertEqual(wet["parameters"]["density"], {"value": 1.04, "unit": "g/cm^3"})
+        # Control points alone bear the weight that is left.
+        for level in (-20, 20, 45.5):
+            told = run("--fluid-level", level, "--fixed-below", 0)
+            force = np.sum([p["force"] for p in told["shift"]["control points"]], axis=0)
+            below = self.volume_below(level)
+            self.assertTrue(0.01 < below / told["inputs"]["mesh"]["volume"] < 0.99)
+            wanted = 9810e-6 * (1.04 * told["inputs"]["mesh"]["volume"] - below)
+            self.assertTrue(np.allclose(force / wanted, [0, 0, 1], atol=2e-3), (level, force, wanted))
+
+    def surfaces_of(self, path):
+        """Of a model of FEBio: the faces of each surface, positions and displacements of nodes, from 0."""
+        root = ElementTree.parse(path).getroot()
+        vector = lambda node: [float(x) for x in node.text.split(",")]
+        surfaces = {s.get("name"): [[int(v) - 1 for v in face.text.split(",")] for face in s]
+                    for s in root.findall("Mesh/Surface")}
+        data = {d.get("name"): np.array([vector(n) for n in d]) for d in root.findall("MeshData/NodeData")}
+        return surfaces, np.array([vector(n) for n in root.find("Mesh/Nodes")]), data
+
+    def test_patches(self):
+        """The opening is free, the skull holds the rest, the base is fixed: in the solution, and as facet sets."""
+        width, middle = 60, VALUES[:, :3].mean(0)
+        opening = self.file("opening.off", cube_off(middle, width))
+        outputs = [x for name in ("patches.feb", "patches.msh", "patches.vtu") for x in ("--output", WORK / name)]
+        outputs += [x for name in ("left.feb", "left.inp", "left.msh", "left.mesh", "left.msh2")
+                    for x in ("--output-deformed", WORK / name)]
+        told, _ = self.succeeds(self.mesh, "--control-points", self.points, "--opening", opening, "--slide", "skull",
+                                "--fixed", "base", "--tumor", self.tumor, *outputs)
+        surfaces, points, data = self.surfaces_of(WORK / "patches.feb")
+        self.assertEqual(sorted(surfaces), ["boundary", "fixed", "opening", "sliding"])
+        displacement = data["displacement"]
+        grid = self.read(WORK / "patches.vtu")
+        self.assertTrue(np.array_equal(vtk_to_numpy(grid.GetPointData().GetArray("displacement")), displacement))
+        for name in ("fixed", "sliding", "opening"):
+            numbers = vtk_to_numpy(grid.GetCellData().GetArray("facets_" + name))
+            self.assertEqual(numbers.sum(), len(surfaces[name]))
+        is_inside = lambda face: np.all(np.abs(points[face].mean(0) - middle) < width / 2)
+        self.assertEqual(sorted(surfaces["opening"]), sorted(f for f in surfaces["boundary"] if is_inside(f)))
+        of = {name: {v for face in faces for v in face} for name, faces in surfaces.items()}
+        self.assertEqual(len(of["boundary"]), told["supports"]["boundary vertices"])
+        self.assertTrue(np.all(displacement[list(of["fixed"])] == 0))
+        self.assertEqual(len(of["fixed"] | of["sliding"]), told["supports"]["fixed"] + told["supports"]["sliding"])
+        self.assertEqual(len(surfaces["fixed"]) + len(surfaces["sliding"]) + len(surfaces["opening"]),
+                         len(surfaces["boundary"]))
+        height = np.ptp(points[:, 2]) * 0.3 + points[:, 2].min()
+        for face in surfaces["fixed"]:
+            self.assertLess(points[face, 2].max(), height)
+        # What slides stays in its tangential plane, unless it is on an edge: the displacement has no normal part.
+        normals = np.zeros_like(points)
+        for face in surfaces["boundary"]:
+            p = points[face]
+            d, e = (p[2] - p[0], p[3] - p[1]) if len(face) == 4 else (p[1] - p[0], p[2] - p[0])
+            normals[face] += np.cross(d, e)
+        sliding = sorted(of["sliding"] - of["fixed"])
+        normal = np.einsum("ij,ij->i", displacement, normals)[sliding] / np.linalg.norm(normals[sliding], axis=1)
+        self.assertLess(np.quantile(np.abs(normal), 0.9), 0.15 * told["shift"]["largest displacement"])
+        free = sorted(of["opening"] - of["sliding"] - of["fixed"])
+        self.assertGreater(np.linalg.norm(displacement[free], axis=1).max(), 5)
+        # After the resection there is a cavity; the other sets are as before, but for what is removed.
+        left, _, _ = self.surfaces_of(WORK / "left.feb")
+        self.assertEqual(sorted(left), sorted([*surfaces, "cavity"]))
+        self.assertEqual(len(left["fixed"]), len(surfaces["fixed"]))
+        self.assertTrue(0 < len(left["opening"]) <= len(surfaces["opening"]))
+        self.assertEqual(sum(map(len, left.values())), 2 * len(left["boundary"]))
+        text = (WORK / "left.inp").read_text()
+        for name in ("FIXED", "SLIDING", "OPENING", "CAVITY"):
+            self.assertIn(f"*SURFACE, NAME={name}, TYPE=ELEMENT\n", text)
+        for name in ("left.msh", "left.msh2", "patches.msh"):
+            self.assertIn('"sliding"', (WORK / name).read_text())
+        self.assertIn('$NodeData\n1\n"displacement"\n', (WORK / "patches.msh").read_text())
+        self.assertEqual(told["parameters"]["openings"], [str(opening)])
+
+    def test_patches_on_top_of_other_options(self):
+        report = lambda *more: self.succeeds(self.mesh, "--control-points", self.points, *more)[0]
+        plain = report("--output", WORK / "without.feb")
+        surfaces, _, data = self.surfaces_of(WORK / "without.feb")
+        self.assertEqual((list(surfaces), list(data)), (["boundary"], ["displacement"]))
+        # base is what is fixed by default; other patches replace it, unless it is asked for
+        self.assertEqual(report("--fixed", "base")["shift"], plain["shift"])
+        everything = self.file("everything.off", cube_off((0, 0, 0), 1000))
+        low = self.file("low.off", cube_off((0, 0, -1000), 1900))
+        self.assertEqual(report("--slide", low)["supports"]["fixed"], plain["supports"]["fixed"])
+        only_low = report("--fixed", low)["supports"]
+        both = report("--fixed", low, "--fixed", "base")["supports"]
+        below = report("--fixed", low, "--fixed-below", 0.3)["supports"]
+        self.assertEqual(both, below)
+        self.assertTrue(0 < only_low["fixed"] < both["fixed"])
+        # an opening comes before all
+        free = report("--opening", everything, "--fixed", everything, "--slide", "skull")["supports"]
+        self.assertEqual((free["fixed"], free["sliding"]), (0, 0))
+        self.assertEqual(report("--opening", everything, "--slide-beyond", 0, "--fixed-below", 0.3)["supports"], free)
+        held = report("--fixed", everything, "--slide", "skull", "--control-compliance", 1)["supports"]
+        self.assertEqual((held["fixed"], held["sliding"]), (held["boundary vertices"], 0))
+
+    def test_labels_as_patches(self):
+        grid = self.read(self.mesh)
+        subdomain = vtk_to_numpy(grid.GetCellData().GetArray("subdomain"))
+        is_right = np.array([np.mean(vtk_to_numpy(grid.GetCell(i).GetPoints().GetData())[:, 0]) > 30
+                             for i in range(grid.GetNumberOfCells())])
+        subdomain[is_right] = 4
+        writer = vtk.vtkXMLUnstructuredGridWriter()
+        writer.SetFileName(str(WORK / "labels.vtu"))
+        writer.SetInputData(grid)
+        writer.SetDataModeToAscii()
+        writer.Write()
+        points = self.file("left_points.csv", HEADER + "-40,0,50,0,0,-4\n")
+        told, _ = self.succeeds(WORK / "labels.vtu", "--control-points", points, "--max-distance", 60, "--fixed",
+                                "label:4", "--output", WORK / "labels.feb", "--output", WORK / "labels_out.vtu")
+        surfaces, _, data = self.surfaces_of(WORK / "labels.feb")
+        fixed = sorted({v for face in surfaces["fixed"] for v in face})
+        self.assertEqual(len(fixed), told["supports"]["fixed"])
+        self.assertTrue(np.all(data["displacement"][fixed] == 0))
+        after = self.read(WORK / "labels_out.vtu").GetCellData()
+        # every boundary face of an element of the label is fixed, and those of others only where all vertices are
+        has_label, numbers = (vtk_to_numpy(after.GetArray(name)) for name in ("subdomain", "facets_fixed"))
+        of_label = numbers[has_label == 4].sum()
+        self.assertTrue(10 < of_label <= len(surfaces["fixed"]) < 1.5 * of_label)
+        nodes = [frozenset(face) for face in surfaces["boundary"]]
+        elements = [{grid.GetCell(i).GetPointId(k) for k in range(grid.GetCell(i).GetNumberOfPoints())}
+                    for i in np.nonzero(is_right)[0]]
+        faces_of_label = {face for face in nodes if any(face <= element for element in elements)}
+        self.assertEqual(len(faces_of_label), of_label)
+        self.assertTrue(faces_of_label <= {frozenset(face) for face in surfaces["fixed"]})
+        self.fails(WORK / "labels.vtu", "--control-points", points, "--max-distance", 60, "--slide", "label:9",
+                   names="label:9", words="no face of the boundary of")
+
+    def test_bad_patches(self):
+        arguments = [self.mesh, "--control-points", self.points]
+        for option, patch in (("--fixed", "skull"), ("--slide", "base"), ("--opening", "skull"), ("--opening", "base"),
+                              ("--fixed", "label:"), ("--slide", "label:0"), ("--opening", "label:3x")):
+            with self.subTest(option=option, patch=patch):
+                self.fails(*arguments, option, patch, names=option, words="is no patch for this option", status=2)
+        far = self.file("far.off", cube_off((500, 0, 0), 10))
+        self.fails(*arguments, "--opening", far, names=far, words="has its center inside")
+        self.fails(*arguments, "--fixed", WORK / "none.off", names="none.off", words="No such file")
+        opened = self.file("opened.off", cube_off((28, 18, 28), 20, TRIANGLES[:-1]))
+        self.fails(*arguments, "--slide", opened, names=opened, words="not closed")
+
     def test_harmless_points(self):
         self.succeeds(self.mesh, "--control-points", self.points, "--output", WORK / "plain.vtu")
         wanted = (WORK / "plain.vtu").read_bytes()
@@ -337,9 +563,11 @@ class BrainShift(unittest.TestCase):
         for name, threads in (("a", "1"), ("b", "1"), ("c", "4")):
             self.succeeds(self.mesh, "--control-points", self.points, "--tumor", self.tumor, "--image", self.image,
                           "--output", WORK / f"{name}.vtu", "--output-deformed", WORK / f"{name}.msh",
-                          "--output-image", WORK / f"{name}", OPENBLAS_NUM_THREADS=threads, OMP_NUM_THREADS=threads)
+                          "--output-image", WORK / f"{name}", "--field", "nifti", "--field", "itk", "--field", "NRRD",
+                          OPENBLAS_NUM_THREADS=threads, OMP_NUM_THREADS=threads)
             outputs.append([(WORK / (name + end)).read_bytes() for end in (
-                ".vtu", ".msh", ".nii.gz", "_forward.nii.gz", "_backward.nii.gz", "_mask.nii.gz")])
+                ".vtu", ".msh", ".nii.gz", "_forward.nii.gz", "_backward.nii.gz", "_forward_itk.nii.gz",
+                "_backward_itk.nii.gz", "_forward.nrrd", "_backward.nrrd", "_mask.nii.gz")])
         self.assertEqual(outputs[0], outputs[1])
         self.assertEqual(outputs[0], outputs[2])
 
@@ -353,12 +581,61 @@ class BrainShift(unittest.TestCase):
                         self.points, "--image", self.image, "--warped-image", WORK / "drawn.nii.gz", "--output-prefix",
                         WORK / "drawn", "--size", "400x300"], check=True, timeout=120)
         for name, height in (("before", 300), ("shifted", 300), ("resected", 300), ("image", 200)):
-            reader = vtk.vtkPNGReader()
-            reader.SetFileName(str(WORK / f"drawn_{name}.png"))
-            reader.Update()
-            self.assertEqual(reader.GetOutput().GetDimensions(), (400, height, 1))
-            pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
-            self.assertGreater(len(np.unique(pixels, axis=0)), 200, name)
+            pixels = self.pixels_of(WORK / f"drawn_{name}.png")
+            self.assertEqual(pixels.shape, (height, 400, 3))
+            self.assertGreater(len(np.unique(pixels.reshape(-1, 3), axis=0)), 200, name)
+
+    def pixels_of(self, path):
+        """Rows from below."""
+        reader = vtk.vtkPNGReader()
+        reader.SetFileName(str(path))
+        reader.Update()
+        width, height, _ = reader.GetOutput().GetDimensions()
+        return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).reshape(height, width, 3).astype(int)
+
+    def test_lengths_in_pictures(self):
+        """The bar below the last slice is as long as it says: slices are 92 mm wide."""
+        if shutil.which("Xvfb") is None:
+            self.skipTest("no Xvfb")
+        grid = self.read(self.mesh)
+        subdomain = vtk_to_numpy(grid.GetCellData().GetArray("subdomain"))
+        subdomain[::2] = 3
+        writer = vtk.vtkXMLUnstructuredGridWriter()
+        writer.SetFileName(str(WORK / "measured_in.vtu"))
+        writer.SetInputData(grid)
+        writer.Write()
+        pictures = {}
+        for name, mesh, world in (("plain", self.mesh, "none"), ("measured", self.mesh, "ras"),
+                                  ("labels", WORK / "measured_in.vtu", "ras")):
+            self.succeeds(mesh, "--control-points", self.points, "--image", self.image, "--output",
+                          WORK / "measured.vtu", "--output-image", WORK / "measured")
+            script = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "pictures" / "render_brain_shift.py"
+            subprocess.run(["/usr/bin/python3", script, WORK / "measured.vtu", "--tumor", self.tumor,
+                            "--control-points", self.points, "--image", self.image, "--warped-image",
+                            WORK / "measured.nii.gz", "--output-prefix", WORK / name, "--world", world, "--size",
+                            "800x600"], check=True, timeout=120)
+            pictures[name] = [self.pixels_of(WORK / f"{name}_{what}.png") for what in ("image", "before")]
+        new = np.any(pictures["measured"][0] != pictures["plain"][0], axis=2)
+        longest = lambda picture: max(max(len(run) for run in "".join(".x"[int(p)] for p in row).split("."))
+                                      for row in picture)  # of pixels side by side
+        slice_width = longest(np.all(np.abs(pictures["plain"][0] - 247) <= 1, axis=2))  # light without a difference
+        dark = np.all(pictures["measured"][0] < 80, axis=2)
+        third = slice(-new.shape[1] // 3, None)
+        lowest = np.nonzero(new[:, third].any(axis=1))[0].min()
+        bar = longest(dark[lowest:lowest + 10, third])
+        self.assertAlmostEqual(bar / slice_width, 20 / 92, delta=0.01)
+        for panel in range(3):  # letters at the four sides of each slice, and nothing new in the middle
+            columns = new[:, panel * new.shape[1] // 3:(panel + 1) * new.shape[1] // 3]
+            rows = np.nonzero(columns.any(axis=1))[0]
+            self.assertGreater(np.ptp(rows), 0.85 * slice_width)
+            self.assertGreater(np.ptp(np.nonzero(columns.any(axis=0))[0]), 0.85 * slice_width)
+        # below on the right of the mesh: a bar and a cross
+        new = np.any(pictures["measured"][1] != pictures["plain"][1], axis=2)
+        rows, columns = np.nonzero(new)
+        self.assertTrue(rows.max() < 200 and columns.min() > 650 and np.count_nonzero(new) > 150)
+        # the colors of subdomains, in the sections and in the list
+        for i in range(2):
+            self.assertGreater(np.count_nonzero(np.any(pictures["labels"][i] != pictures["measured"][i], axis=2)), 1200)
 
     def test_image_beside_the_mesh(self):
         affine = self.affine.copy()
@@ -508,7 +785,7 @@ class BrainShift(unittest.TestCase):
         (WORK / "directory.vtu").mkdir(exist_ok=True)
         for option, path, words in (("--output", WORK / "none" / "a.vtu", "No such file"),
                                     ("--output", WORK / "directory.vtu", "is a directory"),
-                                    ("--output", WORK / "a.msh", ".vtu only"),
+                                    ("--output", WORK / "a.inp", ".vtu, .msh and .feb only"),
                                     ("--output", WORK / "no.vtu", "twice"),
                                     ("--output", self.mesh, "twice"),
                                     ("--output-deformed", WORK / "a.txt", "unknown extension"),
@@ -532,13 +809,18 @@ class BrainShift(unittest.TestCase):
                             (["--young-modulus", "inf"], "--young-modulus"),
                             (["--poisson-ratio", 0.5], "--poisson-ratio: expected a number of at least 0"),
                             (["--poisson-ratio", 0.49999999999999994], "--poisson-ratio: expected a number"),
+                            (["--density", -1], "--density"), (["--fluid-density", "nan"], "--fluid-density"),
+                            (["--gravity", "0,0,-9810", "--fluid-level", "inf"], "--fluid-level"),
+                            (["--fluid-level", 10], "--gravity"),
                             (["--gravity", "1,2"], "--gravity: expected three numbers"),
                             (["--gravity", "0,0,nan"], "--gravity"), (["--up", "w"], "--up"),
                             (["--up", "0,0,0"], "--up"),
                             (["--interpolation", "cubic"], "--interpolation"), (["--max-distance", -1], "--max-distance"),
                             (["--control-compliance", -1], "--control-compliance"),
                             (["--image", self.image], "--output-image"),
-                            (["--output-image", WORK / "no"], "--image")):
+                            (["--output-image", WORK / "no"], "--image"), (["--field", "itk"], "--output-image"),
+                            (["--image", self.image, "--output-image", WORK / "no", "--field", "dicom"], "--field"),
+                            (["--labels", self.image], "--image")):
             with self.subTest(more):
                 self.fails(*(arguments if more else arguments[:1]), *more, names=words, status=2)
         run = self.shift("--version")

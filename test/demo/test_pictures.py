@@ -58,6 +58,20 @@ def gmsh_volume(path):
     return count, total
 
 
+def test_measures():
+    """Names of directions, and lengths of bars."""
+    sys.path.insert(0, str(REPOSITORY / "scripts" / "pictures"))
+    sys.dont_write_bytecode = True
+    import render_mesh
+    for direction, ras, lps in (((1, 0, 0), "R", "L"), ((-1, 0, 0), "L", "R"), ((0, 1, 0), "A", "P"),
+                                ((0, 0, -1), "I", "I"), ((0.6, -0.8, 0), "PR", "AL"), ((0.1, 0.2, 0.97), "S", "S")):
+        assert render_mesh.direction_name("ras", direction) == ras
+        assert render_mesh.direction_name("lps", direction) == lps
+        assert render_mesh.direction_name("none", direction) == ""
+    for pixels_per_mm, most, length in ((1, 240, 200), (1, 199, 100), (2.4, 240, 100), (1000, 240, 0.2), (0.01, 100, 1e4)):
+        assert abs(render_mesh.bar_length(pixels_per_mm, most) / length - 1) < 1e-12
+
+
 def main():
     shutil.rmtree(WORK, ignore_errors=True)
     WORK.mkdir(parents=True)
@@ -81,6 +95,8 @@ def main():
                     DATA / "brain.off", "--region", DATA / "region.off", "--output-prefix", WORK / "brain",
                     "--size", "800x600"], check=True)
     pictures = {name: (800, 600) for name in ("surface", "kinds", "ARC")}
+    assert not (WORK / "brain_labels.png").exists()  # there is one subdomain
+    test_measures()
     unfitted = WORK / "unfitted.json"  # has no mesh before fitting
     subprocess.run([MESHER, DATA / "brain.off", "--vertices", "660", "--no-fit", "--report", unfitted], check=True)
     for name, told in (("quality", report), ("unfitted_quality", unfitted)):

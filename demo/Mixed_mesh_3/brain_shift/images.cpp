@@ -15,6 +15,7 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 #include "common/resources.h"
 
 #include <CGAL/Mixed_mesh_image_3/IO/NIFTI.h>
+#include <CGAL/Mixed_mesh_image_3/IO/write_warped_image.h>
 #include <CGAL/Mixed_mesh_image_3/warp_image.h>
 
 #include <algorithm>
@@ -53,7 +54,48 @@ std::size_t number_of_vertices_inside(const Mesh& mesh, const mm3::Voxel_grid_3&
     + ", in mm");
 }
 
+// Whether voxels are at the same places, up to a thousandth of their size.
+bool are_same(const mm3::Voxel_grid_3& a, const mm3::Voxel_grid_3& b)
+{
+  if(a.size != b.size)
+    return false;
+  const mm3::Affine_map_3 to_index = mm3::inverse(a.index_to_world);
+  for(int corner = 0; corner < 8; ++corner) {
+    Vector index;
+    for(int k = 0; k < 3; ++k)
+      index[k] = (corner >> k & 1) * double(a.size[k] - 1);
+    const Vector there = mm3::transform(to_index, mm3::transform(b.index_to_world, index));
+    if(!(norm(there - index) < 1e-3))
+      return false;
+  }
+  return true;
+}
+
+// The labels after the deformation; those of tissue that is removed are 0.
+mm3::Voxel_image_3 warp_labels(const mm3::Voxel_image_3& labels, const mm3::Warped_image_3& warped)
+{
+  mm3::Voxel_image_3 result = mm3::resample_image(labels, warped.backward, mm3::Image_interpolation::NEAREST);
+  for(std::size_t i = 0; i < result.values.size(); ++i)
+    if(warped.mask.values[i] == 2)
+      result.values[i] = 0;
+  return result;
+}
+
 } // namespace
+
+mm3::Voxel_image_3 read_labels(const Options& o, const mm3::Voxel_grid_3& grid)
+{
+  mm3::Voxel_image_3 labels;
+  require([&](std::string* error) { return mm3::IO::read_NIFTI(o.labels, labels, error); });
+  if(!are_same(grid, labels.grid))
+    throw std::runtime_error(o.labels + ": the label image does not have the voxels of " + o.image);
+  constexpr float largest = 1 << 24; // floats tell integers apart up to there
+  for(float value : labels.values)
+    if(value != std::floor(value) || std::abs(value) > largest)
+      throw std::runtime_error(o.labels + ": " + rounded(double(value))
+                               + " is no label; expected integers up to 2^24");
+  return labels;
+}
 
 mm3::Voxel_image_3 read_image(const Options& o, const Mesh& mesh, Outcome& outcome)
 {
@@ -78,9 +120,9 @@ mm3::Voxel_image_3 read_image(const Options& o, const Mesh& mesh, Outcome& outco
   return image;
 }
 
-void write_images(mm3::IO::Output_files& files, const mm3::Voxel_image_3& image, const Mesh& mesh,
-                  const Tumor* tumor, const std::vector<bool>& is_removed, const Options& o, Stage_log& log,
-                  Outcome& outcome)
+void write_images(mm3::IO::Output_files& files, const mm3::Voxel_image_3& image,
+                  const mm3::Voxel_image_3& labels, const Mesh& mesh, const Closed_surface* tumor,
+                  const std::vector<bool>& is_removed, const Options& o, Stage_log& log, Outcome& outcome)
 {
   mm3::Warp_options warp;
   warp.interpolation = o.interpolation;
@@ -98,8 +140,12 @@ void write_images(mm3::IO::Output_files& files, const mm3::Voxel_image_3& image,
   if(!o.output_image.empty())
     log("write images", [&] {
       require([&](std::string* error) {
-        return mm3::IO::write_warped_image(files, o.output_image + ".nii.gz", warped, error);
+        return mm3::IO::write_warped_image(files, o.output_image + ".nii.gz", warped, o.field_formats, error);
       });
+      if(!o.labels.empty())
+        require([&](std::string* error) {
+          return mm3::IO::write_NIFTI(files, labels_output(o), warp_labels(labels, warped), error);
+        });
     });
 }
 
@@ -110,8 +156,13 @@ mm3::Voxel_image_3 read_image(const Options&, const Mesh&, Outcome&)
   throw std::logic_error("checked with the options");
 }
 
-void write_images(mm3::IO::Output_files&, const mm3::Voxel_image_3&, const Mesh&, const Tumor*,
-                  const std::vector<bool>&, const Options&, Stage_log&, Outcome&)
+mm3::Voxel_image_3 read_labels(const Options&, const mm3::Voxel_grid_3&)
+{
+  throw std::logic_error("checked with the options");
+}
+
+void write_images(mm3::IO::Output_files&, const mm3::Voxel_image_3&, const mm3::Voxel_image_3&, const Mesh&,
+                  const Closed_surface*, const std::vector<bool>&, const Options&, Stage_log&, Outcome&)
 {
 }
 

@@ -13,10 +13,14 @@
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/version.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -30,6 +34,8 @@ constexpr bool has_nifti = true;
 #else
 constexpr bool has_nifti = false;
 #endif
+
+constexpr const char* label_prefix = "label:";
 
 CLI::Validator fraction()
 {
@@ -58,7 +64,15 @@ CLI::Option* add_inputs(CLI::App& app, Options& o)
     .add_option("--tumor,--tumour", o.tumor,
                 "Closed surface: elements whose centroid is inside are removed, after the shift")
     ->type_name("SURFACE");
-  return app.add_option("--image", o.image, "Image before the shift: .nii or .nii.gz")->type_name("IMAGE");
+  CLI::Option* image = app.add_option("--image", o.image, "Image before the shift: .nii or .nii.gz")
+                         ->type_name("IMAGE");
+  app
+    .add_option(
+      "--labels", o.labels,
+      "Label image on the voxels of --image: is deformed with it, by the nearest voxel: .nii or .nii.gz")
+    ->needs(image)
+    ->type_name("IMAGE");
+  return image;
 }
 
 void add_supports(CLI::App& app, Options& o)
@@ -68,7 +82,8 @@ void add_supports(CLI::App& app, Options& o)
     ->capture_default_str();
   app
     .add_option("--fixed-below", o.fixed_below,
-                "Boundary vertices in that lower part of the height are fixed; 0: none")
+                "Boundary vertices in that lower part of the height are fixed; 0: none. With --fixed: 0 by "
+                "default, unless base is among the patches")
     ->check(fraction())
     ->type_name("FRACTION")
     ->capture_default_str();
@@ -86,6 +101,20 @@ void add_supports(CLI::App& app, Options& o)
     ->check(not_negative())
     ->excludes(slide_below)
     ->type_name("MM");
+  const auto add_patches = [&app](const char* name, std::vector<std::string>& patches, const char* what) {
+    app.add_option(name, patches, what)->type_name("PATCH")->allow_extra_args(false);
+  };
+  add_patches(
+    "--fixed", o.fixed_patches,
+    "Patch of the boundary that is fixed: a closed surface (faces whose center is inside), label:N "
+    "(faces of elements of subdomain N), or base (that of --fixed-below); can be given several times");
+  add_patches(
+    "--slide", o.sliding_patches,
+    "Patch that slides, unless fixed: a closed surface, label:N, or skull (all of the boundary); can "
+    "be given several times");
+  add_patches("--opening", o.openings,
+              "Patch that is free, whatever other options say: a closed surface or label:N; can be given "
+              "several times");
 }
 
 void add_physics(CLI::App& app, Options& o)
@@ -98,10 +127,32 @@ void add_physics(CLI::App& app, Options& o)
     ->check(poisson_ratio())
     ->type_name("NU")
     ->capture_default_str();
-  app
-    .add_option("--gravity", o.gravity, "Acceleration in mm/s^2, for example 0,0,-9810; tissue weighs 1 kg/l")
-    ->type_name("X,Y,Z")
+  CLI::Option* const gravity =
+    app
+      .add_option(
+        "--gravity", o.gravity,
+        "Acceleration in mm/s^2, for example 0,0,-9810; it acts on the tissue less the fluid that it "
+        "displaces")
+      ->type_name("X,Y,Z")
+      ->capture_default_str();
+  app.add_option("--density", o.density, "Density of the tissue, for --gravity")
+    ->check(not_negative())
+    ->type_name("G/CM3")
     ->capture_default_str();
+  app
+    .add_option("--fluid-density", o.fluid_density,
+                "Density of the fluid around the tissue; 0: there is none")
+    ->check(not_negative())
+    ->type_name("G/CM3")
+    ->capture_default_str();
+  app
+    .add_option(
+      "--fluid-level", o.fluid_level,
+      "Height of the fluid's surface, in the direction against gravity (the coordinate z if gravity is "
+      "0,0,-9810): tissue above has its whole weight (default: all of it is in the fluid)")
+    ->check(number("of a height", [](double x) { return std::isfinite(x); }))
+    ->needs(gravity)
+    ->type_name("MM");
   app
     .add_option("--max-distance", o.max_distance,
                 "Control points up to so far outside the mesh are taken to its boundary")
@@ -127,10 +178,11 @@ void add_physics(CLI::App& app, Options& o)
 void add_outputs(CLI::App& app, Options& o, CLI::Option* image)
 {
   app
-    .add_option("--output", o.outputs,
-                "Mesh as it was, with the point data `displacement` and the cell data `resected`: .vtu; can "
-                "be given several times")
-    ->type_name("FILE.vtu")
+    .add_option(
+      "--output", o.outputs,
+      "Mesh as it was, with the point data `displacement`, and in .vtu the cell data `resected`: .vtu, "
+      ".msh, .feb; can be given several times")
+    ->type_name("FILE")
     ->allow_extra_args(false);
   app
     .add_option("--output-deformed", o.deformed_outputs,
@@ -140,11 +192,25 @@ void add_outputs(CLI::App& app, Options& o, CLI::Option* image)
   CLI::Option* output_image =
     app
       .add_option("--output-image", o.output_image,
-                  "Start of the names of images: PREFIX.nii.gz (deformed), PREFIX_forward.nii.gz, "
-                  "PREFIX_backward.nii.gz (displacements), PREFIX_mask.nii.gz (1 tissue, 2 resected)")
+                  "Start of the names of images: PREFIX.nii.gz (deformed), PREFIX_mask.nii.gz (1 tissue, "
+                  "2 resected), PREFIX_labels.nii.gz with --labels, and the fields of --field")
       ->needs(image)
       ->type_name("PREFIX");
   image->needs(output_image);
+  const std::vector<std::pair<std::string, mm3::IO::Field_format>> formats{
+    {"itk", mm3::IO::Field_format::ITK},
+    {"nifti", mm3::IO::Field_format::NIFTI},
+    {"nrrd", mm3::IO::Field_format::NRRD}};
+  app
+    .add_option(
+      "--field", o.field_formats,
+      "Displacement fields, PREFIX_backward... to deform images with and PREFIX_forward... for points: "
+      "itk (NIfTI with LPS vectors for ITK, ANTs, plastimatch; ..._itk.nii.gz), nifti (RAS vectors; "
+      "....nii.gz), nrrd (3D Slicer; ....nrrd); can be given several times")
+    ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case).description("{itk,nifti,nrrd}"))
+    ->needs(output_image)
+    ->type_name("FORMAT")
+    ->allow_extra_args(false);
   using Interpolation = mm3::Displacement_interpolation;
   const std::vector<std::pair<std::string, Interpolation>> interpolations{{"linear", Interpolation::LINEAR},
                                                                           {"recovered",
@@ -186,8 +252,25 @@ std::array<double, 3> vector_of(const char* option, const std::string& text)
   return v;
 }
 
+// Names of patches that an option does not know are taken for files.
+void check_patches(const CLI::App& app, Options& o)
+{
+  const auto check = [](const char* option, const std::vector<std::string>& patches, const char* foreign) {
+    for(const std::string& patch : patches)
+      if(patch == foreign || (patch.rfind(label_prefix, 0) == 0 && !label_of(patch)))
+        throw CLI::ValidationError(option, control_points::quoted(patch) + " is no patch for this option");
+  };
+  check("--fixed", o.fixed_patches, skull_patch);
+  check("--slide", o.sliding_patches, base_patch);
+  check("--opening", o.openings, base_patch);
+  check("--opening", o.openings, skull_patch);
+  const bool has_base = std::count(o.fixed_patches.begin(), o.fixed_patches.end(), base_patch) != 0;
+  if(!o.fixed_patches.empty() && !has_base && app.count("--fixed-below") == 0)
+    o.fixed_below = 0;
+}
+
 // What the parser does not check.
-void check_use(Options& o)
+void check_use(const CLI::App& app, Options& o)
 {
   if(is_fiducials(o.control_points) != !o.control_points_after.empty())
     throw CLI::ValidationError("--control-points-after", o.control_points_after.empty()
@@ -207,6 +290,9 @@ void check_use(Options& o)
   for(double& x : o.up_direction)
     x *= 1 / length;
   o.acceleration = vector_of("--gravity", o.gravity);
+  constexpr double kg_per_mm3 = 1e-6; // of 1 g/cm^3
+  o.material.density = o.density * kg_per_mm3;
+  check_patches(app, o);
   if(!o.image.empty() && !has_nifti)
     throw CLI::ValidationError("--image", "this program was built without nifti_clib");
 }
@@ -218,16 +304,43 @@ std::optional<int> parse_command_line(int argc, char** argv, Options& options)
   CLI::App app("Computes how a brain shifts from the displacements of some points, before and after a tumor "
                "is resected, and deforms the image with it. Linear elasticity, small strain.");
   set_up(app, options);
-  return parse("brain_shift", app, argc, argv, [&] { check_use(options); });
+  return parse("brain_shift", app, argc, argv, [&] { check_use(app, options); });
 }
 
-// The names are those of `write_warped_image()`.
+std::string labels_output(const Options& o) { return o.output_image + "_labels.nii.gz"; }
+
+std::optional<int> label_of(const std::string& patch)
+{
+  int label = 0;
+  const std::string prefix = label_prefix;
+  const char* const end = patch.data() + patch.size();
+  if(patch.rfind(prefix, 0) != 0)
+    return std::nullopt;
+  const auto [rest, error] = std::from_chars(patch.data() + prefix.size(), end, label);
+  return error == std::errc() && rest == end && label > 0 ? std::optional<int>(label) : std::nullopt;
+}
+
+bool can_hold_displacements(const std::string& path)
+{
+  using mm3::IO::Format;
+  const std::optional<Format> format = mm3::IO::format_of(path);
+  return format == Format::VTU || format == Format::MSH_4_1 || format == Format::MSH_2_2
+         || format == Format::FEB;
+}
+
+// The names are those of `write_warped_image()`, and that of the labels.
 std::vector<std::string> image_outputs(const Options& o)
 {
   std::vector<std::string> paths;
-  if(!o.output_image.empty())
-    for(const char* name : {"", "_forward", "_backward", "_mask"})
-      paths.push_back(o.output_image + name + ".nii.gz");
+  if(o.output_image.empty())
+    return paths;
+  for(const char* name : {"", "_mask"})
+    paths.push_back(o.output_image + name + ".nii.gz");
+  if(!o.labels.empty())
+    paths.push_back(labels_output(o));
+  for(mm3::IO::Field_format format : o.field_formats)
+    for(const char* name : {"_forward", "_backward"})
+      paths.push_back(o.output_image + name + mm3::IO::end_of_field_name(format));
   return paths;
 }
 
@@ -247,8 +360,8 @@ void check_feasible(const Options& o)
   const Deferred_signals deferred({SIGINT, SIGTERM, SIGHUP}, Deferred_signals::Second::DEFERRED);
   std::vector<std::string> outputs = o.outputs;
   for(const std::string& path : o.outputs)
-    if(mm3::IO::format_of(path) != mm3::IO::Format::VTU)
-      throw std::runtime_error(path + ": displacements can be written to .vtu only");
+    if(!can_hold_displacements(path))
+      throw std::runtime_error(path + ": displacements can be written to .vtu, .msh and .feb only");
   for(const std::string& path : o.deformed_outputs) {
     require([&](std::string* error) { return mm3::IO::check_output_path(path, error); });
     outputs.push_back(path);
@@ -257,7 +370,11 @@ void check_feasible(const Options& o)
     outputs.push_back(path);
   if(!o.report.empty())
     outputs.push_back(o.report);
-  Output_paths paths({o.mesh, o.control_points, o.control_points_after, o.tumor, o.image});
+  std::vector<std::string> inputs{o.mesh,  o.control_points, o.control_points_after,
+                                  o.tumor, o.image,          o.labels};
+  for(const auto& patches : {o.fixed_patches, o.sliding_patches, o.openings})
+    inputs.insert(inputs.end(), patches.begin(), patches.end());
+  Output_paths paths(inputs);
   for(const std::string& path : outputs) {
     require([&](std::string* error) { return mm3::IO::check_output_directory(path, error); });
     paths.add(path);

@@ -10,6 +10,7 @@
 
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
 #include <CGAL/Mixed_mesh_3/Recovered_displacement_3.h>
+#include <CGAL/Mixed_mesh_image_3/IO/Field_format.h>
 
 #include <array>
 #include <limits>
@@ -17,20 +18,33 @@
 #include <string>
 #include <vector>
 
+/// Patches with a name: the lower part of the height, and all of the boundary.
+inline constexpr const char *base_patch = "base", *skull_patch = "skull";
+
+/// The label of a patch such as "label:3"; nothing if it is none.
+std::optional<int> label_of(const std::string& patch);
+
 struct Options
 {
-  std::string mesh, control_points, control_points_after, tumor, image, output_image, report,
+  std::string mesh, control_points, control_points_after, tumor, image, labels, output_image, report,
     up = "z", gravity = "0,0,0";
   std::vector<std::string> outputs, deformed_outputs;
   double fixed_below = 0.3, slide_below = 0, slide_beyond = std::numeric_limits<double>::infinity();
+  // Patches of the boundary: closed surfaces, labels, and the names below.
+  std::vector<std::string> fixed_patches, sliding_patches, openings;
+  double density = 1.04, fluid_density = 1; // g/cm^3
+  double fluid_level = std::numeric_limits<double>::infinity();
   double max_distance = 5, compliance = 0, control_radius = 0;
   CGAL::Mixed_meshes_3::Elastic_material material;
   CGAL::Mixed_meshes_3::Displacement_interpolation interpolation =
     CGAL::Mixed_meshes_3::Displacement_interpolation::RECOVERED;
+  std::vector<CGAL::Mixed_meshes_3::IO::Field_format> field_formats;
   bool quiet = false;
 
   // of the two texts
   std::array<double, 3> up_direction{}, acceleration{};
+
+  bool has_patches() const { return !fixed_patches.empty() || !sliding_patches.empty() || !openings.empty(); }
 
   // Whether a control point itself has just the displacement asked for.
   bool is_exact() const { return compliance == 0 && control_radius == 0; }
@@ -39,11 +53,17 @@ struct Options
 /// Returns the exit status if the program ends with its command line: help, the version, or wrong use.
 std::optional<int> parse_command_line(int argc, char** argv, Options& options);
 
+/// The label image that is written.
+std::string labels_output(const Options& options);
+
 /// The images that are written.
 std::vector<std::string> image_outputs(const Options& options);
 
 /// All files that are written.
 std::vector<std::string> outputs_of(const Options& options);
+
+/// Whether the format has values at vertices.
+bool can_hold_displacements(const std::string& path);
 
 /// Throws if files cannot be written.
 void check_feasible(const Options& options);

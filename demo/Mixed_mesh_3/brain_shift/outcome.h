@@ -33,9 +33,12 @@ struct Image_facts
   std::size_t voxels_of_tissue = 0, voxels_resected = 0, linear_elements = 0; // when it is warped
 };
 
+enum class Support { FREE, SLIDING, FIXED };
+
 struct Supports
 {
   std::size_t boundary_vertices = 0, fixed = 0, sliding = 0;
+  std::vector<Support> of_vertices; // all of the mesh
 };
 
 /// What a control point does.

@@ -48,11 +48,16 @@ Json parameters_of(const Options& o)
   };
   return {{"Young's modulus", quantity(o.material.young_modulus, "kPa")},
           {"Poisson's ratio", quantity(o.material.poisson_ratio, "1")},
-          {"density", quantity(o.material.density, "kg/mm^3")},
+          {"density", quantity(o.density, "g/cm^3")},
+          {"density of the fluid", quantity(o.fluid_density, "g/cm^3")},
+          {"level of the fluid", quantity(std::isfinite(o.fluid_level) ? Json(o.fluid_level) : Json(), "mm")},
           {"gravity", quantity(o.acceleration, "mm/s^2")},
           {"up", quantity(o.up_direction, "1")},
           {"fixed below", quantity(o.fixed_below, "height")},
           {"slide below", quantity(o.slide_below, "height")},
+          {"fixed patches", o.fixed_patches},
+          {"sliding patches", o.sliding_patches},
+          {"openings", o.openings},
           {"slide beyond", quantity(std::isfinite(o.slide_beyond) ? Json(o.slide_beyond) : Json(), "mm")},
           {"largest distance of control points", quantity(o.max_distance, "mm")},
           {"compliance of control points", quantity(o.compliance, "mm/mN")},
@@ -125,7 +130,8 @@ std::string report(const Options& o, const Outcome& outcome, const Stage_log& lo
                          o.control_points_after.empty() ? Json() : Json(o.control_points_after)},
                         {"number", outcome.points.size()}}},
                       {"tumor", outcome.tumor ? describe(*outcome.tumor) : Json()},
-                      {"image", outcome.image ? describe(*outcome.image, o) : Json()}};
+                      {"image", outcome.image ? describe(*outcome.image, o) : Json()},
+                      {"labels", o.labels.empty() ? Json() : Json(o.labels)}};
   report["parameters"] = parameters_of(o);
   report["units"] = {{"lengths", "mm"},
                      {"areas", "mm^2"},

@@ -16,24 +16,25 @@
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 
-struct Tumor::Domain : CGAL::Polyhedral_mixed_mesh_domain_3
+struct Closed_surface::Domain : CGAL::Polyhedral_mixed_mesh_domain_3
 {
   using Polyhedral_mixed_mesh_domain_3::Polyhedral_mixed_mesh_domain_3;
 };
 
-Tumor::Tumor(const std::string& path, Surface_facts& facts, std::vector<std::string>& warnings)
+Closed_surface::Closed_surface(const std::string& path, Surface_facts& facts,
+                               std::vector<std::string>& warnings)
   : m_path(path), m_domain(std::make_unique<const Domain>(read_surface(path, facts, warnings)))
 {
 }
 
-Tumor::~Tumor() = default;
+Closed_surface::~Closed_surface() = default;
 
-bool Tumor::contains(const std::array<double, 3>& p) const
+bool Closed_surface::contains(const std::array<double, 3>& p) const
 {
   return m_domain->bounded_side(Kernel::Point_3(p[0], p[1], p[2])) == CGAL::ON_BOUNDED_SIDE;
 }
 
-std::vector<bool> resect(const Mesh& mesh, const Tumor& tumor, Outcome& outcome)
+std::vector<bool> resect(const Mesh& mesh, const Closed_surface& tumor, Outcome& outcome)
 {
   const CGAL::Polyhedral_mixed_mesh_domain_3& domain = *tumor.m_domain;
   const mm3::Resection_3 r = mm3::resect(mesh, domain);

@@ -17,17 +17,17 @@
 #include <vector>
 
 /// The inside of a closed surface.
-class Tumor
+class Closed_surface
 {
 public:
   /// Reads the surface.
-  Tumor(const std::string& path, Surface_facts& facts, std::vector<std::string>& warnings);
-  ~Tumor();
+  Closed_surface(const std::string& path, Surface_facts& facts, std::vector<std::string>& warnings);
+  ~Closed_surface();
 
   bool contains(const std::array<double, 3>& p) const;
 
 private:
-  friend std::vector<bool> resect(const Mesh&, const Tumor&, Outcome&);
+  friend std::vector<bool> resect(const Mesh&, const Closed_surface&, Outcome&);
   struct Domain; // heavy to compile
   std::string m_path;
   std::unique_ptr<const Domain> m_domain;
@@ -35,7 +35,7 @@ private:
 
 /// Which elements are removed with the tumor, true for each.
 /// \throw std::runtime_error if that leaves nothing to compute with
-std::vector<bool> resect(const Mesh& mesh, const Tumor& tumor, Outcome& outcome);
+std::vector<bool> resect(const Mesh& mesh, const Closed_surface& tumor, Outcome& outcome);
 
 /// What is left.
 struct Remaining_mesh

@@ -7,6 +7,7 @@
 
 #include "brain_shift/images.h"
 #include "brain_shift/outcome.h"
+#include "brain_shift/patches.h"
 #include "brain_shift/read_control_points.h"
 #include "brain_shift/read_mesh.h"
 #include "brain_shift/report.h"
@@ -36,8 +37,9 @@ namespace {
 struct Inputs
 {
   Mesh mesh;
-  std::unique_ptr<const Tumor> tumor; // null if there is none
-  mm3::Voxel_image_3 image;           // empty if there is none
+  std::unique_ptr<const Closed_surface> tumor; // null if there is none
+  Boundary_patches patches;
+  mm3::Voxel_image_3 image, labels; // empty if there is none
 };
 
 // A dense system of three equations for each is factored: with 2,000, as measured, in 3 s.
@@ -67,10 +69,13 @@ Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
   outcome.locations = log("locate control points", [&] { return locate(inputs.mesh, o, outcome.points); });
   if(!o.tumor.empty())
     inputs.tumor = log("read tumor", [&] {
-      return std::make_unique<const Tumor>(o.tumor, outcome.tumor.emplace(), outcome.warnings);
+      return std::make_unique<const Closed_surface>(o.tumor, outcome.tumor.emplace(), outcome.warnings);
     });
+  inputs.patches = find_patches(inputs.mesh, o, outcome.warnings);
   if(!o.image.empty())
     inputs.image = log("read image", [&] { return read_image(o, inputs.mesh, outcome); });
+  if(!o.labels.empty())
+    inputs.labels = log("read labels", [&] { return read_labels(o, inputs.image.grid); });
   return inputs;
 }
 
@@ -83,9 +88,10 @@ std::vector<double> flat(const std::vector<Vector>& vectors)
 }
 
 // The mesh as it was, with displacements.
-void write_meshes(mm3::IO::Output_files& files, const Mesh& mesh, const std::vector<bool>& is_removed,
+void write_meshes(mm3::IO::Output_files& files, const Inputs& inputs, const std::vector<bool>& is_removed,
                   const Options& o, const Outcome& outcome)
 {
+  const Mesh& mesh = inputs.mesh;
   const std::vector<double> last = flat(outcome.last().displacements),
                             before = flat(outcome.before.displacements),
                             resected(is_removed.begin(), is_removed.end());
@@ -93,21 +99,25 @@ void write_meshes(mm3::IO::Output_files& files, const Mesh& mesh, const std::vec
   data.vertex_data.push_back({"displacement", &last, 3});
   if(outcome.resection)
     data.vertex_data.push_back({"displacement_before_resection", &before, 3});
-  data.element_data.push_back({"resected", &resected});
+  data.facet_sets = facet_sets(mesh, {}, inputs.patches, outcome.supports, o);
+  mm3::IO::Write_options data_of_vtu = data; // other formats have no data of elements
+  data_of_vtu.element_data.push_back({"resected", &resected});
   for(const std::string& path : o.outputs)
-    write_mesh(files, path, mesh, data);
+    write_mesh(files, path, mesh, mm3::IO::format_of(path) == mm3::IO::Format::VTU ? data_of_vtu : data);
 }
 
-void write_deformed_meshes(mm3::IO::Output_files& files, const Remaining_mesh& remaining, const Options& o,
-                           const Outcome& outcome)
+void write_deformed_meshes(mm3::IO::Output_files& files, const Remaining_mesh& remaining,
+                           const Boundary_patches& patches, const Options& o, const Outcome& outcome)
 {
   Mesh deformed = remaining.mesh;
   for(std::size_t v = 0; v < deformed.number_of_vertices(); ++v) {
     const Vector& u = outcome.last().displacements[remaining.vertices[v]];
     deformed.points()[v] = deformed.points()[v] + Kernel::Vector_3(u[0], u[1], u[2]);
   }
+  mm3::IO::Write_options with_sets;
+  with_sets.facet_sets = facet_sets(deformed, remaining.vertices, patches, outcome.supports, o);
   for(const std::string& path : o.deformed_outputs)
-    write_mesh(files, path, deformed);
+    write_mesh(files, path, deformed, with_sets);
 }
 
 void write_files(const Inputs& inputs, const std::vector<bool>& is_removed, const Remaining_mesh& remaining,
@@ -116,10 +126,11 @@ void write_files(const Inputs& inputs, const std::vector<bool>& is_removed, cons
   const Deferred_signals deferred({SIGINT, SIGTERM, SIGHUP}, Deferred_signals::Second::DEFERRED);
   mm3::IO::Output_files files([] { return !Deferred_signals::has_come(); }); // appear together, at the end
   if(!o.image.empty())
-    write_images(files, inputs.image, inputs.mesh, inputs.tumor.get(), is_removed, o, log, outcome);
+    write_images(files, inputs.image, inputs.labels, inputs.mesh, inputs.tumor.get(), is_removed, o, log,
+                 outcome);
   log("write meshes", [&] {
-    write_meshes(files, inputs.mesh, is_removed, o, outcome);
-    write_deformed_meshes(files, remaining, o, outcome);
+    write_meshes(files, inputs, is_removed, o, outcome);
+    write_deformed_meshes(files, remaining, inputs.patches, o, outcome);
   });
   outcome.seconds = log.seconds();
   outcome.peak_bytes = log.peak_bytes();
@@ -139,7 +150,8 @@ void run(const Options& o)
   Stage_log log(!o.quiet && isatty(STDERR_FILENO));
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);
-  const std::vector<bool> is_removed = simulate(inputs.mesh, inputs.tumor.get(), o, log, outcome);
+  const std::vector<bool> is_removed = simulate(inputs.mesh, inputs.tumor.get(), inputs.patches, o, log,
+                                                outcome);
   const Remaining_mesh remaining = remaining_mesh(inputs.mesh, is_removed, outcome);
   write_files(inputs, is_removed, remaining, o, log, outcome);
   log.finish_progress();

@@ -52,7 +52,8 @@ void check(const CGAL::Linear_elasticity_result_3& result, const Options& o,
 }
 
 // Says which vertices of the boundary are fixed, and which slide.
-Supports set_supports(Elasticity& elasticity, const Options& o, const std::vector<Control_point>& points)
+Supports set_supports(Elasticity& elasticity, const Boundary_patches& patches, const Options& o,
+                      const std::vector<Control_point>& points)
 {
   const Mesh& mesh = elasticity.mesh();
   const std::vector<mm3::Vertex_index> boundary = mm3::boundary_vertices(mesh);
@@ -66,19 +67,27 @@ Supports set_supports(Elasticity& elasticity, const Options& o, const std::vecto
   const auto is_below = [&](mm3::Vertex_index v, double part) {
     return height(v) < lowest + part * (highest - lowest);
   };
-  Supports supports{boundary.size(), 0, 0};
+  const auto is_fixed = [&](mm3::Vertex_index v) {
+    const Patch patch = patches.of_vertices[v];
+    return patch == Patch::FIXED || (patch != Patch::OPENING && is_below(v, o.fixed_below));
+  };
+  Supports supports{boundary.size(), 0, 0, std::vector<Support>(mesh.number_of_vertices(), Support::FREE)};
   for(mm3::Vertex_index v : boundary)
-    if(is_below(v, o.fixed_below)) {
+    if(is_fixed(v)) {
       elasticity.prescribe(v);
       ++supports.fixed;
+      supports.of_vertices[v] = Support::FIXED;
     }
   elasticity.slide_along_boundary([&](mm3::Vertex_index v) {
     double distance = std::numeric_limits<double>::infinity();
     for(const Control_point& point : points)
       distance = (std::min)(distance, norm(Vector(point.position) - position(v)));
-    const bool is_sliding = !is_below(v, o.fixed_below)
-                            && (is_below(v, o.slide_below) || distance > o.slide_beyond);
+    const Patch patch = patches.of_vertices[v];
+    const bool is_held = is_below(v, o.slide_below) || distance > o.slide_beyond;
+    const bool is_sliding = !is_fixed(v) && (patch == Patch::SLIDING || (patch != Patch::OPENING && is_held));
     supports.sliding += is_sliding;
+    if(is_sliding)
+      supports.of_vertices[v] = Support::SLIDING;
     return is_sliding;
   });
   return supports;
@@ -219,16 +228,19 @@ Locations locate(const Mesh& mesh, const Options& o, const std::vector<Control_p
   return locations;
 }
 
-std::vector<bool> simulate(const Mesh& mesh, const Tumor* tumor, const Options& o, Stage_log& log,
-                           Outcome& outcome)
+std::vector<bool> simulate(const Mesh& mesh, const Closed_surface* tumor, const Boundary_patches& patches,
+                           const Options& o, Stage_log& log, Outcome& outcome)
 {
   const std::vector<Control_point>& points = outcome.points;
   Elasticity elasticity(mesh, o.material);
-  outcome.supports = set_supports(elasticity, o, points);
+  outcome.supports = set_supports(elasticity, patches, o, points);
 
   // Before surgery the mesh is factored; then each measurement is a matter of milliseconds.
   log("factor", [&] { check(elasticity.factor(), o, points); });
   elasticity.set_gravity(o.acceleration);
+  if(norm(Vector(o.acceleration)) > 0)
+    elasticity.set_body_forces(
+      mm3::buoyant_forces(mesh, o.acceleration, o.fluid_density * 1e-6 /* kg/mm^3 */, o.fluid_level));
   log("control points", [&] { set_control_points(elasticity, o, points); });
   log("solve", [&] { check(elasticity.solve(displacements_of(points)), o, points); });
   outcome.before = log("checks", [&] {

@@ -10,6 +10,7 @@
 
 #include "brain_shift/options.h"
 #include "brain_shift/outcome.h"
+#include "brain_shift/patches.h"
 #include "brain_shift/resection.h"
 #include "common/Stage_log.h"
 #include "common/types.h"
@@ -22,8 +23,9 @@ Locations locate(const Mesh& mesh, const Options& options, const std::vector<Con
 
 /// Computes the shift, and with a tumor its resection and the shift after it.
 /// \param tumor null if there is none
+/// \param patches of the boundary
 /// \return which elements are removed, true for each
-std::vector<bool> simulate(const Mesh& mesh, const Tumor* tumor, const Options& options, Stage_log& log,
-                           Outcome& outcome);
+std::vector<bool> simulate(const Mesh& mesh, const Closed_surface* tumor, const Boundary_patches& patches,
+                           const Options& options, Stage_log& log, Outcome& outcome);
 
 #endif // MIXED_MESH_3_DEMO_BRAIN_SHIFT_SIMULATE_H

@@ -140,6 +140,18 @@ inline float interpolate(const Voxel_image_3& image, const std::array<double, 3>
   return a + t[2] * (b - a);
 }
 
+/// The value of the voxel nearest to a point, in indices; of equally near ones that of larger index. Outside
+/// the image it is the value of the voxel nearest to it.
+inline float nearest_value(const Voxel_image_3& image, const std::array<double, 3>& p)
+{
+  std::size_t voxel[3];
+  for(int i = 0; i < 3; ++i) {
+    const double last = double(image.grid.size[i] - 1), x = std::floor(p[i] + 0.5);
+    voxel[i] = std::size_t(x > 0 ? (x < last ? x : last) : 0);
+  }
+  return image.values[image.grid.offset(voxel[0], voxel[1], voxel[2])];
+}
+
 } // namespace Mixed_meshes_3
 } // namespace CGAL
 

@@ -35,6 +35,12 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// The value of an image between the centers of voxels.
+enum class Image_interpolation {
+  LINEAR, ///< `interpolate()`
+  NEAREST ///< `nearest_value()`: for labels, between which there is nothing
+};
+
 struct Warp_options
 {
   /// Outside the mesh a voxel has the displacement of the voxel of the mesh nearest to it, times a factor
@@ -44,6 +50,8 @@ struct Warp_options
   std::optional<double> fade_distance;
   /// How displacements between the vertices are made from those of the vertices.
   Displacement_interpolation interpolation = Displacement_interpolation::RECOVERED;
+  /// How values between the voxels of the image are made from theirs.
+  Image_interpolation image_interpolation = Image_interpolation::LINEAR;
   /// Elements that have been removed, true for each; empty: none. The displacements of vertices that only
   /// they have do not matter.
   std::vector<bool> resected_elements;
@@ -192,21 +200,27 @@ void for_each_displaced_voxel(const Displacement_field_3& field, const Visitor& 
 
 /*!
 Resamples an image: the value of a voxel of the result is the image's where the field takes the voxel,
-linear between voxels (see `interpolate()`). Voxels that stay keep their value exactly.
+linear between voxels or that of the nearest one. Voxels that stay keep their value exactly.
 
 With the backward field it deforms an image as the mesh; with the forward field it undoes that.
 
 \param image the image
 \param field where voxels of the result come from. \pre on the same grid
+\param interpolation between voxels
 \return the image, of the same type
 \cost linear in the number of voxels
 */
-inline Voxel_image_3 resample_image(const Voxel_image_3& image, const Displacement_field_3& field)
+inline Voxel_image_3 resample_image(const Voxel_image_3& image, const Displacement_field_3& field,
+                                    Image_interpolation interpolation = Image_interpolation::LINEAR)
 {
   CGAL_precondition(image.grid.size == field.grid.size);
   Voxel_image_3 result = image;
   internal::for_each_displaced_voxel(
-    field, [&](std::size_t offset, const Vec3& p) { result.values[offset] = interpolate(image, p); },
+    field,
+    [&](std::size_t offset, const Vec3& p) {
+      result.values[offset] = interpolation == Image_interpolation::LINEAR ? interpolate(image, p)
+                                                                           : nearest_value(image, p);
+    },
     [](std::size_t) {});
   return result;
 }
@@ -215,7 +229,7 @@ inline Voxel_image_3 resample_image(const Voxel_image_3& image, const Displaceme
 \brief Deforms an image with a mesh.
 
 For each voxel, the element of the deformed mesh that contains its center tells which point of the tissue
-is there now; the value is the image's there, linear between voxels. Outside the mesh see
+is there now; the value is the image's there, linear between voxels by default. Outside the mesh see
 `Warp_options::fade_distance`. The mesh and the image are in the same world: millimeters, x to the right,
 y to the front, z upwards.
 
@@ -256,7 +270,7 @@ Warped_image_3 warp_image(const Voxel_image_3& image, const Mesh& mesh, const Di
     warped.number_of_linear_elements = recovered->number_of_linear_elements();
   warped.backward = field(false);
   warped.forward = field(true);
-  warped.image = resample_image(image, warped.backward);
+  warped.image = resample_image(image, warped.backward, options.image_interpolation);
   warped.mask.grid = grid;
   warped.mask.type = Voxel_type::UINT8;
   warped.mask.values.assign(warped.backward.is_in_mesh.begin(), warped.backward.is_in_mesh.end());

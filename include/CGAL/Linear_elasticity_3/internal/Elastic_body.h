@@ -18,6 +18,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -31,7 +32,8 @@ class Elastic_body
   Elastic_stiffness m_stiffness;
   Elastic_supports m_supports;
   Projected_system<SolverTraits> m_system;
-  Vec3 m_body_force{}, m_gravity{};
+  std::vector<Vec3> m_body_forces{Vec3{}}; // one for all elements, or one for each
+  Vec3 m_gravity{};
   bool m_is_loaded = false; // whether the vectors below are up to date
   Eigen::VectorXd m_force, m_load, m_loaded;
 
@@ -51,9 +53,10 @@ public:
   const Projected_system<SolverTraits>& system() const { return m_system; }
   SolverTraits& solver() { return m_system.solver(); }
 
-  void set_body_force(const Vec3& force)
+  /// \param forces one for all elements, or one for each
+  void set_body_forces(std::vector<Vec3> forces)
   {
-    m_body_force = force;
+    m_body_forces = std::move(forces);
     m_is_loaded = false;
   }
 
@@ -124,9 +127,10 @@ public:
           supported[3 * Eigen::Index(v) + k] = u;
           is_supported = is_supported || u != 0;
         }
-    if(m_body_force != Vec3{} || m_gravity != Vec3{}) {
+    const auto is_zero = [](const Vec3& f) { return f == Vec3{}; };
+    if(m_gravity != Vec3{} || !std::all_of(m_body_forces.begin(), m_body_forces.end(), is_zero)) {
       has_force = true;
-      m_stiffness.add_body_force(m_body_force, m_gravity, force);
+      m_stiffness.add_body_forces(m_body_forces, m_gravity, force);
     }
     m_force = force;
     if(is_supported)

@@ -179,15 +179,18 @@ public:
     return f;
   }
 
-  /// Adds the forces on the vertices that a force by volume and an acceleration of the mass make.
-  void add_body_force(const Vec3& force_by_volume, const Vec3& acceleration, Eigen::VectorXd& force) const
+  /// Adds the forces on the vertices that forces by volume and an acceleration of the mass make.
+  /// \param forces_by_volume one for all elements, or one for each
+  void add_body_forces(const std::vector<Vec3>& forces_by_volume, const Vec3& acceleration,
+                       Eigen::VectorXd& force) const
   {
     for(Element_index e = 0; e < m_elements->size(); ++e) {
       if(m_is_removed[e])
         continue;
       const Element_view element = (*m_elements)[e];
       const Element_points points = points_of(element);
-      const Vec3 density = force_by_volume + material(e).density * acceleration;
+      const Vec3& by_volume = forces_by_volume.size() == 1 ? forces_by_volume.front() : forces_by_volume[e];
+      const Vec3 density = by_volume + material(e).density * acceleration;
       const Quadrature_rule& rule = quadrature_rule(element.kind());
       for(int q = 0; q < rule.number_of_points; ++q) {
         const double volume = strain_operator(element.kind(), points, q).volume;

@@ -8,23 +8,64 @@
 
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/facet_sets.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
 #include <cstddef>
 #include <ostream>
 #include <string>
+#include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace IO {
+
+namespace internal {
+
+/// Numbers from 1, 16 on a line at most, as Abaqus wants them.
+template <class Indices>
+void write_INP_set(Buffered_output& out, const std::string& header, const Indices& indices)
+{
+  int on_line = 0;
+  for(auto i : indices) {
+    out << (on_line == 0 ? header + '\n' : on_line % 16 == 0 ? ",\n" : ", ") << i + 1;
+    ++on_line;
+  }
+  if(on_line != 0)
+    out << '\n';
+}
+
+/// A surface is made of sets of elements, one for each number that the face has in its element.
+template <class Mesh>
+void write_INP_surface(Buffered_output& out, const Mesh& mesh, const Facet_set& set)
+{
+  constexpr int most_faces = 6;
+  const std::string name = in_upper_case(set.name);
+  std::vector<Element_index> elements[most_faces];
+  for(const Face& face : set.faces) {
+    const Element_names& names = element_names[mesh.element(face.element()).kind()];
+    elements[names.abaqus_faces[face.local_index()] - 1].push_back(face.element());
+  }
+  const auto name_of = [&name](int i) { return name + "_S" + std::to_string(i + 1); };
+  for(int i = 0; i < most_faces; ++i)
+    write_INP_set(out, "*ELSET, ELSET=" + name_of(i), elements[i]);
+  if(!set.faces.empty())
+    out << "*SURFACE, NAME=" << name << ", TYPE=ELEMENT\n";
+  for(int i = 0; i < most_faces; ++i)
+    if(!elements[i].empty())
+      out << name_of(i) << ", S" << i + 1 << '\n';
+}
+
+} // namespace internal
 
 /*!
 \brief Writes a mesh as input of Abaqus (`.inp`): nodes, elements and sets, no analysis.
 
 Element sets: `REGION` and `REST` for the elements of subdomain 1 in the region and the others,
 `SUBDOMAIN_2_REGION` and so on for those of other subdomains, each made of one set for each type, such as
-`REGION_C3D8`. Node set: `BOUNDARY`, the vertices of the boundary faces. The
-numbers of nodes and elements are the indices plus 1.
+`REGION_C3D8`. Node set: `BOUNDARY`, the vertices of the boundary faces. For each facet set a surface of
+elements with its name in upper case, of element sets such as `NAME_S1`: the elements with their face S1 in
+the set. The numbers of nodes and elements are the indices plus 1.
 
 \note CalculiX has no pyramids, and Gmsh 4.8 drops them when it reads this format: see
 `split_to_tetrahedra()`.
@@ -32,16 +73,11 @@ numbers of nodes and elements are the indices plus 1.
 \return whether the stream took everything.
 */
 template <class Mesh>
-bool write_INP(std::ostream& stream, const Mesh& mesh)
+bool write_INP(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_set>& facet_sets = {})
 {
   using namespace internal;
   const Element_blocks blocks(mesh);
-  const auto set_name = [&blocks](std::size_t part) {
-    std::string name = blocks.parts()[part].name();
-    for(char& c : name)
-      c = c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
-    return name;
-  };
+  const auto set_name = [&blocks](std::size_t part) { return in_upper_case(blocks.parts()[part].name()); };
 
   Buffered_output out(stream);
   out << "*HEADING\nMixed-element mesh written by Mixed_mesh_3\n*NODE\n";
@@ -69,14 +105,9 @@ bool write_INP(std::ostream& stream, const Mesh& mesh)
         out << set_name(part) << '_' << block.names().abaqus_type << '\n';
   }
 
-  int on_line = 0;
-  for(Vertex_index v : boundary_vertices(mesh)) {
-    // Abaqus allows 16 numbers on a line.
-    out << (on_line == 0 ? "*NSET, NSET=BOUNDARY\n" : on_line % 16 == 0 ? ",\n" : ", ") << v + 1;
-    ++on_line;
-  }
-  if(on_line != 0)
-    out << '\n';
+  write_INP_set(out, "*NSET, NSET=BOUNDARY", boundary_vertices(mesh));
+  for(const Facet_set& set : facet_sets)
+    write_INP_surface(out, mesh, set);
   return out.finish();
 }
 

@@ -8,6 +8,7 @@
 
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/facet_sets.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
 #include <algorithm>
@@ -25,14 +26,15 @@ namespace IO {
 
 References: of subdomain 1, 1 for the elements in the region and 2 for the others; 3 for the boundary faces
 (which are counter-clockwise seen from outside); from 4 on for the same of other subdomains, as they occur; 0
-for the vertices.
+for the vertices. The numbers of facet sets follow, in their order; a face of several sets, here, has that of
+the first.
 
 \note Gmsh 4.8 drops prisms and pyramids when it reads this format.
 
 \return whether the stream took everything.
 */
 template <class Mesh>
-bool write_MEDIT(std::ostream& stream, const Mesh& mesh)
+bool write_MEDIT(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_set>& facet_sets = {})
 {
   using namespace internal;
   Buffered_output out(stream);
@@ -48,19 +50,20 @@ bool write_MEDIT(std::ostream& stream, const Mesh& mesh)
     out << " 0\n";
   }
 
-  const std::vector<Face> faces = boundary_faces(mesh);
+  const Element_blocks blocks(mesh);
+  const Face_patches patches(mesh, facet_sets, blocks.first_free_tag());
+  const std::vector<Face>& faces = patches.faces();
   for(int size : {3, 4}) {
     const auto has_size = [size](const Face& face) { return face.vertices().size() == size; };
     const std::ptrdiff_t n = std::count_if(faces.begin(), faces.end(), has_size);
     if(n == 0)
       continue;
     out << (size == 3 ? "\nTriangles\n" : "\nQuadrilaterals\n") << n << '\n';
-    for(const Face& face : faces)
-      if(has_size(face))
-        write_line(face.vertices(), boundary_tag);
+    for(std::size_t i = 0; i < faces.size(); ++i)
+      if(has_size(faces[i]))
+        write_line(faces[i].vertices(), patches.only_tag(i));
   }
 
-  const Element_blocks blocks(mesh);
   std::vector<int> tags(mesh.number_of_elements());
   for(const Element_block& block : blocks)
     for(Element_index e : block)

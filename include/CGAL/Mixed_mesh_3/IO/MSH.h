@@ -6,14 +6,19 @@
 #ifndef CGAL_MIXED_MESH_3_IO_MSH_H
 #define CGAL_MIXED_MESH_3_IO_MSH_H
 
+#include <CGAL/Mixed_mesh_3/IO/Data_array.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/facet_sets.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <ostream>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -25,15 +30,24 @@ enum class MSH_version { V2_2, V4_1 };
 
 namespace internal {
 
-// Gmsh wants each mesh vertex and element on an entity of a model, here also a physical group.
-struct MSH_entity
+// A physical group: the boundary, a facet set or a part.
+struct MSH_group
 {
   std::string name;
   int dimension;
   int tag;
+  bool is_empty = true;
+};
+
+// Gmsh wants each mesh vertex and element on one entity of a model, which is in physical groups.
+struct MSH_entity
+{
+  int dimension;
+  int tag;
+  std::vector<int> groups; // tags
   std::size_t number_of_elements = 0;
   std::size_t number_of_vertices = 0; // those on no entity listed before
-  bool is_on_boundary = false;        // a volume with boundary faces
+  std::set<int> surfaces = {};        // of a volume: tags of those with boundary faces of its elements
   Mixed_meshes_3::Vec3 lower{}, upper{};
 };
 
@@ -42,10 +56,11 @@ inline int gmsh_face_type(int size) { return size == 3 ? 2 : 3; }
 class MSH_model
 {
   static constexpr std::size_t no_entity = std::size_t(-1);
-  std::vector<MSH_entity> m_entities; // the boundary, then the parts
+  std::vector<MSH_group> m_groups;
+  std::vector<MSH_entity> m_entities; // patches of faces, the boundary first, then the parts
   std::vector<std::size_t> m_vertex_entity;
   Element_blocks m_blocks;
-  std::vector<Face> m_boundary_faces;
+  Face_patches m_patches;
 
   // An entity's box has all its vertices, but each vertex is on the first entity only.
   template <class Mesh, class Vertices>
@@ -64,65 +79,99 @@ class MSH_model
     ++e.number_of_elements;
   }
 
-public:
-  template <class Mesh>
-  explicit MSH_model(const Mesh& mesh)
-    : m_vertex_entity(mesh.number_of_vertices(), no_entity), m_blocks(mesh),
-      m_boundary_faces(Mixed_meshes_3::boundary_faces(mesh))
+  void add_groups(const std::vector<Facet_set>& facet_sets)
   {
-    m_entities.push_back({"boundary", 2, boundary_tag});
+    m_groups.push_back({"boundary", 2, boundary_tag});
+    for(std::size_t part = 0; part < m_blocks.parts().size(); ++part)
+      m_groups.push_back({m_blocks.parts()[part].name(), 3, m_blocks.tag(part)});
+    for(std::size_t set = 0; set < facet_sets.size(); ++set)
+      m_groups.push_back({facet_sets[set].name, 2, m_patches.set_tag(set)});
+    for(MSH_group& group : m_groups)
+      for(const MSH_entity& e : m_entities)
+        if(e.number_of_elements != 0 && std::count(e.groups.begin(), e.groups.end(), group.tag) != 0)
+          group.is_empty = false;
+  }
+
+public:
+  // \param has_one_number whether a face can be in one group only: Gmsh 2.2
+  template <class Mesh>
+  MSH_model(const Mesh& mesh, const std::vector<Facet_set>& facet_sets, bool has_one_number)
+    : m_vertex_entity(mesh.number_of_vertices(), no_entity), m_blocks(mesh),
+      m_patches(mesh, facet_sets, m_blocks.first_free_tag())
+  {
+    const std::vector<Face_patch>& patches = m_patches.patches();
+    for(std::size_t i = 0; i < patches.size(); ++i) {
+      std::vector<int> groups;
+      for(std::size_t set : patches[i].sets)
+        groups.push_back(m_patches.set_tag(set));
+      if(patches[i].is_on_boundary)
+        groups.push_back(boundary_tag);
+      if(has_one_number)
+        groups.resize(1);
+      m_entities.push_back({2, m_patches.tag(i), groups});
+    }
     std::vector<std::size_t> entity_of(mesh.number_of_elements());
     for(std::size_t part = 0; part < m_blocks.parts().size(); ++part)
-      m_entities.push_back({m_blocks.parts()[part].name(), 3, m_blocks.tag(part)});
+      m_entities.push_back({3, m_blocks.tag(part), {m_blocks.tag(part)}});
     for(const Element_block& block : m_blocks)
       for(Element_index e : block)
-        entity_of[e] = 1 + block.part;
-    for(const Face& face : m_boundary_faces) {
-      add(mesh, 0, face.vertices());
-      m_entities[entity_of[face.element()]].is_on_boundary = true;
+        entity_of[e] = patches.size() + block.part;
+    for(std::size_t i = 0; i < faces().size(); ++i) {
+      const std::size_t patch = m_patches.patch_of(i);
+      add(mesh, patch, faces()[i].vertices());
+      if(patches[patch].is_on_boundary)
+        m_entities[entity_of[faces()[i].element()]].surfaces.insert(m_patches.tag(patch));
     }
     for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
       add(mesh, entity_of[e], mesh.element(e));
+    add_groups(facet_sets);
     for(std::size_t entity : m_vertex_entity)
       if(entity != no_entity)
         ++m_entities[entity].number_of_vertices;
   }
 
+  const std::vector<MSH_group>& groups() const { return m_groups; }
   const std::vector<MSH_entity>& entities() const { return m_entities; }
+  const MSH_entity& entity_of_face(std::size_t i) const { return m_entities[m_patches.patch_of(i)]; }
+  bool is_vertex_used(std::size_t v) const { return m_vertex_entity[v] != no_entity; }
   bool is_vertex_on(std::size_t v, std::size_t entity) const { return m_vertex_entity[v] == entity; }
   const Element_blocks& blocks() const { return m_blocks; }
   int tag(const Element_block& block) const { return m_blocks.tag(block.part); }
-  const std::vector<Face>& boundary_faces() const { return m_boundary_faces; }
+  // The boundary faces, then others of facet sets.
+  const std::vector<Face>& faces() const { return m_patches.faces(); }
 };
 
 inline void write_MSH_physical_names(Buffered_output& out, const MSH_model& model)
 {
   int n = 0;
-  for(const MSH_entity& e : model.entities())
-    n += e.number_of_elements != 0;
+  for(const MSH_group& group : model.groups())
+    n += !group.is_empty;
   out << "$PhysicalNames\n" << n << '\n';
-  for(const MSH_entity& e : model.entities())
-    if(e.number_of_elements != 0)
-      out << e.dimension << ' ' << e.tag << " \"" << e.name << "\"\n";
+  for(const MSH_group& group : model.groups())
+    if(!group.is_empty)
+      out << group.dimension << ' ' << group.tag << " \"" << group.name << "\"\n";
   out << "$EndPhysicalNames\n";
 }
 
 inline void write_MSH_entities(Buffered_output& out, const MSH_model& model)
 {
-  const auto& entities = model.entities();
-  const bool has_boundary = entities[0].number_of_elements != 0;
-  out << "$Entities\n0 0 " << int(has_boundary) << ' ' << entities.size() - 1 << '\n';
-  for(const MSH_entity& e : entities)
+  std::size_t counts[] = {0, 0}; // surfaces, volumes
+  for(const MSH_entity& e : model.entities())
+    counts[e.dimension - 2] += e.number_of_elements != 0;
+  out << "$Entities\n0 0 " << counts[0] << ' ' << counts[1] << '\n';
+  for(const MSH_entity& e : model.entities())
     if(e.number_of_elements != 0) {
       out << e.tag << ' ';
       write_point(out, e.lower, " ");
       out << ' ';
       write_point(out, e.upper, " ");
-      out << " 1 " << e.tag; // its physical group
-      if(e.is_on_boundary)
-        out << " 1 " << boundary_tag << '\n';
-      else
-        out << " 0\n";
+      out << ' ' << e.groups.size();
+      for(int group : e.groups)
+        out << ' ' << group;
+      out << ' ' << e.surfaces.size();
+      for(int surface : e.surfaces)
+        out << ' ' << surface;
+      out << '\n';
     }
   out << "$EndEntities\n";
 }
@@ -157,13 +206,12 @@ void write_MSH_4_1_nodes(Buffered_output& out, const Mesh& mesh, const MSH_model
 template <class Mesh>
 void write_MSH_4_1_elements(Buffered_output& out, const Mesh& mesh, const MSH_model& model)
 {
-  std::size_t faces[] = {0, 0}; // triangles, quadrilaterals
-  for(const Face& face : model.boundary_faces())
-    ++faces[face.vertices().size() - 3];
-  const std::size_t m = mesh.number_of_elements(), total = m + faces[0] + faces[1];
+  std::map<std::pair<int, int>, std::vector<std::size_t>> faces; // by surface and size
+  for(std::size_t i = 0; i < model.faces().size(); ++i)
+    faces[{model.entity_of_face(i).tag, model.faces()[i].vertices().size()}].push_back(i);
+  const std::size_t m = mesh.number_of_elements(), total = m + model.faces().size();
   out << "$Elements\n"
-      << model.blocks().blocks().size() + (faces[0] != 0) + (faces[1] != 0) << ' ' << total << " 1 " << total
-      << '\n';
+      << model.blocks().blocks().size() + faces.size() << ' ' << total << " 1 " << total << '\n';
   for(const Element_block& block : model.blocks()) {
     out << "3 " << model.tag(block) << ' ' << block.names().gmsh_type << ' ' << block.size() << '\n';
     for(Element_index e : block) {
@@ -172,18 +220,12 @@ void write_MSH_4_1_elements(Buffered_output& out, const Mesh& mesh, const MSH_mo
       out << '\n';
     }
   }
-  for(int size : {3, 4}) {
-    if(faces[size - 3] == 0)
-      continue;
-    out << "2 " << boundary_tag << ' ' << gmsh_face_type(size) << ' ' << faces[size - 3] << '\n';
-    std::size_t number = m;
-    for(const Face& face : model.boundary_faces()) {
-      ++number;
-      if(face.vertices().size() == size) {
-        out << number << ' ';
-        write_vertices(out, face.vertices(), ' ');
-        out << '\n';
-      }
+  for(const auto& [key, of] : faces) {
+    out << "2 " << key.first << ' ' << gmsh_face_type(key.second) << ' ' << of.size() << '\n';
+    for(std::size_t i : of) {
+      out << m + 1 + i << ' ';
+      write_vertices(out, model.faces()[i].vertices(), ' ');
+      out << '\n';
     }
   }
   out << "$EndElements\n";
@@ -192,8 +234,9 @@ void write_MSH_4_1_elements(Buffered_output& out, const Mesh& mesh, const MSH_mo
 template <class Mesh>
 void write_MSH_2_2_nodes_and_elements(Buffered_output& out, const Mesh& mesh, const MSH_model& model)
 {
-  const auto write_element = [&out](std::size_t number, int type, int tag, const auto& vertices) {
-    out << number << ' ' << type << " 2 " << tag << ' ' << tag << ' ';
+  const auto write_element = [&out](std::size_t number, int type, int group, int entity,
+                                    const auto& vertices) {
+    out << number << ' ' << type << " 2 " << group << ' ' << entity << ' ';
     write_vertices(out, vertices, ' ');
     out << '\n';
   };
@@ -204,14 +247,39 @@ void write_MSH_2_2_nodes_and_elements(Buffered_output& out, const Mesh& mesh, co
     write_point(out, Mixed_meshes_3::to_vec3(mesh.points()[v]), " ");
     out << '\n';
   }
-  out << "$EndNodes\n$Elements\n" << mesh.number_of_elements() + model.boundary_faces().size() << '\n';
+  out << "$EndNodes\n$Elements\n" << mesh.number_of_elements() + model.faces().size() << '\n';
   for(const Element_block& block : model.blocks())
     for(Element_index e : block)
-      write_element(e + 1, block.names().gmsh_type, model.tag(block), mesh.element(e));
-  std::size_t number = mesh.number_of_elements();
-  for(const Face& face : model.boundary_faces())
-    write_element(++number, gmsh_face_type(face.vertices().size()), boundary_tag, face.vertices());
+      write_element(e + 1, block.names().gmsh_type, model.tag(block), model.tag(block), mesh.element(e));
+  for(std::size_t i = 0; i < model.faces().size(); ++i) {
+    const Face_vertices& face = model.faces()[i].vertices();
+    const MSH_entity& e = model.entity_of_face(i);
+    write_element(mesh.number_of_elements() + 1 + i, gmsh_face_type(face.size()), e.groups.front(), e.tag,
+                  face);
+  }
   out << "$EndElements\n";
+}
+
+// A view of Gmsh, at time 0. Version 4.1 has no vertices without an element.
+inline void write_MSH_node_data(Buffered_output& out, const Data_array& data, std::size_t number_of_vertices,
+                                const MSH_model& model, MSH_version version)
+{
+  const auto is_written = [&](std::size_t v) {
+    return version == MSH_version::V2_2 || model.is_vertex_used(v);
+  };
+  std::size_t n = 0;
+  for(std::size_t v = 0; v < number_of_vertices; ++v)
+    n += is_written(v);
+  const std::size_t components = std::size_t(data.number_of_components);
+  out << "$NodeData\n1\n\"" << data.name << "\"\n1\n0\n3\n0\n" << components << '\n' << n << '\n';
+  for(std::size_t v = 0; v < number_of_vertices; ++v)
+    if(is_written(v)) {
+      out << v + 1;
+      for(std::size_t i = 0; i < components; ++i)
+        out << ' ' << (*data.values)[v * components + i];
+      out << '\n';
+    }
+  out << "$EndNodeData\n";
 }
 
 } // namespace internal
@@ -224,13 +292,26 @@ others, the surface "boundary" (3) for the boundary faces, counter-clockwise see
 "subdomain_2_region", "subdomain_2_rest" and so on, as they occur. The numbers of vertices and elements are
 the indices plus 1; boundary faces are numbered after the elements. Elements are written by group and kind.
 
+The surfaces of facet sets follow, with their names and the next numbers. Each face is written once. In
+version 4.1 a boundary face of sets is in their groups and in "boundary"; in 2.2, where it can be in one group
+only, it is in that of its first set, and "boundary" is what is left.
+
+Values at the vertices become views, at time 0.
+
+\param stream the stream
+\param mesh the mesh
+\param version of the format
+\param facet_sets named faces
+\param vertex_data of one or three components, as many as vertices; names without quotes
+
 \return whether the stream took everything.
 */
 template <class Mesh>
-bool write_MSH(std::ostream& stream, const Mesh& mesh, MSH_version version = MSH_version::V4_1)
+bool write_MSH(std::ostream& stream, const Mesh& mesh, MSH_version version = MSH_version::V4_1,
+               const std::vector<Facet_set>& facet_sets = {}, const std::vector<Data_array>& vertex_data = {})
 {
   using namespace internal;
-  const MSH_model model(mesh);
+  const MSH_model model(mesh, facet_sets, version == MSH_version::V2_2);
   Buffered_output out(stream);
   out << "$MeshFormat\n" << (version == MSH_version::V4_1 ? "4.1" : "2.2") << " 0 8\n$EndMeshFormat\n";
   write_MSH_physical_names(out, model);
@@ -241,6 +322,8 @@ bool write_MSH(std::ostream& stream, const Mesh& mesh, MSH_version version = MSH
   } else {
     write_MSH_2_2_nodes_and_elements(out, mesh, model);
   }
+  for(const Data_array& data : vertex_data)
+    write_MSH_node_data(out, data, mesh.number_of_vertices(), model, version);
   return out.finish();
 }
 

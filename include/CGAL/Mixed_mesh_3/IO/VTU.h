@@ -7,6 +7,8 @@
 #define CGAL_MIXED_MESH_3_IO_VTU_H
 
 #include <CGAL/Mixed_mesh_3.h>
+#include <CGAL/Mixed_mesh_3/IO/Data_array.h>
+#include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
@@ -31,28 +33,11 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace IO {
 
-//----------------------------------------------------------------------------------------------
-
-/// Values at the vertices or at the elements, to be written with a mesh. Does not own the values:
-/// they must stay until the mesh is written.
-struct Data_array
-{
-  std::string name;
-  const std::vector<double>* values; ///< the components of the first vertex or element, and so on
-  int number_of_components = 1;
-
-  /// Whether there are values for `n` vertices or elements.
-  bool has_size(std::size_t n) const
-  {
-    return values != nullptr && number_of_components > 0
-           && values->size() == n * std::size_t(number_of_components);
-  }
-};
-
 struct VTU_options
 {
   std::vector<Data_array> vertex_data;
   std::vector<Data_array> element_data;
+  std::vector<Facet_set> facet_sets = {};
 };
 
 namespace internal {
@@ -133,20 +118,6 @@ VTU_arrays cell_arrays(const Mesh& mesh)
           })};
 }
 
-inline std::string escaped_for_XML(const std::string& text)
-{
-  std::string result;
-  for(char c : text)
-    switch(c) {
-    case '&': result += "&amp;"; break;
-    case '<': result += "&lt;"; break;
-    case '>': result += "&gt;"; break;
-    case '"': result += "&quot;"; break;
-    default: result += c;
-    }
-  return result;
-}
-
 } // namespace internal
 
 /*!
@@ -154,8 +125,10 @@ inline std::string escaped_for_XML(const std::string& text)
 
 Elements are sorted by kind, within a kind in the order of the mesh: programs that read blocks of one kind
 find four. Element data: `kind` (the number of the `Element_kind`), `ARC` (the aspect-ratio coefficient),
-`in_region` (1 or 0), `subdomain` (the subdomain index), and what the options add. Nothing of the size of the
-mesh is allocated.
+`in_region` (1 or 0), `subdomain` (the subdomain index), what the options add, and for each facet set
+`facets_` with its name: the number of the element's faces in the set, since a file of elements has no faces
+of their own; a threshold above 0 selects the elements. Nothing of the size of the mesh is allocated but for
+facet sets.
 
 VTK disagrees with itself on wedges. Written in the documented order, as here, their faces look
 outwards and `vtkCellSizeFilter` finds a positive volume, but the Jacobian of the shape functions of
@@ -189,6 +162,17 @@ bool write_VTU(std::ostream& stream, const Mesh& mesh, const VTU_options& option
   for(const Data_array& data : options.element_data)
     if((fits = fits && data.has_size(m)))
       element_data.push_back(element_data_array(mesh, data));
+  std::vector<std::vector<std::uint8_t>> numbers_of_facets;
+  numbers_of_facets.reserve(options.facet_sets.size());
+  for(const Facet_set& set : options.facet_sets) {
+    numbers_of_facets.emplace_back(set.faces.empty() ? 0 : m);
+    for(const Face& face : set.faces)
+      ++numbers_of_facets.back()[face.element()];
+    if(!set.faces.empty())
+      element_data.push_back(element_array<std::uint8_t>("facets_" + set.name, mesh,
+                                                         [&numbers = numbers_of_facets.back()](
+                                                           Element_index e) { return numbers[e]; }));
+  }
   if(!fits) {
     stream.setstate(std::ios_base::failbit);
     return false;

@@ -6,13 +6,16 @@
 #ifndef CGAL_MIXED_MESH_3_IO_WRITE_MIXED_MESH_H
 #define CGAL_MIXED_MESH_3_IO_WRITE_MIXED_MESH_H
 
+#include <CGAL/Mixed_mesh_3/IO/Data_array.h>
 #include <CGAL/Mixed_mesh_3/IO/FEB.h>
+#include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
 #include <CGAL/Mixed_mesh_3/IO/INP.h>
 #include <CGAL/Mixed_mesh_3/IO/MEDIT.h>
 #include <CGAL/Mixed_mesh_3/IO/MSH.h>
 #include <CGAL/Mixed_mesh_3/IO/VTU.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Output_file.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/facet_sets.h>
 #include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
 
 #include <cmath>
@@ -40,10 +43,13 @@ struct Write_options
   bool tetrahedra = false;
   /// Whether `.msh` means Gmsh's format 2.2 instead of 4.1.
   bool msh_2_2 = false;
-  /// Values to write with the mesh; `Format::VTU` only.
+  /// Values to write with the mesh: `Format::VTU`; of one or three components, also Gmsh's formats and
+  /// `Format::FEB`.
   std::vector<Data_array> vertex_data;
   /// Values to write with the mesh; `Format::VTU` only.
   std::vector<Data_array> element_data;
+  /// Named faces of elements, in all formats. `Format::MSH_2_2` and `Format::MEDIT` take no face in two sets.
+  std::vector<Facet_set> facet_sets = {};
 };
 
 namespace internal {
@@ -59,16 +65,27 @@ inline constexpr Extension extensions[] = {{".vtu", Format::VTU},      {".msh", 
                                            {".msh2", Format::MSH_2_2}, {".mesh", Format::MEDIT},
                                            {".inp", Format::INP},      {".feb", Format::FEB}};
 
+/// Whether a file of the format can have values.
+inline bool can_hold(Format format, bool is_vertex_data, const Data_array& data)
+{
+  if(format == Format::VTU)
+    return true;
+  const bool has_quotes = data.name.find('"') != std::string::npos; // Gmsh has names in quotes
+  return is_vertex_data && !has_quotes && (data.number_of_components == 1 || data.number_of_components == 3)
+         && (format == Format::MSH_4_1 || format == Format::MSH_2_2 || format == Format::FEB);
+}
+
 template <class Mesh>
 bool write(std::ostream& stream, const Mesh& mesh, Format format, const Write_options& options)
 {
+  const std::vector<Facet_set>& sets = options.facet_sets;
   switch(format) {
-  case Format::VTU: return write_VTU(stream, mesh, {options.vertex_data, options.element_data});
-  case Format::MSH_4_1: return write_MSH(stream, mesh, MSH_version::V4_1);
-  case Format::MSH_2_2: return write_MSH(stream, mesh, MSH_version::V2_2);
-  case Format::MEDIT: return write_MEDIT(stream, mesh);
-  case Format::INP: return write_INP(stream, mesh);
-  case Format::FEB: return write_FEB(stream, mesh);
+  case Format::VTU: return write_VTU(stream, mesh, {options.vertex_data, options.element_data, sets});
+  case Format::MSH_4_1: return write_MSH(stream, mesh, MSH_version::V4_1, sets, options.vertex_data);
+  case Format::MSH_2_2: return write_MSH(stream, mesh, MSH_version::V2_2, sets, options.vertex_data);
+  case Format::MEDIT: return write_MEDIT(stream, mesh, sets);
+  case Format::INP: return write_INP(stream, mesh, sets);
+  case Format::FEB: return write_FEB(stream, mesh, sets, options.vertex_data);
   }
   return false;
 }
@@ -196,8 +213,11 @@ template <class Mesh>
   const std::vector<Data_array>* const data[] = {&options.vertex_data, &options.element_data};
   for(int i = 0; i < 2; ++i)
     for(const Data_array& array : *data[i]) {
-      if(*format != Format::VTU)
-        return refused("data \"" + array.name + "\" can be written to .vtu only");
+      const bool is_vertex_data = i == 0;
+      if(!internal::can_hold(*format, is_vertex_data, array))
+        return refused(
+          "data \"" + array.name + "\" can be written to "
+          + (is_vertex_data ? ".vtu, and of one or three components to .msh and .feb, only" : ".vtu only"));
       if(!array.has_size(sizes[i]))
         return refused("data \"" + array.name + "\" does not have the size of the mesh");
     }
@@ -206,11 +226,18 @@ template <class Mesh>
       if(!std::isfinite(x))
         return refused("the mesh's vertex " + std::to_string(v) + " has no finite position");
 
+  const Format used = options.msh_2_2 && *format == Format::MSH_4_1 ? Format::MSH_2_2 : *format;
+  const bool has_one_number = used == Format::MSH_2_2 || used == Format::MEDIT;
+  const std::string defect = internal::facet_set_defect(mesh, options.facet_sets, has_one_number);
+  if(!defect.empty())
+    return refused(defect);
+
   if(options.tetrahedra) {
     std::vector<Element_index> origins;
     const Mesh tetrahedra = split_to_tetrahedra(mesh, &origins);
     Write_options new_options = options;
     new_options.tetrahedra = false;
+    new_options.facet_sets = internal::split_facet_sets(tetrahedra, origins, options.facet_sets);
     std::vector<std::vector<double>> values;
     values.reserve(options.element_data.size());
     for(Data_array& array : new_options.element_data) {
@@ -224,8 +251,6 @@ template <class Mesh>
     }
     return write_mixed_mesh(files, path, tetrahedra, new_options, error);
   }
-  const Format used = options.msh_2_2 && *format == Format::MSH_4_1 ? Format::MSH_2_2 : *format;
-
   return files.write(
     path, [&](std::ostream& stream) { return internal::write(stream, mesh, used, options); }, error);
 }

@@ -464,6 +464,42 @@ void write_as(Compressed_output& output, const Voxel_image_3& image, double slop
   }
 }
 
+/// A vector image of five dimensions.
+/// \param intent says what the vectors are, and by that their coordinate system
+/// \param signs of the components, from the directions of the image's world
+[[nodiscard]] inline bool write_NIFTI_field(Output_files& files, const std::string& path,
+                                            const Displacement_field_3& field, int intent,
+                                            const std::array<float, 3>& signs, std::string* error)
+{
+  const std::string defect = image_output_error(path, field.grid, field.vectors.size());
+  if(!is_success(with_path(path, defect), error))
+    return false;
+  return files.write(
+    path,
+    [&](std::ostream& stream) {
+      nifti_1_header header = make_header(field.grid);
+      header.dim[0] = 5;
+      header.dim[5] = 3;
+      header.datatype = NIFTI_TYPE_FLOAT32;
+      header.bitpix = 32;
+      header.intent_code = short(intent);
+      Compressed_output output(stream, ends_with(path, ".gz"));
+      const char no_extension[4] = {};
+      output.write(&header, sizeof(header));
+      output.write(no_extension, sizeof(no_extension));
+      std::vector<float> block;
+      for(std::size_t component = 0; component < 3; ++component)
+        for(std::size_t i = 0; i < field.vectors.size(); i += block.size()) {
+          block.resize((std::min)(field.vectors.size() - i, std::size_t(1) << 16));
+          for(std::size_t k = 0; k < block.size(); ++k)
+            block[k] = signs[component] * field.vectors[i + k][component];
+          output.write(block.data(), block.size() * sizeof(float));
+        }
+      return output.finish();
+    },
+    error);
+}
+
 inline Voxel_image_3 read_image(const std::string& path)
 {
   if(!ends_with(path, ".nii") && !ends_with(path, ".nii.gz"))
@@ -564,33 +600,7 @@ are written as sform, and as qform if the axes are at right angles.
 [[nodiscard]] inline bool write_NIFTI(Output_files& files, const std::string& path,
                                       const Displacement_field_3& field, std::string* error = nullptr)
 {
-  const std::string defect = internal::image_output_error(path, field.grid, field.vectors.size());
-  if(!internal::is_success(internal::with_path(path, defect), error))
-    return false;
-  return files.write(
-    path,
-    [&](std::ostream& stream) {
-      nifti_1_header header = internal::make_header(field.grid);
-      header.dim[0] = 5;
-      header.dim[5] = 3;
-      header.datatype = NIFTI_TYPE_FLOAT32;
-      header.bitpix = 32;
-      header.intent_code = NIFTI_INTENT_DISPVECT;
-      internal::Compressed_output output(stream, internal::ends_with(path, ".gz"));
-      const char no_extension[4] = {};
-      output.write(&header, sizeof(header));
-      output.write(no_extension, sizeof(no_extension));
-      std::vector<float> block;
-      for(std::size_t component = 0; component < 3; ++component)
-        for(std::size_t i = 0; i < field.vectors.size(); i += block.size()) {
-          block.resize((std::min)(field.vectors.size() - i, std::size_t(1) << 16));
-          for(std::size_t k = 0; k < block.size(); ++k)
-            block[k] = field.vectors[i + k][component];
-          output.write(block.data(), block.size() * sizeof(float));
-        }
-      return output.finish();
-    },
-    error);
+  return internal::write_NIFTI_field(files, path, field, NIFTI_INTENT_DISPVECT, {1, 1, 1}, error);
 }
 
 /// Writes an image or a field to a file, which appears when it is complete.
@@ -599,33 +609,6 @@ template <class Image>
 {
   Output_files files;
   return write_NIFTI(files, path, image, error) && files.commit(error);
-}
-
-/*!
-Writes what `warp_image()` returns, beside each other: for `brain.nii.gz`
-
-| file | what it is |
-|------|------------|
-| `brain.nii.gz` | the warped image |
-| `brain_forward.nii.gz` | the field at points before the deformation: where they go |
-| `brain_backward.nii.gz` | the field at points after it: where they come from |
-| `brain_mask.nii.gz` | 0 outside, 1 tissue, 2 resected: after the deformation |
-
-\param files the files
-\param path the file of the image, once committed: `.nii` or `.nii.gz`
-\param warped what to write
-\param error if not null, receives a line that names the file and says what went wrong
-\return whether all went well
-*/
-[[nodiscard]] inline bool write_warped_image(Output_files& files, const std::string& path,
-                                             const Warped_image_3& warped, std::string* error = nullptr)
-{
-  const std::string extension = internal::ends_with(path, ".gz") ? ".nii.gz" : ".nii";
-  const std::string stem = path.substr(0, path.size() - (std::min)(path.size(), extension.size()));
-  return write_NIFTI(files, path, warped.image, error)
-         && write_NIFTI(files, stem + "_forward" + extension, warped.forward, error)
-         && write_NIFTI(files, stem + "_backward" + extension, warped.backward, error)
-         && write_NIFTI(files, stem + "_mask" + extension, warped.mask, error);
 }
 
 } // namespace IO

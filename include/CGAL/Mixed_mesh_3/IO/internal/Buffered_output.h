@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <cstring>
 #include <ostream>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -102,6 +103,20 @@ public:
 inline void write_point(Buffered_output& out, const Mixed_meshes_3::Vec3& p, std::string_view separator)
 {
   out << p[0] << separator << p[1] << separator << p[2];
+}
+
+inline std::string escaped_for_XML(const std::string& text)
+{
+  std::string result;
+  for(char c : text)
+    switch(c) {
+    case '&': result += "&amp;"; break;
+    case '<': result += "&lt;"; break;
+    case '>': result += "&gt;"; break;
+    case '"': result += "&quot;"; break;
+    default: result += c;
+    }
+  return result;
 }
 
 // Vertices numbered from 1, as all text formats want them.

@@ -137,6 +137,15 @@ public:
     });
     return boundary_tag + 1 + int(std::ptrdiff_t(part) - parts_of_first);
   }
+
+  /// The first number that no part has, and not the boundary: facet sets follow.
+  int first_free_tag() const
+  {
+    int first = boundary_tag + 1;
+    for(std::size_t part = 0; part < m_parts.size(); ++part)
+      first = (std::max)(first, tag(part) + 1);
+    return first;
+  }
 };
 
 /// All elements by kind, then in the order of the mesh: what reads a block of one kind at a time reads few.

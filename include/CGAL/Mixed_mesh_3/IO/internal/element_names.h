@@ -28,13 +28,14 @@ struct Element_names
   const char* medit_keyword;
   const char* abaqus_type;
   const char* febio_type;
+  std::uint8_t abaqus_faces[6]; ///< for each of our faces, Abaqus's number of it
 };
 
 inline constexpr Element_names element_names[] = {
-  {10, {0, 1, 2, 3}, 4, "Tetrahedra", "C3D4", "tet4"},
-  {14, {0, 1, 2, 3, 4}, 7, "Pyramids", "C3D5", "pyra5"},
-  {13, {0, 2, 1, 3, 5, 4}, 6, "Prisms", "C3D6", "penta6"},
-  {12, {0, 1, 2, 3, 4, 5, 6, 7}, 5, "Hexahedra", "C3D8", "hex8"}};
+  {10, {0, 1, 2, 3}, 4, "Tetrahedra", "C3D4", "tet4", {3, 4, 2, 1}},
+  {14, {0, 1, 2, 3, 4}, 7, "Pyramids", "C3D5", "pyra5", {1, 2, 3, 4, 5}},
+  {13, {0, 2, 1, 3, 5, 4}, 6, "Prisms", "C3D6", "penta6", {1, 2, 3, 4, 5}},
+  {12, {0, 1, 2, 3, 4, 5, 6, 7}, 5, "Hexahedra", "C3D8", "hex8", {6, 4, 3, 5, 1, 2}}};
 static_assert(sizeof(element_names) / sizeof(element_names[0]) == number_of_element_kinds,
               "a name for each kind, in the order of Element_kind");
 

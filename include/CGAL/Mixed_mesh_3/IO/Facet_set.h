@@ -1,0 +1,37 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_IO_FACET_SET_H
+#define CGAL_MIXED_MESH_3_IO_FACET_SET_H
+
+#include <CGAL/Mixed_mesh_3/Face.h>
+
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace IO {
+
+/*!
+\brief Faces of elements with a name, to be written with a mesh: where a boundary condition holds, or an
+interface between tissues.
+
+The name has letters, digits, `_` and `-`, a letter first, 60 of them at most. It is that of no other set, in
+upper or lower case, and of nothing else in the files: not `all`, `boundary`, `region`, `rest`, and does not
+begin with `region_`, `rest_` or `subdomain_`. Each face is there once. A face between two elements is given
+as a face of one of them, and has the orientation from there outwards. A set without faces is not written.
+*/
+struct Facet_set
+{
+  std::string name;
+  std::vector<Face> faces;
+};
+
+} // namespace IO
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_IO_FACET_SET_H
