@@ -1,0 +1,170 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_INTERFACES_H
+#define CGAL_MIXED_MESH_3_INTERFACES_H
+
+#include <CGAL/Mixed_mesh_3/Element_attributes.h>
+#include <CGAL/Mixed_mesh_3/Face.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/for_each_face.h>
+#include <CGAL/Mixed_mesh_3/quality.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+
+/// Where two subdomains of a mesh meet, or one of them and the outside.
+struct Subdomain_interface
+{
+  Subdomain_index first = 1;  ///< positive, less than the other one
+  Subdomain_index second = 0; ///< 0: the outside
+  std::vector<Face> faces;    ///< of the elements of the first, in the order of the elements
+  double area = 0;
+  /// Edges that are not between two faces of the interface, although no third subdomain meets there.
+  std::size_t number_of_bad_edges = 0;
+  /// Vertices with more than one fan of the faces of the interface around.
+  std::size_t number_of_bad_vertices = 0;
+
+  /// Whether the interface is an oriented 2-manifold whose border is where three subdomains meet, the outside
+  /// being one of them.
+  bool is_manifold() const { return number_of_bad_edges == 0 && number_of_bad_vertices == 0; }
+};
+
+namespace internal {
+
+class Interface_checker
+{
+  using Edge = std::pair<Vertex_index, Vertex_index>;
+
+  std::map<Edge, std::size_t> m_faces_at_edges; // of all interfaces
+
+  static Edge edge(const Face_vertices& v, int i) { return std::minmax(v[i], v[(i + 1) % v.size()]); }
+
+public:
+  explicit Interface_checker(const std::vector<Subdomain_interface>& interfaces)
+  {
+    for(const Subdomain_interface& one : interfaces)
+      for(const Face& face : one.faces)
+        for(int i = 0; i < face.vertices().size(); ++i)
+          ++m_faces_at_edges[edge(face.vertices(), i)];
+  }
+
+  void operator()(Subdomain_interface& one) const
+  {
+    std::map<Edge, std::array<int, 2>> edges; // how often in each direction
+    std::map<Vertex_index, std::vector<Edge>> links;
+    for(const Face& face : one.faces) {
+      const Face_vertices& v = face.vertices();
+      for(int i = 0; i < v.size(); ++i) {
+        ++edges[edge(v, i)][v[i] < v[(i + 1) % v.size()] ? 0 : 1];
+        links[v[i]].emplace_back(v[(i + 1) % v.size()], v[(i + v.size() - 1) % v.size()]);
+      }
+    }
+    for(const auto& [e, times] : edges) {
+      const bool is_inside = times[0] == 1 && times[1] == 1,
+                 is_border = times[0] + times[1] == 1 && m_faces_at_edges.at(e) > 2;
+      one.number_of_bad_edges += !is_inside && !is_border;
+    }
+    for(const auto& [v, around] : links)
+      one.number_of_bad_vertices += !is_one_fan(around);
+  }
+
+private:
+  // Whether the links of the faces around a vertex are connected.
+  static bool is_one_fan(std::vector<Edge> links)
+  {
+    std::vector<Vertex_index> reached{links.back().first, links.back().second};
+    links.pop_back();
+    for(std::size_t i = 0; i < reached.size(); ++i) {
+      const auto touches = [&](const Edge& l) { return l.first == reached[i] || l.second == reached[i]; };
+      const auto rest = std::stable_partition(links.begin(), links.end(),
+                                              [&](const Edge& l) { return !touches(l); });
+      for(auto l = rest; l != links.end(); ++l)
+        reached.push_back(l->first == reached[i] ? l->second : l->first);
+      links.erase(rest, links.end());
+    }
+    return links.empty();
+  }
+};
+
+} // namespace internal
+
+/*!
+The interfaces between the subdomains of a mesh, and those to the outside, which are the boundary; by their
+subdomains.
+
+\param mesh a conforming mesh
+\cost O(n log n) for n elements
+*/
+template <class Mesh>
+std::vector<Subdomain_interface> find_interfaces(const Mesh& mesh)
+{
+  std::map<std::pair<Subdomain_index, Subdomain_index>, std::vector<Face>> faces;
+  internal::for_each_face(mesh.elements(), mesh.number_of_vertices(), [&](const auto& group) {
+    const Subdomain_index a = mesh.subdomain_index(group.element(0)),
+                          b = group.size() > 1 ? mesh.subdomain_index(group.element(1)) : 0;
+    if(b == 0 || a < b)
+      faces[{a, b}].push_back(group[0]);
+    else if(b < a)
+      faces[{b, a}].push_back(group[1]);
+  });
+  std::vector<Subdomain_interface> interfaces;
+  for(auto& [subdomains, of_one] : faces) {
+    std::sort(of_one.begin(), of_one.end());
+    interfaces.push_back({subdomains.first, subdomains.second, std::move(of_one)});
+    for(const Face& face : interfaces.back().faces)
+      interfaces.back().area += area(mesh, face);
+  }
+  const internal::Interface_checker check(interfaces);
+  for(Subdomain_interface& one : interfaces)
+    check(one);
+  return interfaces;
+}
+
+/*!
+How many vertices of an interface are farther from its surface than a share of the diagonal of the domain's box.
+
+\tparam Domain a model of `MixedMeshLabeledDomain_3`
+*/
+template <class Mesh, class Domain>
+std::size_t number_of_vertices_off_interface(const Mesh& mesh, const Subdomain_interface& interface,
+                                             const Domain& domain, double share_of_diagonal = 1e-9)
+{
+  using Point_3 = typename Domain::Point_3;
+  const auto& box = domain.bbox();
+  const double most = share_of_diagonal * norm({box.x_span(), box.y_span(), box.z_span()});
+  const std::vector<Subdomain_index> order = internal::subdomain_indices(domain);
+  Subdomain_index first = interface.first, second = interface.second;
+  if(second != 0 && internal::rank_of(order, second) < internal::rank_of(order, first))
+    std::swap(first, second);
+  const std::vector<Vertex_index> vertices = vertices_of(interface.faces);
+  return std::size_t(std::count_if(vertices.begin(), vertices.end(), [&](Vertex_index v) {
+    const Vec3 p = to_vec3(mesh.point(v));
+    return norm(to_vec3(domain.closest_point(Point_3(p[0], p[1], p[2]), first, second)) - p) > most;
+  }));
+}
+
+/// The volume of each subdomain.
+template <class Mesh>
+std::map<Subdomain_index, double> volumes_of_subdomains(const Mesh& mesh)
+{
+  std::map<Subdomain_index, double> volumes;
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
+    volumes[mesh.subdomain_index(e)] += volume(mesh, e);
+  return volumes;
+}
+
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERFACES_H

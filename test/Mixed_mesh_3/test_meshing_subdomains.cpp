@@ -1,0 +1,327 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Domains of several subdomains: what a point belongs to, and meshes whose interfaces are on the surfaces.
+
+#include "test_meshing.h"
+
+#include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
+#include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
+#include <CGAL/Mixed_mesh_3/interfaces.h>
+#include <CGAL/optimize_mixed_mesh_3.h>
+
+#include <boost/core/lightweight_test.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <random>
+#include <utility>
+#include <vector>
+
+using Domain = CGAL::Labeled_polyhedral_mixed_mesh_domain_3;
+using CGAL::ON_BOUNDARY;
+using CGAL::ON_BOUNDED_SIDE;
+using CGAL::ON_UNBOUNDED_SIDE;
+
+namespace {
+
+struct Box
+{
+  int from[3], to[3];
+  Subdomain_index index;
+
+  CGAL::Bounded_side side(const Point_3& p) const
+  {
+    CGAL::Bounded_side side = ON_BOUNDED_SIDE;
+    for(int k = 0; k < 3; ++k) {
+      if(p[k] < from[k] || p[k] > to[k])
+        return ON_UNBOUNDED_SIDE;
+      if(p[k] == from[k] || p[k] == to[k])
+        side = ON_BOUNDARY;
+    }
+    return side;
+  }
+};
+
+// By the definition.
+Subdomain_index subdomain_by_hand(const std::vector<Box>& boxes, const Point_3& p)
+{
+  for(const Box& b : boxes)
+    if(b.side(p) == ON_BOUNDED_SIDE)
+      return b.index;
+  return 0;
+}
+
+CGAL::Bounded_side side_by_hand(const std::vector<Box>& boxes, const Point_3& p)
+{
+  bool is_on_surface = false;
+  for(const Box& b : boxes) {
+    const CGAL::Bounded_side side = b.side(p);
+    if(side == ON_BOUNDARY && b.index == 0)
+      return ON_BOUNDARY;
+    if(side == ON_BOUNDED_SIDE)
+      return b.index == 0 ? ON_UNBOUNDED_SIDE : ON_BOUNDED_SIDE;
+    is_on_surface = is_on_surface || side == ON_BOUNDARY;
+  }
+  return is_on_surface ? ON_BOUNDARY : ON_UNBOUNDED_SIDE;
+}
+
+// From the root down, as the octree asks; points on all lattice planes, so that many are on surfaces.
+template <class Cell_traits>
+void check_cells(const Domain& domain, const std::vector<Box>& boxes, const Cell_traits& traits,
+                 const Lattice_point& corner, std::uint32_t side, const Domain::Surface_part& parent)
+{
+  Domain::Surface_part part;
+  const auto cell = traits.cell(corner, side);
+  const CGAL::Bounded_side where = domain.locate(cell, parent, part);
+  const std::uint32_t quarter = side / 4;
+  for(std::uint32_t i = 0; i < 125; ++i) {
+    const auto p = traits.point(
+      {corner[0] + i % 5 * quarter, corner[1] + i / 5 % 5 * quarter, corner[2] + i / 25 * quarter});
+    const CGAL::Bounded_side expected = side_by_hand(boxes, p);
+    if(where != ON_BOUNDARY)
+      BOOST_TEST_EQ(int(where), int(expected));
+    else
+      BOOST_TEST_EQ(int(domain.bounded_side(p, part)), int(expected));
+    if(expected == ON_BOUNDED_SIDE) {
+      BOOST_TEST_EQ(domain.subdomain_index(p, part), subdomain_by_hand(boxes, p));
+      BOOST_TEST_EQ(domain.subdomain_index(p), subdomain_by_hand(boxes, p));
+    }
+  }
+  if(where == ON_BOUNDARY && quarter * 16 > Octree_root_side / 8)
+    for(std::uint32_t i = 0; i < 8; ++i)
+      check_cells(domain, boxes, traits,
+                  {corner[0] + (i & 1) * side / 2, corner[1] + (i >> 1 & 1) * side / 2, corner[2] + (i >> 2) * side / 2},
+                  side / 2, part);
+}
+
+void test_domain()
+{
+  std::mt19937 random(1);
+  const auto coordinate = [&] { return int(random() % 9); };
+  for(int round = 0; round < 12; ++round) {
+    std::vector<Box> boxes;
+    Domain domain;
+    for(int i = 0; i < 5; ++i) {
+      Box b{};
+      for(int k = 0; k < 3; ++k) {
+        b.from[k] = coordinate();
+        b.to[k] = (b.from[k] + 1 + coordinate() % 8) % 10;
+        if(b.to[k] <= b.from[k])
+          b.to[k] = b.from[k] + 1;
+      }
+      b.index = i == round % 5 ? 0 : i + 1;
+      boxes.push_back(b);
+      domain.add(box(Point_3(b.from[0], b.from[1], b.from[2]), Point_3(b.to[0], b.to[1], b.to[2])), b.index);
+    }
+    BOOST_TEST_EQ(domain.subdomain_indices().size(), 4u);
+    const Axis_aligned_octree_cell_traits_3 traits(CGAL::Bbox_3(0, 0, 0, 8, 8, 8), Root_cell::BOX);
+    check_cells(domain, boxes, traits, {0, 0, 0}, Octree_root_side, domain.surface_part());
+  }
+}
+
+void test_closest_points()
+{
+  Domain domain;
+  domain.add(box(Point_3(0, 0, 0), Point_3(1, 1, 1)), 0);
+  domain.add(box(Point_3(4, 0, 0), Point_3(5, 1, 1)), 7);
+  domain.add(box(Point_3(-1, -1, -1), Point_3(9, 2, 2)), 3);
+  const Point_3 p(2, 0.5, 0.5);
+  BOOST_TEST(domain.closest_point(p) == Point_3(1, 0.5, 0.5));
+  BOOST_TEST(domain.closest_point(p, 7, 3) == Point_3(4, 0.5, 0.5));
+  BOOST_TEST(domain.closest_point(p, Point_3(4, 0, 0), 7, 3) == Point_3(4, 0.5, 0.5));
+  BOOST_TEST(domain.closest_point(p, 3, 0) == Point_3(1, 0.5, 0.5)); // the cavity, nearer than what is around
+  BOOST_TEST(domain.closest_point(Point_3(8.5, 0.5, 0.5), 3, 0) == Point_3(9, 0.5, 0.5));
+  BOOST_TEST(std::abs(domain.mean_chord_length(7) - 2. / 3) < 1e-15);
+  for(const Point_3& q : domain.surface_samples(0.4, 7))
+    BOOST_TEST(domain.closest_point(q, 7, 3) == q);
+
+  // what is hidden has no samples
+  domain.add(box(Point_3(4.2, 0.2, 0.2), Point_3(4.8, 0.8, 0.8)), 5);
+  BOOST_TEST(domain.surface_samples(0.4, 5).empty());
+}
+
+// What holds for the mesh of any labeled domain.
+void check_subdomains(const Mesh& mesh, const Domain& domain, const Mixed_mesh_result_3& result)
+{
+  std::size_t off = 0;
+  for(const Subdomain_interface& one : find_interfaces(mesh))
+    off += number_of_vertices_off_interface(mesh, one, domain);
+  const auto& fitted = result.optimization;
+  // a vertex can be on several interfaces
+  BOOST_TEST_EQ(off == 0, fitted.number_of_arrived_vertices == fitted.number_of_boundary_vertices);
+  BOOST_TEST_EQ(number_of_boundary_self_intersections(mesh), 0u);
+  BOOST_TEST_EQ(fitted.number_of_elements_above_bound, 0u);
+}
+
+// A ball in a ball beside a box, in another ball; one piece each, without junctions.
+void test_nested()
+{
+  Domain domain;
+  domain.add(sphere(Point_3(-0.4, 0, 0), 0.2, 8), 4);
+  domain.add(sphere(Point_3(-0.4, 0, 0), 0.4, 12), 1);
+  domain.add(box(Point_3(0.25, -0.25, -0.25), Point_3(0.7, 0.25, 0.25)), 2);
+  domain.add(sphere(Point_3(0, 0, 0), 1, 16), 3);
+  std::map<Subdomain_index, double> expected;
+  for(Subdomain_index i : {4, 2})
+    expected[i] = 0;
+  Mesh mesh;
+  const Mixed_mesh_result_3 result = run(domain, CGAL::Everywhere_mixed_mesh_region_3(), Mixed_mesh_criteria_3(3000), mesh);
+  check_subdomains(mesh, domain, result);
+  const auto volume_of = [](const Surface& s) { return CGAL::to_double(CGAL::Polygon_mesh_processing::volume(s)); };
+  const double inner = volume_of(sphere(Point_3(0, 0, 0), 0.2, 8)), outer = volume_of(sphere(Point_3(0, 0, 0), 0.4, 12)),
+               cube = 0.45 * 0.25, whole = volume_of(sphere(Point_3(0, 0, 0), 1, 16));
+  const auto volumes = volumes_of_subdomains(mesh);
+  BOOST_TEST_EQ(volumes.size(), 4u);
+  for(const auto& [index, v] : std::map<Subdomain_index, double>{
+        {4, inner}, {1, outer - inner}, {2, cube}, {3, whole - outer - cube}}) {
+    BOOST_TEST_GT(volumes.at(index), 0.9 * v);
+    BOOST_TEST_LT(volumes.at(index), 1.1 * v);
+  }
+  const std::vector<Subdomain_interface> interfaces = find_interfaces(mesh);
+  BOOST_TEST_EQ(interfaces.size(), 4u);
+  for(const Subdomain_interface& one : interfaces) {
+    BOOST_TEST(one.is_manifold());
+    BOOST_TEST_EQ(number_of_vertices_off_interface(mesh, one, domain), 0u);
+  }
+
+  // the same bytes from several threads
+  Mesh again;
+  run(domain, CGAL::Everywhere_mixed_mesh_region_3(), Mixed_mesh_criteria_3(3000).number_of_threads(4), again);
+  BOOST_TEST(content(again) == content(mesh));
+
+  // one surface is a domain without labels
+  Domain one;
+  one.add(sphere(Point_3(0, 0, 0), 1, 16), 5);
+  Mesh labeled, plain;
+  run(one, CGAL::Everywhere_mixed_mesh_region_3(), Mixed_mesh_criteria_3(300), labeled);
+  run(Polyhedral_mixed_mesh_domain_3(sphere(Point_3(0, 0, 0), 1, 16)), CGAL::Everywhere_mixed_mesh_region_3(),
+      Mixed_mesh_criteria_3(300), plain);
+  BOOST_TEST(content(labeled) == content(plain));
+  BOOST_TEST_EQ(labeled.subdomain_index(0), 5);
+}
+
+// Two halves of a box: their interface ends at the boundary, where vertices are on two surfaces.
+void test_junction()
+{
+  Domain domain;
+  domain.add(box(Point_3(-2, -2, -2), Point_3(0.1, 2, 2)), 1);
+  domain.add(sphere(Point_3(0, 0, 0), 1, 16), 2);
+  // what is left of the first one's box is far from the second: only the plane matters
+  Mesh mesh;
+  const Mixed_mesh_result_3 result = make_mixed_mesh_3(domain, Mixed_mesh_criteria_3(2500), mesh);
+  check(mesh, result, 2500);
+  const std::vector<Subdomain_interface> interfaces = find_interfaces(mesh);
+  BOOST_TEST_EQ(interfaces.size(), 3u);
+  for(const Subdomain_interface& one : interfaces)
+    BOOST_TEST(one.is_manifold());
+  std::vector<int> strata(mesh.number_of_vertices(), 0);
+  for(const Subdomain_interface& one : interfaces)
+    for(Vertex_index v : vertices_of(one.faces))
+      ++strata[v];
+  std::size_t junctions = 0, arrived = 0;
+  for(Vertex_index v = 0; v < strata.size(); ++v)
+    if(strata[v] == 3) {
+      ++junctions;
+      const double r = std::sqrt(CGAL::to_double(CGAL::squared_distance(mesh.point(v), Point_3(0, 0, 0))));
+      arrived += std::abs(mesh.point(v).x() - 0.1) < 1e-8 && r > 0.9 && r <= 1;
+    }
+  BOOST_TEST_GT(junctions, 10u);
+  BOOST_TEST_GT(double(arrived), 0.7 * double(junctions));
+}
+
+// Balls and boxes anywhere: touching, crossing, nested, thin.
+void test_any()
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for(int round = 0; round < 16; ++round) {
+    Domain domain;
+    const int n = 2 + round % 4;
+    for(int i = 0; i < n; ++i) {
+      const Point_3 c(unit(random), unit(random), unit(random));
+      if(round % 3 == 0) {
+        const double d[3] = {0.02 + 0.4 * unit(random), 0.02 + 0.4 * unit(random), 0.02 + 0.4 * unit(random)};
+        domain.add(box(Point_3(c.x() - d[0], c.y() - d[1], c.z() - d[2]), Point_3(c.x() + d[0], c.y() + d[1], c.z() + d[2])),
+                   i + 1);
+      } else {
+        domain.add(sphere(c, 0.05 + 0.4 * unit(random), 6), round % 5 == 4 && i == 1 ? 0 : i + 1);
+      }
+    }
+    domain.add(sphere(Point_3(0.5, 0.5, 0.5), 0.6, 10), n + 1);
+    Mesh mesh;
+    const Mixed_mesh_result_3 result = make_mixed_mesh_3(domain, Mixed_mesh_criteria_3(400), mesh);
+    check(mesh, result, 400);
+    check_subdomains(mesh, domain, result);
+    for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
+      BOOST_TEST(mesh.subdomain_index(e) >= 1 && mesh.subdomain_index(e) <= n + 1);
+  }
+}
+
+// A mesh of cubes with two subdomains: the interface is their common square.
+void test_interfaces()
+{
+  Mesh mesh;
+  const int n = 3;
+  for(int z = 0; z <= n; ++z)
+    for(int y = 0; y <= n; ++y)
+      for(int x = 0; x <= 2 * n; ++x)
+        mesh.add_vertex(Point_3(x, y, z));
+  const auto at = [&](int x, int y, int z) { return Vertex_index(std::uint32_t(x + (2 * n + 1) * (y + (n + 1) * z))); };
+  for(int z = 0; z < n; ++z)
+    for(int y = 0; y < n; ++y)
+      for(int x = 0; x < 2 * n; ++x)
+        mesh.add_element(HEXAHEDRON,
+                         {at(x, y, z), at(x + 1, y, z), at(x + 1, y + 1, z), at(x, y + 1, z), at(x, y, z + 1),
+                          at(x + 1, y, z + 1), at(x + 1, y + 1, z + 1), at(x, y + 1, z + 1)},
+                         {x < n ? 2 : 1, false});
+  const auto interfaces = [&] {
+    std::map<std::pair<int, int>, Subdomain_interface> by;
+    for(Subdomain_interface& one : find_interfaces(mesh))
+      by.emplace(std::make_pair(one.first, one.second), one);
+    return by;
+  };
+  auto found = interfaces();
+  BOOST_TEST_EQ(found.size(), 3u);
+  BOOST_TEST_EQ((found.at({1, 2}).faces.size()), std::size_t(n * n));
+  BOOST_TEST_EQ((found.at({1, 2}).area), double(n * n));
+  BOOST_TEST_EQ((found.at({1, 0}).faces.size()), std::size_t(5 * n * n));
+  for(const auto& [subdomains, one] : found) {
+    BOOST_TEST(one.is_manifold());
+    for(const Face& f : one.faces)
+      BOOST_TEST_EQ(mesh.subdomain_index(f.element()), subdomains.first);
+  }
+  BOOST_TEST_EQ(volumes_of_subdomains(mesh).at(1), double(n * n * n));
+
+  // two cubes that touch along an edge only, and at a vertex only, within the other subdomain
+  const auto cube = [&](int x, int y, int z) { return Element_index(std::uint32_t(x + 2 * n * (y + n * z))); };
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
+    mesh.set_subdomain_index(e, 1);
+  mesh.set_subdomain_index(cube(1, 1, 1), 2);
+  mesh.set_subdomain_index(cube(2, 2, 1), 2);
+  found = interfaces();
+  BOOST_TEST_EQ((found.at({1, 2}).number_of_bad_edges), 1u);
+  mesh.set_subdomain_index(cube(2, 2, 1), 1);
+  BOOST_TEST((interfaces().at({1, 2}).is_manifold()));
+  mesh.set_subdomain_index(cube(2, 2, 2), 2);
+  found = interfaces();
+  BOOST_TEST_EQ((found.at({1, 2}).number_of_bad_edges), 0u);
+  BOOST_TEST_EQ((found.at({1, 2}).number_of_bad_vertices), 1u);
+}
+
+} // namespace
+
+int main()
+{
+  test_domain();
+  test_closest_points();
+  test_interfaces();
+  test_nested();
+  test_junction();
+  test_any();
+  return boost::report_errors();
+}
