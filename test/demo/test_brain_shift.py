@@ -719,6 +719,14 @@ class BrainShift(unittest.TestCase):
         self.fails_with(twice, words="line ")
         self.fails_with(POINTS, "--fixed-below", 1, words="contradicts")
 
+    def test_points_in_another_space_or_unit(self):
+        for factors, words in (((-1, -1, 1), "x and y negated"), ((1e-3,) * 3, "1,000 times smaller")):
+            rows = [",".join([repr(f * float(x)) for f, x in zip(factors, row.split(","))] + row.split(",")[3:])
+                    for row in ROWS]
+            path = self.file("elsewhere.csv", HEADER + "\n".join(rows) + "\n")
+            run = self.shift(self.mesh, "--control-points", path, "--report", WORK / "report.json")
+            self.assertIn(words, run.stderr)
+
     def test_free_rigid_motion(self):
         self.fails_with(HEADER + ROWS[0] + "\n", "--fixed-below", 0, names=self.mesh,
                         words="leave 3 rigid motions free, among them rotation about the axis through")
@@ -731,13 +739,23 @@ class BrainShift(unittest.TestCase):
                 ("tiny.off", cube_off((28, 18, 28), 1e-3), "nothing removed: no element is inside"),
                 ("all.off", cube_off((0, 0, 0), 1000), "everything removed: no element is left"),
                 ("open.off", cube_off((28, 18, 28), 20, TRIANGLES[:-1]), "not closed: 3 border edges"),
-                ("empty.off", "", "cannot be read"),
+                ("empty.off", "", "is empty"),
                 ("tumor.txt", cube_off((28, 18, 28), 20), "unknown format")):
             with self.subTest(name):
                 path = self.file(name, contents)
                 self.fails(self.mesh, "--control-points", self.points, "--tumor", path, names=path, words=words)
         self.fails(self.mesh, "--control-points", self.points, "--tumor", WORK / "none.off", names="none.off",
                    words="No such file")
+        with open(self.tumor) as file:  # in LPS, and in m
+            lines = file.read().split("\n")
+        n = int(lines[1].split()[0])
+        for name, factors, words in (("turned.off", (-1, -1, 1), "x and y negated"),
+                                     ("meters.off", (1e-3, 1e-3, 1e-3), "")):
+            points = [" ".join(repr(f * float(x)) for f, x in zip(factors, line.split())) for line in lines[2:2 + n]]
+            path = self.file(name, "\n".join(lines[:2] + points + lines[2 + n:]))
+            self.fails(self.mesh, "--control-points", self.points, "--tumor", path, names=path, words=words)
+        self.assertEqual(self.shift(self.mesh, "--control-points", self.points, "--tumor", WORK / "turned.off",
+                                    "--space", "LPS").returncode, 0)
         # what is above the plane goes, with all that control points hold
         self.fails(self.mesh, "--control-points", self.points, "--fixed-below", 0, "--tumor",
                    self.file("above.off", cube_off((0, 0, 500 + 45), 1000)), names=self.mesh, words="free")
@@ -775,7 +793,8 @@ class BrainShift(unittest.TestCase):
         self.file("damaged.nii", gzip.decompress(whole)[:1000])
         for name, words in (("far.nii", "does not overlap the mesh " + str(self.mesh)),
                             ("nan.nii", "voxel (1, 2, 3) is not a finite number"), ("truncated.nii.gz", ""),
-                            ("text.nii", ""), ("damaged.nii", ""), ("none.nii", ""), ("points.csv", "unknown format")):
+                            ("text.nii", ""), ("damaged.nii", ""), ("none.nii", ""), ("points.csv", "unknown format"),
+                            ("brain.mgz", "mri_convert")):
             with self.subTest(name):
                 self.fails(self.mesh, "--control-points", self.points, "--image", WORK / name, "--output-image",
                            WORK / "no", names=WORK / name, words=words)

@@ -59,13 +59,13 @@ PINCHED = CUBE + moved(CUBE, 1, (1, 1, 1))[1:]
 
 # name of the file, contents, words that the error must have
 BAD_SURFACES = [
-    ("empty.off", "", "cannot be read"),
-    ("header_only.off", "OFF\n", "cannot be read"),
+    ("empty.off", "", "is empty"),
+    ("header_only.off", "OFF\n", "is truncated"),
     ("no_faces.off", "OFF\n0 0 0\n", "no faces"),
-    ("truncated.off", CUBE_OFF[:len(CUBE_OFF) // 2], "cannot be read"),
+    ("truncated.off", CUBE_OFF[:len(CUBE_OFF) // 2], "too short for so many"),
     ("truncated_last_face.off", "\n".join(CUBE_OFF.split("\n")[:-2]) + "\n", ""),
     ("garbage.off", "\x00\x01garbage\xff" * 50, "cannot be read"),
-    ("huge_count.off", "OFF\n99999999999 99999999999 0\n0 0 0\n", "cannot be read"),
+    ("huge_count.off", "OFF\n99999999999 99999999999 0\n0 0 0\n", "too short for so many"),
     ("not_a_number.off", CUBE_OFF.replace("1 1 1\n", "nan 1 1\n"), ""),
     ("infinite.off", CUBE_OFF.replace("1 1 1\n", "inf 1 1\n"), ""),
     ("overflow.off", CUBE_OFF.replace("1 1 1\n", "1e999 1 1\n"), ""),
@@ -73,11 +73,11 @@ BAD_SURFACES = [
     ("index_negative.off", off(CUBE, TRIANGLES[:-1] + [(1, 7, -1)]), ""),
     ("face_of_two_vertices.off", off(CUBE, TRIANGLES[:-1] + [(1, 7)]), "fewer than three"),
     ("open.off", off(CUBE, TRIANGLES[:-1]), "3 border edges"),
-    ("edge_of_four_faces.off", off(CUBE + moved(CUBE, 1, (1, 1, 0)),
-                                   TRIANGLES + shifted(TRIANGLES, 8)), "more than two faces"),
+    ("edge_of_three_faces.off", off(CUBE + [(0.5, -1, 0.5)], TRIANGLES + [(0, 1, 8), (0, 8, 5), (1, 8, 5)]),
+     "more than two faces"),
     ("not_orientable.off", off([(0, 0, 3), (1, 0, 0), (0.3, 1, 0.2), (-0.8, 0.6, 0), (-0.8, -0.6, 0.4),
                                 (0.3, -1, 0)], PROJECTIVE_PLANE), "orient"),
-    ("flat.off", off(CUBE, TRIANGLES).replace(" 1\n", " 0\n"), ""),
+    ("flat.off", off(CUBE, TRIANGLES).replace(" 1\n", " 0\n"), "is flat"),
     ("zero_volume.off", off([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
                             [(0, 1, 2), (0, 2, 1)]), ""),
     ("large_coordinates.off", off(moved(CUBE, 1e200), TRIANGLES), "overflow"),
@@ -108,10 +108,13 @@ HARMLESS_SURFACES = [
     ("needles.stl", stl(NEEDLES, NEEDLE_TRIANGLES), "removed 2 degenerate faces"),
     ("pinched.off", off(PINCHED, PINCHED_TRIANGLES), "pinched at 1 point"),
     ("pinched.stl", stl(PINCHED, PINCHED_TRIANGLES), "pinched at 1 point"),
+    # they have an edge in common
+    ("edge_of_four_faces.off", off(CUBE + moved(CUBE, 1, (1, 1, 0)),
+                                   TRIANGLES + shifted(TRIANGLES, 8)), "2 components"),
     ("two_components.off", off(CUBE + moved(CUBE, 1, (3, 0, 0)),
                                TRIANGLES + shifted(TRIANGLES, 8)), "2 components"),
     ("cavity.off", off(CUBE + moved(CUBE, 0.4, (0.3, 0.3, 0.3)),
-                       TRIANGLES + shifted(TRIANGLES, 8)), "2 components"),
+                       TRIANGLES + shifted(TRIANGLES, 8)), "1 of them inside another: a cavity"),
 ]
 
 
@@ -156,6 +159,7 @@ class CommandLine(unittest.TestCase):
 
     def test_files_that_cannot_be_read(self):
         self.fails(WORK / "none.off", "--vertices", 500, names=WORK / "none.off", words="No such file")
+        self.fails(self.file("two\nlines\x1b.off", "OFF\n"), "--vertices", 500, names="two?lines?.off: is truncated")
         (WORK / "directory.off").mkdir()
         self.fails(WORK / "directory.off", "--vertices", 500, names="directory.off", words="directory")
 
@@ -189,7 +193,7 @@ class CommandLine(unittest.TestCase):
             with self.subTest(weight):
                 self.fails(self.good, "--region", f"{self.good}:{weight}", "--vertices", 500, status=2,
                            names=f"--region {self.good}:{weight}", words="is not a number from")
-        self.fails(self.good, "--region", "x" * 5000 + ":2", "--vertices", 500, names="x" * 5000, words="unknown format")
+        self.fails(self.good, "--region", "x" * 5000 + ":2", "--vertices", 500, names="x" * 5000, words="name too long")
         self.fails(self.good, "--region", WORK / "none.off:2", "--vertices", 500,
                    names=WORK / "none.off", words="No such file")
 
@@ -332,6 +336,49 @@ class CommandLine(unittest.TestCase):
         path = self.file("spike.off", off([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1e5)],
                                           [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]))
         self.fails(path, "--vertices", 60, names=path, words="too thin for this budget")
+    def test_space_and_unit(self):
+        long = [(10 * x + 2, 20 * y + 3, 30 * z) for x, y, z in CUBE]  # beside the axis
+        surface = self.file("surface.off", off(long, TRIANGLES))
+        comment = "SPACE=LPS"
+        report = WORK / "report.json"
+
+        def told(region, *arguments):
+            run = self.mesher(surface, "--region", region, "--vertices", 500, "--report", report, *arguments)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            return json.loads(report.read_text())["warnings"]
+
+        inside = moved(CUBE, 3, (4, 8, 10))
+        turned = [(-x, -y, z) for x, y, z in inside]
+        self.assertEqual(told(self.file("inside.off", off(inside, TRIANGLES))), [])
+        lps = self.file("lps.stl", stl(turned, TRIANGLES).replace("solid x", "solid " + comment, 1))
+        self.assertIn("says that it is in LPS", told(lps)[0])
+        plain = self.file("plain.off", off(turned, TRIANGLES))
+        self.fails(surface, "--region", plain, "--vertices", 500, names=plain, words="x and y negated")
+        self.fails(surface, "--region", lps, "--vertices", 500, "--space", "RAS", names=lps, words="x and y negated")
+        self.fails(surface, "--region", plain, "--region", plain, "--vertices", 500, names=plain,
+                   words="x and y negated")
+        # both in LPS
+        run = self.mesher(self.file("turned.off", off([(-x, -y, z) for x, y, z in long], TRIANGLES)), "--region",
+                          plain, "--space", "LPS", "--vertices", 500, "--report", report)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        told_of_both = json.loads(report.read_text())
+        self.assertEqual(told_of_both["options"]["space"], "LPS")
+        self.assertEqual(["is read as LPS" in w for w in told_of_both["warnings"]], [True, True])
+        meters = self.file("meters.off", off(moved(inside, 1e-3), TRIANGLES))
+        self.fails(surface, "--region", meters, "--vertices", 500, names=meters, words="1,000 times smaller")
+        self.fails(self.file("surface_in_meters.off", off(moved(long, 1e-3), TRIANGLES)), "--region",
+                   self.file("inside.off", off(inside, TRIANGLES)), "--vertices", 500, names="inside.off",
+                   words="1,000 times larger")
+        # of several regions one may be elsewhere
+        warnings = told(self.file("inside.off", off(inside, TRIANGLES)), "--region", meters)
+        self.assertEqual([w for w in warnings if "1,000 times smaller" not in w], [])
+        self.assertEqual(self.mesher(surface, "--vertices", 500, "--space", "LAS").returncode, 2)
+
+    def test_files_of_freesurfer(self):
+        self.fails(self.file("aseg.mgz", "x"), "--vertices", 500, names="aseg.mgz", words="mri_convert")
+        self.fails(self.file("aseg.mgz", "x"), "--labels", "1", "--vertices", 500, names="aseg.mgz",
+                   words="mri_convert", status=2)
+        self.fails(self.file("surface.xyz", "x"), "--vertices", 500, names="surface.xyz", words="convert it")
 
     def test_harmless_surfaces(self):
         for name, contents, words in HARMLESS_SURFACES:

@@ -12,6 +12,7 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 #if MIXED_MESH_3_HAS_NIFTI
 
 #include "common/messages.h"
+#include "common/misfit.h"
 #include "common/resources.h"
 
 #include <CGAL/Mixed_mesh_image_3/IO/NIFTI.h>
@@ -25,18 +26,54 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 
 namespace {
 
-std::size_t number_of_vertices_inside(const Mesh& mesh, const mm3::Voxel_grid_3& grid)
+// Whether points are in the image.
+class Image_box
 {
-  const mm3::Affine_map_3 to_index = mm3::inverse(grid.index_to_world);
-  std::size_t inside = 0;
-  for(const auto& p : mesh.points()) {
-    const Vector index = mm3::transform(to_index, mm3::to_vec3(p));
+  const mm3::Voxel_grid_3& m_grid;
+  mm3::Affine_map_3 m_to_index;
+
+public:
+  explicit Image_box(const mm3::Voxel_grid_3& grid)
+    : m_grid(grid), m_to_index(mm3::inverse(grid.index_to_world))
+  {
+  }
+
+  bool contains(const Vector& p) const
+  {
+    const Vector index = mm3::transform(m_to_index, p);
     bool is_inside = true;
     for(int k = 0; k < 3; ++k)
-      is_inside = is_inside && index[k] >= -0.5 && index[k] <= double(grid.size[k]) - 0.5;
-    inside += is_inside;
+      is_inside = is_inside && index[k] >= -0.5 && index[k] <= double(m_grid.size[k]) - 0.5;
+    return is_inside;
   }
-  return inside;
+
+  CGAL::Bbox_3 bbox() const
+  {
+    std::vector<std::array<double, 3>> corners;
+    for(int i = 0; i < 8; ++i) {
+      Vector index;
+      for(int k = 0; k < 3; ++k)
+        index[k] = (i >> k & 1) != 0 ? double(m_grid.size[k]) - 0.5 : -0.5;
+      corners.push_back(mm3::transform(m_grid.index_to_world, index));
+    }
+    return box_of(corners);
+  }
+};
+
+std::size_t number_of_vertices_inside(const Mesh& mesh, const mm3::Voxel_grid_3& grid)
+{
+  const Image_box box(grid);
+  return std::size_t(std::count_if(mesh.points().begin(), mesh.points().end(),
+                                   [&box](const auto& p) { return box.contains(mm3::to_vec3(p)); }));
+}
+
+// Why the mesh may not be in the image.
+std::string hint(const Mesh& mesh, const mm3::Voxel_grid_3& grid)
+{
+  const Image_box box(grid);
+  const std::string defect = misfit(coordinates_of(mesh.points()), box.bbox(),
+                                    [&box](const std::array<double, 3>& p) { return box.contains(p); });
+  return defect.empty() ? "" : "; the mesh " + defect;
 }
 
 [[noreturn]] void refuse(const Options& o, const Mesh& mesh, const mm3::Voxel_grid_3& grid)
@@ -51,7 +88,7 @@ std::size_t number_of_vertices_inside(const Mesh& mesh, const mm3::Voxel_grid_3&
     o.image + ": the image does not overlap the mesh " + o.mesh + ": its center is at "
     + place(mm3::transform(grid.index_to_world, middle)) + ", the mesh's at "
     + place({(box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2, (box.zmin() + box.zmax()) / 2})
-    + ", in mm");
+    + ", in mm" + hint(mesh, grid));
 }
 
 // Whether voxels are at the same places, up to a thousandth of their size.
@@ -99,6 +136,9 @@ mm3::Voxel_image_3 read_labels(const Options& o, const mm3::Voxel_grid_3& grid)
 
 mm3::Voxel_image_3 read_image(const Options& o, const Mesh& mesh, Outcome& outcome)
 {
+  if(ends_with(o.image, ".mgz") || ends_with(o.image, ".mgh"))
+    throw std::runtime_error(o.image + ": is an image of FreeSurfer; convert it: mri_convert " + o.image
+                             + " image.nii.gz");
   mm3::Voxel_image_3 image;
   require([&](std::string* error) { return mm3::IO::read_NIFTI(o.image, image, error); });
   const mm3::Voxel_grid_3& grid = image.grid;
@@ -108,7 +148,7 @@ mm3::Voxel_image_3 read_image(const Options& o, const Mesh& mesh, Outcome& outco
   if(inside != mesh.number_of_vertices())
     outcome.warnings.push_back(o.image + ": only " + std::to_string(inside) + " of "
                                + std::to_string(mesh.number_of_vertices()) + " vertices of " + o.mesh
-                               + " are in the image: are both in the same coordinates?");
+                               + " are in the image: are both in the same coordinates?" + hint(mesh, grid));
   const auto limits = std::minmax_element(image.values.begin(), image.values.end());
   Image_facts& facts = outcome.image.emplace();
   facts.voxels = grid.size;

@@ -64,6 +64,7 @@ CLI::Option* add_inputs(CLI::App& app, Options& o)
     .add_option("--tumor,--tumour", o.tumor,
                 "Closed surface: elements whose centroid is inside are removed, after the shift")
     ->type_name("SURFACE");
+  add_space(app, o.surface_options);
   CLI::Option* image = app.add_option("--image", o.image, "Image before the shift: .nii or .nii.gz")
                          ->type_name("IMAGE");
   app

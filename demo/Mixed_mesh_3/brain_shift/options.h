@@ -9,6 +9,7 @@
 #define MIXED_MESH_3_DEMO_BRAIN_SHIFT_OPTIONS_H
 
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
+#include <CGAL/Mixed_mesh_3/IO/Read_surface_options.h>
 #include <CGAL/Mixed_mesh_3/Recovered_displacement_3.h>
 #include <CGAL/Mixed_mesh_image_3/IO/Field_format.h>
 
@@ -39,6 +40,7 @@ struct Options
   CGAL::Mixed_meshes_3::Displacement_interpolation interpolation =
     CGAL::Mixed_meshes_3::Displacement_interpolation::RECOVERED;
   std::vector<CGAL::Mixed_meshes_3::IO::Field_format> field_formats;
+  CGAL::Mixed_meshes_3::IO::Read_surface_options surface_options;
   bool quiet = false;
 
   // of the two texts

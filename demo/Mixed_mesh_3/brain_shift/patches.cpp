@@ -31,12 +31,13 @@ Vector center(const Mesh& mesh, const mm3::Face& face)
 }
 
 // Which faces a patch has: those of elements of a label, or with their center inside a surface.
-Contains read_patch(const Mesh& mesh, const std::string& place, std::vector<std::string>& warnings)
+Contains read_patch(const Mesh& mesh, const std::string& place, const Options& o,
+                    std::vector<std::string>& warnings)
 {
   if(const auto label = label_of(place))
     return [&mesh, label](const mm3::Face& face) { return mesh.subdomain_index(face.element()) == *label; };
   Surface_facts facts;
-  const auto surface = std::make_shared<const Closed_surface>(place, facts, warnings);
+  const auto surface = std::make_shared<const Closed_surface>(place, o, mesh, facts, warnings);
   return [&mesh, surface](const mm3::Face& face) { return surface->contains(center(mesh, face)); };
 }
 
@@ -47,7 +48,7 @@ void mark(const Mesh& mesh, const std::vector<std::string>& places, Patch patch,
     if(place == base_patch)
       continue; // by height, of vertices
     const Contains contains = place == skull_patch ? [](const mm3::Face&) { return true; }
-                                                   : read_patch(mesh, place, warnings);
+                                                   : read_patch(mesh, place, o, warnings);
     bool is_empty = true;
     for(std::size_t i = 0; i < patches.faces.size(); ++i)
       if(contains(patches.faces[i])) {

@@ -62,6 +62,7 @@ Json parameters_of(const Options& o)
           {"largest distance of control points", quantity(o.max_distance, "mm")},
           {"compliance of control points", quantity(o.compliance, "mm/mN")},
           {"radius of control points", quantity(o.control_radius, "mm")},
+          {"space of surfaces", space_of(o.surface_options)},
           {"interpolation between vertices",
            o.interpolation == mm3::Displacement_interpolation::LINEAR ? "linear" : "recovered"}};
 }

@@ -6,8 +6,10 @@
 #include "brain_shift/resection.h"
 
 #include "common/messages.h"
+#include "common/misfit.h"
 #include "common/read_surface.h"
 
+#include <CGAL/Mixed_mesh_3/Element_locator_3.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/resect.h>
 
@@ -21,10 +23,24 @@ struct Closed_surface::Domain : CGAL::Polyhedral_mixed_mesh_domain_3
   using Polyhedral_mixed_mesh_domain_3::Polyhedral_mixed_mesh_domain_3;
 };
 
-Closed_surface::Closed_surface(const std::string& path, Surface_facts& facts,
-                               std::vector<std::string>& warnings)
-  : m_path(path), m_domain(std::make_unique<const Domain>(read_surface(path, facts, warnings)))
+Closed_surface::Closed_surface(const std::string& path, const Options& o, const Mesh& mesh,
+                               Surface_facts& facts, std::vector<std::string>& warnings)
+  : m_path(path)
 {
+  const Surface surface = read_surface(path, o.surface_options, facts, warnings);
+  m_domain = std::make_unique<const Domain>(surface);
+  const mm3::Element_locator_3<Mesh> locator(mesh);
+  const auto points = coordinates_of(surface.points());
+  const CGAL::Bbox_3 box = box_of(coordinates_of(mesh.points()));
+  const std::string defect = misfit(points, box, [&locator](const std::array<double, 3>& p) {
+    return locator.locate(Vector(p)).has_value();
+  });
+  if(defect.empty())
+    return;
+  const std::string text = path + ": beside " + o.mesh + ", it " + defect;
+  if(!CGAL::do_overlap(box, box_of(points)))
+    throw std::runtime_error(text); // nothing could be resected
+  warnings.push_back(text);
 }
 
 Closed_surface::~Closed_surface() = default;

@@ -8,6 +8,7 @@
 #ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_RESECTION_H
 #define MIXED_MESH_3_DEMO_BRAIN_SHIFT_RESECTION_H
 
+#include "brain_shift/options.h"
 #include "brain_shift/outcome.h"
 #include "common/types.h"
 
@@ -20,8 +21,9 @@
 class Closed_surface
 {
 public:
-  /// Reads the surface.
-  Closed_surface(const std::string& path, Surface_facts& facts, std::vector<std::string>& warnings);
+  /// Reads the surface, and looks whether it is where the mesh is.
+  Closed_surface(const std::string& path, const Options& options, const Mesh& mesh, Surface_facts& facts,
+                 std::vector<std::string>& warnings);
   ~Closed_surface();
 
   bool contains(const std::array<double, 3>& p) const;

@@ -66,10 +66,12 @@ Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
   const double n = double(outcome.points.size());
   check_memory(o.control_points + ": " + std::to_string(outcome.points.size()) + " control points",
                72 * n * (double(outcome.mesh.vertices) + 2 * n));
-  outcome.locations = log("locate control points", [&] { return locate(inputs.mesh, o, outcome.points); });
+  outcome.locations = log("locate control points",
+                          [&] { return locate(inputs.mesh, o, outcome.points, outcome.warnings); });
   if(!o.tumor.empty())
     inputs.tumor = log("read tumor", [&] {
-      return std::make_unique<const Closed_surface>(o.tumor, outcome.tumor.emplace(), outcome.warnings);
+      return std::make_unique<const Closed_surface>(o.tumor, o, inputs.mesh, outcome.tumor.emplace(),
+                                                    outcome.warnings);
     });
   inputs.patches = find_patches(inputs.mesh, o, outcome.warnings);
   if(!o.image.empty())

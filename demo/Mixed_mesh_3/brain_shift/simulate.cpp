@@ -6,6 +6,7 @@
 #include "brain_shift/simulate.h"
 
 #include "common/messages.h"
+#include "common/misfit.h"
 
 #include <CGAL/Linear_elasticity_3.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
@@ -211,9 +212,20 @@ void remove(Elasticity& elasticity, const std::vector<bool>& is_removed, const O
 
 } // namespace
 
-Locations locate(const Mesh& mesh, const Options& o, const std::vector<Control_point>& points)
+Locations locate(const Mesh& mesh, const Options& o, const std::vector<Control_point>& points,
+                 std::vector<std::string>& warnings)
 {
   const mm3::Element_locator_3<Mesh> locator(mesh);
+  std::vector<std::array<double, 3>> positions;
+  for(const Control_point& point : points)
+    positions.push_back(point.position);
+  const std::string defect = misfit(positions, box_of(coordinates_of(mesh.points())),
+                                    [&](const std::array<double, 3>& p) {
+                                      return locator.nearest(Vector(p)).distance <= o.max_distance;
+                                    });
+  const std::string hint = defect.empty() ? "" : "beside " + o.mesh + ", the list of points " + defect;
+  if(!hint.empty())
+    warnings.push_back(o.control_points + ": " + hint);
   Locations locations;
   for(const Control_point& point : points) {
     locations.push_back(locator.nearest(point.position));
@@ -222,6 +234,8 @@ Locations locate(const Mesh& mesh, const Options& o, const std::vector<Control_p
       result.status = Elasticity_status::CONTROL_POINT_OUTSIDE;
       result.control_point = locations.size() - 1;
       result.distance = locations.back().distance;
+      if(!hint.empty())
+        throw std::runtime_error(o.control_points + ": " + hint);
       refuse(result, o, points);
     }
   }

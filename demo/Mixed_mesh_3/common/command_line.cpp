@@ -43,6 +43,19 @@ CLI::Validator count(std::size_t largest)
     "");
 }
 
+void add_space(CLI::App& app, CGAL::Mixed_meshes_3::IO::Read_surface_options& options)
+{
+  using Space = CGAL::Mixed_meshes_3::IO::Anatomical_space;
+  app
+    .add_option_function<std::string>(
+      "--space",
+      [&options](const std::string& name) { options.space = name == "LPS" ? Space::LPS : Space::RAS; },
+      "Space of the coordinates in surface files; in LPS, x and y are negated (default: what a file says, or "
+      "RAS)")
+    ->check(CLI::IsMember({"RAS", "LPS"}))
+    ->type_name("SPACE");
+}
+
 std::optional<int> parse(const char* name, CLI::App& app, int argc, char** argv,
                          const std::function<void()>& check)
 {

@@ -9,12 +9,13 @@
 
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
 
-Surface read_surface(const std::string& path, Surface_facts& facts, std::vector<std::string>& warnings)
+Surface read_surface(const std::string& path, const CGAL::Mixed_meshes_3::IO::Read_surface_options& options,
+                     Surface_facts& facts, std::vector<std::string>& warnings)
 {
   namespace IO = CGAL::Mixed_meshes_3::IO;
   Surface surface;
   IO::Surface_input input;
-  require([&](std::string* error) { return IO::read_closed_surface(path, surface, error, &input); });
+  require([&](std::string* error) { return IO::read_closed_surface(path, options, surface, error, &input); });
   for(const std::string& warning : input.warnings)
     warnings.push_back(path + ": " + warning);
   facts = {path,

@@ -11,6 +11,7 @@
 #include "common/facts.h"
 #include "common/types.h"
 
+#include <CGAL/Mixed_mesh_3/IO/Read_surface_options.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <string>
@@ -20,6 +21,7 @@ using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 
 /// \param warnings what was mended is added to it
 /// \throw std::runtime_error a line naming the file and the defect
-Surface read_surface(const std::string& path, Surface_facts& facts, std::vector<std::string>& warnings);
+Surface read_surface(const std::string& path, const CGAL::Mixed_meshes_3::IO::Read_surface_options& options,
+                     Surface_facts& facts, std::vector<std::string>& warnings);
 
 #endif // MIXED_MESH_3_DEMO_COMMON_READ_SURFACE_H

@@ -35,6 +35,11 @@ Json describe_stages(const Stage_log& log, const std::string& unit, double per_s
 
 double mebibytes(std::size_t bytes) { return double(bytes) / (1 << 20); }
 
+Json space_of(const mm3::IO::Read_surface_options& options)
+{
+  return options.space ? Json(*options.space == mm3::IO::Anatomical_space::LPS ? "LPS" : "RAS") : Json();
+}
+
 std::string text_of(const Json& report)
 {
   // file names need not be UTF-8

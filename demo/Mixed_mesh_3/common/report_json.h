@@ -11,6 +11,8 @@
 #include "common/Stage_log.h"
 #include "common/facts.h"
 
+#include <CGAL/Mixed_mesh_3/IO/Read_surface_options.h>
+
 #include <nlohmann/json.hpp>
 
 #include <string>
@@ -32,5 +34,8 @@ double mebibytes(std::size_t bytes);
 
 /// As it is written to a file.
 std::string text_of(const Json& report);
+
+/// The space that surfaces are read in: "RAS" or "LPS"; null if files decide.
+Json space_of(const CGAL::Mixed_meshes_3::IO::Read_surface_options& options);
 
 #endif // MIXED_MESH_3_DEMO_COMMON_REPORT_JSON_H

@@ -120,10 +120,12 @@ void add_labels(CLI::App& app, Options& o)
 void add_files(CLI::App& app, Options& o)
 {
   app
-    .add_option(
-      "SURFACE", o.surface,
-      "Closed surface of the domain: .off, .obj, .stl or .ply; or an image of labels: .nii, .nii.gz")
+    .add_option("SURFACE", o.surface,
+                "Closed surface of the domain: .off, .obj, .stl, .ply, .vtp, .vtk, .gii, or a binary surface "
+                "of FreeSurfer; "
+                "or an image of labels: .nii, .nii.gz")
     ->required();
+  add_space(app, o.surface_options);
   add_regions(
     app, o, "--region",
     "Closed surface of a region of interest, in the same coordinates; an error counts W times as much "
@@ -304,7 +306,9 @@ void check_options(Options& o)
      && (!o.voxels.ranges.empty()
          || std::any_of(o.regions.begin(), o.regions.end(),
                         [](const Region_option& r) { return !r.voxels.ranges.empty(); })))
-    throw CLI::ValidationError(o.surface, "labels and thresholds need an image: .nii or .nii.gz");
+    throw CLI::ValidationError(
+      o.surface, "labels and thresholds need an image: .nii or .nii.gz (from FreeSurfer's .mgz by "
+                 "mri_convert)");
 }
 
 } // namespace

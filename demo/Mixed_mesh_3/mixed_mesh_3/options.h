@@ -10,6 +10,7 @@
 
 #include "common/voxel_selection.h"
 
+#include <CGAL/Mixed_mesh_3/IO/Read_surface_options.h>
 #include <CGAL/Mixed_mesh_3/options.h>
 #include <CGAL/Mixed_mesh_criteria_3.h>
 #include <CGAL/Mixed_mesh_fit_criteria_3.h>
@@ -47,6 +48,7 @@ struct Options
   CGAL::Mixed_meshes_3::Boundary_mode mode = CGAL::Mixed_meshes_3::Boundary_mode::VERTEX_ORDER;
   CGAL::Mixed_meshes_3::Root_cell root = CGAL::Mixed_meshes_3::Root_cell::CUBE;
   Templates templates = Templates::FEWEST_VERTICES;
+  CGAL::Mixed_meshes_3::IO::Read_surface_options surface_options;
   bool no_fit = false, no_optimize = false, msh2 = false, tetrahedra = false, quiet = false;
   double tolerance = 0; // automatic
   double grading = 0.35;

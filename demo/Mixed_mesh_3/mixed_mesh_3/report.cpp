@@ -46,6 +46,7 @@ Json describe(const Options& o)
                  {"max ARC", o.has_quality_bound() ? Json(o.largest_arc) : Json()},
                  {"tetrahedra", o.tetrahedra},
                  {"msh version", o.msh2 ? "2.2" : "4.1"},
+                 {"space", space_of(o.surface_options)},
                  {"threads", o.threads}};
   if(o.fit() == Fit::ALGORITHM_1)
     report["Algorithm 1"] = {{"steps", o.steps},

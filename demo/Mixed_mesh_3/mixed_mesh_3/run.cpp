@@ -8,6 +8,7 @@
 #include "common/Deferred_signals.h"
 #include "common/Stage_log.h"
 #include "common/messages.h"
+#include "common/misfit.h"
 #include "common/read_label_surface.h"
 #include "common/resources.h"
 #include "common/write_files.h"
@@ -21,11 +22,14 @@
 #include <CGAL/optimize_mixed_mesh_3.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <unistd.h>
 
@@ -63,7 +67,7 @@ Surface read(const std::string& file, const Voxel_selection& voxels, const Optio
              std::vector<std::string>& warnings)
 {
   if(!is_image(file))
-    return read_surface(file, facts, warnings);
+    return read_surface(file, o.surface_options, facts, warnings);
   // several times as many as the mesh has at its boundary
   const double vertices = 20 * std::pow(double(o.vertices), 2. / 3);
   return read_label_surface(file, voxels, {o.smoothing, (std::max)(std::size_t(vertices), std::size_t(2000))},
@@ -82,6 +86,25 @@ Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
       return read(r.file, r.voxels, o, outcome.regions.emplace_back(), outcome.warnings);
     }));
   return inputs;
+}
+
+// A region elsewhere is no region: where it is plain why, that is said.
+void check_regions(const Domain& domain, const Inputs& inputs, const Options& o, Outcome& outcome)
+{
+  std::vector<std::string> defects;
+  bool are_all_apart = true;
+  for(std::size_t i = 0; i < inputs.regions.size(); ++i) {
+    const auto points = coordinates_of(inputs.regions[i].points());
+    const std::string defect = misfit(points, domain.bbox(), [&domain](const std::array<double, 3>& p) {
+      return domain.bounded_side({p[0], p[1], p[2]}) != CGAL::ON_UNBOUNDED_SIDE;
+    });
+    if(!defect.empty())
+      defects.push_back(o.regions[i].file + ": beside " + o.surface + ", it " + defect);
+    are_all_apart = are_all_apart && !CGAL::do_overlap(domain.bbox(), box_of(points));
+  }
+  if(are_all_apart && !defects.empty())
+    throw std::runtime_error(defects.front()); // it would be refused anyway
+  outcome.warnings.insert(outcome.warnings.end(), defects.begin(), defects.end());
 }
 
 // None: everywhere.
@@ -227,6 +250,7 @@ bool run(const Options& o)
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);
   const Domain domain = log("AABB tree of surface", [&] { return Domain(inputs.surface); });
+  check_regions(domain, inputs, o, outcome);
   log.expect(plan_for(o));
   const Mesh mesh = make_fitted_mesh(domain, inputs, o, log, outcome);
   examine(mesh, inputs.surface, o, log, outcome);

@@ -6,6 +6,7 @@
 #ifndef CGAL_MIXED_MESH_3_IO_READ_CLOSED_SURFACE_H
 #define CGAL_MIXED_MESH_3_IO_READ_CLOSED_SURFACE_H
 
+#include <CGAL/Mixed_mesh_3/IO/Read_surface_options.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 
@@ -37,18 +38,32 @@ namespace internal {
 using Surface = CGAL::Surface_mesh<Predicates_kernel::Point_3>;
 
 /// Reads a surface and mends it, or refuses.
-void read_surface(const std::string& path, Surface& mesh, Surface_input& input);
+void read_surface(const std::string& path, const Read_surface_options& options, Surface& mesh,
+                  Surface_input& input);
 
 } // namespace internal
 
 /*!
-Reads a closed surface from an OFF, OBJ, STL or PLY file, and mends what is harmless: duplicate points
-and faces, unused points, polygons (triangulated), faces whose vertices are on a line, inconsistent or
-inward orientation. A surface may touch itself in points: it gets a vertex for each sheet there.
+Reads a closed surface, and mends what is harmless: faces that do not have the same points where they meet,
+duplicate faces, unused points, polygons (triangulated), faces whose vertices are on a line, inconsistent or
+inward orientation. A surface may touch itself in points and edges: it gets a vertex for each sheet there.
+Points are merged only where the surface is not closed as given. Coordinates below 2^-60 of the extent
+become zero.
+
+| file | format |
+|------|--------|
+| `.off`, `.obj`, `.stl`, `.ply` | the usual ones, text and binary |
+| `.vtp`, `.vtk` | VTK polygonal data in XML, and in the legacy format: polygons and strips |
+| `.gii` | GIFTI, in the coordinates of the scanner where the file leads there |
+| others | binary triangles of FreeSurfer (`lh.pial`), in the scanner's coordinates if they name the volume |
+
+Arrays compressed by zlib can be read if `CGAL_USE_ZLIB` is defined and zlib is linked. A header or comment
+with `SPACE=LPS`, which 3D Slicer writes, is obeyed: x and y are negated, so that the result is in RAS.
 
 \tparam Mesh a model of `MutableFaceGraph` and `FaceListGraph` with an internal vertex point map, for
         example `Surface_mesh` or `Polyhedron_3`
 \param path the file; its format follows from the extension
+\param options what the file does not say
 \param mesh the result: triangulated, closed, not self-intersecting, oriented outwards
 \param error if not null, receives a line that names the file and the defect, if the file cannot be read or is
        not the surface of a solid
@@ -57,13 +72,14 @@ inward orientation. A surface may touch itself in points: it gets a vertex for e
 \cost O(n log n)
 */
 template <class Mesh>
-[[nodiscard]] bool read_closed_surface(const std::string& path, Mesh& mesh, std::string* error = nullptr,
+[[nodiscard]] bool read_closed_surface(const std::string& path, const Read_surface_options& options,
+                                       Mesh& mesh, std::string* error = nullptr,
                                        Surface_input* input = nullptr)
 {
   return internal::is_read(path, error, [&] {
     Surface_input read;
     internal::Surface surface;
-    internal::read_surface(path, surface, read);
+    internal::read_surface(path, options, surface, read);
     if constexpr(std::is_same_v<Mesh, internal::Surface>) {
       mesh = std::move(surface);
     } else {
@@ -73,6 +89,14 @@ template <class Mesh>
     if(input != nullptr)
       *input = std::move(read);
   });
+}
+
+/// The same with default options.
+template <class Mesh>
+[[nodiscard]] bool read_closed_surface(const std::string& path, Mesh& mesh, std::string* error = nullptr,
+                                       Surface_input* input = nullptr)
+{
+  return read_closed_surface(path, Read_surface_options(), mesh, error, input);
 }
 
 } // namespace IO

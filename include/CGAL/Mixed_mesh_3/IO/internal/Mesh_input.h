@@ -14,6 +14,7 @@
 #include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstddef>
@@ -56,7 +57,8 @@ inline std::string in_quotes(std::string_view text)
   return result + (text.size() > longest ? "...\"" : "\"");
 }
 
-inline std::string read_mesh_file(const std::string& path)
+/// The bytes of a file, or the first of them.
+inline std::string read_mesh_file(const std::string& path, std::uintmax_t largest = UINTMAX_MAX)
 {
   namespace fs = std::filesystem;
   std::error_code error;
@@ -69,7 +71,7 @@ inline std::string read_mesh_file(const std::string& path)
   std::ifstream in(path, std::ios_base::binary);
   if(!in)
     refuse(path, std::string("cannot be opened: ") + std::strerror(errno));
-  const std::uintmax_t size = fs::file_size(path, error);
+  const std::uintmax_t size_of_file = fs::file_size(path, error), size = (std::min)(size_of_file, largest);
   if(error)
     refuse(path, "cannot be read: " + error.message());
   if(size == 0)

@@ -20,16 +20,25 @@ namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
 
+/// A file's name on one line, whatever is in it.
+inline std::string printable(std::string path)
+{
+  for(char& c : path)
+    if((static_cast<unsigned char>(c) < ' ') || c == 127)
+      c = '?';
+  return path;
+}
+
 /// Ends the reading of a file.
 [[noreturn]] inline void refuse(const std::string& path, const std::string& defect)
 {
-  throw std::runtime_error(path + ": " + defect);
+  throw std::runtime_error(printable(path) + ": " + defect);
 }
 
 /// A defect with the name of its file; nothing if there is none.
 inline std::string with_path(const std::string& path, const std::string& defect)
 {
-  return defect.empty() ? defect : path + ": " + defect;
+  return defect.empty() ? defect : printable(path) + ": " + defect;
 }
 
 /// Whether there is no defect; hands it over otherwise.
@@ -44,7 +53,7 @@ inline bool is_success(const std::string& defect, std::string* error)
 template <class Read>
 bool is_read(const std::string& path, std::string* error, const Read& read)
 {
-  const std::string too_large = path + ": does not fit into the memory";
+  const std::string too_large = printable(path) + ": does not fit into the memory";
   try {
     read();
     return true;
@@ -57,7 +66,7 @@ bool is_read(const std::string& path, std::string* error, const Read& read)
   } catch(const std::runtime_error& e) { // ours
     return is_success(e.what(), error);
   } catch(const std::exception& e) { // an assertion of CGAL
-    return is_success(path + ": " + e.what(), error);
+    return is_success(printable(path + ": " + e.what()), error);
   }
 }
 

@@ -8,9 +8,11 @@
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_READ_SURFACE_IMPL_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_READ_SURFACE_IMPL_H
 
+#include <CGAL/Mixed_mesh_3/IO/internal/read_surface_file.h>
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
 #include <CGAL/Mixed_mesh_3/internal/base/compiled.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
@@ -24,7 +26,6 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 
 #include <CGAL/Bbox_3.h>
-#include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
@@ -35,17 +36,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <cerrno>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <exception>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <locale>
+#include <map>
+#include <numeric>
 #include <set>
 #include <sstream>
 #include <string>
@@ -95,40 +93,83 @@ inline Edge_counts count_edges(const std::vector<std::vector<std::size_t>>& poly
   return counts;
 }
 
-// What stands in a file may be anything: numbers first, then topology.
-inline void check_soup(const std::string& path, const std::vector<Predicates_kernel::Point_3>& points,
-                       const std::vector<std::vector<std::size_t>>& polygons)
+// "1.25e+200"
+inline std::string number_text(double x)
 {
-  if(points.empty() || polygons.empty())
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(7);
+  out << x;
+  return out.str();
+}
+
+// What stands in a file may be anything: indices first, then numbers.
+inline void check_indices(const std::string& path, const Surface_soup& soup)
+{
+  if(soup.points.empty() || soup.polygons.empty())
     refuse(path, "has no faces");
-  double largest = 0;
-  std::array<double, 3> lower, upper;
-  lower.fill(std::numeric_limits<double>::infinity());
-  upper.fill(-std::numeric_limits<double>::infinity());
-  for(std::size_t i = 0; i < points.size(); ++i)
-    for(int k = 0; k < 3; ++k) {
-      const double x = CGAL::to_double(points[i][k]);
+  for(std::size_t i = 0; i < soup.polygons.size(); ++i) {
+    if(soup.polygons[i].size() < 3)
+      refuse(path, "face " + std::to_string(i) + " has fewer than three vertices");
+    for(std::size_t v : soup.polygons[i])
+      if(v >= soup.points.size())
+        refuse(path, "face " + std::to_string(i) + " has a vertex that does not exist");
+  }
+}
+
+// Refuses coordinates of which volumes and squared volumes of cells 2^20 times smaller over- or underflow.
+// Beside ordinary ones, tiny coordinates are zeros with an error: they become zero, or products of them would
+// underflow in predicates, and their inverses be infinite.
+inline void check_coordinates(const std::string& path, Surface_soup& soup)
+{
+  double largest = 0, extent = 0;
+  for(int k = 0; k < 3; ++k) {
+    double lower = std::numeric_limits<double>::infinity(), upper = -lower;
+    for(std::size_t i = 0; i < soup.points.size(); ++i) {
+      const double x = soup.points[i][k];
       if(!std::isfinite(x))
         refuse(path, "vertex " + std::to_string(i) + " has a coordinate that is not a finite number");
       largest = (std::max)(largest, std::abs(x));
-      lower[k] = (std::min)(lower[k], x);
-      upper[k] = (std::max)(upper[k], x);
+      lower = (std::min)(lower, x);
+      upper = (std::max)(upper, x);
     }
-  for(std::size_t i = 0; i < polygons.size(); ++i) {
-    if(polygons[i].size() < 3)
-      refuse(path, "face " + std::to_string(i) + " has fewer than three vertices");
-    for(std::size_t v : polygons[i])
-      if(v >= points.size())
-        refuse(path, "face " + std::to_string(i) + " has a vertex that does not exist");
+    extent = (std::max)(extent, upper - lower);
   }
-  // Volumes and squared volumes of cells 2^20 times smaller shall neither over- nor underflow.
-  const double extent = (std::max)({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]});
   if(largest > 1e90)
-    refuse(path, "coordinates up to " + std::to_string(largest) + " overflow");
+    refuse(path, "coordinates up to " + number_text(largest) + " overflow");
   if(extent < 1e-40)
     refuse(path, "its extent is zero or underflows");
   if(extent < largest * 1e-9)
     refuse(path, "it is so small, and so far from the origin, that its coordinates have no digits left");
+  const double smallest = std::ldexp(extent, -60);
+  for(Vec3& p : soup.points)
+    for(double& x : p)
+      if(std::abs(x) < smallest)
+        x = 0;
+}
+
+// Whether all points are in one plane, up to rounding.
+inline bool is_flat(const std::vector<Surface::Point>& points)
+{
+  // from the first to the farthest, then away from that line, then from the plane
+  const Vec3 origin = to_vec3(points.front());
+  Vec3 along{}, across{};
+  double extent = 0, width = 0, height = 0;
+  for(const Surface::Point& p : points)
+    if(norm(to_vec3(p) - origin) > extent) {
+      along = to_vec3(p) - origin;
+      extent = norm(along);
+    }
+  along = 1 / extent * along;
+  for(const Surface::Point& p : points)
+    if(norm(cross(along, to_vec3(p) - origin)) > width) {
+      across = cross(along, to_vec3(p) - origin);
+      width = norm(across);
+    }
+  for(const Surface::Point& p : points)
+    height = (std::max)(height, std::abs(dot(across, to_vec3(p) - origin)) / (width > 0 ? width : 1));
+  constexpr double tolerance = 1e-13; // some hundred roundings
+  return height <= tolerance * extent;
 }
 
 struct Triangle_view
@@ -149,30 +190,86 @@ struct Triangle_view
 // "(1, 2, 3)": the place of a face, in the coordinates of the file; its number is ours, not the file's.
 inline std::string place_of(Surface::Face_index face, const Surface& mesh)
 {
-  const auto p = Triangle_view(face, mesh).points[0];
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out.precision(7);
-  out << "(" << CGAL::to_double(p.x()) << ", " << CGAL::to_double(p.y()) << ", " << CGAL::to_double(p.z())
-      << ")";
-  return out.str();
+  const Vec3 p = to_vec3(Triangle_view(face, mesh).points[0]);
+  return "(" + number_text(p[0]) + ", " + number_text(p[1]) + ", " + number_text(p[2]) + ")";
 }
 
-// Whether two faces meet in nothing but the point of two different vertices: a pinched point.
-inline bool meet_in_pinched_point(Surface::Face_index f, Surface::Face_index g, const Surface& mesh)
+// Whether two faces meet in nothing but a point or an edge that both have, of vertices that are different
+// there: the surface touches itself.
+inline bool is_contact(Surface::Face_index f, Surface::Face_index g, const Surface& mesh)
 {
   using Segment = Predicates_kernel::Segment_3;
   using Triangle = Predicates_kernel::Triangle_3;
   const Triangle_view a(f, mesh), b(g, mesh);
   const auto& p = a.points;
   const auto& q = b.points;
-  const auto do_intersect = Predicates_kernel().do_intersect_3_object();
+  std::vector<std::array<std::size_t, 2>> common;
   for(std::size_t i = 0; i < 3; ++i)
     for(std::size_t j = 0; j < 3; ++j)
-      if(p[i] == q[j] && a.vertices[i] != b.vertices[j])
-        return !do_intersect(Triangle(p[0], p[1], p[2]), Segment(q[(j + 1) % 3], q[(j + 2) % 3]))
-               && !do_intersect(Triangle(q[0], q[1], q[2]), Segment(p[(i + 1) % 3], p[(i + 2) % 3]));
-  return false;
+      if(p[i] == q[j])
+        common.push_back({i, j});
+  const auto do_intersect = Predicates_kernel().do_intersect_3_object();
+  if(common.size() == 1) {
+    const auto [i, j] = common[0];
+    return !do_intersect(Triangle(p[0], p[1], p[2]), Segment(q[(j + 1) % 3], q[(j + 2) % 3]))
+           && !do_intersect(Triangle(q[0], q[1], q[2]), Segment(p[(i + 1) % 3], p[(i + 2) % 3]));
+  }
+  if(common.size() != 2)
+    return false;
+  const auto& r = p[3 - common[0][0] - common[1][0]];
+  const auto& s = q[3 - common[0][1] - common[1][1]];
+  const auto &source = p[common[0][0]], &target = p[common[1][0]];
+  return CGAL::orientation(source, target, r, s) != CGAL::COPLANAR
+         || CGAL::coplanar_orientation(source, target, r, s) == CGAL::NEGATIVE;
+}
+
+// Two faces at an edge, by the points opposite to it.
+struct Edge_sheet
+{
+  Surface::Point source, target, left, right;
+  Surface::Face_index face;
+};
+
+// Whether a point is met between left and right, when turning around the edge.
+inline bool is_between(const Edge_sheet& s, const Surface::Point& p)
+{
+  const auto turn = [&s](const Surface::Point& a, const Surface::Point& b) {
+    return CGAL::orientation(s.source, s.target, a, b);
+  };
+  switch(turn(s.left, s.right)) {
+  case CGAL::POSITIVE: return turn(s.left, p) == CGAL::POSITIVE && turn(p, s.right) == CGAL::POSITIVE;
+  case CGAL::NEGATIVE: return !(turn(s.right, p) == CGAL::POSITIVE && turn(p, s.left) == CGAL::POSITIVE);
+  default: return turn(s.left, p) == CGAL::POSITIVE;
+  }
+}
+
+// Where sheets of the surface have an edge in common, they touch there or go through each other: then the
+// edges of both are the same all along, and faces meet nowhere else.
+inline void refuse_crossings_at_edges(const std::string& path, const Surface& mesh)
+{
+  const auto upwards = [&mesh](Surface::Edge_index e) {
+    const auto h = mesh.halfedge(e);
+    return mesh.point(mesh.target(h)) < mesh.point(mesh.source(h)) ? mesh.opposite(h) : h;
+  };
+  const auto is_less = [&](Surface::Edge_index e, Surface::Edge_index f) {
+    const auto g = upwards(e), h = upwards(f);
+    const auto &a = mesh.point(mesh.source(g)), &b = mesh.point(mesh.source(h));
+    return a != b ? a < b : mesh.point(mesh.target(g)) < mesh.point(mesh.target(h));
+  };
+  const auto sheet = [&](Surface::Edge_index e) {
+    const auto h = upwards(e);
+    const auto opposite = [&mesh](auto g) { return mesh.point(mesh.target(mesh.next(g))); };
+    return Edge_sheet{mesh.point(mesh.source(h)), mesh.point(mesh.target(h)), opposite(h),
+                      opposite(mesh.opposite(h)), mesh.face(h)};
+  };
+  std::vector<Surface::Edge_index> sorted(edges(mesh).begin(), edges(mesh).end());
+  std::sort(sorted.begin(), sorted.end(), is_less);
+  for(auto e = sorted.begin(); e != sorted.end(); ++e)
+    for(auto f = e + 1; f != sorted.end() && !is_less(*e, *f); ++f) {
+      const Edge_sheet one = sheet(*e), other = sheet(*f);
+      if(is_between(one, other.left) != is_between(one, other.right))
+        refuse(path, "the surface crosses itself along an edge near " + place_of(one.face, mesh));
+    }
 }
 
 // Removes triangles whose vertices are on a line, or refuses.
@@ -217,7 +314,7 @@ inline void refuse_self_intersections(const std::string& path, const Surface& me
   CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(crossings));
   crossings.erase(std::remove_if(crossings.begin(), crossings.end(),
                                  [&mesh](const auto& pair) {
-                                   return meet_in_pinched_point(pair.first, pair.second, mesh);
+                                   return is_contact(pair.first, pair.second, mesh);
                                  }),
                   crossings.end());
   if(crossings.empty())
@@ -247,10 +344,15 @@ inline double enclosed_volume(const Surface& mesh)
   return volume;
 }
 
-// Orients the components such that the solid is on their inner side; returns the number of components.
+struct Component_counts
+{
+  std::size_t all = 0, cavities = 0, reversed = 0;
+};
+
+// Orients the components such that the solid is on their inner side.
 // PMP::orient_to_bound_a_volume() looks at one vertex of a component only; where components touch, that
 // vertex may be in both.
-inline std::size_t orient_components(Surface& mesh, std::size_t& number_of_reversed)
+inline Component_counts orient_components(Surface& mesh)
 {
   namespace PMP = CGAL::Polygon_mesh_processing;
   using Side = CGAL::Side_of_triangle_mesh<Surface, Predicates_kernel>;
@@ -298,46 +400,40 @@ inline std::size_t orient_components(Surface& mesh, std::size_t& number_of_rever
       c->is_cavity ^= s == ON_BOUNDED_SIDE;
     }
   }
-  number_of_reversed = 0;
-  for(const Component& c : components)
+  Component_counts counts{components.size(), 0, 0};
+  for(const Component& c : components) {
+    counts.cavities += c.is_cavity;
     if((c.volume < 0) != c.is_cavity) {
       PMP::reverse_face_orientations(c.faces, mesh);
-      ++number_of_reversed;
+      ++counts.reversed;
     }
-  return components.size();
+  }
+  return counts;
 }
 
-CGAL_MIXED_MESH_3_INLINE void read_surface(const std::string& path, Surface& mesh, Surface_input& input)
+using Points = std::vector<Surface::Point>;
+using Polygons = std::vector<std::vector<std::size_t>>;
+
+// Polygons that have the same vertices in the same order, forwards or backwards, but for the first of them;
+// returns their number. CGAL's function compares points, and asserts that those of a polygon differ.
+inline std::size_t remove_repeated(Polygons& polygons)
+{
+  std::set<std::vector<std::size_t>> met;
+  const auto is_repeated = [&met](std::vector<std::size_t> p) {
+    std::rotate(p.begin(), std::min_element(p.begin(), p.end()), p.end());
+    if(p[1] > p.back())
+      std::reverse(p.begin() + 1, p.end());
+    return !met.insert(std::move(p)).second;
+  };
+  const std::size_t before = polygons.size();
+  polygons.erase(std::remove_if(polygons.begin(), polygons.end(), is_repeated), polygons.end());
+  return before - polygons.size();
+}
+
+// Polygons with a vertex twice, polygons twice, and unused points.
+inline void remove_superfluous(Points& points, Polygons& polygons, Surface_input& input)
 {
   namespace PMP = CGAL::Polygon_mesh_processing;
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  if(extension != ".off" && extension != ".obj" && extension != ".stl" && extension != ".ply")
-    refuse(path, "unknown format; expected .off, .obj, .stl or .ply");
-  if(std::filesystem::is_directory(path))
-    refuse(path, "is a directory");
-  errno = 0;
-  if(!std::ifstream(path))
-    refuse(path, std::string("cannot be opened: ") + std::strerror(errno));
-
-  std::vector<Surface::Point> points;
-  std::vector<std::vector<std::size_t>> polygons;
-  bool is_read = false;
-  try {
-    is_read = CGAL::IO::read_polygon_soup(path, points, polygons);
-  } catch(const std::exception&) { // for example, counts beyond memory
-  }
-  if(!is_read)
-    refuse(path, "cannot be read: not a complete " + extension.substr(1) + " file");
-  check_soup(path, points, polygons);
-  input.number_of_points = points.size();
-  input.number_of_polygons = polygons.size();
-
-  // STL repeats the points of every triangle; elsewhere that deserves a word.
-  const std::size_t merged = PMP::merge_duplicate_points_in_polygon_soup(points, polygons);
-  if(merged != 0 && extension != ".stl")
-    input.warnings.push_back("merged " + counted(merged, "duplicate point", "duplicate points"));
   const std::size_t before = polygons.size();
   polygons.erase(std::remove_if(polygons.begin(), polygons.end(),
                                 [](std::vector<std::size_t> p) {
@@ -348,22 +444,173 @@ CGAL_MIXED_MESH_3_INLINE void read_surface(const std::string& path, Surface& mes
   if(polygons.size() != before)
     input.warnings.push_back("dropped "
                              + counted(before - polygons.size(), "degenerate face", "degenerate faces"));
-  const std::size_t doubled = PMP::merge_duplicate_polygons_in_polygon_soup(points, polygons);
+  const std::size_t doubled = remove_repeated(polygons);
   if(doubled != 0)
     input.warnings.push_back("merged " + counted(doubled, "duplicate face", "duplicate faces"));
   const std::size_t unused = PMP::remove_isolated_points_in_polygon_soup(points, polygons);
   if(unused != 0)
     input.warnings.push_back("ignored " + counted(unused, "unused point", "unused points"));
+}
+
+// Merges points at edges of one face only; returns how many are left out. Where a surface is closed as given,
+// points at the same place are of sheets that touch.
+inline std::size_t merge_border_points(Points& points, Polygons& polygons)
+{
+  std::vector<std::array<std::size_t, 2>> edges;
+  for(const auto& polygon : polygons)
+    for(std::size_t i = 0; i < polygon.size(); ++i) {
+      const auto [a, b] = std::minmax(polygon[i], polygon[(i + 1) % polygon.size()]);
+      edges.push_back({a, b});
+    }
+  std::sort(edges.begin(), edges.end());
+  std::vector<std::size_t> border;
+  for(auto first = edges.begin(), last = first; first != edges.end(); first = last) {
+    last = std::upper_bound(first, edges.end(), *first);
+    if(last - first == 1)
+      border.insert(border.end(), first->begin(), first->end());
+  }
+  std::sort(border.begin(), border.end(), [&points](std::size_t a, std::size_t b) {
+    return points[a] != points[b] ? points[a] < points[b] : a < b;
+  });
+  std::vector<std::size_t> place(points.size()); // the first point there, then its new index
+  std::iota(place.begin(), place.end(), std::size_t(0));
+  for(std::size_t i = 1; i < border.size(); ++i)
+    if(points[border[i]] == points[border[i - 1]])
+      place[border[i]] = place[border[i - 1]];
+  std::size_t n = 0;
+  for(std::size_t v = 0; v < points.size(); ++v) {
+    if(place[v] == v) {
+      points[n] = points[v];
+      place[v] = n++;
+    } else {
+      place[v] = place[place[v]];
+    }
+  }
+  const std::size_t merged = points.size() - n;
+  points.erase(points.begin() + std::ptrdiff_t(n), points.end());
+  for(auto& polygon : polygons)
+    for(std::size_t& v : polygon)
+      v = place[v];
+  return merged;
+}
+
+// Gives bodies that have edges in common their own vertices there: each body is what hangs together by edges
+// of two faces. Nothing is done where a body would not be closed then.
+inline void separate_bodies(Points& points, Polygons& polygons)
+{
+  using Edge = std::array<std::size_t, 3>; // two vertices and the face
+  std::vector<Edge> edges;
+  for(std::size_t f = 0; f < polygons.size(); ++f)
+    for(std::size_t i = 0; i < polygons[f].size(); ++i) {
+      const auto [a, b] = std::minmax(polygons[f][i], polygons[f][(i + 1) % polygons[f].size()]);
+      edges.push_back({a, b, f});
+    }
+  std::sort(edges.begin(), edges.end());
+  std::vector<std::size_t> parent(polygons.size());
+  std::iota(parent.begin(), parent.end(), std::size_t(0));
+  const auto body = [&parent](std::size_t f) {
+    while(parent[f] != f)
+      f = parent[f] = parent[parent[f]];
+    return f;
+  };
+  const auto for_each_edge = [&edges](const auto& use) {
+    for(auto first = edges.begin(), last = first; first != edges.end(); first = last) {
+      last = std::find_if(first, edges.end(),
+                          [&](const Edge& e) { return e[0] != (*first)[0] || e[1] != (*first)[1]; });
+      use(first, last);
+    }
+  };
+  for_each_edge([&](auto first, auto last) {
+    if(last - first == 2)
+      parent[body(first[0][2])] = body(first[1][2]);
+  });
+
+  std::set<std::size_t> shared; // vertices of edges with more than two faces
+  bool can_be_closed = true;
+  for_each_edge([&](auto first, auto last) {
+    if(last - first <= 2)
+      return;
+    shared.insert({(*first)[0], (*first)[1]});
+    std::map<std::size_t, int> faces;
+    for(auto e = first; e != last; ++e)
+      ++faces[body((*e)[2])];
+    for(const auto& [of, n] : faces)
+      can_be_closed = can_be_closed && n == 2;
+  });
+  if(!can_be_closed)
+    return;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> copies; // of a vertex, for a body
+  std::set<std::size_t> taken;
+  for(std::size_t f = 0; f < polygons.size(); ++f)
+    for(std::size_t& v : polygons[f])
+      if(shared.count(v) != 0) {
+        const auto [copy, is_new] = copies.emplace(std::make_pair(v, body(f)), v);
+        if(is_new && !taken.insert(v).second) {
+          copy->second = points.size();
+          points.push_back(Surface::Point(points[v]));
+        }
+        v = copy->second;
+      }
+}
+
+// To RAS, in which all else is.
+inline void set_space(Surface_soup& soup, const Read_surface_options& options)
+{
+  const Anatomical_space space = soup.is_RAS
+                                   ? Anatomical_space::RAS
+                                   : options.space.value_or(soup.space.value_or(Anatomical_space::RAS));
+  if(space == Anatomical_space::RAS)
+    return;
+  for(Vec3& p : soup.points)
+    p = {-p[0], -p[1], p[2]};
+  soup.warnings.push_back(std::string(options.space ? "is read as LPS" : "says that it is in LPS")
+                          + ": x and y are negated, the result is in RAS");
+}
+
+CGAL_MIXED_MESH_3_INLINE void read_surface(const std::string& path, const Read_surface_options& options,
+                                           Surface& mesh, Surface_input& input)
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  Points points;
+  Polygons polygons;
+  bool repeats_points;
+  {
+    Surface_soup soup = read_surface_file(path);
+    check_indices(path, soup);
+    set_space(soup, options);
+    check_coordinates(path, soup);
+    for(const Vec3& p : soup.points)
+      points.emplace_back(p[0], p[1], p[2]);
+    polygons = std::move(soup.polygons);
+    input.warnings = std::move(soup.warnings);
+    repeats_points = soup.repeats_points;
+  }
+  input.number_of_points = points.size();
+  input.number_of_polygons = polygons.size();
+
+  Edge_counts edges = count_edges(polygons);
+  if(edges.open != 0) {
+    const std::size_t merged = merge_border_points(points, polygons);
+    if(merged != 0 && !repeats_points)
+      input.warnings.push_back("merged " + counted(merged, "duplicate point", "duplicate points"));
+  }
+  remove_superfluous(points, polygons, input);
   if(polygons.empty())
     refuse(path, "all its faces are degenerate");
-
-  const Edge_counts edges = count_edges(polygons);
+  if(is_flat(points))
+    refuse(path, "the surface is flat: it encloses no volume");
+  edges = count_edges(polygons);
   if(edges.open != 0)
     refuse(path, "the surface is not closed: " + counted(edges.open, "border edge", "border edges"));
-  if(edges.crowded != 0)
-    refuse(path,
-           "the surface is not a manifold: "
-             + counted(edges.crowded, "edge has more than two faces", "edges have more than two faces"));
+  if(edges.crowded != 0) {
+    const std::size_t crowded = edges.crowded;
+    separate_bodies(points, polygons);
+    edges = count_edges(polygons);
+    if(edges.crowded != 0)
+      refuse(path, "the surface is not a manifold: "
+                     + counted(crowded, "edge has more than two faces", "edges have more than two faces"));
+    input.warnings.push_back("bodies touch along " + counted(crowded, "edge", "edges"));
+  }
   if(!PMP::is_polygon_soup_a_polygon_mesh(polygons)) {
     // Duplicates pinched points, and those of edges that it has to cut, as in a Moebius band.
     const std::size_t n = points.size();
@@ -390,16 +637,18 @@ CGAL_MIXED_MESH_3_INLINE void read_surface(const std::string& path, Surface& mes
 
   const Bbox_3 b = PMP::bbox(mesh);
   const double box = b.x_span() * b.y_span() * b.z_span();
-  if(!(box > 0))
-    refuse(path, "the surface is flat: it encloses no volume");
   remove_degenerate_faces(path, mesh, input);
   refuse_self_intersections(path, mesh);
-  std::size_t number_of_reversed;
-  input.number_of_components = orient_components(mesh, number_of_reversed);
-  if(input.number_of_components > 1)
-    input.warnings.push_back("has " + std::to_string(input.number_of_components)
-                             + " components: one inside another is a cavity");
-  else if(number_of_reversed == 1)
+  refuse_crossings_at_edges(path, mesh);
+  const Component_counts components = orient_components(mesh);
+  input.number_of_components = components.all;
+  if(components.all > 1)
+    input.warnings.push_back("has " + std::to_string(components.all) + " components"
+                             + (components.cavities == 0
+                                  ? ""
+                                  : ", " + std::to_string(components.cavities) + " of them inside another: "
+                                      + (components.cavities == 1 ? "a cavity" : "cavities")));
+  else if(components.reversed == 1)
     input.warnings.push_back("turned the surface inside out: it was oriented inwards");
   input.volume = enclosed_volume(mesh);
   if(!(input.volume > 1e-12 * box))

@@ -1,0 +1,31 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_IO_READ_SURFACE_OPTIONS_H
+#define CGAL_MIXED_MESH_3_IO_READ_SURFACE_OPTIONS_H
+
+#include <optional>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace IO {
+
+/// Which way the axes x, y and z point in a patient: to the right, anterior and superior (RAS: images,
+/// FreeSurfer, GIFTI), or to the left, posterior and superior (LPS: DICOM, ITK, and 3D Slicer's files).
+enum class Anatomical_space { RAS, LPS };
+
+/// How a surface file is read.
+struct Read_surface_options
+{
+  /// The space of the coordinates in the file. By default, what its header says, or RAS. Formats that define
+  /// it (FreeSurfer, GIFTI) ignore this.
+  std::optional<Anatomical_space> space;
+};
+
+} // namespace IO
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_IO_READ_SURFACE_OPTIONS_H

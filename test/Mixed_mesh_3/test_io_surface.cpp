@@ -1,0 +1,702 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Surfaces from files: the unit cube in all formats, spaces, and files that lie.
+//
+//   test_io_surface [DIRECTORY]
+//   test_io_surface --files FILE...   prints what is read, a line of JSON each, and reads damaged copies
+
+#include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <boost/core/lightweight_test.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <random>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace fs = std::filesystem;
+namespace IO = CGAL::Mixed_meshes_3::IO;
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
+using Space = IO::Anatomical_space;
+
+fs::path directory = ".";
+
+struct Result
+{
+  bool is_read = false;
+  std::string error;
+  IO::Surface_input input;
+  Surface surface;
+
+  CGAL::Bbox_3 bbox() const { return CGAL::bbox_3(surface.points().begin(), surface.points().end()); }
+};
+
+bool mentions(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
+
+bool has_warning(const Result& r, const std::string& text)
+{
+  return std::any_of(r.input.warnings.begin(), r.input.warnings.end(),
+                     [&text](const std::string& w) { return mentions(w, text); });
+}
+
+Result read_file(const std::string& path, const IO::Read_surface_options& options = {})
+{
+  Result r;
+  r.is_read = IO::read_closed_surface(path, options, r.surface, &r.error, &r.input);
+  return r;
+}
+
+void set_contents(const fs::path& path, const std::string& contents)
+{
+  std::ofstream(path, std::ios_base::binary) << contents;
+}
+
+Result read(const std::string& name, const std::string& contents,
+            const IO::Read_surface_options& options = {})
+{
+  set_contents(directory / name, contents);
+  return read_file((directory / name).string(), options);
+}
+
+void refuses(const std::string& name, const std::string& contents, const std::string& words)
+{
+  const Result r = read(name, contents);
+  BOOST_TEST(!r.is_read);
+  if(!mentions(r.error, words))
+    std::cerr << "expected \"" << words << "\", not \"" << r.error << "\"\n";
+  BOOST_TEST(mentions(r.error, words));
+  BOOST_TEST(std::none_of(r.error.begin(), r.error.end(), [](char c) { return c >= 0 && c < ' '; }));
+}
+
+// ---- the unit cube -----------------------------------------------------------------------------
+
+const std::string cube_points = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n";
+const std::array<std::array<int, 4>, 6> quads{
+  {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+
+std::vector<std::array<int, 3>> triangles()
+{
+  std::vector<std::array<int, 3>> result;
+  for(const auto& q : quads) {
+    result.push_back({q[0], q[1], q[2]});
+    result.push_back({q[0], q[2], q[3]});
+  }
+  return result;
+}
+
+// Lines "3 0 2 3", with a first vertex.
+std::string triangle_lines(int first = 0)
+{
+  std::string lines;
+  for(const auto& t : triangles())
+    lines += "3 " + std::to_string(t[0] + first) + " " + std::to_string(t[1] + first) + " "
+             + std::to_string(t[2] + first) + "\n";
+  return lines;
+}
+
+std::string off(const std::string& points = cube_points, const std::string& faces = triangle_lines())
+{
+  return "OFF\n" + std::to_string(std::count(points.begin(), points.end(), '\n')) + " "
+         + std::to_string(std::count(faces.begin(), faces.end(), '\n')) + " 0\n" + points + faces;
+}
+
+template <class Number>
+std::string bytes_of(Number x, bool is_big)
+{
+  std::string bytes(sizeof x, '\0');
+  std::memcpy(bytes.data(), &x, sizeof x);
+#ifdef CGAL_BIG_ENDIAN
+  is_big = !is_big;
+#endif
+  if(is_big)
+    std::reverse(bytes.begin(), bytes.end());
+  return bytes;
+}
+
+double cube_coordinate(int v, int k) { return v >> k & 1; }
+
+void is_cube(const Result& r)
+{
+  if(!r.is_read)
+    std::cerr << r.error << '\n';
+  BOOST_TEST(r.is_read);
+  BOOST_TEST_EQ(r.input.number_of_components, 1u);
+  BOOST_TEST_LE(std::abs(r.input.volume - 1), 1e-15);
+  BOOST_TEST_EQ(r.surface.number_of_vertices(), 8u);
+  BOOST_TEST_EQ(r.surface.number_of_faces(), 12u);
+  BOOST_TEST(r.is_read && r.bbox() == CGAL::Bbox_3(0, 0, 0, 1, 1, 1));
+}
+
+// ---- formats -----------------------------------------------------------------------------------
+
+void test_off()
+{
+  is_cube(read("cube.off", off()));
+  // normals, colors, texture coordinates; comments; numbers in any style
+  std::string points, faces = triangle_lines();
+  for(int v = 0; v < 8; ++v)
+    points += std::to_string(v & 1) + ".0 +" + std::to_string(v >> 1 & 1) + "e0 " + std::to_string(v >> 2)
+              + " 0 0 1 255 0 0 0.5 0.5 # vertex\n";
+  std::replace(faces.begin(), faces.end(), '\n', ';');
+  std::string colored;
+  for(char c : faces)
+    colored += c == ';' ? std::string(" 255 0 0\n") : std::string(1, c);
+  for(const char* header : {"STOFF", "COFF", "NOFF", "STCNOFF", "OFF"})
+    is_cube(
+      read("cube_data.off", std::string(header) + " # comment\n\n8 12 18\n# comment\n" + points + colored));
+  std::string homogeneous;
+  for(int v = 0; v < 8; ++v)
+    homogeneous += std::to_string(2 * (v & 1)) + " " + std::to_string(2 * (v >> 1 & 1)) + " "
+                   + std::to_string(2 * (v >> 2)) + " 2\n";
+  is_cube(read("cube_4.off", "4OFF\n8 12 0\n" + homogeneous + triangle_lines()));
+
+  std::string binary = "OFF BINARY\n";
+  for(std::int32_t n : {8, 12, 0})
+    binary += bytes_of(n, true);
+  for(int v = 0; v < 8; ++v)
+    for(int k = 0; k < 3; ++k)
+      binary += bytes_of(float(cube_coordinate(v, k)), true);
+  for(const auto& t : triangles())
+    for(std::int32_t n : {3, t[0], t[1], t[2], 0})
+      binary += bytes_of(n, true);
+  is_cube(read("cube_binary.off", binary));
+  refuses("cut_binary.off", binary.substr(0, binary.size() - 5), "is truncated");
+
+  refuses("empty.off", "", "is empty");
+  refuses("counts.off", "OFF\n400000000 400000000 0\n0 0 0\n", "line 2: the number of vertices");
+  refuses("large_face.off", off(cube_points, "2000000000 0 1 2\n"), "too short for so many");
+  refuses("no_number.off", off("0 0 \x01\x1b[0m\n" + cube_points),
+          "line 3: expected a number, not \"??[0m\"");
+  refuses("nan.off", off("0 nan 0\n" + cube_points), "vertex 0 has a coordinate that is not a finite number");
+  refuses("overflow.off", off("0 1e999 0\n" + cube_points), "line 3: the number \"1e999\" is too large");
+  refuses("negative.off", off(cube_points, "3 0 1 -1\n"), "face 0 has a vertex that does not exist");
+  refuses("no_off.off", "PLY\n", "does not start with OFF");
+}
+
+void test_obj()
+{
+  std::string points, faces, relative;
+  std::istringstream lines(cube_points);
+  for(std::string line; std::getline(lines, line);)
+    points += "v " + line + " 0.5 0.5 0.5\r\n";
+  for(const auto& t : triangles()) {
+    faces += "f";
+    relative += "f";
+    for(int v : t) {
+      faces += " " + std::to_string(v + 1) + (v % 2 == 0 ? "/7/9" : "//3");
+      relative += " \\\n" + std::to_string(v - 8);
+    }
+    faces += "\n";
+    relative += " # comment\n";
+  }
+  is_cube(read("cube.obj", "# comment\nmtllib x.mtl\nvn 0 0 1\n" + points + "usemtl a\ns 1\n" + faces));
+  is_cube(read("cube_relative.obj", points + relative));
+  refuses("large_index.obj", points + "f 1e45 2 6\n" + faces, "line 9: expected an integer, not \"1e45\"");
+  refuses("zero_index.obj", points + "f 0 1 2\n", "face 0 has a vertex that does not exist");
+  refuses("empty.obj", "", "is empty");
+  refuses("nothing.obj", "hello\n", "has no faces");
+}
+
+std::string stl(bool is_binary, const std::string& name)
+{
+  std::string result = is_binary
+                         ? name + std::string(80 - name.size(), ' ') + bytes_of(std::uint32_t(12), false)
+                         : "solid " + name + "\n";
+  for(const auto& t : triangles()) {
+    result += is_binary ? std::string(12, '\0') : "facet normal nan nan nan\nouter loop\n";
+    for(int v : t)
+      for(int k = 0; k < 3; ++k) {
+        const double x = cube_coordinate(v, k);
+        result += is_binary ? bytes_of(float(x), false)
+                            : (k == 0 ? "vertex " : " ") + std::to_string(x) + (k == 2 ? "\n" : "");
+      }
+    result += is_binary ? std::string(2, '\0') : "endloop\nendfacet\n";
+  }
+  return result + (is_binary ? "" : "endsolid " + name + "\n");
+}
+
+void test_stl()
+{
+  for(bool is_binary : {false, true}) {
+    const Result r = read("cube.stl", stl(is_binary, "solid facet vertex"));
+    is_cube(r);
+    BOOST_TEST(r.input.warnings.empty());
+    for(std::size_t part : {60u, 500u}) {
+      const std::string all = stl(is_binary, "solid");
+      refuses("cut.stl", all.substr(0, all.size() - part), "is truncated");
+    }
+  }
+  refuses("short.stl", "STL", "not a complete STL file");
+}
+
+// Coordinates and indices of any types.
+template <class Coordinate, class Count, class Index>
+std::string ply(const std::string& format, const std::string& coordinate, const std::string& count,
+                const std::string& index)
+{
+  const bool is_text = format == "ascii", is_big = format == "binary_big_endian";
+  std::string result = "ply\nformat " + format
+                       + " 1.0\ncomment made by hand\nelement edge 1\nproperty list uchar "
+                       + "short points\nelement vertex 8\nproperty uchar red\n";
+  for(const char* name : {"x", "y", "z"})
+    result += "property " + coordinate + " " + name + "\n";
+  result += "property double quality\nelement face 12\nproperty float area\nproperty list " + count + " "
+            + index + " vertex_indices\nend_header\n";
+  const auto add = [&](auto x) { result += is_text ? std::to_string(x) + " " : bytes_of(x, is_big); };
+  add(std::uint8_t(2)), add(std::int16_t(0)), add(std::int16_t(-1));
+  for(int v = 0; v < 8; ++v) {
+    add(std::uint8_t(200));
+    for(int k = 0; k < 3; ++k)
+      add(Coordinate(cube_coordinate(v, k)));
+    add(0.25);
+  }
+  for(const auto& t : triangles()) {
+    add(0.5f);
+    add(Count(3));
+    for(int v : t)
+      add(Index(v));
+  }
+  return result;
+}
+
+template <class Coordinate>
+void test_ply_type(const std::string& name)
+{
+  for(const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    is_cube(read("cube.ply", ply<Coordinate, std::uint8_t, std::int32_t>(format, name, "uchar", "int")));
+    is_cube(read("cube.ply", ply<Coordinate, std::int8_t, std::uint8_t>(format, name, "char", "uint8")));
+    is_cube(read("cube.ply", ply<Coordinate, std::uint16_t, std::int16_t>(format, name, "ushort", "int16")));
+    is_cube(read("cube.ply", ply<Coordinate, std::int32_t, std::uint32_t>(format, name, "int32", "uint")));
+  }
+}
+
+void test_ply()
+{
+  test_ply_type<double>("double");
+  test_ply_type<float>("float32");
+  test_ply_type<std::int8_t>("char");
+  test_ply_type<std::uint8_t>("uchar");
+  test_ply_type<std::int16_t>("short");
+  test_ply_type<std::uint16_t>("ushort");
+  test_ply_type<std::int32_t>("int");
+  test_ply_type<std::uint32_t>("uint");
+  const std::string head = "ply\nformat binary_little_endian 1.0\n", end = "end_header\n";
+  refuses("property_first.ply", head + "property int x\n" + end, "a property is of no element");
+  refuses("no_type.ply", head + "element vertex 1\nproperty \x02int x\n" + end, "unknown type \"?int\"");
+  refuses("counts.ply", head + "element vertex 4000000000\n" + end, "too short for so many");
+  refuses("list.ply",
+          head + "element face 1\nproperty list uint int vertex_indices\n" + end + "\xff\xff\xff\x7f",
+          "does not fit into the file");
+  refuses("no_z.ply", head + "element vertex 1\nproperty uchar x\nproperty uchar y\n" + end + "ab",
+          "no properties x, y and z");
+  refuses("no_header_end.ply", head, "end_header is missing");
+  refuses("format.ply", "ply\nformat morse 1.0\nend_header\n", "unknown format \"morse\"");
+  const std::string all = ply<double, std::uint8_t, std::int32_t>("ascii", "double", "uchar", "int");
+  refuses("cut.ply", all.substr(0, all.size() - 30), "is truncated");
+}
+
+std::string polydata(bool is_binary, const std::string& title = "cube")
+{
+  std::string result = "# vtk DataFile Version 3.0\n" + title + "\n" + (is_binary ? "BINARY" : "ASCII")
+                       + "\nDATASET POLYDATA\nFIELD FieldData 1\ntime 1 2 double\n";
+  const auto add = [&](auto x) { result += is_binary ? bytes_of(x, true) : std::to_string(x) + " "; };
+  add(1.5), add(2.5);
+  result += "\nPOINTS 8 float\n";
+  for(int v = 0; v < 8; ++v)
+    for(int k = 0; k < 3; ++k)
+      add(float(cube_coordinate(v, k)));
+  result += "\nMETADATA\nINFORMATION 0\n\nVERTICES 1 2\n";
+  add(std::int32_t(1)), add(std::int32_t(0));
+  result += "\nPOLYGONS 4 20\n";
+  for(int i = 0; i < 4; ++i)
+    for(std::int32_t x : {4, quads[i][0], quads[i][1], quads[i][2], quads[i][3]})
+      add(x);
+  result += "\nTRIANGLE_STRIPS 2 10\n";
+  for(int i = 4; i < 6; ++i)
+    for(std::int32_t x : {4, quads[i][0], quads[i][1], quads[i][3], quads[i][2]})
+      add(x);
+  return result + "\nPOINT_DATA 8\nSCALARS anything\n";
+}
+
+void test_vtk()
+{
+  for(bool is_binary : {false, true})
+    is_cube(read("cube.vtk", polydata(is_binary)));
+  const std::string text = polydata(false);
+  refuses("grid.vtk", "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\n",
+          "expected POLYDATA");
+  refuses("counts.vtk", "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS 900000000 float\n",
+          "too short for so many");
+  refuses("cut.vtk", text.substr(0, text.find("POLYGONS") + 20), "too short for so many");
+  refuses("no_vtk.vtk", "OFF\n", "does not start with # vtk DataFile");
+  // sizes that do not fit
+  std::string wrong = text;
+  wrong.replace(wrong.find("POLYGONS 4 20\n4"), 15, "POLYGONS 4 20\n9");
+  refuses("sizes.vtk", wrong, "do not have the size");
+}
+
+std::string freesurfer(const std::string& comment = "made by hand\n\n")
+{
+  std::string result = "\xff\xff\xfe" + comment + bytes_of(std::int32_t(8), true)
+                       + bytes_of(std::int32_t(12), true);
+  for(int v = 0; v < 8; ++v)
+    for(int k = 0; k < 3; ++k)
+      result += bytes_of(float(cube_coordinate(v, k)), true);
+  for(const auto& t : triangles())
+    for(std::int32_t v : t)
+      result += bytes_of(v, true);
+  return result;
+}
+
+void test_freesurfer()
+{
+  Result r = read("lh.pial", freesurfer());
+  is_cube(r);
+  BOOST_TEST(has_warning(r, "c_ras"));
+  const std::string axes = "xras = -1 0 0\nyras = 0 0 -1\nzras = 0 1 0\ncras = 10 20 30\n";
+  const std::string head = bytes_of(std::int32_t(20), true);
+  r = read("rh.white", freesurfer() + head + "valid = 1  # volume info valid\n" + axes);
+  BOOST_TEST(r.is_read && r.bbox() == CGAL::Bbox_3(10, 20, 30, 11, 21, 31));
+  BOOST_TEST(r.input.warnings.empty());
+  // a volume that was not resampled: columns to the left, rows to the back, slices upwards, all turned by 90
+  // degrees
+  r = read("rh.white",
+           freesurfer() + head + "valid = 1\nxras = 0 -1 0\nyras = 1 0 0\nzras = 0 0 1\ncras = 0 0 0\n");
+  BOOST_TEST(r.is_read && r.bbox() == CGAL::Bbox_3(-1, 0, 0, 0, 1, 1));
+  BOOST_TEST_LE(std::abs(r.input.volume - 1), 1e-15);
+  r = read("rh.white", freesurfer() + head + "valid = 0  # volume info invalid\n" + axes);
+  is_cube(r);
+  BOOST_TEST(has_warning(r, "c_ras"));
+  refuses("lh.cut", freesurfer().substr(0, 200), "is truncated");
+  refuses("lh.comment", "\xff\xff\xfe no end", "does not end");
+  refuses("lh.quads", "\xff\xff\xff and more", "mris_convert");
+  refuses("brain.mgz", "x", "mri_convert");
+  refuses("brain.xyz", "x", "unknown format; expected .off, .obj, .stl, .ply, .vtp, .vtk, .gii or");
+}
+
+std::string gifti(const std::string& triangles_attributes = "Dim0=\"12\"",
+                  const std::string& coordinates = "")
+{
+  std::string t;
+  std::istringstream lines(triangle_lines());
+  for(std::string line; std::getline(lines, line);)
+    t += line.substr(2) + "\n";
+  const std::string array = "Dimensionality=\"2\" Dim1=\"3\" Encoding=\"ASCII\" ArrayIndexingOrder=";
+  return "<?xml version=\"1.0\"?>\n<!DOCTYPE GIFTI SYSTEM \"x.dtd\">\n<GIFTI Version=\"1.0\" "
+         "NumberOfDataArrays=\"2\">"
+         "<MetaData><MD><Name><![CDATA[a > b]]></Name><Value>x</Value></MD></MetaData>\n"
+         "<DataArray Intent=\"NIFTI_INTENT_POINTSET\" DataType=\"NIFTI_TYPE_FLOAT32\" Dim0=\"8\" "
+         + array + "\"ColumnMajorOrder\">" + coordinates
+         + "<Data>0 1 0 1 0 1 0 1\n0 0 1 1 0 0 1 1\n0 0 0 0 1 1 1 1</Data></DataArray>\n"
+           "<DataArray Intent=\"NIFTI_INTENT_TRIANGLE\" DataType=\"NIFTI_TYPE_INT32\" "
+         + triangles_attributes + " " + array + "\"RowMajorOrder\"><Data>" + t
+         + "</Data></DataArray></GIFTI>\n";
+}
+
+void test_gifti()
+{
+  is_cube(read("cube.gii", gifti()));
+  const auto system = [](const std::string& from, const std::string& to) {
+    return "<CoordinateSystemTransformMatrix><DataSpace><![CDATA[" + from
+           + "]]></DataSpace><TransformedSpace>" + to
+           + "</TransformedSpace><MatrixData>1 0 0 5\n0 1 0 6\n0 0 2 7 0 0 0 1</MatrixData>"
+             "</CoordinateSystemTransformMatrix>";
+  };
+  const std::string unknown = "NIFTI_XFORM_UNKNOWN", scanner = "NIFTI_XFORM_SCANNER_ANAT",
+                    talairach = "NIFTI_XFORM_TALAIRACH";
+  const Result r = read("moved.gii", gifti("Dim0=\"12\"", system(unknown, scanner)));
+  BOOST_TEST(r.is_read && r.bbox() == CGAL::Bbox_3(5, 6, 7, 6, 7, 9));
+  is_cube(read("cube.gii", gifti("Dim0=\"12\"", system(scanner, talairach))));
+  is_cube(read("cube.gii", gifti("Dim0=\"12\"", system(unknown, talairach))));
+  refuses("counts.gii", gifti("Dim0=\"900000000\""), "more than fit into the file");
+  refuses("short.gii", gifti("Dim0=\"13\""), "is truncated");
+  refuses("words.gii", gifti("Dim0=\"twelve\""), "does not have 3 columns");
+  refuses("cut.gii", gifti().substr(0, 300), "");
+  std::string no_triangles = gifti();
+  no_triangles.replace(no_triangles.find("NIFTI_INTENT_TRIANGLE"), 21, "NIFTI_INTENT_SHAPE");
+  refuses("points.gii", no_triangles, "is no surface");
+  refuses("no_gifti.gii", "<html></html>", "not a GIFTI file");
+}
+
+// ---- spaces ------------------------------------------------------------------------------------
+
+void test_space()
+{
+  const CGAL::Bbox_3 as_given(0, 0, 0, 1, 1, 1), turned(-1, -1, 0, 0, 0, 1);
+  std::string ply_file = ply<float, std::uint8_t, std::int32_t>("ascii", "float", "uchar", "int");
+  ply_file.replace(ply_file.find("made by hand"), 12, "SPACE=LPS");
+  IO::Read_surface_options ras, lps;
+  ras.space = Space::RAS;
+  lps.space = Space::LPS;
+  for(const auto& [name, contents] :
+      {std::make_pair("slicer.stl", stl(false, "SPACE=LPS")),
+       std::make_pair("slicer.stl", stl(true, "x SPACE=LPS")), std::make_pair("slicer.ply", ply_file),
+       std::make_pair("slicer.vtk", polydata(false, "3D Slicer output. SPACE=LPS"))}) {
+    Result r = read(name, contents);
+    BOOST_TEST(r.is_read && r.bbox() == turned);
+    BOOST_TEST(has_warning(r, "says that it is in LPS"));
+    BOOST_TEST_LE(std::abs(r.input.volume - 1), 1e-15);
+    r = read(name, contents, ras);
+    BOOST_TEST(r.is_read && r.bbox() == as_given);
+    r = read(name, contents, lps);
+    BOOST_TEST(r.is_read && r.bbox() == turned);
+  }
+  BOOST_TEST(read("slicer.stl", stl(true, "SPACE=RAS")).bbox() == as_given);
+  BOOST_TEST(read("cube.off", off(), lps).bbox() == turned);
+  BOOST_TEST(has_warning(read("cube.off", off(), lps), "is read as LPS"));
+  BOOST_TEST(read("cube.gii", gifti(), lps).bbox() == as_given); // defines its space
+}
+
+// ---- shapes ------------------------------------------------------------------------------------
+
+std::string moved_points(double x, double y, double z)
+{
+  std::ostringstream points;
+  for(int v = 0; v < 8; ++v)
+    points << cube_coordinate(v, 0) + x << ' ' << cube_coordinate(v, 1) + y << ' '
+           << cube_coordinate(v, 2) + z << '\n';
+  return points.str();
+}
+
+// As STL: what is at the same place is the same point.
+std::string without_indices(const std::vector<std::array<double, 3>>& shifts)
+{
+  std::string all = "solid\n";
+  for(const auto& shift : shifts)
+    for(const auto& t : triangles()) {
+      all += "facet\n";
+      for(int v : t) {
+        all += "vertex";
+        for(int k = 0; k < 3; ++k)
+          all += " " + std::to_string(cube_coordinate(v, k) + shift[k]);
+        all += "\n";
+      }
+      all += "endfacet\n";
+    }
+  return all + "endsolid\n";
+}
+
+void test_touching_bodies()
+{
+  // in a corner, along an edge, beside each other; as closed bodies, and as triangles without indices
+  for(const std::array<double, 3>& shift :
+      {std::array<double, 3>{1, 1, 1}, std::array<double, 3>{1, 1, 0}, std::array<double, 3>{3, 0, 0}})
+    for(const Result& r : {read("two.off", off(cube_points + moved_points(shift[0], shift[1], shift[2]),
+                                               triangle_lines() + triangle_lines(8))),
+                           read("two.stl", without_indices({{0, 0, 0}, shift}))}) {
+      if(!r.is_read)
+        std::cerr << r.error << '\n';
+      BOOST_TEST(r.is_read);
+      BOOST_TEST_EQ(r.input.number_of_components, 2u);
+      BOOST_TEST_LE(std::abs(r.input.volume - 2), 1e-15);
+      BOOST_TEST_EQ(r.surface.number_of_vertices(), 16u);
+      BOOST_TEST(has_warning(r, "has 2 components"));
+      BOOST_TEST(!has_warning(r, "cavit"));
+      BOOST_TEST(!has_warning(r, "merged"));
+    }
+  BOOST_TEST(has_warning(read("two.stl", without_indices({{0, 0, 0}, {1, 1, 0}})), "touch along 1 edge"));
+  // four around an edge
+  const Result four = read("four.stl", without_indices({{0, 0, 0}, {1, 1, 0}, {0, 1, 1}, {1, 0, 1}}));
+  BOOST_TEST(four.is_read);
+  BOOST_TEST_LE(std::abs(four.input.volume - 4), 1e-15);
+
+  // A face in common, and three faces at an edge.
+  refuses("stacked.off", off(cube_points + moved_points(0, 0, 1), triangle_lines() + triangle_lines(8)),
+          "intersects itself");
+  refuses("fin.off", off(cube_points + "2 2 2\n", triangle_lines() + "3 0 1 8\n"), "not closed");
+  refuses("three.off",
+          off(cube_points + moved_points(5, 0, 0) + "0.5 -3 0\n",
+              triangle_lines() + triangle_lines(8) + "3 0 1 16\n3 0 16 1\n"),
+          "");
+
+  // Pairs of cones over the same square: one beside the other, and one through the other along the square.
+  for(double lowest : {1.5, 0.5}) {
+    std::ostringstream points, faces;
+    int first = 0;
+    for(const auto& apexes : {std::make_pair(-1., 1.), std::make_pair(lowest, 2.)}) {
+      points << "1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n0 0 " << apexes.first << "\n0 0 " << apexes.second << "\n";
+      for(int i = 0; i < 4; ++i)
+        faces << "3 " << first + i << ' ' << first + (i + 1) % 4 << ' ' << first + 5 << "\n3 " << first + i
+              << ' ' << first + 4 << ' ' << first + (i + 1) % 4 << '\n';
+      first += 6;
+    }
+    const Result r = read("cones.off", off(points.str(), faces.str()));
+    BOOST_TEST_EQ(r.is_read, lowest == 1.5);
+    if(r.is_read)
+      BOOST_TEST_LE(std::abs(r.input.volume - 2. / 3 * (2 + 0.5)), 1e-14);
+    else
+      BOOST_TEST(mentions(r.error, "crosses itself along an edge near ("));
+  }
+
+  // Half of the points twice: closed only when merged.
+  const Result halves = read("halves.off", off(cube_points + cube_points, [] {
+                               std::string faces;
+                               std::size_t i = 0;
+                               for(const auto& t : triangles()) {
+                                 const int first = i++ < 6 ? 0 : 8;
+                                 faces += "3 " + std::to_string(t[0] + first) + " "
+                                          + std::to_string(t[1] + first) + " " + std::to_string(t[2] + first)
+                                          + "\n";
+                               }
+                               return faces;
+                             }()));
+  is_cube(halves);
+  BOOST_TEST(has_warning(halves, "merged"));
+
+  // A cavity is one, beside it is another body.
+  std::string small;
+  for(int v = 0; v < 8; ++v)
+    small += std::to_string(0.25 + cube_coordinate(v, 0) / 2) + " "
+             + std::to_string(0.25 + cube_coordinate(v, 1) / 2) + " "
+             + std::to_string(0.25 + cube_coordinate(v, 2) / 2) + "\n";
+  const Result three = read("cavity.off", off(cube_points + small + moved_points(2, 0, 0),
+                                              triangle_lines() + triangle_lines(8) + triangle_lines(16)));
+  BOOST_TEST(has_warning(three, "has 3 components, 1 of them inside another: a cavity"));
+  BOOST_TEST_LE(std::abs(three.input.volume - (2 - 0.125)), 1e-15);
+}
+
+void test_flat_and_tiny()
+{
+  std::string flat, turned;
+  for(int v = 0; v < 8; ++v) {
+    std::ostringstream out;
+    out.precision(17);
+    const double x = cube_coordinate(v, 0) + 0.1 * cube_coordinate(v, 2), y = cube_coordinate(v, 1);
+    out << 0.6 * x << ' ' << y << ' ' << 0.8 * x << '\n';
+    turned += out.str();
+    flat += std::to_string(x) + " " + std::to_string(y) + " 0\n";
+  }
+  refuses("flat.off", off(flat), "is flat");
+  refuses("flat_turned.off", off(turned), "is flat");
+  refuses("flat_open.off", off("0 0 0\n1 0 0\n0 1 0\n", "3 0 1 2\n"), "is flat");
+  refuses("line.off", off("0 0 0\n1 1 1\n2 2 2\n", "3 0 1 2\n"), "is flat");
+
+  // A point 1e-170 away from the corner: no number, next to 1, for any arithmetic.
+  const std::string points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1e-170 0 0\n";
+  const Result r = read("tiny.off", off(points, "3 0 4 2\n3 4 1 2\n3 0 3 4\n3 4 3 1\n3 0 2 3\n3 1 3 2\n"));
+  // ... is the corner, after triangles without area are gone
+  BOOST_TEST(!r.is_read || std::abs(r.input.volume - 1. / 6) < 1e-15);
+  for(const auto& p : r.surface.points())
+    for(int k = 0; k < 3; ++k)
+      BOOST_TEST(p[k] == 0 || p[k] == 1);
+  refuses("small.off",
+          off("0 0 0\n1e-200 0 0\n0 1e-200 0\n0 0 1e-200\n", "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"),
+          "underflows");
+  refuses("large.off",
+          off("0 0 0\n1e200 0 0\n0 1e200 0\n0 0 1e200\n", "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"),
+          "coordinates up to 1e+200 overflow");
+}
+
+void test_names()
+{
+  const std::string name = "two\nlines\x1b.off";
+  set_contents(directory / name, "OFF\n");
+  const Result r = read_file((directory / name).string());
+  BOOST_TEST(mentions(r.error, "two?lines?.off: is truncated"));
+  BOOST_TEST(mentions(read_file((directory / "none").string()).error, "No such file"));
+}
+
+// ---- files of others ---------------------------------------------------------------------------
+
+std::string quoted(const std::string& text)
+{
+  std::string result = "\"";
+  for(char c : text)
+    result += (c == '"' || c == '\\' ? "\\" : "") + std::string(1, c);
+  return result + "\"";
+}
+
+void print(const Result& r)
+{
+  std::cout.precision(17);
+  if(!r.is_read) {
+    std::cout << quoted(r.error) << '\n';
+    return;
+  }
+  const CGAL::Bbox_3 b = r.bbox();
+  std::cout << "{\"vertices\": " << r.surface.number_of_vertices()
+            << ", \"faces\": " << r.surface.number_of_faces() << ", \"volume\": " << r.input.volume
+            << ", \"box\": [" << b.xmin() << ", " << b.ymin() << ", " << b.zmin() << ", " << b.xmax() << ", "
+            << b.ymax() << ", " << b.zmax() << "], \"warnings\": [";
+  for(std::size_t i = 0; i < r.input.warnings.size(); ++i)
+    std::cout << (i == 0 ? "" : ", ") << quoted(r.input.warnings[i]);
+  std::cout << "]}\n";
+}
+
+// Files cut off anywhere, and with wrong bytes: they are refused in one line, or what is read is a surface.
+void test_damage(const fs::path& path)
+{
+  std::ifstream in(path, std::ios_base::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  const fs::path damaged = path.parent_path() / ("damaged_" + path.filename().string());
+  std::mt19937 random(7);
+  for(int trial = 0; trial < 60; ++trial) {
+    std::string wrong = bytes;
+    if(trial % 3 == 0)
+      wrong.resize(random() % wrong.size());
+    else if(trial % 3 == 1)
+      wrong[random() % wrong.size()] = char(random());
+    else // where headers are
+      for(int i = 0; i < 3; ++i)
+        wrong[random() % (std::min)(wrong.size(), std::size_t(400))] =
+          "0123456789-e\" \n\xff<>"[random() % 18];
+    set_contents(damaged, wrong);
+    const Result r = read_file(damaged.string());
+    BOOST_TEST(r.is_read || !r.error.empty());
+    BOOST_TEST(std::none_of(r.error.begin(), r.error.end(), [](char c) { return c >= 0 && c < ' '; }));
+    if(r.is_read)
+      BOOST_TEST(CGAL::is_closed(r.surface) && r.input.volume > 0);
+  }
+  fs::remove(damaged);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  if(argc > 1 && std::string(argv[1]) == "--files") {
+    for(int i = 2; i < argc; ++i) {
+      print(read_file(argv[i]));
+      test_damage(argv[i]);
+    }
+    return boost::report_errors();
+  }
+  directory = argc > 1 ? argv[1] : ".";
+  fs::create_directories(directory);
+  test_off();
+  test_obj();
+  test_stl();
+  test_ply();
+  test_vtk();
+  test_freesurfer();
+  test_gifti();
+  test_space();
+  test_touching_bodies();
+  test_flat_and_tiny();
+  test_names();
+  for(const char* name :
+      {"cube.off", "cube_binary.off", "cube.obj", "cube.stl", "cube.ply", "cube.vtk", "lh.pial", "cube.gii"})
+    test_damage(directory / name);
+  return boost::report_errors();
+}
