@@ -124,14 +124,14 @@ public:
 
   Bounded_side bounded_side(const Point_3& p, const Surface_part& part) const
   {
-    bool is_on_surface = false; // of the outside, if the point is not inside of a later one
+    bool is_on_surface = false; // that is the boundary, if outside is behind
     for(const auto& [i, of_surface] : part.parts) {
       const Bounded_side side = m_surfaces[i].surface->bounded_side(p, of_surface);
-      if(side == ON_BOUNDED_SIDE || (side == ON_BOUNDARY && m_surfaces[i].index == 0))
-        return m_surfaces[i].index != 0 ? ON_BOUNDED_SIDE
-               : side == ON_BOUNDARY    ? ON_BOUNDARY
-                                        : ON_UNBOUNDED_SIDE;
       is_on_surface = is_on_surface || side == ON_BOUNDARY;
+      if(side != ON_UNBOUNDED_SIDE && m_surfaces[i].index == 0)
+        return is_on_surface ? ON_BOUNDARY : ON_UNBOUNDED_SIDE;
+      if(side == ON_BOUNDED_SIDE)
+        return ON_BOUNDED_SIDE;
     }
     return index_of(part.background) != 0 ? ON_BOUNDED_SIDE : is_on_surface ? ON_BOUNDARY : ON_UNBOUNDED_SIDE;
   }

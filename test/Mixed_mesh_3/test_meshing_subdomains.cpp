@@ -10,7 +10,8 @@
 #include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
 #include <CGAL/Mixed_mesh_3/interfaces.h>
-#include <CGAL/optimize_mixed_mesh_3.h>
+#include <CGAL/Mixed_mesh_3/surface_distance.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
 
 #include <boost/core/lightweight_test.hpp>
 
@@ -61,11 +62,11 @@ CGAL::Bounded_side side_by_hand(const std::vector<Box>& boxes, const Point_3& p)
   bool is_on_surface = false;
   for(const Box& b : boxes) {
     const CGAL::Bounded_side side = b.side(p);
-    if(side == ON_BOUNDARY && b.index == 0)
-      return ON_BOUNDARY;
-    if(side == ON_BOUNDED_SIDE)
-      return b.index == 0 ? ON_UNBOUNDED_SIDE : ON_BOUNDED_SIDE;
     is_on_surface = is_on_surface || side == ON_BOUNDARY;
+    if(side != ON_UNBOUNDED_SIDE && b.index == 0)
+      break; // what is behind is outside
+    if(side == ON_BOUNDED_SIDE)
+      return ON_BOUNDED_SIDE;
   }
   return is_on_surface ? ON_BOUNDARY : ON_UNBOUNDED_SIDE;
 }
@@ -92,10 +93,11 @@ void check_cells(const Domain& domain, const std::vector<Box>& boxes, const Cell
       BOOST_TEST_EQ(domain.subdomain_index(p), subdomain_by_hand(boxes, p));
     }
   }
-  if(where == ON_BOUNDARY && quarter * 16 > Octree_root_side / 8)
+  if(where == ON_BOUNDARY && quarter * 16 > CGAL::Mixed_meshes_3::internal::lattice_root_side / 8)
     for(std::uint32_t i = 0; i < 8; ++i)
       check_cells(domain, boxes, traits,
-                  {corner[0] + (i & 1) * side / 2, corner[1] + (i >> 1 & 1) * side / 2, corner[2] + (i >> 2) * side / 2},
+                  {corner[0] + (i & 1) * side / 2, corner[1] + (i >> 1 & 1) * side / 2,
+                   corner[2] + (i >> 2) * side / 2},
                   side / 2, part);
 }
 
@@ -120,7 +122,8 @@ void test_domain()
     }
     BOOST_TEST_EQ(domain.subdomain_indices().size(), 4u);
     const Axis_aligned_octree_cell_traits_3 traits(CGAL::Bbox_3(0, 0, 0, 8, 8, 8), Root_cell::BOX);
-    check_cells(domain, boxes, traits, {0, 0, 0}, Octree_root_side, domain.surface_part());
+    check_cells(domain, boxes, traits, {0, 0, 0}, CGAL::Mixed_meshes_3::internal::lattice_root_side,
+                domain.surface_part());
   }
 }
 
@@ -158,27 +161,29 @@ void check_subdomains(const Mesh& mesh, const Domain& domain, const Mixed_mesh_r
   BOOST_TEST_EQ(fitted.number_of_elements_above_bound, 0u);
 }
 
-// A ball in a ball beside a box, in another ball; one piece each, without junctions.
+// A ball in a ball beside another one, in a ball around all; without junctions.
 void test_nested()
 {
   Domain domain;
   domain.add(sphere(Point_3(-0.4, 0, 0), 0.2, 8), 4);
   domain.add(sphere(Point_3(-0.4, 0, 0), 0.4, 12), 1);
-  domain.add(box(Point_3(0.25, -0.25, -0.25), Point_3(0.7, 0.25, 0.25)), 2);
+  domain.add(sphere(Point_3(0.5, 0, 0), 0.3, 10), 2);
   domain.add(sphere(Point_3(0, 0, 0), 1, 16), 3);
-  std::map<Subdomain_index, double> expected;
-  for(Subdomain_index i : {4, 2})
-    expected[i] = 0;
   Mesh mesh;
-  const Mixed_mesh_result_3 result = run(domain, CGAL::Everywhere_mixed_mesh_region_3(), Mixed_mesh_criteria_3(3000), mesh);
+  const Mixed_mesh_result_3 result = run(domain, CGAL::Everywhere_mixed_mesh_region_3(),
+                                         Mixed_mesh_criteria_3(3000), mesh);
   check_subdomains(mesh, domain, result);
-  const auto volume_of = [](const Surface& s) { return CGAL::to_double(CGAL::Polygon_mesh_processing::volume(s)); };
-  const double inner = volume_of(sphere(Point_3(0, 0, 0), 0.2, 8)), outer = volume_of(sphere(Point_3(0, 0, 0), 0.4, 12)),
-               cube = 0.45 * 0.25, whole = volume_of(sphere(Point_3(0, 0, 0), 1, 16));
+  const auto volume_of = [](const Surface& s) {
+    return CGAL::to_double(CGAL::Polygon_mesh_processing::volume(s));
+  };
+  const double inner = volume_of(sphere(Point_3(0, 0, 0), 0.2, 8)),
+               outer = volume_of(sphere(Point_3(0, 0, 0), 0.4, 12)),
+               other = volume_of(sphere(Point_3(0, 0, 0), 0.3, 10)),
+               whole = volume_of(sphere(Point_3(0, 0, 0), 1, 16));
   const auto volumes = volumes_of_subdomains(mesh);
   BOOST_TEST_EQ(volumes.size(), 4u);
   for(const auto& [index, v] : std::map<Subdomain_index, double>{
-        {4, inner}, {1, outer - inner}, {2, cube}, {3, whole - outer - cube}}) {
+        {4, inner}, {1, outer - inner}, {2, other}, {3, whole - outer - other}}) {
     BOOST_TEST_GT(volumes.at(index), 0.9 * v);
     BOOST_TEST_LT(volumes.at(index), 1.1 * v);
   }
@@ -186,12 +191,15 @@ void test_nested()
   BOOST_TEST_EQ(interfaces.size(), 4u);
   for(const Subdomain_interface& one : interfaces) {
     BOOST_TEST(one.is_manifold());
-    BOOST_TEST_EQ(number_of_vertices_off_interface(mesh, one, domain), 0u);
+    const std::size_t all = vertices_of(one.faces).size(),
+                      off = number_of_vertices_off_interface(mesh, one, domain);
+    BOOST_TEST_LE(double(off), one.second == 0 ? 0 : 0.1 * double(all)); // held back from both sides
   }
 
   // the same bytes from several threads
   Mesh again;
-  run(domain, CGAL::Everywhere_mixed_mesh_region_3(), Mixed_mesh_criteria_3(3000).number_of_threads(4), again);
+  run(domain, CGAL::Everywhere_mixed_mesh_region_3(), Mixed_mesh_criteria_3(3000).number_of_threads(4),
+      again);
   BOOST_TEST(content(again) == content(mesh));
 
   // one surface is a domain without labels
@@ -246,7 +254,8 @@ void test_any()
       const Point_3 c(unit(random), unit(random), unit(random));
       if(round % 3 == 0) {
         const double d[3] = {0.02 + 0.4 * unit(random), 0.02 + 0.4 * unit(random), 0.02 + 0.4 * unit(random)};
-        domain.add(box(Point_3(c.x() - d[0], c.y() - d[1], c.z() - d[2]), Point_3(c.x() + d[0], c.y() + d[1], c.z() + d[2])),
+        domain.add(box(Point_3(c.x() - d[0], c.y() - d[1], c.z() - d[2]),
+                       Point_3(c.x() + d[0], c.y() + d[1], c.z() + d[2])),
                    i + 1);
       } else {
         domain.add(sphere(c, 0.05 + 0.4 * unit(random), 6), round % 5 == 4 && i == 1 ? 0 : i + 1);
@@ -271,7 +280,9 @@ void test_interfaces()
     for(int y = 0; y <= n; ++y)
       for(int x = 0; x <= 2 * n; ++x)
         mesh.add_vertex(Point_3(x, y, z));
-  const auto at = [&](int x, int y, int z) { return Vertex_index(std::uint32_t(x + (2 * n + 1) * (y + (n + 1) * z))); };
+  const auto at = [&](int x, int y, int z) {
+    return Vertex_index(std::uint32_t(x + (2 * n + 1) * (y + (n + 1) * z)));
+  };
   for(int z = 0; z < n; ++z)
     for(int y = 0; y < n; ++y)
       for(int x = 0; x < 2 * n; ++x)
@@ -298,7 +309,9 @@ void test_interfaces()
   BOOST_TEST_EQ(volumes_of_subdomains(mesh).at(1), double(n * n * n));
 
   // two cubes that touch along an edge only, and at a vertex only, within the other subdomain
-  const auto cube = [&](int x, int y, int z) { return Element_index(std::uint32_t(x + 2 * n * (y + n * z))); };
+  const auto cube = [&](int x, int y, int z) {
+    return Element_index(std::uint32_t(x + 2 * n * (y + n * z)));
+  };
   for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
     mesh.set_subdomain_index(e, 1);
   mesh.set_subdomain_index(cube(1, 1, 1), 2);

@@ -12,6 +12,7 @@
 #include "common/voxel_selection.h"
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,9 +24,24 @@ struct Label_surface_options
   std::size_t vertices = 0;        // about how many the surface gets
 };
 
-/// \throw std::runtime_error a line naming the file and the defect
-Surface read_label_surface(const std::string& path, const Voxel_selection& selection,
-                           const Label_surface_options& options, Surface_facts& facts,
-                           std::vector<std::string>& warnings);
+/// A label image, read once for all its labels.
+class Label_image
+{
+public:
+  /// \throw std::runtime_error a line naming the file and the defect
+  explicit Label_image(const std::string& path);
+  ~Label_image();
+
+  std::size_t number_of_voxels(const Voxel_selection& selection) const;
+
+  /// \throw std::runtime_error as above
+  Surface surface_of(const Voxel_selection& selection, const Label_surface_options& options,
+                     Surface_facts& facts, std::vector<std::string>& warnings) const;
+
+private:
+  struct Data;
+  const std::string m_path;
+  const std::unique_ptr<const Data> m_data;
+};
 
 #endif // MIXED_MESH_3_DEMO_COMMON_READ_LABEL_SURFACE_H

@@ -57,6 +57,39 @@ std::optional<Voxel_selection> labels_selection(const std::string& text)
   return selection;
 }
 
+std::optional<std::vector<std::pair<std::string, Voxel_selection>>> named_labels(const std::string& text)
+{
+  std::vector<std::pair<std::string, std::string>> lists;
+  std::istringstream items(text);
+  for(std::string item; std::getline(items, item, ',');) {
+    const std::size_t equals = item.find('=');
+    if(equals != std::string::npos)
+      lists.emplace_back(item.substr(0, equals), item.substr(equals + 1));
+    else if(lists.empty())
+      return std::nullopt;
+    else
+      lists.back().second += ',' + item;
+  }
+  std::vector<std::pair<std::string, Voxel_selection>> labels;
+  for(const auto& [name, list] : lists) {
+    const std::optional<Voxel_selection> selection = labels_selection(list);
+    if(!selection)
+      return std::nullopt;
+    labels.emplace_back(name, *selection);
+  }
+  if(labels.empty() || text.back() == ',')
+    return std::nullopt;
+  return labels;
+}
+
+Voxel_selection united(const std::vector<Voxel_selection>& selections)
+{
+  Voxel_selection all{{}, "of all labels"};
+  for(const Voxel_selection& s : selections)
+    all.ranges.insert(all.ranges.end(), s.ranges.begin(), s.ranges.end());
+  return all;
+}
+
 Voxel_selection threshold_selection(double threshold)
 {
   return {{{threshold, std::numeric_limits<double>::infinity()}}, "of at least " + rounded(threshold)};

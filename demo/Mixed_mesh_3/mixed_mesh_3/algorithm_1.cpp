@@ -13,7 +13,8 @@
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 
-CGAL::Mixed_mesh_fit_result_3 run_algorithm_1(Mesh& mesh, const CGAL::Polyhedral_mixed_mesh_domain_3& domain,
+CGAL::Mixed_mesh_fit_result_3 run_algorithm_1(Mesh& mesh,
+                                              const CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
                                               const Options& o, Stage_log& log)
 {
   const auto criteria = CGAL::Mixed_mesh_fit_criteria_3()
@@ -38,7 +39,7 @@ CGAL::Mixed_mesh_fit_result_3 run_algorithm_1(Mesh& mesh, const CGAL::Polyhedral
 
 #include <stdexcept>
 
-CGAL::Mixed_mesh_fit_result_3 run_algorithm_1(Mesh&, const CGAL::Polyhedral_mixed_mesh_domain_3&,
+CGAL::Mixed_mesh_fit_result_3 run_algorithm_1(Mesh&, const CGAL::Labeled_polyhedral_mixed_mesh_domain_3&,
                                               const Options&, Stage_log&)
 {
   throw std::logic_error("checked with the options");

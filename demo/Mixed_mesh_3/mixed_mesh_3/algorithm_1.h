@@ -13,10 +13,11 @@
 #include "mixed_mesh_3/options.h"
 
 #include <CGAL/Mixed_mesh_fit_result_3.h>
-#include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
+#include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
 
 /// \pre the program was built with Eigen, and with what solves
-CGAL::Mixed_mesh_fit_result_3 run_algorithm_1(Mesh& mesh, const CGAL::Polyhedral_mixed_mesh_domain_3& domain,
+CGAL::Mixed_mesh_fit_result_3 run_algorithm_1(Mesh& mesh,
+                                              const CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
                                               const Options& options, Stage_log& log);
 
 #endif // MIXED_MESH_3_DEMO_MIXED_MESH_3_ALGORITHM_1_H

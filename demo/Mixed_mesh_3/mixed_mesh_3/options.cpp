@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <stdexcept>
 #include <system_error>
@@ -55,6 +56,51 @@ Voxel_selection labels_option(const std::string& option, const std::string& text
   return *labels;
 }
 
+// A name for files: letters, digits, _ and -, a letter first.
+bool is_name(const std::string& name)
+{
+  constexpr std::size_t longest = 24; // names of two are part of that of their interface
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  return !name.empty() && name.size() <= longest && is_letter(name[0])
+         && std::all_of(name.begin(), name.end(), [&](char c) {
+              return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-';
+            });
+}
+
+const char* const what_a_name_is = "a name has up to 24 letters, digits, _ and -, a letter first";
+
+// The name is that of the file, without its ending, if there is none.
+Subdomain_option subdomain_option(const std::string& text)
+{
+  const std::size_t equals = text.find('=');
+  std::error_code ignored;
+  const bool has_name = equals != std::string::npos && !std::filesystem::exists(text, ignored);
+  Subdomain_option s{has_name ? text.substr(0, equals) : std::filesystem::path(text).stem().string(),
+                     has_name ? text.substr(equals + 1) : text};
+  if(!is_name(s.name))
+    throw CLI::ValidationError("--subdomain " + text,
+                               std::string(what_a_name_is) + ", as in tumor=" + s.file);
+  return s;
+}
+
+// Labels of one domain, or with names.
+void set_labels(const std::string& text, Options& o)
+{
+  const std::string option = "--labels " + text;
+  if(text.find('=') == std::string::npos) {
+    o.voxels = labels_option(option, text);
+    return;
+  }
+  const auto labels = named_labels(text);
+  if(!labels)
+    throw CLI::ValidationError(option, "expected labels as in brain=1-189,tumor=200");
+  for(const auto& [name, voxels] : *labels) {
+    if(!is_name(name))
+      throw CLI::ValidationError(option, what_a_name_is);
+    o.labels.push_back({name, "", voxels});
+  }
+}
+
 // Labels, and after a colon a weight.
 Region_option region_of_labels(const std::string& text)
 {
@@ -83,15 +129,14 @@ CLI::Option* add_regions(CLI::App& app, Options& o, const char* name, const char
 void add_labels(CLI::App& app, Options& o)
 {
   const char* const group = "Options of images";
-  CLI::Option* const labels = app
-                                .add_option_function<std::string>(
-                                  "--labels",
-                                  [&o](const std::string& text) {
-                                    o.voxels = labels_option("--labels " + text, text);
-                                  },
-                                  "Labels of the domain in the image SURFACE (default: all but 0)")
-                                ->type_name("LIST")
-                                ->group(group);
+  CLI::Option* const labels =
+    app
+      .add_option_function<std::string>(
+        "--labels", [&o](const std::string& text) { set_labels(text, o); },
+        "Labels of the domain in the image SURFACE (default: all but 0). With names, "
+        "as in brain=1-189,tumor=200, each list becomes a subdomain, numbered from 1")
+      ->type_name("LIST")
+      ->group(group);
   app
     .add_option_function<double>(
       "--threshold", [&o](double t) { o.voxels = threshold_selection(t); },
@@ -132,6 +177,27 @@ void add_files(CLI::App& app, Options& o)
     "there as in a region without weight. Can be given several times (default: refine everywhere)",
     region_option)
     ->type_name("FILE[:W]");
+  const auto add_several = [&app](const char* name, const char* what,
+                                  const std::function<void(const std::string&)>& add) {
+    return app
+      .add_option_function<std::vector<std::string>>(
+        name,
+        [add](const std::vector<std::string>& texts) {
+          for(const std::string& text : texts)
+            add(text);
+        },
+        what)
+      ->allow_extra_args(false);
+  };
+  add_several("--subdomain",
+              "Closed surface of a part of the domain, such as a tumor, that gets elements, a label and an "
+              "interface of its own: SURFACE is 1, the parts are 2, 3, ... Can be given several times; where "
+              "parts overlap, the earlier one counts",
+              [&o](const std::string& text) { o.subdomains.push_back(subdomain_option(text)); })
+    ->type_name("[NAME=]FILE");
+  add_several("--cavity", "Closed surface of a part that is not meshed; can be given several times",
+              [&o](const std::string& file) { o.cavities.push_back(file); })
+    ->type_name("FILE");
   app.add_option("--vertices", o.vertices, "Vertex budget: the mesh has at most that many vertices")
     ->required()
     ->check(count(1000000000)) // of 32-bit indices in files
@@ -293,6 +359,25 @@ void set_up(CLI::App& app, Options& o)
              "  mixed_mesh_3 data/brain.off --region data/region.off --vertices 660 --output brain.vtu");
 }
 
+// One name for each; and what knows a single subdomain only.
+void check_subdomains(const Options& o)
+{
+  std::vector<std::string> names;
+  for(const auto& subdomains : {o.labels, o.subdomains})
+    for(const Subdomain_option& s : subdomains)
+      names.push_back(s.name);
+  if(names.empty() && o.cavities.empty())
+    return;
+  if(o.labels.empty())
+    names.push_back(surrounding_name(o));
+  for(auto name = names.begin(); name != names.end(); ++name)
+    if(std::find(names.begin(), name, *name) != name || *name == "outside")
+      throw CLI::ValidationError("--subdomain " + *name, "the name is taken, give NAME=FILE");
+  if(o.mode == mm3::Boundary_mode::PAPER || o.no_optimize)
+    throw CLI::ValidationError(o.no_optimize ? "--no-optimize" : "--mode paper",
+                               "knows neither subdomains nor cavities");
+}
+
 // What options say together, and what this program was built without, is wrong use.
 void check_options(Options& o)
 {
@@ -303,15 +388,22 @@ void check_options(Options& o)
     if(r.file.empty())
       r.file = o.surface;
   if(!has_image
-     && (!o.voxels.ranges.empty()
+     && (!o.voxels.ranges.empty() || !o.labels.empty()
          || std::any_of(o.regions.begin(), o.regions.end(),
                         [](const Region_option& r) { return !r.voxels.ranges.empty(); })))
     throw CLI::ValidationError(
       o.surface, "labels and thresholds need an image: .nii or .nii.gz (from FreeSurfer's .mgz by "
                  "mri_convert)");
+  check_subdomains(o);
 }
 
 } // namespace
+
+std::string surrounding_name(const Options& o)
+{
+  const std::string name = std::filesystem::path(o.surface).stem().string();
+  return is_name(name) ? name : "domain";
+}
 
 std::optional<int> parse_command_line(int argc, char** argv, Options& options)
 {
@@ -328,6 +420,9 @@ void check_feasible(const Options& o)
   std::vector<std::string> inputs{o.surface};
   for(const Region_option& r : o.regions)
     inputs.push_back(r.file);
+  for(const Subdomain_option& s : o.subdomains)
+    inputs.push_back(s.file);
+  inputs.insert(inputs.end(), o.cavities.begin(), o.cavities.end());
   Output_paths outputs(inputs);
   for(const std::string& path : o.outputs)
     require([&](std::string* error) { return mm3::IO::check_output_path(path, error); });

@@ -34,12 +34,22 @@ struct Region_option
   Voxel_selection voxels = {}; // of an image
 };
 
+/// A part of the domain with a label of its own.
+struct Subdomain_option
+{
+  std::string name, file;
+  Voxel_selection voxels = {}; // of an image
+};
+
 struct Options
 {
   using Templates = CGAL::Mixed_meshes_3::Transition_templates_choice;
 
   std::string surface, report;
   std::vector<Region_option> regions;
+  std::vector<Subdomain_option> subdomains; // inside the surface; those before count where they overlap
+  std::vector<Subdomain_option> labels;     // of an image, with names, instead of voxels
+  std::vector<std::string> cavities;
   Voxel_selection voxels; // of an image, the domain
   std::optional<double> smoothing;
   std::vector<std::string> outputs;
@@ -68,6 +78,9 @@ struct Options
   bool has_quality_bound() const { return fit() == Fit::OPTIMIZATION && largest_arc > 0; }
   Fit fit() const { return no_fit ? Fit::NONE : no_optimize ? Fit::ALGORITHM_1 : Fit::OPTIMIZATION; }
 };
+
+/// The subdomain around all others has the name of its file, if that is one.
+std::string surrounding_name(const Options& options);
 
 /// Returns the exit status if the program ends with its command line: help, the version, or wrong use.
 std::optional<int> parse_command_line(int argc, char** argv, Options& options);

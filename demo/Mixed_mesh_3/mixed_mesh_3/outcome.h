@@ -10,6 +10,7 @@
 
 #include "common/facts.h"
 
+#include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/Mixed_mesh_fit_result_3.h>
 #include <CGAL/Mixed_mesh_result_3.h>
@@ -74,10 +75,33 @@ struct Check
   bool holds;
 };
 
+/// A part of the mesh with a label of its own.
+struct Subdomain_outcome
+{
+  std::string name;
+  CGAL::Mixed_meshes_3::Subdomain_index index = 1;
+  Surface_facts surface;
+  std::size_t elements = 0;
+  double volume = 0, volume_inside_surface = 0;
+  std::optional<double> volume_of_surface; // without the parts inside; none where surfaces cross
+  double mean_arc = 0, largest_arc = 0;
+};
+
+/// Between two subdomains, or one and the outside.
+struct Interface_outcome
+{
+  std::string first, second;
+  std::size_t faces = 0, vertices = 0, vertices_off = 0, bad_edges = 0, bad_vertices = 0;
+  double area = 0;
+  bool is_manifold = true;
+};
+
 struct Outcome
 {
   Surface_facts surface;
   std::vector<Surface_facts> regions;
+  std::vector<Subdomain_outcome> subdomains; // if there are several
+  std::vector<Interface_outcome> interfaces;
   CGAL::Mixed_mesh_result_3 result;
   CGAL::Mixed_mesh_fit_result_3 algorithm_1;
   bool is_stopped = false; // by a signal or the limit of time

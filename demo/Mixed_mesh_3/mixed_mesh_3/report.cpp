@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <iomanip>
 #include <iostream>
+#include <sstream>
 #include <vector>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
@@ -192,6 +193,27 @@ Json describe_mesh(const Options& o, const Outcome& outcome)
   return report;
 }
 
+void describe_subdomains(const Outcome& outcome, Json& report)
+{
+  for(const Subdomain_outcome& s : outcome.subdomains)
+    report["subdomains"].push_back(
+      {{"name", s.name},
+       {"index", s.index},
+       {"surface", describe(s.surface)},
+       {"elements", s.elements},
+       {"volume", s.volume},
+       {"volume of surface", s.volume_of_surface ? Json(*s.volume_of_surface) : Json()},
+       {"ARC mean", s.elements > 0 ? Json(s.mean_arc) : Json()},
+       {"ARC max", s.elements > 0 ? Json(s.largest_arc) : Json()}});
+  for(const Interface_outcome& i : outcome.interfaces)
+    report["interfaces"].push_back({{"between", {i.first, i.second}},
+                                    {"faces", i.faces},
+                                    {"area", i.area},
+                                    {"manifold", i.is_manifold},
+                                    {"vertices", i.vertices},
+                                    {"vertices not on surface", i.vertices_off}});
+}
+
 // How the mesh came about.
 void describe_method(const Options& o, const Outcome& outcome, Json& report)
 {
@@ -215,6 +237,20 @@ void describe_method(const Options& o, const Outcome& outcome, Json& report)
                            {"largest distance at sample points", result.optimization.largest_distance},
                            {"vertices of the mesh as coarse as it allows",
                             result.number_of_vertices_for_tolerance}};
+}
+
+// A line for each, if there are several.
+std::string subdomains_in_words(const Outcome& outcome)
+{
+  std::ostringstream text;
+  text << std::setprecision(4);
+  for(const Subdomain_outcome& s : outcome.subdomains) {
+    text << s.name << " (" << s.index << "): " << s.elements << " elements, volume " << s.volume;
+    if(s.volume_of_surface)
+      text << ", " << s.volume / *s.volume_of_surface << " times that of its surface";
+    text << '\n';
+  }
+  return text.str();
 }
 
 } // namespace
@@ -241,6 +277,7 @@ std::string report(const Options& o, const Outcome& outcome, const Stage_log& lo
   report["mesh"] = describe_mesh(o, outcome);
   describe_method(o, outcome, report);
   report["surface"] = describe(outcome.fidelity);
+  describe_subdomains(outcome, report);
   report["quality"] = describe_quality(o, outcome);
   for(const Check& check : outcome.checks)
     report["checks"][check.name] = check.holds;
@@ -263,7 +300,7 @@ void print_summary(const Options& o, const Outcome& outcome)
   std::cout << std::setprecision(3) << "ARC mean " << all.mean << ", max " << all.maximum
             << "; Hausdorff distance " << outcome.fidelity.distance() << "; "
             << outcome.fidelity.ratio_of_volumes() << " times the surface's volume\n"
-            << "all checks hold; " << outcome.seconds << " s\n";
+            << subdomains_in_words(outcome) << "all checks hold; " << outcome.seconds << " s\n";
   for(const std::string& path : o.outputs)
     std::cout << "wrote " << printable(path) << '\n';
   if(!o.report.empty())

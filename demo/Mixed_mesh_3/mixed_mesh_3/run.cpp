@@ -15,6 +15,7 @@
 #include "mixed_mesh_3/algorithm_1.h"
 #include "mixed_mesh_3/examine.h"
 #include "mixed_mesh_3/report.h"
+#include "mixed_mesh_3/subdomains.h"
 #include "mixed_mesh_3/verdict.h"
 
 #include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
@@ -26,15 +27,17 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <unistd.h>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
-using Domain = CGAL::Polyhedral_mixed_mesh_domain_3;
+using Domain = CGAL::Labeled_polyhedral_mixed_mesh_domain_3;
 
 namespace {
 
@@ -59,32 +62,93 @@ void check_tolerance(const Options& o, const Surface& surface)
 
 struct Inputs
 {
-  Surface surface;
+  std::vector<Subdomain> subdomains; // the last one is around the others
+  Surface boundary;
   std::vector<Surface> regions;
 };
 
-Surface read(const std::string& file, const Voxel_selection& voxels, const Options& o, Surface_facts& facts,
-             std::vector<std::string>& warnings)
+// Surfaces of files, each image read once.
+class Surface_reader
 {
-  if(!is_image(file))
-    return read_surface(file, o.surface_options, facts, warnings);
-  // several times as many as the mesh has at its boundary
-  const double vertices = 20 * std::pow(double(o.vertices), 2. / 3);
-  return read_label_surface(file, voxels, {o.smoothing, (std::max)(std::size_t(vertices), std::size_t(2000))},
-                            facts, warnings);
+  const Options& m_options;
+  std::vector<std::string>& m_warnings;
+  std::map<std::string, Label_image> m_images;
+
+public:
+  Surface_reader(const Options& o, std::vector<std::string>& warnings) : m_options(o), m_warnings(warnings) {}
+
+  const Label_image& image(const std::string& file) { return m_images.try_emplace(file, file).first->second; }
+
+  Surface operator()(const std::string& file, const Voxel_selection& voxels, Surface_facts& facts)
+  {
+    if(!is_image(file))
+      return read_surface(file, m_options.surface_options, facts, m_warnings);
+    // several times as many as the mesh has at its boundary
+    const double vertices = 20 * std::pow(double(m_options.vertices), 2. / 3);
+    return image(file).surface_of(voxels,
+                                  {m_options.smoothing, (std::max)(std::size_t(vertices), std::size_t(2000))},
+                                  facts, m_warnings);
+  }
+
+  Subdomain operator()(const Subdomain_option& s, mm3::Subdomain_index index)
+  {
+    Surface_facts facts;
+    auto surface = std::make_shared<const Surface>((*this)(s.file, s.voxels, facts));
+    return {s.name, index, std::move(surface), facts};
+  }
+};
+
+// The label with most voxels is around the others: its surface is that of all, so that no gaps are left where
+// others meet.
+std::vector<Subdomain> read_labels(const Options& o, Surface_reader& read)
+{
+  std::vector<std::pair<std::size_t, std::size_t>> sizes; // with the numbers
+  std::vector<Voxel_selection> all;
+  for(const Subdomain_option& label : o.labels) {
+    sizes.emplace_back(read.image(o.surface).number_of_voxels(label.voxels), all.size());
+    all.push_back(label.voxels);
+  }
+  const std::size_t largest = std::max_element(sizes.begin(), sizes.end())->second;
+  std::vector<Subdomain> subdomains;
+  for(std::size_t i = 0; i < all.size(); ++i)
+    if(i != largest)
+      subdomains.push_back(read({o.labels[i].name, o.surface, all[i]}, mm3::Subdomain_index(i + 1)));
+  subdomains.push_back(
+    read({o.labels[largest].name, o.surface, united(all)}, mm3::Subdomain_index(largest + 1)));
+  return subdomains;
+}
+
+std::vector<Subdomain> read_subdomains(const Options& o, Surface_reader& read)
+{
+  std::vector<Subdomain> subdomains;
+  for(const std::string& cavity : o.cavities)
+    subdomains.push_back(read({"cavity", cavity}, 0));
+  mm3::Subdomain_index index = mm3::Subdomain_index((std::max)(o.labels.size(), std::size_t(1)));
+  for(const Subdomain_option& s : o.subdomains)
+    subdomains.push_back(read(s, ++index));
+  if(o.labels.empty())
+    subdomains.push_back(read({surrounding_name(o), o.surface, o.voxels}, 1));
+  else
+    for(Subdomain& s : read_labels(o, read))
+      subdomains.push_back(std::move(s));
+  return subdomains;
 }
 
 Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
 {
   Inputs inputs;
-  inputs.surface = log("read surface",
-                       [&] { return read(o.surface, o.voxels, o, outcome.surface, outcome.warnings); });
+  Surface_reader read(o, outcome.warnings);
+  inputs.subdomains = log("read surface", [&] { return read_subdomains(o, read); });
+  inputs.boundary = boundary_of(inputs.subdomains);
+  outcome.surface = inputs.subdomains.back().facts;
+  for(const Subdomain& s : inputs.subdomains)
+    if(s.index == 0)
+      outcome.surface.volume -= s.facts.volume;
   if(o.tolerance > 0)
-    check_tolerance(o, inputs.surface);
+    check_tolerance(o, inputs.boundary);
   for(const Region_option& r : o.regions)
-    inputs.regions.push_back(log("read region", [&] {
-      return read(r.file, r.voxels, o, outcome.regions.emplace_back(), outcome.warnings);
-    }));
+    inputs.regions.push_back(
+      log("read region", [&] { return read(r.file, r.voxels, outcome.regions.emplace_back()); }));
   return inputs;
 }
 
@@ -96,7 +160,7 @@ void check_regions(const Domain& domain, const Inputs& inputs, const Options& o,
   for(std::size_t i = 0; i < inputs.regions.size(); ++i) {
     const auto points = coordinates_of(inputs.regions[i].points());
     const std::string defect = misfit(points, domain.bbox(), [&domain](const std::array<double, 3>& p) {
-      return domain.bounded_side({p[0], p[1], p[2]}) != CGAL::ON_UNBOUNDED_SIDE;
+      return domain.subdomain_index(Kernel::Point_3(p[0], p[1], p[2])) != 0;
     });
     if(!defect.empty())
       defects.push_back(o.regions[i].file + ": beside " + o.surface + ", it " + defect);
@@ -224,10 +288,11 @@ Mesh make_fitted_mesh(const Domain& domain, const Inputs& inputs, const Options&
   return mesh;
 }
 
-void write_files(const Mesh& mesh, const Options& o, Stage_log& log, Outcome& outcome)
+void write_files(const Mesh& mesh, const Inputs& inputs, const Options& o, Stage_log& log, Outcome& outcome)
 {
   mm3::IO::Write_options write_options;
   write_options.msh_2_2 = o.msh2;
+  write_options.facet_sets = interfaces_of(mesh, inputs.subdomains);
   const Deferred_signals deferred({SIGINT, SIGTERM, SIGHUP}, Deferred_signals::Second::DEFERRED);
   mm3::IO::Output_files files([] { return !Deferred_signals::has_come(); }); // appear together, at the end
   for(const std::string& path : o.outputs)
@@ -249,12 +314,13 @@ bool run(const Options& o)
   Stage_log log(!o.quiet && isatty(STDERR_FILENO));
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);
-  const Domain domain = log("AABB tree of surface", [&] { return Domain(inputs.surface); });
+  const Domain domain = log("AABB tree of surface", [&] { return make_domain(inputs.subdomains); });
   check_regions(domain, inputs, o, outcome);
   log.expect(plan_for(o));
   const Mesh mesh = make_fitted_mesh(domain, inputs, o, log, outcome);
-  examine(mesh, inputs.surface, o, log, outcome);
-  write_files(mesh, o, log, outcome);
+  examine(mesh, inputs.boundary, o, log, outcome);
+  examine_subdomains(mesh, domain, inputs.subdomains, o, outcome);
+  write_files(mesh, inputs, o, log, outcome);
   log.finish_progress();
   for(const std::string& warning : outcome.warnings)
     std::cerr << "warning: " << printable(warning) << '\n';

@@ -27,7 +27,7 @@ class Surface_projection
   const Strata* m_strata;
 
   static constexpr int maximal_number_of_cycles = 20;
-  static constexpr double accuracy = 1e-9; // in diagonals of the domain
+  static constexpr double accuracy = 1e-9;      // in diagonals of the domain
   static constexpr double least_progress = 0.7; // surfaces that do not meet there are given up soon
 
   static Point_3 point(const Vec3& p) { return Point_3(p[0], p[1], p[2]); }

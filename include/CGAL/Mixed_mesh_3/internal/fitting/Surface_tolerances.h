@@ -70,10 +70,7 @@ public:
   }
 
   /// How much more a distance counts than at the surface around all.
-  double weight(Subdomain_index first) const
-  {
-    return m_tolerance > 0 ? m_tolerance / (*this)(first) : 1;
-  }
+  double weight(Subdomain_index first) const { return m_tolerance > 0 ? m_tolerance / (*this)(first) : 1; }
 
   /// \param least_spacing `double(Subdomain_index)`: closer samples would not serve; else, they are at a distance
   ///        of twice the tolerance, as closer ones are rarely farther off
