@@ -7,7 +7,9 @@
 // samples, against all triangles.
 
 #include "test_fitting.h"
+#include "test_strata.h"
 
+#include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_attraction.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
@@ -99,7 +101,7 @@ bool compare(Attraction remembering, Attraction fresh, double tolerance)
   BOOST_TEST_EQ(p.size(), q.size());
   for(std::size_t i = 0; i < (std::min)(p.size(), q.size()); ++i)
     BOOST_TEST(std::abs(p[i].first - q[i].first) < 1e-12 && norm(p[i].second - q[i].second) < 1e-12
-               && q[i].first > tolerance);
+               && q[i].first > 1);
   const auto near = remembering.far_edges(), anew = fresh.far_edges();
   BOOST_TEST_EQ(near.size(), anew.size());
   for(const auto& [edge, distance] : anew)
@@ -112,7 +114,8 @@ void test_remembered()
 {
   const Test_surface surface = sphere({center[0], center[1], center[2]}, radius, 16);
   const Polyhedral_mixed_mesh_domain_3 domain(surface);
-  const Project project(domain);
+  const internal::Strata strata(domain);
+  const Project project(domain, strata);
   std::vector<Vec3> samples;
   for(const auto& p : domain.surface_samples(0.1))
     samples.push_back(to_vec3(p));
@@ -123,15 +126,17 @@ void test_remembered()
       const Mesh mesh = inscribed(kind, 4);
       const std::vector<Face> boundary = boundary_faces(mesh);
       const std::vector<Vertex_index> vertices = vertices_of(boundary);
-      Working_mesh working(mesh, boundary);
-      Surface_attraction remembering(working, project, samples, tolerance);
-      remembering.set_boundary(boundary);
+      Working_mesh working = working_mesh(mesh, boundary);
+      const auto drawing = with_tolerance(samples, tolerance);
+      const auto same = [=](internal::Stratum) { return tolerance; };
+      Surface_attraction remembering(working, project, drawing);
+      remembering.set_boundary(interface_faces(boundary), same);
       std::mt19937 random(9);
       std::uniform_real_distribution<double> uniform(-1, 1);
       for(int round = 0; round < 25; ++round) {
         remembering.measure();
-        Surface_attraction fresh(working, project, samples, tolerance);
-        fresh.set_boundary(boundary);
+        Surface_attraction fresh(working, project, drawing);
+        fresh.set_boundary(interface_faces(boundary), same);
         fresh.measure();
         number_drawing += compare(remembering, fresh, tolerance);
         number_near += fresh.largest_distance() <= tolerance / 2;
@@ -157,7 +162,7 @@ void test_more_samples()
   constexpr double tolerance = 0.1, length = 2 * tolerance * (1 - 1e-9), sphere_radius = 1.3 * tolerance;
   const double across = length / std::sqrt(3.),
                height = std::sqrt(sphere_radius * sphere_radius - across * across);
-  const auto project = [](const Vec3& p, const Vec3&) { return (sphere_radius / norm(p)) * p; };
+  const Test_projection project{[](const Vec3& p, const Vec3&) { return (sphere_radius / norm(p)) * p; }};
   Mesh mesh;
   for(int i = 0; i < 3; ++i)
     mesh.add_vertex({across * std::cos(2 * CGAL_PI * i / 3), across * std::sin(2 * CGAL_PI * i / 3), height});
@@ -169,18 +174,19 @@ void test_more_samples()
     if(std::count(f.vertices().begin(), f.vertices().end(), 3u) == 0)
       bottom.push_back(f);
   BOOST_TEST_EQ(bottom.size(), 1u);
-  Working_mesh working(mesh, bottom);
-  const std::vector<Vec3> no_samples;
-  Surface_attraction remembering(working, project, no_samples, tolerance);
-  remembering.set_boundary(bottom);
+  Working_mesh working = working_mesh(mesh, bottom);
+  const std::vector<internal::Surface_sample> no_samples;
+  const auto same = [](internal::Stratum) { return tolerance; };
+  Surface_attraction remembering(working, project, no_samples);
+  remembering.set_boundary(interface_faces(bottom), same);
   remembering.measure();
   BOOST_TEST_LT(remembering.largest_distance(), tolerance / 2);
   for(int i = 0; i < 3; ++i)
     for(double& x : working.points[Vertex_index(i)])
       x *= 1 + 1e-8;
   remembering.measure();
-  Surface_attraction fresh(working, project, no_samples, tolerance);
-  fresh.set_boundary(bottom);
+  Surface_attraction fresh(working, project, no_samples);
+  fresh.set_boundary(interface_faces(bottom), same);
   fresh.measure();
   BOOST_TEST(compare(remembering, fresh, tolerance));
 }
@@ -190,16 +196,19 @@ void test_samples()
 {
   const Test_surface surface = sphere({center[0], center[1], center[2]}, radius, 16);
   const Polyhedral_mixed_mesh_domain_3 domain(surface);
-  const auto is_anywhere = [](const Vec3& p, const Vec3&) { return p; }; // so the boundary is on the surface
+  const Test_projection is_anywhere{
+    [](const Vec3& p, const Vec3&) { return p; }}; // so the boundary is on the surface
   const Mesh mesh = inscribed(TETRAHEDRON, 3);
   const std::vector<Face> boundary = boundary_faces(mesh);
-  const Working_mesh working(mesh, boundary);
+  const Working_mesh working = working_mesh(mesh, boundary);
   std::vector<Vec3> samples;
   for(const auto& p : domain.surface_samples(0.15))
     samples.push_back(to_vec3(p));
   for(double tolerance : {0.05, 0.1}) {
-    Surface_attraction attraction(working, is_anywhere, samples, tolerance);
-    attraction.set_boundary(boundary);
+    const auto drawing = with_tolerance(samples, tolerance);
+    const auto same = [=](internal::Stratum) { return tolerance; };
+    Surface_attraction attraction(working, is_anywhere, drawing);
+    attraction.set_boundary(interface_faces(boundary), same);
     attraction.measure();
     const auto all = triangles(working, boundary);
     BOOST_TEST_LE(std::abs(attraction.largest_distance() - farthest(samples, all)), 1e-12);
@@ -208,10 +217,10 @@ void test_samples()
       count += farthest({s}, all) > tolerance;
     BOOST_TEST_EQ(attraction.far_points().size(), count);
     for(const auto& [distance, p] : attraction.far_points())
-      BOOST_TEST_LE(std::abs(distance - farthest({p}, all)), 1e-12);
+      BOOST_TEST_LE(std::abs(distance * tolerance - farthest({p}, all)), 1e-12);
 
     std::vector<Face> half(boundary.begin(), boundary.begin() + std::ptrdiff_t(boundary.size() / 2));
-    attraction.set_boundary(half);
+    attraction.set_boundary(interface_faces(half), same);
     attraction.measure();
     BOOST_TEST_LE(std::abs(attraction.largest_distance() - farthest(samples, triangles(working, half))),
                   1e-12);

@@ -6,6 +6,7 @@
 // Bisection of boundary edges, against the triangles of the boundary alone.
 
 #include "test_fitting.h"
+#include "test_strata.h"
 
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
@@ -56,13 +57,16 @@ Bisected bisect(const Mesh& start, std::size_t number, double worst, const Is_al
 {
   Bisected result{start, {}};
   const std::vector<Face> boundary = boundary_faces(start);
-  Working_mesh working(start, boundary);
+  Working_mesh working = working_mesh(start, boundary);
   const Aspect_ratio_quality_3 quality;
-  const auto gain = [&](Vertex_index a, Vertex_index b, const std::array<Vertex_index, 2>& apexes) {
+  const auto gain = [&](Vertex_index a, Vertex_index b, const std::array<Vertex_index, 2>& apexes,
+                        internal::Stratum) {
     BOOST_TEST(apexes[0] != no_vertex && apexes[1] != no_vertex);
     return is_allowed(a, b) ? norm(working.points[a] - working.points[b]) : 0.;
   };
-  Boundary_bisector bisector(working, quality, project, gain, boundary, worst);
+  const Test_projection projection{project};
+  const internal::Interface_faces faces = interface_faces(boundary);
+  Boundary_bisector bisector(working, quality, projection, gain, faces, worst);
   result.edges = bisector(number);
   working.store(result.mesh);
   return result;

@@ -6,6 +6,7 @@
 // What the optimization is made of: gradients of the costs against differences, flips on integers.
 
 #include "test_fitting.h"
+#include "test_strata.h"
 
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
 #include <CGAL/Mixed_mesh_3/Scaled_jacobian_quality_3.h>
@@ -200,14 +201,14 @@ std::size_t flip(Mesh& mesh)
 {
   const Mesh before = mesh;
   BOOST_TEST(find_defects(before).none());
-  internal::Working_mesh working(mesh, boundary_faces(mesh));
+  internal::Working_mesh working = working_mesh(mesh, boundary_faces(mesh));
   const Aspect_ratio_quality_3 quality;
   internal::Tetrahedron_flipper flipper(working, quality, infinity);
-  const auto is_on_boundary = std::exchange(working.is_on_boundary,
-                                            std::vector<std::uint8_t>(mesh.number_of_vertices(), 0));
+  const auto strata = std::exchange(working.strata, std::vector<internal::Stratum>(mesh.number_of_vertices(),
+                                                                                   internal::free_stratum));
   std::set<Vertex_index> changed;
   const std::size_t flips = flipper.run(4, 1, [&](Vertex_index v) { changed.insert(v); });
-  working.is_on_boundary = is_on_boundary;
+  working.strata = strata;
   working.store(mesh);
   BOOST_TEST(find_defects(mesh).none());
   BOOST_TEST_EQ(six_volumes(mesh), six_volumes(before));
@@ -298,7 +299,7 @@ void test_removal()
     mesh.add_element(PYRAMID, {2, 4, 5, 3, 1});
     BOOST_TEST(find_defects(mesh).none());
     const double whole = volume(mesh);
-    internal::Working_mesh working(mesh, boundary_faces(mesh));
+    internal::Working_mesh working = working_mesh(mesh, boundary_faces(mesh));
     const Aspect_ratio_quality_3 quality;
     internal::Tetrahedron_flipper flipper(working, quality, infinity);
     const std::size_t flips = flipper.run(4, 1.4, [](Vertex_index) {});

@@ -626,6 +626,46 @@ class CommandLine(unittest.TestCase):
         self.assertLess(2 * numbers[2], numbers[1])
         self.assertLess(2 * others[3], others[1])
 
+    def test_subdomains(self):
+        """A tumor with a label and an interface, or as a cavity."""
+        report, mesh = WORK / "subdomains.json", WORK / "subdomains.vtu"
+        tumor = DATA / "tumour.off"
+        run = self.mesher(DATA / "brain.off", "--subdomain", f"tumor={tumor}", "--region", DATA / "region.off",
+                     "--vertices", 1500, "--output", mesh, "--report", report)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        told = json.loads(report.read_text())
+        self.assertTrue(all(told["checks"].values()))
+        self.assertEqual([(s["name"], s["index"]) for s in told["subdomains"]], [("tumor", 2), ("brain", 1)])
+        for s in told["subdomains"]:
+            self.assertAlmostEqual(s["volume"] / s["volume of surface"], 1, delta=0.05)
+            self.assertLessEqual(s["ARC max"], 3.2)
+        self.assertAlmostEqual(sum(s["volume"] for s in told["subdomains"]), told["mesh"]["volume"], delta=1)
+        self.assertEqual([i["between"] for i in told["interfaces"]], [["brain", "outside"], ["brain", "tumor"]])
+        self.assertTrue(all(i["manifold"] for i in told["interfaces"]))
+        self.assertIn("tumor (2): ", run.stdout)
+
+        run = self.mesher(DATA / "brain.off", "--cavity", tumor, "--region", DATA / "region.off", "--vertices", 1500,
+                     "--output", mesh, "--report", report)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        told = json.loads(report.read_text())
+        self.assertEqual(len([s for s in told["subdomains"] if s["elements"] > 0]), 1)
+        self.assertAlmostEqual(told["surface"]["ratio of volumes"], 1, delta=0.04)
+
+    def test_wrong_subdomains(self):
+        tumor = DATA / "tumour.off"
+        for options, words in ((["--subdomain", f"brain={tumor}"], "the name is taken"),
+                               (["--subdomain", f"a={tumor}", "--subdomain", f"a={tumor}"], "the name is taken"),
+                               (["--subdomain", f"outside={tumor}"], "the name is taken"),
+                               (["--subdomain", f"1={tumor}"], "a name has up to 24"),
+                               (["--subdomain", tumor, "--no-optimize"], "knows neither"),
+                               (["--cavity", tumor, "--mode", "paper"], "knows neither")):
+            run = self.mesher(DATA / "brain.off", "--vertices", 1500, *options)
+            self.assertEqual(run.returncode, 2)
+            self.assertIn(words, run.stderr)
+        run = self.mesher(DATA / "brain.off", "--vertices", 1500, "--subdomain", "a=nothing.off")
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("nothing.off", run.stderr)
+
     def test_wrong_use(self):
         for arguments, words in (
                 (["--steps", 3], "--steps requires --no-optimize"),

@@ -158,12 +158,60 @@ class Test_segmentation(unittest.TestCase):
         self.assertIn("warning: " + str(path) + ": the voxels that are not 0 have a surface of 2 components", run.stderr)
         self.assertEqual(told["inputs"]["surface"]["components"], 2)
 
+    def test_named_labels(self):
+        """Each list of labels is a subdomain: elements, volumes, an interface in the files."""
+        values = labels()
+        for name, to_world in AFFINES.items():
+            with self.subTest(name):
+                path = self.image("labels.nii.gz", values, to_world)
+                gmsh = WORK / "mesh.msh"
+                told, run = self.mesh(path, "--labels", f"head=1-9,lesion={LESION}", "--vertices", 3000, "--output", gmsh)
+                self.assertEqual([(s["name"], s["index"]) for s in told["subdomains"]], [("lesion", 2), ("head", 1)])
+                for subdomain, label in zip(told["subdomains"], (LESION, HEAD)):
+                    expected = np.count_nonzero(values == label) * 2 * 2.4 * 3
+                    self.assertAlmostEqual(subdomain["volume"] / expected, 1, delta=0.06)
+                    self.assertLessEqual(subdomain["ARC max"], 3.2)
+                self.assertEqual([i["between"] for i in told["interfaces"]], [["head", "outside"], ["head", "lesion"]])
+                self.assertTrue(all(i["manifold"] for i in told["interfaces"]))
+                self.assertEqual(told["interfaces"][0]["vertices not on surface"], 0)
+                self.assertIn('"interface_head_lesion"', gmsh.read_text(errors="replace"))
+                # the label of the voxel around the center of each element
+                reader = vtk.vtkXMLUnstructuredGridReader()
+                reader.SetFileName(str(self.output))
+                centers_of = vtk.vtkCellCenters()
+                centers_of.SetInputConnection(reader.GetOutputPort())
+                centers_of.Update()
+                points = vtk_to_numpy(centers_of.GetOutput().GetPoints().GetData())
+                voxels = np.rint((points - to_world[:3, 3]) @ np.linalg.inv(to_world[:3, :3]).T).astype(int)
+                found = values[tuple(np.clip(voxels, 0, np.array(SIZE) - 1).T)]
+                subdomains = vtk_to_numpy(reader.GetOutput().GetCellData().GetArray("subdomain"))
+                agree = np.where(found == LESION, 2, 1) == subdomains
+                self.assertGreater(np.count_nonzero(agree[found != 0]) / np.count_nonzero(found), 0.95)
+        first = self.output.read_bytes()
+        self.mesh(path, "--labels", f"head=1-9,lesion={LESION}", "--vertices", 3000, "--threads", 4)
+        self.assertEqual(first, self.output.read_bytes())
+
+    def test_lost_label(self):
+        values = labels()
+        values[30, 25, 12] = 11
+        path = self.image("labels.nii", values, AFFINES["oblique"])
+        told, run = self.mesh(path, "--labels", "head=1-9,200,speck=11", "--vertices", 300)
+        self.assertEqual(told["status"], "parts lost")
+        self.assertIn("the subdomain speck, of volume", run.stderr)
+        self.assertIn("is lost: too small for the cells", run.stderr)
+        self.assertEqual(told["subdomains"][0]["elements"], 0)
+
     def test_bad_input(self):
         path = self.image("labels.nii", labels(), AFFINES["oblique"])
         for text in ("", "a", "1-", "-1", "3-1", "1,,2", "1,", "1.5", "99999999999"):
             self.fails(path, "--labels", text, "--vertices", 500, words="--labels", status=2)
             self.fails(path, "--region-labels", text, "--vertices", 500, words="--region-labels", status=2)
         self.fails(path, "--region-labels", f"{LESION}:0", "--vertices", 500, words="is not a number from", status=2)
+        for text in ("a=", "=1", "a=1,b", "a=1,b=", "1,a=2", "a=1,"):
+            self.fails(path, "--labels", text, "--vertices", 500, words="--labels", status=2)
+        self.fails(path, "--labels", "a b=1", "--vertices", 500, words="a name has up to 24", status=2)
+        self.fails(path, "--labels", "a=1,a=2", "--vertices", 500, words="the name is taken", status=2)
+        self.fails(path, "--labels", "a=7,b=5", "--vertices", 500, words="there are no voxels with the labels 5")
         self.fails(path, "--labels", 1, "--threshold", 1, "--vertices", 500, words="--threshold", status=2)
         self.fails(path, "--threshold", "nan", "--vertices", 500, words="--threshold", status=2)
         self.fails(path, "--smoothing", -1, "--vertices", 500, words="--smoothing", status=2)

@@ -49,6 +49,7 @@ class Tolerance_search
   Visitor& m_visitor;
   Mixed_mesh_result_3& m_result;
   const bool m_has_subdomains;
+  const bool m_spares_region; // whether cells in it are left to what follows
   std::vector<Surface_sample> m_samples;
   std::vector<std::vector<Vec3>> m_far_points; // of the surface, where cells are split
   bool m_is_stopped = false;                   // by the visitor
@@ -59,7 +60,8 @@ public:
   Tolerance_search(const Octree_& root, const Mixed_mesh_criteria_3& criteria, Visitor& visitor,
                    Mixed_mesh_result_3& result)
     : m_root(root), m_criteria(criteria), m_visitor(visitor), m_result(result),
-      m_has_subdomains(subdomain_indices(root.domain()).size() > 1)
+      m_has_subdomains(subdomain_indices(root.domain()).size() > 1),
+      m_spares_region(!m_has_subdomains || !root.is_region_everywhere())
   {
   }
 
@@ -73,7 +75,7 @@ public:
     m_samples = tolerances().samples(m_root.domain(),
                                      [this](Subdomain_index) { return m_result.tolerance / 2; });
     const auto is_in_region = [&](const Surface_sample& s) { // where cells are split anyway
-      return m_root.region().depth({s.point[0], s.point[1], s.point[2]}) >= 0;
+      return m_spares_region && m_root.region().depth({s.point[0], s.point[1], s.point[2]}) >= 0;
     };
     m_samples.erase(std::remove_if(m_samples.begin(), m_samples.end(), is_in_region), m_samples.end());
     Octree_ octree = m_root;
@@ -101,7 +103,8 @@ public:
       std::vector<Octree::Node_index> leaves;
       for(const Vec3& p : points) {
         const Octree::Node_index n = octree.leaf_at(Predicates_kernel::Point_3(p[0], p[1], p[2]));
-        if(octree.is_alive(n) && !octree.is_in_region(n) && octree.octree().level(n) < Octree::max_level)
+        if(octree.is_alive(n) && !(m_spares_region && octree.is_in_region(n))
+           && octree.octree().level(n) < Octree::max_level)
           leaves.push_back(n);
       }
       std::sort(leaves.begin(), leaves.end());

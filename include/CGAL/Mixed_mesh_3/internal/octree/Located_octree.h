@@ -67,6 +67,8 @@ public:
   /// Whether the cell meets the domain. Only such cells are refined or become elements.
   bool is_alive(Node_index n) const { return side(n) != ON_UNBOUNDED_SIDE; }
   bool is_in_region(Node_index n) const { return m_locations[n].region != ON_UNBOUNDED_SIDE; }
+  /// Whether all of the root is inside the region: there is none.
+  bool is_region_everywhere() const { return m_locations[0].region == ON_BOUNDED_SIDE; }
   /// Whether a lattice point of a leaf is in the region.
   bool is_in_region(const Lattice_point& p, Node_index leaf) const
   {
