@@ -25,6 +25,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -53,6 +54,7 @@ class Tolerance_search
   std::vector<Surface_sample> m_samples;
   std::vector<std::vector<Vec3>> m_far_points; // of the surface, where cells are split
   bool m_is_stopped = false;                   // by the visitor
+  bool m_only_parts = false;                   // not the surface around all
   bool m_is_full = false;                      // there is no room for more splits
 
 public:
@@ -70,30 +72,13 @@ public:
   /// To be called in the stage `OCTREE`.
   void run()
   {
-    const double limit = (m_has_subdomains ? largest_share_of_subdomains : largest_share)
-                         * double(m_criteria.maximal_number_of_vertices());
-    m_samples = tolerances().samples(m_root.domain(),
-                                     [this](Subdomain_index) { return m_result.tolerance / 2; });
-    const auto is_in_region = [&](const Surface_sample& s) { // where cells are split anyway
-      return m_spares_region && m_root.region().depth({s.point[0], s.point[1], s.point[2]}) >= 0;
-    };
-    m_samples.erase(std::remove_if(m_samples.begin(), m_samples.end(), is_in_region), m_samples.end());
-    Octree_ octree = m_root;
-    Candidate candidate = try_base_octree(octree);
-    std::size_t best = 0, least_defects = std::size_t(-1); // after how many rounds
-    for(int round = 0; !is_stopped_by(candidate) && candidate.number_of_vertices > 0; ++round) {
-      if(double(candidate.number_of_vertices) > limit)
-        break;
-      const Estimate estimate = estimate_boundary(octree, candidate);
-      if(estimate.number_of_defects <= least_defects) {
-        least_defects = estimate.number_of_defects;
-        best = m_far_points.size();
-        m_result.number_of_vertices_for_tolerance = candidate.number_of_vertices;
-      }
-      if(round == rounds || m_is_full || !split(estimate, limit, octree, candidate))
-        break;
+    if(m_has_subdomains) { // first what is small
+      m_only_parts = true;
+      run(largest_share);
+      m_only_parts = m_is_full = false;
     }
-    m_far_points.resize(best);
+    if(!m_is_stopped)
+      run(m_has_subdomains ? largest_share_of_subdomains : largest_share);
   }
 
   /// One level more around each far point, outside the region, round by round.
@@ -114,9 +99,38 @@ public:
   }
 
 private:
+  void run(double share)
+  {
+    const double limit = share * double(m_criteria.maximal_number_of_vertices());
+    m_samples = tolerances().samples(m_root.domain(),
+                                     [this](Subdomain_index) { return m_result.tolerance / 2; });
+    const auto is_in_region = [&](const Surface_sample& s) { // where cells are split anyway
+      return m_spares_region && m_root.region().depth({s.point[0], s.point[1], s.point[2]}) >= 0;
+    };
+    m_samples.erase(std::remove_if(m_samples.begin(), m_samples.end(), is_in_region), m_samples.end());
+    Octree_ octree = m_root;
+    Candidate candidate = try_base_octree(octree);
+    // after how many rounds
+    std::size_t best = m_far_points.size(), least_defects = std::size_t(-1);
+    for(int round = 0; !is_stopped_by(candidate) && candidate.number_of_vertices > 0; ++round) {
+      if(double(candidate.number_of_vertices) > limit)
+        break;
+      const Estimate estimate = estimate_boundary(octree, candidate);
+      if(estimate.number_of_defects <= least_defects) {
+        least_defects = estimate.number_of_defects;
+        best = m_far_points.size();
+        m_result.number_of_vertices_for_tolerance = candidate.number_of_vertices;
+      }
+      if(round == rounds || m_is_full || !split(estimate, limit, octree, candidate))
+        break;
+    }
+    m_far_points.resize(best);
+  }
+
   Surface_tolerances tolerances() const
   {
-    return {m_root.domain(), m_result.tolerance, m_criteria.maximal_number_of_vertices()};
+    return {m_root.domain(), m_only_parts ? std::numeric_limits<double>::infinity() : m_result.tolerance,
+            m_criteria.maximal_number_of_vertices()};
   }
 
   Candidate try_base_octree(Octree_& octree)
