@@ -79,21 +79,23 @@ public:
 
   const Label_image& image(const std::string& file) { return m_images.try_emplace(file, file).first->second; }
 
-  Surface operator()(const std::string& file, const Voxel_selection& voxels, Surface_facts& facts)
+  // \param share of the domain
+  Surface operator()(const std::string& file, const Voxel_selection& voxels, Surface_facts& facts,
+                     double share = 1)
   {
     if(!is_image(file))
       return read_surface(file, m_options.surface_options, facts, m_warnings);
-    // several times as many as the mesh has at its boundary
-    const double vertices = 20 * std::pow(double(m_options.vertices), 2. / 3);
-    return image(file).surface_of(voxels,
-                                  {m_options.smoothing, (std::max)(std::size_t(vertices), std::size_t(2000))},
-                                  facts, m_warnings);
+    // several times as many as the mesh has at its boundary; of parts more, as they are finer
+    const double finer = share < 1 ? 3 : 1;
+    const double vertices = (std::max)(finer * 20 * std::pow(share * double(m_options.vertices), 2. / 3),
+                                       2000.);
+    return image(file).surface_of(voxels, {m_options.smoothing, std::size_t(vertices)}, facts, m_warnings);
   }
 
-  Subdomain operator()(const Subdomain_option& s, mm3::Subdomain_index index)
+  Subdomain operator()(const Subdomain_option& s, mm3::Subdomain_index index, double share = 1)
   {
     Surface_facts facts;
-    auto surface = std::make_shared<const Surface>((*this)(s.file, s.voxels, facts));
+    auto surface = std::make_shared<const Surface>((*this)(s.file, s.voxels, facts, share));
     return {s.name, index, std::move(surface), facts};
   }
 };
@@ -108,11 +110,13 @@ std::vector<Subdomain> read_labels(const Options& o, Surface_reader& read)
     sizes.emplace_back(read.image(o.surface).number_of_voxels(label.voxels), all.size());
     all.push_back(label.voxels);
   }
+  const double number_of_all = double(read.image(o.surface).number_of_voxels(united(all)));
   const std::size_t largest = std::max_element(sizes.begin(), sizes.end())->second;
   std::vector<Subdomain> subdomains;
   for(std::size_t i = 0; i < all.size(); ++i)
     if(i != largest)
-      subdomains.push_back(read({o.labels[i].name, o.surface, all[i]}, mm3::Subdomain_index(i + 1)));
+      subdomains.push_back(read({o.labels[i].name, o.surface, all[i]}, mm3::Subdomain_index(i + 1),
+                                double(sizes[i].first) / number_of_all));
   subdomains.push_back(
     read({o.labels[largest].name, o.surface, united(all)}, mm3::Subdomain_index(largest + 1)));
   return subdomains;
