@@ -566,10 +566,13 @@ class BrainShift(unittest.TestCase):
             self.assertTrue(np.allclose(u, wanted[:, None] * [0, 0, 1], atol=1e-9), materials)
             self.assertTrue(np.allclose(np.sum([p["force"] for p in told["shift"]["control points"]], axis=0),
                                         [0, 0, -force], atol=1e-9))
-            self.assertEqual([(s["label"], s["elements"]) for s in told["subdomains"]], [(3, 2), (5, 2)])
+            self.assertEqual([(s["index"], s["elements"]) for s in told["subdomains"]], [(3, 2), (5, 2)])
             self.assertEqual([s["Young's modulus"] for s in told["subdomains"]],
                              [{"value": modulus, "unit": "kPa"} for modulus in moduli])
             self.assertTrue(np.allclose([s["volume"] for s in told["subdomains"]], 2))
+        summary = self.shift(mesh, "--control-points", WORK / "top.csv", *fixed, "--material", "5=8,0.25").stdout
+        self.assertIn("subdomain 3: 2 elements, 0.002 ml; Young's modulus 1 kPa, Poisson's ratio 0\n", summary)
+        self.assertIn("subdomain 5: 2 elements, 0.002 ml; Young's modulus 8 kPa, Poisson's ratio 0.25\n", summary)
         # other ratios of Poisson make it wider
         told = run("--young-modulus", 2, *fixed, "--material", "5=2,0.4")
         self.assertEqual([s["Poisson's ratio"]["value"] for s in told["subdomains"]], [0, 0.4])

@@ -71,7 +71,7 @@ Json describe_subdomains(const std::vector<Subdomain_facts>& subdomains)
   constexpr double g_per_cm3 = 1e6; // of 1 kg/mm^3
   Json result = Json::array();
   for(const Subdomain_facts& facts : subdomains)
-    result.push_back({{"label", facts.index},
+    result.push_back({{"index", facts.index},
                       {"elements", facts.elements},
                       {"volume", facts.volume},
                       {"Young's modulus", quantity(facts.material.young_modulus, "kPa")},
@@ -131,6 +131,18 @@ Json describe(const Resection_facts& resection)
           {"elements left", resection.left.elements}};
 }
 
+// A line for each, if there are several.
+void print_subdomains(const std::vector<Subdomain_facts>& subdomains)
+{
+  if(subdomains.size() < 2)
+    return;
+  for(const Subdomain_facts& facts : subdomains)
+    std::cout << "subdomain " << facts.index << ": " << counted(facts.elements, "element", "elements") << ", "
+              << rounded(facts.volume / 1000) << " ml; Young's modulus "
+              << rounded(facts.material.young_modulus) << " kPa, Poisson's ratio "
+              << rounded(facts.material.poisson_ratio) << '\n';
+}
+
 } // namespace
 
 std::string report(const Options& o, const Outcome& outcome, const Stage_log& log)
@@ -185,8 +197,9 @@ void print_summary(const Options& o, const Outcome& outcome, const Stage_log& lo
   };
   std::cout << outcome.mesh.vertices << " vertices, " << outcome.mesh.elements << " elements; "
             << outcome.supports.fixed << " vertices fixed, " << outcome.supports.sliding << " sliding; "
-            << counted(outcome.points.size(), "control point", "control points") << '\n'
-            << "before surgery: factor " << ms("factor") << ", control points " << ms("control points")
+            << counted(outcome.points.size(), "control point", "control points") << '\n';
+  print_subdomains(outcome.subdomains);
+  std::cout << "before surgery: factor " << ms("factor") << ", control points " << ms("control points")
             << '\n'
             << "shift: up to " << rounded(outcome.before.largest) << " mm; " << ms("solve") << '\n';
   if(outcome.resection)
