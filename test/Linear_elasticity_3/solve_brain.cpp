@@ -4,13 +4,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Writes the brain's mesh and its displacements under a push at the opening, for test_getfem.py: with the
-// elements of Linear_elasticity_3, with standard ones, and on the mesh split to tetrahedra with both.
+// elements of Linear_elasticity_3, with standard ones, and on the mesh split to tetrahedra with both. With a
+// tumor, that is a subdomain, ten times as stiff, and of another Poisson's ratio.
 //
-//   solve_brain DATA_DIRECTORY VERTICES POISSON_RATIO fitted|unfitted FILE
+//   solve_brain DATA_DIRECTORY VERTICES POISSON_RATIO fitted|unfitted|tumor FILE
 
 #include "standard_elasticity.h"
 #include "test_surfaces.h"
 
+#include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
 #include <CGAL/Linear_elasticity_3.h>
 #include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
 #include <CGAL/make_mixed_mesh_3.h>
@@ -33,10 +35,43 @@ using namespace CGAL::Mixed_meshes_3::internal;
 using Mesh = CGAL::Mixed_mesh_3<Test_kernel>;
 using Field = std::vector<Vec3>;
 
-Field solution(const Mesh& mesh, const Elastic_material& material, const std::vector<bool>& is_prescribed,
-               const Field& u)
+constexpr Subdomain_index tumor_index = 1, brain_index = 2;
+
+Test_surface read_surface(const std::string& path)
 {
-  CGAL::Linear_elasticity_3<Mesh> problem(mesh, material);
+  Test_surface surface;
+  BOOST_TEST(CGAL::IO::read_polygon_mesh(path, surface));
+  return surface;
+}
+
+Mesh brain(const std::string& data, std::size_t vertices, const std::string& how)
+{
+  const CGAL::Polyhedral_mixed_mesh_region_3 region(read_surface(data + "/region.off"));
+  const auto criteria = CGAL::Mixed_mesh_criteria_3(vertices).fit_to_surface(how != "unfitted");
+  Mesh mesh;
+  if(how == "tumor") {
+    CGAL::Labeled_polyhedral_mixed_mesh_domain_3 domain;
+    domain.add(read_surface(data + "/tumour.off"), tumor_index);
+    domain.add(read_surface(data + "/brain.off"), brain_index);
+    BOOST_TEST(CGAL::make_mixed_mesh_3(domain, region, criteria, mesh).has_mesh());
+  } else {
+    const CGAL::Polyhedral_mixed_mesh_domain_3 domain(read_surface(data + "/brain.off"));
+    BOOST_TEST(CGAL::make_mixed_mesh_3(domain, region, criteria, mesh).has_mesh());
+  }
+  return mesh;
+}
+
+std::vector<Elastic_material> materials_of(const Mesh& mesh, const Elastic_material& material, bool has_tumor)
+{
+  if(!has_tumor)
+    return materials_of_elements(mesh, {}, material);
+  return materials_of_elements(mesh, {{tumor_index, {10, material.poisson_ratio / 2}}}, material);
+}
+
+Field solution(const Mesh& mesh, const std::vector<Elastic_material>& materials,
+               const std::vector<bool>& is_prescribed, const Field& u)
+{
+  CGAL::Linear_elasticity_3<Mesh> problem(mesh, materials);
   for(Vertex_index v = 0; v < u.size(); ++v)
     if(is_prescribed[v])
       problem.prescribe(v, u[v]);
@@ -59,20 +94,13 @@ void write(std::ostream& out, const char* name, const Field& u)
 int main(int argc, char** argv)
 {
   if(argc != 6) {
-    std::cerr << "usage: solve_brain DATA_DIRECTORY VERTICES POISSON_RATIO fitted|unfitted FILE\n";
+    std::cerr << "usage: solve_brain DATA_DIRECTORY VERTICES POISSON_RATIO fitted|unfitted|tumor FILE\n";
     return 2;
   }
-  const std::string data = argv[1];
-  Test_surface surface, region;
-  BOOST_TEST(CGAL::IO::read_polygon_mesh(data + "/brain.off", surface));
-  BOOST_TEST(CGAL::IO::read_polygon_mesh(data + "/region.off", region));
-  Mesh mesh;
-  BOOST_TEST(
-    CGAL::make_mixed_mesh_3(
-      CGAL::Polyhedral_mixed_mesh_domain_3(surface), CGAL::Polyhedral_mixed_mesh_region_3(region),
-      CGAL::Mixed_mesh_criteria_3(std::stoul(argv[2])).fit_to_surface(std::string(argv[4]) == "fitted"), mesh)
-      .has_mesh());
+  const bool has_tumor = std::string(argv[4]) == "tumor";
+  const Mesh mesh = brain(argv[1], std::stoul(argv[2]), argv[4]);
   const Elastic_material material{1, std::stod(argv[3])};
+  const std::vector<Elastic_material> materials = materials_of(mesh, material, has_tumor);
 
   // The lower 30 % is fixed; around the opening, the boundary is pushed in by 10 mm, less towards the rim.
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
@@ -110,14 +138,19 @@ int main(int argc, char** argv)
       out << ' ' << v;
     out << '\n';
   }
+  out << "materials " << materials.size() << '\n';
+  for(const Elastic_material& m : materials)
+    out << m.young_modulus << ' ' << m.poisson_ratio << '\n';
   out << "prescribed " << std::count(is_prescribed.begin(), is_prescribed.end(), true) << '\n';
   for(Vertex_index v = 0; v < points.size(); ++v)
     if(is_prescribed[v])
       out << v << ' ' << u[v][0] << ' ' << u[v][1] << ' ' << u[v][2] << '\n';
-  write(out, "ours", solution(mesh, material, is_prescribed, u));
-  write(out, "standard", standard_solution(mesh, material, is_prescribed, u));
+  write(out, "ours", solution(mesh, materials, is_prescribed, u));
+  write(out, "standard", standard_solution(mesh, materials, is_prescribed, u));
+  write(out, "standard_of_one_material", standard_solution(mesh, material, is_prescribed, u));
   const Mesh tetrahedra = split_to_tetrahedra(mesh);
-  write(out, "ours_on_tetrahedra", solution(tetrahedra, material, is_prescribed, u));
-  write(out, "standard_on_tetrahedra", standard_solution(tetrahedra, material, is_prescribed, u));
+  const std::vector<Elastic_material> of_tetrahedra = materials_of(tetrahedra, material, has_tumor);
+  write(out, "ours_on_tetrahedra", solution(tetrahedra, of_tetrahedra, is_prescribed, u));
+  write(out, "standard_on_tetrahedra", standard_solution(tetrahedra, of_tetrahedra, is_prescribed, u));
   return boost::report_errors();
 }

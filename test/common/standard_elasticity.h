@@ -17,10 +17,10 @@
 #include <cstddef>
 #include <vector>
 
-// Displacements of all vertices, for those of some.
+// Displacements of all vertices, for those of some. A material for each element.
 template <class Mesh>
 std::vector<CGAL::Mixed_meshes_3::Vec3>
-standard_solution(const Mesh& mesh, const CGAL::Mixed_meshes_3::Elastic_material& material,
+standard_solution(const Mesh& mesh, const std::vector<CGAL::Mixed_meshes_3::Elastic_material>& materials,
                   std::vector<bool> is_prescribed, std::vector<CGAL::Mixed_meshes_3::Vec3> displacements)
 {
   using namespace CGAL::Mixed_meshes_3::internal;
@@ -33,7 +33,7 @@ standard_solution(const Mesh& mesh, const CGAL::Mixed_meshes_3::Elastic_material
   for(const auto& p : mesh.points())
     points.push_back(CGAL::Mixed_meshes_3::to_vec3(p));
   for(auto e : system.active_elements())
-    system.add(e, material, points, displacements, Dilatation::POINTWISE);
+    system.add(e, materials[e], points, displacements, Dilatation::POINTWISE);
   const auto matrix = make_matrix<Solver::Matrix>(system.starts(), system.rows(), system.values());
   const std::size_t n = std::size_t(system.number_of_unknowns());
   Solver::Vector b(n), x(n);
@@ -45,6 +45,16 @@ standard_solution(const Mesh& mesh, const CGAL::Mixed_meshes_3::Elastic_material
     for(std::size_t k = 0; k < 3; ++k)
       displacements[system.free_vertices()[i]][k] = x[Eigen::Index(3 * i + k)];
   return displacements;
+}
+
+template <class Mesh>
+std::vector<CGAL::Mixed_meshes_3::Vec3>
+standard_solution(const Mesh& mesh, const CGAL::Mixed_meshes_3::Elastic_material& material,
+                  const std::vector<bool>& is_prescribed,
+                  const std::vector<CGAL::Mixed_meshes_3::Vec3>& displacements)
+{
+  const std::vector<CGAL::Mixed_meshes_3::Elastic_material> materials(mesh.number_of_elements(), material);
+  return standard_solution(mesh, materials, is_prescribed, displacements);
 }
 
 #endif // MIXED_MESH_3_TEST_STANDARD_ELASTICITY_H

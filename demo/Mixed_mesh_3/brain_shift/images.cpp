@@ -161,15 +161,15 @@ mm3::Voxel_image_3 read_image(const Options& o, const Mesh& mesh, Outcome& outco
 }
 
 void write_images(mm3::IO::Output_files& files, const mm3::Voxel_image_3& image,
-                  const mm3::Voxel_image_3& labels, const Mesh& mesh, const Closed_surface* tumor,
+                  const mm3::Voxel_image_3& labels, const Mesh& mesh, const Tumor& tumor,
                   const std::vector<bool>& is_removed, const Options& o, Stage_log& log, Outcome& outcome)
 {
   mm3::Warp_options warp;
   warp.interpolation = o.interpolation;
-  if(tumor != nullptr) {
+  if(tumor.is_given())
     warp.resected_elements = is_removed;
-    warp.is_resected = [tumor](const std::array<double, 3>& p) { return tumor->contains(p); };
-  }
+  if(tumor.surface != nullptr) // also what it cuts of the elements that are left
+    warp.is_resected = [&tumor](const std::array<double, 3>& p) { return tumor.surface->contains(p); };
   const mm3::Warped_image_3 warped = log("warp image", [&] {
     return mm3::warp_image(image, mesh, outcome.last().displacements, warp);
   });
@@ -202,7 +202,7 @@ mm3::Voxel_image_3 read_labels(const Options&, const mm3::Voxel_grid_3&)
 }
 
 void write_images(mm3::IO::Output_files&, const mm3::Voxel_image_3&, const mm3::Voxel_image_3&, const Mesh&,
-                  const Closed_surface*, const std::vector<bool>&, const Options&, Stage_log&, Outcome&)
+                  const Tumor&, const std::vector<bool>&, const Options&, Stage_log&, Outcome&)
 {
 }
 

@@ -29,11 +29,10 @@ CGAL::Mixed_meshes_3::Voxel_image_3 read_labels(const Options& options,
 
 /// Deforms the image with the mesh.
 /// \param labels empty if there are none
-/// \param tumor null if there is none
 void write_images(CGAL::Mixed_meshes_3::IO::Output_files& files,
                   const CGAL::Mixed_meshes_3::Voxel_image_3& image,
-                  const CGAL::Mixed_meshes_3::Voxel_image_3& labels, const Mesh& mesh,
-                  const Closed_surface* tumor, const std::vector<bool>& is_removed, const Options& options,
-                  Stage_log& log, Outcome& outcome);
+                  const CGAL::Mixed_meshes_3::Voxel_image_3& labels, const Mesh& mesh, const Tumor& tumor,
+                  const std::vector<bool>& is_removed, const Options& options, Stage_log& log,
+                  Outcome& outcome);
 
 #endif // MIXED_MESH_3_DEMO_BRAIN_SHIFT_IMAGES_H

@@ -20,6 +20,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -36,10 +37,15 @@ constexpr bool has_nifti = false;
 #endif
 
 constexpr const char* label_prefix = "label:";
+constexpr double kg_per_mm3 = 1e-6; // of 1 g/cm^3
 
 CLI::Validator fraction()
 {
   return number("from 0 to 1", [](double x) { return x >= 0 && x <= 1; });
+}
+CLI::Validator young_modulus()
+{
+  return number("from 1e-9 to 1e12", [](double x) { return x >= 1e-9 && x <= 1e12; });
 }
 CLI::Validator not_negative()
 {
@@ -60,10 +66,16 @@ CLI::Option* add_inputs(CLI::App& app, Options& o)
     .add_option("--control-points-after", o.control_points_after,
                 "Where the fiducials of --control-points are after, in the same order: .fcsv or .mrk.json")
     ->type_name("FILE");
+  CLI::Option* const tumor =
+    app
+      .add_option("--tumor,--tumour", o.tumor,
+                  "Closed surface: elements whose centroid is inside are removed, after the shift")
+      ->type_name("SURFACE");
   app
-    .add_option("--tumor,--tumour", o.tumor,
-                "Closed surface: elements whose centroid is inside are removed, after the shift")
-    ->type_name("SURFACE");
+    .add_option("--tumor-label,--tumour-label", o.tumor_label,
+                "Label of a subdomain of the mesh: its elements are removed, after the shift")
+    ->excludes(tumor)
+    ->type_name("LABEL");
   add_space(app, o.surface_options);
   CLI::Option* image = app.add_option("--image", o.image, "Image before the shift: .nii or .nii.gz")
                          ->type_name("IMAGE");
@@ -121,13 +133,21 @@ void add_supports(CLI::App& app, Options& o)
 void add_physics(CLI::App& app, Options& o)
 {
   app.add_option("--young-modulus", o.material.young_modulus, "Young's modulus")
-    ->check(number("from 1e-9 to 1e12", [](double x) { return x >= 1e-9 && x <= 1e12; }))
+    ->check(young_modulus())
     ->type_name("KPA")
     ->capture_default_str();
   app.add_option("--poisson-ratio", o.material.poisson_ratio, "Poisson's ratio")
     ->check(poisson_ratio())
     ->type_name("NU")
     ->capture_default_str();
+  app
+    .add_option(
+      "--material", o.material_texts,
+      "Material of the subdomain with a label: Young's modulus in kPa, Poisson's ratio, and, if you "
+      "like, density in g/cm^3; can be given several times. Other subdomains have that of "
+      "--young-modulus, --poisson-ratio and --density")
+    ->type_name("LABEL=E,NU[,RHO]")
+    ->allow_extra_args(false);
   CLI::Option* const gravity =
     app
       .add_option(
@@ -270,6 +290,32 @@ void check_patches(const CLI::App& app, Options& o)
     o.fixed_below = 0;
 }
 
+// A label, and two or three numbers.
+Labeled_material material_of(const std::string& text, const mm3::Elastic_material& other)
+{
+  const std::size_t end = text.rfind('=');
+  const auto columns = control_points::columns(end == text.npos ? ""
+                                                                : std::string_view(text).substr(end + 1));
+  if(end == text.npos || end == 0 || columns.size() < 2 || columns.size() > 3)
+    throw CLI::ValidationError("--material",
+                               "expected LABEL=E,NU or LABEL=E,NU,RHO, not " + control_points::quoted(text));
+  const auto read = [&](std::size_t i, const char* what, const CLI::Validator& check) {
+    double x = 0;
+    std::string number(columns[i]), defect = control_points::read_number(number, x);
+    if(defect.empty())
+      defect = check(number);
+    if(!defect.empty())
+      throw CLI::ValidationError("--material", control_points::quoted(text) + ": " + what + ": " + defect);
+    return x;
+  };
+  Labeled_material result{text.substr(0, end), other};
+  result.material.young_modulus = read(0, "Young's modulus", young_modulus());
+  result.material.poisson_ratio = read(1, "Poisson's ratio", poisson_ratio());
+  if(columns.size() == 3)
+    result.material.density = kg_per_mm3 * read(2, "density", not_negative());
+  return result;
+}
+
 // What the parser does not check.
 void check_use(const CLI::App& app, Options& o)
 {
@@ -291,8 +337,9 @@ void check_use(const CLI::App& app, Options& o)
   for(double& x : o.up_direction)
     x *= 1 / length;
   o.acceleration = vector_of("--gravity", o.gravity);
-  constexpr double kg_per_mm3 = 1e-6; // of 1 g/cm^3
   o.material.density = o.density * kg_per_mm3;
+  for(const std::string& text : o.material_texts)
+    o.materials.push_back(material_of(text, o.material));
   check_patches(app, o);
   if(!o.image.empty() && !has_nifti)
     throw CLI::ValidationError("--image", "this program was built without nifti_clib");

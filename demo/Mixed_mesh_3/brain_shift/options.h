@@ -25,26 +25,34 @@ inline constexpr const char *base_patch = "base", *skull_patch = "skull";
 /// The label of a patch such as "label:3"; nothing if it is none.
 std::optional<int> label_of(const std::string& patch);
 
+/// A material, and the label of its subdomain as it is on the command line.
+struct Labeled_material
+{
+  std::string label;
+  CGAL::Mixed_meshes_3::Elastic_material material;
+};
+
 struct Options
 {
-  std::string mesh, control_points, control_points_after, tumor, image, labels, output_image, report,
-    up = "z", gravity = "0,0,0";
-  std::vector<std::string> outputs, deformed_outputs;
+  std::string mesh, control_points, control_points_after, tumor, tumor_label, image, labels, output_image,
+    report, up = "z", gravity = "0,0,0";
+  std::vector<std::string> outputs, deformed_outputs, material_texts;
   double fixed_below = 0.3, slide_below = 0, slide_beyond = std::numeric_limits<double>::infinity();
   // Patches of the boundary: closed surfaces, labels, and the names below.
   std::vector<std::string> fixed_patches, sliding_patches, openings;
   double density = 1.04, fluid_density = 1; // g/cm^3
   double fluid_level = std::numeric_limits<double>::infinity();
   double max_distance = 5, compliance = 0, control_radius = 0;
-  CGAL::Mixed_meshes_3::Elastic_material material;
+  CGAL::Mixed_meshes_3::Elastic_material material; // of subdomains without one of their own
   CGAL::Mixed_meshes_3::Displacement_interpolation interpolation =
     CGAL::Mixed_meshes_3::Displacement_interpolation::RECOVERED;
   std::vector<CGAL::Mixed_meshes_3::IO::Field_format> field_formats;
   CGAL::Mixed_meshes_3::IO::Read_surface_options surface_options;
   bool quiet = false;
 
-  // of the two texts
+  // of the texts
   std::array<double, 3> up_direction{}, acceleration{};
+  std::vector<Labeled_material> materials;
 
   bool has_patches() const { return !fixed_patches.empty() || !sliding_patches.empty() || !openings.empty(); }
 

@@ -11,6 +11,8 @@
 #include "brain_shift/read_control_points.h"
 #include "common/facts.h"
 
+#include <CGAL/Mixed_mesh_3/Elastic_material.h>
+#include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Element_locator_3.h>
 
 #include <array>
@@ -23,6 +25,14 @@ using Vector = CGAL::Mixed_meshes_3::Vec3;
 
 /// Where control points are in the mesh.
 using Locations = std::vector<CGAL::Mixed_meshes_3::Element_location_3>;
+
+struct Subdomain_facts
+{
+  CGAL::Mixed_meshes_3::Subdomain_index index = 0;
+  std::size_t elements = 0;
+  double volume = 0;
+  CGAL::Mixed_meshes_3::Elastic_material material;
+};
 
 struct Image_facts
 {
@@ -80,6 +90,7 @@ struct Outcome
 {
   Mesh_facts mesh;
   double volume = 0; // of the mesh
+  std::vector<Subdomain_facts> subdomains;
   std::vector<Control_point> points;
   Locations locations;
   std::optional<Surface_facts> tumor;

@@ -41,11 +41,10 @@ Json describe(const Image_facts& image, const Options& o)
           {"share of the mesh's vertices inside", image.share_inside}};
 }
 
+Json quantity(const Json& value, const char* unit) { return {{"value", value}, {"unit", unit}}; }
+
 Json parameters_of(const Options& o)
 {
-  const auto quantity = [](const Json& value, const char* unit) {
-    return Json{{"value", value}, {"unit", unit}};
-  };
   return {{"Young's modulus", quantity(o.material.young_modulus, "kPa")},
           {"Poisson's ratio", quantity(o.material.poisson_ratio, "1")},
           {"density", quantity(o.density, "g/cm^3")},
@@ -65,6 +64,20 @@ Json parameters_of(const Options& o)
           {"space of surfaces", space_of(o.surface_options)},
           {"interpolation between vertices",
            o.interpolation == mm3::Displacement_interpolation::LINEAR ? "linear" : "recovered"}};
+}
+
+Json describe_subdomains(const std::vector<Subdomain_facts>& subdomains)
+{
+  constexpr double g_per_cm3 = 1e6; // of 1 kg/mm^3
+  Json result = Json::array();
+  for(const Subdomain_facts& facts : subdomains)
+    result.push_back({{"index", facts.index},
+                      {"elements", facts.elements},
+                      {"volume", facts.volume},
+                      {"Young's modulus", quantity(facts.material.young_modulus, "kPa")},
+                      {"Poisson's ratio", quantity(facts.material.poisson_ratio, "1")},
+                      {"density", quantity(g_per_cm3 * facts.material.density, "g/cm^3")}});
+  return result;
 }
 
 Json describe_points(const Outcome& outcome)
@@ -118,6 +131,18 @@ Json describe(const Resection_facts& resection)
           {"elements left", resection.left.elements}};
 }
 
+// A line for each, if there are several.
+void print_subdomains(const std::vector<Subdomain_facts>& subdomains)
+{
+  if(subdomains.size() < 2)
+    return;
+  for(const Subdomain_facts& facts : subdomains)
+    std::cout << "subdomain " << facts.index << ": " << counted(facts.elements, "element", "elements") << ", "
+              << rounded(facts.volume / 1000) << " ml; Young's modulus "
+              << rounded(facts.material.young_modulus) << " kPa, Poisson's ratio "
+              << rounded(facts.material.poisson_ratio) << '\n';
+}
+
 } // namespace
 
 std::string report(const Options& o, const Outcome& outcome, const Stage_log& log)
@@ -131,6 +156,7 @@ std::string report(const Options& o, const Outcome& outcome, const Stage_log& lo
                          o.control_points_after.empty() ? Json() : Json(o.control_points_after)},
                         {"number", outcome.points.size()}}},
                       {"tumor", outcome.tumor ? describe(*outcome.tumor) : Json()},
+                      {"label of the tumor", o.tumor_label.empty() ? Json() : Json(o.tumor_label)},
                       {"image", outcome.image ? describe(*outcome.image, o) : Json()},
                       {"labels", o.labels.empty() ? Json() : Json(o.labels)}};
   report["parameters"] = parameters_of(o);
@@ -141,6 +167,7 @@ std::string report(const Options& o, const Outcome& outcome, const Stage_log& lo
                      {"energy", "microjoule"},
                      {"times", "ms"},
                      {"heights", "height of the mesh"}};
+  report["subdomains"] = describe_subdomains(outcome.subdomains);
   report["supports"] = {{"boundary vertices", outcome.supports.boundary_vertices},
                         {"fixed", outcome.supports.fixed},
                         {"sliding", outcome.supports.sliding}};
@@ -170,8 +197,9 @@ void print_summary(const Options& o, const Outcome& outcome, const Stage_log& lo
   };
   std::cout << outcome.mesh.vertices << " vertices, " << outcome.mesh.elements << " elements; "
             << outcome.supports.fixed << " vertices fixed, " << outcome.supports.sliding << " sliding; "
-            << counted(outcome.points.size(), "control point", "control points") << '\n'
-            << "before surgery: factor " << ms("factor") << ", control points " << ms("control points")
+            << counted(outcome.points.size(), "control point", "control points") << '\n';
+  print_subdomains(outcome.subdomains);
+  std::cout << "before surgery: factor " << ms("factor") << ", control points " << ms("control points")
             << '\n'
             << "shift: up to " << rounded(outcome.before.largest) << " mm; " << ms("solve") << '\n';
   if(outcome.resection)

@@ -50,16 +50,19 @@ bool Closed_surface::contains(const std::array<double, 3>& p) const
   return m_domain->bounded_side(Kernel::Point_3(p[0], p[1], p[2])) == CGAL::ON_BOUNDED_SIDE;
 }
 
-std::vector<bool> resect(const Mesh& mesh, const Closed_surface& tumor, Outcome& outcome)
+namespace {
+
+mm3::Resection_3 resect_subdomain(const Mesh& mesh, mm3::Subdomain_index index)
 {
-  const CGAL::Polyhedral_mixed_mesh_domain_3& domain = *tumor.m_domain;
-  const mm3::Resection_3 r = mm3::resect(mesh, domain);
-  if(r.status != mm3::Resection_status::SUCCESS)
-    throw std::runtime_error(tumor.m_path + ": " + mm3::description(r.status));
-  if(!r.floating.empty())
-    outcome.warnings.push_back(tumor.m_path + ": tissue outside comes loose, and is removed: "
-                               + counted(r.floating.size(), "piece", "pieces"));
-  Resection_facts& facts = outcome.resection.emplace();
+  std::vector<bool> is_asked;
+  for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e)
+    is_asked.push_back(mesh.subdomain_index(e) == index);
+  return mm3::resect(mesh, is_asked);
+}
+
+Resection_facts facts_of(const mm3::Resection_3& r)
+{
+  Resection_facts facts;
   facts.status = mm3::description(r.status);
   facts.removed = std::size_t(std::count(r.is_removed.begin(), r.is_removed.end(), true));
   facts.asked = r.number_of_asked_elements;
@@ -69,6 +72,29 @@ std::vector<bool> resect(const Mesh& mesh, const Closed_surface& tumor, Outcome&
   for(const mm3::Floating_piece_3& piece : r.floating)
     facts.floating_pieces.push_back({piece.elements.size(), piece.volume});
   facts.volume = r.volume;
+  return facts;
+}
+
+} // namespace
+
+std::vector<bool> resect(const Mesh& mesh, const Tumor& tumor, const Options& o, Outcome& outcome)
+{
+  const mm3::Resection_3 r = tumor.surface != nullptr ? mm3::resect(mesh, *tumor.surface->m_domain)
+                                                      : resect_subdomain(mesh, *tumor.subdomain);
+  const std::string name = tumor.surface != nullptr ? tumor.surface->m_path
+                                                    : o.mesh + ": subdomain " + o.tumor_label;
+  if(r.status != mm3::Resection_status::SUCCESS)
+    throw std::runtime_error(name + ": " + mm3::description(r.status));
+  if(!r.floating.empty())
+    outcome.warnings.push_back(name + ": tissue outside comes loose, and is removed: "
+                               + counted(r.floating.size(), "piece", "pieces"));
+  // Of a surface these are expected: no face of the mesh lies on it.
+  if(tumor.subdomain && r.number_of_restored_elements + r.number_of_pinch_elements != 0)
+    outcome.warnings.push_back(
+      name + ": what is left would touch itself at an edge or a vertex; so "
+      + counted(r.number_of_restored_elements, "element stays", "elements stay") + ", and "
+      + counted(r.number_of_pinch_elements, "other one is removed", "others are removed"));
+  outcome.resection = facts_of(r);
   return r.is_removed;
 }
 

@@ -12,10 +12,15 @@
 #include "brain_shift/outcome.h"
 #include "common/types.h"
 
+#include <CGAL/Mixed_mesh_3/Element_attributes.h>
+
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+struct Tumor;
 
 /// The inside of a closed surface.
 class Closed_surface
@@ -29,15 +34,24 @@ public:
   bool contains(const std::array<double, 3>& p) const;
 
 private:
-  friend std::vector<bool> resect(const Mesh&, const Closed_surface&, Outcome&);
+  friend std::vector<bool> resect(const Mesh&, const Tumor&, const Options&, Outcome&);
   struct Domain; // heavy to compile
   std::string m_path;
   std::unique_ptr<const Domain> m_domain;
 };
 
+/// What is resected: the inside of a surface, or a subdomain, or nothing.
+struct Tumor
+{
+  std::unique_ptr<const Closed_surface> surface; // null if it is none
+  std::optional<CGAL::Mixed_meshes_3::Subdomain_index> subdomain;
+
+  bool is_given() const { return surface != nullptr || subdomain; }
+};
+
 /// Which elements are removed with the tumor, true for each.
 /// \throw std::runtime_error if that leaves nothing to compute with
-std::vector<bool> resect(const Mesh& mesh, const Closed_surface& tumor, Outcome& outcome);
+std::vector<bool> resect(const Mesh& mesh, const Tumor& tumor, const Options& options, Outcome& outcome);
 
 /// What is left.
 struct Remaining_mesh

@@ -13,6 +13,7 @@
 #include "brain_shift/report.h"
 #include "brain_shift/resection.h"
 #include "brain_shift/simulate.h"
+#include "brain_shift/subdomains.h"
 #include "common/Deferred_signals.h"
 #include "common/Stage_log.h"
 #include "common/messages.h"
@@ -37,7 +38,7 @@ namespace {
 struct Inputs
 {
   Mesh mesh;
-  std::unique_ptr<const Closed_surface> tumor; // null if there is none
+  Tumor tumor;
   Boundary_patches patches;
   mm3::Voxel_image_3 image, labels; // empty if there is none
 };
@@ -62,6 +63,7 @@ Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
   inputs.mesh = log("read mesh", [&] { return read_mesh(o.mesh, outcome.warnings); });
   outcome.mesh = facts_of(inputs.mesh);
   outcome.volume = mm3::volume(inputs.mesh);
+  outcome.subdomains = find_subdomains(inputs.mesh, o);
   // The response of each vertex and control point to each control point: 3 x 3 numbers.
   const double n = double(outcome.points.size());
   check_memory(o.control_points + ": " + std::to_string(outcome.points.size()) + " control points",
@@ -69,10 +71,12 @@ Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
   outcome.locations = log("locate control points",
                           [&] { return locate(inputs.mesh, o, outcome.points, outcome.warnings); });
   if(!o.tumor.empty())
-    inputs.tumor = log("read tumor", [&] {
+    inputs.tumor.surface = log("read tumor", [&] {
       return std::make_unique<const Closed_surface>(o.tumor, o, inputs.mesh, outcome.tumor.emplace(),
                                                     outcome.warnings);
     });
+  if(!o.tumor_label.empty())
+    inputs.tumor.subdomain = find_subdomain(outcome.subdomains, o.tumor_label, o).index;
   inputs.patches = find_patches(inputs.mesh, o, outcome.warnings);
   if(!o.image.empty())
     inputs.image = log("read image", [&] { return read_image(o, inputs.mesh, outcome); });
@@ -128,8 +132,7 @@ void write_files(const Inputs& inputs, const std::vector<bool>& is_removed, cons
   const Deferred_signals deferred({SIGINT, SIGTERM, SIGHUP}, Deferred_signals::Second::DEFERRED);
   mm3::IO::Output_files files([] { return !Deferred_signals::has_come(); }); // appear together, at the end
   if(!o.image.empty())
-    write_images(files, inputs.image, inputs.labels, inputs.mesh, inputs.tumor.get(), is_removed, o, log,
-                 outcome);
+    write_images(files, inputs.image, inputs.labels, inputs.mesh, inputs.tumor, is_removed, o, log, outcome);
   log("write meshes", [&] {
     write_meshes(files, inputs, is_removed, o, outcome);
     write_deformed_meshes(files, remaining, inputs.patches, o, outcome);
@@ -152,8 +155,7 @@ void run(const Options& o)
   Stage_log log(!o.quiet && isatty(STDERR_FILENO));
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);
-  const std::vector<bool> is_removed = simulate(inputs.mesh, inputs.tumor.get(), inputs.patches, o, log,
-                                                outcome);
+  const std::vector<bool> is_removed = simulate(inputs.mesh, inputs.tumor, inputs.patches, o, log, outcome);
   const Remaining_mesh remaining = remaining_mesh(inputs.mesh, is_removed, outcome);
   write_files(inputs, is_removed, remaining, o, log, outcome);
   log.finish_progress();

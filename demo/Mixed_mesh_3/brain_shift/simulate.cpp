@@ -5,6 +5,7 @@
 
 #include "brain_shift/simulate.h"
 
+#include "brain_shift/subdomains.h"
 #include "common/messages.h"
 #include "common/misfit.h"
 
@@ -242,11 +243,11 @@ Locations locate(const Mesh& mesh, const Options& o, const std::vector<Control_p
   return locations;
 }
 
-std::vector<bool> simulate(const Mesh& mesh, const Closed_surface* tumor, const Boundary_patches& patches,
+std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_patches& patches,
                            const Options& o, Stage_log& log, Outcome& outcome)
 {
   const std::vector<Control_point>& points = outcome.points;
-  Elasticity elasticity(mesh, o.material);
+  Elasticity elasticity(mesh, materials_of_elements(mesh, outcome.subdomains));
   outcome.supports = set_supports(elasticity, patches, o, points);
 
   // Before surgery the mesh is factored; then each measurement is a matter of milliseconds.
@@ -260,9 +261,9 @@ std::vector<bool> simulate(const Mesh& mesh, const Closed_surface* tumor, const 
   outcome.before = log("checks", [&] {
     return shift_of(elasticity, o, std::vector<bool>(points.size(), true), "shift", outcome);
   });
-  if(tumor == nullptr)
+  if(!tumor.is_given())
     return std::vector<bool>(mesh.number_of_elements(), false);
-  const std::vector<bool> is_removed = log("resect", [&] { return resect(mesh, *tumor, outcome); });
+  const std::vector<bool> is_removed = log("resect", [&] { return resect(mesh, tumor, o, outcome); });
   remove(elasticity, is_removed, o, log, outcome);
   return is_removed;
 }

@@ -25,10 +25,9 @@ Locations locate(const Mesh& mesh, const Options& options, const std::vector<Con
                  std::vector<std::string>& warnings);
 
 /// Computes the shift, and with a tumor its resection and the shift after it.
-/// \param tumor null if there is none
 /// \param patches of the boundary
 /// \return which elements are removed, true for each
-std::vector<bool> simulate(const Mesh& mesh, const Closed_surface* tumor, const Boundary_patches& patches,
+std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_patches& patches,
                            const Options& options, Stage_log& log, Outcome& outcome);
 
 #endif // MIXED_MESH_3_DEMO_BRAIN_SHIFT_SIMULATE_H
