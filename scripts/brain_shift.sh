@@ -2,14 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # From a fresh clone to brain shift: installs what is missing, builds the
-# mesher and brain_shift, meshes data/brain.off, moves the control points of
-# data/control_points.csv, resects data/tumour.off, deforms the MRI image that
-# the brain is from, and draws the mesh and the image before and after.
+# mesher and brain_shift, meshes the brain of an MRI image with the tumor
+# data/tumour.off in it, each of its own stiffness, moves the control points of
+# data/control_points.csv, resects the tumor along its interface, deforms the
+# image, and draws the mesh and the image before and after.
 #
 #   scripts/brain_shift.sh [VERTICES]     the vertex budget, 2000 by default
 #
 # Writes to out/. BUILD_DIR overrides the build directory, build/release; IMAGE
-# the image, that of Debian's package mricron-data.
+# the image, without skull, that of Debian's package mricron-data; BRAIN the
+# image or closed surface of the brain, which is what is not 0 in IMAGE.
 
 set -euo pipefail
 
@@ -26,6 +28,7 @@ if [[ -z ${IMAGE:-} ]]; then
   purposes+=(image)
 fi
 
+BRAIN=${BRAIN:-$IMAGE}
 install_packages "${purposes[@]}"
 
 if [[ ! -f $build/build.ninja ]]; then
@@ -34,11 +37,11 @@ fi
 cmake --build "$build" --target mixed_mesh_3 brain_shift --parallel "$(build_jobs 1500)"
 
 mkdir -p "$out"
-"$build/bin/mixed_mesh_3" "$root/data/brain.off" --region "$root/data/region.off" --vertices "$vertices" \
-  --output "$out/brain.vtu"
+"$build/bin/mixed_mesh_3" "$BRAIN" --smoothing 3 --subdomain "tumor=$root/data/tumour.off" \
+  --region "$root/data/region.off" --vertices "$vertices" --output "$out/brain.vtu" --report "$out/brain.json"
 
 "$build/bin/brain_shift" "$out/brain.vtu" --control-points "$root/data/control_points.csv" \
-  --control-radius 8 --tumor "$root/data/tumour.off" --image "$IMAGE" --output "$out/brain_shift.vtu" \
+  --control-radius 8 --material 2=9,0.45 --tumor-label 2 --image "$IMAGE" --output "$out/brain_shift.vtu" \
   --output-deformed "$out/brain_deformed.vtu" --output-image "$out/brain_shift" --field nrrd \
   --report "$out/brain_shift.json"
 

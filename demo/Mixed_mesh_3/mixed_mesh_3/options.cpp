@@ -401,7 +401,8 @@ void check_options(Options& o)
 
 std::string surrounding_name(const Options& o)
 {
-  const std::string name = std::filesystem::path(o.surface).stem().string();
+  const std::string file = std::filesystem::path(o.surface).filename().string(),
+                    name = file.substr(0, file.find('.'));
   return is_name(name) ? name : "domain";
 }
 
