@@ -15,7 +15,8 @@
 namespace CGAL {
 
 /// How `make_mixed_mesh_3()` ended. In the order of precedence: if several are true, the last of them is
-/// given.
+/// given. `VOLUME_DIFFERS` and `TOPOLOGY_DIFFERS` are found by `Mixed_meshes_3::compare_with_surface()` only, which
+/// `make_mixed_mesh_3()` does not call: a domain need not have a surface with faces.
 enum class Mixed_mesh_status {
   SUCCESS,               ///< the budget is filled to at least 97 %, and the boundary is where it should be
   BUDGET_NOT_FILLED,     ///< valid, but below 97 %: each cell tried would exceed the budget
@@ -24,6 +25,8 @@ enum class Mixed_mesh_status {
   PARTS_LOST,            ///< valid, but parts of the domain thinner than a cell are not meshed
   NOT_ALL_ARRIVED, ///< valid, but some boundary vertices stay off the surface: elements would be too bad,
                    ///< or faces of the boundary would cut each other
+  VOLUME_DIFFERS,  ///< valid, but the volume of the whole, of a body or of a cavity is not that of the domain
+  TOPOLOGY_DIFFERS, ///< valid, but bodies, cavities or handles of the domain are lost, added, joined or split
   BOUNDARY_NOT_MANIFOLD, ///< the boundary is pinched where no further cell can be added
   REGION_NOT_MET,        ///< no mesh: the region does not meet the domain
   EMPTY,                 ///< no mesh: no octree vertex is inside the domain, which is too thin for the budget
@@ -57,6 +60,8 @@ inline const char* description(Mixed_mesh_status status)
   case Mixed_mesh_status::TOLERANCE_NOT_REACHED: return "tolerance not reached";
   case Mixed_mesh_status::PARTS_LOST: return "parts lost";
   case Mixed_mesh_status::NOT_ALL_ARRIVED: return "not all arrived";
+  case Mixed_mesh_status::VOLUME_DIFFERS: return "volume differs";
+  case Mixed_mesh_status::TOPOLOGY_DIFFERS: return "topology differs";
   case Mixed_mesh_status::BOUNDARY_NOT_MANIFOLD: return "boundary not manifold";
   case Mixed_mesh_status::REGION_NOT_MET: return "region not met";
   case Mixed_mesh_status::EMPTY: return "empty";

@@ -442,6 +442,40 @@ class CommandLine(unittest.TestCase):
         quiet = self.mesher(DATA / "brain.off", "--vertices", 660, "--quiet")
         self.assertEqual((quiet.returncode, quiet.stdout, quiet.stderr), (0, "", ""))
 
+    def test_topology(self):
+        """Two cubes with a gap: a coarse mesh joins them, and a fine one does not."""
+        cubes = self.file("gap.off", off(CUBE + moved(CUBE, 1, (1.1, 0, 0)), TRIANGLES + shifted(TRIANGLES, 8)))
+        report = WORK / "report.json"
+        for vertices, level, bodies in (300, 3, 1), (20000, 6, 2):
+            run = self.mesher(cubes, "--vertices", vertices, "--base-level", level, "--output", self.output,
+                              "--report", report)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            told = json.loads(report.read_text())
+            topology = told["topology"]
+            self.assertEqual(topology["surface"], {"bodies": 2, "handles": 0, "cavities": 0, "volume": 2})
+            self.assertEqual(topology["mesh"]["bodies"], bodies)
+            self.assertEqual(topology["same topology"], bodies == 2)
+            words = r"warning: .*gap.off: 2 bodies are joined near \(1\.05, "
+            if bodies == 1:
+                self.assertEqual(told["status"], "topology differs")
+                self.assertRegex(run.stderr, words)
+                self.assertRegex(topology["differences"][0]["text"], "^2 bodies are joined near ")
+                self.assertAlmostEqual(topology["differences"][0]["at"][0], 1.05)
+            else:
+                self.assertNotEqual(told["status"], "topology differs")
+                self.assertNotRegex(run.stderr, "joined")
+
+    def test_volume(self):
+        """Success and a volume beyond 5 % exclude each other, and an absurd volume is refused."""
+        told, run = self.brain(vertices=150)
+        ratio = told["surface"]["ratio of volumes"]
+        self.assertFalse(0.95 <= ratio <= 1.05)
+        self.assertEqual(told["status"], "volume differs")
+        self.assertRegex(run.stderr, r"a body near \(.*\) has .* % (less|more) volume")
+        told, run = self.brain()
+        self.assertTrue(0.95 <= told["surface"]["ratio of volumes"] <= 1.05)
+        self.assertEqual((told["status"], told["topology"]["differences"]), ("success", []))
+
     def test_quality_bound(self):
         # thin plates: some vertices would need bad elements to get onto them
         points = [(x, y, 0.3 * i + 0.05 * z) for i in range(4) for x, y, z in CUBE]

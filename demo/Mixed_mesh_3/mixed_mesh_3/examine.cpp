@@ -8,9 +8,12 @@
 #include "mixed_mesh_3/verdict.h"
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/fidelity.h>
 #include <CGAL/Mixed_mesh_3/quality_bound.h>
 #include <CGAL/Mixed_mesh_3/surface_distance.h>
 #include <CGAL/Mixed_mesh_3/validation.h>
+
+#include <algorithm>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 
@@ -44,6 +47,28 @@ Fidelity fidelity_of(const Mesh& mesh, const Surface& surface, double volume_of_
   return f;
 }
 
+Solid solid_of(const mm3::Solid_topology& t)
+{
+  return {t.number_of_bodies, t.number_of_handles, t.number_of_cavities, t.volume};
+}
+
+// Needs a boundary that is a closed manifold. Before it is fitted, the cells around it add some volume.
+Topology topology_of(const Mesh& mesh, const Surface& surface, bool is_fitted,
+                     CGAL::Mixed_mesh_status& status)
+{
+  mm3::Solid_comparison c = mm3::compare_with_surface(mesh, surface, volume_tolerance);
+  auto& d = c.differences;
+  if(!is_fitted)
+    d.erase(std::remove_if(d.begin(), d.end(),
+                           [](const auto& x) { return x.kind == mm3::Solid_difference_kind::VOLUME; }),
+            d.end());
+  status = CGAL::worse(status, mm3::status_of(c));
+  Topology t{solid_of(c.surface), solid_of(c.mesh), {}, c.has_same_topology()};
+  for(const mm3::Solid_difference& x : d)
+    t.differences.push_back({x.sentence, {x.point.x(), x.point.y(), x.point.z()}});
+  return t;
+}
+
 std::vector<Check> checks_of(const mm3::Mesh_defects& d, const Fidelity& fidelity)
 {
   return {{"conforming", d.conforming()},
@@ -72,6 +97,10 @@ void examine(const Mesh& mesh, const Surface& surface, const Options& options, S
                            [&] { return fidelity_of(mesh, surface, outcome.surface.volume); });
   outcome.checks = checks_of(defects, outcome.fidelity);
   require_all(outcome.checks, defects.none() ? outcome.fidelity.self_intersections : 0);
+  require_volume(options, outcome);
+  outcome.topology = log("topology", [&] {
+    return topology_of(mesh, surface, options.fit() != Fit::NONE, outcome.result.status);
+  });
 
   outcome.mesh = facts_of(mesh);
   outcome.boundary_faces = mm3::boundary_faces(mesh).size();

@@ -66,6 +66,30 @@ struct Fidelity
   double ratio_of_volumes() const { return volume_of_mesh / volume_of_surface; }
 };
 
+// What a solid is made of.
+struct Solid
+{
+  std::size_t bodies = 0, handles = 0, cavities = 0;
+  double volume = 0;
+};
+
+// Between the solids, at a place.
+struct Difference
+{
+  std::string sentence;
+  std::array<double, 3> at;
+};
+
+// The solid of the surface beside that of the mesh.
+struct Topology
+{
+  Solid surface, mesh;
+  std::vector<Difference> differences;
+  bool is_same = true;
+};
+
+// Beyond that, the volume of a body is not what it should be.
+constexpr double volume_tolerance = 0.05;
 constexpr double on_surface = 1e-9; // of the diagonal of the surface's box
 
 /// A property of a valid mesh, in words.
@@ -112,6 +136,7 @@ struct Outcome
   std::size_t elements_above_bound = 0; // of the options, proved
   Shapes shapes;
   Fidelity fidelity;
+  Topology topology;
   std::vector<Check> checks;
   std::vector<std::string> warnings;
   double seconds = 0;

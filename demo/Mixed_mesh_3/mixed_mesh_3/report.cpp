@@ -147,6 +147,23 @@ Json describe(const Fidelity& f)
           {"boundary self-intersections", f.self_intersections}};
 }
 
+Json describe(const Solid& s)
+{
+  return {{"bodies", s.bodies}, {"handles", s.handles}, {"cavities", s.cavities}, {"volume", s.volume}};
+}
+
+Json describe(const Topology& t)
+{
+  Json differences = Json::array();
+  for(const Difference& d : t.differences)
+    differences.push_back({{"text", d.sentence}, {"at", d.at}});
+  return {{"surface", describe(t.surface)},
+          {"mesh", describe(t.mesh)},
+          {"same topology", t.is_same},
+          {"volumes may differ by, relatively", volume_tolerance},
+          {"differences", differences}};
+}
+
 Json describe(const CGAL::Mixed_mesh_optimization_result_3& r)
 {
   return {{"method", fit_names[int(Fit::OPTIMIZATION)]},
@@ -278,6 +295,7 @@ std::string report(const Options& o, const Outcome& outcome, const Stage_log& lo
   describe_method(o, outcome, report);
   report["surface"] = describe(outcome.fidelity);
   describe_subdomains(outcome, report);
+  report["topology"] = describe(outcome.topology);
   report["quality"] = describe_quality(o, outcome);
   for(const Check& check : outcome.checks)
     report["checks"][check.name] = check.holds;

@@ -7,6 +7,8 @@
 
 #include "common/messages.h"
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string>
 
@@ -30,6 +32,26 @@ std::string missed_tolerance(const Fidelity& f, const Options& o)
   const std::string at = " at " + place(d.from) + " is " + rounded(d.distance) + " away from ";
   return "--tolerance " + rounded(o.tolerance) + ": not reached, "
          + (is_on_mesh ? "the mesh" + at + o.surface : o.surface + at + "the mesh") + "; try more vertices";
+}
+
+std::string times_volume(double ratio, const Options& o)
+{
+  return o.surface + ": the mesh has " + rounded(ratio)
+         + " times the surface's volume: it is "
+           "too coarse for the domain; try more vertices or a larger --base-level"
+         + (o.fit() == Fit::OPTIMIZATION && o.tolerance == 0 ? ", or --tolerance" : "");
+}
+
+// The largest ones: a surface may have thousands of specks.
+void add_differences(const Topology& topology, const Options& o, std::vector<std::string>& warnings)
+{
+  constexpr std::size_t most = 8;
+  const std::size_t n = topology.differences.size(), shown = (std::min)(n, most);
+  for(std::size_t i = 0; i < shown; ++i)
+    warnings.push_back(o.surface + ": " + topology.differences[i].sentence);
+  if(n > shown)
+    warnings.push_back(o.surface + ": " + counted(n - shown, "difference", "differences")
+                       + " more in topology or volume, see the report");
 }
 
 } // namespace
@@ -62,6 +84,8 @@ void refuse(const CGAL::Mixed_mesh_result_3& result, const Options& o)
   case Status::BUDGET_NOT_FILLED:
   case Status::TOLERANCE_NOT_REACHED:
   case Status::NOT_ALL_ARRIVED:
+  case Status::VOLUME_DIFFERS:
+  case Status::TOPOLOGY_DIFFERS:
   case Status::PARTS_LOST:
   case Status::SUCCESS: break;
   }
@@ -77,6 +101,13 @@ void require_all(const std::vector<Check>& checks, std::size_t self_intersection
                                   + " pairs of faces; "
                                     "try more vertices, a larger --base-level, or --no-fit"
                               : ""));
+}
+
+void require_volume(const Options& o, const Outcome& outcome)
+{
+  const double ratio = outcome.fidelity.ratio_of_volumes();
+  if(o.fit() != Fit::NONE && !outcome.is_stopped && !(0.5 <= ratio && ratio <= 1.5))
+    throw std::runtime_error(times_volume(ratio, o));
 }
 
 void add_warnings(const Options& o, Outcome& outcome)
@@ -104,9 +135,7 @@ void add_warnings(const Options& o, Outcome& outcome)
   // Before the boundary is fitted, the cells around it add some volume; corners cut off take some.
   const bool is_fitted = o.fit() != Fit::NONE;
   const double ratio = f.ratio_of_volumes();
-  if(ratio < 0.9 || ratio > (is_fitted ? 1.1 : 4))
-    warnings.push_back(o.surface + ": the mesh has " + rounded(ratio)
-                       + " times the surface's volume: it is "
-                         "too coarse for the domain; try more vertices or a larger --base-level"
-                       + (o.fit() == Fit::OPTIMIZATION && o.tolerance == 0 ? ", or --tolerance" : ""));
+  if(is_fitted ? std::abs(ratio - 1) > volume_tolerance : ratio < 0.9 || ratio > 4)
+    warnings.push_back(times_volume(ratio, o));
+  add_differences(outcome.topology, o, warnings);
 }

@@ -28,6 +28,9 @@ void refuse(const CGAL::Mixed_mesh_result_3& result, const Options& options);
 /// \throw Invalid_mesh if a check does not hold
 void require_all(const std::vector<Check>& checks, std::size_t self_intersections);
 
+/// Throws if a mesh that is fitted is no image of the surface: with less than half its volume, or half more.
+void require_volume(const Options& options, const Outcome& outcome);
+
 /// Adds what the user should know of a mesh that is valid.
 void add_warnings(const Options& options, Outcome& outcome);
 
