@@ -15,8 +15,8 @@
 namespace CGAL {
 
 /// How `make_mixed_mesh_3()` ended. In the order of precedence: if several are true, the last of them is
-/// given. `VOLUME_DIFFERS` and `TOPOLOGY_DIFFERS` are found by `Mixed_meshes_3::compare_with_surface()` only, which
-/// `make_mixed_mesh_3()` does not call: a domain need not have a surface with faces.
+/// given. `VOLUME_DIFFERS` and `TOPOLOGY_DIFFERS` are found by `Mixed_meshes_3::compare_with_surface()` only,
+/// which `make_mixed_mesh_3()` does not call: a domain need not have a surface with faces.
 enum class Mixed_mesh_status {
   SUCCESS,               ///< the budget is filled to at least 97 %, and the boundary is where it should be
   BUDGET_NOT_FILLED,     ///< valid, but below 97 %: each cell tried would exceed the budget

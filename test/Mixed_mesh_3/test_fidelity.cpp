@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Meshes beside the solids they stand for: solids of voxels, whose topology is counted by flooding, and meshes of
-// round ones. Each difference is told for a mesh that has it, and none for one that has not.
+// Meshes beside the solids they stand for: solids of voxels, whose topology is counted by flooding, and
+// meshes of round ones. Each difference is told for a mesh that has it, and none for one that has not.
 
 #include "test_meshing.h"
 #include "test_surfaces.h"
@@ -176,7 +176,8 @@ struct Expected
   std::array<double, 3> lower, upper; // of the box that the point is in
 };
 
-// What a mesh of `wrong` is told to be, beside the surface of `right`; and that right ones have no difference.
+// What a mesh of `wrong` is told to be, beside the surface of `right`; and that right ones have no
+// difference.
 void compare(const Solid& right, const Solid& wrong, const std::vector<Expected>& expected)
 {
   const Surface surface = surface_of(right);
@@ -297,8 +298,8 @@ void test_volume()
   BOOST_TEST(compare_with_surface(thinner, surface_of(block_10), 0.08).differences.empty());
 }
 
-// What no voxel is: round, turned, far from the origin, with faces oriented inwards; and a surface with corners of
-// two shells in a common point.
+// What no voxel is: round, turned, far from the origin, with faces oriented inwards; and a surface with
+// corners of two shells in a common point.
 void test_placements()
 {
   const auto moved = [](const Point_3& p) {

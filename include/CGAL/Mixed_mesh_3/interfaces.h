@@ -132,7 +132,8 @@ std::vector<Subdomain_interface> find_interfaces(const Mesh& mesh)
 }
 
 /*!
-How many vertices of an interface are farther from its surface than a share of the diagonal of the domain's box.
+How many vertices of an interface are farther from its surface than a share of the diagonal of the domain's
+box.
 
 \tparam Domain a model of `MixedMeshLabeledDomain_3`
 */

@@ -48,8 +48,8 @@ struct Interface_faces
 /*!
 The strata of the boundary of a mesh, and, if its domain is labeled, of the interfaces between subdomains.
 
-Where subdomains \f$ a_1, \dots, a_n \f$ meet, in the order of the domain and the outside last, the interface of
-any two is on the surface of the first of them: it is enough to be on those of \f$ a_i \f$ and
+Where subdomains \f$ a_1, \dots, a_n \f$ meet, in the order of the domain and the outside last, the interface
+of any two is on the surface of the first of them: it is enough to be on those of \f$ a_i \f$ and
 \f$ a_{i+1} \f$ for all i.
 */
 class Strata
@@ -71,8 +71,8 @@ public:
   /// Whether a face is on the boundary of the domain.
   bool is_on_boundary(Stratum of_face) const { return m_interfaces[of_face].back().second == 0; }
 
-  /// The faces on the boundary and on interfaces, among those all of whose vertices are candidates; not in the
-  /// order of the elements.
+  /// The faces on the boundary and on interfaces, among those all of whose vertices are candidates; not in
+  /// the order of the elements.
   template <class Is_candidate>
   Interface_faces faces(const Element_list& elements, const std::vector<Element_attributes>& attributes,
                         std::size_t number_of_vertices, const Is_candidate& is_candidate)

@@ -85,9 +85,10 @@ private:
     return to_vec3(m_domain->closest_point(point(p), i.first, i.second));
   }
 
-  // Alternating projections. Between two planes each cycle is shorter than the one before by the square of the
-  // cosine of their angle, so that one cycle tells where they lead. Where surfaces do not meet nearby, the mean
-  // of the closest points on each.
+  // Alternating projections. Between two planes each cycle is shorter than the one before by the square of
+  // the
+  // cosine of their angle, so that one cycle tells where they lead. Where surfaces do not meet nearby, the
+  // mean of the closest points on each.
   Vec3 junction(const Vec3& start, const std::vector<Interface>& interfaces) const
   {
     Vec3 p = closest(start, interfaces[0]);

@@ -28,9 +28,10 @@ struct Surface_sample
 };
 
 /*!
-One tolerance for the surface around all; those of subdomains within are smaller, as a tumor or a ventricle may
-be no larger than what a brain may lack at its furrows. The volume that a convex body with n vertices loses is in
-proportion to its area times \\f$ n^{-2/3} \\f$, and area by volume is four by the mean chord (Cauchy): the
+One tolerance for the surface around all; those of subdomains within are smaller, as a tumor or a ventricle
+may
+be no larger than what a brain may lack at its furrows. The volume that a convex body with n vertices loses is
+in proportion to its area times \\f$ n^{-2/3} \\f$, and area by volume is four by the mean chord (Cauchy): the
 tolerance is a multiple of the mean chord times \\f$ n^{-2/3} \\f$.
 */
 class Surface_tolerances
@@ -72,8 +73,8 @@ public:
   /// How much more a distance counts than at the surface around all.
   double weight(Subdomain_index first) const { return m_tolerance > 0 ? m_tolerance / (*this)(first) : 1; }
 
-  /// \param least_spacing `double(Subdomain_index)`: closer samples would not serve; else, they are at a distance
-  ///        of twice the tolerance, as closer ones are rarely farther off
+  /// \param least_spacing `double(Subdomain_index)`: closer samples would not serve; else, they are at a
+  ///        distance of twice the tolerance, as closer ones are rarely farther off
   template <class Domain, class Spacing>
   std::vector<Surface_sample> samples(const Domain& domain, const Spacing& least_spacing) const
   {

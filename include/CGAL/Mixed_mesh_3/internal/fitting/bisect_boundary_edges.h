@@ -61,8 +61,8 @@ bool bisect_edge(Working_mesh& mesh, const Quality& quality, Vertex_index a, Ver
 Bisects edges of a triangulated boundary, those with the largest gain first, and puts their middles on the
 surface.
 
-\tparam Gain `double(a, b, apexes, stratum)`: what bisecting the edge ab gains, between triangles of the stratum
-        with these apexes; 0: nothing
+\tparam Gain `double(a, b, apexes, stratum)`: what bisecting the edge ab gains, between triangles of the
+       stratum with these apexes; 0: nothing
 \tparam Project as `Surface_projection`
 */
 template <class Quality, class Project, class Gain>

@@ -181,7 +181,8 @@ private:
     Estimate estimate{attraction.far_points(), {}, 0};
     const std::vector<Vertex_index> crossing = vertices_of_self_intersections(projected.points,
                                                                               boundary.faces);
-    if(m_has_subdomains) // interfaces fold where a part is small, at first; that splits lead to more says nothing
+    // interfaces fold where a part is small, at first: that splits lead to more of that says nothing
+    if(m_has_subdomains)
       return estimate;
     estimate.number_of_defects = targets.number_of_folded_faces + crossing.size();
     for(const std::vector<Vertex_index>& vertices : {targets.folded_vertices, crossing})
@@ -222,8 +223,8 @@ private:
     return false;
   }
 
-  // The tolerances of small subdomains are so small that all of their surface may be far: how far is too far is
-  // searched for, by bisection.
+  // The tolerances of small subdomains are so small that all of their surface may be far: how far is too far
+  // is searched for, by bisection.
   template <class Try>
   bool split_subdomains(const Estimate& estimate, const Try& try_beyond)
   {

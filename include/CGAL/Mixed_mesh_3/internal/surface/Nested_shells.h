@@ -180,8 +180,8 @@ private:
   static Vec3 normal_of(const Triangle& t) { return cross(t[1] - t[0], t[2] - t[0]); }
   static double area_of(const Triangle& t) { return norm(normal_of(t)) / 2; }
 
-  // Point i of a sequence that fills a triangle evenly: multiples of the two numbers that generalize the golden
-  // ratio to the plane, folded from the square.
+  // Point i of a sequence that fills a triangle evenly: multiples of the two numbers that generalize the
+  // golden ratio to the plane, folded from the square.
   static Vec3 point_of(const Triangle& t, int i)
   {
     const auto fraction = [](double x) { return x - std::floor(x); };

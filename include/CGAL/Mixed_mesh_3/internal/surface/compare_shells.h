@@ -21,8 +21,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Where a region of one solid is in another one, by its sample points, which weigh as much as their chords are
-/// long.
+/// Where a region of one solid is in another one, by its sample points, which weigh as much as their chords
+/// are long.
 struct Region_location
 {
   std::size_t same = Nested_shells::outside; ///< the region of the same kind that most of it is in
