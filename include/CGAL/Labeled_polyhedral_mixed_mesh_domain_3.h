@@ -137,6 +137,7 @@ public:
   }
 
   /// The subdomain of a point inside the domain. A point on an interface belongs to the later subdomain.
+  /// \param p a point
   /// \param part as for `bounded_side()`, or as `locate()` filled it for a cell in the interior
   Subdomain_index subdomain_index(const Point_3& p, const Surface_part& part) const
   {
