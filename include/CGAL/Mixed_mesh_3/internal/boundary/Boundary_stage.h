@@ -69,10 +69,10 @@ class Boundary_stage : private Boundary_pieces
 
 public:
   Boundary_stage(const Octree_& located, Lattice_mesh& mesh, Boundary_mode mode, unsigned threads)
-    : m_located(located), m_mesh(mesh), m_mode(mode), m_threads(threads),
-      m_number_of_subdomains(subdomain_indices(located.domain()).size())
+    : m_located(located), m_mesh(mesh),
+      m_mode(subdomain_indices(located.domain()).size() > 1 ? Boundary_mode::VERTEX_ORDER : mode),
+      m_threads(threads), m_number_of_subdomains(subdomain_indices(located.domain()).size())
   {
-    CGAL_precondition(mode == Boundary_mode::VERTEX_ORDER || m_number_of_subdomains == 1);
     m_distances.assign(mesh.vertices.size(), -1);
     const std::size_t first_inserted = mesh.vertices.size();
     do {
@@ -335,7 +335,7 @@ So it is for each subdomain of a labeled domain, as if what comes after it were 
 the first subdomain that one of its vertices is inside of.
 
 \param mesh the labels of pinched vertices change; in the paper's mode vertices are added
-\param mode the paper's knows one subdomain only
+\param mode the paper's knows one subdomain only: several are split by the vertex order
 \cost O(n + m log m) for n elements, m of them at the surface, plus m closest-point queries
 */
 template <class Octree_>
