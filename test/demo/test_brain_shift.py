@@ -857,9 +857,11 @@ class BrainShift(unittest.TestCase):
         self.fails_with(POINTS, "--fixed-below", 1, words="contradicts")
 
     def test_points_in_another_space_or_unit(self):
+        """At the back of the brain, which is longer there: negated, they are outside."""
+        back = "20,-85,0,0,0,1"
         for factors, words in (((-1, -1, 1), "x and y negated"), ((1e-3,) * 3, "1,000 times smaller")):
             rows = [",".join([repr(f * float(x)) for f, x in zip(factors, row.split(","))] + row.split(",")[3:])
-                    for row in ROWS]
+                    for row in ([back] if words.startswith("x") else ROWS)]
             path = self.file("elsewhere.csv", HEADER + "\n".join(rows) + "\n")
             run = self.shift(self.mesh, "--control-points", path, "--report", WORK / "report.json")
             self.assertIn(words, run.stderr)
@@ -883,16 +885,16 @@ class BrainShift(unittest.TestCase):
                 self.fails(self.mesh, "--control-points", self.points, "--tumor", path, names=path, words=words)
         self.fails(self.mesh, "--control-points", self.points, "--tumor", WORK / "none.off", names="none.off",
                    words="No such file")
-        with open(self.tumor) as file:  # in LPS, and in m
+        turned = self.file("turned.off", cube_off((-20, 85, 0), 18))  # at the back of the brain, in LPS
+        self.fails(self.mesh, "--control-points", self.points, "--tumor", turned, names=turned, words="x and y negated")
+        self.assertEqual(self.shift(self.mesh, "--control-points", self.points, "--tumor", turned, "--space",
+                                    "LPS").returncode, 0)
+        with open(self.tumor) as file:
             lines = file.read().split("\n")
         n = int(lines[1].split()[0])
-        for name, factors, words in (("turned.off", (-1, -1, 1), "x and y negated"),
-                                     ("meters.off", (1e-3, 1e-3, 1e-3), "")):
-            points = [" ".join(repr(f * float(x)) for f, x in zip(factors, line.split())) for line in lines[2:2 + n]]
-            path = self.file(name, "\n".join(lines[:2] + points + lines[2 + n:]))
-            self.fails(self.mesh, "--control-points", self.points, "--tumor", path, names=path, words=words)
-        self.assertEqual(self.shift(self.mesh, "--control-points", self.points, "--tumor", WORK / "turned.off",
-                                    "--space", "LPS").returncode, 0)
+        points = [" ".join(repr(1e-3 * float(x)) for x in line.split()) for line in lines[2:2 + n]]
+        meters = self.file("meters.off", "\n".join(lines[:2] + points + lines[2 + n:]))
+        self.fails(self.mesh, "--control-points", self.points, "--tumor", meters, names=meters)
         # what is above the plane goes, with all that control points hold
         self.fails(self.mesh, "--control-points", self.points, "--fixed-below", 0, "--tumor",
                    self.file("above.off", cube_off((0, 0, 500 + 45), 1000)), names=self.mesh, words="free")
