@@ -444,9 +444,9 @@ class CommandLine(unittest.TestCase):
 
     def test_topology(self):
         """Two cubes with a gap: a coarse mesh joins them, and a fine one does not."""
-        cubes = self.file("gap.off", off(CUBE + moved(CUBE, 1, (1.1, 0, 0)), TRIANGLES + shifted(TRIANGLES, 8)))
+        cubes = self.file("gap.off", off(CUBE + moved(CUBE, 1, (1.3, 0, 0)), TRIANGLES + shifted(TRIANGLES, 8)))
         report = WORK / "report.json"
-        for vertices, level, bodies in (300, 3, 1), (12000, 5, 2):
+        for vertices, level, bodies in (300, 3, 1), (2500, 4, 2):
             run = self.mesher(cubes, "--vertices", vertices, "--base-level", level, "--output", self.output,
                               "--report", report)
             self.assertEqual(run.returncode, 0, run.stderr)
@@ -456,15 +456,15 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(topology["surface"], {"bodies": 2, "handles": 0, "cavities": 0})
             self.assertEqual(topology["mesh"]["bodies"], bodies)
             self.assertEqual(topology["same topology"], bodies == 2)
-            words = r"warning: .*gap.off: 2 bodies are joined near \(1\.05, "
+            words = r"warning: .*gap.off: 2 bodies are joined near \(1\.15, "
             if bodies == 1:
                 self.assertEqual(told["status"], "topology differs")
                 self.assertRegex(run.stderr, words)
                 self.assertRegex(topology["differences"][0]["text"], "^2 bodies are joined near ")
-                self.assertAlmostEqual(topology["differences"][0]["at"][0], 1.05)
+                self.assertAlmostEqual(topology["differences"][0]["at"][0], 1.15)
             else:
-                self.assertNotEqual(told["status"], "topology differs")
-                self.assertNotRegex(run.stderr, "joined")
+                self.assertEqual(told["status"], "success")
+                self.assertNotIn("joined", run.stderr)
 
     def test_volume(self):
         """Success and a volume beyond 5 % exclude each other, and an absurd volume is refused."""
