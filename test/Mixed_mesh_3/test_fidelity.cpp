@@ -332,7 +332,7 @@ void test_placements()
 void test_balls()
 {
   Surface balls = sphere({0, 0, 0}, 1, 16);
-  add_sphere(balls, {2.2, 0, 0}, 1, 16);
+  add_sphere(balls, {2.35, 0, 0}, 1, 16);
   const Polyhedral_mixed_mesh_domain_3 domain(balls);
   for(int level : {3, 5}) {
     Mesh mesh;
@@ -345,7 +345,7 @@ void test_balls()
     if(level == 3) {
       BOOST_TEST_EQ(c.mesh.number_of_bodies, 1u);
       BOOST_TEST(!c.differences.empty() && c.differences[0].kind == Kind::BODIES_JOINED);
-      BOOST_TEST(std::abs(c.differences[0].point.x() - 1.1) < 0.1);
+      BOOST_TEST(std::abs(c.differences[0].point.x() - 1.175) < 0.1);
     } else {
       BOOST_TEST_EQ(c.mesh.number_of_bodies, 2u);
       BOOST_TEST(c.has_same_topology());
