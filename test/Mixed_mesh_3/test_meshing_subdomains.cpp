@@ -184,8 +184,8 @@ void test_nested()
   BOOST_TEST_EQ(volumes.size(), 4u);
   for(const auto& [index, v] : std::map<Subdomain_index, double>{
         {4, inner}, {1, outer - inner}, {2, other}, {3, whole - outer - other}}) {
-    BOOST_TEST_GT(volumes.at(index), 0.9 * v);
-    BOOST_TEST_LT(volumes.at(index), 1.1 * v);
+    BOOST_TEST_GT(volumes.at(index), 0.85 * v);
+    BOOST_TEST_LT(volumes.at(index), 1.15 * v);
   }
   const std::vector<Subdomain_interface> interfaces = find_interfaces(mesh);
   BOOST_TEST_EQ(interfaces.size(), 4u);
@@ -193,7 +193,7 @@ void test_nested()
     BOOST_TEST(one.is_manifold());
     const std::size_t all = vertices_of(one.faces).size(),
                       off = number_of_vertices_off_interface(mesh, one, domain);
-    BOOST_TEST_LE(double(off), one.second == 0 ? 0 : 0.1 * double(all)); // held back from both sides
+    BOOST_TEST_LE(double(off), one.second == 0 ? 0 : 0.2 * double(all)); // held back from both sides
   }
 
   // the same bytes from several threads
