@@ -214,9 +214,9 @@ class CommandLine(unittest.TestCase):
         """What is in names reaches the terminal in one line, without control characters; system errors are ours."""
         odd = WORK / "a\nb\x1b[31m\u009b31m\u00e9.off"
         shown = "a\\x0ab\\x1b[31m\\x9b31m\u00e9.off"
-        by_library = "a?b?[31m\\x9b31m\u00e9.off"
-        self.fails(odd, "--vertices", 100, names=by_library, words="No such file")
-        self.fails(self.good, "--vertices", 100, "--output", odd, names=by_library, words="unknown extension")
+        by_reader = "a?b?[31m\\x9b31m\u00e9.off"
+        self.fails(odd, "--vertices", 100, names=by_reader, words="No such file")
+        self.fails(self.good, "--vertices", 100, "--output", odd, names=shown, words="unknown extension")
         self.fails(self.good, "--vertices", 100, "--" + odd.name, names=shown, status=2)
         report = WORK / (odd.name + ".json")
         run = self.mesher(self.good, "--vertices", 100, "--report", report)
