@@ -13,6 +13,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/assemble_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_attraction.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
@@ -179,11 +180,11 @@ private:
     });
     attraction.measure();
     Estimate estimate{attraction.far_points(), {}, 0};
-    const std::vector<Vertex_index> crossing = vertices_of_self_intersections(projected.points,
-                                                                              boundary.faces);
     // interfaces fold where a part is small, at first: that splits lead to more of that says nothing
     if(m_has_subdomains)
       return estimate;
+    const std::vector<Vertex_index> crossing = vertices_of_self_intersections(projected.points,
+                                                                              boundary.faces);
     estimate.number_of_defects = targets.number_of_folded_faces + crossing.size();
     for(const std::vector<Vertex_index>& vertices : {targets.folded_vertices, crossing})
       for(Vertex_index v : vertices)

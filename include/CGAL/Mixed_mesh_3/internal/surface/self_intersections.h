@@ -57,7 +57,8 @@ inline bool is_crossing(const std::array<Vertex_index, 3>& s, const std::array<V
 }
 
 /// The vertices of faces that meet in more than the vertices and edges they share, ascending. Exact.
-/// \param faces triangles, and quadrilaterals as two of them
+/// \param faces triangles, and quadrilaterals as two of them; those without area, which no valid element has, are
+///        passed over
 /// \cost O(n log n) for n faces, if few meet
 inline std::vector<Vertex_index> vertices_of_self_intersections(const std::vector<Vec3>& positions,
                                                                 const std::vector<Face>& faces)
@@ -73,6 +74,10 @@ inline std::vector<Vertex_index> vertices_of_self_intersections(const std::vecto
     for(int i = 2; i < face.vertices().size(); ++i) {
       triangles.push_back({face.vertices()[0], face.vertices()[i - 1], face.vertices()[i]});
       const auto& t = triangles.back();
+      if(CGAL::collinear(points[t[0]], points[t[1]], points[t[2]])) {
+        triangles.pop_back();
+        continue;
+      }
       boxes.emplace_back(points[t[0]].bbox() + points[t[1]].bbox() + points[t[2]].bbox(), boxes.size());
     }
   std::vector<Vertex_index> vertices;
