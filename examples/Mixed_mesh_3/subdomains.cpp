@@ -44,7 +44,7 @@ try {
   // The tumor is the region of interest, too: elements are small there.
   Mesh mesh;
   const CGAL::Mixed_mesh_result_3 result = CGAL::make_mixed_mesh_3(
-    domain, CGAL::Polyhedral_mixed_mesh_region_3(tumor), argc > 3 ? std::stoul(argv[3]) : 2000, mesh);
+    domain, CGAL::Polyhedral_mixed_mesh_region_3(tumor), argc > 3 ? std::stoul(argv[3]) : 1000, mesh);
   if(!result.has_mesh()) {
     std::cerr << description(result.status) << '\n';
     return EXIT_FAILURE;
