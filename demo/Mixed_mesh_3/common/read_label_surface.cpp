@@ -65,7 +65,7 @@ Surface Label_image::surface_of(const Voxel_selection& selection, const Label_su
   if(surface.is_empty())
     throw std::runtime_error(
       m_path + ": "
-      + (std::any_of(image.values.begin(), image.values.end(), selection)
+      + (number_of_voxels(selection) > 0
            ? "nothing is left of the voxels " + selection.text + " after smoothing, see --smoothing"
            : "there are no voxels " + selection.text));
   const std::size_t vertices = surface.number_of_vertices(), triangles = surface.number_of_faces();

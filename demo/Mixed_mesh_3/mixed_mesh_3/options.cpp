@@ -110,16 +110,16 @@ Region_option region_of_labels(const std::string& text)
           labels_option(option, text.substr(0, colon))};
 }
 
-// An option that can be given several times.
-CLI::Option* add_regions(CLI::App& app, Options& o, const char* name, const char* what,
-                         Region_option (*region)(const std::string&))
+// An option that can be given several times; `add` takes one of its texts.
+CLI::Option* add_several(CLI::App& app, const char* name, const char* what,
+                         const std::function<void(const std::string&)>& add)
 {
   return app
     .add_option_function<std::vector<std::string>>(
       name,
-      [&o, region](const std::vector<std::string>& texts) {
+      [add](const std::vector<std::string>& texts) {
         for(const std::string& text : texts)
-          o.regions.push_back(region(text));
+          add(text);
       },
       what)
     ->allow_extra_args(false);
@@ -145,11 +145,11 @@ void add_labels(CLI::App& app, Options& o)
     ->type_name("T")
     ->excludes(labels)
     ->group(group);
-  add_regions(
-    app, o, "--region-labels",
+  add_several(
+    app, "--region-labels",
     "Labels of a region of interest in the image SURFACE, with a weight as that of --region; can be given "
     "several times",
-    region_of_labels)
+    [&o](const std::string& text) { o.regions.push_back(region_of_labels(text)); })
     ->type_name("LIST[:W]")
     ->group(group);
   app
@@ -171,31 +171,19 @@ void add_files(CLI::App& app, Options& o)
                 "or an image of labels: .nii, .nii.gz")
     ->required();
   add_space(app, o.surface_options);
-  add_regions(
-    app, o, "--region",
+  add_several(
+    app, "--region",
     "Closed surface of a region of interest, in the same coordinates; an error counts W times as much "
     "there as in a region without weight. Can be given several times (default: refine everywhere)",
-    region_option)
+    [&o](const std::string& text) { o.regions.push_back(region_option(text)); })
     ->type_name("FILE[:W]");
-  const auto add_several = [&app](const char* name, const char* what,
-                                  const std::function<void(const std::string&)>& add) {
-    return app
-      .add_option_function<std::vector<std::string>>(
-        name,
-        [add](const std::vector<std::string>& texts) {
-          for(const std::string& text : texts)
-            add(text);
-        },
-        what)
-      ->allow_extra_args(false);
-  };
-  add_several("--subdomain",
+  add_several(app, "--subdomain",
               "Closed surface of a part of the domain, such as a tumor, that gets elements, a label and an "
               "interface of its own: SURFACE is 1, the parts are 2, 3, ... Can be given several times; where "
               "parts overlap, the earlier one counts",
               [&o](const std::string& text) { o.subdomains.push_back(subdomain_option(text)); })
     ->type_name("[NAME=]FILE");
-  add_several("--cavity", "Closed surface of a part that is not meshed; can be given several times",
+  add_several(app, "--cavity", "Closed surface of a part that is not meshed; can be given several times",
               [&o](const std::string& file) { o.cavities.push_back(file); })
     ->type_name("FILE");
   app.add_option("--vertices", o.vertices, "Vertex budget: the mesh has at most that many vertices")

@@ -106,7 +106,7 @@ struct Subdomain_outcome
   CGAL::Mixed_meshes_3::Subdomain_index index = 1;
   Surface_facts surface;
   std::size_t elements = 0;
-  double volume = 0, volume_inside_surface = 0;
+  double volume = 0;
   std::optional<double> volume_of_surface; // without the parts inside; none where surfaces cross
   double mean_arc = 0, largest_arc = 0;
 };

@@ -70,7 +70,7 @@ void warn_of(const Subdomain_outcome& s, const Options& o, std::vector<std::stri
 {
   const std::string named = "the subdomain " + s.name;
   if(s.elements == 0)
-    warnings.push_back(named + ", of volume " + rounded(s.volume_of_surface.value_or(s.volume_inside_surface))
+    warnings.push_back(named + ", of volume " + rounded(s.volume_of_surface.value_or(s.surface.volume))
                        + ", is lost: too small for the cells; try more vertices than "
                        + std::to_string(o.vertices));
   else if(s.volume_of_surface && std::abs(s.volume / *s.volume_of_surface - 1) > tolerated_change_of_volume)
@@ -133,7 +133,6 @@ void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vecto
     s.name = subdomains[i].name;
     s.index = subdomains[i].index;
     s.surface = subdomains[i].facts;
-    s.volume_inside_surface = subdomains[i].facts.volume;
     s.volume_of_surface = expected[i];
     s.mean_arc = s.elements > 0 ? sums[s.index] / double(s.elements) : 0;
     warn_of(s, options, outcome.warnings);

@@ -14,8 +14,7 @@ brain. Their indices are positive; 0 is what is outside, as in the labeled domai
 
 The subdomains have an order. Where two of them meet, the surface of the first one is their interface; where
 subdomains \f$ a_1, \dots, a_n \f$ meet, in this order and the outside last, a vertex is to be on the
-interfaces of
-\f$ a_i \f$ and \f$ a_{i+1} \f$ for all i.
+interfaces of \f$ a_i \f$ and \f$ a_{i+1} \f$ for all i.
 
 `locate()` answers `ON_BOUNDARY` for cells that meet an interface, too. The part that it fills is kept if the
 answer is `ON_BOUNDED_SIDE`, as it tells the subdomain of the cell.
@@ -27,7 +26,7 @@ answer is `ON_BOUNDED_SIDE`, as it tells the subdomain of the cell.
 class MixedMeshLabeledDomain_3
 {
 public:
-  /// The subdomains in their order: a range of `CGAL::Mixed_meshes_3::Subdomain_index`, positive and
+  /// The subdomains in their order: a range of `CGAL::Mixed_meshes_3::Subdomain_index`, all positive and
   /// different.
   unspecified_type subdomain_indices() const;
 

@@ -322,21 +322,16 @@ private:
 
 The boundary of the mesh and the surface are cut into connected components, their *shells*. A shell inside an
 even number of others bounds a body, one inside an odd number a cavity; the orientation of faces does not
-matter.
-Handles are the genera of shells, by their Euler characteristics. So the numbers of both sides are exact.
-Which body of the mesh stands for which of the surface, and the same for cavities, is found by point location:
-points in
-the middle of chords, at right angles to each shell, about 2,000 for all, are located in the solid of the
-other side.
-A body, or cavity, belongs to the one that most of it is in. That is reliable for what is thicker than the
-surface
-and the boundary of the mesh are apart; bodies that are nowhere so thick may be called missing and added
-instead.
+matter. Handles are the genera of shells, by their Euler characteristics. So the numbers of both sides are
+exact. Which body of the mesh stands for which of the surface, and the same for cavities, is found by point
+location: points in the middle of chords, at right angles to each shell, about 2,000 for all, are located in
+the solid of the other side. A body, or cavity, belongs to the one that most of it is in. That is reliable for
+what is thicker than the surface and the boundary of the mesh are apart; bodies that are nowhere so thick may
+be called missing and added instead.
 
 Equal numbers do not hide differences: a body that is missing here and another one that falls into two are
-both
-told. What is not seen is a part of a body that is lost without a change of topology, unless the volume tells;
-see `hausdorff_distance()`, and knots: a ring that is tied differently has the same handles.
+both told. What is not seen is a part of a body that is lost without a change of topology, unless the volume
+tells; see `hausdorff_distance()`, and knots: a ring that is tied differently has the same handles.
 
 Quadrilaterals on the boundary are split into two triangles, through their vertex of smallest index.
 

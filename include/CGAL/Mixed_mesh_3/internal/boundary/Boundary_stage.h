@@ -55,9 +55,9 @@ class Boundary_stage : private Boundary_pieces
 
   const Octree_& m_located;
   Lattice_mesh& m_mesh;
+  const std::size_t m_number_of_subdomains;
   const Boundary_mode m_mode;
   const unsigned m_threads;
-  const std::size_t m_number_of_subdomains;
   // Interface vertices are not inside of the subdomain of some element: on the boundary, or between two.
   std::vector<std::uint8_t> m_is_on_interface;
   std::vector<Element_index> m_outer; // elements outside, or with interface vertices
@@ -69,9 +69,8 @@ class Boundary_stage : private Boundary_pieces
 
 public:
   Boundary_stage(const Octree_& located, Lattice_mesh& mesh, Boundary_mode mode, unsigned threads)
-    : m_located(located), m_mesh(mesh),
-      m_mode(subdomain_indices(located.domain()).size() > 1 ? Boundary_mode::VERTEX_ORDER : mode),
-      m_threads(threads), m_number_of_subdomains(subdomain_indices(located.domain()).size())
+    : m_located(located), m_mesh(mesh), m_number_of_subdomains(subdomain_indices(located.domain()).size()),
+      m_mode(m_number_of_subdomains > 1 ? Boundary_mode::VERTEX_ORDER : mode), m_threads(threads)
   {
     m_distances.assign(mesh.vertices.size(), -1);
     const std::size_t first_inserted = mesh.vertices.size();

@@ -158,8 +158,7 @@ private:
     return r.number_of_boundary_vertices - r.number_of_arrived_vertices;
   }
 
-  // Between subdomains a few vertices are often held back from both sides: no other run is likely to do
-  // better.
+  // Between subdomains a few vertices are often held back from both sides: another run would rarely help.
   bool is_fitted(const Result& r) const
   {
     const double tolerated = m_has_subdomains ? share_tolerated_off * double(r.number_of_boundary_vertices)

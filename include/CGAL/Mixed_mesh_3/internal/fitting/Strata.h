@@ -66,7 +66,7 @@ public:
       m_order = subdomain_indices(domain);
   }
 
-  /// Two vertices that are on several interfaces need not be on the same surface, even if these are the same.
+  /// Those that its vertices are to be on.
   const std::vector<Interface>& interfaces(Stratum s) const { return m_interfaces[s]; }
   /// Whether a face is on the boundary of the domain.
   bool is_on_boundary(Stratum of_face) const { return m_interfaces[of_face].back().second == 0; }

@@ -61,6 +61,7 @@ class Surface_optimizer
   Interface_faces m_boundary; // interfaces, too
   Working_mesh m_working;
   Moves m_moves;
+  const std::map<Subdomain_index, double> m_mean_edge_lengths;
   const Surface_tolerances m_tolerances;
   const std::vector<Surface_sample> m_samples;
   Attraction_ m_attraction;
@@ -119,9 +120,10 @@ public:
       m_project(domain, m_strata), m_boundary(m_strata.sorted_faces(mesh)),
       m_working(mesh, m_strata.of_vertices(mesh.number_of_vertices(), m_boundary)),
       m_moves(m_working, m_quality, m_project, criteria.sliding_threshold(), bound_for_doubles(criteria)),
-      m_tolerances(tolerances()), m_samples(surface_samples()), m_attraction(m_working, m_project, m_samples),
-      m_is_arrived(m_working.points.size(), 0), m_simple_points(m_working.points),
-      m_simple_is_arrived(m_working.points.size(), 0), m_is_held(m_working.points.size(), 0)
+      m_mean_edge_lengths(mean_edge_lengths()), m_tolerances(tolerances()), m_samples(surface_samples()),
+      m_attraction(m_working, m_project, m_samples), m_is_arrived(m_working.points.size(), 0),
+      m_simple_points(m_working.points), m_simple_is_arrived(m_working.points.size(), 0),
+      m_is_held(m_working.points.size(), 0)
   {
     attract_boundary();
     if(has_many_vertices())
@@ -215,14 +217,18 @@ private:
     return means;
   }
 
+  // At the start; 0 where there is none.
+  double mean_edge_length(Subdomain_index first) const
+  {
+    const auto found = m_mean_edge_lengths.find(first);
+    return found == m_mean_edge_lengths.end() ? 0 : found->second;
+  }
+
   // What is nearer than a tenth of an edge is the curvature of the surface: no sliding brings it nearer.
-  Surface_tolerances tolerances()
+  Surface_tolerances tolerances() const
   {
     Surface_tolerances t(m_domain, m_criteria.tolerance(), m_working.points.size());
-    t.enlarge([edges = mean_edge_lengths()](Subdomain_index index) {
-      const auto edge = edges.find(index);
-      return edge == edges.end() ? 0. : 0.1 * edge->second;
-    });
+    t.enlarge([this](Subdomain_index first) { return 0.1 * mean_edge_length(first); });
     return t;
   }
 
@@ -231,10 +237,8 @@ private:
   {
     if(!(m_criteria.tolerance() > 0))
       return {};
-    return m_tolerances.samples(m_domain, [edges = mean_edge_lengths()](Subdomain_index index) {
-      const auto edge = edges.find(index);
-      return edge == edges.end() ? 0. : edge->second / 6;
-    });
+    return m_tolerances.samples(m_domain,
+                                [this](Subdomain_index first) { return mean_edge_length(first) / 6; });
   }
 
   // Each boundary vertex goes to its target, all the way or part of it, as far as validity and quality
