@@ -86,8 +86,8 @@ private:
   }
 
   // Alternating projections. Between two planes each cycle is shorter than the one before by the square of
-  // the cosine of their angle, so that one cycle tells where they lead. Where surfaces do not meet nearby, the
-  // mean of the closest points on each.
+  // the cosine of their angle, so that one cycle tells where they lead. Where surfaces do not meet nearby,
+  // the mean of the closest points on each.
   Vec3 junction(const Vec3& start, const std::vector<Interface>& interfaces) const
   {
     Vec3 p = closest(start, interfaces[0]);

@@ -29,9 +29,9 @@ struct Surface_sample
 
 /*!
 One tolerance for the surface around all; those of subdomains within are smaller, as a tumor or a ventricle
-may be no larger than what a brain may lack at its furrows. The volume that a convex body with n vertices loses
-is in proportion to its area times \f$ n^{-2/3} \f$, and area by volume is four by the mean chord (Cauchy): the
-tolerance is a multiple of the mean chord times \f$ n^{-2/3} \f$.
+may be no larger than what a brain may lack at its furrows. The volume that a convex body with n vertices
+loses is in proportion to its area times \f$ n^{-2/3} \f$, and area by volume is four by the mean chord
+(Cauchy): the tolerance is a multiple of the mean chord times \f$ n^{-2/3} \f$.
 */
 class Surface_tolerances
 {
