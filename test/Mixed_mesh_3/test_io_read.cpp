@@ -169,6 +169,24 @@ void test_round_trip(const fs::path& directory, const std::string& name, const M
   }
 }
 
+// References of the file tell the subdomain: in ours, a part in the region has another one than the rest.
+void test_MEDIT(const fs::path& directory, const Mesh& mesh)
+{
+  const std::string path = (directory / "round_trip.mesh").string();
+  BOOST_TEST(IO::write_mixed_mesh(path, mesh));
+  Mesh read = one_of_each_kind();
+  BOOST_TEST_EQ(read_error(path, read), "");
+  const Mesh sorted = sorted_by_kind(mesh);
+  BOOST_TEST(read.points() == sorted.points());
+  BOOST_TEST(read.elements().kinds() == sorted.elements().kinds());
+  BOOST_TEST(read.elements().connectivity() == sorted.elements().connectivity());
+  for(Element_index e = 0; e < read.number_of_elements(); ++e) {
+    BOOST_TEST_EQ(read.subdomain_index(e), sorted.is_in_region(e) ? 1 : 2);
+    BOOST_TEST(!read.is_in_region(e));
+  }
+  test_damage(path, (directory / "damaged.mesh").string());
+}
+
 void test_round_trips(const fs::path& data, const fs::path& directory)
 {
   test_round_trip(directory, "each", one_of_each_kind());
@@ -181,6 +199,7 @@ void test_round_trips(const fs::path& data, const fs::path& directory)
   for(std::size_t n : mesh.elements().counts())
     BOOST_TEST_GT(n, 0u);
   test_round_trip(directory, "brain", mesh);
+  test_MEDIT(directory, mesh);
 
   // A vertex that is on no element stays.
   mesh = one_of_each_kind();
@@ -323,6 +342,63 @@ void test_hand_written(const fs::path& directory)
   test_damage((directory / "hand.msh").string(), (directory / "damaged_hand.msh").string());
 }
 
+// A unit cube of one hexahedron, with a pyramid, a prism and a tetrahedron on it, as other programs have them.
+const char* const node =
+  "# a comment\n 9  3  2  1\n0 0 0 0 7.5 1 -1\n1 1 0 0 0 0 0\n2 1 1 0 0 0 0 # and here\n"
+  "3 0 1 0 0 0 0\n4 0 0 1 0 0 0\n5 1 0 1 0 0 0\n6 1 1 1 0 0 0\n7 0 1 1 0 0 0\n"
+  "8 0.5 0.5 2 0 0 0\n";
+const char* const ele = "2 4 1\n10 0 1 3 4 3\n11 4 5 7 8 -2\n# end\n";
+
+const char* const medit = "MeshVersionFormatted 2\nDimension\n3\n# c\nVertices 5\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
+                          "0 0 1 0\n1 1 1 0\nCorners 2\n1 2\nTriangles\n1\n1 2 3 5\nTetrahedra 2\n1 2 3 4 9\n"
+                          "2 3 4 5 0\nRequiredVertices\n0\nEnd\nanything";
+
+const char* const vol =
+  "mesh3d\ndimension\n3\ngeomtype\n0\n# surfnr\nsurfaceelements\n1\n 3 6 1 0 3 2 3 5\n"
+  "volumeelements\n4\n 1 8 1 4 3 2 5 8 7 6\n 2 5 5 8 7 6 9\n 3 6 2 10 11 3 12 13\n"
+  " 4 4 6 12 10 9\n\npoints\n13\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+  "0.5 0.5 2\n2 0 0\n2 0 1\n2 1 0\n2 1 1\nmaterials\n1\n1 a\nendmesh\n";
+
+void test_formats_of_others(const fs::path& directory)
+{
+  set_contents(directory / "tetgen.node", node);
+  set_contents(directory / "tetgen.ele", ele);
+  Mesh mesh;
+  for(const char* name : {"tetgen.node", "tetgen.ele"}) {
+    BOOST_TEST_EQ(read_error((directory / name).string(), mesh), "");
+    BOOST_TEST_EQ(mesh.number_of_vertices(), 9u);
+    BOOST_TEST_EQ(mesh.number_of_elements(), 2u);
+    BOOST_TEST_EQ(volume(mesh, 0), 1. / 6);
+    BOOST_TEST_EQ(volume(mesh, 1), 1. / 6);
+    BOOST_TEST_EQ(mesh.subdomain_index(0), 3);
+    BOOST_TEST_EQ(mesh.subdomain_index(1), 1); // what is not positive is no label
+  }
+  fs::copy_file(directory / "tetgen.node", directory / "damaged_tetgen.node",
+                fs::copy_options::overwrite_existing);
+  test_damage((directory / "tetgen.ele").string(), (directory / "damaged_tetgen.ele").string());
+
+  mesh = read_text(directory, "hand.mesh", medit);
+  BOOST_TEST_EQ(mesh.number_of_vertices(), 5u);
+  BOOST_TEST(mesh.elements().connectivity() == (std::vector<Vertex_index>{0, 1, 2, 3, 1, 2, 3, 4}));
+  BOOST_TEST_EQ(mesh.subdomain_index(0), 9);
+  BOOST_TEST_EQ(mesh.subdomain_index(1), 1);
+
+  // Netgen's elements are mirror images.
+  mesh = read_text(directory, "hand.vol", vol);
+  BOOST_TEST_EQ(mesh.number_of_elements(), 4u);
+  if(mesh.number_of_elements() == 4) {
+    const Element_kind kinds[] = {HEXAHEDRON, PYRAMID, PRISM, TETRAHEDRON};
+    for(Element_index e = 0; e < 4; ++e) {
+      BOOST_TEST_EQ(mesh.element(e).kind(), kinds[e]);
+      BOOST_TEST_EQ(mesh.subdomain_index(e), int(e) + 1);
+      BOOST_TEST_GT(volume(mesh, e), 0);
+    }
+    BOOST_TEST_EQ(volume(mesh, 0), 1.);
+    BOOST_TEST(std::abs(volume(mesh, 1) - 1. / 3) < 1e-15);
+  }
+  test_damage((directory / "hand.vol").string(), (directory / "damaged_hand.vol").string());
+}
+
 // ---- errors --------------------------------------------------------------------------------------
 
 void test_errors(const fs::path& directory)
@@ -348,8 +424,8 @@ void test_errors(const fs::path& directory)
     check(".vtu", vtu(piece.text()), expected);
   };
 
-  check_path("", "unknown format; expected .vtu, .msh or .msh2");
-  check_path(directory / "mesh.mesh", "unknown format");
+  check_path("", "unknown format; expected .vtu, .msh, .msh2, .mesh, .ele, .node or .vol");
+  check_path(directory / "mesh.bdf", "unknown format");
   check_path(directory / "missing.vtu", "cannot be opened: No such file");
   fs::create_directories(directory / "directory.MSH");
   check_path(directory / "directory.MSH", "is a directory");
@@ -427,6 +503,44 @@ void test_errors(const fs::path& directory)
   check(".msh", replaced(msh4, "$EndNodes", "$End"), "where \"$Nodes\" should end");
 }
 
+void test_errors_of_others(const fs::path& directory)
+{
+  const auto check = [&](const char* name, const std::string& text, const std::string& expected) {
+    const std::string path = (directory / name).string();
+    set_contents(path, text);
+    Mesh mesh;
+    std::string error;
+    BOOST_TEST(!IO::read_mixed_mesh(path, mesh, &error));
+    BOOST_TEST(mesh.is_empty());
+    BOOST_TEST(error.find(expected) != std::string::npos);
+    if(error.find(expected) == std::string::npos)
+      std::cerr << "\"" << error << "\" without \"" << expected << "\"\n";
+    fs::remove(path);
+  };
+  check("error.mesh", msh2, "not a text file of Medit");
+  check("error.mesh", replaced(medit, "Dimension\n3", "Dimension 2"), "not a mesh in space");
+  check("error.mesh", replaced(medit, "Vertices 5", "Vertices 6"), "where a number is expected");
+  check("error.mesh", replaced(medit, "Vertices 5", "Vertices 500000000"), "a count of 500000000");
+  check("error.mesh", replaced(medit, "Vertices 5", "Verticles 5"), "has elements before the vertices");
+  check("error.mesh", replaced(medit, "2 3 4 5 0", "2 3 4 6 0"), "has the vertex 6, which does not exist");
+  check("error.mesh", replaced(medit, "2 3 4 5 0", "2 3 4 0 0"), "has the vertex 0, which does not exist");
+  check("error.mesh", replaced(medit, "Tetrahedra", "Edges"), "has no hexahedra");
+  check("error.mesh", replaced(medit, "End", ""), "is truncated");
+  check("error.vol", replaced(vol, "endmesh", ""), "is truncated");
+  check("error.vol", msh2, "not a mesh of Netgen");
+  check("error.vol", replaced(vol, " 4 4 6", " 4 7 6"), "has elements of 7 vertices");
+  check("error.vol", replaced(vol, "12 10 9", "12 10 14"), "has the vertex 14, which does not exist");
+  check("error.ele", ele, "error.node: cannot be opened");
+  set_contents(directory / "error.node", node);
+  check("error.ele", replaced(ele, "2 4 1", "2 10 1"), "has tetrahedra of 10 vertices");
+  check("error.ele", replaced(ele, "4 5 7 8", "4 5 7 9"), "has the vertex 9, which does not exist");
+  check("error.ele", replaced(ele, "2 4 1", "3 4 1"), "is truncated");
+  set_contents(directory / "error.ele", ele);
+  check("error.node", replaced(node, "\n3 0 1 0", "\n4 0 1 0"), "the vertex 4 is out of order");
+  check("error.node", replaced(node, "9  3", "9  2"), "not a mesh in space");
+  fs::remove(directory / "error.ele");
+}
+
 // What test_read_writers.py compares with.
 void print(const std::string& path)
 {
@@ -462,7 +576,9 @@ int main(int argc, char** argv)
   const fs::path data = argc > 1 ? argv[1] : "data", directory = argc > 2 ? argv[2] : ".";
   fs::create_directories(directory);
   test_errors(directory);
+  test_errors_of_others(directory);
   test_hand_written(directory);
+  test_formats_of_others(directory);
   test_round_trips(data, directory);
   return boost::report_errors();
 }

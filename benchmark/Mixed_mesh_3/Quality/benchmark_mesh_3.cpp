@@ -25,6 +25,7 @@
 #include "mesh_measures.h"
 
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
+#include <CGAL/Mixed_mesh_3/cells_in_complex_3_to_mixed_mesh.h>
 
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_criteria_3.h>
@@ -42,7 +43,6 @@
 #include <ctime>
 #include <exception>
 #include <iostream>
-#include <map>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -191,21 +191,10 @@ Result make_mesh(const Surface& surface, const Surface& region_surface, const Si
   return result;
 }
 
-/// The tetrahedra of the complex, and the vertices that they have.
 Mesh to_mixed_mesh(const Complex& complex)
 {
   Mesh mesh;
-  std::map<Triangulation::Vertex_handle, mm3::Vertex_index> indices;
-  for(auto c = complex.cells_in_complex_begin(); c != complex.cells_in_complex_end(); ++c) {
-    mm3::Vertex_index v[4];
-    for(int i = 0; i < 4; ++i) {
-      const auto [position, is_new] = indices.try_emplace(c->vertex(i), 0);
-      if(is_new)
-        position->second = mesh.add_vertex(c->vertex(i)->point().point());
-      v[i] = position->second;
-    }
-    mesh.add_element(mm3::TETRAHEDRON, {v[0], v[1], v[2], v[3]});
-  }
+  CGAL::cells_in_complex_3_to_mixed_mesh(complex, mesh);
   return mesh;
 }
 

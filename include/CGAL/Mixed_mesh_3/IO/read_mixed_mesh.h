@@ -7,7 +7,10 @@
 #define CGAL_MIXED_MESH_3_IO_READ_MIXED_MESH_H
 
 #include <CGAL/Mixed_mesh_3/IO/internal/Mesh_input.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/read_MEDIT.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/read_MSH.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/read_NETGEN.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/read_TETGEN.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/read_VTU.h>
 
 #include <cmath>
@@ -21,6 +24,22 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace IO {
 
+namespace internal {
+
+inline Mesh_input read_mesh_input(const std::string& file, const std::string& extension)
+{
+  if(extension == ".ele" || extension == ".node")
+    return read_TETGEN(file);
+  for(const auto& [name, read] :
+      {std::pair{".vtu", &read_VTU}, std::pair{".msh", &read_MSH}, std::pair{".msh2", &read_MSH},
+       std::pair{".mesh", &read_MEDIT}, std::pair{".vol", &read_NETGEN}})
+    if(extension == name)
+      return read(file, read_mesh_file(file));
+  refuse(file, "unknown format; expected .vtu, .msh, .msh2, .mesh, .ele, .node or .vol");
+}
+
+} // namespace internal
+
 /*!
 Reads a mesh of linear hexahedra, prisms, pyramids and tetrahedra, in the format that the extension tells.
 
@@ -28,6 +47,9 @@ Reads a mesh of linear hexahedra, prisms, pyramids and tetrahedra, in the format
 |-----------------|--------|
 | `.vtu`          | VTK unstructured grid: text, base64 or raw, in one or several pieces |
 | `.msh`, `.msh2` | Gmsh 2.2 and 4.1, text or binary |
+| `.mesh`         | Medit, text; what CGAL's Mesh_3 writes |
+| `.ele`, `.node` | TetGen: two files of the same name |
+| `.vol`          | Netgen |
 
 Data of VTK that are compressed by zlib can be read if `CGAL_USE_ZLIB` is defined and zlib is linked.
 
@@ -36,9 +58,9 @@ element and no boundary face, which it does not write to Gmsh 4.1. All vertices 
 are merged: vertices and elements have the order of the file or, in Gmsh's formats, of the numbers that the
 file gives them. Elements of lower dimension are skipped. An element is in the region if the cell data
 `in_region` (VTK) are not 0, or if it is in a physical volume called "region" (Gmsh); cell data `subdomain`,
-and names such as "subdomain_2_rest", tell the subdomain, a positive integer; without them it is 1.
-`write_mixed_mesh()` sorts the elements of a
-`.vtu` file by kind.
+and names such as "subdomain_2_rest", tell the subdomain, a positive integer; without them it is 1. In the
+other formats it is the reference (Medit), the first attribute (TetGen) or the material (Netgen), and no
+element is in the region. `write_mixed_mesh()` sorts the elements of a `.vtu` file by kind.
 
 The file is checked, and coordinates are finite and at most 1e30, but not the mesh: elements may be inverted,
 or not fit together; see `find_defects()`.
@@ -59,13 +81,7 @@ template <class Mesh>
     for(char& c : extension)
       if(c >= 'A' && c <= 'Z')
         c = char(c - 'A' + 'a');
-    if(extension != ".vtu" && extension != ".msh" && extension != ".msh2")
-      refuse(file, "unknown format; expected .vtu, .msh or .msh2");
-    internal::Mesh_input input;
-    {
-      const std::string bytes = internal::read_mesh_file(file);
-      input = extension == ".vtu" ? internal::read_VTU(file, bytes) : internal::read_MSH(file, bytes);
-    }
+    internal::Mesh_input input = internal::read_mesh_input(file, extension);
     std::vector<typename Mesh::Point_3> points;
     points.reserve(input.points.size());
     for(const auto& p : input.points) {
