@@ -9,12 +9,14 @@
 #ifndef MIXED_MESH_3_BENCHMARK_MESH_MEASURES_H
 #define MIXED_MESH_3_BENCHMARK_MESH_MEASURES_H
 
+#include <CGAL/Linear_elasticity_3.h>
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include "common/resources.h"
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/certificate.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 
 #include <CGAL/AABB_tree.h>
@@ -29,6 +31,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <ctime>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -179,6 +182,42 @@ std::array<double, 2> dihedral_angles(const Mesh& mesh)
   return range;
 }
 
+/// Elements that are not proved valid, and what a solver has to do: the entries of the stiffness matrix, and the
+/// time of a factorization, with the lower 30 % of the boundary fixed.
+template <class Mesh>
+nlohmann::ordered_json measure_for_elasticity(const Mesh& mesh)
+{
+  namespace mm3 = CGAL::Mixed_meshes_3;
+  std::size_t invalid = 0;
+  std::vector<std::array<mm3::Vertex_index, 2>> pairs;
+  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
+    invalid += mm3::jacobian_sign(mesh, mm3::Element_index(e)) != mm3::Jacobian_sign::POSITIVE;
+    const auto element = mesh.element(mm3::Element_index(e));
+    for(const mm3::Vertex_index a : element)
+      for(const mm3::Vertex_index b : element)
+        if(a < b)
+          pairs.push_back({a, b});
+  }
+  std::sort(pairs.begin(), pairs.end());
+  const auto end = std::unique(pairs.begin(), pairs.end());
+  nlohmann::ordered_json line;
+  line["elements not proved valid"] = invalid;
+  line["nonzeros"] = 9 * (mesh.number_of_vertices() + 2 * std::size_t(end - pairs.begin()));
+  if(invalid != 0)
+    return line;
+  CGAL::Linear_elasticity_3<Mesh> elasticity(mesh);
+  CGAL::Bbox_3 box;
+  for(const auto& p : mesh.points())
+    box += p.bbox();
+  for(const mm3::Vertex_index v : mm3::boundary_vertices(mesh))
+    if(mesh.point(v).z() < box.zmin() + 0.3 * box.z_span())
+      elasticity.prescribe(v);
+  const std::clock_t start = std::clock();
+  if(elasticity.factor().is_success())
+    line["CPU seconds of factorization"] = double(std::clock() - start) / CLOCKS_PER_SEC;
+  return line;
+}
+
 /// The places farthest away, far from each other: x, y, z, distance.
 inline nlohmann::ordered_json farthest_places(std::vector<Sample> samples, std::size_t number, double apart)
 {
@@ -290,6 +329,7 @@ nlohmann::ordered_json measure(const Mesh& mesh, const Surface& surface, const S
   line["smallest dihedral angle"] = smallest;
   line["largest dihedral angle"] = largest;
 
+  line.update(measure_for_elasticity(mesh));
   line["farthest, surface to mesh"] = farthest_places(of_surface, 5, 20 * step);
   line["farthest, mesh to surface"] = farthest_places(of_boundary, 5, 20 * step);
   return line;

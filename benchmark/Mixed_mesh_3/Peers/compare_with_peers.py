@@ -1,0 +1,303 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes the same input with as many vertices by all meshers at hand, and measures what they make.
+
+  compare_with_peers.py PROGRAMS WORK [--vertices 660 2000 10000] [--meshers tetgen gmsh ...] [--runs 5]
+                        [--save BASE] [--mixed-octree PROGRAM]
+
+PROGRAMS holds measure_mesh, benchmark_mesh_3 and coarsen_surface; tetgen must be on the path, and the Python
+modules gmsh and netgen be installed (Debian: tetgen, python3-gmsh, python3-netgen). WORK gets the meshes.
+BASE.md, BASE.csv and BASE.json get the table.
+
+All are asked for the same sizes: h in the region, growing by 0.4 of the distance from it, up to a largest
+one; both are scaled, by a search that is not timed, to hit the number of vertices. TetGen keeps the surface that
+it is given, and Netgen takes its edges for features: they get a coarsened one, with a third and half of the
+vertices; coarsening is in their times. Gmsh meshes the surface anew. Mesh_3 and ours are measured as in
+compare_with_mesh_3.py; MixedOcTree (Lobos' successor of the paper's program), if PROGRAM names a build of it,
+with its default options.
+
+Times are CPU seconds from a surface in memory to a mesh, medians of some runs; those of TetGen are what it
+prints, without output, and with the reading of its background mesh. A row that fails says so, and the rest goes on.
+"""
+
+import argparse
+import csv
+import datetime
+import json
+import math
+import os
+import pathlib
+import platform
+import re
+import statistics
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+DATA = HERE.parents[2] / "data"
+GROWTH = 0.4
+TIMEOUT = 1800
+
+
+class Failure(Exception):
+    pass
+
+
+def run(*command):
+    """What a program prints."""
+    try:
+        process = subprocess.run([*map(str, command)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                 timeout=TIMEOUT)
+    except FileNotFoundError:
+        raise Failure(f"{command[0]} is not installed") from None
+    except subprocess.TimeoutExpired:
+        raise Failure(f"not finished after {TIMEOUT} s") from None
+    if process.returncode != 0:
+        last = (process.stderr.strip() or process.stdout.strip() or "no message").splitlines()[-1]
+        raise Failure(f"{pathlib.Path(str(command[0])).name}: "
+                      + (last[:120] if process.returncode > 0 else f"ended by signal {-process.returncode}"))
+    return process.stdout
+
+
+def last_json(text):
+    return json.loads(text.strip().splitlines()[-1])
+
+
+class Meshers:
+    """A function for each: from sizes to a mesh file and CPU seconds; or straight to a line of measures."""
+    programs = work = surface = region = mixed_octree = None
+
+    @classmethod
+    def coarse(cls, name, vertices):
+        """The surface with so many vertices, and the seconds that this takes."""
+        file = cls.work / (name + ".off")
+        out = run(cls.programs / "coarsen_surface", cls.surface, file, max(100, round(vertices)))
+        return file, last_json(out)["CPU seconds"]
+
+    @classmethod
+    def tetgen(cls, vertices, size, largest):
+        from sizes import Sizes
+        base = cls.work / f"tetgen_{vertices}"
+        poly = base.with_suffix(".smesh")
+        coarse, seconds = cls.coarse(base.name, vertices / 3)
+        write_smesh(coarse, poly)
+        sizes = Sizes(cls.surface, cls.region)
+        write_background(base, sizes.points, sizes.tetrahedra(), sizes.at_points(size, GROWTH, largest))
+        out = run("tetgen", "-pq1.4mO7/7", poly)
+        times = dict(re.findall(r"^(.*) seconds:\s+(\S+)$", out, re.MULTILINE))
+        seconds += sum(float(t) for name, t in times.items() if not name.startswith(("Output", "Total")))
+        return base.with_name(base.name + ".1.ele"), seconds
+
+    @classmethod
+    def gmsh(cls, vertices, size, largest, *options):
+        mesh = cls.work / f"gmsh{''.join(options)}_{vertices}.msh"
+        out = run("/usr/bin/python3", HERE / "mesh_with_gmsh.py", cls.surface, cls.region, mesh, size,
+                  "--growth", GROWTH, "--largest", largest, *options)
+        return mesh, last_json(out)["CPU seconds"]
+
+    @classmethod
+    def gmsh_hxt(cls, vertices, size, largest):
+        return cls.gmsh(vertices, size, largest, "--hxt")
+
+    @classmethod
+    def netgen(cls, vertices, size, largest):
+        mesh = cls.work / f"netgen_{vertices}.vol"
+        coarse, seconds = cls.coarse(mesh.stem, vertices / 2)
+        out = run("/usr/bin/python3", HERE / "mesh_with_netgen.py", coarse, cls.region, mesh, size,
+                  "--growth", GROWTH, "--largest", largest)
+        return mesh, seconds + last_json(out)["CPU seconds"]
+
+
+def write_smesh(off, smesh):
+    """The input of TetGen: points and triangles."""
+    from sizes import read_off
+    points, triangles = read_off(off)
+    with open(smesh, "w") as out:
+        out.write(f"{len(points)} 3 0 0\n")
+        out.writelines("{} {!r} {!r} {!r}\n".format(i, *map(float, p)) for i, p in enumerate(points))
+        out.write(f"{len(triangles)} 0\n")
+        out.writelines("3 {} {} {}\n".format(*t) for t in triangles)
+        out.write("0\n0\n")
+
+
+def write_background(base, points, tetrahedra, sizes):
+    """The sizes for TetGen: at the vertices of a mesh."""
+    for extension, head, rows in ((".b.node", "{} 3 0 0", points), (".b.ele", "{} 4 0", tetrahedra)):
+        with open(str(base) + extension, "w") as out:
+            out.write(head.format(len(rows)) + "\n")
+            out.writelines(f"{i} " + " ".join(map(str, row)) + "\n" for i, row in enumerate(rows.tolist()))
+    with open(str(base) + ".b.mtr", "w") as out:
+        out.write(f"{len(sizes)} 1\n" + "".join(f"{h}\n" for h in sizes.tolist()))
+
+
+def measure(mesh, *options):
+    return last_json(run(Meshers.programs / "measure_mesh", Meshers.surface, Meshers.region, "--mesh", mesh, *options))
+
+
+def search(mesher, wanted):
+    """The scale of the sizes that gives about so many vertices: the number goes with its inverse cube, about."""
+    start = {"size": 6.5 * (660 / wanted) ** (1 / 2), "largest": 24 * (660 / wanted) ** (1 / 5)}
+
+    def trial(scale):
+        mesh, _ = mesher(wanted, scale * start["size"], scale * start["largest"])
+        return measure(mesh, "--only-time")["vertices"]
+
+    scale, best = 1., (math.inf, None)
+    low, high = 0., math.inf  # scales with too many and too few vertices
+    for _ in range(10):
+        n = trial(scale)
+        best = min(best, (abs(math.log(n / wanted)), scale))
+        if best[0] < 0.01:
+            break
+        if n > wanted:
+            low = max(low, scale)
+        else:
+            high = min(high, scale)
+        scale *= (n / wanted) ** 0.45
+        if not low < scale < high:
+            scale = (low + high) / 2 if high < math.inf else 1.3 * low
+    return best[1] * start["size"], best[1] * start["largest"]
+
+
+def peer(mesher):
+    def row(wanted, runs):
+        size, largest = search(mesher, wanted)
+        made = [mesher(wanted, size, largest) for _ in range(runs)]
+        return {**measure(made[-1][0]), "CPU seconds": statistics.median(seconds for _, seconds in made),
+                "size in region": size, "largest": largest}
+    return row
+
+
+def own(*options):
+    def row(wanted, runs):
+        command = (Meshers.programs / "measure_mesh", Meshers.surface, Meshers.region, wanted, *options)
+        times = [last_json(run(*command, "--only-time"))["CPU seconds"] for _ in range(runs)]
+        return {**last_json(run(*command)), "CPU seconds": statistics.median(times)}
+    return row
+
+
+def mesh_3(*options):
+    def row(wanted, runs):
+        command = (Meshers.programs / "benchmark_mesh_3", Meshers.surface, Meshers.region, wanted)
+        size = last_json(run(*command, "--no-perturb-exude"))["size in region"]
+        command += ("--size-in-region", repr(size), *options)
+        times = [last_json(run(*command, "--only-time"))["CPU seconds"] for _ in range(runs)]
+        return {**last_json(run(*command)), "CPU seconds": statistics.median(times)}
+    return row
+
+
+def mixed_octree(wanted, runs):
+    """The region comes as a surface, too; its program asks for a number of refinement levels."""
+    if Meshers.mixed_octree is None:
+        raise Failure("no build given, see --mixed-octree")
+    best = None
+    for level in range(3, 9):
+        base = Meshers.work / f"mixed_octree_{wanted}_{level}"
+        run(Meshers.mixed_octree, "-d", Meshers.surface, "-r", level, "-g", "-u", base)
+        line = measure(base.with_suffix(".msh"))
+        if best is None or abs(line["vertices"] - wanted) < abs(best["vertices"] - wanted):
+            best = line
+        if line["vertices"] > wanted:
+            break
+    return best
+
+
+ROWS = {
+    "Mixed_mesh_3": own(),
+    "Mixed_mesh_3, regular octree": own("--regular"),
+    "Mixed_mesh_3, as the paper": own("--paper"),
+    "Mesh_3": mesh_3("--no-perturb-exude"),
+    "Mesh_3, perturb and exude": mesh_3(),
+    "TetGen": peer(Meshers.tetgen),
+    "Gmsh, Delaunay": peer(Meshers.gmsh),
+    "Gmsh, HXT": peer(Meshers.gmsh_hxt),
+    "Netgen": peer(Meshers.netgen),
+    "MixedOcTree": mixed_octree,
+}
+
+
+def cells(name, wanted, line):
+    if "failure" in line:
+        return {"mesher": name, "wanted": wanted, "vertices": line["failure"]}
+    factorization = line.get("CPU seconds of factorization")
+    return {
+        "mesher": name,
+        "wanted": wanted,
+        "vertices": line["vertices"],
+        "elements": line["elements"],
+        "not proved valid": line["elements not proved valid"],
+        "ARC mean": f"{line['ARC mean']:.2f}",
+        "ARC max": f"{line['ARC max']:.3g}",
+        "above 7": f"{1 - line['ARC share at most 7']:.2%}",
+        "dihedral angles": f"{line['smallest dihedral angle']:.0f} to {line['largest dihedral angle']:.0f}",
+        "surface to mesh": f"{line['Hausdorff surface to mesh']:.2f}",
+        "mesh to surface": f"{line['Hausdorff mesh to surface']:.2f}",
+        "volume": f"{line['volume ratio'] - 1:+.1%}",
+        "in region": f"{line['share of vertices in region']:.0%}",
+        "edge there": f"{line['mean edge in region']:.2f}",
+        "nonzeros": line["nonzeros"],
+        "factorization, CPU s": "-" if factorization is None else f"{factorization:.3f}",
+        "meshing, CPU s": f"{line['CPU seconds']:.2f}" if "CPU seconds" in line else "-",
+    }
+
+
+def markdown(rows):
+    heads = list(next((r for r in rows if len(r) > 3), rows[0]))
+    lines = ["| " + " | ".join(heads) + " |", "|---|" + "--:|" * (len(heads) - 1)]
+    lines += ["| " + " | ".join(str(r.get(h, "")) for h in heads) + " |" for r in rows]
+    return "\n".join(lines) + "\n"
+
+
+def machine():
+    with open("/proc/cpuinfo") as info:
+        names = [line.split(":")[1].strip() for line in info if line.startswith("model name")]
+    return {"date": datetime.date.today().isoformat(), "processor": (names or [platform.processor()])[0],
+            "processors": os.cpu_count(), "load": os.getloadavg()[0], "system": platform.platform()}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("programs", type=pathlib.Path)
+    parser.add_argument("work", type=pathlib.Path)
+    parser.add_argument("--surface", default=DATA / "brain.off", type=pathlib.Path)
+    parser.add_argument("--region", default=DATA / "region.off", type=pathlib.Path)
+    parser.add_argument("--vertices", type=int, nargs="+", default=[660, 2000, 10000])
+    parser.add_argument("--meshers", nargs="+", default=[""], help="those whose names contain one of these")
+    parser.add_argument("--runs", type=int, default=5)
+    parser.add_argument("--mixed-octree", help="a program of MixedOcTree")
+    parser.add_argument("--save", type=pathlib.Path, help="base of the names of the tables")
+    options = parser.parse_args()
+    if options.runs < 1:
+        parser.error("--runs: expected a positive number")
+    sys.path.insert(0, str(HERE))
+    options.work.mkdir(parents=True, exist_ok=True)
+    Meshers.programs, Meshers.work = options.programs.resolve(), options.work.resolve()
+    Meshers.surface, Meshers.region = options.surface.resolve(), options.region.resolve()
+    Meshers.mixed_octree = options.mixed_octree
+    results = []
+    for wanted in options.vertices:
+        for name, row in ROWS.items():
+            if not any(part.lower() in name.lower() for part in options.meshers):
+                continue
+            try:
+                line = row(wanted, options.runs)
+            except Failure as failure:
+                line = {"failure": str(failure)}
+            results.append({**line, "mesher": name, "wanted": wanted})
+            print(results[-1].get("failure") or
+                  f"{name}, {wanted}: {line['vertices']} vertices, {line.get('CPU seconds', 0):.2f} s",
+                  file=sys.stderr, flush=True)
+    rows = [cells(r["mesher"], r["wanted"], r) for r in results]
+    print(markdown(rows), end="")
+    if options.save:
+        options.save.with_suffix(".md").write_text(markdown(rows))
+        options.save.with_suffix(".json").write_text(
+            json.dumps({"machine": machine(), "rows": results}, indent=2) + "\n")
+        with open(options.save.with_suffix(".csv"), "w", newline="") as out:
+            writer = csv.DictWriter(out, rows[0].keys() if len(rows) == 1 else max(rows, key=len).keys())
+            writer.writeheader()
+            writer.writerows(rows)
+
+
+if __name__ == "__main__":
+    main()
