@@ -55,7 +55,7 @@ CLI::Validator not_negative()
 // Returns the option that those of images need.
 CLI::Option* add_inputs(CLI::App& app, Options& o)
 {
-  app.add_option("MESH", o.mesh, "Mesh of the brain, in mm: .vtu or .msh")->required();
+  app.add_option("MESH", o.mesh, "Mesh of the brain, in mm: .vtu, .msh, .mesh, .ele or .vol")->required();
   app
     .add_option("--control-points", o.control_points,
                 "Table of points with given displacements, in mm: a header x,y,z,dx,dy,dz, then a line for "
