@@ -342,7 +342,7 @@ void test_hand_written(const fs::path& directory)
   test_damage((directory / "hand.msh").string(), (directory / "damaged_hand.msh").string());
 }
 
-// A unit cube of one hexahedron, with a pyramid, a prism and a tetrahedron on it, as other programs have them.
+// A unit cube with a pyramid, a prism and a tetrahedron on it, as other programs have them.
 const char* const node =
   "# a comment\n 9  3  2  1\n0 0 0 0 7.5 1 -1\n1 1 0 0 0 0 0\n2 1 1 0 0 0 0 # and here\n"
   "3 0 1 0 0 0 0\n4 0 0 1 0 0 0\n5 1 0 1 0 0 0\n6 1 1 1 0 0 0\n7 0 1 1 0 0 0\n"

@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Makes a mesh of mixed elements, or reads one of any mesher, and measures it. Prints a line of JSON; `--help`
-// tells the options.
+// Makes a mesh of mixed elements, or reads one of any mesher, and measures it. Prints a line of JSON;
+// `--help` tells the options.
 
 #include "mesh_measures.h"
 

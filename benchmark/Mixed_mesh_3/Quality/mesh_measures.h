@@ -182,8 +182,8 @@ std::array<double, 2> dihedral_angles(const Mesh& mesh)
   return range;
 }
 
-/// Elements that are not proved valid, and what a solver has to do: the entries of the stiffness matrix, and the
-/// time of a factorization, with the lower 30 % of the boundary fixed.
+/// Elements that are not proved valid, and what a solver has to do: the entries of the stiffness matrix, and
+/// the time of a factorization, with the lower 30 % of the boundary fixed.
 template <class Mesh>
 nlohmann::ordered_json measure_for_elasticity(const Mesh& mesh)
 {

@@ -23,7 +23,8 @@ namespace CGAL {
 What takes a `Mixed_mesh_3` can so be used for meshes of Mesh_3 and of Tetrahedral Remeshing:
 `optimize_mixed_mesh_3()`, `find_defects()`, `jacobian_sign()`, elasticity, writers. Vertices are those of
 tetrahedra in the complex, in the order in which these have them, and lose their weights. The subdomain of a
-tetrahedron is its subdomain index in the complex if that is a positive integer, else 1; none is in the region.
+tetrahedron is its subdomain index in the complex if that is a positive integer, else 1; none is in the
+region.
 
 \tparam C3t3 a model of `MeshComplex_3InTriangulation_3`
 \tparam GeomTraits a model of `MixedMeshTraits_3`
