@@ -225,6 +225,27 @@ public:
     return 4 * volume / area;
   }
 
+  /// The planes that the surfaces lie in, as those of `Polyhedral_mixed_mesh_domain_3`; nothing, and 0, if there
+  /// are several subdomains.
+  std::array<std::map<double, double>, 3> axis_parallel_planes(double& volume) const
+  {
+    std::array<std::map<double, double>, 3> planes;
+    volume = 0;
+    for(const Labeled& s : m_surfaces) {
+      double of_surface = 0;
+      const auto more = s.surface->axis_parallel_planes(of_surface);
+      if(!(of_surface > 0) || m_indices.size() > 1) {
+        volume = 0;
+        return {};
+      }
+      volume += s.index == 0 ? -of_surface : of_surface;
+      for(std::size_t k = 0; k < 3; ++k)
+        for(const auto& [coordinate, area] : more[k])
+          planes[k][coordinate] += area;
+    }
+    return planes;
+  }
+
 private:
   struct Labeled
   {

@@ -143,6 +143,17 @@ public:
   /// Infinity if there is none.
   double quality_bound() const { return m_quality_bound; }
 
+  /// The angle between the normals of two facets, in degrees, from which on their edge is sharp: the mesh has
+  /// edges along it, and vertices at its corners. Where there are no long lines of such edges, as on organs,
+  /// it does nothing. And where all of the surface is perpendicular to the axes, cells are placed such that
+  /// lattice planes lie on it, if they can, and stay whole there. 0: neither. Default: 50. \pre in [0, 180]
+  Mixed_mesh_criteria_3& sharp_angle(double degrees)
+  {
+    m_sharp_angle = Mixed_mesh_optimization_criteria_3().sharp_angle(degrees).sharp_angle();
+    return *this;
+  }
+  double sharp_angle() const { return m_sharp_angle; }
+
   /// How many threads answer queries on the surface. The mesh does not depend on it. Default: 1.
   /// \pre at least 1
   Mixed_mesh_criteria_3& number_of_threads(unsigned threads)
@@ -175,6 +186,7 @@ private:
   double m_share_of_bisections = automatic;
   double m_tolerance = automatic;
   double m_quality_bound = Mixed_mesh_optimization_criteria_3::default_quality_bound;
+  double m_sharp_angle = Mixed_mesh_optimization_criteria_3::default_sharp_angle;
   unsigned m_number_of_threads = 1;
 };
 

@@ -23,6 +23,9 @@ public:
   /// is fitted: 3.1918.
   static constexpr double default_quality_bound = 3.2;
 
+  /// Edges of 60 degrees are sharp for certain, those of smooth surfaces that are given by few facets are not.
+  static constexpr double default_sharp_angle = 50;
+
   /// How far the boundary may be from the surface, and the surface from the boundary, in the mesh's unit:
   /// boundary vertices slide towards places that are farther. 0: vertices are on the surface, and no more is
   /// asked for. Default: 0. \pre at least 0
@@ -93,8 +96,20 @@ public:
   /// Infinity if there is none.
   double quality_bound() const { return m_quality_bound; }
 
+  /// The angle between the normals of two facets, in degrees, from which on their edge is sharp: paths of edges
+  /// of the boundary, and vertices at the corners, are brought there and stay there. 0: none is sharp.
+  /// Default: 50. \pre in [0, 180]
+  Mixed_mesh_optimization_criteria_3& sharp_angle(double degrees)
+  {
+    CGAL_precondition(degrees >= 0 && degrees <= 180);
+    m_sharp_angle = degrees;
+    return *this;
+  }
+  double sharp_angle() const { return m_sharp_angle; }
+
 private:
   std::size_t m_number_of_bisections = 0;
+  double m_sharp_angle = default_sharp_angle;
   double m_tolerance = 0;
   int m_number_of_rounds = 0;
   double m_sliding_threshold = 2.25;

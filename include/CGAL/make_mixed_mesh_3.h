@@ -10,6 +10,7 @@
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/arguments.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/mesh_domain.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/place_lattice.h>
 #include <CGAL/Mixed_mesh_criteria_3.h>
 #include <CGAL/Mixed_mesh_regions_3.h>
 #include <CGAL/Mixed_mesh_result_3.h>
@@ -94,7 +95,10 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
 /*!
 \ingroup PkgMixedMesh3Ref
 
-As above, with cells parallel to the axes and the root that the criteria say.
+As above, with cells parallel to the axes and the root that the criteria say. If the whole surface is
+perpendicular to the axes, as that of a box is, cells are placed such that it lies in lattice planes if they can,
+with edges of a ratio of at most 1.25: then elements there stay whole, vertices have the coordinates of the
+surface exactly, and without a region all elements are hexahedra, as far as the budget allows.
 */
 template <class Domain, class Region, class GeomTraits,
           class NamedParameters = parameters::Default_named_parameters,
@@ -107,9 +111,7 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
   namespace mm3 = Mixed_meshes_3::internal;
   const auto& d = mm3::as_domain(domain, np);
   const auto& r = mm3::as_region(region, np_region);
-  return make_mixed_mesh_3(d, r, criteria,
-                           Mixed_meshes_3::Axis_aligned_octree_cell_traits_3(d.bbox(), criteria.root_cell()),
-                           mesh, np);
+  return make_mixed_mesh_3(d, r, criteria, mm3::cell_traits_of(d, r, criteria), mesh, np);
 }
 
 /*!

@@ -18,7 +18,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -46,7 +49,7 @@ inline double lattice_unit(double root_side, double granularity)
 /*!
 \brief Model of `OctreeCellTraits_3`: cells are boxes parallel to the axes.
 
-Every lattice point is an exact double.
+Every lattice point is an exact double, but where planes are given.
 */
 class Axis_aligned_octree_cell_traits_3
 {
@@ -97,6 +100,30 @@ public:
     }
   }
 
+  /// Planes perpendicular to an axis: their positions on the lattice, from 0 on, and their coordinates; both
+  /// ascend.
+  using Lattice_planes = std::vector<std::pair<std::uint32_t, double>>;
+
+  /// An octree with planes that are given, whose coordinates lattice points in them have exactly; between
+  /// and behind them, cells of a size are the same up to rounding.
+  /// \param axes \pre at least two planes for each axis
+  /// \param level of the coarsest cells between the planes
+  /// \param is_uniform whether there shall be no smaller ones
+  Axis_aligned_octree_cell_traits_3(const std::array<Lattice_planes, 3>& axes, int level, bool is_uniform)
+    : m_planes(axes), m_level_on_surface(level), m_is_uniform(is_uniform)
+  {
+    for(int k = 0; k < 3; ++k) {
+      const Lattice_planes& planes = m_planes[k];
+      CGAL_precondition(planes.size() > 1 && planes.front().first == 0);
+      m_origin[k] = planes.front().second;
+      m_unit[k] = (planes.back().second - m_origin[k]) / planes.back().first;
+    }
+  }
+
+  /// Cells of this level and finer ones have all planes that were given; 0 if none were.
+  int level_on_surface() const { return m_level_on_surface; }
+  bool is_uniform() const { return m_is_uniform; }
+
   /// The position of a lattice point.
   Point_3 point(const Lattice_point& p) const
   {
@@ -117,9 +144,23 @@ public:
   double length(std::uint32_t side) const { return side * (std::min)({m_unit[0], m_unit[1], m_unit[2]}); }
 
 private:
-  double coordinate(int k, std::uint32_t i) const { return m_origin[k] + i * m_unit[k]; }
+  // A function that ascends, so that cells that share a vertex, an edge or a face do so exactly.
+  double coordinate(int k, std::uint32_t i) const
+  {
+    const Lattice_planes& planes = m_planes[k];
+    if(!planes.empty()) {
+      const auto plane = std::lower_bound(planes.begin(), planes.end(), i,
+                                          [](const auto& p, std::uint32_t j) { return p.first < j; });
+      if(plane != planes.end() && plane->first == i)
+        return plane->second;
+    }
+    return m_origin[k] + i * m_unit[k];
+  }
 
   std::array<double, 3> m_origin, m_unit;
+  std::array<Lattice_planes, 3> m_planes;
+  int m_level_on_surface = 0;
+  bool m_is_uniform = false;
 };
 
 /*!

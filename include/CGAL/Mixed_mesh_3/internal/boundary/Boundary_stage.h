@@ -60,6 +60,7 @@ class Boundary_stage : private Boundary_pieces
   const unsigned m_threads;
   // Interface vertices are not inside of the subdomain of some element: on the boundary, or between two.
   std::vector<std::uint8_t> m_is_on_interface;
+  bool m_has_vertices_on_surface = false; // before they move
   std::vector<Element_index> m_outer; // elements outside, or with interface vertices
   std::vector<double> m_distances;    // of vertices, where asked for
   std::vector<std::uint32_t> m_ranks;
@@ -95,6 +96,30 @@ private:
     return v < m_is_on_interface.size() && m_is_on_interface[v];
   }
 
+  // As if it were inside, where elements are split: it is on the surface already.
+  bool is_on_surface(Vertex_index v) const
+  {
+    return m_number_of_subdomains == 1 && m_mode == Boundary_mode::VERTEX_ORDER && v < m_mesh.sides.size()
+           && m_mesh.sides[v] == ON_BOUNDARY;
+  }
+
+  // Whether an element without vertices outside is inside: some are on the surface, or all.
+  bool is_whole(Element_index e) const
+  {
+    const Element_view element = m_mesh.elements[e];
+    if(!std::all_of(element.begin(), element.end(),
+                    [this](Vertex_index v) { return m_mesh.is_inside(v) || is_on_surface(v); }))
+      return false;
+    if(std::any_of(element.begin(), element.end(), [this](Vertex_index v) { return m_mesh.is_inside(v); }))
+      return true;
+    auto middle = m_located.point(m_mesh.vertices[element[0]]) - CGAL::ORIGIN;
+    for(int i = 1; i < element.size(); ++i)
+      middle = middle + (m_located.point(m_mesh.vertices[element[i]]) - CGAL::ORIGIN);
+    return m_located.domain().bounded_side(CGAL::ORIGIN + middle / element.size(),
+                                           m_located.surface_part(m_mesh.cells[e]))
+           == ON_BOUNDED_SIDE;
+  }
+
   bool has_only_interface_vertices(const Element_view& element) const
   {
     return std::all_of(element.begin(), element.end(), [this](Vertex_index v) { return is_on_interface(v); });
@@ -112,6 +137,9 @@ private:
   void find_interface()
   {
     m_is_on_interface.assign(m_mesh.vertices.size(), 0);
+    for(Vertex_index v = 0; v < m_is_on_interface.size(); ++v)
+      m_is_on_interface[v] = is_on_surface(v);
+    m_has_vertices_on_surface = std::count(m_is_on_interface.begin(), m_is_on_interface.end(), 1) > 0;
     for(Element_index e = 0; e < m_mesh.elements.size(); ++e) {
       const Element_view element = m_mesh.elements[e];
       const Subdomain_rank mine = subdomain(element);
@@ -134,7 +162,7 @@ private:
   {
     std::vector<Vertex_index> vertices;
     for(Vertex_index v = 0; v < m_is_on_interface.size(); ++v)
-      if(m_is_on_interface[v])
+      if(m_is_on_interface[v] && !is_on_surface(v))
         vertices.push_back(v);
     parallel_for(vertices.size(), m_threads, [&](std::size_t i) {
       const Vertex_index v = vertices[i];
@@ -174,10 +202,12 @@ private:
                                              is_replaced);
     } else {
       for(Element_index e : m_outer)
-        if(subdomain(m_mesh.elements[e]) != outside_rank)
+        if(m_has_vertices_on_surface && is_whole(e))
+          add(e, m_mesh.elements[e].kind(), m_mesh.elements[e].begin(), 0);
+        else if(subdomain(m_mesh.elements[e]) != outside_rank)
           split_element(
             m_mesh.elements[e], [&](Vertex_index v) { return m_ranks[v]; },
-            [&](Vertex_index v) { return !is_on_interface(v); },
+            [&](Vertex_index v) { return !is_on_interface(v) || is_on_surface(v); },
             [&](Element_kind kind, std::initializer_list<Vertex_index> v) { add_piece(e, kind, v.begin()); });
     }
   }
@@ -185,11 +215,15 @@ private:
   void add_piece(Element_index origin, Element_kind kind, const Vertex_index* v)
   {
     const Subdomain_rank mine = subdomain(Element_view(kind, v));
-    if(mine != outside_rank) {
-      pieces.add(kind, v);
-      origins.push_back(origin);
-      subdomains.push_back(mine);
-    }
+    if(mine != outside_rank)
+      add(origin, kind, v, mine);
+  }
+
+  void add(Element_index origin, Element_kind kind, const Vertex_index* v, Subdomain_rank mine)
+  {
+    pieces.add(kind, v);
+    origins.push_back(origin);
+    subdomains.push_back(mine);
   }
 
   // A piece all of whose vertices an earlier subdomain has too would be flat once they are on its surface: it
@@ -241,7 +275,7 @@ private:
   {
     struct Piece_face
     {
-      std::array<Vertex_index, 3> key;
+      std::array<Vertex_index, 4> key;
       Face_vertices vertices;
       Subdomain_rank subdomain;
     };
@@ -251,8 +285,10 @@ private:
         const Face_vertices vertices = Face(pieces, Element_index(i), f).vertices();
         if(std::all_of(vertices.begin(), vertices.end(),
                        [this](Vertex_index v) { return is_on_interface(v); })) {
-          CGAL_assertion(vertices.size() == 3);
-          faces.push_back({{vertices[0], vertices[1], vertices[2]}, vertices, subdomains[i]});
+          const bool is_quad = vertices.size() == 4; // of elements that stay whole
+          faces.push_back({{vertices[0], vertices[1], vertices[2], is_quad ? vertices[3] : no_vertex},
+                           vertices,
+                           subdomains[i]});
           std::sort(faces.back().key.begin(), faces.back().key.end());
         }
       }

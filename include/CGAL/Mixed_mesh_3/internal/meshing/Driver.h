@@ -19,6 +19,7 @@
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/fill_vertex_budget.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/place_lattice.h>
 #include <CGAL/Mixed_mesh_criteria_3.h>
 #include <CGAL/Mixed_mesh_result_3.h>
 
@@ -46,16 +47,18 @@ class Driver
   const Octree_ m_root; // nothing but the root
   Octree_ m_octree;
   const double m_radius; // of the region
+  const Lattice_on_surface m_lattice;
   Candidate m_best;
   std::vector<Octree::Node_index> m_lost;
   Mixed_mesh_result_3 m_result;
+  bool m_is_lattice = false; // whether uniform cells between planes of the surface are the result
   Tolerance_search<Octree_, Mesh, Visitor> m_tolerance_search;
 
 public:
   Driver(const Domain& domain, const Region& region, const Mixed_mesh_criteria_3& criteria,
          const CellTraits& traits, Visitor& visitor)
     : m_criteria(criteria), m_traits(traits), m_visitor(visitor), m_root(domain, region, traits),
-      m_octree(m_root), m_radius(mean_radius_of_region(m_root)),
+      m_octree(m_root), m_radius(mean_radius_of_region(m_root)), m_lattice(lattice_on_surface(traits)),
       m_tolerance_search(m_root, criteria, visitor, m_result)
   {
   }
@@ -69,10 +72,12 @@ public:
     {
       m_result.tolerance = tolerance();
       const Scope scope(m_visitor, Stage::OCTREE);
-      if(m_result.tolerance > 0)
-        m_tolerance_search.run();
-      if(!m_tolerance_search.is_stopped())
-        fill_budget();
+      if(!fill_lattice()) {
+        if(m_result.tolerance > 0)
+          m_tolerance_search.run();
+        if(!m_tolerance_search.is_stopped())
+          fill_budget();
+      }
     }
     describe();
     if(!m_result.has_mesh())
@@ -83,7 +88,8 @@ public:
     }
     if(m_criteria.fit_to_surface() && !m_result.is_kept)
       optimize(mesh);
-    note_share_filled(mesh.number_of_vertices());
+    if(!m_is_lattice)
+      note_share_filled(mesh.number_of_vertices());
     return m_result;
   }
 
@@ -128,12 +134,32 @@ private:
       mesh.clear();
   }
 
+  // Uniform cells between planes of the surface need nothing more.
+  bool fill_lattice()
+  {
+    Octree_ octree = m_root;
+    if(!m_lattice.is_uniform || !refine_to_level(octree, m_lattice.level, budget()))
+      return false;
+    Candidate candidate = try_octree(octree);
+    const std::size_t n = candidate.number_of_vertices;
+    if(n == 0 || n > m_criteria.maximal_number_of_vertices() || !candidate.is_manifold())
+      return false;
+    m_octree = std::move(octree);
+    m_best = std::move(candidate);
+    m_lost = lost_cells(m_octree, m_best.mesh, m_best.boundary);
+    m_result.base_level = m_lattice.level;
+    m_result.number_of_vertices_needed = n;
+    m_result.number_of_cells = m_octree.number_of_cells();
+    return m_is_lattice = true;
+  }
+
   // If no base level is given: coarser than the default if the budget demands it; finer, as far as the
   // budget allows, if much of a thin domain would have no elements.
   void fill_budget()
   {
     const bool is_automatic = m_criteria.base_level() == Mixed_mesh_criteria_3::automatic;
-    int level = first_base_level(m_criteria);
+    const int coarsest = (std::max)(coarsest_automatic_base_level, m_lattice.level);
+    int level = (std::max)(first_base_level(m_criteria), m_lattice.level);
     for(int step = 0;; level += step) {
       Octree_ octree = m_root;
       Candidate candidate;
@@ -165,7 +191,7 @@ private:
                                       > tolerated_share_of_lost_cells * double(m_result.number_of_cells);
       if(m_best.is_stopped)
         return;
-      if(is_automatic && is_above && level > coarsest_automatic_base_level)
+      if(is_automatic && is_above && level > coarsest)
         step = -1;
       else if(is_automatic && !is_above && step >= 0 && is_too_coarse && level < finest_automatic_base_level)
         step = 1;

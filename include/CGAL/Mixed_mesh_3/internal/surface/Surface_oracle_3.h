@@ -24,6 +24,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <unordered_map>
@@ -78,6 +79,10 @@ public:
   double area() const;
   double volume() const;
   std::size_t number_of_facets() const { return m_triangles.size(); }
+
+  /// If each facet is perpendicular to an axis, the coordinates of their planes, with the area in each, for
+  /// each axis, and the volume; else nothing, and 0.
+  std::array<std::map<double, double>, 3> axis_parallel_planes(double& volume) const;
 
   /// The whole surface, with a point outside as reference: the paper's P_out.
   Surface_part surface_part() const

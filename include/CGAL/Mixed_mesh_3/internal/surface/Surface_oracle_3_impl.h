@@ -21,6 +21,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -92,6 +93,23 @@ CGAL_MIXED_MESH_3_INLINE double Surface_oracle_3::volume() const
   for(const Trees::Doubles::Triangle_3& t : m_trees->triangles)
     sum += CGAL::volume(o, t[0], t[1], t[2]);
   return std::abs(sum);
+}
+
+CGAL_MIXED_MESH_3_INLINE std::array<std::map<double, double>, 3>
+Surface_oracle_3::axis_parallel_planes(double& volume) const
+{
+  volume = 0;
+  std::array<std::map<double, double>, 3> planes;
+  for(const Trees::Doubles::Triangle_3& t : m_trees->triangles) {
+    int k = 0;
+    while(k < 3 && !(t[0][k] == t[1][k] && t[0][k] == t[2][k]))
+      ++k;
+    if(k == 3)
+      return {};
+    planes[std::size_t(k)][t[0][k]] += std::sqrt(t.squared_area());
+  }
+  volume = this->volume();
+  return planes;
 }
 
 CGAL_MIXED_MESH_3_INLINE Bounded_side Surface_oracle_3::bounded_side(const Point_3& p) const
