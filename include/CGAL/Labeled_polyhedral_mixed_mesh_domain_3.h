@@ -225,6 +225,25 @@ public:
     return 4 * volume / area;
   }
 
+  /// The sharp edges of the surfaces, as those of `Polyhedral_mixed_mesh_domain_3`; none if there are several
+  /// subdomains.
+  Mixed_meshes_3::internal::Sharp_edges sharp_edges(double angle) const
+  {
+    Mixed_meshes_3::internal::Sharp_edges all;
+    if(m_indices.size() > 1)
+      return all;
+    for(const Labeled& s : m_surfaces) {
+      const Mixed_meshes_3::internal::Sharp_edges more = s.surface->sharp_edges(angle);
+      const std::size_t first = all.points.size();
+      all.points.insert(all.points.end(), more.points.begin(), more.points.end());
+      for(const auto& e : more.edges)
+        all.edges.push_back({first + e[0], first + e[1]});
+      all.diagonal = (std::max)(all.diagonal, more.diagonal);
+      all.area += more.area;
+    }
+    return all;
+  }
+
   /// The planes that the surfaces lie in, as those of `Polyhedral_mixed_mesh_domain_3`; nothing, and 0, if there
   /// are several subdomains.
   std::array<std::map<double, double>, 3> axis_parallel_planes(double& volume) const

@@ -99,6 +99,9 @@ struct Mixed_mesh_result_3
   /// What fitting and optimization did; its status is `EMPTY` if they did not run.
   Mixed_mesh_optimization_result_3 optimization;
 
+  /// Whether the surface is perpendicular to the axes, and all elements are cells of one size between its
+  /// planes. Such a mesh may leave much of the budget unused.
+  bool is_lattice_on_surface = false;
   bool is_kept = false; ///< whether the mesh is what there was when the visitor stopped the run
 
   /// Whether there is a mesh, and it is what was asked for or as close to it as possible, or as far as it

@@ -45,6 +45,7 @@ Json describe(const Options& o)
                  {"time limit", std::isfinite(o.time_limit) ? Json(o.time_limit) : Json()},
                  {"tolerance", o.tolerance > 0 ? Json(o.tolerance) : Json("automatic")},
                  {"max ARC", o.has_quality_bound() ? Json(o.largest_arc) : Json()},
+                 {"sharp angle", o.sharp_angle},
                  {"tetrahedra", o.tetrahedra},
                  {"msh version", o.msh2 ? "2.2" : "4.1"},
                  {"space", space_of(o.surface_options)},
@@ -171,7 +172,14 @@ Json describe(const CGAL::Mixed_mesh_optimization_result_3& r)
           {"boundary vertices", r.number_of_boundary_vertices},
           {"arrived", r.number_of_arrived_vertices},
           {"rounds", r.number_of_rounds},
-          {"flips", r.number_of_flips}};
+          {"flips", r.number_of_flips},
+          {"sharp edges",
+           {{"length", r.length_of_sharp_edges},
+            {"share kept", r.length_of_sharp_edges > 0
+                             ? Json(r.length_of_sharp_edges_kept / r.length_of_sharp_edges)
+                             : Json()},
+            {"corners", r.number_of_corners},
+            {"corners kept", r.number_of_corners_kept}}}};
 }
 
 Json describe(const CGAL::Mixed_mesh_fit_result_3& r)

@@ -199,6 +199,7 @@ Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3
                     .root_cell(o.root)
                     .transition_templates(o.templates)
                     .fit_to_surface(o.fit() == Fit::OPTIMIZATION)
+                    .sharp_angle(o.sharp_angle)
                     .number_of_threads(o.threads)
                     .keep_mesh_if_stopped(true);
   criteria.share_of_bisections(criteria.share_of_bisections()).fit_to_surface(false);
@@ -238,6 +239,7 @@ bool fit_by_optimization(Mesh& mesh, const Domain& domain, const Options& o, Sta
   const auto criteria = CGAL::Mixed_mesh_optimization_criteria_3()
                           .tolerance(outcome.result.tolerance)
                           .quality_bound(o.largest_arc)
+                          .sharp_angle(o.sharp_angle)
                           .number_of_bisections(o.vertices - mesh.number_of_vertices());
   const auto r = log.fit(mm3::stage_names[int(mm3::Stage::OPTIMIZATION)], [&] {
     return CGAL::optimize_mixed_mesh_3(mesh, domain, criteria, CGAL::parameters::visitor(std::ref(log)));

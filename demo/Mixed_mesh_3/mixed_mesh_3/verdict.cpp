@@ -114,7 +114,7 @@ void add_warnings(const Options& o, Outcome& outcome)
 {
   std::vector<std::string>& warnings = outcome.warnings;
   const Fidelity& f = outcome.fidelity;
-  if(double(outcome.mesh.vertices) < 0.97 * double(o.vertices))
+  if(double(outcome.mesh.vertices) < 0.97 * double(o.vertices) && !outcome.result.is_lattice_on_surface)
     warnings.push_back("only " + std::to_string(outcome.mesh.vertices) + " of " + std::to_string(o.vertices)
                        + " vertices used: the region cannot be refined "
                          "further, or each further cell tried would exceed the budget");

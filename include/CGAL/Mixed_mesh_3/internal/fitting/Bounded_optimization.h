@@ -58,6 +58,8 @@ class Bounded_optimization
   const Criteria& m_criteria;
   const Quality& m_quality;
   const bool m_has_subdomains;
+  const Sharp_edges m_sharp_edges;
+  const Sharp_features m_features;
   std::vector<std::uint8_t> m_is_held; // for each vertex
 
   static constexpr double share_tolerated_off = 0.01;
@@ -68,7 +70,9 @@ class Bounded_optimization
 public:
   Bounded_optimization(Mesh& mesh, const Domain& domain, const Criteria& criteria, const Quality& quality)
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality),
-      m_has_subdomains(subdomain_indices(domain).size() > 1), m_is_held(mesh.number_of_vertices(), 0)
+      m_has_subdomains(subdomain_indices(domain).size() > 1),
+      m_sharp_edges(sharp_edges(domain, criteria.sharp_angle())),
+      m_features(m_sharp_edges, m_sharp_edges.edges.empty() ? 0 : mean_edge_length()), m_is_held(mesh.number_of_vertices(), 0)
   {
   }
 
@@ -137,6 +141,7 @@ private:
     outcome.mesh = m_mesh;
     Surface_optimizer optimizer(outcome.mesh, m_domain, Criteria(m_criteria).quality_bound(0), m_quality);
     optimizer.finish_within(bound_for_doubles(m_criteria));
+    optimizer.follow(m_features);
     if(only_arrives)
       optimizer.only_arrive();
     outcome.result = optimizer(go_on);
@@ -174,6 +179,7 @@ private:
       mesh = m_mesh;
       Surface_optimizer optimizer(mesh, m_domain, m_criteria, m_quality);
       optimizer.hold(m_is_held);
+      optimizer.follow(m_features);
       optimizer.only_arrive(); // where that is hard, the rest would make it harder
       const Result result = optimizer(go_on);
       if(result.is_boundary_simple || result.status == Status::STOPPED || i > std::size(rings)
@@ -184,6 +190,19 @@ private:
       else
         hold(optimizer.crossing_vertices(), rings[i]);
     }
+  }
+
+  // Of the boundary.
+  double mean_edge_length() const
+  {
+    double sum = 0;
+    int number = 0;
+    for(const Face& face : boundary_faces(m_mesh)) {
+      const Face_vertices& v = face.vertices();
+      for(int i = 0; i < v.size(); ++i, ++number)
+        sum += norm(to_vec3(m_mesh.points()[v[i]]) - to_vec3(m_mesh.points()[v[(i + 1) % v.size()]]));
+    }
+    return sum / number;
   }
 
   bool is_start_crossing() const

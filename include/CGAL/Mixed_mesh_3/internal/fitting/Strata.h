@@ -32,6 +32,9 @@ using Stratum = std::uint32_t;
 /// Of vertices that may be anywhere, and of those on the boundary of a domain without labels.
 inline constexpr Stratum free_stratum = 0, boundary_stratum = 1;
 
+/// Of vertices on sharp edges: from here on the numbers of polylines, then those of corners.
+inline constexpr Stratum first_sharp_stratum = Stratum(1) << 31;
+
 /// Between a subdomain and a later one, or the outside, 0.
 struct Interface
 {

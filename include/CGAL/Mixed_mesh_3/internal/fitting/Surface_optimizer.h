@@ -10,6 +10,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/bisect_boundary_edges.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/feature_paths.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/flips.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Strata.h>
@@ -57,7 +58,7 @@ class Surface_optimizer
   const Mixed_mesh_optimization_criteria_3 m_criteria;
   const Quality m_quality;
   Strata m_strata;
-  const Project m_project;
+  Project m_project;
   Interface_faces m_boundary; // interfaces, too
   Working_mesh m_working;
   Moves m_moves;
@@ -65,6 +66,7 @@ class Surface_optimizer
   const Surface_tolerances m_tolerances;
   const std::vector<Surface_sample> m_samples;
   Attraction_ m_attraction;
+  const Sharp_features* m_features = nullptr;
   std::vector<std::pair<Vertex_index, Vec3>> m_travelers; // not on the surface yet, with their targets
   std::vector<std::uint8_t> m_is_arrived;
   // Where no faces cut each other: at the start, then the last time that was seen; and what was on the
@@ -72,6 +74,7 @@ class Surface_optimizer
   std::vector<Vec3> m_simple_points;
   std::vector<std::uint8_t> m_simple_is_arrived;
   std::vector<std::uint8_t> m_is_held;
+  std::vector<Vec3> m_feature_places; // where vertices start to look for their targets, if there are features
   bool m_only_arrives = false;
   double m_final_bound = std::numeric_limits<double>::infinity();
   std::vector<Vertex_index> m_crossing; // in the end
@@ -84,6 +87,7 @@ class Surface_optimizer
   // larger one worse elements. The quality bound of the criteria is above all of them.
   static constexpr double acceptable_at_first = 4, acceptable_growth = 1.25, acceptable_at_most = 100,
                           acceptable_late = 10;
+  static constexpr int rounds_for_features = 25; // of the arrival
   static constexpr int arrival_rounds = 40, arrival_sweeps = 2, rounds_until_new_target = 8,
                        rounds_until_check = 2, return_rounds = 8;
   static constexpr int retreat_rounds = 24;
@@ -139,6 +143,13 @@ public:
     std::copy(is_held.begin(), is_held.end(), m_is_held.begin());
   }
 
+  /// Paths of the boundary's edges are to be on sharp edges of the surface. To be kept by the caller.
+  void follow(const Sharp_features& features)
+  {
+    m_features = features.empty() ? nullptr : &features;
+    m_project.set_features(features);
+  }
+
   /// Boundary vertices are not drawn to places that are too far, which are measured only; edges are bisected
   /// late.
   void only_arrive() { m_only_arrives = true; }
@@ -153,6 +164,8 @@ public:
   Mixed_mesh_optimization_result_3 operator()(const Go_on& go_on)
   {
     using Status = Mixed_mesh_optimization_status;
+    if(m_features)
+      lay_feature_paths();
     bool is_stopped = !arrive(go_on);
     if(!is_stopped) {
       const double crossing = double(remember_if_simple()),
@@ -173,6 +186,8 @@ public:
       m_attraction.measure();
       m_result.largest_distance = m_attraction.largest_distance();
     }
+    if(m_features)
+      measure_features();
     m_working.store(m_mesh);
     const bool is_fitted = m_result.number_of_arrived_vertices == m_result.number_of_boundary_vertices
                            && m_result.is_boundary_simple;
@@ -241,13 +256,97 @@ private:
                                 [this](Subdomain_index first) { return mean_edge_length(first) / 6; });
   }
 
+  void lay_feature_paths()
+  {
+    const Surface_targets targets = surface_targets(m_boundary.faces, m_working.points, m_project,
+                                                    m_working.strata);
+    m_feature_places = m_working.points;
+    for(std::size_t i = 0; i < targets.vertices.size(); ++i)
+      m_feature_places[targets.vertices[i]] = targets.positions[i];
+    Feature_paths paths(m_working, m_quality, *m_features, m_boundary, m_feature_places, m_is_held,
+                        (std::min)(worst_half, bound_for_doubles(m_criteria)),
+                        m_criteria.number_of_bisections());
+    paths();
+    m_feature_places = paths.places();
+    for(Vertex_index v = Vertex_index(m_simple_points.size()); v < m_working.points.size(); ++v)
+      m_simple_points.push_back(m_working.points[v]);
+    m_result.number_of_bisections += paths.bisected().size();
+    m_simple_is_arrived.resize(m_working.points.size(), 0);
+    m_is_arrived.resize(m_working.points.size(), 0);
+    m_is_held.resize(m_working.points.size(), 0);
+    m_moves.add_vertices();
+    for(Vertex_index v = Vertex_index(m_working.points.size() - paths.bisected().size());
+        v < m_working.points.size(); ++v)
+      m_moves.fix(v);
+    m_boundary = m_working.interface_faces(m_strata);
+    attract_boundary();
+  }
+
+  // What can not get there shall be on the surface at least.
+  void give_up_features()
+  {
+    for(auto& [v, target] : m_travelers)
+      if(m_working.strata[v] >= first_sharp_stratum)
+        leave_feature(v);
+    choose_new_targets();
+  }
+
+  void leave_feature(Vertex_index v)
+  {
+    m_working.strata[v] = boundary_stratum;
+    for(auto e = m_working.sharp_edges.begin(); e != m_working.sharp_edges.end();)
+      e = e->first.first == v || e->first.second == v ? m_working.sharp_edges.erase(e) : std::next(e);
+  }
+
+  // Along each edge that is to be sharp: how much of the polyline between its ends is near to it.
+  void measure_features()
+  {
+    constexpr int samples = 16;
+    constexpr double near_enough = 0.05; // in lengths of the edge
+    const auto& polylines = m_features->polylines();
+    const auto is_there = [&](Vertex_index v) { return v >= m_is_arrived.size() || m_is_arrived[v]; };
+    m_result.length_of_sharp_edges = m_features->length();
+    m_result.length_of_sharp_edges_kept = 0;
+    for(const auto& [e, stratum] : m_working.sharp_edges) {
+      const auto [a, b] = e;
+      const Feature_polyline& polyline = polylines[stratum - first_sharp_stratum];
+      const Vec3 &p = m_working.points[a], &q = m_working.points[b], along = q - p;
+      if(!is_there(a) || !is_there(b))
+        continue;
+      double first = position_on(a, polyline), last = position_on(b, polyline);
+      for(int i = 0; i < samples; ++i) {
+        const Vec3 s = polyline.at(first + (i + 0.5) / samples * (last - first)) - p;
+        const double share = (std::min)((std::max)(dot(s, along) / dot(along, along), 0.), 1.);
+        if(norm(s - share * along) <= near_enough * norm(along))
+          m_result.length_of_sharp_edges_kept += std::abs(last - first) / samples;
+      }
+    }
+    m_result.number_of_corners = m_result.number_of_corners_kept = 0;
+    for(std::size_t c = 0; c < m_features->corners().size(); ++c)
+      m_result.number_of_corners += m_features->is_real_corner(c);
+    for(Vertex_index v = 0; v < m_working.points.size(); ++v)
+      if(m_working.strata[v] >= first_sharp_stratum + polylines.size() && is_there(v))
+        m_result.number_of_corners_kept += m_features->is_real_corner(m_working.strata[v] - first_sharp_stratum
+                                                                      - polylines.size());
+  }
+
+  // How far along a vertex is that is on it.
+  double position_on(Vertex_index v, const Feature_polyline& polyline) const
+  {
+    const std::size_t corner = m_working.strata[v] - first_sharp_stratum - m_features->polylines().size();
+    return m_working.strata[v] < first_sharp_stratum + m_features->polylines().size()
+             ? polyline.closest(m_working.points[v]).length
+           : corner == polyline.corners[0] ? 0
+                                           : polyline.length();
+  }
+
   // Each boundary vertex goes to its target, all the way or part of it, as far as validity and quality
   // allow; then the inner vertices give way, and the next round follows.
   template <class Go_on>
   bool arrive(const Go_on& go_on)
   {
     const Surface_targets targets = surface_targets(m_boundary.faces, m_working.points, m_project,
-                                                    m_working.strata);
+                                                    m_working.strata, m_feature_places);
     m_result.number_of_boundary_vertices = targets.vertices.size();
     for(std::size_t i = 0; i < targets.vertices.size(); ++i) {
       if(m_is_held[targets.vertices[i]])
@@ -281,6 +380,8 @@ private:
       acceptable = (std::min)(acceptable_growth * acceptable, acceptable_at_most);
       if(round % rounds_until_new_target == rounds_until_new_target - 1)
         choose_new_targets();
+      if(m_features && round == rounds_for_features)
+        give_up_features();
     }
     return true;
   }
@@ -522,10 +623,11 @@ private:
   void bisect()
   {
     const std::size_t all = m_criteria.number_of_bisections(),
-                      early = all - std::size_t(share_of_late_bisections * double(all)),
+                      early = (std::max)(all - std::size_t(share_of_late_bisections * double(all)),
+                                   m_result.number_of_bisections),
                       in_region = std::size_t(bisections_in_region
                                               * std::pow(double(m_working.points.size()), 2. / 3));
-    bisect((std::min)(early, in_region), [&](Vertex_index a, Vertex_index b, const auto&, Stratum) {
+    bisect((std::min)(early - m_result.number_of_bisections, in_region), [&](Vertex_index a, Vertex_index b, const auto&, Stratum) {
       return m_working.is_edge_in_region(a, b) ? norm(m_working.points[a] - m_working.points[b]) : 0;
     });
     bisect_far(early - m_result.number_of_bisections, 2);

@@ -8,6 +8,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Strata.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Sharp_features.h>
 
 #include <algorithm>
 #include <limits>
@@ -25,6 +26,7 @@ class Surface_projection
 
   const Domain* m_domain;
   const Strata* m_strata;
+  const Sharp_features* m_features = nullptr;
 
   static constexpr int maximal_number_of_cycles = 20;
   static constexpr double accuracy = 1e-9;      // in diagonals of the domain
@@ -36,8 +38,14 @@ public:
   /// \param strata to be kept by the caller
   Surface_projection(const Domain& domain, const Strata& strata) : m_domain(&domain), m_strata(&strata) {}
 
+  /// Strata from `first_sharp_stratum` on are on those polylines, or at those corners, then. To be kept by the
+  /// caller.
+  void set_features(const Sharp_features& features) { m_features = &features; }
+
   Vec3 operator()(const Vec3& p, Stratum stratum) const
   {
+    if(stratum >= first_sharp_stratum)
+      return on_feature(p, stratum);
     if constexpr(Is_labeled_domain<Domain>::value) {
       const std::vector<Interface>& interfaces = m_strata->interfaces(stratum);
       return interfaces.size() == 1 ? closest(p, interfaces[0]) : junction(p, interfaces);
@@ -49,6 +57,8 @@ public:
   /// Faster if `hint`, a point of the same stratum, is near.
   Vec3 operator()(const Vec3& p, const Vec3& hint, Stratum stratum) const
   {
+    if(stratum >= first_sharp_stratum)
+      return on_feature(p, stratum);
     if constexpr(Is_labeled_domain<Domain>::value) {
       const std::vector<Interface>& interfaces = m_strata->interfaces(stratum);
       return interfaces.size() == 1 ? to_vec3(
@@ -62,6 +72,8 @@ public:
   /// Whether what the projection gave is on all interfaces: where several meet, it need not be.
   bool is_reached(const Vec3& p, Stratum stratum) const
   {
+    if(stratum >= first_sharp_stratum)
+      return true;
     if constexpr(Is_labeled_domain<Domain>::value) {
       const std::vector<Interface>& interfaces = m_strata->interfaces(stratum);
       return interfaces.size() == 1
@@ -78,6 +90,12 @@ private:
   {
     const auto& box = m_domain->bbox();
     return norm({box.x_span(), box.y_span(), box.z_span()});
+  }
+
+  Vec3 on_feature(const Vec3& p, Stratum stratum) const
+  {
+    const std::size_t i = stratum - first_sharp_stratum, n = m_features->polylines().size();
+    return i < n ? m_features->polylines()[i].closest(p).point : m_features->corners()[i - n];
   }
 
   Vec3 closest(const Vec3& p, const Interface& i) const

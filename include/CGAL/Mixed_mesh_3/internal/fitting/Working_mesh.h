@@ -21,6 +21,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -73,6 +74,8 @@ struct Working_mesh
   std::vector<Element> elements;
   std::vector<std::vector<Element_index>> incident; ///< for each vertex, its elements, in any fixed order
   std::vector<Stratum> strata;                      ///< of the vertices
+  using Edge = std::pair<Vertex_index, Vertex_index>; ///< the smaller one first
+  std::map<Edge, Stratum> sharp_edges;                ///< edges of the boundary along sharp ones
 
   /// \param strata_of_vertices on which surfaces they are to be
   template <class Mesh>
@@ -133,6 +136,8 @@ struct Working_mesh
     for(Vertex_index v : elements[e])
       incident[v].erase(std::find(incident[v].begin(), incident[v].end(), e));
   }
+
+  bool is_sharp(Vertex_index a, Vertex_index b) const { return sharp_edges.count(std::minmax(a, b)) > 0; }
 
   /// Whether an element with that edge is in the region of interest.
   bool is_edge_in_region(Vertex_index a, Vertex_index b) const

@@ -150,11 +150,18 @@ public:
       const auto [a, b] = m_queue.top().second;
       m_queue.pop();
       const Vec3 middle = 0.5 * (m_mesh.points[a] + m_mesh.points[b]);
-      const Stratum stratum = m_triangles.at({a, b}).stratum;
+      const auto sharp = m_mesh.sharp_edges.find({a, b});
+      const bool is_sharp = sharp != m_mesh.sharp_edges.end();
+      const Stratum stratum = is_sharp ? sharp->second : m_triangles.at({a, b}).stratum;
       const Vec3 p = m_mesh.strata[a] == stratum ? m_project(middle, m_mesh.points[a], stratum)
                                                  : m_project(middle, stratum);
       if(bisect_edge(m_mesh, m_quality, a, b, p, stratum, m_worst)) {
-        update(a, b, Vertex_index(m_mesh.points.size() - 1));
+        const Vertex_index v = Vertex_index(m_mesh.points.size() - 1);
+        if(is_sharp) {
+          m_mesh.sharp_edges.erase(sharp);
+          m_mesh.sharp_edges[edge(a, v)] = m_mesh.sharp_edges[edge(b, v)] = stratum;
+        }
+        update(a, b, v);
         bisected.emplace_back(a, b);
       }
     }

@@ -276,6 +276,8 @@ private:
       if(is_shared(e, {a, b}) || !is_shared(e, {a, c, d}) || !is_shared(e, {b, c, d})
          || is_edge_of_boundary(c, d))
         continue;
+      if(m_mesh.is_sharp(a, b) || (m_mesh.strata[c] == m_mesh.strata[d] && m_mesh.strata[c] >= first_sharp_stratum))
+        continue; // or two points of a sharp edge would be joined past those between
       const Subdomain_index first = subdomain_behind(e, {a, b, c}), second = subdomain_behind(e, {a, b, d});
       if(first != second)
         continue;

@@ -131,11 +131,13 @@ The target of each boundary vertex.
 \param points positions of all vertices
 \param closest as `Surface_projection`
 \param strata of all vertices
+\param starts of all vertices, the points to be projected, if these are others
 \cost one query per boundary vertex, and one for each vertex of a folded face in each round
 */
 template <class Project>
 Surface_targets surface_targets(const std::vector<Face>& boundary, const std::vector<Vec3>& points,
-                                const Project& closest, const std::vector<Stratum>& strata)
+                                const Project& closest, const std::vector<Stratum>& strata,
+                                const std::vector<Vec3>& starts = {})
 {
   constexpr int maximal_number_of_rounds = 100, rounds_until_wider = 10;
 
@@ -160,7 +162,7 @@ Surface_targets surface_targets(const std::vector<Face>& boundary, const std::ve
   // Project; the target of a neighbor is a good start of the search.
   std::vector<Vec3>& targets = result.positions;
   for(std::size_t i = 0; i < n; ++i) {
-    const Vec3& p = sources[i];
+    const Vec3& p = starts.empty() ? sources[i] : starts[result.vertices[i]];
     const Stratum s = strata[result.vertices[i]];
     const std::size_t j = neighbors_of[i].empty() ? n : neighbors_of[i][0];
     targets.push_back(j < i && strata[result.vertices[j]] == s ? closest(p, targets[j], s) : closest(p, s));

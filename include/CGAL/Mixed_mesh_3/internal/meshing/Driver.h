@@ -51,7 +51,6 @@ class Driver
   Candidate m_best;
   std::vector<Octree::Node_index> m_lost;
   Mixed_mesh_result_3 m_result;
-  bool m_is_lattice = false; // whether uniform cells between planes of the surface are the result
   Tolerance_search<Octree_, Mesh, Visitor> m_tolerance_search;
 
 public:
@@ -88,7 +87,7 @@ public:
     }
     if(m_criteria.fit_to_surface() && !m_result.is_kept)
       optimize(mesh);
-    if(!m_is_lattice)
+    if(!m_result.is_lattice_on_surface)
       note_share_filled(mesh.number_of_vertices());
     return m_result;
   }
@@ -119,6 +118,7 @@ private:
     const auto criteria = Mixed_mesh_optimization_criteria_3()
                             .tolerance(m_result.tolerance)
                             .quality_bound(m_criteria.quality_bound())
+                            .sharp_angle(m_criteria.sharp_angle())
                             .number_of_bisections(m_criteria.share_of_bisections() > 0 ? rest : 0);
     const Aspect_ratio_quality_3 quality;
     Bounded_optimization optimize(mesh, m_root.domain(), criteria, quality);
@@ -150,7 +150,7 @@ private:
     m_result.base_level = m_lattice.level;
     m_result.number_of_vertices_needed = n;
     m_result.number_of_cells = m_octree.number_of_cells();
-    return m_is_lattice = true;
+    return m_result.is_lattice_on_surface = true;
   }
 
   // If no base level is given: coarser than the default if the budget demands it; finer, as far as the

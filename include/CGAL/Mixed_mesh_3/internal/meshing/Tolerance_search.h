@@ -20,6 +20,7 @@
 #include <CGAL/Mixed_mesh_3/internal/meshing/Candidate.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/base_level.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/place_lattice.h>
 #include <CGAL/Mixed_mesh_criteria_3.h>
 #include <CGAL/Mixed_mesh_result_3.h>
 
@@ -136,7 +137,9 @@ private:
 
   Candidate try_base_octree(Octree_& octree)
   {
-    if(!refine_to_level(octree, first_base_level(m_criteria), m_criteria.maximal_number_of_vertices()))
+    const int level = (std::max)(first_base_level(m_criteria),
+                                 lattice_on_surface(octree.cell_traits()).level);
+    if(!refine_to_level(octree, level, m_criteria.maximal_number_of_vertices()))
       return {};
     split_far_cells(octree);
     Candidate c = make_candidate(octree, m_criteria, m_visitor);

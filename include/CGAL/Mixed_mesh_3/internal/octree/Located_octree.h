@@ -61,6 +61,7 @@ public:
   const Octree& octree() const { return m_octree; }
   const Domain& domain() const { return *m_domain; }
   const Region& region() const { return *m_region; }
+  const CellTraits& cell_traits() const { return *m_traits; }
 
   /// `ON_BOUNDARY`: the cell meets the surface of the domain; else the side of all its points.
   Bounded_side side(Node_index n) const { return Bounded_side(m_locations[n].domain); }

@@ -12,6 +12,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Sharp_features.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/assertions.h>
@@ -79,6 +80,9 @@ public:
   double area() const;
   double volume() const;
   std::size_t number_of_facets() const { return m_triangles.size(); }
+
+  /// The edges between facets whose normals differ by more than an angle, in degrees.
+  Sharp_edges sharp_edges(double angle) const;
 
   /// If each facet is perpendicular to an axis, the coordinates of their planes, with the area in each, for
   /// each axis, and the volume; else nothing, and 0.

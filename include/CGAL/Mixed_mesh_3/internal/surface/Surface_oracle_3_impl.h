@@ -12,9 +12,12 @@
 
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Cartesian_converter.h>
+#include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
+
+#include <boost/property_map/property_map.hpp>
 
 #include <algorithm>
 #include <array>
@@ -30,6 +33,20 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
+
+/// What CGAL's detection of sharp edges marks them in.
+struct Is_sharp_map
+{
+  using key_type = CGAL::Surface_mesh<Surface_oracle_3::Point_3>::Edge_index;
+  using value_type = bool;
+  using reference = bool;
+  using category = boost::read_write_property_map_tag;
+
+  std::vector<std::uint8_t>* is_sharp;
+
+  friend bool get(const Is_sharp_map& map, key_type e) { return (*map.is_sharp)[e] != 0; }
+  friend void put(const Is_sharp_map& map, key_type e, bool is_sharp) { (*map.is_sharp)[e] = is_sharp; }
+};
 
 struct Surface_oracle_3::Trees
 {
@@ -93,6 +110,29 @@ CGAL_MIXED_MESH_3_INLINE double Surface_oracle_3::volume() const
   for(const Trees::Doubles::Triangle_3& t : m_trees->triangles)
     sum += CGAL::volume(o, t[0], t[1], t[2]);
   return std::abs(sum);
+}
+
+CGAL_MIXED_MESH_3_INLINE Sharp_edges Surface_oracle_3::sharp_edges(double angle) const
+{
+  const Trees::Surface& s = m_trees->surface;
+  std::vector<std::uint8_t> is_sharp(s.number_of_edges(), 0);
+  Polygon_mesh_processing::detect_sharp_edges(s, angle, Is_sharp_map{&is_sharp});
+  Sharp_edges result;
+  std::vector<std::size_t> numbers(s.number_of_vertices(), std::size_t(-1));
+  const auto number = [&](Trees::Surface::Vertex_index v) {
+    if(numbers[v] == std::size_t(-1)) {
+      numbers[v] = result.points.size();
+      result.points.push_back(to_vec3(s.point(v)));
+    }
+    return numbers[v];
+  };
+  for(const auto e : edges(s))
+    if(is_sharp[e])
+      result.edges.push_back({number(source(halfedge(e, s), s)), number(target(halfedge(e, s), s))});
+  const Bbox_3& b = m_bbox;
+  result.diagonal = norm({b.x_span(), b.y_span(), b.z_span()});
+  result.area = area();
+  return result;
 }
 
 CGAL_MIXED_MESH_3_INLINE std::array<std::map<double, double>, 3>

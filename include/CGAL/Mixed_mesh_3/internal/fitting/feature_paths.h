@@ -1,0 +1,372 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which edges of the boundary shall become the sharp edges of the surface.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_FEATURE_PATHS_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_FEATURE_PATHS_H
+
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/bisect_boundary_edges.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Sharp_features.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <queue>
+#include <set>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/*!
+Each corner takes the boundary vertex that will be nearest, and each polyline, the longest first, the shortest
+path between those of its ends, where the length of an edge counts the more, the farther it is from the
+polyline. Paths have no vertex in common but at corners, and no edge past a vertex of a path joins two others
+of it: on the polyline it would fold. A path may lead through the middle of an edge too, that is bisected then.
+
+Vertices of paths get the strata of their polylines and corners, edges are noted in
+`Working_mesh::sharp_edges`.
+*/
+template <class Quality>
+class Feature_paths
+{
+  using Edge = Working_mesh::Edge;
+  using Node = Edge; // a vertex, twice, or the middle of an edge
+
+  Working_mesh& m_mesh;
+  const Quality& m_quality;
+  const Sharp_features& m_features;
+  const double m_worst;
+  std::size_t m_bisections_left;
+  std::vector<Vec3> m_places; // of boundary vertices, where they will be
+  std::vector<double> m_sizes;
+  std::vector<std::uint8_t> m_is_free;
+  std::vector<std::vector<Vertex_index>> m_neighbors;  // on the boundary
+  std::map<Edge, std::array<Vertex_index, 2>> m_apexes; // of the triangles at each edge
+  std::set<Edge> m_whole;                              // edges that can not be bisected
+  std::vector<Vertex_index> m_corners;                 // that of each corner, or none
+  std::vector<Edge> m_bisected;
+
+  // Edges as far from the polyline as they are long count that many times as much, about; and middles more
+  // than vertices. Farther than so many sizes there is no path, and no corner takes a vertex.
+  static constexpr double aversion = 8, price_of_bisection = 1.4, reach = 2.5, reach_of_corners = 2;
+  static constexpr int trials = 20;
+
+public:
+  /// \param boundary its faces
+  /// \param places of all vertices
+  /// \param is_blocked vertices that paths do not use
+  /// \param worst halves of bisected tetrahedra cost at most that
+  Feature_paths(Working_mesh& mesh, const Quality& quality, const Sharp_features& features,
+                const Interface_faces& boundary, std::vector<Vec3> places,
+                const std::vector<std::uint8_t>& is_blocked, double worst, std::size_t bisections)
+    : m_mesh(mesh), m_quality(quality), m_features(features), m_worst(worst), m_bisections_left(bisections),
+      m_places(std::move(places)), m_sizes(mesh.points.size(), 0), m_is_free(mesh.points.size(), 0),
+      m_neighbors(mesh.points.size()), m_corners(features.corners().size(), no_vertex)
+  {
+    for(const Face& face : boundary.faces) {
+      const Face_vertices& v = face.vertices();
+      for(int i = 0; i < v.size(); ++i) {
+        const Vertex_index a = v[i], b = v[(i + 1) % v.size()];
+        m_is_free[a] = !is_blocked[a];
+        m_neighbors[a].push_back(b); // the other face has it the other way round
+        std::array<Vertex_index, 2>& apexes
+          = m_apexes.try_emplace(edge(a, b), std::array<Vertex_index, 2>{no_vertex, no_vertex}).first->second;
+        apexes[apexes[0] == no_vertex ? 0 : 1] = v[(i + 2) % v.size()];
+        if(v.size() != 3)
+          m_whole.insert(edge(a, b));
+      }
+    }
+    for(Vertex_index v = 0; v < m_neighbors.size(); ++v) {
+      std::sort(m_neighbors[v].begin(), m_neighbors[v].end());
+      for(Vertex_index u : m_neighbors[v])
+        m_sizes[v] += norm(m_mesh.points[u] - m_mesh.points[v]) / double(m_neighbors[v].size());
+    }
+  }
+
+  void operator()()
+  {
+    take_corners();
+    const std::vector<Feature_polyline>& polylines = m_features.polylines();
+    std::vector<std::size_t> order(polylines.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+      return polylines[i].length() > polylines[j].length();
+    });
+    for(std::size_t i : order)
+      lay(i);
+  }
+
+  /// Edges that were bisected, in the order of their middles, which are the last vertices.
+  const std::vector<Edge>& bisected() const { return m_bisected; }
+  /// Where the vertices shall be; on paths they are in order.
+  const std::vector<Vec3>& places() const { return m_places; }
+
+private:
+  static Edge edge(Vertex_index a, Vertex_index b) { return std::minmax(a, b); }
+  static bool is_vertex(const Node& n) { return n.first == n.second; }
+
+  Vec3 place(const Node& n) const { return 0.5 * (m_places[n.first] + m_places[n.second]); }
+  double size(const Node& n) const { return 0.5 * (m_sizes[n.first] + m_sizes[n.second]); }
+
+  void take_corners()
+  {
+    const std::vector<Vec3>& corners = m_features.corners();
+    std::vector<std::size_t> degrees(corners.size(), 0);
+    for(const Feature_polyline& p : m_features.polylines())
+      for(std::size_t c : p.corners)
+        ++degrees[c];
+    std::vector<std::tuple<double, std::size_t, Vertex_index>> pairs;
+    for(Vertex_index v = 0; v < m_neighbors.size(); ++v)
+      if(m_is_free[v])
+        for(std::size_t c = 0; c < corners.size(); ++c) {
+          // several vertices may have the same place
+          const double d = norm(m_places[v] - corners[c]) + 0.1 * norm(m_mesh.points[v] - corners[c]);
+          if(d < reach_of_corners * m_sizes[v] && m_neighbors[v].size() >= degrees[c])
+            pairs.emplace_back(d, c, v);
+        }
+    std::sort(pairs.begin(), pairs.end());
+    for(const auto& [d, c, v] : pairs)
+      if(m_is_free[v] && m_corners[c] == no_vertex) {
+        m_corners[c] = v;
+        take(v, Stratum(first_sharp_stratum + m_features.polylines().size() + c), corners[c]);
+      }
+  }
+
+  void take(Vertex_index v, Stratum stratum, const Vec3& where)
+  {
+    m_is_free[v] = 0;
+    m_mesh.strata[v] = stratum;
+    m_places[v] = where;
+  }
+
+  void lay(std::size_t number)
+  {
+    const Feature_polyline& polyline = m_features.polylines()[number];
+    const Vertex_index first = m_corners[polyline.corners[0]], last = m_corners[polyline.corners[1]];
+    if(first == no_vertex || last == no_vertex)
+      return;
+    for(int trial = 0; trial < trials; ++trial) {
+      std::vector<Node> path = shortest_path(polyline, first, last);
+      if(path.empty())
+        return;
+      if(!bisect(path))
+        continue;
+      path = without_short_cuts(path, polyline);
+      const Stratum stratum = Stratum(first_sharp_stratum + number);
+      const std::vector<double> lengths = ascending_lengths(path, polyline);
+      for(std::size_t i = 0; i + 1 < path.size(); ++i) {
+        m_mesh.sharp_edges[edge(path[i].first, path[i + 1].first)] = stratum;
+        if(i > 0)
+          take(path[i].first, stratum, polyline.at(lengths[i]));
+      }
+      return;
+    }
+  }
+
+  // Vertices and middles of edges that are joined by an edge, or would be after bisections; not across paths.
+  template <class Visit>
+  void for_each_neighbor(const Node& n, const Visit& visit) const
+  {
+    const auto middle = [&](Vertex_index a, Vertex_index b) {
+      if(m_bisections_left > 0 && a != no_vertex && b != no_vertex && m_whole.count(edge(a, b)) == 0 && !m_mesh.is_sharp(a, b))
+        visit(edge(a, b));
+    };
+    if(is_vertex(n)) {
+      for(Vertex_index u : m_neighbors[n.first]) {
+        visit({u, u});
+        for(Vertex_index w : m_apexes.at(edge(n.first, u)))
+          if(w > u) // each once
+            middle(u, w);
+      }
+    } else {
+      for(Vertex_index w : m_apexes.at(n)) {
+        if(w == no_vertex)
+          continue;
+        visit({w, w});
+        middle(n.first, w);
+        middle(n.second, w);
+      }
+    }
+  }
+
+  std::vector<Node> shortest_path(const Feature_polyline& polyline, Vertex_index first,
+                                  Vertex_index last) const
+  {
+    struct State
+    {
+      double cost = std::numeric_limits<double>::infinity();
+      double distance = 0; // from the polyline
+      Node from;
+    };
+    std::map<Node, State> states;
+    const auto distance = [&](const Node& n) {
+      const Vec3 p = place(n);
+      return norm(p - polyline.closest(p).point);
+    };
+    const Node start{first, first}, end{last, last};
+    using Entry = std::pair<double, Node>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
+    states[start].cost = 0;
+    queue.emplace(0, start);
+    while(!queue.empty()) {
+      const auto [cost, n] = queue.top();
+      queue.pop();
+      const State state = states.at(n);
+      if(cost > state.cost)
+        continue;
+      if(n == end)
+        break;
+      for_each_neighbor(n, [&](const Node& m) {
+        if(is_vertex(m) && !m_is_free[m.first] && m != end)
+          return;
+        if(m == end && n == start && m_mesh.is_sharp(first, last))
+          return; // of another polyline between the same corners
+        const auto [found, is_new] = states.try_emplace(m);
+        State& next = found->second;
+        if(is_new)
+          next.distance = distance(m);
+        const double h = size(m);
+        if(next.distance > reach * h)
+          return;
+        const Vec3 a = place(n), b = place(m), middle = 0.5 * (a + b);
+        const double off = norm(middle - polyline.closest(middle).point);
+        const double squares = state.distance * state.distance + next.distance * next.distance + 2 * off * off;
+        const double length = norm(b - a) + 0.05 * h;
+        const double c = cost
+                         + length * (1 + aversion * squares / (4 * h * h))
+                             * (is_vertex(m) ? 1 : price_of_bisection);
+        if(c < next.cost) {
+          next.cost = c;
+          next.from = n;
+          queue.emplace(c, m);
+        }
+      });
+    }
+    const auto arrived = states.find(end);
+    if(arrived == states.end() || !(arrived->second.cost < std::numeric_limits<double>::infinity()))
+      return {};
+    std::vector<Node> path{end};
+    while(path.back() != start)
+      path.push_back(states.at(path.back()).from);
+    std::reverse(path.begin(), path.end());
+    return path;
+  }
+
+  // \return whether all middles are vertices now
+  bool bisect(std::vector<Node>& path)
+  {
+    for(Node& n : path) {
+      if(is_vertex(n))
+        continue;
+      const auto [a, b] = n;
+      const Vec3 middle = 0.5 * (m_mesh.points[a] + m_mesh.points[b]);
+      const Vec3 where = place(n);
+      if(m_bisections_left == 0
+         || !bisect_edge(m_mesh, m_quality, a, b, middle, boundary_stratum, m_worst)) {
+        m_whole.insert(n);
+        return false;
+      }
+      --m_bisections_left;
+      m_bisected.push_back(n);
+      const Vertex_index v = Vertex_index(m_mesh.points.size() - 1);
+      m_places.push_back(where);
+      m_sizes.push_back(size(n));
+      m_is_free.push_back(1);
+      update(a, b, v);
+      n = {v, v};
+    }
+    return true;
+  }
+
+  void update(Vertex_index a, Vertex_index b, Vertex_index middle)
+  {
+    const std::array<Vertex_index, 2> old = m_apexes.at(edge(a, b));
+    m_apexes.erase(edge(a, b));
+    m_apexes[edge(a, middle)] = m_apexes[edge(b, middle)] = old;
+    const auto replace = [](auto& vertices, Vertex_index from, Vertex_index to) {
+      std::replace(vertices.begin(), vertices.end(), from, to);
+    };
+    replace(m_neighbors[a], b, middle);
+    replace(m_neighbors[b], a, middle);
+    m_neighbors.push_back({a, b});
+    for(Vertex_index c : old) {
+      m_apexes[edge(c, middle)] = {a, b};
+      replace(m_apexes.at(edge(c, a)), b, middle);
+      replace(m_apexes.at(edge(c, b)), a, middle);
+      m_neighbors[c].push_back(middle);
+      m_neighbors[middle].push_back(c);
+    }
+  }
+
+  bool are_neighbors(Vertex_index a, Vertex_index b) const
+  {
+    return std::find(m_neighbors[a].begin(), m_neighbors[a].end(), b) != m_neighbors[a].end();
+  }
+
+  // Goes as far as possible at a time, unless the polyline takes a longer way.
+  std::vector<Node> without_short_cuts(const std::vector<Node>& path, const Feature_polyline& polyline) const
+  {
+    constexpr double longer_way = 1.5;
+    std::vector<Node> result{path.front()};
+    for(std::size_t i = 0; i + 1 < path.size();) {
+      std::size_t j = path.size() - 1;
+      for(; j > i + 1; --j) {
+        const Vec3 &a = m_places[path[i].first], &b = m_places[path[j].first];
+        if(are_neighbors(path[i].first, path[j].first) && !m_mesh.is_sharp(path[i].first, path[j].first)
+           && std::abs(position(path, j, polyline) - position(path, i, polyline)) < longer_way * norm(b - a))
+          break;
+      }
+      result.push_back(path[j]);
+      i = j;
+    }
+    return result;
+  }
+
+  double position(const std::vector<Node>& path, std::size_t i, const Feature_polyline& polyline) const
+  {
+    return i == 0                 ? 0
+           : i + 1 == path.size() ? polyline.length()
+                                  : polyline.closest(m_places[path[i].first]).length;
+  }
+
+  // Those of the closest points, moved apart until they are in order.
+  std::vector<double> ascending_lengths(const std::vector<Node>& path, const Feature_polyline& polyline) const
+  {
+    constexpr int rounds = 100;
+    constexpr double least_share = 0.4;
+    std::vector<double> lengths;
+    for(std::size_t i = 0; i < path.size(); ++i)
+      lengths.push_back(position(path, i, polyline));
+    const double least = least_share * polyline.length() / double(path.size() - 1);
+    for(int round = 0; round < rounds; ++round)
+      for(std::size_t i = 1; i + 1 < path.size(); ++i)
+        if((std::min)(lengths[i] - lengths[i - 1], lengths[i + 1] - lengths[i]) < least)
+          lengths[i] = 0.5 * (lengths[i - 1] + lengths[i + 1]);
+    for(std::size_t i = 1; i < path.size(); ++i)
+      if(!(lengths[i] > lengths[i - 1])) {
+        for(std::size_t j = 0; j < path.size(); ++j)
+          lengths[j] = polyline.length() * double(j) / double(path.size() - 1);
+        break;
+      }
+    return lengths;
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_FEATURE_PATHS_H

@@ -1,0 +1,300 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The sharp edges of a surface as polylines between corners.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SHARP_FEATURES_H
+#define CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SHARP_FEATURES_H
+
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// Edges of a surface that are sharp, each once, between positions of points.
+struct Sharp_edges
+{
+  std::vector<Vec3> points;
+  std::vector<std::array<std::size_t, 2>> edges;
+  double diagonal = 0, area = 0; ///< of the whole surface
+};
+
+/// A chain of sharp edges between two corners.
+class Feature_polyline
+{
+  std::vector<Vec3> m_points;
+  std::vector<double> m_lengths; // from the first point
+  static constexpr std::size_t group = 16;
+  std::vector<std::pair<Vec3, double>> m_balls; // around groups of segments: center, radius
+
+public:
+  std::array<std::size_t, 2> corners; ///< at its ends; they differ
+
+  struct Position
+  {
+    Vec3 point;
+    double length; ///< along the polyline
+  };
+
+  Feature_polyline(std::vector<Vec3> points, const std::array<std::size_t, 2>& ends)
+    : m_points(std::move(points)), m_lengths(1, 0.), corners(ends)
+  {
+    for(std::size_t i = 1; i < m_points.size(); ++i)
+      m_lengths.push_back(m_lengths.back() + norm(m_points[i] - m_points[i - 1]));
+    for(std::size_t i = 0; i + 1 < m_points.size(); i += group) {
+      const std::size_t last = (std::min)(i + group, m_points.size() - 1);
+      const Vec3 center = 0.5 * (m_points[i] + m_points[last]);
+      double radius = 0;
+      for(std::size_t j = i; j <= last; ++j)
+        radius = (std::max)(radius, norm(m_points[j] - center));
+      m_balls.emplace_back(center, radius);
+    }
+  }
+
+  double length() const { return m_lengths.back(); }
+
+  Position closest(const Vec3& p) const
+  {
+    Position best{m_points[0], 0};
+    double nearest = norm(p - m_points[0]);
+    for(std::size_t g = 0; g < m_balls.size(); ++g) {
+      if(norm(p - m_balls[g].first) > nearest + m_balls[g].second)
+        continue;
+      const std::size_t last = (std::min)((g + 1) * group, m_points.size() - 1);
+      for(std::size_t i = g * group; i < last; ++i) {
+        const Vec3 along = m_points[i + 1] - m_points[i];
+        const double square = dot(along, along);
+        const double share = square > 0
+                               ? (std::min)((std::max)(dot(p - m_points[i], along) / square, 0.), 1.)
+                               : 0;
+        const Vec3 q = share == 1 ? m_points[i + 1] : m_points[i] + share * along;
+        const double d = norm(p - q);
+        if(d < nearest) {
+          nearest = d;
+          best = {q, m_lengths[i] + share * (m_lengths[i + 1] - m_lengths[i])};
+        }
+      }
+    }
+    return best;
+  }
+
+  Vec3 at(double length) const
+  {
+    const auto after = std::upper_bound(m_lengths.begin(), m_lengths.end(), length);
+    if(after == m_lengths.end())
+      return m_points.back();
+    const std::size_t i = std::size_t((std::max)(after - m_lengths.begin(), std::ptrdiff_t(1)));
+    const double share = (length - m_lengths[i - 1]) / (m_lengths[i] - m_lengths[i - 1]);
+    return m_points[i - 1] + share * (m_points[i] - m_points[i - 1]);
+  }
+};
+
+/*!
+Polylines end where other than two of them meet, and where they turn sharply. Closed ones, and those with both
+ends at a corner, are cut into three; places of cuts count as corners for those who follow them.
+
+Some edges of nearly every surface of measured data are sharp, in furrows and where there is noise. They are
+no features of the body, and tell so by where they are: what is shorter than elements is left out, with all
+that it is connected to; and there are no features at all if they are shorter than the surface is wide, too
+dense for the elements to follow, or if many end anywhere: those of machine parts end where others begin.
+*/
+class Sharp_features
+{
+public:
+  static constexpr double sharp_turn = 45; // degrees
+  // Connected polylines must be that long altogether, in sizes of elements.
+  static constexpr double least_length = 2;
+  // In diagonals of the surface; a brain has 0.3, a cube 7, machine parts 9 to 12.
+  static constexpr double least_total = 1;
+  // Of the elements at the surface, those that would have a feature. Noise of 2 mm on a brain has 4 at 2,000
+  // vertices, machine parts up to 0.5.
+  static constexpr double largest_density = 0.8;
+  // The share of the length of polylines with a free end: of noisy or coarse brains 0.4 and more, of machine
+  // parts less than 0.1.
+  static constexpr double largest_share_of_free = 0.25;
+
+  Sharp_features() = default;
+
+  /// \param size about that of elements: what is smaller can not be followed
+  Sharp_features(const Sharp_edges& sharp, double size) : m_sharp(&sharp), m_around(sharp.points.size())
+  {
+    for(std::size_t e = 0; e < sharp.edges.size(); ++e)
+      for(std::size_t v : sharp.edges[e])
+        m_around[v].push_back(e);
+    leave_out_short_ones(least_length * size);
+    trace();
+    const double sum = length();
+    if(sum < least_total * sharp.diagonal || sum * size > largest_density * sharp.area
+       || m_length_of_free > largest_share_of_free * sum) {
+      m_polylines.clear();
+      m_corners.clear();
+      m_is_real.clear();
+    }
+  }
+
+  bool empty() const { return m_polylines.empty(); }
+  const std::vector<Feature_polyline>& polylines() const { return m_polylines; }
+  const std::vector<Vec3>& corners() const { return m_corners; }
+  /// Whether a corner is one, or else a place where a polyline is cut.
+  bool is_real_corner(std::size_t c) const { return m_is_real[c] != 0; }
+
+  double length() const
+  {
+    double sum = 0;
+    for(const Feature_polyline& p : m_polylines)
+      sum += p.length();
+    return sum;
+  }
+
+private:
+  const Sharp_edges* m_sharp = nullptr; // until the polylines are made
+  std::vector<std::vector<std::size_t>> m_around;
+  std::vector<Feature_polyline> m_polylines;
+  std::vector<Vec3> m_corners;
+  std::vector<std::uint8_t> m_is_real;
+  double m_length_of_free = 0;
+
+  const Vec3& point(std::size_t v) const { return m_sharp->points[v]; }
+  std::size_t other_end(std::size_t e, std::size_t v) const
+  {
+    return m_sharp->edges[e][0] == v ? m_sharp->edges[e][1] : m_sharp->edges[e][0];
+  }
+
+  bool is_corner(std::size_t v) const
+  {
+    if(m_around[v].size() != 2)
+      return !m_around[v].empty();
+    const Vec3 a = point(v) - point(other_end(m_around[v][0], v)),
+               b = point(other_end(m_around[v][1], v)) - point(v);
+    return dot(a, b) < std::cos(sharp_turn * M_PI / 180) * norm(a) * norm(b);
+  }
+
+  void leave_out_short_ones(double least)
+  {
+    std::vector<std::uint8_t> is_seen(m_around.size(), 0);
+    for(std::size_t start = 0; start < m_around.size(); ++start) {
+      if(is_seen[start] || m_around[start].empty())
+        continue;
+      std::vector<std::size_t> component{start};
+      is_seen[start] = 1;
+      double twice_length = 0;
+      for(std::size_t i = 0; i < component.size(); ++i)
+        for(std::size_t e : m_around[component[i]]) {
+          const std::size_t u = other_end(e, component[i]);
+          twice_length += norm(point(u) - point(component[i]));
+          if(!is_seen[u])
+            component.push_back(u);
+          is_seen[u] = 1;
+        }
+      if(twice_length < 2 * least)
+        for(std::size_t v : component)
+          m_around[v].clear();
+    }
+  }
+
+  std::size_t add_corner(const Vec3& p, bool is_real)
+  {
+    m_corners.push_back(p);
+    m_is_real.push_back(is_real);
+    return m_corners.size() - 1;
+  }
+
+  void trace()
+  {
+    constexpr std::size_t none = std::size_t(-1);
+    std::vector<std::size_t> corners(m_around.size(), none);
+    for(std::size_t v = 0; v < m_around.size(); ++v)
+      if(is_corner(v))
+        corners[v] = add_corner(point(v), true);
+    std::vector<std::uint8_t> is_done(m_sharp->edges.size(), 0);
+    const auto follow = [&](std::size_t v, std::size_t e) {
+      std::vector<Vec3> points{point(v)};
+      const std::size_t first = v;
+      do {
+        is_done[e] = 1;
+        v = other_end(e, v);
+        points.push_back(point(v));
+        if(corners[v] == none)
+          e = m_around[v][m_around[v][0] == e ? 1 : 0];
+      } while(corners[v] == none && v != first);
+      add(std::move(points), corners[first], corners[v]);
+      if(m_around[first].size() == 1 || m_around[v].size() == 1)
+        m_length_of_free += m_polylines.back().length();
+    };
+    for(std::size_t v = 0; v < m_around.size(); ++v)
+      if(corners[v] != none)
+        for(std::size_t e : m_around[v])
+          if(!is_done[e])
+            follow(v, e);
+    for(std::size_t v = 0; v < m_around.size(); ++v)
+      if(corners[v] == none && !m_around[v].empty() && !is_done[m_around[v][0]]) {
+        corners[v] = add_corner(point(v), false);
+        follow(v, m_around[v][0]);
+      }
+    m_around.clear();
+    m_sharp = nullptr;
+  }
+
+  void add(std::vector<Vec3> points, std::size_t first, std::size_t last)
+  {
+    if(first != last) {
+      m_polylines.emplace_back(std::move(points), std::array<std::size_t, 2>{first, last});
+      return;
+    }
+    const Feature_polyline whole(points, {first, last});
+    std::size_t begin = 0, begin_corner = first;
+    double length = 0;
+    for(std::size_t i = 1, cut = 1; i < points.size(); ++i) {
+      length += norm(points[i] - points[i - 1]);
+      const bool is_last = i + 1 == points.size();
+      if(!is_last && (cut > 2 || length < double(cut) / 3 * whole.length()))
+        continue;
+      const std::size_t corner = is_last ? last : add_corner(points[i], false);
+      m_polylines.emplace_back(std::vector<Vec3>(points.begin() + std::ptrdiff_t(begin),
+                                                 points.begin() + std::ptrdiff_t(i) + 1),
+                               std::array<std::size_t, 2>{begin_corner, corner});
+      begin = i;
+      begin_corner = corner;
+      ++cut;
+    }
+  }
+};
+
+template <class Domain, class = void>
+struct Has_sharp_edges : std::false_type
+{
+};
+template <class Domain>
+struct Has_sharp_edges<Domain, std::void_t<decltype(std::declval<const Domain&>().sharp_edges(0.))>>
+  : std::true_type
+{
+};
+
+/// Those of a domain that has such, for an angle in degrees.
+template <class Domain>
+Sharp_edges sharp_edges([[maybe_unused]] const Domain& domain, [[maybe_unused]] double angle)
+{
+  if constexpr(Has_sharp_edges<Domain>::value)
+    if(angle > 0)
+      return domain.sharp_edges(angle);
+  return {};
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SHARP_FEATURES_H
