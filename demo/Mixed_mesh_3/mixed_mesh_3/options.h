@@ -64,7 +64,7 @@ struct Options
   double grading = 0.35;
   double time_limit = std::numeric_limits<double>::infinity();                          // seconds
   double largest_arc = CGAL::Mixed_mesh_optimization_criteria_3::default_quality_bound; // 0: any
-  double sharp_angle = CGAL::Mixed_mesh_optimization_criteria_3::default_sharp_angle; // degrees; 0: none
+  double sharp_angle = CGAL::Mixed_mesh_optimization_criteria_3::default_sharp_angle;   // degrees; 0: none
   unsigned threads = 1;
 
   // of Algorithm 1

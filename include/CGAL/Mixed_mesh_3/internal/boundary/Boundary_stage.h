@@ -61,8 +61,8 @@ class Boundary_stage : private Boundary_pieces
   // Interface vertices are not inside of the subdomain of some element: on the boundary, or between two.
   std::vector<std::uint8_t> m_is_on_interface;
   bool m_has_vertices_on_surface = false; // before they move
-  std::vector<Element_index> m_outer; // elements outside, or with interface vertices
-  std::vector<double> m_distances;    // of vertices, where asked for
+  std::vector<Element_index> m_outer;     // elements outside, or with interface vertices
+  std::vector<double> m_distances;        // of vertices, where asked for
   std::vector<std::uint32_t> m_ranks;
   std::map<Vertex_index, std::map<Subdomain_rank, int>> m_around; // pieces of each subdomain, of several
 

@@ -59,10 +59,12 @@ class Bounded_optimization
   const Quality& m_quality;
   const bool m_has_subdomains;
   const Sharp_edges m_sharp_edges;
+  const double m_edge_length; // mean, of the boundary; any if there are no sharp edges
   const Sharp_features m_features;
   std::vector<std::uint8_t> m_is_held; // for each vertex
 
-  static constexpr double share_tolerated_off = 0.01;
+  // Of the boundary vertices between subdomains; of the length of sharp edges.
+  static constexpr double share_tolerated_off = 0.01, tolerated_loss = 0.02;
 
   // How many rings of faces around those that cut each other are held in addition, time after time.
   static constexpr int rings[] = {0, 1, 2, 4, 8};
@@ -72,7 +74,8 @@ public:
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality),
       m_has_subdomains(subdomain_indices(domain).size() > 1),
       m_sharp_edges(sharp_edges(domain, criteria.sharp_angle())),
-      m_features(m_sharp_edges, m_sharp_edges.edges.empty() ? 0 : mean_edge_length()), m_is_held(mesh.number_of_vertices(), 0)
+      m_edge_length(m_sharp_edges.edges.empty() ? 1 : mean_edge_length()),
+      m_features(m_sharp_edges, m_edge_length), m_is_held(mesh.number_of_vertices(), 0)
   {
   }
 
@@ -122,7 +125,7 @@ private:
 
   bool has_bound() const { return m_criteria.quality_bound() < std::numeric_limits<double>::infinity(); }
 
-  static bool is_better(const Outcome& a, const Outcome& b)
+  bool is_better(const Outcome& a, const Outcome& b) const
   {
     return a.is_within && (!b.is_within || number_off(a.result) < number_off(b.result));
   }
@@ -158,9 +161,12 @@ private:
     return result;
   }
 
-  static std::size_t number_off(const Result& r)
+  // Vertices, and sharp edges where they are lost, of that length.
+  double number_off(const Result& r) const
   {
-    return r.number_of_boundary_vertices - r.number_of_arrived_vertices;
+    const double lost = r.length_of_sharp_edges - r.length_of_sharp_edges_kept;
+    return double(r.number_of_boundary_vertices - r.number_of_arrived_vertices)
+           + (lost > 0 ? lost / m_edge_length : 0);
   }
 
   // Between subdomains a few vertices are often held back from both sides: another run would rarely help.
@@ -168,7 +174,8 @@ private:
   {
     const double tolerated = m_has_subdomains ? share_tolerated_off * double(r.number_of_boundary_vertices)
                                               : 0;
-    return r.is_boundary_simple && double(number_off(r)) <= tolerated;
+    return r.is_boundary_simple
+           && number_off(r) <= tolerated + tolerated_loss * r.length_of_sharp_edges / m_edge_length;
   }
 
   // Within the bound, and until no faces cut each other.

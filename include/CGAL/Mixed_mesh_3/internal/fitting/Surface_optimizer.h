@@ -100,7 +100,9 @@ class Surface_optimizer
   // Of mending: rounds with all on the surface, then others. The costs are raised to a power at which only
   // the worst elements count. A mesh with a larger share of vertices of such elements is not worth it.
   static constexpr int mending_rounds_on_surface = 6, mending_rounds = 24, rounds_until_flips = 3;
-  static constexpr double mending_power = 16, mending_goal = 0.8, worth_mending = 0.1;
+  static constexpr int mending_rounds_of_features = 6; // later than others they leave the surface
+  static constexpr double mending_power = 16, mending_goal = 0.8, worth_mending = 0.1,
+                          worth_mending_features = 0.3;
   // Once the boundary has arrived, nothing gets worse than that, for the sake of the tolerance for example.
   static constexpr double acceptable_in_the_end = 3;
   static constexpr double retreat_cost = 1000;
@@ -286,8 +288,9 @@ private:
   void give_up_features()
   {
     for(auto& [v, target] : m_travelers)
-      if(m_working.strata[v] >= first_sharp_stratum)
+      if(m_working.strata[v] >= first_sharp_stratum) {
         leave_feature(v);
+      }
     choose_new_targets();
   }
 
@@ -326,8 +329,8 @@ private:
       m_result.number_of_corners += m_features->is_real_corner(c);
     for(Vertex_index v = 0; v < m_working.points.size(); ++v)
       if(m_working.strata[v] >= first_sharp_stratum + polylines.size() && is_there(v))
-        m_result.number_of_corners_kept += m_features->is_real_corner(m_working.strata[v] - first_sharp_stratum
-                                                                      - polylines.size());
+        m_result.number_of_corners_kept += m_features->is_real_corner(
+          m_working.strata[v] - first_sharp_stratum - polylines.size());
   }
 
   // How far along a vertex is that is on it.
@@ -521,14 +524,17 @@ private:
   bool mend()
   {
     std::vector<Vertex_index> bad = m_moves.vertices_above(m_final_bound);
-    if(bad.empty() || double(bad.size()) > worth_mending * double(m_working.points.size()))
+    const double worth = m_features ? worth_mending_features : worth_mending;
+    if(bad.empty() || double(bad.size()) > worth * double(m_working.points.size()))
       return false;
     Tetrahedron_flipper<Quality> flipper(m_working, m_quality, m_final_bound);
     m_moves.attract({});
     m_moves.set_bound(m_final_bound);
-    for(int round = 0; round < mending_rounds && !bad.empty(); ++round) {
+    const int more = m_features ? mending_rounds_of_features : 0;
+    for(int round = 0; round < mending_rounds + 2 * more && !bad.empty(); ++round) {
       for(Vertex_index v : bad) {
-        if(round >= mending_rounds_on_surface && m_working.is_on_boundary(v))
+        const bool is_sharp = m_working.strata[v] >= first_sharp_stratum;
+        if(round >= mending_rounds_on_surface + (is_sharp ? 2 : 1) * more && m_working.is_on_boundary(v))
           leave_surface(v);
         m_moves.activate_around(v);
       }
@@ -624,13 +630,30 @@ private:
   {
     const std::size_t all = m_criteria.number_of_bisections(),
                       early = (std::max)(all - std::size_t(share_of_late_bisections * double(all)),
-                                   m_result.number_of_bisections),
+                                         m_result.number_of_bisections),
                       in_region = std::size_t(bisections_in_region
                                               * std::pow(double(m_working.points.size()), 2. / 3));
-    bisect((std::min)(early - m_result.number_of_bisections, in_region), [&](Vertex_index a, Vertex_index b, const auto&, Stratum) {
-      return m_working.is_edge_in_region(a, b) ? norm(m_working.points[a] - m_working.points[b]) : 0;
-    });
+    if(m_features)
+      bisect_sharp_edges(early - m_result.number_of_bisections);
+    bisect((std::min)(early - m_result.number_of_bisections, in_region),
+           [&](Vertex_index a, Vertex_index b, const auto&, Stratum) {
+             return m_working.is_edge_in_region(a, b) ? norm(m_working.points[a] - m_working.points[b]) : 0;
+           });
     bisect_far(early - m_result.number_of_bisections, 2);
+  }
+
+  // Those farthest from their polylines, in lengths of edges.
+  void bisect_sharp_edges(std::size_t number)
+  {
+    constexpr double near_enough = 0.04;
+    bisect(number, [&](Vertex_index a, Vertex_index b, const auto&, Stratum) {
+      const auto sharp = m_working.sharp_edges.find(std::minmax(a, b));
+      if(sharp == m_working.sharp_edges.end())
+        return 0.;
+      const Vec3 &p = m_working.points[a], &q = m_working.points[b], middle = 0.5 * (p + q);
+      const double share = norm(m_project(middle, sharp->second) - middle) / norm(q - p);
+      return share > near_enough ? share * norm(q - p) : 0;
+    });
   }
 
   // By the area of the faces, and a power of the distance: with 1, it is the volume between that counts, with
@@ -660,8 +683,9 @@ private:
   bool alternate(const Go_on& go_on)
   {
     const bool has_tolerance = m_criteria.tolerance() > 0 && !m_only_arrives;
-    const int rounds = has_tolerance ? m_criteria.number_of_rounds_for(m_working.points.size())
-                                     : Criteria(m_criteria).tolerance(0).number_of_rounds_for(0);
+    const int rounds = has_tolerance || m_features
+                         ? m_criteria.number_of_rounds_for(m_working.points.size())
+                         : Criteria(m_criteria).tolerance(0).number_of_rounds_for(0);
     const int first = int(share_of_first_power * rounds + 0.5);
     const int late = rounds / 4;
     // many short rounds, so that boundary vertices can follow what draws them

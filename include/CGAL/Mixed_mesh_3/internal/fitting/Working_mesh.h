@@ -72,8 +72,8 @@ struct Working_mesh
 
   std::vector<Vec3> points;
   std::vector<Element> elements;
-  std::vector<std::vector<Element_index>> incident; ///< for each vertex, its elements, in any fixed order
-  std::vector<Stratum> strata;                      ///< of the vertices
+  std::vector<std::vector<Element_index>> incident;   ///< for each vertex, its elements, in any fixed order
+  std::vector<Stratum> strata;                        ///< of the vertices
   using Edge = std::pair<Vertex_index, Vertex_index>; ///< the smaller one first
   std::map<Edge, Stratum> sharp_edges;                ///< edges of the boundary along sharp ones
 

@@ -53,15 +53,15 @@ class Feature_paths
   std::vector<Vec3> m_places; // of boundary vertices, where they will be
   std::vector<double> m_sizes;
   std::vector<std::uint8_t> m_is_free;
-  std::vector<std::vector<Vertex_index>> m_neighbors;  // on the boundary
+  std::vector<std::vector<Vertex_index>> m_neighbors;   // on the boundary
   std::map<Edge, std::array<Vertex_index, 2>> m_apexes; // of the triangles at each edge
-  std::set<Edge> m_whole;                              // edges that can not be bisected
-  std::vector<Vertex_index> m_corners;                 // that of each corner, or none
+  std::set<Edge> m_whole;                               // edges that can not be bisected
+  std::vector<Vertex_index> m_corners;                  // that of each corner, or none
   std::vector<Edge> m_bisected;
 
   // Edges as far from the polyline as they are long count that many times as much, about; and middles more
   // than vertices. Farther than so many sizes there is no path, and no corner takes a vertex.
-  static constexpr double aversion = 8, price_of_bisection = 1.4, reach = 2.5, reach_of_corners = 2;
+  static constexpr double aversion = 8, price_of_bisection = 1.8, reach = 2.5, reach_of_corners = 2;
   static constexpr int trials = 20;
 
 public:
@@ -82,8 +82,8 @@ public:
         const Vertex_index a = v[i], b = v[(i + 1) % v.size()];
         m_is_free[a] = !is_blocked[a];
         m_neighbors[a].push_back(b); // the other face has it the other way round
-        std::array<Vertex_index, 2>& apexes
-          = m_apexes.try_emplace(edge(a, b), std::array<Vertex_index, 2>{no_vertex, no_vertex}).first->second;
+        std::array<Vertex_index, 2>& apexes =
+          m_apexes.try_emplace(edge(a, b), std::array<Vertex_index, 2>{no_vertex, no_vertex}).first->second;
         apexes[apexes[0] == no_vertex ? 0 : 1] = v[(i + 2) % v.size()];
         if(v.size() != 3)
           m_whole.insert(edge(a, b));
@@ -107,6 +107,7 @@ public:
     });
     for(std::size_t i : order)
       lay(i);
+    cut_short_cuts();
   }
 
   /// Edges that were bisected, in the order of their middles, which are the last vertices.
@@ -181,7 +182,8 @@ private:
   void for_each_neighbor(const Node& n, const Visit& visit) const
   {
     const auto middle = [&](Vertex_index a, Vertex_index b) {
-      if(m_bisections_left > 0 && a != no_vertex && b != no_vertex && m_whole.count(edge(a, b)) == 0 && !m_mesh.is_sharp(a, b))
+      if(m_bisections_left > 0 && a != no_vertex && b != no_vertex && m_whole.count(edge(a, b)) == 0
+         && !m_mesh.is_sharp(a, b))
         visit(edge(a, b));
     };
     if(is_vertex(n)) {
@@ -243,7 +245,8 @@ private:
           return;
         const Vec3 a = place(n), b = place(m), middle = 0.5 * (a + b);
         const double off = norm(middle - polyline.closest(middle).point);
-        const double squares = state.distance * state.distance + next.distance * next.distance + 2 * off * off;
+        const double squares = state.distance * state.distance + next.distance * next.distance
+                               + 2 * off * off;
         const double length = norm(b - a) + 0.05 * h;
         const double c = cost
                          + length * (1 + aversion * squares / (4 * h * h))
@@ -274,8 +277,7 @@ private:
       const auto [a, b] = n;
       const Vec3 middle = 0.5 * (m_mesh.points[a] + m_mesh.points[b]);
       const Vec3 where = place(n);
-      if(m_bisections_left == 0
-         || !bisect_edge(m_mesh, m_quality, a, b, middle, boundary_stratum, m_worst)) {
+      if(m_bisections_left == 0 || !bisect_edge(m_mesh, m_quality, a, b, middle, boundary_stratum, m_worst)) {
         m_whole.insert(n);
         return false;
       }
@@ -309,6 +311,28 @@ private:
       m_neighbors[c].push_back(middle);
       m_neighbors[middle].push_back(c);
     }
+  }
+
+  // A triangle with two sharp edges that go on nearly straight would be a needle: the third edge gets a vertex
+  // that is free to move away.
+  void cut_short_cuts()
+  {
+    constexpr double straight = -0.5; // cosine of the angle between the two edges
+    std::vector<Edge> short_cuts;
+    for(const auto& [e, apexes] : m_apexes)
+      for(Vertex_index c : apexes) {
+        const auto [a, b] = e;
+        if(c == no_vertex || m_mesh.is_sharp(a, b) || !m_mesh.is_sharp(a, c) || !m_mesh.is_sharp(b, c))
+          continue;
+        const Vec3 to_a = m_places[a] - m_places[c], to_b = m_places[b] - m_places[c];
+        if(dot(to_a, to_b) < straight * norm(to_a) * norm(to_b))
+          short_cuts.push_back(e);
+      }
+    for(const Edge& e : short_cuts)
+      if(m_whole.count(e) == 0 && m_apexes.count(e) > 0) {
+        std::vector<Node> nodes{e};
+        bisect(nodes);
+      }
   }
 
   bool are_neighbors(Vertex_index a, Vertex_index b) const

@@ -28,7 +28,8 @@ namespace internal {
 Flips tetrahedra where the sum of the powers of their costs falls, and none gets a cost above the bound, or,
 where one has, above the worst one. The new ones fill what the old ones did,
 and are positive by exact orientation, so conformity and validity stay; the boundary does not change, but
-where flat tetrahedra with two faces on it are removed.
+where flat tetrahedra with two faces on it are removed, and where an edge in a flat place is flipped, if there
+are sharp edges.
 
 \tparam Quality a model of `MixedMeshQuality_3`
 */
@@ -82,7 +83,7 @@ public:
     return flips;
   }
 
-  /// Of tetrahedra from the boundary or from their subdomain.
+  /// Of tetrahedra from the boundary or from their subdomain, and of edges from flat places of the boundary.
   std::size_t number_of_removals() const { return m_number_of_removals; }
 
 private:
@@ -139,7 +140,8 @@ private:
   }
 
   // The tetrahedra around an edge, and their vertices off it, in order such that (a, b, r[i], r[i + 1])
-  // is positive. Empty unless the edge is inside and all its elements are tetrahedra.
+  // is positive. Empty unless all its elements are tetrahedra, and the edge is inside or can be flipped on the
+  // boundary: then the ring is open.
   std::vector<Vertex_index> ring_of(Vertex_index a, Vertex_index b,
                                     std::vector<Element_index>& elements) const
   {
@@ -163,18 +165,53 @@ private:
       elements.push_back(e);
     }
     if(links.size() < 3)
-      return {};
+      return links.size() == 2 ? open_ring(a, b, links) : std::vector<Vertex_index>();
     std::vector<Vertex_index> ring{links[0][0]};
     while(ring.size() <= links.size()) {
       const auto next = std::find_if(links.begin(), links.end(),
                                      [&](const auto& l) { return l[0] == ring.back(); });
       if(next == links.end())
-        return {}; // the edge is on the boundary
+        return open_ring(a, b, links); // the edge is on the boundary
       if((*next)[1] == ring.front())
         return ring.size() == links.size() ? ring : std::vector<Vertex_index>();
       ring.push_back((*next)[1]);
     }
     return {};
+  }
+
+  // Of an edge in a flat place of the boundary, beside which there are sharp edges. Between its ends there will
+  // be an edge of the boundary instead.
+  std::vector<Vertex_index> open_ring(Vertex_index a, Vertex_index b,
+                                      const std::vector<std::array<Vertex_index, 2>>& links) const
+  {
+    constexpr double flat = 1e-9; // volume by the third power of the longest edge
+    if(m_mesh.sharp_edges.empty() || m_mesh.is_sharp(a, b) || links.size() >= std::size_t(largest_ring))
+      return {};
+    const auto first = std::find_if(links.begin(), links.end(), [&](const auto& l) {
+      return std::none_of(links.begin(), links.end(), [&](const auto& m) { return m[1] == l[0]; });
+    });
+    if(first == links.end())
+      return {};
+    std::vector<Vertex_index> ring{(*first)[0]};
+    for(auto next = first; next != links.end() && ring.size() <= links.size();
+        next = std::find_if(links.begin(), links.end(), [&](const auto& l) { return l[0] == ring.back(); }))
+      ring.push_back((*next)[1]);
+    if(ring.size() != links.size() + 1)
+      return {};
+    const Vertex_index c = ring.front(), d = ring.back();
+    const bool are_on_one_line = m_mesh.strata[c] == m_mesh.strata[d]
+                                 && m_mesh.strata[c] >= first_sharp_stratum;
+    const bool are_joined = std::any_of(m_mesh.incident[c].begin(), m_mesh.incident[c].end(),
+                                        [&](Element_index e) {
+                                          const Working_mesh::Element& element = m_mesh.elements[e];
+                                          return element.position(d) < element.size();
+                                        });
+    const Vec3 x = m_mesh.points[b] - m_mesh.points[a], y = m_mesh.points[c] - m_mesh.points[a],
+               z = m_mesh.points[d] - m_mesh.points[a];
+    const double longest = (std::max)({norm(x), norm(y), norm(z)});
+    if(are_on_one_line || are_joined || std::abs(determinant(x, y, z)) > flat * longest * longest * longest)
+      return {};
+    return ring;
   }
 
   // The best triangulation of the ring (Klincsek), each triangle with a tetrahedron to either end.
@@ -223,7 +260,10 @@ private:
       self(self, j, k);
     };
     collect(collect, 0, n - 1);
-    return replace(old, tetrahedra);
+    if(!replace(old, tetrahedra))
+      return false;
+    m_number_of_removals += ring.size() > old.size(); // the boundary has other faces
+    return true;
   }
 
   // Whether all of some vertices are of another element too, of the same subdomain.
@@ -276,7 +316,8 @@ private:
       if(is_shared(e, {a, b}) || !is_shared(e, {a, c, d}) || !is_shared(e, {b, c, d})
          || is_edge_of_boundary(c, d))
         continue;
-      if(m_mesh.is_sharp(a, b) || (m_mesh.strata[c] == m_mesh.strata[d] && m_mesh.strata[c] >= first_sharp_stratum))
+      if(m_mesh.is_sharp(a, b)
+         || (m_mesh.strata[c] == m_mesh.strata[d] && m_mesh.strata[c] >= first_sharp_stratum))
         continue; // or two points of a sharp edge would be joined past those between
       const Subdomain_index first = subdomain_behind(e, {a, b, c}), second = subdomain_behind(e, {a, b, d});
       if(first != second)

@@ -20,6 +20,7 @@
 #include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/fill_vertex_budget.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/place_lattice.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Sharp_features.h>
 #include <CGAL/Mixed_mesh_criteria_3.h>
 #include <CGAL/Mixed_mesh_result_3.h>
 
@@ -165,8 +166,9 @@ private:
       Candidate candidate;
       if(refine_to_level(octree, level, budget())) {
         m_tolerance_search.split_far_cells(octree);
-        candidate = fill_vertex_budget(octree, budget(), m_criteria.grading() * m_radius,
-                                       [this](const Octree_& o) { return try_octree(o); });
+        candidate = fill_vertex_budget(
+          octree, budget(), m_criteria.grading() * m_radius,
+          [this](const Octree_& o) { return try_octree(o); }, points_on_sharp_edges());
       } else {
         candidate.number_of_vertices = 8 * octree.number_of_cells_inside();
       }
@@ -198,6 +200,28 @@ private:
       else
         return;
     }
+  }
+
+  // Where there is no region, at a distance of half the edges that the budget allows, or less.
+  auto points_on_sharp_edges() const
+  {
+    using Point = typename Domain::Point_3;
+    std::vector<Point> points;
+    if(!m_root.is_region_everywhere())
+      return points;
+    const Sharp_edges edges = sharp_edges(m_root.domain(), m_criteria.sharp_angle());
+    if(edges.edges.empty())
+      return points;
+    const double size = std::cbrt(volume_of_domain(m_root) / double(m_criteria.maximal_number_of_vertices()));
+    const Sharp_features features(edges, size);
+    for(const Feature_polyline& p : features.polylines()) {
+      const int n = int(std::ceil(2 * p.length() / size));
+      for(int i = 0; i <= n; ++i) {
+        const Vec3 q = p.at(p.length() * i / n);
+        points.emplace_back(q[0], q[1], q[2]);
+      }
+    }
+    return points;
   }
 
   Candidate try_octree(const Octree_& octree)

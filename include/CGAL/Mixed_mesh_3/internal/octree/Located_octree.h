@@ -128,21 +128,25 @@ public:
   Node_index leaf_at(const Point& q) const
   {
     Node_index n = Octree::root();
-    while(!m_octree.is_leaf(n)) {
-      // the child with the nearest center, whatever the frame of the cells
-      Node_index nearest = n;
-      double least = std::numeric_limits<double>::infinity();
-      const Node_index first = m_octree.child(n, 0);
-      for(Node_index c = first; c < first + 8; ++c) {
-        const double d = CGAL::squared_distance(center(c), q);
-        if(d < least) {
-          least = d;
-          nearest = c;
-        }
-      }
-      n = nearest;
-    }
+    while(!m_octree.is_leaf(n))
+      n = nearest_of(m_octree.child(n, 0), q);
     return n;
+  }
+
+  /// Of eight siblings that with the nearest center: the one around a point, whatever the frame of the cells.
+  template <class Point>
+  Node_index nearest_of(Node_index first, const Point& q) const
+  {
+    Node_index nearest = first;
+    double least = std::numeric_limits<double>::infinity();
+    for(Node_index c = first; c < first + 8; ++c) {
+      const double d = CGAL::squared_distance(center(c), q);
+      if(d < least) {
+        least = d;
+        nearest = c;
+      }
+    }
+    return nearest;
   }
 
   /// Splits leaves, then balances across faces and edges.

@@ -64,6 +64,9 @@ Cells at the surface come two levels of 32^(1/2) earlier: there displacements ar
 tetrahedra, which are less accurate. And they remove volume between the surface and the boundary, which falls
 like h^4: so they get a share of the error that does not depend on the region.
 
+Without a region, cells at sharp edges come first, up to a level finer than others at the surface, and cells
+of equal keys are split here and there, so that the last level is not at one end.
+
 As nodes of an octree are numbered in the order of the splits, the octree after any number of steps is a
 prefix of that after all.
 */
@@ -79,6 +82,10 @@ public:
   // prescribed displacements are half as large again at 2,000 vertices. With ten times as much for the
   // volume, a sixth less is left for the region at 10,000 vertices.
   static constexpr double factor_at_surface = 4, weight_of_volume = 3e-4;
+  // A level of the cells between those at the surface and those inside, of 32^(1/2) each.
+  static constexpr double factor_at_sharp_edges = 16;
+
+  using Point = decltype(std::declval<const Octree_&>().point(Lattice_point()));
 
 private:
   Octree_ m_octree; // after all steps
@@ -86,14 +93,20 @@ private:
   std::vector<double> m_depths;     // of each node in the region
   std::vector<std::size_t> m_sizes; // numbers of nodes, and of leaves that meet the domain, after each step
   std::vector<std::size_t> m_cells;
-  std::vector<Node_index> m_split; // by each step
+  std::vector<Node_index> m_split;          // by each step
+  const bool m_is_everywhere;               // the region
+  std::vector<std::vector<Point>> m_points; // in each node, on sharp edges
   std::priority_queue<Entry> m_queue;
 
 public:
   /// \param start what is refined already
   /// \param radius the distance from the region at which the weight has fallen to 2^-6; 0: the region only
-  Refinement_sequence(Octree_ start, double radius) : m_octree(std::move(start)), m_radius(radius)
+  /// \param points on sharp edges, closer to each other than cells are; they count without a region
+  Refinement_sequence(Octree_ start, double radius, std::vector<Point> points = {})
+    : m_octree(std::move(start)), m_radius(radius), m_is_everywhere(m_octree.is_region_everywhere())
   {
+    if(m_is_everywhere && !points.empty())
+      m_points.push_back(std::move(points));
     append(0, 0);
   }
 
@@ -138,10 +151,12 @@ private:
       const bool is_alive = m_octree.is_alive(n);
       m_depths.push_back(is_alive ? depth(n) : 0);
       if(n > 0 && (n - 1) % 8 == 0)
+        hand_down_points(octree.parent(n), n);
+      if(n > 0 && (n - 1) % 8 == 0)
         cells -= m_octree.is_alive(octree.parent(n));
       cells += is_alive;
       if(is_alive && octree.is_leaf(n) && octree.level(n) < Octree::max_level && key(n) > 0)
-        m_queue.emplace(key(n), m_octree.quantized(m_depths[n]), ~lattice_key(octree.corner(n)), n);
+        m_queue.emplace(key(n), m_octree.quantized(m_depths[n]), rank_of_equals(n), n);
     }
     m_sizes.push_back(octree.size());
     m_cells.push_back(cells);
@@ -154,6 +169,22 @@ private:
                                                            : m_octree.depth_in_region(n);
   }
 
+  std::uint64_t rank_of_equals(Node_index n) const
+  {
+    const std::uint64_t k = ~lattice_key(m_octree.octree().corner(n));
+    return m_is_everywhere ? k * 0x9E3779B97F4A7C15u : k; // Fibonacci hashing (Knuth)
+  }
+
+  // Those of a node to its children, the first of which is given.
+  void hand_down_points(Node_index parent, Node_index first)
+  {
+    if(m_points.empty())
+      return;
+    m_points.resize(std::size_t(first) + 8);
+    for(const Point& p : m_points[parent])
+      m_points[m_octree.nearest_of(first, p)].push_back(p);
+  }
+
   double key(Node_index n) const
   {
     const double edge = m_octree.edge_length(n);
@@ -164,6 +195,8 @@ private:
       weight *= m_octree.weight_in_region(n, m_radius);
     if(m_octree.side(n) == ON_BOUNDARY)
       weight = factor_at_surface * weight + weight_of_volume * m_radius / edge;
+    if(n < m_points.size() && !m_points[n].empty())
+      weight *= factor_at_sharp_edges;
     return weight * std::pow(edge, 5);
   }
 };

@@ -43,8 +43,10 @@ class Budget_search
   std::size_t m_steps = 0; // of the best
 
 public:
-  Budget_search(const Octree_& start, std::size_t budget, double radius, const Try& try_octree)
-    : m_budget(budget), m_try(try_octree), m_sequence(start, radius), m_octree(start), m_best(m_try(start))
+  Budget_search(const Octree_& start, std::size_t budget, double radius, const Try& try_octree,
+                std::vector<typename Sequence::Point> points)
+    : m_budget(budget), m_try(try_octree), m_sequence(start, radius, std::move(points)), m_octree(start),
+      m_best(m_try(start))
   {
     search();
     add_single_cells();
@@ -161,15 +163,16 @@ A candidate is an octree with the mesh made of it. `Candidate::number_of_vertice
 so, too.
 
 \param octree the located octree to begin with; becomes that of the result
-\param radius see `Refinement_sequence`
+\param radius, points see `Refinement_sequence`
 \param try_octree `Candidate(octree)`: runs all stages that change the number of vertices
 \return the best candidate; its number of vertices is above the budget only if that of the start is
 \cost O(log n) trials of at most a little more than n vertices; two for large n
 */
 template <class Octree_, class Try>
-auto fill_vertex_budget(Octree_& octree, std::size_t budget, double radius, const Try& try_octree)
+auto fill_vertex_budget(Octree_& octree, std::size_t budget, double radius, const Try& try_octree,
+                        std::vector<typename Refinement_sequence<Octree_>::Point> points = {})
 {
-  auto best = Budget_search<Octree_, Try>(octree, budget, radius, try_octree).best();
+  auto best = Budget_search<Octree_, Try>(octree, budget, radius, try_octree, std::move(points)).best();
   octree = std::move(best.first);
   return std::move(best.second);
 }

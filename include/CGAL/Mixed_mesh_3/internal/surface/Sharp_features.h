@@ -77,9 +77,8 @@ public:
       for(std::size_t i = g * group; i < last; ++i) {
         const Vec3 along = m_points[i + 1] - m_points[i];
         const double square = dot(along, along);
-        const double share = square > 0
-                               ? (std::min)((std::max)(dot(p - m_points[i], along) / square, 0.), 1.)
-                               : 0;
+        const double share = square > 0 ? (std::min)((std::max)(dot(p - m_points[i], along) / square, 0.), 1.)
+                                        : 0;
         const Vec3 q = share == 1 ? m_points[i + 1] : m_points[i] + share * along;
         const double d = norm(p - q);
         if(d < nearest) {
