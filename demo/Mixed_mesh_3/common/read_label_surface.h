@@ -33,8 +33,15 @@ public:
   ~Label_image();
 
   std::size_t number_of_voxels(const Voxel_selection& selection) const;
+  double volume_of_voxel() const;
 
-  /// \throw std::runtime_error as above
+  /// All but 0, ascending.
+  /// \throw std::runtime_error if one is no whole number from 1 to 2,000,000,000, or there are none or more
+  ///        than 60,000
+  std::vector<int> labels() const;
+
+  /// \return empty if smoothing leaves nothing of the voxels
+  /// \throw std::runtime_error as above, also if there are no such voxels
   Surface surface_of(const Voxel_selection& selection, const Label_surface_options& options,
                      Surface_facts& facts, std::vector<std::string>& warnings) const;
 

@@ -87,6 +87,15 @@ Voxel_selection united(const std::vector<Voxel_selection>& selections)
   Voxel_selection all{{}, "of all labels"};
   for(const Voxel_selection& s : selections)
     all.ranges.insert(all.ranges.end(), s.ranges.begin(), s.ranges.end());
+  // labels one after the other are one range: a voxel is not compared with each of hundreds
+  std::sort(all.ranges.begin(), all.ranges.end());
+  std::vector<std::pair<double, double>> joined;
+  for(const auto& [first, last] : all.ranges)
+    if(!joined.empty() && first <= joined.back().second + 1)
+      joined.back().second = (std::max)(joined.back().second, last);
+    else
+      joined.emplace_back(first, last);
+  all.ranges = std::move(joined);
   return all;
 }
 

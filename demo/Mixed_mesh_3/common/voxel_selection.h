@@ -30,7 +30,7 @@ std::optional<Voxel_selection> labels_selection(const std::string& text);
 /// As in `brain=1-189,tumor=200`, with their names; none if the text is not like that.
 std::optional<std::vector<std::pair<std::string, Voxel_selection>>> named_labels(const std::string& text);
 Voxel_selection threshold_selection(double threshold);
-/// All voxels of several selections.
+/// All voxels of several selections of labels, which are whole numbers.
 Voxel_selection united(const std::vector<Voxel_selection>& selections);
 
 #endif // MIXED_MESH_3_DEMO_COMMON_VOXEL_SELECTION_H

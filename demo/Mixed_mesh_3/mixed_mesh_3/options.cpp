@@ -87,6 +87,10 @@ Subdomain_option subdomain_option(const std::string& text)
 void set_labels(const std::string& text, Options& o)
 {
   const std::string option = "--labels " + text;
+  if(text == "each") {
+    o.has_each_label = true;
+    return;
+  }
   if(text.find('=') == std::string::npos) {
     o.voxels = labels_option(option, text);
     return;
@@ -134,7 +138,8 @@ void add_labels(CLI::App& app, Options& o)
       .add_option_function<std::string>(
         "--labels", [&o](const std::string& text) { set_labels(text, o); },
         "Labels of the domain in the image SURFACE (default: all but 0). With names, "
-        "as in brain=1-189,tumor=200, each list becomes a subdomain, numbered from 1")
+        "as in brain=1-189,tumor=200, each list becomes a subdomain, numbered from 1; 'each': each label "
+        "but 0 becomes one, with its number, and the name label_NUMBER")
       ->type_name("LIST")
       ->group(group);
   app
@@ -364,9 +369,9 @@ void check_subdomains(const Options& o)
   for(const auto& subdomains : {o.labels, o.subdomains})
     for(const Subdomain_option& s : subdomains)
       names.push_back(s.name);
-  if(names.empty() && o.cavities.empty())
+  if(names.empty() && o.cavities.empty() && !o.has_each_label)
     return;
-  if(o.labels.empty())
+  if(o.labels.empty() && !o.has_each_label)
     names.push_back(surrounding_name(o));
   for(auto name = names.begin(); name != names.end(); ++name)
     if(std::find(names.begin(), name, *name) != name || *name == "outside")
@@ -386,7 +391,7 @@ void check_options(Options& o)
     if(r.file.empty())
       r.file = o.surface;
   if(!has_image
-     && (!o.voxels.ranges.empty() || !o.labels.empty()
+     && (!o.voxels.ranges.empty() || !o.labels.empty() || o.has_each_label
          || std::any_of(o.regions.begin(), o.regions.end(),
                         [](const Region_option& r) { return !r.voxels.ranges.empty(); })))
     throw CLI::ValidationError(

@@ -49,6 +49,7 @@ struct Options
   std::vector<Region_option> regions;
   std::vector<Subdomain_option> subdomains; // inside the surface; those before count where they overlap
   std::vector<Subdomain_option> labels;     // of an image, with names, instead of voxels
+  bool has_each_label = false;              // all labels of an image, instead
   std::vector<std::string> cavities;
   Voxel_selection voxels; // of an image, the domain
   std::optional<double> smoothing;

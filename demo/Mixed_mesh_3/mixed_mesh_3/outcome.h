@@ -126,6 +126,7 @@ struct Outcome
   std::vector<Surface_facts> regions;
   std::vector<Subdomain_outcome> subdomains; // if there are several
   std::vector<Interface_outcome> interfaces;
+  bool has_lost_labels = false; // before there was a mesh
   CGAL::Mixed_mesh_result_3 result;
   CGAL::Mixed_mesh_fit_result_3 algorithm_1;
   bool is_stopped = false; // by a signal or the limit of time

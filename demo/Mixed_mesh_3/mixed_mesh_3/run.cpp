@@ -29,6 +29,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -86,55 +87,86 @@ public:
     if(!is_image(file))
       return read_surface(file, m_options.surface_options, facts, m_warnings);
     // several times as many as the mesh has at its boundary; of parts more, as they are finer
-    const double finer = share < 1 ? 3 : 1;
+    const double finer = share < 1 ? 3 : 1, least = share < 1 ? 1000 : 2000;
     const double vertices = (std::max)(finer * 20 * std::pow(share * double(m_options.vertices), 2. / 3),
-                                       2000.);
-    return image(file).surface_of(voxels, {m_options.smoothing, std::size_t(vertices)}, facts, m_warnings);
+                                       least);
+    Surface surface = image(file).surface_of(voxels, {m_options.smoothing, std::size_t(vertices)}, facts,
+                                             m_warnings);
+    if(surface.is_empty() && share == 1)
+      throw std::runtime_error(file + ": nothing is left of the voxels " + voxels.text
+                               + " after smoothing, see --smoothing");
+    return surface;
   }
 
   Subdomain operator()(const Subdomain_option& s, mm3::Subdomain_index index, double share = 1)
   {
     Surface_facts facts;
     auto surface = std::make_shared<const Surface>((*this)(s.file, s.voxels, facts, share));
-    return {s.name, index, std::move(surface), facts};
+    return {s.name, index, std::move(surface), facts, std::nullopt};
+  }
+
+  // Those of all labels of an image.
+  std::vector<Subdomain_option> each_label(const std::string& file)
+  {
+    std::vector<Subdomain_option> labels;
+    for(int label : image(file).labels())
+      labels.push_back({"label_" + std::to_string(label), file, *labels_selection(std::to_string(label))});
+    return labels;
   }
 };
 
 // The label with most voxels is around the others: its surface is that of all, so that no gaps are left where
-// others meet.
-std::vector<Subdomain> read_labels(const Options& o, Surface_reader& read)
+// others meet. Those of which smoothing leaves nothing are lost.
+std::vector<Subdomain> read_labels(const Options& o, Surface_reader& read, Outcome& outcome)
 {
+  const std::vector<Subdomain_option> labels = o.has_each_label ? read.each_label(o.surface) : o.labels;
+  const auto index_of = [&](std::size_t i) {
+    return o.has_each_label ? mm3::Subdomain_index(labels[i].voxels.ranges[0].first)
+                            : mm3::Subdomain_index(i + 1);
+  };
   std::vector<std::pair<std::size_t, std::size_t>> sizes; // with the numbers
   std::vector<Voxel_selection> all;
-  for(const Subdomain_option& label : o.labels) {
+  for(const Subdomain_option& label : labels) {
     sizes.emplace_back(read.image(o.surface).number_of_voxels(label.voxels), all.size());
     all.push_back(label.voxels);
   }
   const double number_of_all = double(read.image(o.surface).number_of_voxels(united(all)));
   const std::size_t largest = std::max_element(sizes.begin(), sizes.end())->second;
   std::vector<Subdomain> subdomains;
-  for(std::size_t i = 0; i < all.size(); ++i)
-    if(i != largest)
-      subdomains.push_back(read({o.labels[i].name, o.surface, all[i]}, mm3::Subdomain_index(i + 1),
-                                double(sizes[i].first) / number_of_all));
-  subdomains.push_back(
-    read({o.labels[largest].name, o.surface, united(all)}, mm3::Subdomain_index(largest + 1)));
+  for(std::size_t i = 0; i < all.size(); ++i) {
+    if(i == largest)
+      continue;
+    Subdomain s = read({labels[i].name, o.surface, all[i]}, index_of(i),
+                       double(sizes[i].first) / number_of_all);
+    s.volume = double(sizes[i].first) * read.image(o.surface).volume_of_voxel();
+    if(s.surface->is_empty()) {
+      outcome.has_lost_labels = true;
+      outcome.warnings.push_back("the subdomain " + s.name + ", of volume " + rounded(*s.volume)
+                                 + ", is lost: smoothing leaves nothing of it, see --smoothing");
+    } else {
+      subdomains.push_back(std::move(s));
+    }
+  }
+  subdomains.push_back(read({labels[largest].name, o.surface, united(all)}, index_of(largest)));
+  subdomains.back().volume = double(sizes[largest].first) * read.image(o.surface).volume_of_voxel();
   return subdomains;
 }
 
-std::vector<Subdomain> read_subdomains(const Options& o, Surface_reader& read)
+std::vector<Subdomain> read_subdomains(const Options& o, Surface_reader& read, Outcome& outcome)
 {
+  const bool has_labels = o.has_each_label || !o.labels.empty();
+  const std::vector<Subdomain> labels = has_labels ? read_labels(o, read, outcome) : std::vector<Subdomain>();
   std::vector<Subdomain> subdomains;
   for(const std::string& cavity : o.cavities)
     subdomains.push_back(read({"cavity", cavity}, 0));
   mm3::Subdomain_index index = mm3::Subdomain_index((std::max)(o.labels.size(), std::size_t(1)));
+  for(const Subdomain& label : labels)
+    index = (std::max)(index, label.index);
   for(const Subdomain_option& s : o.subdomains)
     subdomains.push_back(read(s, ++index));
-  if(o.labels.empty())
+  if(!has_labels)
     subdomains.push_back(read({surrounding_name(o), o.surface, o.voxels}, 1));
-  else
-    for(Subdomain& s : read_labels(o, read))
-      subdomains.push_back(std::move(s));
+  subdomains.insert(subdomains.end(), labels.begin(), labels.end());
   return subdomains;
 }
 
@@ -142,7 +174,7 @@ Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
 {
   Inputs inputs;
   Surface_reader read(o, outcome.warnings);
-  inputs.subdomains = log("read surface", [&] { return read_subdomains(o, read); });
+  inputs.subdomains = log("read surface", [&] { return read_subdomains(o, read, outcome); });
   inputs.boundary = boundary_of(inputs.subdomains);
   outcome.surface = inputs.subdomains.back().facts;
   for(const Subdomain& s : inputs.subdomains)

@@ -33,31 +33,56 @@ std::string name_of(const std::vector<Subdomain>& subdomains, mm3::Subdomain_ind
     ->name;
 }
 
-// How many vertices of a surface are inside another one.
-std::size_t number_inside(const Surface& surface, const Domain& around)
+// A surface as a domain, and the side of vertices of others.
+class Enclosed
 {
-  return std::size_t(std::count_if(surface.points().begin(), surface.points().end(),
-                                   [&](const auto& p) { return around.subdomain_index(p) != 0; }));
-}
+  Domain m_domain;
+
+public:
+  explicit Enclosed(const Surface& surface) { m_domain.add(surface, 1); }
+
+  // Whether there are vertices of the surface inside, and others.
+  std::pair<bool, bool> has_inside_and_outside(const Surface& surface) const
+  {
+    bool has_inside = false, has_outside = false;
+    for(const auto& p : surface.points()) {
+      (m_domain.subdomain_index(p) != 0 ? has_inside : has_outside) = true;
+      if(has_inside && has_outside)
+        break;
+    }
+    return {has_inside, has_outside};
+  }
+
+  bool is_near(const Enclosed& other) const
+  {
+    return CGAL::do_overlap(m_domain.bbox(), other.m_domain.bbox());
+  }
+};
 
 // Volumes without what earlier ones take. None where surfaces cross.
 std::vector<std::optional<double>> expected_volumes(const std::vector<Subdomain>& subdomains)
 {
   std::vector<std::optional<double>> volumes;
+  std::vector<Enclosed> enclosed;
   for(std::size_t i = 0; i < subdomains.size(); ++i) {
+    const Surface& mine = *subdomains[i].surface;
+    enclosed.emplace_back(mine);
+    const bool are_labels = std::all_of(subdomains.begin(), subdomains.begin() + std::ptrdiff_t(i) + 1,
+                                        [](const Subdomain& s) { return s.volume.has_value(); });
+    if(are_labels) { // do not overlap
+      volumes.push_back(subdomains[i].volume);
+      continue;
+    }
     volumes.emplace_back(subdomains[i].facts.volume);
-    Domain mine;
-    mine.add(*subdomains[i].surface, 1);
     for(std::size_t j = 0; j < i && volumes[i]; ++j) {
-      Domain earlier;
-      earlier.add(*subdomains[j].surface, 1);
-      const std::size_t inside = number_inside(*subdomains[j].surface, mine),
-                        around = number_inside(*subdomains[i].surface, earlier);
-      if(around > 0 || (inside > 0 && inside < subdomains[j].surface->number_of_vertices()))
+      if(!enclosed[i].is_near(enclosed[j]))
+        continue;
+      const auto [has_inside, has_outside] = enclosed[i].has_inside_and_outside(*subdomains[j].surface);
+      if(enclosed[j].has_inside_and_outside(mine).first || (has_inside && has_outside))
         volumes[i] = std::nullopt;
-      else if(inside > 0 && volumes[j])
+      else if(has_inside && volumes[j])
         *volumes[i] -= *volumes[j];
-      else if(inside > 0)
+      else if(has_inside)
         volumes[i] = std::nullopt;
     }
   }
@@ -113,6 +138,8 @@ Surface boundary_of(const std::vector<Subdomain>& subdomains)
 void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vector<Subdomain>& subdomains,
                         const Options& options, Outcome& outcome)
 {
+  if(outcome.has_lost_labels)
+    outcome.result.status = worse(outcome.result.status, CGAL::Mixed_mesh_status::PARTS_LOST);
   if(subdomains.size() < 2)
     return;
   std::map<mm3::Subdomain_index, Subdomain_outcome> found;

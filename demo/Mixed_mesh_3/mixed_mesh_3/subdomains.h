@@ -17,6 +17,7 @@
 #include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct Subdomain
   CGAL::Mixed_meshes_3::Subdomain_index index; // 0: a cavity
   std::shared_ptr<const Surface> surface;
   Surface_facts facts;
+  std::optional<double> volume; // if it is known: of the voxels of a label
 };
 
 /// \param subdomains the last one is around the others

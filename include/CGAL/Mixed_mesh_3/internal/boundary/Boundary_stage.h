@@ -11,6 +11,7 @@
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/manifold_defects.h>
 #include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
+#include <CGAL/Mixed_mesh_3/internal/boundary/balance_interfaces.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/split_by_order.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/split_by_parity.h>
 #include <CGAL/Mixed_mesh_3/options.h>
@@ -75,6 +76,8 @@ public:
   {
     m_distances.assign(mesh.vertices.size(), -1);
     const std::size_t first_inserted = mesh.vertices.size();
+    if(m_number_of_subdomains > 1)
+      balance_interfaces(located, mesh, threads);
     do {
       while(mesh.vertices.size() > first_inserted)
         mesh.remove_last_vertex();

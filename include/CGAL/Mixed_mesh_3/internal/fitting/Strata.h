@@ -60,6 +60,7 @@ class Strata
   std::vector<Subdomain_index> m_order; // of a labeled domain
   std::vector<std::vector<Interface>> m_interfaces = {{}, {{1, 0}}};
   std::map<std::vector<Subdomain_rank>, Stratum> m_numbers; // by the ranks of the subdomains that meet
+  std::vector<std::vector<Subdomain_rank>> m_ranks = {{}, {0, outside_rank}}; // those of each stratum
 
 public:
   template <class Domain>
@@ -128,9 +129,8 @@ public:
       }
     for(const auto& [v, strata] : several) {
       std::set<Subdomain_rank> ranks;
-      for(const auto& [key, s] : m_numbers)
-        if(strata.count(s) > 0)
-          ranks.insert(key.begin(), key.end());
+      for(Stratum s : strata)
+        ranks.insert(m_ranks[s].begin(), m_ranks[s].end());
       result[v] = number({ranks.begin(), ranks.end()});
     }
     return result;
@@ -153,6 +153,7 @@ private:
     const auto [known, is_new] = m_numbers.try_emplace(ranks, Stratum(m_interfaces.size()));
     if(is_new) {
       m_interfaces.emplace_back();
+      m_ranks.push_back(ranks);
       for(std::size_t i = 0; i + 1 < ranks.size(); ++i)
         m_interfaces.back().push_back(
           {m_order[ranks[i]], ranks[i + 1] == outside_rank ? 0 : m_order[ranks[i + 1]]});

@@ -38,8 +38,8 @@ class Surface_tolerances
   double m_tolerance;
   std::map<Subdomain_index, double> m_smaller;
 
-  // The surfaces of the parts of a brain lose about 5 % of their volumes in meshes of 2,000 vertices then.
-  static constexpr double share_of_chord = 1.6;
+  // With less, the parts of a brain would take cells that its surface and the region lack.
+  static constexpr double share_of_chord = 3;
 
 public:
   template <class Domain>

@@ -43,7 +43,8 @@ class Tolerance_search
   // for the region). Places farther than the first of these multiples of the tolerance are split for: nearer
   // ones the sliding of boundary vertices reaches. The others follow where that takes too much.
   static constexpr int rounds = 6;
-  static constexpr double largest_share = 0.5, largest_share_of_subdomains = 0.75;
+  static constexpr double largest_share = 0.5, largest_share_of_parts = 0.7,
+                          largest_share_of_subdomains = 0.75;
   static constexpr double multiples[] = {1.6, 2, 2.5, 3}, multiples_of_wish[] = {2.5, 3.2, 4};
   static constexpr int number_of_trials = 5; // of a search for such a multiple
 
@@ -76,7 +77,7 @@ public:
   {
     if(m_has_subdomains) { // first what is small
       m_only_parts = true;
-      run(largest_share);
+      run(largest_share_of_parts);
       m_only_parts = m_is_full = false;
     }
     if(!m_is_stopped)
