@@ -12,6 +12,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/shell_counts.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/assertions.h>
@@ -78,6 +79,8 @@ public:
   double area() const;
   double volume() const;
   std::size_t number_of_facets() const { return m_triangles.size(); }
+  /// Of the whole surface.
+  const Shell_counts& shells() const { return m_shells; }
 
   /// The whole surface, with a point outside as reference: the paper's P_out.
   Surface_part surface_part() const
@@ -184,6 +187,7 @@ private:
   std::vector<Triangle_3> m_triangles;
   std::vector<Bbox_3> m_boxes;
   Bbox_3 m_bbox;
+  Shell_counts m_shells;
   std::unique_ptr<Trees, Delete_trees> m_trees; // the tree keeps the address of the surface
 };
 
