@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -211,6 +212,17 @@ public:
         add_samples(i, spacing, samples);
     return samples;
   }
+
+#ifndef DOXYGEN_RUNNING
+  // Of the whole surface, if that is known.
+  std::optional<Mixed_meshes_3::internal::Shell_counts> shells() const
+  {
+    if(m_surfaces.size() != 1)
+      return std::nullopt;
+    return m_surfaces.front().surface->shells();
+  }
+  double volume() const { return m_surfaces.front().surface->volume(); } // of the first one
+#endif
 
   /// Four times the volume by the area, of the surfaces of a subdomain: of a convex body, the mean length of
   /// the segments that lines leave in it.

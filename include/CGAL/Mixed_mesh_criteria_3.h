@@ -164,6 +164,16 @@ public:
   }
   unsigned number_of_threads() const { return m_number_of_threads; }
 
+  /// Whether thin walls and narrow gaps are resolved before the region, as far as the budget goes. Default: if
+  /// a mesh without that turns out to have other bodies, handles or cavities than the surface, to have lost
+  /// parts of it, or, fitted, more than 5 % of its volume. That takes a second run; the better mesh is taken.
+  Mixed_mesh_criteria_3& thin_parts(Mixed_meshes_3::Thin_parts choice)
+  {
+    m_thin_parts = choice;
+    return *this;
+  }
+  Mixed_meshes_3::Thin_parts thin_parts() const { return m_thin_parts; }
+
   /// Whether the best mesh so far, if there is one, is kept when the visitor stops the run: valid, within the
   /// budget, but its boundary may be off the surface; `Mixed_mesh_result_3::has_mesh()` tells. Default: no,
   /// the mesh is empty then.
@@ -181,6 +191,7 @@ private:
   Mixed_meshes_3::Transition_templates_choice m_transition_templates =
     Mixed_meshes_3::Transition_templates_choice::FEWEST_VERTICES;
   Mixed_meshes_3::Boundary_mode m_boundary_mode = Mixed_meshes_3::Boundary_mode::VERTEX_ORDER;
+  Mixed_meshes_3::Thin_parts m_thin_parts = Mixed_meshes_3::Thin_parts::WHERE_NEEDED;
   bool m_fit_to_surface = true, m_keep_mesh_if_stopped = false;
   double m_grading = 0.35;
   double m_share_of_bisections = automatic;

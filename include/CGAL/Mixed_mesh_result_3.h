@@ -90,6 +90,8 @@ struct Mixed_mesh_result_3
   std::size_t number_of_lost_cells = 0;
   Bbox_3 lost_cells;                            ///< what contains those cells
   std::size_t number_of_vertices_in_region = 0; ///< before bisections
+  /// About how many vertices thin walls and narrow gaps take, if they were resolved first; else 0.
+  std::size_t number_of_vertices_for_thin_parts = 0;
   /// How far boundary and surface may be from each other: what the criteria say, or, if they leave it open,
   /// the default for this domain and budget.
   double tolerance = 0;

@@ -247,7 +247,8 @@ void describe_method(const Options& o, const Outcome& outcome, Json& report)
                       {"deepest level", result.deepest_level},
                       {"cells", result.number_of_cells},
                       {"cells lost", result.number_of_lost_cells},
-                      {"octrees tried", result.number_of_trials}};
+                      {"octrees tried", result.number_of_trials},
+                      {"vertices for thin parts, about", result.number_of_vertices_for_thin_parts}};
   report["vertices inserted"] = {{"by transition templates", result.number_of_transition_vertices},
                                  {"by boundary stage", result.number_of_boundary_vertices_inserted},
                                  {"by bisection of boundary edges",

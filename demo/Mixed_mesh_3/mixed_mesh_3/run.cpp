@@ -18,6 +18,7 @@
 #include "mixed_mesh_3/subdomains.h"
 #include "mixed_mesh_3/verdict.h"
 
+#include <CGAL/Mixed_mesh_3/fidelity.h>
 #include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
 #include <CGAL/make_mixed_mesh_3.h>
 #include <CGAL/optimize_mixed_mesh_3.h>
@@ -32,6 +33,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -221,7 +223,7 @@ CGAL::Polyhedral_mixed_mesh_regions_3 make_regions(const std::vector<Surface>& s
 }
 
 Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3& regions, const Options& o,
-               Stage_log& log, CGAL::Mixed_mesh_result_3& result)
+               mm3::Thin_parts thin_parts, Stage_log& log, CGAL::Mixed_mesh_result_3& result)
 {
   // The boundary is fitted later, so that the mesh before is seen.
   auto criteria = CGAL::Mixed_mesh_criteria_3(o.vertices)
@@ -232,6 +234,7 @@ Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3
                     .transition_templates(o.templates)
                     .fit_to_surface(o.fit() == Fit::OPTIMIZATION)
                     .sharp_angle(o.sharp_angle)
+                    .thin_parts(thin_parts)
                     .number_of_threads(o.threads)
                     .keep_mesh_if_stopped(true);
   criteria.share_of_bisections(criteria.share_of_bisections()).fit_to_surface(false);
@@ -305,18 +308,67 @@ Work_plan plan_for(const Options& o)
   return {0.2, 0.9, 10, o.vertices <= 20000 ? 17u : 12u};
 }
 
-// The mesh in `outcome.result`, and on the surface, if nobody and no limit of time stops that.
-Mesh make_fitted_mesh(const Domain& domain, const Inputs& inputs, const Options& o, Stage_log& log,
-                      Outcome& outcome)
+// The mesh in `outcome.result`, and on the surface, if nothing stops that.
+Mesh make_fitted_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3& regions,
+                      const Options& o, mm3::Thin_parts thin_parts, Stage_log& log, Outcome& outcome)
 {
-  const Deferred_signals deferred({SIGINT}, Deferred_signals::Second::ENDS);
-  log.stop_when([&] { return Deferred_signals::has_come() || log.seconds() > o.time_limit; });
-  Mesh mesh = make_mesh(domain, make_regions(inputs.regions, o, log), o, log, outcome.result);
+  Mesh mesh = make_mesh(domain, regions, o, thin_parts, log, outcome.result);
   outcome.is_stopped = outcome.result.status == CGAL::Mixed_mesh_status::STOPPED;
   if(o.fit() != Fit::NONE && !outcome.is_stopped) {
     outcome.before = log("quality", [&] { return aspect_ratios_of(mesh); });
     fit(mesh, domain, o, log, outcome);
   }
+  return mesh;
+}
+
+// Differences of topology, volume beyond what is tolerated, vertices off the surface: the fewer the better.
+using Misfit = std::tuple<std::size_t, double, std::size_t>;
+
+Misfit misfit_of(const Mesh& mesh, const Surface& surface, const Outcome& outcome)
+{
+  const mm3::Solid_comparison c = mm3::compare_with_surface(mesh, surface, volume_tolerance);
+  const auto topology = std::count_if(c.differences.begin(), c.differences.end(), [](const auto& d) {
+    return d.kind != mm3::Solid_difference_kind::VOLUME;
+  });
+  const auto& fitting = outcome.result.optimization;
+  return {std::size_t(topology), (std::max)(0., std::abs(c.ratio_of_volumes() - 1) - volume_tolerance),
+          fitting.number_of_boundary_vertices - fitting.number_of_arrived_vertices};
+}
+
+// If topology or volume of the mesh are not those of the surface, another one with thin parts first; the
+// better one is taken. The library does so by itself where it can tell before the boundary is fitted.
+void improve_thin_parts(Mesh& mesh, const Domain& domain, const Inputs& inputs,
+                        const CGAL::Polyhedral_mixed_mesh_regions_3& regions, const Options& o,
+                        const Outcome& before, Stage_log& log, Outcome& outcome)
+{
+  const bool is_hopeless = outcome.result.number_of_vertices_for_thin_parts > o.vertices;
+  if(outcome.is_stopped || o.fit() != Fit::OPTIMIZATION || inputs.subdomains.size() > 1 || is_hopeless)
+    return;
+  const Misfit misfit = misfit_of(mesh, inputs.boundary, outcome);
+  if(std::get<0>(misfit) == 0 && std::get<1>(misfit) == 0)
+    return;
+  Outcome other = before;
+  Mesh better = make_fitted_mesh(domain, regions, o, mm3::Thin_parts::FIRST, log, other);
+  if(other.is_stopped)
+    return;
+  const std::size_t needed = other.result.number_of_vertices_for_thin_parts;
+  if(misfit_of(better, inputs.boundary, other) < misfit) {
+    mesh = std::move(better);
+    outcome = std::move(other);
+  }
+  outcome.result.number_of_vertices_for_thin_parts = needed;
+}
+
+// As above, or as far as it goes until a signal or the limit of time.
+Mesh make_mesh_until_stopped(const Domain& domain, const Inputs& inputs, const Options& o, Stage_log& log,
+                             Outcome& outcome)
+{
+  const Deferred_signals deferred({SIGINT}, Deferred_signals::Second::ENDS);
+  log.stop_when([&] { return Deferred_signals::has_come() || log.seconds() > o.time_limit; });
+  const auto regions = make_regions(inputs.regions, o, log);
+  const Outcome before = outcome;
+  Mesh mesh = make_fitted_mesh(domain, regions, o, mm3::Thin_parts::WHERE_NEEDED, log, outcome);
+  improve_thin_parts(mesh, domain, inputs, regions, o, before, log, outcome);
   if(outcome.is_stopped) {
     const std::string by = Deferred_signals::has_come() ? "a signal" : "--time-limit";
     outcome.warnings.push_back("stopped by " + by + " after " + rounded(log.seconds())
@@ -355,7 +407,7 @@ bool run(const Options& o)
   const Domain domain = log("AABB tree of surface", [&] { return make_domain(inputs.subdomains); });
   check_regions(domain, inputs, o, outcome);
   log.expect(plan_for(o));
-  const Mesh mesh = make_fitted_mesh(domain, inputs, o, log, outcome);
+  const Mesh mesh = make_mesh_until_stopped(domain, inputs, o, log, outcome);
   examine(mesh, inputs.boundary, o, log, outcome);
   examine_subdomains(mesh, domain, inputs.subdomains, o, outcome);
   write_files(mesh, inputs, o, log, outcome);

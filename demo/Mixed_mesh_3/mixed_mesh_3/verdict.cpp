@@ -42,6 +42,19 @@ std::string times_volume(double ratio, const Options& o)
          + (o.fit() == Fit::OPTIMIZATION && o.tolerance == 0 ? ", or --tolerance" : "");
 }
 
+// What the budget lacks, if that is known.
+std::string needed_for_thin_parts(const CGAL::Mixed_mesh_result_3& result, const Options& o)
+{
+  const std::size_t n = result.number_of_vertices_for_thin_parts;
+  if(n <= o.vertices)
+    return {};
+  const double unit = std::pow(10, std::floor(std::log10(double(n))) - 1); // two digits
+  return "its thin walls and narrow gaps take about " + std::to_string(std::size_t(std::ceil(double(n) / unit) * unit))
+         + " vertices";
+}
+
+std::string after_semicolon(const std::string& text) { return text.empty() ? text : "; " + text; }
+
 // The largest ones: a surface may have thousands of specks.
 void add_differences(const Topology& topology, const Options& o, std::vector<std::string>& warnings)
 {
@@ -70,7 +83,8 @@ void refuse(const CGAL::Mixed_mesh_result_3& result, const Options& o)
   case Status::EMPTY:
     throw std::runtime_error(o.surface
                              + ": too thin for this budget, no octree vertex is inside; try "
-                               "more vertices or a larger --base-level");
+                               "more vertices or a larger --base-level"
+                             + after_semicolon(needed_for_thin_parts(result, o)));
   case Status::REGION_NOT_MET:
     throw std::runtime_error(
       o.regions.size() == 1 ? o.regions.front().file + ": the region does not meet the domain of " + o.surface
@@ -107,7 +121,8 @@ void require_volume(const Options& o, const Outcome& outcome)
 {
   const double ratio = outcome.fidelity.ratio_of_volumes();
   if(o.fit() != Fit::NONE && !outcome.is_stopped && !(0.5 <= ratio && ratio <= 1.5))
-    throw std::runtime_error(times_volume(ratio, o));
+    throw std::runtime_error(times_volume(ratio, o)
+                             + after_semicolon(needed_for_thin_parts(outcome.result, o)));
 }
 
 void add_warnings(const Options& o, Outcome& outcome)
@@ -138,4 +153,7 @@ void add_warnings(const Options& o, Outcome& outcome)
   if(is_fitted ? std::abs(ratio - 1) > volume_tolerance : ratio < 0.9 || ratio > 4)
     warnings.push_back(times_volume(ratio, o));
   add_differences(outcome.topology, o, warnings);
+  const std::string needed = needed_for_thin_parts(outcome.result, o);
+  if(!needed.empty() && (!outcome.topology.differences.empty() || outcome.result.number_of_lost_cells != 0))
+    warnings.push_back(o.surface + ": " + needed);
 }

@@ -24,6 +24,13 @@ enum class Root_cell {
   BOX   ///< the bounding box itself, as in the paper: cells have its proportions
 };
 
+/// What is split before all else: cells as large as a wall is thick, or half as large as a gap is wide.
+enum class Thin_parts {
+  WHERE_NEEDED, ///< if the mesh has another topology than the surface otherwise, loses parts or volume
+  FIRST,        ///< always
+  LIKE_OTHERS   ///< never
+};
+
 /// How elements at the surface are split.
 enum class Boundary_mode {
   VERTEX_ORDER, ///< by one order of all vertices: inserts none, keeps pyramids

@@ -8,6 +8,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/boundary/Boundary_stage.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/thin_cells.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/apply_transitions.h>
 #include <CGAL/Mixed_mesh_criteria_3.h>
@@ -30,8 +31,10 @@ struct Candidate
 };
 
 /// The stages that follow the octree. To be called in the stage `OCTREE`.
+/// \param are_gaps_wider see `widen_gaps()`
 template <class Octree_, class Visitor>
-Candidate make_candidate(const Octree_& octree, const Mixed_mesh_criteria_3& criteria, Visitor& visitor)
+Candidate make_candidate(const Octree_& octree, const Mixed_mesh_criteria_3& criteria, Visitor& visitor,
+                         bool are_gaps_wider = false)
 {
   using Scope = Stage_scope<Visitor>;
   Candidate c;
@@ -42,6 +45,8 @@ Candidate make_candidate(const Octree_& octree, const Mixed_mesh_criteria_3& cri
   {
     const Scope scope(visitor, Stage::TRANSITIONS);
     c.mesh = apply_transitions(octree, criteria.transition_templates(), criteria.number_of_threads());
+    if(are_gaps_wider)
+      widen_gaps(octree, c.mesh);
   }
   {
     const Scope scope(visitor, Stage::BOUNDARY);

@@ -14,9 +14,11 @@
 #include <CGAL/Mixed_mesh_3/internal/boundary/lost_cells.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Bounded_optimization.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Candidate.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/Misfit.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Tolerance_search.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/base_level.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/thin_cells.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/fill_vertex_budget.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/place_lattice.h>
@@ -25,9 +27,11 @@
 #include <CGAL/Mixed_mesh_result_3.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -51,8 +55,14 @@ class Driver
   const Lattice_on_surface m_lattice;
   Candidate m_best;
   std::vector<Octree::Node_index> m_lost;
+  std::optional<Octree_> m_thin_start; // walls and gaps are resolved
+  bool m_are_gaps_wider = false;
   Mixed_mesh_result_3 m_result;
   Tolerance_search<Octree_, Mesh, Visitor> m_tolerance_search;
+
+  // Cells for a wall, times what should suffice: lucky ones take less. And where they shall have volume, too:
+  // tubes of two cells lose an eighth of it.
+  static constexpr std::array<double, 4> strictnesses{0.7, 1, 1.4, 2}, strictnesses_for_volume{2, 1.4, 1, 0.7};
 
 public:
   Driver(const Domain& domain, const Region& region, const Mixed_mesh_criteria_3& criteria,
@@ -68,20 +78,37 @@ public:
 
   Mixed_mesh_result_3 operator()(Mesh& mesh)
   {
-    mesh.clear();
+    m_result.tolerance = tolerance();
     {
-      m_result.tolerance = tolerance();
       const Scope scope(m_visitor, Stage::OCTREE);
       if(!fill_lattice()) {
         if(m_result.tolerance > 0)
           m_tolerance_search.run();
         if(!m_tolerance_search.is_stopped())
-          fill_budget();
+          fill_budget_at_first();
       }
     }
+    make_mesh(mesh);
+    if(m_criteria.thin_parts() == Thin_parts::WHERE_NEEDED)
+      improve_thin_parts(mesh);
+    return m_result;
+  }
+
+private:
+  void fill_budget_at_first()
+  {
+    if(m_criteria.thin_parts() == Thin_parts::FIRST)
+      resolve_thin_parts(true);
+    fill_budget();
+  }
+
+  // From the octree.
+  void make_mesh(Mesh& mesh)
+  {
+    mesh.clear();
     describe();
     if(!m_result.has_mesh())
-      return m_result;
+      return;
     {
       const Scope scope(m_visitor, Stage::ASSEMBLY);
       assemble_mesh(m_octree, m_best.mesh, m_best.boundary, mesh);
@@ -90,10 +117,80 @@ public:
       optimize(mesh);
     if(!m_result.is_lattice_on_surface)
       note_share_filled(mesh.number_of_vertices());
-    return m_result;
   }
 
-private:
+  // Once more, if what there is has lost something; the better mesh is taken.
+  void improve_thin_parts(Mesh& mesh)
+  {
+    const bool can_be_better = m_result.status == Mixed_mesh_status::EMPTY
+                               || (m_result.has_mesh() && !m_result.is_kept);
+    const Misfit misfit = misfit_of(mesh);
+    if(!can_be_better || misfit.is_none() || subdomain_indices(m_root.domain()).size() > 1)
+      return;
+    const Mixed_mesh_result_3 result = m_result;
+    Mesh other;
+    {
+      const Scope scope(m_visitor, Stage::OCTREE);
+      resolve_thin_parts(misfit.is_of_volume_only());
+      if(m_thin_start)
+        fill_budget();
+    }
+    if(m_thin_start)
+      make_mesh(other);
+    if(m_result.status == Mixed_mesh_status::STOPPED || !m_thin_start || !(misfit_of(other) < misfit)) {
+      const std::size_t needed = m_result.number_of_vertices_for_thin_parts;
+      m_result = result;
+      m_result.number_of_vertices_for_thin_parts = needed;
+    } else {
+      mesh = std::move(other);
+    }
+  }
+
+  Misfit misfit_of(const Mesh& mesh) const
+  {
+    if(mesh.number_of_elements() == 0)
+      return Misfit::of_no_mesh();
+    const Mixed_mesh_optimization_result_3& fit = m_result.optimization;
+    return Misfit(mesh, m_root.domain(), m_criteria.fit_to_surface(), m_lost.size(),
+                  fit.number_of_boundary_vertices - fit.number_of_arrived_vertices);
+  }
+
+  // Where the topology is wrong, with more and more cells for a wall or a gap, until it is right. Where only
+  // the volume is, with as many as the budget has room for.
+  void resolve_thin_parts(bool is_for_volume)
+  {
+    Octree_ start = m_root;
+    if(!refine_to_level(start, coarsest_level(), budget()))
+      return;
+    m_tolerance_search.split_far_cells(start);
+    m_are_gaps_wider = true;
+    Misfit best = Misfit::of_no_mesh();
+    for(const double strictness : is_for_volume ? strictnesses_for_volume : strictnesses) {
+      Octree_ octree = start;
+      Candidate candidate;
+      const Thin_cell_splits splits = split_thin_cells(octree, strictness, budget(), [&](const Octree_& o) {
+        Candidate c = try_octree(o);
+        const std::size_t n = c.number_of_vertices;
+        if(!c.is_stopped && n <= budget())
+          candidate = std::move(c);
+        return n;
+      });
+      m_result.number_of_vertices_for_thin_parts = splits.number_of_vertices;
+      if(candidate.number_of_vertices == 0)
+        continue; // not even one level fits, or there are no vertices
+      Mesh mesh;
+      assemble_mesh(octree, candidate.mesh, candidate.boundary, mesh);
+      const Misfit misfit(mesh, m_root.domain(), false,
+                          lost_cells(octree, candidate.mesh, candidate.boundary).size(), 0);
+      if(misfit < best || !m_thin_start) {
+        best = misfit;
+        m_thin_start = std::move(octree);
+      }
+      if(is_for_volume ? splits.is_complete : !splits.is_complete || misfit.is_none())
+        return;
+    }
+  }
+
   // What the octree may have; the rest is for the optimization.
   std::size_t budget() const
   {
@@ -154,18 +251,21 @@ private:
     return m_result.is_lattice_on_surface = true;
   }
 
+  int coarsest_level() const { return (std::max)(first_base_level(m_criteria), m_lattice.level); }
+
   // If no base level is given: coarser than the default if the budget demands it; finer, as far as the
   // budget allows, if much of a thin domain would have no elements.
   void fill_budget()
   {
-    const bool is_automatic = m_criteria.base_level() == Mixed_mesh_criteria_3::automatic;
+    const bool is_automatic = m_criteria.base_level() == Mixed_mesh_criteria_3::automatic && !m_thin_start;
     const int coarsest = (std::max)(coarsest_automatic_base_level, m_lattice.level);
-    int level = (std::max)(first_base_level(m_criteria), m_lattice.level);
+    int level = coarsest_level();
     for(int step = 0;; level += step) {
-      Octree_ octree = m_root;
+      Octree_ octree = m_thin_start ? *m_thin_start : m_root;
       Candidate candidate;
-      if(refine_to_level(octree, level, budget())) {
-        m_tolerance_search.split_far_cells(octree);
+      if(m_thin_start || refine_to_level(octree, level, budget())) {
+        if(!m_thin_start)
+          m_tolerance_search.split_far_cells(octree);
         candidate = fill_vertex_budget(
           octree, budget(), m_criteria.grading() * m_radius,
           [this](const Octree_& o) { return try_octree(o); }, points_on_sharp_edges());
@@ -226,7 +326,7 @@ private:
 
   Candidate try_octree(const Octree_& octree)
   {
-    Candidate c = make_candidate(octree, m_criteria, m_visitor);
+    Candidate c = make_candidate(octree, m_criteria, m_visitor, m_are_gaps_wider);
     m_result.number_of_trials += !c.is_stopped;
     return c;
   }

@@ -12,6 +12,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/shell_counts.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Sharp_features.h>
 
 #include <CGAL/Bbox_3.h>
@@ -80,6 +81,8 @@ public:
   double area() const;
   double volume() const;
   std::size_t number_of_facets() const { return m_triangles.size(); }
+  /// Of the whole surface.
+  const Shell_counts& shells() const { return m_shells; }
 
   /// The edges between facets whose normals differ by more than an angle, in degrees.
   Sharp_edges sharp_edges(double angle) const;
@@ -193,6 +196,7 @@ private:
   std::vector<Triangle_3> m_triangles;
   std::vector<Bbox_3> m_boxes;
   Bbox_3 m_bbox;
+  Shell_counts m_shells;
   std::unique_ptr<Trees, Delete_trees> m_trees; // the tree keeps the address of the surface
 };
 

@@ -73,6 +73,7 @@ Surface_oracle_3::build(const std::vector<Point_3>& points,
                         const std::vector<std::array<std::size_t, 3>>& triangles)
 {
   m_trees.reset(new Trees());
+  m_shells = shell_counts(triangles, points.size());
   Trees::Surface& s = m_trees->surface;
   for(const Point_3& p : points)
     s.add_vertex(p);

@@ -1,0 +1,68 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_SHELL_COUNTS_H
+#define CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_SHELL_COUNTS_H
+
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// What a closed surface is like, in two numbers that need no geometry.
+struct Shell_counts
+{
+  std::size_t number_of_shells = 0; ///< connected components
+  std::ptrdiff_t euler_characteristic = 0;
+
+  bool operator==(const Shell_counts& s) const
+  {
+    return number_of_shells == s.number_of_shells && euler_characteristic == s.euler_characteristic;
+  }
+  bool operator!=(const Shell_counts& s) const { return !(*this == s); }
+};
+
+/// \param polygons ranges of vertex indices. \pre each edge belongs to two of them
+/// \cost linear, nearly
+template <class Polygons>
+Shell_counts shell_counts(const Polygons& polygons, std::size_t number_of_vertices)
+{
+  constexpr std::size_t unused = std::size_t(-1);
+  std::vector<std::size_t> leader(number_of_vertices, unused);
+  const auto find = [&](std::size_t v) {
+    while(leader[v] != v)
+      v = leader[v] = leader[leader[v]];
+    return v;
+  };
+  Shell_counts counts;
+  std::size_t number_of_halfedges = 0, number_of_faces = 0;
+  for(const auto& polygon : polygons) {
+    for(const std::size_t v : polygon)
+      if(leader[v] == unused) {
+        leader[v] = v;
+        ++counts.number_of_shells; // until it is joined
+        ++counts.euler_characteristic;
+      }
+    const std::size_t first = find(*polygon.begin());
+    for(const std::size_t v : polygon)
+      if(const std::size_t other = find(v); other != first) {
+        leader[other] = first;
+        --counts.number_of_shells;
+      }
+    number_of_halfedges += polygon.size();
+    ++number_of_faces;
+  }
+  counts.euler_characteristic += std::ptrdiff_t(number_of_faces) - std::ptrdiff_t(number_of_halfedges / 2);
+  return counts;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_SHELL_COUNTS_H

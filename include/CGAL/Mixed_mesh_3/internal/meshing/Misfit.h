@@ -1,0 +1,104 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_MISFIT_H
+#define CGAL_MIXED_MESH_3_INTERNAL_MESHING_MISFIT_H
+
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/shell_counts.h>
+#include <CGAL/Mixed_mesh_3/quality.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+template <class Domain, class = void>
+struct Has_shells : std::false_type
+{
+};
+/// Domains that know how many shells their surface has.
+template <class Domain>
+struct Has_shells<Domain, std::void_t<decltype(std::declval<const Domain&>().shells())>> : std::true_type
+{
+};
+
+/// How a mesh differs from its domain, in what can be told at once: not by much if numbers are equal, and surely
+/// if they are not. `compare_with_surface()` tells all.
+class Misfit
+{
+  bool m_is_mesh = true;
+  std::size_t m_topology = 0, m_number_of_lost_cells = 0, m_number_off = 0;
+  double m_volume = 0; // beyond what is tolerated, relatively
+
+  static constexpr double tolerated_volume = 0.05;
+
+public:
+  static Misfit of_no_mesh()
+  {
+    Misfit m;
+    m.m_is_mesh = false;
+    return m;
+  }
+
+  /// \param mesh its boundary is a manifold, except where it is pinched
+  /// \param is_fitted whether its volume should be that of the domain
+  template <class Mesh, class Domain>
+  Misfit(const Mesh& mesh, [[maybe_unused]] const Domain& domain, [[maybe_unused]] bool is_fitted,
+         std::size_t number_of_lost_cells, std::size_t number_off)
+    : m_number_of_lost_cells(number_of_lost_cells), m_number_off(number_off)
+  {
+    if constexpr(Has_shells<Domain>::value) {
+      const auto expected = domain.shells();
+      if(!expected)
+        return;
+      std::vector<Face_vertices> polygons;
+      for(const Face& face : boundary_faces(mesh))
+        polygons.push_back(face.vertices());
+      const Shell_counts counts = shell_counts(polygons, mesh.number_of_vertices());
+      m_topology = difference(counts.number_of_shells, expected->number_of_shells)
+                   + difference(counts.euler_characteristic, expected->euler_characteristic);
+      if(is_fitted)
+        m_volume = (std::max)(0., std::abs(Mixed_meshes_3::volume(mesh) / domain.volume() - 1) - tolerated_volume);
+    }
+  }
+
+  bool is_none() const
+  {
+    return m_is_mesh && m_topology == 0 && m_number_of_lost_cells == 0 && m_volume == 0;
+  }
+
+  bool is_of_volume_only() const { return m_is_mesh && m_topology == 0 && m_number_of_lost_cells == 0; }
+
+  bool operator<(const Misfit& m) const { return key() < m.key(); }
+
+private:
+  Misfit() = default;
+
+  template <class Number>
+  static std::size_t difference(Number a, Number b)
+  {
+    return std::size_t(a < b ? b - a : a - b);
+  }
+
+  std::tuple<bool, std::size_t, bool, double, std::size_t, std::size_t> key() const
+  {
+    return {!m_is_mesh, m_topology,   m_number_of_lost_cells > 0,
+            m_volume,   m_number_off, m_number_of_lost_cells};
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_MESHING_MISFIT_H
