@@ -50,6 +50,7 @@ struct Options
   std::vector<Subdomain_option> subdomains; // inside the surface; those before count where they overlap
   std::vector<Subdomain_option> labels;     // of an image, with names, instead of voxels
   std::vector<std::string> cavities;
+  std::vector<Subdomain_option> sheets; // surfaces inside that need not enclose anything
   Voxel_selection voxels; // of an image, the domain
   std::optional<double> smoothing;
   std::vector<std::string> outputs;

@@ -120,12 +120,23 @@ struct Interface_outcome
   bool is_manifold = true;
 };
 
+/// A surface inside that need not enclose anything, and the faces of the mesh on it.
+struct Sheet_outcome
+{
+  std::string name;
+  Surface_facts surface;
+  std::size_t faces = 0, vertices = 0, vertices_off = 0, bad_edges = 0;
+  double largest_distance = 0; // of a vertex from the sheet
+  double area = 0, area_inside = 0; // of the faces; of the sheet inside the domain
+};
+
 struct Outcome
 {
   Surface_facts surface;
   std::vector<Surface_facts> regions;
   std::vector<Subdomain_outcome> subdomains; // if there are several
   std::vector<Interface_outcome> interfaces;
+  std::vector<Sheet_outcome> sheets;
   CGAL::Mixed_mesh_result_3 result;
   CGAL::Mixed_mesh_fit_result_3 algorithm_1;
   bool is_stopped = false; // by a signal or the limit of time

@@ -109,8 +109,8 @@ private:
     Element_attributes attributes = m_mesh.elements[old.front()].attributes;
     for(Element_index e : old) {
       const Element_attributes& a = m_mesh.elements[e].attributes;
-      if(a.subdomain_index != attributes.subdomain_index)
-        return false; // an interface stays
+      if(a.subdomain_index != attributes.subdomain_index || a.compartment != attributes.compartment)
+        return false; // an interface stays, and a sheet
       attributes.is_in_region = attributes.is_in_region || a.is_in_region;
     }
     std::vector<Working_mesh::Element> elements;
@@ -264,7 +264,8 @@ private:
   // the edge can be flipped there.
   bool remove_from_boundary(Element_index e)
   {
-    if(cost(m_mesh.elements[e].vertices.data()) < power(worth_removing, m_power))
+    if(cost(m_mesh.elements[e].vertices.data()) < power(worth_removing, m_power)
+       || m_mesh.elements[e].attributes.compartment != 0) // may have a face on a sheet
       return false;
     const std::array<Vertex_index, 8> v = m_mesh.elements[e].vertices;
     if(!std::all_of(v.begin(), v.begin() + 4, [this](Vertex_index u) { return m_mesh.is_on_boundary(u); }))

@@ -79,6 +79,7 @@ public:
       return m_result;
     {
       const Scope scope(m_visitor, Stage::ASSEMBLY);
+      mark_sheets();
       assemble_mesh(m_octree, m_best.mesh, m_best.boundary, mesh);
     }
     if(m_criteria.fit_to_surface() && !m_result.is_kept)
@@ -88,6 +89,15 @@ public:
   }
 
 private:
+  // Not before: sheets add no vertex.
+  void mark_sheets()
+  {
+    if constexpr(Is_domain_with_sheets<Domain>::value)
+      if(has_sheets(m_root.domain()))
+        m_best.boundary = split_boundary(m_octree, m_best.mesh, m_criteria.boundary_mode(),
+                                         m_criteria.number_of_threads(), Sheet_layer(m_octree, m_best.mesh));
+  }
+
   // What the octree may have; the rest is for the optimization.
   std::size_t budget() const
   {
