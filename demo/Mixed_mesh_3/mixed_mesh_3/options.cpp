@@ -190,6 +190,9 @@ void add_files(CLI::App& app, Options& o)
               "are brought onto it, and written as a facet set. Can be given several times",
               [&o](const std::string& text) { o.sheets.push_back(subdomain_option("--sheet", text)); })
     ->type_name("[NAME=]FILE");
+  app.add_flag("--slit", o.slit,
+               "Double the vertices on sheets, so that both sides can come apart; the copies are not counted "
+               "in the budget");
   app.add_option("--vertices", o.vertices, "Vertex budget: the mesh has at most that many vertices")
     ->required()
     ->check(count(1000000000)) // of 32-bit indices in files
@@ -372,6 +375,8 @@ void check_subdomains(const Options& o)
 
 void check_sheets(const Options& o)
 {
+  if(o.slit && o.sheets.empty())
+    throw CLI::ValidationError("--slit", "needs --sheet");
   for(std::size_t i = 0; i < o.sheets.size(); ++i)
     for(std::size_t j = 0; j < i; ++j)
       if(o.sheets[i].name == o.sheets[j].name)

@@ -130,6 +130,12 @@ struct Sheet_outcome
   double area = 0, area_inside = 0; // of the faces; of the sheet inside the domain
 };
 
+/// What doubling the vertices of sheets did.
+struct Slit_outcome
+{
+  std::size_t faces = 0, faces_left = 0, vertices = 0;
+};
+
 struct Outcome
 {
   Surface_facts surface;
@@ -137,6 +143,7 @@ struct Outcome
   std::vector<Subdomain_outcome> subdomains; // if there are several
   std::vector<Interface_outcome> interfaces;
   std::vector<Sheet_outcome> sheets;
+  std::optional<Slit_outcome> slit;
   CGAL::Mixed_mesh_result_3 result;
   CGAL::Mixed_mesh_fit_result_3 algorithm_1;
   bool is_stopped = false; // by a signal or the limit of time

@@ -46,6 +46,7 @@ Json describe(const Options& o)
                  {"tolerance", o.tolerance > 0 ? Json(o.tolerance) : Json("automatic")},
                  {"max ARC", o.has_quality_bound() ? Json(o.largest_arc) : Json()},
                  {"tetrahedra", o.tetrahedra},
+                 {"slit", o.slit},
                  {"msh version", o.msh2 ? "2.2" : "4.1"},
                  {"space", space_of(o.surface_options)},
                  {"threads", o.threads}};
@@ -242,6 +243,10 @@ void describe_sheets(const Outcome& outcome, Json& report)
                                 {"vertices", s.vertices},
                                 {"vertices not on surface", s.vertices_off},
                                 {"largest distance of a vertex", s.largest_distance}});
+  if(outcome.slit)
+    report["slit"] = {{"faces", outcome.slit->faces},
+                      {"faces that stay closed", outcome.slit->faces_left},
+                      {"vertices doubled", outcome.slit->vertices}};
 }
 
 // How the mesh came about.
@@ -281,8 +286,12 @@ std::string parts_in_words(const Outcome& outcome)
     text << '\n';
   }
   for(const Sheet_outcome& s : outcome.sheets)
-    text << s.name << ": " << s.faces << " faces, area " << s.area << ", " << s.area / s.area_inside
+    text << s.name << ": " << s.faces << " faces, area " << s.area << ", "
+         << (s.area_inside > 0 ? s.area / s.area_inside : 0)
          << " times that of the sheet inside\n";
+  if(outcome.slit)
+    text << "slit along " << outcome.slit->faces << " of them: " << outcome.slit->vertices
+         << " vertices doubled\n";
   return text.str();
 }
 

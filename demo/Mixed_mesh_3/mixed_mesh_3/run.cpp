@@ -328,8 +328,8 @@ bool run(const Options& o)
   Mesh mesh = make_fitted_mesh(domain, inputs, o, log, outcome);
   examine(mesh, inputs.boundary, o, log, outcome);
   examine_subdomains(mesh, domain, inputs.subdomains, o, outcome);
-  std::vector<mm3::IO::Facet_set> facet_sets = interfaces_of(mesh, inputs.subdomains);
-  for(mm3::IO::Facet_set& set : examine_sheets(mesh, domain, sheets, o, outcome))
+  std::vector<mm3::IO::Facet_set> facet_sets = examine_sheets(mesh, domain, sheets, o, outcome);
+  for(mm3::IO::Facet_set& set : interfaces_of(mesh, inputs.subdomains))
     facet_sets.push_back(std::move(set));
   write_files(mesh, facet_sets, o, log, outcome);
   log.finish_progress();

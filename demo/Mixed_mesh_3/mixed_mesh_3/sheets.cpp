@@ -7,10 +7,14 @@
 
 #include "common/messages.h"
 #include "common/read_surface.h"
+#include "mixed_mesh_3/verdict.h"
 
 #include <CGAL/Mixed_mesh_3/sheets.h>
+#include <CGAL/Mixed_mesh_3/split_along_faces.h>
+#include <CGAL/Mixed_mesh_3/validation.h>
 
 #include <cstddef>
+#include <map>
 #include <utility>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
@@ -32,6 +36,38 @@ void warn_of(const Sheet_outcome& s, const Options& o, std::vector<std::string>&
     warnings.push_back(std::to_string(s.vertices_off) + " of " + std::to_string(s.vertices) + " vertices of "
                        + named + " are not on its surface, but up to " + rounded(s.largest_distance)
                        + " away");
+}
+
+// The sets become those of both sides.
+void slit_along(std::vector<mm3::IO::Facet_set>& sets, Mesh& mesh, Outcome& outcome)
+{
+  std::vector<mm3::Face> faces;
+  for(const mm3::IO::Facet_set& set : sets)
+    faces.insert(faces.end(), set.faces.begin(), set.faces.end());
+  const mm3::Slit slit = mm3::split_along_faces(mesh, faces);
+  const mm3::Mesh_defects d = mm3::find_defects(mesh);
+  if(!d.conforming() || !d.positive())
+    throw Invalid_mesh("the mesh failed a check after --slit");
+  if(!d.closed_manifold_boundary())
+    outcome.warnings.push_back("--slit: the boundary is no manifold, at "
+                               + std::to_string(d.nonmanifold_boundary_edges) + " edges and "
+                               + std::to_string(d.nonmanifold_boundary_vertices) + " vertices");
+  outcome.slit = Slit_outcome{slit.faces.size(), slit.number_of_faces_left, slit.origins.size()};
+  outcome.mesh = facts_of(mesh);
+
+  const std::map<mm3::Face, mm3::Face> opposite_of(slit.faces.begin(), slit.faces.end());
+  std::vector<mm3::IO::Facet_set> of_sides;
+  for(const mm3::IO::Facet_set& set : sets) {
+    mm3::IO::Facet_set front{set.name + "_front", {}}, behind{set.name + "_behind", {}};
+    for(const mm3::Face& face : set.faces)
+      if(const auto found = opposite_of.find(face); found != opposite_of.end()) {
+        front.faces.push_back(found->first);
+        behind.faces.push_back(found->second);
+      }
+    of_sides.push_back(std::move(front));
+    of_sides.push_back(std::move(behind));
+  }
+  sets = std::move(of_sides);
 }
 
 } // namespace
@@ -64,5 +100,7 @@ std::vector<mm3::IO::Facet_set> examine_sheets(Mesh& mesh, const Domain& domain,
       outcome.result.status = worse(outcome.result.status, CGAL::Mixed_mesh_status::PARTS_LOST);
     sets.push_back({sheets[i].name, std::move(s.faces)});
   }
+  if(options.slit)
+    slit_along(sets, mesh, outcome);
   return sets;
 }

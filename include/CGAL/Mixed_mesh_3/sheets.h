@@ -24,6 +24,28 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+namespace internal {
+
+/// The faces between compartments, from both sides: first that of the smaller compartment.
+template <class Mesh>
+std::vector<std::pair<Face, Face>> faces_between_compartments(const Mesh& mesh)
+{
+  std::vector<std::pair<Face, Face>> faces;
+  for_each_face(mesh.elements(), mesh.number_of_vertices(), [&](const auto& group) {
+    if(group.size() != 2)
+      return;
+    const Element_attributes &a = mesh.attributes(group.element(0)), &b = mesh.attributes(group.element(1));
+    if(!are_beside_sheet(a, b) || a.subdomain_index != b.subdomain_index)
+      return;
+    const std::size_t first = a.compartment < b.compartment ? 0 : 1;
+    faces.emplace_back(group[first], group[1 - first]);
+  });
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+} // namespace internal
+
 /*!
 The faces between two elements of different compartments: those on sheets. Seen from the element of the
 smaller compartment; in the order of the elements.
@@ -39,21 +61,15 @@ template <class Mesh>
 std::vector<Face> find_sheet_faces(const Mesh& mesh)
 {
   std::vector<Face> faces;
-  internal::for_each_face(mesh.elements(), mesh.number_of_vertices(), [&](const auto& group) {
-    if(group.size() != 2)
-      return;
-    const Element_attributes &a = mesh.attributes(group.element(0)), &b = mesh.attributes(group.element(1));
-    if(are_beside_sheet(a, b) && a.subdomain_index == b.subdomain_index)
-      faces.push_back(group[a.compartment < b.compartment ? 0 : 1]);
-  });
-  std::sort(faces.begin(), faces.end());
+  for(const auto& [first, second] : internal::faces_between_compartments(mesh))
+    faces.push_back(first);
   return faces;
 }
 
 /// What a mesh has of a sheet.
 struct Sheet_in_mesh
 {
-  std::vector<Face> faces; ///< in the order of the elements
+  std::vector<Face> faces; ///< of the elements in front of it
   double area = 0;
   std::size_t number_of_vertices = 0;
   std::size_t number_of_vertices_off = 0; ///< that are not on the sheet
@@ -81,7 +97,15 @@ std::vector<Sheet_in_mesh> find_sheets(const Mesh& mesh, const Domain& domain, d
   std::vector<Sheet_in_mesh> sheets(domain.sheets().size());
   if(sheets.empty())
     return sheets;
-  for(const Face& face : find_sheet_faces(mesh)) {
+  const auto height = [&](const Face& face, std::size_t i) { // of the middle of its element
+    const Element_view element = mesh.element(face.element());
+    Vec3 sum{};
+    for(Vertex_index v : element)
+      sum = sum + to_vec3(mesh.point(v));
+    const Vec3 p = (1. / element.size()) * sum;
+    return domain.sheets()[i]->locate(Point_3(p[0], p[1], p[2])).height;
+  };
+  for(const auto& [face, opposite] : internal::faces_between_compartments(mesh)) {
     std::size_t nearest = 0;
     double least = std::numeric_limits<double>::infinity();
     for(std::size_t i = 0; sheets.size() > 1 && i < sheets.size(); ++i) {
@@ -93,7 +117,8 @@ std::vector<Sheet_in_mesh> find_sheets(const Mesh& mesh, const Domain& domain, d
         nearest = i;
       }
     }
-    sheets[nearest].faces.push_back(face);
+    const bool is_in_front = height(face, nearest) >= height(opposite, nearest);
+    sheets[nearest].faces.push_back(is_in_front ? face : opposite);
   }
   for(std::size_t i = 0; i < sheets.size(); ++i) {
     Sheet_in_mesh& s = sheets[i];

@@ -29,8 +29,8 @@ struct Slit
   /// The faces of the slit, from both sides; in the order of the first ones.
   std::vector<std::pair<Face, Face>> faces;
   std::vector<Vertex_index> origins; ///< for each vertex that was added, the one that it is a copy of
-  /// Faces that stay closed, although one of their vertices could be doubled: else parts of the slit would
-  /// meet in an edge or a vertex only, and the boundary would be no manifold there.
+  /// Faces that stay closed: all of their vertices are at the rim; or parts of the slit would meet in an edge
+  /// or a vertex only, and the boundary would be no manifold there.
   std::size_t number_of_faces_left = 0;
 };
 
@@ -233,22 +233,22 @@ Slit split_along_faces(Mesh& mesh, const std::vector<Face>& faces)
   for(Vertex_index v : slit.origins())
     points.push_back(mesh.point(v));
   Element_list elements = slit.elements();
-  std::size_t inside = 0;
   for(const Face& face : faces) {
     std::array<Vertex_index, 4> key = face.vertices().padded();
     internal::sort_vertices(key);
     const auto found = slit.faces().find(key);
     if(found == slit.faces().end()) {
-      ++inside;
+      ++result.number_of_faces_left;
       continue;
     }
     const auto& [first, second] = found->second;
-    const bool is_first = first == face;
     const Face a(elements, first.element(), first.local_index()),
       b(elements, second.element(), second.local_index());
-    result.faces.emplace_back(is_first ? a : b, is_first ? b : a);
+    if(std::is_permutation(a.vertices().begin(), a.vertices().end(), b.vertices().begin()))
+      ++result.number_of_faces_left;
+    else
+      result.faces.emplace_back(first == face ? a : b, first == face ? b : a);
   }
-  result.number_of_faces_left = inside;
   result.origins = slit.origins();
   mesh.assign(std::move(points), std::move(elements), mesh.attributes());
   return result;

@@ -47,6 +47,7 @@ struct Boundary_pieces
   std::size_t number_of_vertices = 0;     ///< of the result
   std::size_t number_of_relabeled_vertices = 0;
   std::size_t number_of_inserted_vertices = 0;
+  std::size_t number_of_lost_sheets = 0;
   Manifold_defects defects; ///< that relabeling could not repair
 };
 
@@ -90,6 +91,7 @@ public:
         join_flat_pieces();
     } while(relabel() || m_sheets.mend(pieces));
     compartments = m_sheets.compartments();
+    number_of_lost_sheets = m_sheets.number_of_lost();
     number_of_inserted_vertices = mesh.vertices.size() - first_inserted;
     count_vertices();
   }

@@ -22,10 +22,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
 #include <utility>
+#include <iostream>
 #include <vector>
 
 namespace CGAL {
@@ -40,6 +42,7 @@ struct No_sheets
   double depth(Vertex_index) const { return 0; }
   bool mend(const Element_list&) { return false; }
   std::vector<Compartment_index> compartments() const { return {}; }
+  std::size_t number_of_lost() const { return 0; }
 };
 
 /*!
@@ -61,14 +64,15 @@ Where two sheets meet, each has faces of its own.
 template <class Octree_>
 class Sheet_layer
 {
-  using Edge = std::pair<Vertex_index, Vertex_index>;       // the smaller one first
-  using Triangle = std::array<Vertex_index, 3>;             // ascending
+  using Edge = std::pair<Vertex_index, Vertex_index>; // the smaller one first
+  using Triangle = std::array<Vertex_index, 3>;       // ascending
 
   struct Place
   {
     double height;      // above what counts as behind, negative there
     bool is_snapped;    // behind, but in front of the sheet, near it
     bool is_at_rim;     // the closest point is on the border of the sheet
+    bool is_beyond_rim; // and farther from it, along the sheet, than what counts as near
     bool ends_outside;  // that point is not inside the domain, nor is the vertex
     Vec3 closest;
   };
@@ -76,9 +80,9 @@ class Sheet_layer
   struct Sheet
   {
     std::size_t number;
-    std::vector<Element_index> elements; // near it
+    std::vector<Element_index> elements; // near it, ascending
     std::map<Vertex_index, Place> places;
-    std::set<Vertex_index> raised, dropped;  // counts as one in front; can not be on the sheet
+    std::set<Vertex_index> raised, dropped; // counts as one in front; can not be on the sheet
     std::map<Edge, bool> is_crossed;
     std::set<Vertex_index> vertices;
   };
@@ -87,10 +91,12 @@ class Sheet_layer
   const Lattice_mesh& m_mesh;
   std::vector<Sheet> m_sheets;
   std::vector<Compartment_index> m_compartments;
+  std::size_t m_number_of_lost = 0;
   int m_round = 0;
 
   // In cells. Half a cell would be best for a sheet parallel to the axes, 0.29 for one as oblique as can be.
   static constexpr double snapping = 0.35;
+  static constexpr double near_rim = 0.5;
   static constexpr int rounds_of_raising = 8;
 
 public:
@@ -108,7 +114,8 @@ public:
   /// Whether a vertex shall be on a sheet.
   bool is_on(Vertex_index v) const
   {
-    return std::any_of(m_sheets.begin(), m_sheets.end(), [v](const Sheet& s) { return s.vertices.count(v) > 0; });
+    return std::any_of(m_sheets.begin(), m_sheets.end(),
+                       [v](const Sheet& s) { return s.vertices.count(v) > 0; });
   }
 
   /// How far behind: those that are least come first in the order of the vertices, so that no tetrahedron has
@@ -131,17 +138,26 @@ public:
     std::vector<std::set<Triangle>> faces;
     for(Sheet& s : m_sheets) {
       faces.push_back(sheet_faces(s, pieces));
+      if(getenv("DBG"))
+        std::cerr << "round " << m_round << " vertices " << s.vertices.size() << " faces "
+                  << faces.back().size() << " bad " << bad_vertices(s, faces.back(), pieces).size()
+                  << " raised " << s.raised.size() << " dropped " << s.dropped.size() << "\n";
       has_changed = mend(s, bad_vertices(s, faces.back(), pieces)) || has_changed;
     }
     if(has_changed)
       return true;
     std::set<Triangle> all;
-    for(const std::set<Triangle>& of_one : faces)
+    m_number_of_lost = 0;
+    for(const std::set<Triangle>& of_one : faces) {
+      m_number_of_lost += of_one.empty();
       all.insert(of_one.begin(), of_one.end());
+    }
     // elements around inner vertices too, so that flips have more freedom
     for(bool all_around : {true, false}) {
       m_compartments = find_compartments(pieces, all, all_around);
       const std::set<Triangle> lost = faces_within_compartments(pieces, all);
+      if(getenv("DBG"))
+        std::cerr << "lost " << lost.size() << "\n";
       if(lost.empty())
         return false;
       if(!all_around)
@@ -155,6 +171,8 @@ public:
 
   /// Of each piece; those of sheet faces differ, and are positive. \pre `mend()` has returned `false`
   std::vector<Compartment_index> compartments() const { return m_compartments; }
+  /// Sheets without faces.
+  std::size_t number_of_lost() const { return m_number_of_lost; }
 
 private:
   const auto& oracle(const Sheet& s) const { return *m_located.domain().sheets()[s.number]; }
@@ -174,7 +192,7 @@ private:
   {
     for(Element_index e = 0; e < m_mesh.elements.size(); ++e) {
       const Element_view element = m_mesh.elements[e];
-      if(std::none_of(element.begin(), element.end(), [this](Vertex_index v) { return m_mesh.is_inside(v); }))
+      if(!has_inside_vertex(element))
         continue;
       Bbox_3 box;
       double margin = 0;
@@ -188,6 +206,28 @@ private:
     }
   }
 
+  // What is behind a raised vertex may be farther from the sheet.
+  void add_elements_at_raised(Sheet& s) const
+  {
+    std::vector<Element_index> all;
+    for(Element_index e = 0; e < m_mesh.elements.size(); ++e) {
+      const Element_view element = m_mesh.elements[e];
+      if(std::any_of(element.begin(), element.end(), [&](Vertex_index v) { return s.raised.count(v) > 0; })
+         && has_inside_vertex(element))
+        all.push_back(e);
+    }
+    const std::vector<Element_index> known = std::move(s.elements);
+    s.elements.clear();
+    std::set_union(known.begin(), known.end(), all.begin(), all.end(), std::back_inserter(s.elements));
+  }
+
+  // Only such elements become part of the mesh.
+  bool has_inside_vertex(const Element_view& element) const
+  {
+    return std::any_of(element.begin(), element.end(),
+                       [this](Vertex_index v) { return m_mesh.is_inside(v); });
+  }
+
   const Place& place(Sheet& s, Vertex_index v) const
   {
     const auto known = s.places.find(v);
@@ -196,7 +236,11 @@ private:
     const auto l = oracle(s).locate(point(v));
     const double h = snapping * edge_length(v);
     const bool ends_outside = l.is_at_rim && !m_mesh.is_inside(v) && !is_inside_domain(l.closest);
-    return s.places[v] = {l.height - h, l.height > 0 && l.height <= h, l.is_at_rim, ends_outside, l.closest};
+    const double d = norm(to_vec3(point(v)) - l.closest),
+                 beyond = std::sqrt((std::max)(0., d * d - l.height * l.height));
+    return s.places[v] = {l.height - h, l.height > 0 && l.height <= h,
+                          l.is_at_rim,  l.is_at_rim && beyond > near_rim * edge_length(v),
+                          ends_outside, l.closest};
   }
 
   bool is_inside_domain(const Vec3& p) const
@@ -235,9 +279,11 @@ private:
   bool is_crossed(Sheet& s, Vertex_index front, Vertex_index behind) const
   {
     const Place &f = place(s, front), &b = place(s, behind);
-    if(b.is_at_rim && !b.ends_outside)
+    if(b.is_beyond_rim && !b.ends_outside)
       return false;
     if(s.raised.count(front) > 0 || (b.is_snapped && !b.is_at_rim))
+      return true;
+    if(b.is_at_rim && !b.is_beyond_rim && !f.is_beyond_rim)
       return true;
     const auto [known, is_new] = s.is_crossed.try_emplace(edge(front, behind), false);
     if(is_new) {
@@ -306,13 +352,19 @@ private:
     for(const auto& [e, number] : edges)
       if(number > 2)
         bad.insert(highest(s, {e.first, e.second}));
+    if(getenv("DBG"))
+      std::cerr << " edges " << bad.size();
     for(const auto& [v, link] : links)
       if(!is_connected(link))
         bad.insert(v);
+    if(getenv("DBG"))
+      std::cerr << " +fans " << bad.size();
     const auto is_used = [&](Vertex_index v) { return used.count(v) > 0; };
     for(std::size_t i = 0; i < pieces.size(); ++i)
       if(std::all_of(pieces[i].begin(), pieces[i].end(), is_used))
         bad.insert(highest(s, {pieces[i].begin(), pieces[i].end()}));
+    if(getenv("DBG"))
+      std::cerr << " +flat " << bad.size();
     for_each_face(pieces, m_mesh.vertices.size(), is_used, [&](const auto& group) {
       if(group.size() == 1) {
         const Triangle t = triangle(group[0].vertices());
@@ -344,9 +396,11 @@ private:
         continue;
       else
         s.dropped.insert(v);
-    if(!bad.empty())
-      find_vertices(s);
-    return !bad.empty();
+    if(bad.empty())
+      return false;
+    add_elements_at_raised(s);
+    find_vertices(s);
+    return true;
   }
 
   void drop(Sheet& s, Vertex_index v)
@@ -357,8 +411,8 @@ private:
 
   // Connected by faces that are not on a sheet, among the pieces with a face on a sheet, and, if asked for,
   // those around a vertex that the sheet goes all around.
-  std::vector<Compartment_index> find_compartments(const Element_list& pieces, const std::set<Triangle>& faces,
-                                                   bool all_around) const
+  std::vector<Compartment_index> find_compartments(const Element_list& pieces,
+                                                   const std::set<Triangle>& faces, bool all_around) const
   {
     std::map<Edge, int> edges;
     std::set<Vertex_index> inner;
@@ -376,15 +430,17 @@ private:
     Element_list chosen;
     std::vector<Element_index> numbers;
     for(Element_index i = 0; i < pieces.size(); ++i)
-      if((all_around && std::any_of(pieces[i].begin(), pieces[i].end(),
-                                    [&](Vertex_index v) { return inner.count(v) > 0; }))
+      if((all_around
+          && std::any_of(pieces[i].begin(), pieces[i].end(),
+                         [&](Vertex_index v) { return inner.count(v) > 0; }))
          || has_face(pieces, i, faces)) {
         chosen.add(pieces[i].kind(), pieces[i].begin());
         numbers.push_back(i);
       }
     std::vector<std::vector<std::size_t>> neighbors(chosen.size());
     for_each_face(chosen, m_mesh.vertices.size(), [&](const auto& group) {
-      if(group.size() == 2 && (group[0].vertices().size() == 4 || faces.count(triangle(group[0].vertices())) == 0)) {
+      if(group.size() == 2
+         && (group[0].vertices().size() == 4 || faces.count(triangle(group[0].vertices())) == 0)) {
         neighbors[group.element(0)].push_back(group.element(1));
         neighbors[group.element(1)].push_back(group.element(0));
       }
@@ -418,7 +474,8 @@ private:
   }
 
   // With the same compartment on both sides: where they are connected around the rim.
-  std::set<Triangle> faces_within_compartments(const Element_list& pieces, const std::set<Triangle>& faces) const
+  std::set<Triangle> faces_within_compartments(const Element_list& pieces,
+                                               const std::set<Triangle>& faces) const
   {
     std::map<Triangle, Compartment_index> first;
     std::set<Triangle> lost;

@@ -93,9 +93,13 @@ private:
   void mark_sheets()
   {
     if constexpr(Is_domain_with_sheets<Domain>::value)
-      if(has_sheets(m_root.domain()))
+      if(has_sheets(m_root.domain())) {
         m_best.boundary = split_boundary(m_octree, m_best.mesh, m_criteria.boundary_mode(),
                                          m_criteria.number_of_threads(), Sheet_layer(m_octree, m_best.mesh));
+        m_result.number_of_lost_sheets = m_best.boundary.number_of_lost_sheets;
+        if(m_result.number_of_lost_sheets > 0)
+          m_result.status = worse(m_result.status, Mixed_mesh_status::PARTS_LOST);
+      }
   }
 
   // What the octree may have; the rest is for the optimization.
