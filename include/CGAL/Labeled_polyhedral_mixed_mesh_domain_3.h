@@ -97,8 +97,8 @@ public:
   /// Adds a sheet.
   /// \param surface,np as for `Mixed_mesh_sheet_3`
   template <class FaceListGraph, class NamedParameters = parameters::Default_named_parameters,
-            std::enable_if_t<!std::is_convertible_v<
-              FaceListGraph, std::shared_ptr<const Mixed_mesh_sheet_3>>>* = nullptr>
+            std::enable_if_t<
+              !std::is_convertible_v<FaceListGraph, std::shared_ptr<const Mixed_mesh_sheet_3>>>* = nullptr>
   void add_sheet(const FaceListGraph& surface, const NamedParameters& np = parameters::default_values())
   {
     add_sheet(std::make_shared<const Mixed_mesh_sheet_3>(surface, np));

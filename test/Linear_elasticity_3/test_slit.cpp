@@ -43,22 +43,23 @@ std::vector<Face> faces_in_plane(const Mesh& mesh, double lowest)
   return faces;
 }
 
-// The elements of one side as a mesh of their own.
+// The elements of one side as a mesh of their own, in the same order.
 Mesh side_of(const Mesh& mesh, bool left, std::vector<Vertex_index>& origins)
 {
   Mesh side;
-  std::vector<Vertex_index> numbers(mesh.number_of_vertices(), no_vertex);
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
+    if(is_left(mesh, e) == left)
+      origins.insert(origins.end(), mesh.element(e).begin(), mesh.element(e).end());
+  std::sort(origins.begin(), origins.end());
+  origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
+  for(Vertex_index v : origins)
+    side.add_vertex(mesh.point(v));
   for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
     if(is_left(mesh, e) != left)
       continue;
     std::vector<Vertex_index> vertices;
-    for(Vertex_index v : mesh.element(e)) {
-      if(numbers[v] == no_vertex) {
-        numbers[v] = side.add_vertex(mesh.point(v));
-        origins.push_back(v);
-      }
-      vertices.push_back(numbers[v]);
-    }
+    for(Vertex_index v : mesh.element(e))
+      vertices.push_back(Vertex_index(std::lower_bound(origins.begin(), origins.end(), v) - origins.begin()));
     side.add_element(mesh.element(e).kind(), vertices);
   }
   return side;

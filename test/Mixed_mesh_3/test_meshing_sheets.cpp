@@ -98,8 +98,8 @@ Sheet_in_mesh check_sheet(const Mesh& mesh, const Domain& domain, const Mixed_me
 {
   const Sheet_in_mesh sheet = find_sheets(mesh, domain)[0];
   BOOST_TEST_EQ(sheet.number_of_bad_edges, 0u);
-  BOOST_TEST_LE(sheet.number_of_vertices_off,
-                result.optimization.number_of_boundary_vertices - result.optimization.number_of_arrived_vertices);
+  BOOST_TEST_LE(sheet.number_of_vertices_off, result.optimization.number_of_boundary_vertices
+                                                - result.optimization.number_of_arrived_vertices);
   const std::vector<Face> boundary = boundary_faces(mesh);
   const std::set<Face> outside(boundary.begin(), boundary.end());
   for(const Face& face : sheet.faces)
@@ -181,7 +181,8 @@ void test_ends_inside()
     domain.add(box({0, 0, 0}, {4, 4, 4}), 1);
     const double width = reaches_boundary ? 5 : 2.6;
     domain.add_sheet(grid(6, [&](double s, double t) {
-      return Point_3(2.1 + 0.1 * s, 2 + width * (s - 0.5), reaches_boundary ? 1.9 + 3 * t : 2 + width * (t - 0.5));
+      return Point_3(2.1 + 0.1 * s, 2 + width * (s - 0.5),
+                     reaches_boundary ? 1.9 + 3 * t : 2 + width * (t - 0.5));
     }));
     Mesh mesh;
     const Mixed_mesh_result_3 result = mesh_domain(domain, 1500, mesh);
@@ -262,8 +263,9 @@ void test_random()
   std::uniform_real_distribution<> number(-1, 1);
   const Surface ball = sphere({0, 0, 0}, 1, 12);
   for(int i = 0; i < 6; ++i) {
-    const Vec3 o{number(random), number(random), number(random)}, u{number(random), number(random), number(random)},
-      v{number(random), number(random), number(random)}, w = cross(u, v);
+    const Vec3 o{number(random), number(random), number(random)},
+      u{number(random), number(random), number(random)}, v{number(random), number(random), number(random)},
+      w = cross(u, v);
     Domain domain;
     domain.add(ball, 1);
     domain.add_sheet(grid(5, [&](double s, double t) {

@@ -180,7 +180,9 @@ void add_files(CLI::App& app, Options& o)
               "Closed surface of a part of the domain, such as a tumor, that gets elements, a label and an "
               "interface of its own: SURFACE is 1, the parts are 2, 3, ... Can be given several times; where "
               "parts overlap, the earlier one counts",
-              [&o](const std::string& text) { o.subdomains.push_back(subdomain_option("--subdomain", text)); })
+              [&o](const std::string& text) {
+                o.subdomains.push_back(subdomain_option("--subdomain", text));
+              })
     ->type_name("[NAME=]FILE");
   add_several(app, "--cavity", "Closed surface of a part that is not meshed; can be given several times",
               [&o](const std::string& file) { o.cavities.push_back(file); })

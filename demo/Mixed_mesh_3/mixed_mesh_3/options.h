@@ -51,7 +51,7 @@ struct Options
   std::vector<Subdomain_option> labels;     // of an image, with names, instead of voxels
   std::vector<std::string> cavities;
   std::vector<Subdomain_option> sheets; // surfaces inside that need not enclose anything
-  Voxel_selection voxels; // of an image, the domain
+  Voxel_selection voxels;               // of an image, the domain
   std::optional<double> smoothing;
   std::vector<std::string> outputs;
   std::size_t vertices = 0;

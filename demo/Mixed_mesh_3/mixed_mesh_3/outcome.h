@@ -126,7 +126,7 @@ struct Sheet_outcome
   std::string name;
   Surface_facts surface;
   std::size_t faces = 0, vertices = 0, vertices_off = 0, bad_edges = 0;
-  double largest_distance = 0; // of a vertex from the sheet
+  double largest_distance = 0;      // of a vertex from the sheet
   double area = 0, area_inside = 0; // of the faces; of the sheet inside the domain
 };
 

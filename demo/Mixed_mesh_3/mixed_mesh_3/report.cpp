@@ -287,8 +287,7 @@ std::string parts_in_words(const Outcome& outcome)
   }
   for(const Sheet_outcome& s : outcome.sheets)
     text << s.name << ": " << s.faces << " faces, area " << s.area << ", "
-         << (s.area_inside > 0 ? s.area / s.area_inside : 0)
-         << " times that of the sheet inside\n";
+         << (s.area_inside > 0 ? s.area / s.area_inside : 0) << " times that of the sheet inside\n";
   if(outcome.slit)
     text << "slit along " << outcome.slit->faces << " of them: " << outcome.slit->vertices
          << " vertices doubled\n";

@@ -321,8 +321,7 @@ bool run(const Options& o)
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);
   Domain domain = log("AABB tree of surface", [&] { return make_domain(inputs.subdomains); });
-  const std::vector<Sheet> sheets = log("read sheets",
-                                        [&] { return add_sheets(o, domain, outcome.warnings); });
+  const std::vector<Sheet> sheets = add_sheets(o, domain, outcome.warnings);
   check_regions(domain, inputs, o, outcome);
   log.expect(plan_for(o));
   Mesh mesh = make_fitted_mesh(domain, inputs, o, log, outcome);

@@ -85,7 +85,8 @@ What a mesh has of each sheet of its domain. A face belongs to the sheet that is
        domain's box
 */
 template <class Mesh, class Domain>
-std::vector<Sheet_in_mesh> find_sheets(const Mesh& mesh, const Domain& domain, double share_of_diagonal = 1e-9)
+std::vector<Sheet_in_mesh> find_sheets(const Mesh& mesh, const Domain& domain,
+                                       double share_of_diagonal = 1e-9)
 {
   using Point_3 = typename Domain::Point_3;
   const auto& box = domain.bbox();

@@ -60,7 +60,8 @@ public:
         m_faces.emplace(key(group[0]), std::make_pair(group[0], group[1]));
     });
     for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
-      if(const Element_view element = mesh.element(e); std::any_of(element.begin(), element.end(), is_candidate))
+      if(const Element_view element = mesh.element(e);
+         std::any_of(element.begin(), element.end(), is_candidate))
         m_elements.push_back(e);
     open();
     while(leave_out_pinching())

@@ -112,7 +112,8 @@ class VTU_reader : VTK_XML_reader
           constexpr double largest = (std::numeric_limits<Compartment_index>::max)();
           if(!(compartment[e] >= 0 && compartment[e] <= largest
                && compartment[e] == std::floor(compartment[e])))
-            refuse("cell " + std::to_string(e) + " has a \"compartment\" that is not an integer of at least 0");
+            refuse("cell " + std::to_string(e)
+                   + " has a \"compartment\" that is not an integer of at least 0");
           attributes.compartment = Compartment_index(compartment[e]);
         }
         mesh.attributes.push_back(attributes);

@@ -677,8 +677,9 @@ CGAL_MIXED_MESH_3_INLINE void read_sheet(const std::string& path, const Read_sur
   read_faces(path, options, points, polygons, input);
   const Edge_counts edges = count_edges(polygons);
   if(edges.crowded != 0)
-    refuse(path, "the sheet is not a manifold: "
-                   + counted(edges.crowded, "edge has more than two faces", "edges have more than two faces"));
+    refuse(path,
+           "the sheet is not a manifold: "
+             + counted(edges.crowded, "edge has more than two faces", "edges have more than two faces"));
   if(!PMP::is_polygon_soup_a_polygon_mesh(polygons)) {
     PMP::orient_polygon_soup(points, polygons); // duplicates points, see above
     if(count_edges(polygons).open != edges.open)
@@ -695,8 +696,9 @@ CGAL_MIXED_MESH_3_INLINE void read_sheet(const std::string& path, const Read_sur
     refuse(path, "has " + counted(degenerate.size(), "degenerate face", "degenerate faces")
                    + " (three vertices on a line), the first near " + place_of(degenerate.front(), mesh));
   refuse_self_intersections(path, mesh);
-  input.number_of_components = PMP::connected_components(
-    mesh, get(CGAL::dynamic_face_property_t<std::size_t>(), mesh));
+  input.number_of_components = PMP::connected_components(mesh,
+                                                         get(CGAL::dynamic_face_property_t<std::size_t>(),
+                                                             mesh));
 }
 
 } // namespace internal

@@ -39,12 +39,12 @@ namespace internal {
 struct Boundary_pieces
 {
   Element_list pieces;
-  std::vector<Element_index> origins;     ///< for each piece, the element it comes from; sorted
-  std::vector<Subdomain_rank> subdomains; ///< for each piece
+  std::vector<Element_index> origins;          ///< for each piece, the element it comes from; sorted
+  std::vector<Subdomain_rank> subdomains;      ///< for each piece
   std::vector<Compartment_index> compartments; ///< for each piece; empty without sheets
-  std::vector<std::uint8_t> is_replaced;  ///< for each element, whether its pieces stand for it
-  std::vector<std::uint8_t> is_used;      ///< for each vertex, whether the result has it
-  std::size_t number_of_vertices = 0;     ///< of the result
+  std::vector<std::uint8_t> is_replaced;       ///< for each element, whether its pieces stand for it
+  std::vector<std::uint8_t> is_used;           ///< for each vertex, whether the result has it
+  std::size_t number_of_vertices = 0;          ///< of the result
   std::size_t number_of_relabeled_vertices = 0;
   std::size_t number_of_inserted_vertices = 0;
   std::size_t number_of_lost_sheets = 0;

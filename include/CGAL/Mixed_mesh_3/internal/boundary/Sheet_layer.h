@@ -27,7 +27,6 @@
 #include <map>
 #include <set>
 #include <utility>
-#include <iostream>
 #include <vector>
 
 namespace CGAL {
@@ -50,12 +49,14 @@ The vertices behind a sheet that an edge connects to one in front of it become *
 that have one are split to tetrahedra by the order of the vertices, so that each edge between front and behind
 ends at a sheet vertex: the faces between a tetrahedron with a vertex in front and one without have sheet
 vertices only. These are the *sheet faces*. Behind is what is less than some share of a cell in front, so that
-sheet vertices are not far to either side of the sheet.
+sheet vertices are not far to either side of the sheet. The order of the vertices makes diagonals; those from
+front to behind, which are at the boundary, have sheet vertices at their ends too.
 
 Where the sheet ends inside the domain, vertices beyond its rim are no sheet vertices, and the sheet faces end.
 
-What would be flat once the vertices are on the sheet, or where sheet faces touch each other but along edges,
-is mended: a vertex counts as one in front, and if that does not help, it is no sheet vertex.
+Where sheet faces touch each other but along edges, or have a face of the boundary between them, which would
+have no area, a vertex counts as one in front, and if edges still touch, it is no sheet vertex. A tetrahedron
+may have four sheet vertices, where cells of two sizes meet or at the boundary: flips remove it.
 
 Where two sheets meet, each has faces of its own.
 
@@ -83,6 +84,7 @@ class Sheet_layer
     std::vector<Element_index> elements; // near it, ascending
     std::map<Vertex_index, Place> places;
     std::set<Vertex_index> raised, dropped; // counts as one in front; can not be on the sheet
+    std::set<Vertex_index> at_diagonals;    // sheet vertices for the sake of an edge of pieces
     std::map<Edge, bool> is_crossed;
     std::set<Vertex_index> vertices;
   };
@@ -103,7 +105,7 @@ public:
   Sheet_layer(const Octree_& located, const Lattice_mesh& mesh) : m_located(located), m_mesh(mesh)
   {
     for(std::size_t i = 0; i < located.domain().sheets().size(); ++i) {
-      m_sheets.push_back({i, {}, {}, {}, {}, {}, {}});
+      m_sheets.push_back({i, {}, {}, {}, {}, {}, {}, {}});
       find_elements(m_sheets.back());
       find_vertices(m_sheets.back());
     }
@@ -133,15 +135,15 @@ public:
   /// \return whether sheet vertices have changed: then elements are to be split anew
   bool mend(const Element_list& pieces)
   {
-    ++m_round;
     bool has_changed = false;
+    for(Sheet& s : m_sheets)
+      has_changed = add_ends_of_diagonals(s, pieces) || has_changed;
+    if(has_changed)
+      return true;
+    ++m_round;
     std::vector<std::set<Triangle>> faces;
     for(Sheet& s : m_sheets) {
       faces.push_back(sheet_faces(s, pieces));
-      if(getenv("DBG"))
-        std::cerr << "round " << m_round << " vertices " << s.vertices.size() << " faces "
-                  << faces.back().size() << " bad " << bad_vertices(s, faces.back(), pieces).size()
-                  << " raised " << s.raised.size() << " dropped " << s.dropped.size() << "\n";
       has_changed = mend(s, bad_vertices(s, faces.back(), pieces)) || has_changed;
     }
     if(has_changed)
@@ -156,8 +158,6 @@ public:
     for(bool all_around : {true, false}) {
       m_compartments = find_compartments(pieces, all, all_around);
       const std::set<Triangle> lost = faces_within_compartments(pieces, all);
-      if(getenv("DBG"))
-        std::cerr << "lost " << lost.size() << "\n";
       if(lost.empty())
         return false;
       if(!all_around)
@@ -274,6 +274,34 @@ private:
           s.vertices.insert(behind);
       }
     }
+    for(Vertex_index v : s.at_diagonals)
+      if(s.dropped.count(v) == 0 && !is_in_front(s, v))
+        s.vertices.insert(v);
+  }
+
+  // As interface vertices come first in the order, diagonals at them may lead from front to behind.
+  bool add_ends_of_diagonals(Sheet& s, const Element_list& pieces) const
+  {
+    const std::size_t before = s.at_diagonals.size();
+    const auto is_known = [&](Vertex_index v) { return s.places.count(v) > 0; }; // near the sheet
+    for(std::size_t i = 0; i < pieces.size(); ++i) {
+      const Element_view piece = pieces[i];
+      if(!std::any_of(piece.begin(), piece.end(), is_known))
+        continue;
+      for(int k = 0; k < piece.reference().number_of_edges; ++k) {
+        Vertex_index front = piece[piece.reference().edges[k][0]],
+                     behind = piece[piece.reference().edges[k][1]];
+        if(!is_known(front) || !is_known(behind) || is_in_front(s, front) == is_in_front(s, behind))
+          continue;
+        if(is_in_front(s, behind))
+          std::swap(front, behind);
+        if(s.vertices.count(behind) == 0 && s.dropped.count(behind) == 0 && is_crossed(s, front, behind)) {
+          s.at_diagonals.insert(behind);
+          s.vertices.insert(behind);
+        }
+      }
+    }
+    return s.at_diagonals.size() != before;
   }
 
   bool is_crossed(Sheet& s, Vertex_index front, Vertex_index behind) const
@@ -336,7 +364,7 @@ private:
     });
   }
 
-  // Of pieces and boundary faces that would be flat, and where the sheet faces are no manifold.
+  // Of boundary faces that would have no area, and where the sheet faces are no manifold.
   std::set<Vertex_index> bad_vertices(Sheet& s, const std::set<Triangle>& faces,
                                       const Element_list& pieces) const
   {
@@ -352,21 +380,12 @@ private:
     for(const auto& [e, number] : edges)
       if(number > 2)
         bad.insert(highest(s, {e.first, e.second}));
-    if(getenv("DBG"))
-      std::cerr << " edges " << bad.size();
     for(const auto& [v, link] : links)
       if(!is_connected(link))
         bad.insert(v);
-    if(getenv("DBG"))
-      std::cerr << " +fans " << bad.size();
     const auto is_used = [&](Vertex_index v) { return used.count(v) > 0; };
-    for(std::size_t i = 0; i < pieces.size(); ++i)
-      if(std::all_of(pieces[i].begin(), pieces[i].end(), is_used))
-        bad.insert(highest(s, {pieces[i].begin(), pieces[i].end()}));
-    if(getenv("DBG"))
-      std::cerr << " +flat " << bad.size();
     for_each_face(pieces, m_mesh.vertices.size(), is_used, [&](const auto& group) {
-      if(group.size() == 1) {
+      if(group.size() == 1 && m_round <= rounds_of_raising) { // else some vertex will not arrive
         const Triangle t = triangle(group[0].vertices());
         bad.insert(highest(s, {t.begin(), t.end()}));
       }

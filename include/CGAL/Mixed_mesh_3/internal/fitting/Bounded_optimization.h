@@ -57,7 +57,7 @@ class Bounded_optimization
   const Domain& m_domain;
   const Criteria& m_criteria;
   const Quality& m_quality;
-  const bool m_has_subdomains; // or sheets
+  const bool m_has_subdomains;         // or sheets
   std::vector<std::uint8_t> m_is_held; // for each vertex
 
   static constexpr double share_tolerated_off = 0.01;
@@ -68,7 +68,8 @@ class Bounded_optimization
 public:
   Bounded_optimization(Mesh& mesh, const Domain& domain, const Criteria& criteria, const Quality& quality)
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality),
-      m_has_subdomains(subdomain_indices(domain).size() > 1 || has_sheets(domain)), m_is_held(mesh.number_of_vertices(), 0)
+      m_has_subdomains(subdomain_indices(domain).size() > 1 || has_sheets(domain)),
+      m_is_held(mesh.number_of_vertices(), 0)
   {
   }
 

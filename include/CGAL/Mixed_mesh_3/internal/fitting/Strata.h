@@ -98,7 +98,7 @@ public:
         if(r[0] != r[1]) {
           result.faces.push_back(group[r[0] < r[1] ? 0 : 1]);
           result.strata.push_back(number({(std::min)(r[0], r[1]), (std::max)(r[0], r[1])}));
-        } else if(const Element_attributes &a = attributes[group.element(0)],
+        } else if(const Element_attributes& a = attributes[group.element(0)],
                   &b = attributes[group.element(1)];
                   m_has_sheets && are_beside_sheet(a, b)) {
           result.faces.push_back(group[a.compartment < b.compartment ? 0 : 1]);
@@ -170,8 +170,9 @@ private:
                           of_subdomains.end());
       m_interfaces.emplace_back();
       for(std::size_t i = 0; i + 1 < of_subdomains.size(); ++i)
-        m_interfaces.back().push_back(
-          {m_order[of_subdomains[i]], of_subdomains[i + 1] == outside_rank ? 0 : m_order[of_subdomains[i + 1]]});
+        m_interfaces.back().push_back({m_order[of_subdomains[i]], of_subdomains[i + 1] == outside_rank
+                                                                    ? 0
+                                                                    : m_order[of_subdomains[i + 1]]});
       if(of_subdomains.size() != ranks.size())
         m_interfaces.back().push_back({0, 0});
     }

@@ -198,7 +198,8 @@ private:
 
   void attract_boundary()
   {
-    m_attraction.set_boundary(without_sheets(m_boundary), [this](Stratum s) { return m_tolerances(first_subdomain(s)); });
+    m_attraction.set_boundary(without_sheets(m_boundary),
+                              [this](Stratum s) { return m_tolerances(first_subdomain(s)); });
   }
 
   // What is far from a surface does not draw them.

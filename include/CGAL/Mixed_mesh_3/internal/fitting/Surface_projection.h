@@ -51,9 +51,7 @@ public:
   {
     if constexpr(Is_labeled_domain<Domain>::value) {
       const std::vector<Interface>& interfaces = m_strata->interfaces(stratum);
-      return interfaces.size() == 1 ?
-               closest(p, hint, interfaces[0])
-                                    : junction(p, interfaces);
+      return interfaces.size() == 1 ? closest(p, hint, interfaces[0]) : junction(p, interfaces);
     } else {
       return to_vec3(m_domain->closest_point(point(p), point(hint)));
     }
