@@ -7,6 +7,7 @@
 #define CGAL_LABELED_POLYHEDRAL_MIXED_MESH_DOMAIN_3_H
 
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
+#include <CGAL/Mixed_mesh_sheet_3.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 
 #include <CGAL/Named_function_parameters.h>
@@ -89,6 +90,23 @@ public:
   {
     add(std::make_shared<const Polyhedral_mixed_mesh_domain_3>(surface, np), index);
   }
+
+  /// Adds a sheet: faces of the mesh are brought onto it, as `find_sheet_faces()` tells.
+  /// \param sheet shared by copies
+  void add_sheet(std::shared_ptr<const Mixed_mesh_sheet_3> sheet) { m_sheets.push_back(std::move(sheet)); }
+
+  /// Adds a sheet.
+  /// \param surface,np as for `Mixed_mesh_sheet_3`
+  template <class FaceListGraph, class NamedParameters = parameters::Default_named_parameters,
+            std::enable_if_t<
+              !std::is_convertible_v<FaceListGraph, std::shared_ptr<const Mixed_mesh_sheet_3>>>* = nullptr>
+  void add_sheet(const FaceListGraph& surface, const NamedParameters& np = parameters::default_values())
+  {
+    add_sheet(std::make_shared<const Mixed_mesh_sheet_3>(surface, np));
+  }
+
+  /// In the order in which they were added.
+  const std::vector<std::shared_ptr<const Mixed_mesh_sheet_3>>& sheets() const { return m_sheets; }
 
   /// Those that are not 0, in the order in which they were added.
   const std::vector<Subdomain_index>& subdomain_indices() const { return m_indices; }
@@ -326,6 +344,7 @@ private:
   std::map<std::pair<Subdomain_index, bool>, std::vector<const Surface*>> m_surfaces_of; // is to the outside
   std::vector<const Surface*> m_cavities;
   std::vector<Subdomain_index> m_indices;
+  std::vector<std::shared_ptr<const Mixed_mesh_sheet_3>> m_sheets;
   Bbox_3 m_bbox;
 };
 

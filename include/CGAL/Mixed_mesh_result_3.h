@@ -22,7 +22,7 @@ enum class Mixed_mesh_status {
   BUDGET_NOT_FILLED,     ///< valid, but below 97 %: each cell tried would exceed the budget
   TOLERANCE_NOT_REACHED, ///< valid, on the surface, but farther from it between vertices than the tolerance
                          ///< given
-  PARTS_LOST,            ///< valid, but parts of the domain thinner than a cell are not meshed
+  PARTS_LOST, ///< valid, but parts of the domain thinner than a cell are not meshed, or a sheet has no faces
   NOT_ALL_ARRIVED, ///< valid, but some boundary vertices stay off the surface: elements would be too bad,
                    ///< or faces of the boundary would cut each other
   VOLUME_DIFFERS,  ///< valid, but the volume of the whole, of a body or of a cavity is not that of the domain
@@ -88,7 +88,8 @@ struct Mixed_mesh_result_3
   /// Cells that meet the domain, but are more than a cell away from the mesh: parts of the domain
   /// thinner than a cell that no octree vertex is inside of.
   std::size_t number_of_lost_cells = 0;
-  Bbox_3 lost_cells;                            ///< what contains those cells
+  Bbox_3 lost_cells;                     ///< what contains those cells
+  std::size_t number_of_lost_sheets = 0; ///< without faces: outside the domain, or too small for the cells
   std::size_t number_of_vertices_in_region = 0; ///< before bisections
   /// About how many vertices thin walls and narrow gaps take, if they were resolved first; else 0.
   std::size_t number_of_vertices_for_thin_parts = 0;

@@ -8,7 +8,8 @@
 writes out/brain_surface.png (what was given: the surface, the region inside),
 out/brain_kinds.png (the cut mesh colored by kind of element) and
 out/brain_ARC.png (the same colored by aspect-ratio coefficient); and if there are
-several subdomains out/brain_labels.png (colored by subdomain).
+several subdomains out/brain_labels.png (colored by subdomain), if there are
+sheets out/brain_sheet.png (the faces on them).
 
 A bar is a length across the view, in mm; a cross has R, L, A, P, S and I for right,
 left, front (anterior), back (posterior), top (superior) and bottom (inferior).
@@ -40,6 +41,7 @@ INK = (0.13, 0.15, 0.18)
 GREY = (0.42, 0.45, 0.49)
 SURFACE_COLOR = (0.93, 0.80, 0.76)
 REGION_COLOR = (0.76, 0.05, 0.42)
+SHEET_COLOR = (0.30, 0.55, 0.75)
 KINDS = [  # by value of the cell data `kind`
     ("tetrahedra", (0.97, 0.80, 0.36)),
     ("pyramids", (0.90, 0.45, 0.27)),
@@ -205,6 +207,31 @@ def labels_of(mesh):
     """The subdomains that the mesh has, ascending; none if the file does not tell."""
     array = mesh.GetCellData().GetArray("subdomain")
     return sorted({int(array.GetTuple1(i)) for i in range(mesh.GetNumberOfCells())}) if array else []
+
+
+def sheet_of(mesh):
+    """The faces between two compartments, as polygons; none if the mesh has no sheets."""
+    array = mesh.GetCellData().GetArray("compartment")
+    if array is None:
+        return None
+    faces = {}
+    for i in range(mesh.GetNumberOfCells()):
+        compartment = int(array.GetTuple1(i))
+        if compartment != 0:
+            cell = mesh.GetCell(i)
+            for f in range(cell.GetNumberOfFaces()):
+                ids = cell.GetFace(f).GetPointIds()
+                key = frozenset(ids.GetId(k) for k in range(ids.GetNumberOfIds()))
+                faces.setdefault(key, set()).add(compartment)
+    polygons = vtk.vtkCellArray()
+    for face in sorted(sorted(key) for key, compartments in faces.items() if len(compartments) > 1):
+        polygons.InsertNextCell(len(face))
+        for v in face:
+            polygons.InsertCellPoint(v)
+    sheet = vtk.vtkPolyData()
+    sheet.SetPoints(mesh.GetPoints())
+    sheet.SetPolys(polygons)
+    return sheet
 
 
 def label_color(labels, label):
@@ -515,6 +542,22 @@ def draw_labels(size, mesh, labels, skin, surface, region, plane, world, path):
     canvas.write(path)
 
 
+def draw_sheet(size, mesh, sheet, surface, region, plane, world, path):
+    canvas = Canvas(size, path)
+    canvas.add_surface(surface, SURFACE_COLOR).GetProperty().FrontfaceCullingOn()
+    canvas.add_surface(surface, SURFACE_COLOR, opacity=0.35).GetProperty().BackfaceCullingOn()
+    faces = canvas.add_surface(sheet, SHEET_COLOR, feature_angle=20)
+    faces.GetProperty().EdgeVisibilityOn()
+    faces.GetProperty().SetEdgeColor(*INK)
+    canvas.renderer.SetUseDepthPeeling(1)
+    canvas.renderer.SetMaximumNumberOfPeels(12)
+    canvas.renderer.SetOcclusionRatio(0.0)
+    canvas.add_title("Faces on sheets", "%s; %s" % (counted(sheet.GetNumberOfPolys(), "faces"), mesh_title(mesh)))
+    canvas.look_at(surface, region, plane)
+    canvas.add_measures(world)
+    canvas.write(path)
+
+
 def draw_kinds(size, mesh, skin, surface, region, plane, world, path):
     canvas = Canvas(size, path)
     table = vtk.vtkLookupTable()
@@ -595,6 +638,9 @@ def main():
     draw_surface(size, surface, region, plane, world, options.output_prefix + "_surface.png")
     draw_kinds(size, mesh, skin, surface, region, plane, world, options.output_prefix + "_kinds.png")
     draw_arc(size, mesh, skin, surface, region, plane, world, options.output_prefix + "_ARC.png")
+    sheet = sheet_of(mesh)
+    if sheet is not None:
+        draw_sheet(size, mesh, sheet, surface, region, plane, world, options.output_prefix + "_sheet.png")
     labels = labels_of(mesh)
     if len(labels) > 1:
         draw_labels(size, mesh, labels, skin, surface, region, plane, world, options.output_prefix + "_labels.png")

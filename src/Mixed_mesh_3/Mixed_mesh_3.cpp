@@ -7,6 +7,7 @@
 
 #include <CGAL/Mixed_mesh_3/IO/internal/read_surface_impl.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/mesh_domain_impl.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Sheet_oracle_3_impl.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3_impl.h>
 
 #ifndef CGAL_MIXED_MESH_3_COMPILED

@@ -709,6 +709,42 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(run.returncode, 1)
         self.assertIn("nothing.off", run.stderr)
 
+    def test_sheets(self):
+        """A plane through half of the brain: a facet set, and a slit."""
+        sheet = self.file("falx.off", off([(0, -120, 10), (0, 90, 10), (0, 90, 100), (0, -120, 100)],
+                                          [(0, 1, 2, 3)]))
+        far = self.file("far.off", off([(0, 0, 500), (0, 9, 500), (0, 9, 510)], [(0, 1, 2)]))
+        mesh = WORK / "falx.vtu"
+        told, run = self.brain("--sheet", sheet, "--output", mesh, "--output", WORK / "falx.msh", vertices=1500)
+        self.assertEqual(len(told["sheets"]), 1)
+        falx = told["sheets"][0]
+        self.assertEqual(falx["name"], "falx")
+        self.assertGreater(falx["faces"], 50)
+        self.assertAlmostEqual(falx["area"] / falx["area of surface inside the domain"], 1, delta=0.15)
+        self.assertLessEqual(falx["vertices not on surface"], 0.05 * falx["vertices"])
+        self.assertTrue(all(told["checks"].values()))
+        self.assertIn("falx: ", run.stdout)
+        self.assertIn(b"facets_falx", mesh.read_bytes())
+        self.assertIn(b'"compartment"', mesh.read_bytes())
+        self.assertIn(b'"falx"', (WORK / "falx.msh").read_bytes())
+
+        slit, run = self.brain("--sheet", sheet, "--slit", "--output", mesh, vertices=1500)
+        self.assertEqual(slit["sheets"][0]["faces"], falx["faces"])
+        self.assertGreater(slit["slit"]["vertices doubled"], 20)
+        self.assertEqual(slit["mesh"]["vertices"], told["mesh"]["vertices"] + slit["slit"]["vertices doubled"])
+        self.assertIn(b"facets_falx_front", mesh.read_bytes())
+
+        told, run = self.brain("--sheet", far)
+        self.assertIn("warning: the sheet far has no faces in the mesh", run.stderr)
+        for options, status, words in ((["--sheet", sheet, "--sheet", sheet], 2, "the name is taken"),
+                                       (["--sheet", sheet, "--no-optimize"], 2, "knows no sheets"),
+                                       (["--slit"], 2, "needs --sheet"), (["--sheet", "a=nothing.off"], 1, "nothing.off"),
+                                       (["--sheet", self.file("m.off", off(CUBE, [(0, 1, 2), (0, 1, 4), (0, 1, 6)]))], 1,
+                                        "not a manifold")):
+            run = self.mesher(DATA / "brain.off", "--vertices", 660, *options)
+            self.assertEqual(run.returncode, status)
+            self.assertIn(words, run.stderr)
+
     def test_wrong_use(self):
         for arguments, words in (
                 (["--steps", 3], "--steps requires --no-optimize"),

@@ -9,13 +9,18 @@
 
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
 
-Surface read_surface(const std::string& path, const CGAL::Mixed_meshes_3::IO::Read_surface_options& options,
-                     Surface_facts& facts, std::vector<std::string>& warnings)
+namespace IO = CGAL::Mixed_meshes_3::IO;
+
+namespace {
+
+// `read(surface, error, input)` is one of the library's functions.
+template <class Read>
+Surface read_with(const Read& read, const std::string& path, Surface_facts& facts,
+                  std::vector<std::string>& warnings)
 {
-  namespace IO = CGAL::Mixed_meshes_3::IO;
   Surface surface;
   IO::Surface_input input;
-  require([&](std::string* error) { return IO::read_closed_surface(path, options, surface, error, &input); });
+  require([&](std::string* error) { return read(surface, error, &input); });
   for(const std::string& warning : input.warnings)
     warnings.push_back(path + ": " + warning);
   facts = {path,
@@ -26,4 +31,24 @@ Surface read_surface(const std::string& path, const CGAL::Mixed_meshes_3::IO::Re
            input.number_of_components,
            input.volume};
   return surface;
+}
+
+} // namespace
+
+Surface read_surface(const std::string& path, const IO::Read_surface_options& options, Surface_facts& facts,
+                     std::vector<std::string>& warnings)
+{
+  const auto read = [&](Surface& surface, std::string* error, IO::Surface_input* input) {
+    return IO::read_closed_surface(path, options, surface, error, input);
+  };
+  return read_with(read, path, facts, warnings);
+}
+
+Surface read_sheet(const std::string& path, const IO::Read_surface_options& options, Surface_facts& facts,
+                   std::vector<std::string>& warnings)
+{
+  const auto read = [&](Surface& surface, std::string* error, IO::Surface_input* input) {
+    return IO::read_sheet(path, options, surface, error, input);
+  };
+  return read_with(read, path, facts, warnings);
 }

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Closed surfaces from files.
+// Surfaces from files.
 
 #ifndef MIXED_MESH_3_DEMO_COMMON_READ_SURFACE_H
 #define MIXED_MESH_3_DEMO_COMMON_READ_SURFACE_H
@@ -23,5 +23,9 @@ using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 /// \throw std::runtime_error a line naming the file and the defect
 Surface read_surface(const std::string& path, const CGAL::Mixed_meshes_3::IO::Read_surface_options& options,
                      Surface_facts& facts, std::vector<std::string>& warnings);
+
+/// The same for a surface that need not be closed; without a volume.
+Surface read_sheet(const std::string& path, const CGAL::Mixed_meshes_3::IO::Read_surface_options& options,
+                   Surface_facts& facts, std::vector<std::string>& warnings);
 
 #endif // MIXED_MESH_3_DEMO_COMMON_READ_SURFACE_H

@@ -70,7 +70,7 @@ bool is_name(const std::string& name)
 const char* const what_a_name_is = "a name has up to 24 letters, digits, _ and -, a letter first";
 
 // The name is that of the file, without its ending, if there is none.
-Subdomain_option subdomain_option(const std::string& text)
+Subdomain_option subdomain_option(const std::string& option, const std::string& text)
 {
   const std::size_t equals = text.find('=');
   std::error_code ignored;
@@ -78,8 +78,7 @@ Subdomain_option subdomain_option(const std::string& text)
   Subdomain_option s{has_name ? text.substr(0, equals) : std::filesystem::path(text).stem().string(),
                      has_name ? text.substr(equals + 1) : text};
   if(!is_name(s.name))
-    throw CLI::ValidationError("--subdomain " + text,
-                               std::string(what_a_name_is) + ", as in tumor=" + s.file);
+    throw CLI::ValidationError(option + " " + text, std::string(what_a_name_is) + ", as in tumor=" + s.file);
   return s;
 }
 
@@ -186,11 +185,21 @@ void add_files(CLI::App& app, Options& o)
               "Closed surface of a part of the domain, such as a tumor, that gets elements, a label and an "
               "interface of its own: SURFACE is 1, the parts are 2, 3, ... Can be given several times; where "
               "parts overlap, the earlier one counts",
-              [&o](const std::string& text) { o.subdomains.push_back(subdomain_option(text)); })
+              [&o](const std::string& text) {
+                o.subdomains.push_back(subdomain_option("--subdomain", text));
+              })
     ->type_name("[NAME=]FILE");
   add_several(app, "--cavity", "Closed surface of a part that is not meshed; can be given several times",
               [&o](const std::string& file) { o.cavities.push_back(file); })
     ->type_name("FILE");
+  add_several(app, "--sheet",
+              "Surface inside the domain that need not enclose anything, such as the falx: faces of the mesh "
+              "are brought onto it, and written as a facet set. Can be given several times",
+              [&o](const std::string& text) { o.sheets.push_back(subdomain_option("--sheet", text)); })
+    ->type_name("[NAME=]FILE");
+  app.add_flag("--slit", o.slit,
+               "Double the vertices on sheets, so that both sides can come apart; the copies are not counted "
+               "in the budget");
   app.add_option("--vertices", o.vertices, "Vertex budget: the mesh has at most that many vertices")
     ->required()
     ->check(count(1000000000)) // of 32-bit indices in files
@@ -381,6 +390,18 @@ void check_subdomains(const Options& o)
                                "knows neither subdomains nor cavities");
 }
 
+void check_sheets(const Options& o)
+{
+  if(o.slit && o.sheets.empty())
+    throw CLI::ValidationError("--slit", "needs --sheet");
+  for(std::size_t i = 0; i < o.sheets.size(); ++i)
+    for(std::size_t j = 0; j < i; ++j)
+      if(o.sheets[i].name == o.sheets[j].name)
+        throw CLI::ValidationError("--sheet " + o.sheets[i].name, "the name is taken, give NAME=FILE");
+  if(!o.sheets.empty() && (o.mode == mm3::Boundary_mode::PAPER || o.no_optimize))
+    throw CLI::ValidationError(o.no_optimize ? "--no-optimize" : "--mode paper", "knows no sheets");
+}
+
 // What options say together, and what this program was built without, is wrong use.
 void check_options(Options& o)
 {
@@ -398,6 +419,7 @@ void check_options(Options& o)
       o.surface, "labels and thresholds need an image: .nii or .nii.gz (from FreeSurfer's .mgz by "
                  "mri_convert)");
   check_subdomains(o);
+  check_sheets(o);
 }
 
 } // namespace

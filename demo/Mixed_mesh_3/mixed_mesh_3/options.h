@@ -51,7 +51,8 @@ struct Options
   std::vector<Subdomain_option> labels;     // of an image, with names, instead of voxels
   bool has_each_label = false;              // all labels of an image, instead
   std::vector<std::string> cavities;
-  Voxel_selection voxels; // of an image, the domain
+  std::vector<Subdomain_option> sheets; // surfaces inside that need not enclose anything
+  Voxel_selection voxels;               // of an image, the domain
   std::optional<double> smoothing;
   std::vector<std::string> outputs;
   std::size_t vertices = 0;
@@ -60,7 +61,7 @@ struct Options
   CGAL::Mixed_meshes_3::Root_cell root = CGAL::Mixed_meshes_3::Root_cell::CUBE;
   Templates templates = Templates::FEWEST_VERTICES;
   CGAL::Mixed_meshes_3::IO::Read_surface_options surface_options;
-  bool no_fit = false, no_optimize = false, msh2 = false, tetrahedra = false, quiet = false;
+  bool slit = false, no_fit = false, no_optimize = false, msh2 = false, tetrahedra = false, quiet = false;
   double tolerance = 0; // automatic
   double grading = 0.35;
   double time_limit = std::numeric_limits<double>::infinity();                          // seconds

@@ -120,6 +120,22 @@ struct Interface_outcome
   bool is_manifold = true;
 };
 
+/// A surface inside that need not enclose anything, and the faces of the mesh on it.
+struct Sheet_outcome
+{
+  std::string name;
+  Surface_facts surface;
+  std::size_t faces = 0, vertices = 0, vertices_off = 0, bad_edges = 0;
+  double largest_distance = 0;      // of a vertex from the sheet
+  double area = 0, area_inside = 0; // of the faces; of the sheet inside the domain
+};
+
+/// What doubling the vertices of sheets did.
+struct Slit_outcome
+{
+  std::size_t faces = 0, faces_left = 0, vertices = 0;
+};
+
 struct Outcome
 {
   Surface_facts surface;
@@ -127,6 +143,8 @@ struct Outcome
   std::vector<Subdomain_outcome> subdomains; // if there are several
   std::vector<Interface_outcome> interfaces;
   bool has_lost_labels = false; // before there was a mesh
+  std::vector<Sheet_outcome> sheets;
+  std::optional<Slit_outcome> slit;
   CGAL::Mixed_mesh_result_3 result;
   CGAL::Mixed_mesh_fit_result_3 algorithm_1;
   bool is_stopped = false; // by a signal or the limit of time

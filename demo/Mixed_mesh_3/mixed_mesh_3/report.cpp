@@ -47,6 +47,7 @@ Json describe(const Options& o)
                  {"max ARC", o.has_quality_bound() ? Json(o.largest_arc) : Json()},
                  {"sharp angle", o.sharp_angle},
                  {"tetrahedra", o.tetrahedra},
+                 {"slit", o.slit},
                  {"msh version", o.msh2 ? "2.2" : "4.1"},
                  {"space", space_of(o.surface_options)},
                  {"threads", o.threads}};
@@ -239,6 +240,23 @@ void describe_subdomains(const Outcome& outcome, Json& report)
                                     {"vertices not on surface", i.vertices_off}});
 }
 
+void describe_sheets(const Outcome& outcome, Json& report)
+{
+  for(const Sheet_outcome& s : outcome.sheets)
+    report["sheets"].push_back({{"name", s.name},
+                                {"surface", describe(s.surface)},
+                                {"faces", s.faces},
+                                {"area", s.area},
+                                {"area of surface inside the domain", s.area_inside},
+                                {"vertices", s.vertices},
+                                {"vertices not on surface", s.vertices_off},
+                                {"largest distance of a vertex", s.largest_distance}});
+  if(outcome.slit)
+    report["slit"] = {{"faces", outcome.slit->faces},
+                      {"faces that stay closed", outcome.slit->faces_left},
+                      {"vertices doubled", outcome.slit->vertices}};
+}
+
 // How the mesh came about.
 void describe_method(const Options& o, const Outcome& outcome, Json& report)
 {
@@ -265,8 +283,8 @@ void describe_method(const Options& o, const Outcome& outcome, Json& report)
                             result.number_of_vertices_for_tolerance}};
 }
 
-// A line for each, if there are several.
-std::string subdomains_in_words(const Outcome& outcome)
+// A line for each subdomain, if there are several, and each sheet.
+std::string parts_in_words(const Outcome& outcome)
 {
   std::ostringstream text;
   text << std::setprecision(4);
@@ -276,6 +294,12 @@ std::string subdomains_in_words(const Outcome& outcome)
       text << ", " << s.volume / *s.volume_of_surface << " times that of its surface";
     text << '\n';
   }
+  for(const Sheet_outcome& s : outcome.sheets)
+    text << s.name << ": " << s.faces << " faces, area " << s.area << ", "
+         << (s.area_inside > 0 ? s.area / s.area_inside : 0) << " times that of the sheet inside\n";
+  if(outcome.slit)
+    text << "slit along " << outcome.slit->faces << " of them: " << outcome.slit->vertices
+         << " vertices doubled\n";
   return text.str();
 }
 
@@ -304,6 +328,7 @@ std::string report(const Options& o, const Outcome& outcome, const Stage_log& lo
   describe_method(o, outcome, report);
   report["surface"] = describe(outcome.fidelity);
   describe_subdomains(outcome, report);
+  describe_sheets(outcome, report);
   report["topology"] = describe(outcome.topology);
   report["quality"] = describe_quality(o, outcome);
   for(const Check& check : outcome.checks)
@@ -327,7 +352,7 @@ void print_summary(const Options& o, const Outcome& outcome)
   std::cout << std::setprecision(3) << "ARC mean " << all.mean << ", max " << all.maximum
             << "; Hausdorff distance " << outcome.fidelity.distance() << "; "
             << outcome.fidelity.ratio_of_volumes() << " times the surface's volume\n"
-            << subdomains_in_words(outcome) << "all checks hold; " << outcome.seconds << " s\n";
+            << parts_in_words(outcome) << "all checks hold; " << outcome.seconds << " s\n";
   for(const std::string& path : o.outputs)
     std::cout << "wrote " << printable(path) << '\n';
   if(!o.report.empty())

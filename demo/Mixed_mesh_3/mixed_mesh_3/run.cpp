@@ -15,6 +15,7 @@
 #include "mixed_mesh_3/algorithm_1.h"
 #include "mixed_mesh_3/examine.h"
 #include "mixed_mesh_3/report.h"
+#include "mixed_mesh_3/sheets.h"
 #include "mixed_mesh_3/subdomains.h"
 #include "mixed_mesh_3/verdict.h"
 
@@ -378,11 +379,12 @@ Mesh make_mesh_until_stopped(const Domain& domain, const Inputs& inputs, const O
   return mesh;
 }
 
-void write_files(const Mesh& mesh, const Inputs& inputs, const Options& o, Stage_log& log, Outcome& outcome)
+void write_files(const Mesh& mesh, const std::vector<mm3::IO::Facet_set>& facet_sets, const Options& o,
+                 Stage_log& log, Outcome& outcome)
 {
   mm3::IO::Write_options write_options;
   write_options.msh_2_2 = o.msh2;
-  write_options.facet_sets = interfaces_of(mesh, inputs.subdomains);
+  write_options.facet_sets = facet_sets;
   const Deferred_signals deferred({SIGINT, SIGTERM, SIGHUP}, Deferred_signals::Second::DEFERRED);
   mm3::IO::Output_files files([] { return !Deferred_signals::has_come(); }); // appear together, at the end
   for(const std::string& path : o.outputs)
@@ -404,13 +406,17 @@ bool run(const Options& o)
   Stage_log log(!o.quiet && isatty(STDERR_FILENO));
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);
-  const Domain domain = log("AABB tree of surface", [&] { return make_domain(inputs.subdomains); });
+  Domain domain = log("AABB tree of surface", [&] { return make_domain(inputs.subdomains); });
+  const std::vector<Sheet> sheets = add_sheets(o, domain, outcome.warnings);
   check_regions(domain, inputs, o, outcome);
   log.expect(plan_for(o));
-  const Mesh mesh = make_mesh_until_stopped(domain, inputs, o, log, outcome);
+  Mesh mesh = make_mesh_until_stopped(domain, inputs, o, log, outcome);
   examine(mesh, inputs.boundary, o, log, outcome);
   examine_subdomains(mesh, domain, inputs.subdomains, o, outcome);
-  write_files(mesh, inputs, o, log, outcome);
+  std::vector<mm3::IO::Facet_set> facet_sets = examine_sheets(mesh, domain, sheets, o, outcome);
+  for(mm3::IO::Facet_set& set : interfaces_of(mesh, inputs.subdomains))
+    facet_sets.push_back(std::move(set));
+  write_files(mesh, facet_sets, o, log, outcome);
   log.finish_progress();
   for(const std::string& warning : outcome.warnings)
     std::cerr << "warning: " << printable(warning) << '\n';

@@ -13,16 +13,28 @@ namespace Mixed_meshes_3 {
 /// domains.
 using Subdomain_index = int;
 
+/// What is around an element beside a sheet, such as the falx: faces between elements of two compartments are
+/// on a sheet. 0: no matter which, as for most elements.
+using Compartment_index = int;
+
 /// What is known of an element besides its kind and vertices; every stage hands it on.
 struct Element_attributes
 {
   Subdomain_index subdomain_index = 1; ///< positive
   bool is_in_region = false;           ///< whether the element meets the region of interest
+  Compartment_index compartment = 0;   ///< not negative
 };
+
+/// Whether a face between elements is on a sheet.
+inline bool are_beside_sheet(const Element_attributes& a, const Element_attributes& b)
+{
+  return a.compartment != b.compartment && a.compartment != 0 && b.compartment != 0;
+}
 
 inline bool operator==(const Element_attributes& a, const Element_attributes& b)
 {
-  return a.subdomain_index == b.subdomain_index && a.is_in_region == b.is_in_region;
+  return a.subdomain_index == b.subdomain_index && a.is_in_region == b.is_in_region
+         && a.compartment == b.compartment;
 }
 inline bool operator!=(const Element_attributes& a, const Element_attributes& b) { return !(a == b); }
 

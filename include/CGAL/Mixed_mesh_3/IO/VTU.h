@@ -125,7 +125,8 @@ VTU_arrays cell_arrays(const Mesh& mesh)
 
 Elements are sorted by kind, within a kind in the order of the mesh: programs that read blocks of one kind
 find four. Element data: `kind` (the number of the `Element_kind`), `ARC` (the aspect-ratio coefficient),
-`in_region` (1 or 0), `subdomain` (the subdomain index), what the options add, and for each facet set
+`in_region` (1 or 0), `subdomain` (the subdomain index), `compartment`
+(if there are sheets, see `find_sheet_faces()`), what the options add, and for each facet set
 `facets_` with its name: the number of the element's faces in the set, since a file of elements has no faces
 of their own; a threshold above 0 selects the elements. Nothing of the size of the mesh is allocated but for
 facet sets.
@@ -159,6 +160,11 @@ bool write_VTU(std::ostream& stream, const Mesh& mesh, const VTU_options& option
   element_data.push_back(element_array<std::int32_t>("subdomain", mesh, [&mesh](Element_index e) {
     return mesh.subdomain_index(e);
   }));
+  if(std::any_of(mesh.attributes().begin(), mesh.attributes().end(),
+                 [](const Element_attributes& a) { return a.compartment != 0; }))
+    element_data.push_back(element_array<std::int32_t>("compartment", mesh, [&mesh](Element_index e) {
+      return mesh.attributes(e).compartment;
+    }));
   for(const Data_array& data : options.element_data)
     if((fits = fits && data.has_size(m)))
       element_data.push_back(element_data_array(mesh, data));

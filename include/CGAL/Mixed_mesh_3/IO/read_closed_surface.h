@@ -41,6 +41,30 @@ using Surface = CGAL::Surface_mesh<Predicates_kernel::Point_3>;
 void read_surface(const std::string& path, const Read_surface_options& options, Surface& mesh,
                   Surface_input& input);
 
+/// Reads a sheet, or refuses.
+void read_sheet(const std::string& path, const Read_surface_options& options, Surface& mesh,
+                Surface_input& input);
+
+/// What both functions below do, with one of those above.
+template <class Read, class Mesh>
+bool read_surface_as(const Read& read, const std::string& path, const Read_surface_options& options,
+                     Mesh& mesh, std::string* error, Surface_input* input)
+{
+  return is_read(path, error, [&] {
+    Surface_input found;
+    Surface surface;
+    read(path, options, surface, found);
+    if constexpr(std::is_same_v<Mesh, Surface>) {
+      mesh = std::move(surface);
+    } else {
+      clear(mesh);
+      CGAL::copy_face_graph(surface, mesh);
+    }
+    if(input != nullptr)
+      *input = std::move(found);
+  });
+}
+
 } // namespace internal
 
 /*!
@@ -76,19 +100,7 @@ template <class Mesh>
                                        Mesh& mesh, std::string* error = nullptr,
                                        Surface_input* input = nullptr)
 {
-  return internal::is_read(path, error, [&] {
-    Surface_input read;
-    internal::Surface surface;
-    internal::read_surface(path, options, surface, read);
-    if constexpr(std::is_same_v<Mesh, internal::Surface>) {
-      mesh = std::move(surface);
-    } else {
-      clear(mesh);
-      CGAL::copy_face_graph(surface, mesh);
-    }
-    if(input != nullptr)
-      *input = std::move(read);
-  });
+  return internal::read_surface_as(internal::read_surface, path, options, mesh, error, input);
 }
 
 /// The same with default options.
@@ -97,6 +109,20 @@ template <class Mesh>
                                        Surface_input* input = nullptr)
 {
   return read_closed_surface(path, Read_surface_options(), mesh, error, input);
+}
+
+/*!
+Reads a sheet for `Mixed_mesh_sheet_3`: a surface with or without a border, an oriented 2-manifold that does not
+cut itself. Formats, parameters and what is mended as for `read_closed_surface()`; the orientation is that of
+the file, where its faces agree. No volume is given.
+
+\cost O(n log n)
+*/
+template <class Mesh>
+[[nodiscard]] bool read_sheet(const std::string& path, const Read_surface_options& options, Mesh& mesh,
+                              std::string* error = nullptr, Surface_input* input = nullptr)
+{
+  return internal::read_surface_as(internal::read_sheet, path, options, mesh, error, input);
 }
 
 } // namespace IO

@@ -74,7 +74,8 @@ class VTU_reader : VTK_XML_reader
       return piece.array("CellData", name) != nullptr ? values<double>(piece, "CellData", name, m)
                                                       : std::vector<double>();
     };
-    const std::vector<double> in_region = cell_data("in_region"), subdomain = cell_data("subdomain");
+    const std::vector<double> in_region = cell_data("in_region"), subdomain = cell_data("subdomain"),
+                              compartment = cell_data("compartment");
 
     for(std::size_t v = 0; v < n; ++v)
       mesh.points.push_back({coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]});
@@ -106,6 +107,14 @@ class VTU_reader : VTK_XML_reader
           if(!(subdomain[e] >= 1 && subdomain[e] <= largest && subdomain[e] == std::floor(subdomain[e])))
             refuse("cell " + std::to_string(e) + " has a \"subdomain\" that is not a positive integer");
           attributes.subdomain_index = Subdomain_index(subdomain[e]);
+        }
+        if(!compartment.empty()) {
+          constexpr double largest = (std::numeric_limits<Compartment_index>::max)();
+          if(!(compartment[e] >= 0 && compartment[e] <= largest
+               && compartment[e] == std::floor(compartment[e])))
+            refuse("cell " + std::to_string(e)
+                   + " has a \"compartment\" that is not an integer of at least 0");
+          attributes.compartment = Compartment_index(compartment[e]);
         }
         mesh.attributes.push_back(attributes);
       }

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What `read_closed_surface()` does: the file, the topology, what can be mended, the orientation.
+// What `read_closed_surface()` and `read_sheet()` do: the file, the topology, what can be mended, the orientation.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_READ_SURFACE_IMPL_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_READ_SURFACE_IMPL_H
@@ -567,12 +567,10 @@ inline void set_space(Surface_soup& soup, const Read_surface_options& options)
                           + ": x and y are negated, the result is in RAS");
 }
 
-CGAL_MIXED_MESH_3_INLINE void read_surface(const std::string& path, const Read_surface_options& options,
-                                           Surface& mesh, Surface_input& input)
+// The faces of a file, without what is superfluous.
+inline void read_faces(const std::string& path, const Read_surface_options& options, Points& points,
+                       Polygons& polygons, Surface_input& input)
 {
-  namespace PMP = CGAL::Polygon_mesh_processing;
-  Points points;
-  Polygons polygons;
   bool repeats_points;
   {
     Surface_soup soup = read_surface_file(path);
@@ -588,8 +586,7 @@ CGAL_MIXED_MESH_3_INLINE void read_surface(const std::string& path, const Read_s
   input.number_of_points = points.size();
   input.number_of_polygons = polygons.size();
 
-  Edge_counts edges = count_edges(polygons);
-  if(edges.open != 0) {
+  if(count_edges(polygons).open != 0) {
     const std::size_t merged = merge_border_points(points, polygons);
     if(merged != 0 && !repeats_points)
       input.warnings.push_back("merged " + counted(merged, "duplicate point", "duplicate points"));
@@ -597,9 +594,33 @@ CGAL_MIXED_MESH_3_INLINE void read_surface(const std::string& path, const Read_s
   remove_superfluous(points, polygons, input);
   if(polygons.empty())
     refuse(path, "all its faces are degenerate");
+}
+
+inline void make_triangle_mesh(const std::string& path, const Points& points, const Polygons& polygons,
+                               Surface& mesh, Surface_input& input)
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  clear(mesh);
+  PMP::polygon_soup_to_polygon_mesh(points, polygons, mesh);
+  if(!CGAL::is_triangle_mesh(mesh)) {
+    const std::size_t n = std::size_t(
+      std::count_if(polygons.begin(), polygons.end(), [](const auto& p) { return p.size() > 3; }));
+    if(!PMP::triangulate_faces(mesh))
+      refuse(path, "its polygons cannot be triangulated");
+    input.warnings.push_back("triangulated " + counted(n, "polygon", "polygons"));
+  }
+}
+
+CGAL_MIXED_MESH_3_INLINE void read_surface(const std::string& path, const Read_surface_options& options,
+                                           Surface& mesh, Surface_input& input)
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  Points points;
+  Polygons polygons;
+  read_faces(path, options, points, polygons, input);
   if(is_flat(points))
     refuse(path, "the surface is flat: it encloses no volume");
-  edges = count_edges(polygons);
+  Edge_counts edges = count_edges(polygons);
   if(edges.open != 0)
     refuse(path, "the surface is not closed: " + counted(edges.open, "border edge", "border edges"));
   if(edges.crowded != 0) {
@@ -625,15 +646,7 @@ CGAL_MIXED_MESH_3_INLINE void read_surface(const std::string& path, const Read_s
     if(!pinched.empty())
       input.warnings.push_back("the surface is pinched at " + counted(pinched.size(), "point", "points"));
   }
-  clear(mesh);
-  PMP::polygon_soup_to_polygon_mesh(points, polygons, mesh);
-  if(!CGAL::is_triangle_mesh(mesh)) {
-    const std::size_t n = std::size_t(
-      std::count_if(polygons.begin(), polygons.end(), [](const auto& p) { return p.size() > 3; }));
-    if(!PMP::triangulate_faces(mesh))
-      refuse(path, "its polygons cannot be triangulated");
-    input.warnings.push_back("triangulated " + counted(n, "polygon", "polygons"));
-  }
+  make_triangle_mesh(path, points, polygons, mesh, input);
 
   const Bbox_3 b = PMP::bbox(mesh);
   const double box = b.x_span() * b.y_span() * b.z_span();
@@ -653,6 +666,39 @@ CGAL_MIXED_MESH_3_INLINE void read_surface(const std::string& path, const Read_s
   input.volume = enclosed_volume(mesh);
   if(!(input.volume > 1e-12 * box))
     refuse(path, "the surface encloses no volume");
+}
+
+CGAL_MIXED_MESH_3_INLINE void read_sheet(const std::string& path, const Read_surface_options& options,
+                                         Surface& mesh, Surface_input& input)
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  Points points;
+  Polygons polygons;
+  read_faces(path, options, points, polygons, input);
+  const Edge_counts edges = count_edges(polygons);
+  if(edges.crowded != 0)
+    refuse(path,
+           "the sheet is not a manifold: "
+             + counted(edges.crowded, "edge has more than two faces", "edges have more than two faces"));
+  if(!PMP::is_polygon_soup_a_polygon_mesh(polygons)) {
+    PMP::orient_polygon_soup(points, polygons); // duplicates points, see above
+    if(count_edges(polygons).open != edges.open)
+      refuse(path, "the sheet cannot be oriented");
+    if(!PMP::is_polygon_soup_a_polygon_mesh(polygons))
+      refuse(path, "the faces do not form a surface");
+    if(!edges.is_oriented)
+      input.warnings.push_back("oriented the faces consistently");
+  }
+  make_triangle_mesh(path, points, polygons, mesh, input);
+  std::vector<Surface::Face_index> degenerate;
+  PMP::degenerate_faces(mesh, std::back_inserter(degenerate));
+  if(!degenerate.empty())
+    refuse(path, "has " + counted(degenerate.size(), "degenerate face", "degenerate faces")
+                   + " (three vertices on a line), the first near " + place_of(degenerate.front(), mesh));
+  refuse_self_intersections(path, mesh);
+  input.number_of_components = PMP::connected_components(mesh,
+                                                         get(CGAL::dynamic_face_property_t<std::size_t>(),
+                                                             mesh));
 }
 
 } // namespace internal

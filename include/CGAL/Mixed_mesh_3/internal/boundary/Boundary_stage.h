@@ -11,6 +11,7 @@
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/manifold_defects.h>
 #include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
+#include <CGAL/Mixed_mesh_3/internal/boundary/Sheet_layer.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/balance_interfaces.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/split_by_order.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/split_by_parity.h>
@@ -39,17 +40,19 @@ namespace internal {
 struct Boundary_pieces
 {
   Element_list pieces;
-  std::vector<Element_index> origins;     ///< for each piece, the element it comes from; sorted
-  std::vector<Subdomain_rank> subdomains; ///< for each piece
-  std::vector<std::uint8_t> is_replaced;  ///< for each element, whether its pieces stand for it
-  std::vector<std::uint8_t> is_used;      ///< for each vertex, whether the result has it
-  std::size_t number_of_vertices = 0;     ///< of the result
+  std::vector<Element_index> origins;          ///< for each piece, the element it comes from; sorted
+  std::vector<Subdomain_rank> subdomains;      ///< for each piece
+  std::vector<Compartment_index> compartments; ///< for each piece; empty without sheets
+  std::vector<std::uint8_t> is_replaced;       ///< for each element, whether its pieces stand for it
+  std::vector<std::uint8_t> is_used;           ///< for each vertex, whether the result has it
+  std::size_t number_of_vertices = 0;          ///< of the result
   std::size_t number_of_relabeled_vertices = 0;
   std::size_t number_of_inserted_vertices = 0;
+  std::size_t number_of_lost_sheets = 0;
   Manifold_defects defects; ///< that relabeling could not repair
 };
 
-template <class Octree_>
+template <class Octree_, class Sheets>
 class Boundary_stage : private Boundary_pieces
 {
   using Polygons = std::vector<Face_vertices>;
@@ -62,17 +65,21 @@ class Boundary_stage : private Boundary_pieces
   // Interface vertices are not inside of the subdomain of some element: on the boundary, or between two.
   std::vector<std::uint8_t> m_is_on_interface;
   bool m_has_vertices_on_surface = false; // before they move
-  std::vector<Element_index> m_outer;     // elements outside, or with interface vertices
-  std::vector<double> m_distances;        // of vertices, where asked for
+  Sheets m_sheets;
+  std::vector<std::uint8_t> m_is_on_sheet;
+  std::vector<Element_index> m_outer; // elements outside, or with interface or sheet vertices
+  std::vector<double> m_distances;    // of vertices, where asked for
   std::vector<std::uint32_t> m_ranks;
   std::map<Vertex_index, std::map<Subdomain_rank, int>> m_around; // pieces of each subdomain, of several
 
   static constexpr std::uint32_t last_rank = std::uint32_t(-1);
 
 public:
-  Boundary_stage(const Octree_& located, Lattice_mesh& mesh, Boundary_mode mode, unsigned threads)
+  Boundary_stage(const Octree_& located, Lattice_mesh& mesh, Boundary_mode mode, unsigned threads,
+                 Sheets sheets)
     : m_located(located), m_mesh(mesh), m_number_of_subdomains(subdomain_indices(located.domain()).size()),
-      m_mode(m_number_of_subdomains > 1 ? Boundary_mode::VERTEX_ORDER : mode), m_threads(threads)
+      m_mode(m_number_of_subdomains > 1 || !sheets.is_none() ? Boundary_mode::VERTEX_ORDER : mode),
+      m_threads(threads), m_sheets(std::move(sheets))
   {
     m_distances.assign(mesh.vertices.size(), -1);
     const std::size_t first_inserted = mesh.vertices.size();
@@ -86,7 +93,9 @@ public:
       split_elements();
       if(m_number_of_subdomains > 1)
         join_flat_pieces();
-    } while(relabel());
+    } while(relabel() || m_sheets.mend(pieces));
+    compartments = m_sheets.compartments();
+    number_of_lost_sheets = m_sheets.number_of_lost();
     number_of_inserted_vertices = mesh.vertices.size() - first_inserted;
     count_vertices();
   }
@@ -99,11 +108,16 @@ private:
     return v < m_is_on_interface.size() && m_is_on_interface[v];
   }
 
+  bool is_on_interface_or_sheet(Vertex_index v) const
+  {
+    return is_on_interface(v) || (v < m_is_on_sheet.size() && m_is_on_sheet[v]);
+  }
+
   // As if it were inside, where elements are split: it is on the surface already.
   bool is_on_surface(Vertex_index v) const
   {
-    return m_number_of_subdomains == 1 && m_mode == Boundary_mode::VERTEX_ORDER && v < m_mesh.sides.size()
-           && m_mesh.sides[v] == ON_BOUNDARY;
+    return m_number_of_subdomains == 1 && m_mode == Boundary_mode::VERTEX_ORDER && m_sheets.is_none()
+           && v < m_mesh.sides.size() && m_mesh.sides[v] == ON_BOUNDARY;
   }
 
   // Whether an element without vertices outside is inside: some are on the surface, or all.
@@ -150,17 +164,23 @@ private:
         if(m_mesh.subdomain(v) != mine)
           m_is_on_interface[v] = 1;
     }
+    if(!m_sheets.is_none()) {
+      m_is_on_sheet.assign(m_mesh.vertices.size(), 0);
+      for(Vertex_index v = 0; v < m_is_on_sheet.size(); ++v)
+        m_is_on_sheet[v] = m_sheets.is_on(v);
+    }
     m_outer.clear();
     for(Element_index e = 0; e < m_mesh.elements.size(); ++e) {
       const Element_view element = m_mesh.elements[e];
       if(!m_mesh.is_inside(element[0]) || std::any_of(element.begin(), element.end(), [this](Vertex_index v) {
-           return is_on_interface(v);
+           return is_on_interface_or_sheet(v);
          }))
         m_outer.push_back(e);
     }
   }
 
-  // The order: interface vertices first, nearest to the surface first, ties by lattice position.
+  // The order: interface vertices first, nearest to the surface first, ties by lattice position; then sheet
+  // vertices.
   void rank_vertices()
   {
     std::vector<Vertex_index> vertices;
@@ -179,6 +199,18 @@ private:
     m_ranks.assign(m_mesh.vertices.size(), last_rank);
     for(std::size_t i = 0; i < order.size(); ++i)
       m_ranks[std::get<2>(order[i])] = std::uint32_t(i);
+    rank_sheet_vertices(std::uint32_t(order.size()));
+  }
+
+  void rank_sheet_vertices(std::uint32_t first)
+  {
+    std::vector<std::tuple<double, std::uint64_t, Vertex_index>> order;
+    for(Vertex_index v = 0; v < m_is_on_sheet.size(); ++v)
+      if(m_is_on_sheet[v] && !m_is_on_interface[v])
+        order.emplace_back(m_located.quantized(m_sheets.depth(v)), lattice_key(m_mesh.vertices[v]), v);
+    std::sort(order.begin(), order.end());
+    for(std::size_t i = 0; i < order.size(); ++i)
+      m_ranks[std::get<2>(order[i])] = first + std::uint32_t(i);
   }
 
   double distance(Vertex_index v) const
@@ -210,7 +242,7 @@ private:
         else if(subdomain(m_mesh.elements[e]) != outside_rank)
           split_element(
             m_mesh.elements[e], [&](Vertex_index v) { return m_ranks[v]; },
-            [&](Vertex_index v) { return !is_on_interface(v) || is_on_surface(v); },
+            [&](Vertex_index v) { return !is_on_interface_or_sheet(v) || is_on_surface(v); },
             [&](Element_kind kind, std::initializer_list<Vertex_index> v) { add_piece(e, kind, v.begin()); });
     }
   }
@@ -372,15 +404,17 @@ root cell or beside dead leaves.
 So it is for each subdomain of a labeled domain, as if what comes after it were outside: an element belongs to
 the first subdomain that one of its vertices is inside of.
 
+Elements at sheets are split too, and their pieces get compartments; the vertices of the result are the same.
+
 \param mesh the labels of pinched vertices change; in the paper's mode vertices are added
 \param mode the paper's knows one subdomain only: several are split by the vertex order
 \cost O(n + m log m) for n elements, m of them at the surface, plus m closest-point queries
 */
-template <class Octree_>
+template <class Octree_, class Sheets = No_sheets>
 Boundary_pieces split_boundary(const Octree_& octree, Lattice_mesh& mesh, Boundary_mode mode,
-                               unsigned threads = 1)
+                               unsigned threads = 1, Sheets sheets = Sheets())
 {
-  return Boundary_stage<Octree_>(octree, mesh, mode, threads).result();
+  return Boundary_stage<Octree_, Sheets>(octree, mesh, mode, threads, std::move(sheets)).result();
 }
 
 } // namespace internal

@@ -36,7 +36,8 @@ void assemble_mesh(const Octree_& octree, const Lattice_mesh& lattice, const Bou
   attributes.reserve(lattice.elements.size());
 
   const std::vector<Subdomain_index> indices = subdomain_indices(octree.domain());
-  const auto add = [&](const Element_view& element, Element_index origin, Subdomain_rank subdomain) {
+  const auto add = [&](const Element_view& element, Element_index origin, Subdomain_rank subdomain,
+                       Compartment_index compartment) {
     Vertex_index v[8];
     for(int i = 0; i < element.size(); ++i) {
       Vertex_index& number = numbers[element[i]];
@@ -48,14 +49,15 @@ void assemble_mesh(const Octree_& octree, const Lattice_mesh& lattice, const Bou
       v[i] = number;
     }
     elements.add(element.kind(), &v[0]);
-    attributes.push_back({indices[subdomain], octree.is_in_region(lattice.cells[origin])});
+    attributes.push_back({indices[subdomain], octree.is_in_region(lattice.cells[origin]), compartment});
   };
   std::size_t piece = 0;
   for(Element_index e = 0; e < lattice.elements.size(); ++e) {
     if(!boundary.is_replaced[e])
-      add(lattice.elements[e], e, lattice.subdomain(lattice.elements[e][0]));
+      add(lattice.elements[e], e, lattice.subdomain(lattice.elements[e][0]), 0);
     for(; piece < boundary.pieces.size() && boundary.origins[piece] == e; ++piece)
-      add(boundary.pieces[piece], e, boundary.subdomains[piece]);
+      add(boundary.pieces[piece], e, boundary.subdomains[piece],
+          boundary.compartments.empty() ? 0 : boundary.compartments[piece]);
   }
   mesh.assign(std::move(points), std::move(elements), std::move(attributes));
 }

@@ -57,7 +57,7 @@ class Bounded_optimization
   const Domain& m_domain;
   const Criteria& m_criteria;
   const Quality& m_quality;
-  const bool m_has_subdomains;
+  const bool m_has_subdomains; // or sheets
   const Sharp_edges m_sharp_edges;
   const double m_edge_length; // mean, of the boundary; any if there are no sharp edges
   const Sharp_features m_features;
@@ -72,7 +72,7 @@ class Bounded_optimization
 public:
   Bounded_optimization(Mesh& mesh, const Domain& domain, const Criteria& criteria, const Quality& quality)
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality),
-      m_has_subdomains(subdomain_indices(domain).size() > 1),
+      m_has_subdomains(subdomain_indices(domain).size() > 1 || has_sheets(domain)),
       m_sharp_edges(sharp_edges(domain, criteria.sharp_angle())),
       m_edge_length(m_sharp_edges.edges.empty() ? 1 : mean_edge_length()),
       m_features(m_sharp_edges, m_edge_length), m_is_held(mesh.number_of_vertices(), 0)
@@ -169,7 +169,8 @@ private:
            + (lost > 0 ? lost / m_edge_length : 0);
   }
 
-  // Between subdomains a few vertices are often held back from both sides: another run would rarely help.
+  // Between subdomains and on sheets a few vertices are often held back from both sides: another run would rarely
+  // help.
   bool is_fitted(const Result& r) const
   {
     const double tolerated = m_has_subdomains ? share_tolerated_off * double(r.number_of_boundary_vertices)

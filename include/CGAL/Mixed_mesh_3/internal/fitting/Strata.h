@@ -35,11 +35,16 @@ inline constexpr Stratum free_stratum = 0, boundary_stratum = 1;
 /// Of vertices on sharp edges: from here on the numbers of polylines, then those of corners.
 inline constexpr Stratum first_sharp_stratum = Stratum(1) << 31;
 
-/// Between a subdomain and a later one, or the outside, 0.
+/// Between a subdomain and a later one, or the outside, 0; or all sheets.
 struct Interface
 {
   Subdomain_index first, second;
+
+  bool is_sheet() const { return first == 0; }
 };
+
+/// A rank of what is neither inside nor outside.
+inline constexpr Subdomain_rank sheet_rank = outside_rank - 1;
 
 /// Faces on interfaces, seen from their first subdomains, and their strata.
 struct Interface_faces
@@ -58,13 +63,14 @@ of any two is on the surface of the first of them: it is enough to be on those o
 class Strata
 {
   std::vector<Subdomain_index> m_order; // of a labeled domain
+  bool m_has_sheets;
   std::vector<std::vector<Interface>> m_interfaces = {{}, {{1, 0}}};
   std::map<std::vector<Subdomain_rank>, Stratum> m_numbers; // by the ranks of the subdomains that meet
   std::vector<std::vector<Subdomain_rank>> m_ranks = {{}, {0, outside_rank}}; // those of each stratum
 
 public:
   template <class Domain>
-  explicit Strata(const Domain& domain)
+  explicit Strata(const Domain& domain) : m_has_sheets(has_sheets(domain))
   {
     if constexpr(Is_labeled_domain<Domain>::value)
       m_order = subdomain_indices(domain);
@@ -73,7 +79,12 @@ public:
   /// Those that its vertices are to be on.
   const std::vector<Interface>& interfaces(Stratum s) const { return m_interfaces[s]; }
   /// Whether a face is on the boundary of the domain.
-  bool is_on_boundary(Stratum of_face) const { return m_interfaces[of_face].back().second == 0; }
+  bool is_on_boundary(Stratum of_face) const
+  {
+    return !is_on_sheet(of_face) && m_interfaces[of_face].back().second == 0;
+  }
+  /// Whether a face is on a sheet.
+  bool is_on_sheet(Stratum of_face) const { return m_interfaces[of_face].back().is_sheet(); }
 
   /// The faces on the boundary and on interfaces, among those all of whose vertices are candidates; not in
   /// the order of the elements.
@@ -91,6 +102,11 @@ public:
         if(r[0] != r[1]) {
           result.faces.push_back(group[r[0] < r[1] ? 0 : 1]);
           result.strata.push_back(number({(std::min)(r[0], r[1]), (std::max)(r[0], r[1])}));
+        } else if(const Element_attributes& a = attributes[group.element(0)],
+                  &b = attributes[group.element(1)];
+                  m_has_sheets && are_beside_sheet(a, b)) {
+          result.faces.push_back(group[a.compartment < b.compartment ? 0 : 1]);
+          result.strata.push_back(number({sheet_rank}));
         }
       }
     });
@@ -152,11 +168,17 @@ private:
       return boundary_stratum;
     const auto [known, is_new] = m_numbers.try_emplace(ranks, Stratum(m_interfaces.size()));
     if(is_new) {
+      std::vector<Subdomain_rank> of_subdomains = ranks;
+      of_subdomains.erase(std::remove(of_subdomains.begin(), of_subdomains.end(), sheet_rank),
+                          of_subdomains.end());
       m_interfaces.emplace_back();
       m_ranks.push_back(ranks);
-      for(std::size_t i = 0; i + 1 < ranks.size(); ++i)
-        m_interfaces.back().push_back(
-          {m_order[ranks[i]], ranks[i + 1] == outside_rank ? 0 : m_order[ranks[i + 1]]});
+      for(std::size_t i = 0; i + 1 < of_subdomains.size(); ++i)
+        m_interfaces.back().push_back({m_order[of_subdomains[i]], of_subdomains[i + 1] == outside_rank
+                                                                    ? 0
+                                                                    : m_order[of_subdomains[i + 1]]});
+      if(of_subdomains.size() != ranks.size())
+        m_interfaces.back().push_back({0, 0});
     }
     return known->second;
   }

@@ -219,7 +219,22 @@ private:
 
   void attract_boundary()
   {
-    m_attraction.set_boundary(m_boundary, [this](Stratum s) { return m_tolerances(first_subdomain(s)); });
+    m_attraction.set_boundary(without_sheets(m_boundary),
+                              [this](Stratum s) { return m_tolerances(first_subdomain(s)); });
+  }
+
+  // What is far from a surface does not draw them.
+  Interface_faces without_sheets(const Interface_faces& all) const
+  {
+    if(!has_sheets(m_domain))
+      return all;
+    Interface_faces rest;
+    for(std::size_t f = 0; f < all.faces.size(); ++f)
+      if(!m_strata.is_on_sheet(all.strata[f])) {
+        rest.faces.push_back(all.faces[f]);
+        rest.strata.push_back(all.strata[f]);
+      }
+    return rest;
   }
 
   // Of the edges of interfaces, by the first subdomain.

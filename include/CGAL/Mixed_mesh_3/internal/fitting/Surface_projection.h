@@ -61,9 +61,7 @@ public:
       return on_feature(p, stratum);
     if constexpr(Is_labeled_domain<Domain>::value) {
       const std::vector<Interface>& interfaces = m_strata->interfaces(stratum);
-      return interfaces.size() == 1 ? to_vec3(
-               m_domain->closest_point(point(p), point(hint), interfaces[0].first, interfaces[0].second))
-                                    : junction(p, interfaces);
+      return interfaces.size() == 1 ? closest(p, hint, interfaces[0]) : junction(p, interfaces);
     } else {
       return to_vec3(m_domain->closest_point(point(p), point(hint)));
     }
@@ -100,7 +98,32 @@ private:
 
   Vec3 closest(const Vec3& p, const Interface& i) const
   {
+    if constexpr(Is_domain_with_sheets<Domain>::value)
+      if(i.is_sheet())
+        return closest_of_sheets([&](const auto& sheet) { return sheet.closest_point(point(p)); }, p);
     return to_vec3(m_domain->closest_point(point(p), i.first, i.second));
+  }
+
+  Vec3 closest(const Vec3& p, const Vec3& hint, const Interface& i) const
+  {
+    if constexpr(Is_domain_with_sheets<Domain>::value)
+      if(i.is_sheet()) // a hint is on one of them only
+        return m_domain->sheets().size() > 1
+                 ? closest(p, i)
+                 : to_vec3(m_domain->sheets().front()->closest_point(point(p), point(hint)));
+    return to_vec3(m_domain->closest_point(point(p), point(hint), i.first, i.second));
+  }
+
+  template <class Closest>
+  Vec3 closest_of_sheets(const Closest& closest_of_one, const Vec3& p) const
+  {
+    Vec3 nearest = to_vec3(closest_of_one(*m_domain->sheets().front()));
+    for(const auto& sheet : m_domain->sheets()) {
+      const Vec3 q = to_vec3(closest_of_one(*sheet));
+      if(norm(q - p) < norm(nearest - p))
+        nearest = q;
+    }
+    return nearest;
   }
 
   // Alternating projections. Between two planes each cycle is shorter than the one before by the square of

@@ -110,10 +110,15 @@ private:
     Element_attributes attributes = m_mesh.elements[old.front()].attributes;
     for(Element_index e : old) {
       const Element_attributes& a = m_mesh.elements[e].attributes;
-      if(a.subdomain_index != attributes.subdomain_index)
-        return false; // an interface stays
+      if(a.subdomain_index != attributes.subdomain_index || are_beside_sheet(a, attributes))
+        return false; // an interface stays, and a sheet
+      attributes.compartment = (std::max)(attributes.compartment, a.compartment);
       attributes.is_in_region = attributes.is_in_region || a.is_in_region;
     }
+    if(attributes.compartment != 0 && std::any_of(old.begin(), old.end(), [&](Element_index e) {
+         return would_meet_sheet(e, attributes);
+       }))
+      return false;
     std::vector<Working_mesh::Element> elements;
     for(const Tetrahedron& t : tetrahedra) {
       Working_mesh::Element element{TETRAHEDRON, attributes, false, {}};
@@ -127,6 +132,22 @@ private:
     for(const Working_mesh::Element& element : elements)
       m_mesh.add(element);
     return true;
+  }
+
+  // Whether a face of an element of no compartment would be on a sheet if it had these attributes.
+  bool would_meet_sheet(Element_index e, const Element_attributes& attributes) const
+  {
+    if(m_mesh.elements[e].attributes.compartment != 0)
+      return false;
+    for(const Element_face& face : reference_elements[TETRAHEDRON].faces) {
+      if(face.size == 0)
+        continue;
+      const auto v = [&](int i) { return m_mesh.elements[e].vertices[face.vertices[i]]; };
+      if(const Working_mesh::Element* behind = element_behind(e, {v(0), v(1), v(2)});
+         behind != nullptr && are_beside_sheet(behind->attributes, attributes))
+        return true;
+    }
+    return false;
   }
 
   bool try_edges(Element_index e)
@@ -266,14 +287,20 @@ private:
     return true;
   }
 
-  // Whether all of some vertices are of another element too, of the same subdomain.
+  // Whether there is neither an interface nor a sheet between them.
+  static bool are_on_one_side(const Element_attributes& a, const Element_attributes& b)
+  {
+    return a.subdomain_index == b.subdomain_index && !are_beside_sheet(a, b);
+  }
+
+  // Whether all of some vertices are of another element too, on the same side.
   bool is_shared(Element_index e, std::initializer_list<Vertex_index> vertices) const
   {
     const std::vector<Element_index>& around = m_mesh.incident[*vertices.begin()];
-    const Subdomain_index mine = m_mesh.elements[e].attributes.subdomain_index;
+    const Element_attributes& mine = m_mesh.elements[e].attributes;
     return std::any_of(around.begin(), around.end(), [&](Element_index other) {
       const Working_mesh::Element& element = m_mesh.elements[other];
-      return other != e && element.attributes.subdomain_index == mine
+      return other != e && are_on_one_side(element.attributes, mine)
              && std::all_of(vertices.begin(), vertices.end(), [&](Vertex_index v) {
                   return std::find(element.begin(), element.end(), v) != element.end();
                 });
@@ -300,8 +327,8 @@ private:
 
   // A tetrahedron with two faces on the boundary of its subdomain, which meet in the edge ab: the other two
   // faces can take their place. That keeps the boundary a manifold if the edge between them is not on it yet.
-  // On the boundary of the mesh the tetrahedron is removed; on an interface it goes to the other subdomain if
-  // the edge can be flipped there.
+  // On the boundary of the mesh the tetrahedron is removed; on an interface or a sheet it goes to the other
+  // side if the edge can be flipped there.
   bool remove_from_boundary(Element_index e)
   {
     if(cost(m_mesh.elements[e].vertices.data()) < power(worth_removing, m_power))
@@ -319,35 +346,40 @@ private:
       if(m_mesh.is_sharp(a, b)
          || (m_mesh.strata[c] == m_mesh.strata[d] && m_mesh.strata[c] >= first_sharp_stratum))
         continue; // or two points of a sharp edge would be joined past those between
-      const Subdomain_index first = subdomain_behind(e, {a, b, c}), second = subdomain_behind(e, {a, b, d});
-      if(first != second)
-        continue;
-      if(first == 0) {
+      const Working_mesh::Element *first = element_behind(e, {a, b, c}),
+                                  *second = element_behind(e, {a, b, d});
+      if(first == nullptr && second == nullptr) {
         m_mesh.remove(e);
         ++m_number_of_removals;
         return true;
       }
-      Subdomain_index& mine = m_mesh.elements[e].attributes.subdomain_index;
-      const Subdomain_index before = std::exchange(mine, first);
+      if(first == nullptr || second == nullptr
+         || first->attributes.subdomain_index != second->attributes.subdomain_index
+         || first->attributes.compartment != second->attributes.compartment)
+        continue;
+      Element_attributes there = m_mesh.elements[e].attributes;
+      there.subdomain_index = first->attributes.subdomain_index;
+      there.compartment = first->attributes.compartment;
+      const Element_attributes before = std::exchange(m_mesh.elements[e].attributes, there);
       if(remove_edge(a, b)) {
         ++m_number_of_removals;
         return true;
       }
-      m_mesh.elements[e].attributes.subdomain_index = before;
+      m_mesh.elements[e].attributes = before;
     }
     return false;
   }
 
-  // That of the other element of a face; 0 if there is none.
-  Subdomain_index subdomain_behind(Element_index e, const std::array<Vertex_index, 3>& face) const
+  // The other element of a face; null if there is none.
+  const Working_mesh::Element* element_behind(Element_index e, const std::array<Vertex_index, 3>& face) const
   {
     for(Element_index other : m_mesh.incident[face[0]]) {
       const Working_mesh::Element& element = m_mesh.elements[other];
       if(other != e && element.position(face[1]) < element.size()
          && element.position(face[2]) < element.size())
-        return element.attributes.subdomain_index;
+        return &element;
     }
-    return 0;
+    return nullptr;
   }
 
   bool try_faces(Element_index e)

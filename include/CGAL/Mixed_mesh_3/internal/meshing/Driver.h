@@ -111,6 +111,7 @@ private:
       return;
     {
       const Scope scope(m_visitor, Stage::ASSEMBLY);
+      mark_sheets();
       assemble_mesh(m_octree, m_best.mesh, m_best.boundary, mesh);
     }
     if(m_criteria.fit_to_surface() && !m_result.is_kept)
@@ -189,6 +190,19 @@ private:
       if(is_for_volume ? splits.is_complete : !splits.is_complete || misfit.is_none())
         return;
     }
+  }
+
+  // Not before: sheets add no vertex.
+  void mark_sheets()
+  {
+    if constexpr(Is_domain_with_sheets<Domain>::value)
+      if(has_sheets(m_root.domain())) {
+        m_best.boundary = split_boundary(m_octree, m_best.mesh, m_criteria.boundary_mode(),
+                                         m_criteria.number_of_threads(), Sheet_layer(m_octree, m_best.mesh));
+        m_result.number_of_lost_sheets = m_best.boundary.number_of_lost_sheets;
+        if(m_result.number_of_lost_sheets > 0)
+          m_result.status = worse(m_result.status, Mixed_mesh_status::PARTS_LOST);
+      }
   }
 
   // What the octree may have; the rest is for the optimization.

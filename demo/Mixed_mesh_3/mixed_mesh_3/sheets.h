@@ -1,0 +1,42 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Sheets inside the domain, such as the falx: what they became in the mesh.
+
+#ifndef MIXED_MESH_3_DEMO_MIXED_MESH_3_SHEETS_H
+#define MIXED_MESH_3_DEMO_MIXED_MESH_3_SHEETS_H
+
+#include "common/facts.h"
+#include "common/types.h"
+#include "mixed_mesh_3/options.h"
+#include "mixed_mesh_3/outcome.h"
+
+#include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
+#include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+/// A surface that need not enclose anything.
+struct Sheet
+{
+  std::string name;
+  std::shared_ptr<const CGAL::Mixed_mesh_sheet_3> surface;
+  Surface_facts facts;
+};
+
+/// Reads those of the options, and adds them to the domain.
+std::vector<Sheet> add_sheets(const Options& options, CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
+                              std::vector<std::string>& warnings);
+
+/// Faces, areas and vertices of each sheet, with warnings for what is not as it should be. If the options say
+/// so, the mesh is slit along them then.
+/// \return the faces of each sheet; of a slit, both sides, `NAME_front` and `NAME_behind`
+std::vector<CGAL::Mixed_meshes_3::IO::Facet_set>
+examine_sheets(Mesh& mesh, const CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
+               const std::vector<Sheet>& sheets, const Options& options, Outcome& outcome);
+
+#endif // MIXED_MESH_3_DEMO_MIXED_MESH_3_SHEETS_H

@@ -1,0 +1,122 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Queries on a triangulated surface that need not enclose anything: it has a front and a behind near by only.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SHEET_ORACLE_3_H
+#define CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SHEET_ORACLE_3_H
+
+#include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/assertions.h>
+#include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/named_params_helper.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+
+/// Where a point is relative to a sheet.
+struct Sheet_location
+{
+  Vec3 closest;   ///< the closest point of the sheet
+  double height;  ///< above the plane tangent there; positive in front, where the sheet is seen
+                  ///< counter-clockwise
+  bool is_at_rim; ///< whether the closest point is on the border of the sheet
+};
+
+namespace internal {
+
+class Sheet_oracle_3
+{
+public:
+  using Kernel = Predicates_kernel;
+  using Point_3 = Kernel::Point_3;
+
+  template <class FaceListGraph, class NamedParameters>
+  Sheet_oracle_3(const FaceListGraph& surface, const NamedParameters& np)
+  {
+    CGAL_precondition(CGAL::is_triangle_mesh(surface));
+    CGAL_precondition(num_faces(surface) > 0);
+    auto vpm = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
+                                            get_const_property_map(CGAL::vertex_point, surface));
+    std::unordered_map<typename boost::graph_traits<FaceListGraph>::vertex_descriptor, std::size_t> copy;
+    std::vector<Vec3> points;
+    for(auto v : vertices(surface)) {
+      copy[v] = points.size();
+      points.push_back(to_vec3(get(vpm, v)));
+    }
+    std::vector<std::array<std::size_t, 3>> triangles;
+    for(auto f : faces(surface)) {
+      triangles.emplace_back();
+      std::size_t i = 0;
+      for(auto u : vertices_around_face(halfedge(f, surface), surface))
+        triangles.back()[i++] = copy[u];
+    }
+    build(points, triangles);
+  }
+
+  const Bbox_3& bbox() const { return m_bbox; }
+  double area() const;
+  std::size_t number_of_facets() const { return m_triangles.size(); }
+
+  /// Whether a part of the sheet may meet a box: what is far away is told apart, fast.
+  bool may_intersect(const Bbox_3& box) const;
+  /// Whether the sheet meets a closed segment, exactly.
+  bool do_intersect(const Point_3& p, const Point_3& q) const;
+
+  Point_3 closest_point(const Point_3& p) const;
+  /// Faster if `hint`, a point of the sheet, is near.
+  Point_3 closest_point(const Point_3& p, const Point_3& hint) const;
+
+  /// The normal is weighted by angles where the closest point is on an edge or a vertex, so that the sign of
+  /// the height is right (Baerentzen and Aanaes, 2005).
+  Sheet_location locate(const Point_3& p) const;
+
+  /// Points of the sheet in the middle of equal shares of its triangles, about `number` of them, and the area
+  /// that each of them stands for.
+  std::vector<std::pair<Point_3, double>> area_samples(std::size_t number) const;
+
+private:
+  struct Trees; // AABB trees: defined where they are used
+  struct Delete_trees
+  {
+    void operator()(Trees* trees) const;
+  };
+
+  // Of what the closest point can be on: the inside, the edge opposite to a corner, or a corner.
+  struct Triangle
+  {
+    std::array<Vec3, 3> points;
+    Vec3 normal;
+    std::array<Vec3, 3> normals_at_edges, normals_at_corners;
+    std::array<bool, 3> is_edge_at_rim, is_corner_at_rim;
+  };
+
+  void build(const std::vector<Vec3>& points, const std::vector<std::array<std::size_t, 3>>& triangles);
+
+  std::vector<Triangle> m_triangles;
+  Bbox_3 m_bbox;
+  std::unique_ptr<Trees, Delete_trees> m_trees;
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#ifndef CGAL_MIXED_MESH_3_COMPILED
+#include <CGAL/Mixed_mesh_3/internal/surface/Sheet_oracle_3_impl.h>
+#endif
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SHEET_ORACLE_3_H
