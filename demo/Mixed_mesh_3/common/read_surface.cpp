@@ -5,6 +5,7 @@
 
 #include "common/read_surface.h"
 
+#include "common/messages.h"
 #include "common/resources.h"
 
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
@@ -15,7 +16,12 @@ Surface read_surface(const std::string& path, const CGAL::Mixed_meshes_3::IO::Re
   namespace IO = CGAL::Mixed_meshes_3::IO;
   Surface surface;
   IO::Surface_input input;
-  require([&](std::string* error) { return IO::read_closed_surface(path, options, surface, error, &input); });
+  require([&](std::string* error) {
+    const bool is_read = IO::read_closed_surface(path, options, surface, error, &input);
+    if(input.wrap_diameter > 0)
+      *error += "; --wrap " + rounded(input.wrap_diameter) + " would close it";
+    return is_read;
+  });
   for(const std::string& warning : input.warnings)
     warnings.push_back(path + ": " + warning);
   facts = {path,
@@ -24,6 +30,7 @@ Surface read_surface(const std::string& path, const CGAL::Mixed_meshes_3::IO::Re
            surface.number_of_vertices(),
            surface.number_of_faces(),
            input.number_of_components,
-           input.volume};
+           input.volume,
+           input.repairs};
   return surface;
 }
