@@ -25,9 +25,10 @@ MAY_REACH = {
     "fitting": "base elements surface fem",
     "meshing": "base elements surface octree transitions boundary fem fitting",
     "resection": "base elements",
-    "IO": "base elements",
+    "repair": "base",
+    "IO": "base elements repair",
     "Linear_elasticity_3": "base elements fem",
-    "Mixed_mesh_image_3": "base elements IO",
+    "Mixed_mesh_image_3": "base elements repair IO",
 }
 # The public headers of Mixed_mesh_3 may reach its stages and its files, and no sibling.
 PUBLIC = "the public headers"

@@ -403,7 +403,7 @@ void test_invariance(const Surface& brain, const Surface& region)
   };
   const Content expected = make(brain, region, false), fitted = make(brain, region, true);
   const double mean = quality_statistics(mesh)[number_of_element_kinds].mean;
-  for(double scale : {std::ldexp(1., 20), std::ldexp(1., -20), 1e6, 1e-6, 25.4}) {
+  for(double scale : {std::ldexp(1., 20), std::ldexp(1., -20), 1e6, 1e-6, 1e12, 25.4}) {
     const auto f = [&](const Point_3& p) { return Point_3(scale * p.x(), scale * p.y(), scale * p.z()); };
     const Surface surface = transformed(brain, f), region_surface = transformed(region, f);
     const Content scaled = make(surface, region_surface, false);

@@ -76,7 +76,7 @@ CLI::Option* add_inputs(CLI::App& app, Options& o)
                 "Label of a subdomain of the mesh: its elements are removed, after the shift")
     ->excludes(tumor)
     ->type_name("LABEL");
-  add_space(app, o.surface_options);
+  add_surface_options(app, o.surface_options);
   CLI::Option* image = app.add_option("--image", o.image, "Image before the shift: .nii or .nii.gz")
                          ->type_name("IMAGE");
   app

@@ -27,7 +27,7 @@ Json describe_mesh(const Options& o, const Outcome& outcome)
 
 Json describe(const Surface_facts& s)
 {
-  return {{"file", s.file}, {"triangles", s.triangles}, {"volume", s.volume}};
+  return {{"file", s.file}, {"triangles", s.triangles}, {"volume", s.volume}, {"repairs", s.repairs}};
 }
 
 Json describe(const Image_facts& image, const Options& o)

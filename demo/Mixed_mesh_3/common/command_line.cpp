@@ -43,7 +43,7 @@ CLI::Validator count(std::size_t largest)
     "");
 }
 
-void add_space(CLI::App& app, CGAL::Mixed_meshes_3::IO::Read_surface_options& options)
+void add_surface_options(CLI::App& app, CGAL::Mixed_meshes_3::IO::Read_surface_options& options)
 {
   using Space = CGAL::Mixed_meshes_3::IO::Anatomical_space;
   app
@@ -54,6 +54,17 @@ void add_space(CLI::App& app, CGAL::Mixed_meshes_3::IO::Read_surface_options& op
       "RAS)")
     ->check(CLI::IsMember({"RAS", "LPS"}))
     ->type_name("SPACE");
+  CLI::Option* const strict = app.add_flag(
+    "--strict", options.is_strict,
+    "Refuse surfaces that have holes, cut themselves or are no manifold, instead of repairing them");
+  app
+    .add_option(
+      "--wrap", options.wrap_diameter,
+      "Wrap such surfaces instead, as in foil: openings narrower than D are closed, details smaller "
+      "than D / 30 are lost")
+    ->check(number("greater than 0", [](double x) { return x > 0; }))
+    ->type_name("D")
+    ->excludes(strict);
 }
 
 std::optional<int> parse(const char* name, CLI::App& app, int argc, char** argv,

@@ -25,8 +25,8 @@ CLI::Validator count(std::size_t largest);
 
 /// Accepts Poisson's ratios: with larger ones, what is left of 1/2 drowns in rounding errors.
 CLI::Validator poisson_ratio();
-/// Adds the option --space of programs that read surfaces.
-void add_space(CLI::App& app, CGAL::Mixed_meshes_3::IO::Read_surface_options& options);
+/// Adds the options of programs that read surfaces: --space, and what is done with those of no solid.
+void add_surface_options(CLI::App& app, CGAL::Mixed_meshes_3::IO::Read_surface_options& options);
 
 /// Parses, then calls `check`, which throws a `CLI::ParseError` for wrong use that the parser does not see.
 /// What is wrong becomes one line.

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 struct Surface_facts
 {
@@ -20,6 +21,7 @@ struct Surface_facts
   std::size_t points = 0, polygons = 0; // in the file
   std::size_t vertices = 0, triangles = 0, components = 0;
   double volume = 0;
+  std::vector<std::string> repairs = {}; // lines
 };
 
 struct Mesh_facts

@@ -5,6 +5,7 @@
 
 #include "common/read_surface.h"
 
+#include "common/messages.h"
 #include "common/resources.h"
 
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
@@ -20,7 +21,12 @@ Surface read_with(const Read& read, const std::string& path, Surface_facts& fact
 {
   Surface surface;
   IO::Surface_input input;
-  require([&](std::string* error) { return read(surface, error, &input); });
+  require([&](std::string* error) {
+    const bool is_read = read(surface, error, &input);
+    if(input.wrap_diameter > 0)
+      *error += "; --wrap " + rounded(input.wrap_diameter) + " would close it";
+    return is_read;
+  });
   for(const std::string& warning : input.warnings)
     warnings.push_back(path + ": " + warning);
   facts = {path,
@@ -29,7 +35,8 @@ Surface read_with(const Read& read, const std::string& path, Surface_facts& fact
            surface.number_of_vertices(),
            surface.number_of_faces(),
            input.number_of_components,
-           input.volume};
+           input.volume,
+           input.repairs};
   return surface;
 }
 

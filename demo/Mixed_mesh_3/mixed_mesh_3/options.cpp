@@ -174,7 +174,7 @@ void add_files(CLI::App& app, Options& o)
                 "of FreeSurfer; "
                 "or an image of labels: .nii, .nii.gz")
     ->required();
-  add_space(app, o.surface_options);
+  add_surface_options(app, o.surface_options);
   add_several(
     app, "--region",
     "Closed surface of a region of interest, in the same coordinates; an error counts W times as much "

@@ -28,7 +28,7 @@ Json describe(const Surface_facts& s)
 {
   return {{"file", s.file},         {"points", s.points},       {"polygons", s.polygons},
           {"vertices", s.vertices}, {"triangles", s.triangles}, {"components", s.components},
-          {"volume", s.volume}};
+          {"volume", s.volume},     {"repairs", s.repairs}};
 }
 
 Json describe(const Options& o)
@@ -50,6 +50,9 @@ Json describe(const Options& o)
                  {"slit", o.slit},
                  {"msh version", o.msh2 ? "2.2" : "4.1"},
                  {"space", space_of(o.surface_options)},
+                 {"strict", o.surface_options.is_strict},
+                 {"wrap",
+                  o.surface_options.wrap_diameter > 0 ? Json(o.surface_options.wrap_diameter) : Json()},
                  {"threads", o.threads}};
   if(o.fit() == Fit::ALGORITHM_1)
     report["Algorithm 1"] = {{"steps", o.steps},

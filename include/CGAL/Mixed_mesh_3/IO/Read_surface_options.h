@@ -22,6 +22,14 @@ struct Read_surface_options
   /// The space of the coordinates in the file. By default, what its header says, or RAS. Formats that define
   /// it (FreeSurfer, GIFTI) ignore this.
   std::optional<Anatomical_space> space;
+
+  /// Refuse what is not the surface of a solid as it is: what has holes, cuts itself, or is no manifold. By
+  /// default, it is repaired.
+  bool is_strict = false;
+
+  /// If not 0, such a surface is wrapped instead: openings narrower than this are closed, and details smaller
+  /// than a thirtieth of it are lost.
+  double wrap_diameter = 0;
 };
 
 } // namespace IO

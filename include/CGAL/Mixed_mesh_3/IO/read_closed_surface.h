@@ -7,30 +7,20 @@
 #define CGAL_MIXED_MESH_3_IO_READ_CLOSED_SURFACE_H
 
 #include <CGAL/Mixed_mesh_3/IO/Read_surface_options.h>
+#include <CGAL/Mixed_mesh_3/IO/Surface_input.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
 
-#include <cstddef>
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace IO {
-
-/// What a surface file held, and what had to be mended.
-struct Surface_input
-{
-  std::size_t number_of_points = 0, number_of_polygons = 0; ///< in the file
-  std::size_t number_of_components = 0;
-  double volume = 0;                 ///< enclosed, in the cube of the unit
-  std::vector<std::string> warnings; ///< a line each, without the file's name
-};
 
 namespace internal {
 
@@ -50,8 +40,8 @@ template <class Read, class Mesh>
 bool read_surface_as(const Read& read, const std::string& path, const Read_surface_options& options,
                      Mesh& mesh, std::string* error, Surface_input* input)
 {
-  return is_read(path, error, [&] {
-    Surface_input found;
+  Surface_input found;
+  const bool is_success = is_read(path, error, [&] {
     Surface surface;
     read(path, options, surface, found);
     if constexpr(std::is_same_v<Mesh, Surface>) {
@@ -60,9 +50,12 @@ bool read_surface_as(const Read& read, const std::string& path, const Read_surfa
       clear(mesh);
       CGAL::copy_face_graph(surface, mesh);
     }
-    if(input != nullptr)
-      *input = std::move(found);
   });
+  if(input != nullptr && is_success)
+    *input = std::move(found);
+  else if(input != nullptr)
+    input->wrap_diameter = found.wrap_diameter;
+  return is_success;
 }
 
 } // namespace internal
@@ -73,6 +66,10 @@ duplicate faces, unused points, polygons (triangulated), faces whose vertices ar
 inward orientation. A surface may touch itself in points and edges: it gets a vertex for each sheet there.
 Points are merged only where the surface is not closed as given. Coordinates below 2^-60 of the extent
 become zero.
+
+Then, unless that is not wanted, it repairs what is left: holes are filled that are a small part of the
+surface, and faces that cut each other, or have edges in common with more than one other, become the boundary of
+the solid that they enclose: of what they wind around outwards. What cannot be repaired is refused, or wrapped.
 
 | file | format |
 |------|--------|
@@ -93,7 +90,7 @@ with `SPACE=LPS`, which 3D Slicer writes, is obeyed: x and y are negated, so tha
        not the surface of a solid
 \param input if not null, receives what was read, with a warning for everything mended
 \return whether all went well; if not, `mesh` is as it was
-\cost O(n log n)
+\cost O((n + k) log(n + k)) for n faces, of which k pairs cut each other
 */
 template <class Mesh>
 [[nodiscard]] bool read_closed_surface(const std::string& path, const Read_surface_options& options,

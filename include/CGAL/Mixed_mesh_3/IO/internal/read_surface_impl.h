@@ -9,6 +9,7 @@
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_READ_SURFACE_IMPL_H
 
 #include <CGAL/Mixed_mesh_3/IO/internal/read_surface_file.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/repair_surface.h>
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
 #include <CGAL/Mixed_mesh_3/internal/base/compiled.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
@@ -55,53 +56,6 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
-
-inline std::string counted(std::size_t n, const char* one, const char* many)
-{
-  return std::to_string(n) + " " + (n == 1 ? one : many);
-}
-
-struct Edge_counts
-{
-  std::size_t open = 0, crowded = 0; // edges with one face, and with more than two
-  bool is_oriented = true;           // no edge occurs twice in the same direction
-};
-
-inline Edge_counts count_edges(const std::vector<std::vector<std::size_t>>& polygons)
-{
-  struct Edge
-  {
-    std::size_t low, high;
-    bool is_upwards;
-    bool operator<(const Edge& e) const { return low != e.low ? low < e.low : high < e.high; }
-  };
-  std::vector<Edge> edges;
-  for(const auto& polygon : polygons)
-    for(std::size_t i = 0; i < polygon.size(); ++i) {
-      const std::size_t a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-      edges.push_back({(std::min)(a, b), (std::max)(a, b), a < b});
-    }
-  std::sort(edges.begin(), edges.end());
-  Edge_counts counts;
-  for(auto first = edges.begin(), last = first; first != edges.end(); first = last) {
-    last = std::upper_bound(first, edges.end(), *first);
-    counts.open += last - first == 1;
-    counts.crowded += last - first > 2;
-    if(last - first == 2 && first[0].is_upwards == first[1].is_upwards)
-      counts.is_oriented = false;
-  }
-  return counts;
-}
-
-// "1.25e+200"
-inline std::string number_text(double x)
-{
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out.precision(7);
-  out << x;
-  return out.str();
-}
 
 // What stands in a file may be anything: indices first, then numbers.
 inline void check_indices(const std::string& path, const Surface_soup& soup)
@@ -172,6 +126,8 @@ inline bool is_flat(const std::vector<Surface::Point>& points)
   return height <= tolerance * extent;
 }
 
+using Face_pair = std::pair<Surface::Face_index, Surface::Face_index>;
+
 struct Triangle_view
 {
   std::array<Surface::Vertex_index, 3> vertices;
@@ -187,11 +143,10 @@ struct Triangle_view
   }
 };
 
-// "(1, 2, 3)": the place of a face, in the coordinates of the file; its number is ours, not the file's.
+// The place of a face, in the coordinates of the file; its number is ours, not the file's.
 inline std::string place_of(Surface::Face_index face, const Surface& mesh)
 {
-  const Vec3 p = to_vec3(Triangle_view(face, mesh).points[0]);
-  return "(" + number_text(p[0]) + ", " + number_text(p[1]) + ", " + number_text(p[2]) + ")";
+  return place_text(Triangle_view(face, mesh).points[0]);
 }
 
 // Whether two faces meet in nothing but a point or an edge that both have, of vertices that are different
@@ -244,8 +199,8 @@ inline bool is_between(const Edge_sheet& s, const Surface::Point& p)
 }
 
 // Where sheets of the surface have an edge in common, they touch there or go through each other: then the
-// edges of both are the same all along, and faces meet nowhere else.
-inline void refuse_crossings_at_edges(const std::string& path, const Surface& mesh)
+// edges of both are the same all along, and faces meet nowhere else. Pairs of faces of both.
+inline std::vector<Face_pair> crossings_at_edges(const Surface& mesh)
 {
   const auto upwards = [&mesh](Surface::Edge_index e) {
     const auto h = mesh.halfedge(e);
@@ -264,24 +219,26 @@ inline void refuse_crossings_at_edges(const std::string& path, const Surface& me
   };
   std::vector<Surface::Edge_index> sorted(edges(mesh).begin(), edges(mesh).end());
   std::sort(sorted.begin(), sorted.end(), is_less);
+  std::vector<Face_pair> crossings;
   for(auto e = sorted.begin(); e != sorted.end(); ++e)
     for(auto f = e + 1; f != sorted.end() && !is_less(*e, *f); ++f) {
       const Edge_sheet one = sheet(*e), other = sheet(*f);
       if(is_between(one, other.left) != is_between(one, other.right))
-        refuse(path, "the surface crosses itself along an edge near " + place_of(one.face, mesh));
+        crossings.emplace_back(one.face, other.face);
     }
+  return crossings;
 }
 
-// Removes triangles whose vertices are on a line, or refuses.
-inline void remove_degenerate_faces(const std::string& path, Surface& mesh, Surface_input& input)
+// Removes triangles whose vertices are on a line; returns what is wrong if that was not possible.
+inline std::string remove_degenerate_faces(Surface& mesh, Surface_input& input)
 {
   namespace PMP = CGAL::Polygon_mesh_processing;
   std::vector<Surface::Face_index> degenerate;
   PMP::degenerate_faces(mesh, std::back_inserter(degenerate));
   if(degenerate.empty())
-    return;
+    return "";
   if(degenerate.size() == faces(mesh).size())
-    refuse(path, "all its faces are degenerate");
+    return "all its faces are degenerate";
   std::size_t n = degenerate.size();
   std::string place = place_of(degenerate.front(), mesh);
   bool is_intact = false;
@@ -299,26 +256,30 @@ inline void remove_degenerate_faces(const std::string& path, Surface& mesh, Surf
     }
   }
   if(!is_intact || !degenerate.empty())
-    refuse(path, "has " + counted(n, "degenerate face", "degenerate faces")
-                   + " (three vertices on a line), the first near " + place);
+    return "has " + counted(n, "degenerate face", "degenerate faces")
+           + " (three vertices on a line), the first near " + place;
   input.warnings.push_back("removed " + counted(n, "degenerate face", "degenerate faces"));
   Surface compact; // without the places of removed faces
   CGAL::copy_face_graph(mesh, compact);
   clear(mesh);
   CGAL::copy_face_graph(compact, mesh);
+  return "";
 }
 
-inline void refuse_self_intersections(const std::string& path, const Surface& mesh)
+inline std::vector<Face_pair> self_intersections(const Surface& mesh)
 {
-  std::vector<std::pair<Surface::Face_index, Surface::Face_index>> crossings;
+  std::vector<Face_pair> crossings;
   CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(crossings));
   crossings.erase(std::remove_if(crossings.begin(), crossings.end(),
-                                 [&mesh](const auto& pair) {
+                                 [&mesh](const Face_pair& pair) {
                                    return is_contact(pair.first, pair.second, mesh);
                                  }),
                   crossings.end());
-  if(crossings.empty())
-    return;
+  return crossings;
+}
+
+inline std::string describe(const std::vector<Face_pair>& crossings, const Surface& mesh)
+{
   std::vector<std::string> places;
   for(std::size_t i = 0; i < crossings.size() && places.size() < 3; ++i) {
     const std::string place = place_of(crossings[i].first, mesh);
@@ -329,7 +290,7 @@ inline void refuse_self_intersections(const std::string& path, const Surface& me
                      + " of faces, for example near ";
   for(std::size_t i = 0; i < places.size(); ++i)
     text += (i == 0 ? "" : ", ") + places[i];
-  refuse(path, text);
+  return text;
 }
 
 // Seen from a vertex: far from the origin, the digits would be lost.
@@ -349,10 +310,10 @@ struct Component_counts
   std::size_t all = 0, cavities = 0, reversed = 0;
 };
 
-// Orients the components such that the solid is on their inner side.
+// Orients the components such that the solid is on their inner side. One that cuts another is not inside it.
 // PMP::orient_to_bound_a_volume() looks at one vertex of a component only; where components touch, that
 // vertex may be in both.
-inline Component_counts orient_components(Surface& mesh)
+inline Component_counts orient_components(Surface& mesh, const std::vector<Face_pair>& crossings = {})
 {
   namespace PMP = CGAL::Polygon_mesh_processing;
   using Side = CGAL::Side_of_triangle_mesh<Surface, Predicates_kernel>;
@@ -378,10 +339,20 @@ inline Component_counts orient_components(Surface& mesh)
     }
   }
 
+  std::set<std::pair<std::size_t, std::size_t>> cutting;
+  for(const Face_pair& pair : crossings) {
+    const std::size_t c = get(component_map, pair.first), d = get(component_map, pair.second);
+    cutting.insert({c, d});
+    cutting.insert({d, c});
+  }
+
   for(const Component& outer : components) {
     std::vector<Component*> candidates;
     for(Component& c : components) {
-      bool is_within = &c != &outer;
+      bool is_within = &c != &outer
+                       && cutting.count(
+                            {std::size_t(&c - components.data()), std::size_t(&outer - components.data())})
+                            == 0;
       for(int k = 0; k < 3; ++k)
         is_within = is_within && outer.bbox.min(k) <= c.bbox.min(k) && c.bbox.max(k) <= outer.bbox.max(k);
       if(is_within)
@@ -410,9 +381,6 @@ inline Component_counts orient_components(Surface& mesh)
   }
   return counts;
 }
-
-using Points = std::vector<Surface::Point>;
-using Polygons = std::vector<std::vector<std::size_t>>;
 
 // Polygons that have the same vertices in the same order, forwards or backwards, but for the first of them;
 // returns their number. CGAL's function compares points, and asserts that those of a polygon differ.
@@ -567,6 +535,106 @@ inline void set_space(Surface_soup& soup, const Read_surface_options& options)
                           + ": x and y are negated, the result is in RAS");
 }
 
+// Makes a mesh of faces that are closed, and a manifold but for points. Returns whether it is oriented.
+inline bool make_mesh(Points& points, Polygons& polygons, bool is_oriented, Surface& mesh,
+                      Surface_input& input)
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  if(!PMP::is_polygon_soup_a_polygon_mesh(polygons)) {
+    // Duplicates pinched points, and those of edges that it has to cut, as in a Moebius band.
+    const std::size_t n = points.size();
+    PMP::orient_polygon_soup(points, polygons);
+    if(count_edges(polygons).open != 0 || !PMP::is_polygon_soup_a_polygon_mesh(polygons))
+      return false;
+    if(!is_oriented)
+      input.warnings.push_back("oriented the faces consistently");
+    const std::set<Surface::Point> pinched(points.begin() + std::ptrdiff_t(n), points.end());
+    if(!pinched.empty())
+      input.warnings.push_back("the surface is pinched at " + counted(pinched.size(), "point", "points"));
+  }
+  clear(mesh);
+  PMP::polygon_soup_to_polygon_mesh(points, polygons, mesh);
+  return true;
+}
+
+inline bool triangulate(const Polygons& polygons, Surface& mesh, Surface_input& input)
+{
+  if(CGAL::is_triangle_mesh(mesh))
+    return true;
+  const std::size_t n = std::size_t(
+    std::count_if(polygons.begin(), polygons.end(), [](const auto& p) { return p.size() > 3; }));
+  if(!CGAL::Polygon_mesh_processing::triangulate_faces(mesh))
+    return false;
+  input.warnings.push_back("triangulated " + counted(n, "polygon", "polygons"));
+  return true;
+}
+
+// Makes a mesh of the faces: closed, without self-intersections, oriented outwards.
+inline Component_counts make_solid(const Read_surface_options& options, Points points, Polygons polygons,
+                                   Surface& mesh, Surface_input& input)
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  Edge_counts edges = count_edges(polygons);
+  if(edges.open != 0) {
+    close(options, points, polygons, input);
+    edges = count_edges(polygons);
+  }
+  if(edges.crowded != 0) {
+    const std::size_t crowded = edges.crowded;
+    separate_bodies(points, polygons);
+    edges = count_edges(polygons);
+    if(edges.crowded == 0) {
+      input.warnings.push_back("bodies touch along " + counted(crowded, "edge", "edges"));
+    } else {
+      bound(options,
+            "the surface is not a manifold: "
+              + counted(crowded, "edge has more than two faces", "edges have more than two faces"),
+            points, polygons, input);
+      edges = count_edges(polygons);
+    }
+  }
+  const bool is_oriented = edges.is_oriented;
+  Points whole_points = points;
+  Polygons whole = polygons;
+  if(!make_mesh(points, polygons, is_oriented, mesh, input)) {
+    bound(options, "the surface cannot be oriented", whole_points, whole, input);
+    if(!make_mesh(whole_points, whole, true, mesh, input))
+      throw Surface_defect{"the faces do not form a surface"};
+  }
+  if(!triangulate(polygons, mesh, input))
+    throw Surface_defect{"its polygons cannot be triangulated"};
+
+  // Rounding the points where faces cut each other can make others cut.
+  constexpr int most_passes = 5;
+  for(int pass = 0;; ++pass) {
+    std::string defect = remove_degenerate_faces(mesh, input);
+    std::vector<Face_pair> crossings;
+    if(defect.empty()) {
+      crossings = self_intersections(mesh);
+      const std::vector<Face_pair> at_edges = crossings.empty() ? crossings_at_edges(mesh) : crossings;
+      if(at_edges.empty())
+        return orient_components(mesh);
+      defect = !crossings.empty()
+                 ? describe(crossings, mesh)
+                 : "the surface crosses itself along an edge near " + place_of(at_edges.front().first, mesh);
+      crossings = at_edges;
+    }
+    if(pass == most_passes)
+      throw Surface_defect{defect};
+    if(pass == 0)
+      orient_components(mesh, crossings);
+    points.assign(mesh.points().begin(), mesh.points().end());
+    polygons.clear();
+    for(const auto face : faces(mesh)) {
+      const Triangle_view t(face, mesh);
+      polygons.push_back({t.vertices[0], t.vertices[1], t.vertices[2]});
+    }
+    bound(options, pass == 0 ? defect : "", points, polygons, input);
+    if(!make_mesh(points, polygons, true, mesh, input))
+      throw Surface_defect{defect};
+  }
+}
+
 // The faces of a file, without what is superfluous.
 inline void read_faces(const std::string& path, const Read_surface_options& options, Points& points,
                        Polygons& polygons, Surface_input& input)
@@ -596,64 +664,32 @@ inline void read_faces(const std::string& path, const Read_surface_options& opti
     refuse(path, "all its faces are degenerate");
 }
 
-inline void make_triangle_mesh(const std::string& path, const Points& points, const Polygons& polygons,
-                               Surface& mesh, Surface_input& input)
-{
-  namespace PMP = CGAL::Polygon_mesh_processing;
-  clear(mesh);
-  PMP::polygon_soup_to_polygon_mesh(points, polygons, mesh);
-  if(!CGAL::is_triangle_mesh(mesh)) {
-    const std::size_t n = std::size_t(
-      std::count_if(polygons.begin(), polygons.end(), [](const auto& p) { return p.size() > 3; }));
-    if(!PMP::triangulate_faces(mesh))
-      refuse(path, "its polygons cannot be triangulated");
-    input.warnings.push_back("triangulated " + counted(n, "polygon", "polygons"));
-  }
-}
-
 CGAL_MIXED_MESH_3_INLINE void read_surface(const std::string& path, const Read_surface_options& options,
                                            Surface& mesh, Surface_input& input)
 {
-  namespace PMP = CGAL::Polygon_mesh_processing;
   Points points;
   Polygons polygons;
   read_faces(path, options, points, polygons, input);
   if(is_flat(points))
     refuse(path, "the surface is flat: it encloses no volume");
-  Edge_counts edges = count_edges(polygons);
-  if(edges.open != 0)
-    refuse(path, "the surface is not closed: " + counted(edges.open, "border edge", "border edges"));
-  if(edges.crowded != 0) {
-    const std::size_t crowded = edges.crowded;
-    separate_bodies(points, polygons);
-    edges = count_edges(polygons);
-    if(edges.crowded != 0)
-      refuse(path, "the surface is not a manifold: "
-                     + counted(crowded, "edge has more than two faces", "edges have more than two faces"));
-    input.warnings.push_back("bodies touch along " + counted(crowded, "edge", "edges"));
-  }
-  if(!PMP::is_polygon_soup_a_polygon_mesh(polygons)) {
-    // Duplicates pinched points, and those of edges that it has to cut, as in a Moebius band.
-    const std::size_t n = points.size();
-    PMP::orient_polygon_soup(points, polygons);
-    if(count_edges(polygons).open != 0)
-      refuse(path, "the surface cannot be oriented");
-    if(!PMP::is_polygon_soup_a_polygon_mesh(polygons))
-      refuse(path, "the faces do not form a surface");
-    if(!edges.is_oriented)
-      input.warnings.push_back("oriented the faces consistently");
-    const std::set<Surface::Point> pinched(points.begin() + std::ptrdiff_t(n), points.end());
-    if(!pinched.empty())
-      input.warnings.push_back("the surface is pinched at " + counted(pinched.size(), "point", "points"));
-  }
-  make_triangle_mesh(path, points, polygons, mesh, input);
 
-  const Bbox_3 b = PMP::bbox(mesh);
+  const Bbox_3 b = CGAL::bbox_3(points.begin(), points.end());
   const double box = b.x_span() * b.y_span() * b.z_span();
-  remove_degenerate_faces(path, mesh, input);
-  refuse_self_intersections(path, mesh);
-  refuse_crossings_at_edges(path, mesh);
-  const Component_counts components = orient_components(mesh);
+  Component_counts components;
+  try {
+    components = make_solid(options, points, polygons, mesh, input);
+  } catch(const Surface_defect& defect) {
+    if(options.wrap_diameter == 0) {
+      input.wrap_diameter = defect.wrap_diameter;
+      refuse(path, defect.text);
+    }
+    wrap_faces(path, options.wrap_diameter, points, polygons);
+    make_mesh(points, polygons, true, mesh, input);
+    components = orient_components(mesh);
+    note_repair(defect.text + ": wrapped it, closing what is narrower than "
+                  + number_text(options.wrap_diameter),
+                input);
+  }
   input.number_of_components = components.all;
   if(components.all > 1)
     input.warnings.push_back("has " + std::to_string(components.all) + " components"
@@ -689,20 +725,24 @@ CGAL_MIXED_MESH_3_INLINE void read_sheet(const std::string& path, const Read_sur
     if(!edges.is_oriented)
       input.warnings.push_back("oriented the faces consistently");
   }
-  make_triangle_mesh(path, points, polygons, mesh, input);
+  clear(mesh);
+  PMP::polygon_soup_to_polygon_mesh(points, polygons, mesh);
+  if(!triangulate(polygons, mesh, input))
+    refuse(path, "its polygons cannot be triangulated");
   std::vector<Surface::Face_index> degenerate;
   PMP::degenerate_faces(mesh, std::back_inserter(degenerate));
   if(!degenerate.empty())
     refuse(path, "has " + counted(degenerate.size(), "degenerate face", "degenerate faces")
                    + " (three vertices on a line), the first near " + place_of(degenerate.front(), mesh));
-  refuse_self_intersections(path, mesh);
+  const std::vector<Face_pair> crossings = self_intersections(mesh);
+  if(!crossings.empty())
+    refuse(path, describe(crossings, mesh));
   input.number_of_components = PMP::connected_components(mesh,
                                                          get(CGAL::dynamic_face_property_t<std::size_t>(),
                                                              mesh));
 }
 
 } // namespace internal
-
 } // namespace IO
 } // namespace Mixed_meshes_3
 } // namespace CGAL

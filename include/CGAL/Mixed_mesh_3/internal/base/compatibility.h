@@ -16,7 +16,11 @@
 #else
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_triangle_primitive.h>
+
+#include <boost/variant/get.hpp>
 #endif
+
+#include <variant>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -26,10 +30,24 @@ namespace internal {
 /// Of an AABB tree of the triangles in a container.
 template <class Kernel, class Iterator>
 using AABB_triangle_traits = CGAL::AABB_traits_3<Kernel, CGAL::AABB_triangle_primitive_3<Kernel, Iterator>>;
+
+/// What a variant holds, if it is of that type.
+template <class T, class Variant>
+const T* alternative(const Variant& variant)
+{
+  return std::get_if<T>(&variant);
+}
 #else
 /// Of an AABB tree of the triangles in a container.
 template <class Kernel, class Iterator>
 using AABB_triangle_traits = CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Iterator>>;
+
+/// What a variant holds, if it is of that type.
+template <class T, class Variant>
+const T* alternative(const Variant& variant)
+{
+  return boost::get<T>(&variant);
+}
 #endif
 
 } // namespace internal

@@ -5,7 +5,7 @@
 //
 // The package is header-only. What has no template parameter can be compiled once instead, into the library
 // Mixed_mesh_3_compiled: users of it define CGAL_MIXED_MESH_3_COMPILED, and the headers of the definitions,
-// *_impl.h, are included by src/Mixed_mesh_3/Mixed_mesh_3.cpp only.
+// *_impl.h, are included by src/Mixed_mesh_3/*.cpp only.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_BASE_COMPILED_H
 #define CGAL_MIXED_MESH_3_INTERNAL_BASE_COMPILED_H

@@ -1,0 +1,32 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_IO_SURFACE_INPUT_H
+#define CGAL_MIXED_MESH_3_IO_SURFACE_INPUT_H
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace IO {
+
+/// What a surface file held, and what had to be mended.
+struct Surface_input
+{
+  std::size_t number_of_points = 0, number_of_polygons = 0; ///< in the file
+  std::size_t number_of_components = 0;
+  double volume = 0;                 ///< enclosed, in the cube of the unit
+  std::vector<std::string> warnings; ///< a line each, without the file's name
+  std::vector<std::string> repairs;  ///< those warnings that tell of another surface than the file has
+  double wrap_diameter = 0; ///< if not 0, the surface was refused, and can be wrapped with this diameter
+};
+
+} // namespace IO
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_IO_SURFACE_INPUT_H

@@ -1,0 +1,60 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The solid that any triangles enclose: they may cut each other, overlap, and share edges of any number.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_REPAIR_SOLID_READING_H
+#define CGAL_MIXED_MESH_3_INTERNAL_REPAIR_SOLID_READING_H
+
+#include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+#include <CGAL/Mixed_mesh_3/internal/repair/Solid_rule.h>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// The boundary of a solid: a closed manifold, oriented outwards.
+struct Solid_reading
+{
+  using Point = Predicates_kernel::Point_3;
+
+  std::vector<Point> points;
+  std::vector<std::array<std::size_t, 3>> triangles;
+  Solid_rule rule = Solid_rule::WINDING;
+  bool is_complete = true; ///< false: there are more than `most` pairs of triangles that meet, and no result
+  double inverted_volume = 0; ///< of places that triangles wind around inwards: they are not solid
+};
+
+/*!
+Returns the boundary of the solid that triangles enclose, by the first rule that can be applied.
+
+The triangles are cut where they meet, exactly; of the pieces those are taken that have solid on one side only.
+Then what was computed is rounded to double: triangles may be degenerate or cross each other by a rounding
+error. Where the solid touches itself in points and edges, each sheet has its own vertices.
+
+Source: Zhou, Grinspun, Zorin, Jacobson: Mesh arrangements for solid geometry (SIGGRAPH 2016).
+
+\param points finite
+\param triangles indices of points; those without area are passed over
+\param most number of pairs of triangles that meet, above which nothing is done
+\cost O((n + k) log(n + k)) for n triangles, k pairs of which meet
+*/
+Solid_reading read_solid(const std::vector<Solid_reading::Point>& points,
+                         const std::vector<std::array<std::size_t, 3>>& triangles,
+                         std::size_t most = 2000000);
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#ifndef CGAL_MIXED_MESH_3_COMPILED
+#include <CGAL/Mixed_mesh_3/internal/repair/Solid_reading_impl.h>
+#endif
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_REPAIR_SOLID_READING_H

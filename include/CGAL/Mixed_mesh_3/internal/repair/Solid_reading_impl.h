@@ -1,0 +1,177 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_REPAIR_SOLID_READING_IMPL_H
+#define CGAL_MIXED_MESH_3_INTERNAL_REPAIR_SOLID_READING_IMPL_H
+
+#include <CGAL/Mixed_mesh_3/internal/base/compiled.h>
+#include <CGAL/Mixed_mesh_3/internal/repair/Solid_reading.h>
+#include <CGAL/Mixed_mesh_3/internal/repair/Space_partition.h>
+#include <CGAL/Mixed_mesh_3/internal/repair/Triangle_arrangement.h>
+
+#include <CGAL/number_utils.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// A facet whose back is solid and whose front is not, or conversely.
+struct Solid_facet
+{
+  std::size_t facet;
+  bool is_outwards; // as the facet is oriented
+};
+
+/// Gives each sheet of the boundary vertices of its own, where several meet in an edge or a vertex: sheets are
+/// facets that have the same piece of solid between them, at an edge.
+class Solid_sheets
+{
+  using Triangle = std::array<std::size_t, 3>;
+  using Link = std::array<std::size_t, 2>; // two triangles at an edge
+
+  std::vector<Triangle>& m_triangles;  // of points of the arrangement; then of vertices
+  std::vector<std::size_t> m_vertices; // by corner, as in a forest of sets
+  std::vector<std::size_t> m_points;   // of vertices
+
+public:
+  Solid_sheets(std::vector<Triangle>& triangles) : m_triangles(triangles), m_vertices(3 * triangles.size())
+  {
+    std::iota(m_vertices.begin(), m_vertices.end(), std::size_t(0));
+  }
+
+  /// Triangles that follow each other around an edge: their corners there are the same.
+  void link(std::size_t s, std::size_t t, std::size_t a, std::size_t b)
+  {
+    for(std::size_t v : {a, b})
+      m_vertices[root_of_set(m_vertices, corner(s, v))] = root_of_set(m_vertices, corner(t, v));
+  }
+
+  /// Replaces points by vertices, and returns the point of each.
+  std::vector<std::size_t> make_vertices()
+  {
+    std::map<std::size_t, std::size_t> number;
+    std::vector<std::size_t> points;
+    for(std::size_t t = 0; t < m_triangles.size(); ++t)
+      for(std::size_t i = 0; i < 3; ++i) {
+        const auto [found, is_new] = number.emplace(root_of_set(m_vertices, 3 * t + i), points.size());
+        if(is_new)
+          points.push_back(m_triangles[t][i]);
+        m_triangles[t][i] = found->second;
+      }
+    return points;
+  }
+
+private:
+  std::size_t corner(std::size_t t, std::size_t v) const
+  {
+    return 3 * t
+           + std::size_t(std::find(m_triangles[t].begin(), m_triangles[t].end(), v) - m_triangles[t].begin());
+  }
+};
+
+/// Where two sheets have both vertices of an edge in common, the edge gets a vertex in its middle, for each.
+inline void separate_edges(std::vector<Solid_reading::Point>& points,
+                           std::vector<std::array<std::size_t, 3>>& triangles,
+                           std::vector<std::array<std::size_t, 4>> links) // two triangles, two vertices
+{
+  std::map<std::array<std::size_t, 2>, std::vector<std::array<std::size_t, 2>>> sheets; // by edge
+  for(const auto& [s, t, a, b] : links)
+    sheets[{(std::min)(a, b), (std::max)(a, b)}].push_back({s, t});
+  std::map<std::size_t, std::vector<std::size_t>> pieces; // of triangles that were cut
+  for(const auto& [edge, pairs] : sheets) {
+    if(pairs.size() < 2)
+      continue;
+    for(const auto& pair : pairs) {
+      const std::size_t middle = points.size();
+      points.push_back(CGAL::midpoint(points[edge[0]], points[edge[1]]));
+      for(std::size_t whole : pair) {
+        auto& of_whole = pieces[whole];
+        if(of_whole.empty())
+          of_whole.push_back(whole);
+        for(std::size_t i = 0, n = of_whole.size(); i < n; ++i) {
+          auto& t = triangles[of_whole[i]];
+          const auto a = std::find(t.begin(), t.end(), edge[0]), b = std::find(t.begin(), t.end(), edge[1]);
+          if(a == t.end() || b == t.end())
+            continue;
+          auto rest = t;
+          rest[std::size_t(a - t.begin())] = middle;
+          *b = middle;
+          of_whole.push_back(triangles.size());
+          triangles.push_back(rest);
+          break;
+        }
+      }
+    }
+  }
+}
+
+inline Solid_reading::Point rounded_point(const Triangle_arrangement::Point& p)
+{
+  CGAL::exact(p);
+  return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+}
+
+CGAL_MIXED_MESH_3_INLINE Solid_reading read_solid(const std::vector<Solid_reading::Point>& input_points,
+                                                  const std::vector<std::array<std::size_t, 3>>& input,
+                                                  std::size_t most)
+{
+  Solid_reading reading;
+  const Triangle_arrangement arrangement(input_points, input, most);
+  reading.is_complete = arrangement.is_complete();
+  if(!reading.is_complete)
+    return reading;
+  const Space_partition space(arrangement);
+  reading.rule = space.rule();
+  const auto& facets = arrangement.facets();
+  std::vector<std::size_t> triangle_of(facets.size(), std::size_t(-1));
+  std::vector<std::array<std::size_t, 3>>& triangles = reading.triangles;
+  for(std::size_t f = 0; f < facets.size(); ++f) {
+    const bool is_back_solid = space.is_solid(Space_partition::back(f));
+    if(is_back_solid == space.is_solid(Space_partition::front(f)))
+      continue;
+    triangle_of[f] = triangles.size();
+    triangles.push_back(facets[f].vertices);
+    if(!is_back_solid)
+      std::swap(triangles.back()[1], triangles.back()[2]);
+  }
+  Solid_sheets sheets(triangles);
+  std::vector<std::array<std::size_t, 4>> links;
+  space.for_each_edge([&](std::size_t a, std::size_t b, const std::vector<std::size_t>& around) {
+    std::vector<std::size_t> kept; // starts before solid, after which the next one follows
+    for(std::size_t f : around)
+      if(triangle_of[f] != std::size_t(-1))
+        kept.push_back(f);
+    for(std::size_t i = 0; i < kept.size(); ++i)
+      if(space.is_solid(space.side_after(kept[i], a, b))) {
+        const std::size_t s = triangle_of[kept[i]], t = triangle_of[kept[(i + 1) % kept.size()]];
+        sheets.link(s, t, a, b);
+        links.push_back({s, t, a, b});
+      }
+  });
+  const std::vector<std::array<std::size_t, 3>> places = triangles;
+  for(std::size_t p : sheets.make_vertices())
+    reading.points.push_back(rounded_point(arrangement.points()[p]));
+  for(auto& [s, t, a, b] : links)
+    for(std::size_t* v : {&a, &b})
+      *v = triangles[s][std::size_t(std::find(places[s].begin(), places[s].end(), *v) - places[s].begin())];
+  separate_edges(reading.points, triangles, std::move(links));
+  reading.inverted_volume = space.inverted_volume();
+  return reading;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_REPAIR_SOLID_READING_IMPL_H

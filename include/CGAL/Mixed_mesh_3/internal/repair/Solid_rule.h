@@ -1,0 +1,24 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_REPAIR_SOLID_RULE_H
+#define CGAL_MIXED_MESH_3_INTERNAL_REPAIR_SOLID_RULE_H
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// What makes a place solid.
+enum class Solid_rule {
+  WINDING, ///< triangles are oriented: they wind around it more often outwards than inwards
+  PARITY,  ///< a ray from it crosses an odd number of triangles: for those that are not oriented
+  ENCLOSED ///< no path leads out: for those with edges of an odd number of triangles, as walls have
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_REPAIR_SOLID_RULE_H

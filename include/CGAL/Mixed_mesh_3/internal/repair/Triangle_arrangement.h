@@ -1,0 +1,275 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Triangles, cut exactly where they meet.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_REPAIR_TRIANGLE_ARRANGEMENT_H
+#define CGAL_MIXED_MESH_3_INTERNAL_REPAIR_TRIANGLE_ARRANGEMENT_H
+
+#include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+#include <CGAL/Mixed_mesh_3/internal/base/compatibility.h>
+
+#include <CGAL/Box_intersection_d/Box_with_info_d.h>
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Constrained_triangulation_plus_2.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/box_intersection_d.h>
+#include <CGAL/enum.h>
+#include <CGAL/intersections.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// A piece of a triangle, or of several that overlap.
+struct Arrangement_facet
+{
+  std::array<std::size_t, 3> vertices; ///< ascending: that is its front, seen counterclockwise
+  int weight = 0;                      ///< triangles oriented so, less those oriented the other way
+  int number = 0;                      ///< of triangles
+};
+
+/*!
+Triangles that have nothing in common but vertices and edges, and cover the same points as those given.
+
+All coordinates are exact: equal points are one vertex, equal pieces one facet.
+*/
+class Triangle_arrangement
+{
+public:
+  using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+  using Point = Kernel::Point_3;
+  using Triangle = std::array<std::size_t, 3>;
+
+private:
+  using Input_point = Predicates_kernel::Point_3;
+  using Pair = std::pair<std::size_t, std::size_t>;
+  using Point_2 = Kernel::Point_2;
+  using Constrained_triangulation = CGAL::Constrained_triangulation_plus_2<
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Default, CGAL::Exact_intersections_tag>>;
+
+  std::vector<Point> m_points;
+  std::vector<Arrangement_facet> m_facets;
+  std::size_t m_number_of_meetings = 0;
+  bool m_is_complete = true;
+  std::map<Point, std::size_t> m_index;
+  std::map<Triangle, std::size_t> m_facet;
+
+  struct Too_many
+  {
+  };
+
+public:
+  /// \param most if more pairs of triangles meet, the arrangement is empty and not complete
+  Triangle_arrangement(const std::vector<Input_point>& points, const std::vector<Triangle>& input,
+                       std::size_t most)
+  {
+    std::map<Input_point, std::size_t> place; // the first point there
+    std::vector<std::size_t> first(points.size());
+    for(std::size_t v = 0; v < points.size(); ++v)
+      first[v] = place.emplace(points[v], v).first->second;
+    std::vector<Triangle> triangles;
+    for(const Triangle& t : input) {
+      const Triangle u{first[t[0]], first[t[1]], first[t[2]]};
+      if(!CGAL::collinear(points[u[0]], points[u[1]], points[u[2]]))
+        triangles.push_back(u);
+    }
+    std::vector<Pair> pairs;
+    try {
+      pairs = meetings(points, triangles, most);
+    } catch(const Too_many&) {
+      m_is_complete = false;
+      return;
+    }
+    m_number_of_meetings = pairs.size();
+    std::vector<std::vector<std::size_t>> met(triangles.size());
+    for(const auto& [s, t] : pairs) {
+      met[s].push_back(t);
+      met[t].push_back(s);
+    }
+    std::vector<std::size_t> index(points.size(), std::size_t(-1));
+    for(const Triangle& t : triangles)
+      for(std::size_t v : t)
+        if(index[v] == std::size_t(-1)) {
+          index[v] = m_points.size();
+          m_points.emplace_back(points[v].x(), points[v].y(), points[v].z());
+        }
+    // only places that may be met again
+    for(std::size_t t = 0; t < triangles.size(); ++t)
+      if(!met[t].empty())
+        for(std::size_t v : triangles[t])
+          m_index.emplace(m_points[index[v]], index[v]);
+    for(Triangle& t : triangles)
+      t = {index[t[0]], index[t[1]], index[t[2]]};
+    for(std::size_t t = 0; t < triangles.size(); ++t)
+      if(met[t].empty())
+        add(triangles[t]);
+      else
+        cut(t, met[t], triangles);
+  }
+
+  bool is_complete() const { return m_is_complete; }
+  /// Pairs of triangles that meet in more than vertices and edges that both have.
+  std::size_t number_of_meetings() const { return m_number_of_meetings; }
+  const std::vector<Point>& points() const { return m_points; }
+  const std::vector<Arrangement_facet>& facets() const { return m_facets; }
+
+private:
+  static std::vector<Pair> meetings(const std::vector<Input_point>& points,
+                                    const std::vector<Triangle>& triangles, std::size_t most)
+  {
+    using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
+    std::vector<Box> boxes;
+    for(std::size_t t = 0; t < triangles.size(); ++t)
+      boxes.emplace_back(points[triangles[t][0]].bbox() + points[triangles[t][1]].bbox()
+                           + points[triangles[t][2]].bbox(),
+                         t);
+    std::vector<Pair> pairs;
+    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+      if(!do_meet(triangles[a.info()], triangles[b.info()], points))
+        return;
+      pairs.push_back(std::minmax(a.info(), b.info()));
+      if(pairs.size() > most)
+        throw Too_many();
+    });
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  }
+
+  // Whether triangles meet in more than the vertices and edges that both have.
+  static bool do_meet(const Triangle& s, const Triangle& t, const std::vector<Input_point>& points)
+  {
+    const auto turned = [](Triangle a, const Triangle& b) { // what is shared comes first
+      std::stable_partition(a.begin(), a.end(),
+                            [&](std::size_t v) { return std::count(b.begin(), b.end(), v) > 0; });
+      return a;
+    };
+    const Triangle a = turned(s, t), b = turned(t, s);
+    const auto triangle = [&](const Triangle& v) {
+      return Predicates_kernel::Triangle_3(points[v[0]], points[v[1]], points[v[2]]);
+    };
+    const auto opposite = [&](const Triangle& v) {
+      return Predicates_kernel::Segment_3(points[v[1]], points[v[2]]);
+    };
+    switch(
+      std::count_if(s.begin(), s.end(), [&](std::size_t v) { return std::count(t.begin(), t.end(), v); })) {
+    case 0: return CGAL::do_intersect(triangle(s), triangle(t));
+    case 1:
+      return CGAL::do_intersect(opposite(a), triangle(t)) || CGAL::do_intersect(opposite(b), triangle(s));
+    case 2: // folded flat
+      return CGAL::coplanar(points[a[0]], points[a[1]], points[a[2]], points[b[2]])
+             && CGAL::coplanar_orientation(points[a[0]], points[a[1]], points[a[2]], points[b[2]])
+                  == POSITIVE;
+    default: return false; // the same: one facet
+    }
+  }
+
+  std::size_t index_of(const Point& p)
+  {
+    const auto [found, is_new] = m_index.emplace(p, m_points.size());
+    if(is_new)
+      m_points.push_back(p);
+    return found->second;
+  }
+
+  void add(const Triangle& t)
+  {
+    Triangle key = t;
+    std::sort(key.begin(), key.end());
+    const auto [found, is_new] = m_facet.emplace(key, m_facets.size());
+    if(is_new)
+      m_facets.push_back({key});
+    const std::size_t smallest = std::size_t(std::min_element(t.begin(), t.end()) - t.begin());
+    Arrangement_facet& facet = m_facets[found->second];
+    facet.weight += t[(smallest + 1) % 3] < t[(smallest + 2) % 3] ? 1 : -1;
+    ++facet.number;
+  }
+
+  // Triangulates a triangle such that the edges have all of its points that others have.
+  void cut(std::size_t number, const std::vector<std::size_t>& met, const std::vector<Triangle>& triangles)
+  {
+    const Triangle t = triangles[number];
+    const std::array<Point, 3> p{m_points[t[0]], m_points[t[1]], m_points[t[2]]};
+    const Kernel::Vector_3 normal = CGAL::cross_product(p[1] - p[0], p[2] - p[0]);
+    // seen along the axis that is most upright, counterclockwise
+    int axis = 0;
+    for(int k = 1; k < 3; ++k)
+      if(std::abs(CGAL::to_double(normal[k])) > std::abs(CGAL::to_double(normal[axis])))
+        axis = k;
+    if(CGAL::is_zero(normal[axis]))
+      axis = !CGAL::is_zero(normal[0]) ? 0 : !CGAL::is_zero(normal[1]) ? 1 : 2;
+    int first = (axis + 1) % 3, second = (axis + 2) % 3;
+    if(CGAL::is_negative(normal[axis]))
+      std::swap(first, second);
+    const auto flat = [&](const Point& q) { return Point_2(q[first], q[second]); };
+
+    Constrained_triangulation cdt;
+    std::map<Point_2, Point> lifted;
+    const auto insert = [&](const Point& q) { lifted.emplace(flat(q), q); };
+    const auto constrain = [&](const Point& a, const Point& b) {
+      insert(a);
+      insert(b);
+      cdt.insert_constraint(flat(a), flat(b));
+    };
+    for(int i = 0; i < 3; ++i)
+      constrain(p[i], p[(i + 1) % 3]);
+    const Kernel::Triangle_3 self(p[0], p[1], p[2]);
+    for(std::size_t other : met) {
+      const Triangle& o = triangles[other];
+      const auto common = CGAL::intersection(
+        // in the same order for both: the same construction, the same point
+        number < other ? self : Kernel::Triangle_3(m_points[o[0]], m_points[o[1]], m_points[o[2]]),
+        number < other ? Kernel::Triangle_3(m_points[o[0]], m_points[o[1]], m_points[o[2]]) : self);
+      if(!common)
+        continue;
+      if(const Point* q = alternative<Point>(*common)) {
+        insert(*q);
+        cdt.insert(flat(*q));
+      } else if(const auto* s = alternative<Kernel::Segment_3>(*common)) {
+        constrain(s->source(), s->target());
+      } else if(const auto* u = alternative<Kernel::Triangle_3>(*common)) {
+        for(int i = 0; i < 3; ++i)
+          constrain(u->vertex(i), u->vertex(i + 1));
+      } else if(const auto* polygon = alternative<std::vector<Point>>(*common)) {
+        for(std::size_t i = 0; i < polygon->size(); ++i)
+          constrain((*polygon)[i], (*polygon)[(i + 1) % polygon->size()]);
+      }
+    }
+    const auto index = [&](const Point_2& q) {
+      const auto found = lifted.find(q);
+      if(found != lifted.end())
+        return index_of(found->second);
+      // where constraints cross
+      const Kernel::FT height = p[0][axis]
+                                - (normal[first] * (q.x() - p[0][first])
+                                   + normal[second] * (q.y() - p[0][second]))
+                                    / normal[axis];
+      std::array<Kernel::FT, 3> x;
+      x[std::size_t(first)] = q.x();
+      x[std::size_t(second)] = q.y();
+      x[std::size_t(axis)] = height;
+      return index_of(Point(x[0], x[1], x[2]));
+    };
+    std::map<Constrained_triangulation::Vertex_handle, std::size_t> indices;
+    for(auto v = cdt.finite_vertices_begin(); v != cdt.finite_vertices_end(); ++v)
+      indices[v] = index(v->point());
+    for(auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f)
+      add({indices[f->vertex(0)], indices[f->vertex(1)], indices[f->vertex(2)]});
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_REPAIR_TRIANGLE_ARRANGEMENT_H

@@ -1,0 +1,38 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A closed surface around any triangles.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_REPAIR_WRAP_H
+#define CGAL_MIXED_MESH_3_INTERNAL_REPAIR_WRAP_H
+
+#include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/*!
+Returns triangles that wrap others: closed, manifold, without self-intersections, oriented outwards. What a ball
+of that diameter does not get into is solid.
+
+\cost as that of `CGAL::alpha_wrap_3()`
+*/
+void wrap(double diameter, std::vector<Predicates_kernel::Point_3>& points,
+          std::vector<std::array<std::size_t, 3>>& triangles);
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#ifndef CGAL_MIXED_MESH_3_COMPILED
+#include <CGAL/Mixed_mesh_3/internal/repair/wrap_impl.h>
+#endif
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_REPAIR_WRAP_H

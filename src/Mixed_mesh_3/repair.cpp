@@ -1,0 +1,14 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The library Mixed_mesh_3_compiled: repair of surfaces.
+
+#include <CGAL/Mixed_mesh_3/internal/repair/Solid_reading_impl.h>
+#include <CGAL/Mixed_mesh_3/internal/repair/fill_holes_impl.h>
+#include <CGAL/Mixed_mesh_3/internal/repair/wrap_impl.h>
+
+#ifndef CGAL_MIXED_MESH_3_COMPILED
+#error "build this file with CGAL_MIXED_MESH_3_COMPILED defined"
+#endif
