@@ -45,7 +45,8 @@ std::string kind_of(const std::string& file)
 {
   Points points;
   Polygons polygons;
-  if(!CGAL::IO::read_polygon_soup(file, points, polygons, CGAL::parameters::verbose(false)) || polygons.empty())
+  if(!CGAL::IO::read_polygon_soup(file, points, polygons, CGAL::parameters::verbose(false))
+     || polygons.empty())
     return "unreadable";
   Surface surface;
   if(!is_closed_manifold(points, polygons, surface)) { // STL has points once for each triangle

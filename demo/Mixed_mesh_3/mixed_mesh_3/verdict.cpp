@@ -49,8 +49,8 @@ std::string needed_for_thin_parts(const CGAL::Mixed_mesh_result_3& result, const
   if(n <= o.vertices)
     return {};
   const double unit = std::pow(10, std::floor(std::log10(double(n))) - 1); // two digits
-  return "its thin walls and narrow gaps take about " + std::to_string(std::size_t(std::ceil(double(n) / unit) * unit))
-         + " vertices";
+  return "its thin walls and narrow gaps take about "
+         + std::to_string(std::size_t(std::ceil(double(n) / unit) * unit)) + " vertices";
 }
 
 std::string after_semicolon(const std::string& text) { return text.empty() ? text : "; " + text; }

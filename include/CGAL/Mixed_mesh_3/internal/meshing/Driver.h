@@ -62,7 +62,8 @@ class Driver
 
   // Cells for a wall, times what should suffice: lucky ones take less. And where they shall have volume, too:
   // tubes of two cells lose an eighth of it.
-  static constexpr std::array<double, 4> strictnesses{0.7, 1, 1.4, 2}, strictnesses_for_volume{2, 1.4, 1, 0.7};
+  static constexpr std::array<double, 4> strictnesses{0.7, 1, 1.4, 2},
+    strictnesses_for_volume{2, 1.4, 1, 0.7};
 
 public:
   Driver(const Domain& domain, const Region& region, const Mixed_mesh_criteria_3& criteria,

@@ -68,7 +68,8 @@ public:
       m_topology = difference(counts.number_of_shells, expected->number_of_shells)
                    + difference(counts.euler_characteristic, expected->euler_characteristic);
       if(is_fitted)
-        m_volume = (std::max)(0., std::abs(Mixed_meshes_3::volume(mesh) / domain.volume() - 1) - tolerated_volume);
+        m_volume = (std::max)(0., std::abs(Mixed_meshes_3::volume(mesh) / domain.volume() - 1)
+                                    - tolerated_volume);
     }
   }
 

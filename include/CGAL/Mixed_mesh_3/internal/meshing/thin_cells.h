@@ -112,9 +112,8 @@ private:
   // Whether a line of some length leads to a side.
   bool is_reached(const Vec3& q, const Vec3& direction, double length, Bounded_side side) const
   {
-    return std::any_of(std::begin(shares_of_line), std::end(shares_of_line), [&](double share) {
-      return side_of(q + share * length * direction) == side;
-    });
+    return std::any_of(std::begin(shares_of_line), std::end(shares_of_line),
+                       [&](double share) { return side_of(q + share * length * direction) == side; });
   }
 
   Bounded_side side_of(const Vec3& p) const
@@ -171,8 +170,8 @@ template <class Octree_, class Count>
 Thin_cell_splits split_thin_cells(Octree_& octree, double strictness, std::size_t budget,
                                   const Count& number_of_vertices)
 {
-  constexpr double cells_for_a_vertex = 4;  // at most, nearly: more are not meshed in vain
-  constexpr double cells_of_estimate = 16;  // times the budget
+  constexpr double cells_for_a_vertex = 4;   // at most, nearly: more are not meshed in vain
+  constexpr double cells_of_estimate = 16;   // times the budget
   constexpr double vertices_of_a_cell = 1.4; // at the surface
   Thin_cell_splits result;
   Octree_ trial = octree;
