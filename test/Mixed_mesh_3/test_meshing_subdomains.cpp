@@ -326,6 +326,42 @@ void test_interfaces()
   BOOST_TEST_EQ((found.at({1, 2}).number_of_bad_vertices), 1u);
 }
 
+// Before it is fitted, an interface between subdomains has vertices on both sides of its surface, those inside
+// next to it; what is thin has elements nevertheless. The boundary is outside.
+void test_both_sides()
+{
+  Domain domain;
+  domain.add(sphere(Point_3(0, 0, 0), 0.4, 16), 1);
+  domain.add(sphere(Point_3(0, 0, 0), 1, 16), 2);
+  Mesh mesh;
+  run(domain, CGAL::Everywhere_mixed_mesh_region_3(), Mixed_mesh_criteria_3(2000).fit_to_surface(false),
+      mesh);
+  const std::vector<Subdomain_interface> interfaces = find_interfaces(mesh);
+  BOOST_TEST_EQ(interfaces.size(), 2u);
+  for(const Subdomain_interface& one : interfaces) {
+    double longest = 0, deepest = 0;
+    for(const Face& f : one.faces)
+      for(int i = 0; i < f.vertices().size(); ++i)
+        longest = (std::max)(longest, std::sqrt(CGAL::squared_distance(
+                                        mesh.point(f.vertices()[i]),
+                                        mesh.point(f.vertices()[(i + 1) % f.vertices().size()]))));
+    std::size_t inside = 0, outside = 0;
+    for(Vertex_index v : vertices_of(one.faces)) {
+      const double depth = (one.second == 0 ? 1 : 0.4)
+                           - std::sqrt(CGAL::squared_distance(Point_3(0, 0, 0), mesh.point(v)));
+      deepest = (std::max)(deepest, depth);
+      ++(depth > 0 ? inside : outside);
+    }
+    BOOST_TEST_GT(outside, 20u);
+    if(one.second == 0) {
+      BOOST_TEST_LT(deepest, 0.02); // the polyhedron is inside of the ball
+    } else {
+      BOOST_TEST_GT(inside, 10u);
+      BOOST_TEST_LT(deepest, 0.3 * longest + 0.02);
+    }
+  }
+}
+
 } // namespace
 
 int main()
@@ -336,5 +372,6 @@ int main()
   test_nested();
   test_junction();
   test_any();
+  test_both_sides();
   return boost::report_errors();
 }

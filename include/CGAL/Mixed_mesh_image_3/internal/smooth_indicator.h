@@ -27,7 +27,39 @@ struct Indicator
   std::array<std::size_t, 3> size{};
   std::vector<float> values; // the first index runs fastest; none if no voxel has the label
   float level = 0.5f;        // as many values are above it as voxels have the label, but for equal ones
+  std::size_t step = 1;      // of the box, in voxels of the image
 };
+
+/// How many edges of the grid cross the level.
+inline std::size_t number_of_crossings(const Indicator& indicator)
+{
+  const std::size_t strides[] = {1, indicator.size[0], indicator.size[0] * indicator.size[1]};
+  std::size_t sum = 0;
+  for(std::size_t i = 0; i < indicator.values.size(); ++i)
+    for(int axis = 0; axis < 3; ++axis) // beyond a border, there are zeros as on it
+      sum += i + strides[axis] < indicator.values.size()
+             && (indicator.values[i] > indicator.level)
+                  != (indicator.values[i + strides[axis]] > indicator.level);
+  return sum;
+}
+
+/// Every second value along each axis.
+inline Indicator every_second(const Indicator& fine)
+{
+  Indicator coarse{fine.first, {}, {}, fine.level, 2 * fine.step};
+  std::size_t number = 1;
+  for(int i = 0; i < 3; ++i) {
+    coarse.size[i] = (fine.size[i] + 1) / 2 + 1; // the last one is beyond
+    number *= coarse.size[i];
+  }
+  coarse.values.assign(number, 0.f);
+  for(std::size_t k = 0; 2 * k < fine.size[2]; ++k)
+    for(std::size_t j = 0; 2 * j < fine.size[1]; ++j)
+      for(std::size_t i = 0; 2 * i < fine.size[0]; ++i)
+        coarse.values[i + coarse.size[0] * (j + coarse.size[1] * k)] =
+          fine.values[2 * i + fine.size[0] * (2 * j + fine.size[1] * 2 * k)];
+  return coarse;
+}
 
 /// Half of the kernel of a Gaussian, from the middle on; its sum over both sides is 1.
 inline std::vector<float> gaussian_kernel(double deviation)

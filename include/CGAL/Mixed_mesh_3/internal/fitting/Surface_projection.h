@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -19,6 +21,7 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /// Points of the surfaces of a domain near given ones: the closest ones, where a stratum is on one interface.
+/// Not for several threads at once.
 template <class Domain>
 class Surface_projection
 {
@@ -27,6 +30,9 @@ class Surface_projection
   const Domain* m_domain;
   const Strata* m_strata;
   const Sharp_features* m_features = nullptr;
+  // On the surface of each interface, by its first subdomain and whether it is to the outside, what was found
+  // last: one query is near to the one before, mostly. Of several subdomains.
+  mutable std::map<std::pair<Subdomain_index, bool>, Vec3> m_last;
 
   static constexpr int maximal_number_of_cycles = 20;
   static constexpr double accuracy = 1e-9;      // in diagonals of the domain
@@ -101,7 +107,13 @@ private:
     if constexpr(Is_domain_with_sheets<Domain>::value)
       if(i.is_sheet())
         return closest_of_sheets([&](const auto& sheet) { return sheet.closest_point(point(p)); }, p);
-    return to_vec3(m_domain->closest_point(point(p), i.first, i.second));
+    if(m_domain->subdomain_indices().size() == 1)
+      return to_vec3(m_domain->closest_point(point(p), i.first, i.second));
+    const auto [last, is_first] = m_last.try_emplace({i.first, i.second == 0});
+    last->second = to_vec3(is_first
+                             ? m_domain->closest_point(point(p), i.first, i.second)
+                             : m_domain->closest_point(point(p), point(last->second), i.first, i.second));
+    return last->second;
   }
 
   Vec3 closest(const Vec3& p, const Vec3& hint, const Interface& i) const
