@@ -74,7 +74,7 @@ def measure(program, file, vertices, timeout, report):
                     "vertices off": r["surface"]["boundary vertices not on surface"],
                     "cells lost": r["octree"]["cells lost"], "ARC": r["quality"]["ARC"]["all"]["max"]
                     if "ARC" in r["quality"] and "all" in r["quality"]["ARC"] else None,
-                    "differences": [d.get("sentence", "") for d in r["topology"]["differences"]]})
+                    "differences": [d["text"] for d in r["topology"]["differences"]]})
     return row
 
 

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -58,7 +59,7 @@ public:
     : m_number_of_lost_cells(number_of_lost_cells), m_number_off(number_off)
   {
     if constexpr(Has_shells<Domain>::value) {
-      const auto expected = domain.shells();
+      const std::optional<Shell_counts> expected = domain.shells();
       if(!expected)
         return;
       std::vector<Face_vertices> polygons;
