@@ -164,9 +164,10 @@ public:
   }
   unsigned number_of_threads() const { return m_number_of_threads; }
 
-  /// Whether thin walls and narrow gaps are resolved before the region, as far as the budget goes. Default: if
-  /// a mesh without that turns out to have other bodies, handles or cavities than the surface, to have lost
-  /// parts of it, or, fitted, more than 5 % of its volume. That takes a second run; the better mesh is taken.
+  /// Whether thin walls and narrow gaps are resolved before the region, as far as the budget goes. Default:
+  /// if a mesh without that turns out to have other bodies, handles or cavities than the surface, to have
+  /// lost parts of it, or, fitted, to have a volume more than 5 % off. That takes a second run; the better
+  /// mesh is taken.
   Mixed_mesh_criteria_3& thin_parts(Mixed_meshes_3::Thin_parts choice)
   {
     m_thin_parts = choice;

@@ -3,7 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Walls and gaps that are thinner than the cells of a budget spent evenly: wrong without, right with them first.
+// Walls and gaps that are thinner than the cells of a budget spent evenly: wrong without, right with them
+// first.
 
 #include "test_meshing.h"
 

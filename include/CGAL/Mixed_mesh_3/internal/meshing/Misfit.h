@@ -33,8 +33,8 @@ struct Has_shells<Domain, std::void_t<decltype(std::declval<const Domain&>().she
 {
 };
 
-/// How a mesh differs from its domain, in what can be told at once: not by much if numbers are equal, and surely
-/// if they are not. `compare_with_surface()` tells all.
+/// How a mesh differs from its domain, in what can be told at once: not by much if numbers are equal, and
+/// surely if they are not. `compare_with_surface()` tells all.
 class Misfit
 {
   bool m_is_mesh = true;

@@ -25,13 +25,14 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-Tells whether two sheets of the surface are too near to each other for a cell: from the point of the surface that
-is nearest to a point of the cell, a line at right angles to it leads to the other side of the surface soon.
+Tells whether two sheets of the surface are too near to each other for a cell: from the point of the surface
+that is nearest to a point of the cell, a line at right angles to it leads to the other side of the surface
+soon.
 
-A wall needs an octree vertex inside, everywhere: along the axis that is most at right angles to it, vertices are
-at a distance of the side of a cell, and so thick it has to be. A gap needs two layers of vertices that are not
-inside, one for each of its sheets, but may take them from the solid: vertices that are not deep are not labeled
-inside there. Boundary vertices begin a little inside then, and are carried outwards.
+A wall needs an octree vertex inside, everywhere: along the axis that is most at right angles to it, vertices
+are at a distance of the side of a cell, and so thick it has to be. A gap needs two layers of vertices that
+are not inside, one for each of its sheets, but may take them from the solid: vertices that are not deep are
+not labeled inside there. Boundary vertices begin a little inside then, and are carried outwards.
 */
 template <class Octree_>
 class Thin_cell_finder
