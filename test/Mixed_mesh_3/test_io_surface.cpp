@@ -89,6 +89,24 @@ void refuses(const std::string& name, const std::string& contents, const std::st
   BOOST_TEST(std::none_of(r.error.begin(), r.error.end(), [](char c) { return c >= 0 && c < ' '; }));
 }
 
+// Read as another surface of that volume, with a line that names the defect; or refused, if that is wanted.
+void is_repaired(const std::string& name, const std::string& contents, const std::string& words,
+                 double volume)
+{
+  const Result r = read(name, contents);
+  BOOST_TEST(r.is_read);
+  if(!r.is_read)
+    std::cerr << r.error << '\n';
+  BOOST_TEST(!r.input.repairs.empty() && has_warning(r, r.input.repairs.front()));
+  BOOST_TEST(CGAL::is_closed(r.surface));
+  BOOST_TEST_LE(std::abs(r.input.volume - volume), 1e-13);
+  IO::Read_surface_options strict;
+  strict.is_strict = true;
+  const Result refused = read(name, contents, strict);
+  BOOST_TEST(!refused.is_read);
+  BOOST_TEST(mentions(refused.error, words));
+}
+
 // ---- the unit cube -----------------------------------------------------------------------------
 
 const std::string cube_points = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n";
@@ -522,13 +540,13 @@ void test_touching_bodies()
   BOOST_TEST_LE(std::abs(four.input.volume - 4), 1e-15);
 
   // A face in common, and three faces at an edge.
-  refuses("stacked.off", off(cube_points + moved_points(0, 0, 1), triangle_lines() + triangle_lines(8)),
-          "intersects itself");
-  refuses("fin.off", off(cube_points + "2 2 2\n", triangle_lines() + "3 0 1 8\n"), "not closed");
-  refuses("three.off",
-          off(cube_points + moved_points(5, 0, 0) + "0.5 -3 0\n",
-              triangle_lines() + triangle_lines(8) + "3 0 1 16\n3 0 16 1\n"),
-          "");
+  is_repaired("stacked.off", off(cube_points + moved_points(0, 0, 1), triangle_lines() + triangle_lines(8)),
+              "intersects itself", 2);
+  is_repaired("fin.off", off(cube_points + "1.5 1.5 1.5\n", triangle_lines() + "3 0 1 8\n"), "not closed", 1);
+  is_repaired("three.off",
+              off(cube_points + moved_points(5, 0, 0) + "0.5 -3 0\n",
+                  triangle_lines() + triangle_lines(8) + "3 0 1 16\n3 0 16 1\n"),
+              "not closed", 2);
 
   // Pairs of cones over the same square: one beside the other, and one through the other along the square.
   for(double lowest : {1.5, 0.5}) {
@@ -541,12 +559,13 @@ void test_touching_bodies()
               << ' ' << first + 4 << ' ' << first + (i + 1) % 4 << '\n';
       first += 6;
     }
-    const Result r = read("cones.off", off(points.str(), faces.str()));
-    BOOST_TEST_EQ(r.is_read, lowest == 1.5);
-    if(r.is_read)
+    if(lowest == 1.5) {
+      const Result r = read("cones.off", off(points.str(), faces.str()));
+      BOOST_TEST(r.is_read && r.input.repairs.empty());
       BOOST_TEST_LE(std::abs(r.input.volume - 2. / 3 * (2 + 0.5)), 1e-14);
-    else
-      BOOST_TEST(mentions(r.error, "crosses itself along an edge near ("));
+    } else {
+      is_repaired("cones.off", off(points.str(), faces.str()), "crosses itself along an edge near (", 2);
+    }
   }
 
   // Half of the points twice: closed only when merged.
@@ -574,6 +593,46 @@ void test_touching_bodies()
                                               triangle_lines() + triangle_lines(8) + triangle_lines(16)));
   BOOST_TEST(has_warning(three, "has 3 components, 1 of them inside another: a cavity"));
   BOOST_TEST_LE(std::abs(three.input.volume - (2 - 0.125)), 1e-15);
+}
+
+void test_holes_and_wraps()
+{
+  const std::string lines = triangle_lines();
+  const auto without = [&lines](int faces) { // each line "3 a b c", of eight characters
+    return off(cube_points, lines.substr(std::size_t(8 * faces)));
+  };
+  is_repaired("hole.off", without(1), "not closed: 3 border edges", 1);
+  is_repaired("hole.off", without(2), "not closed: 4 border edges", 1);
+  const Result filled = read("hole.off", without(2));
+  BOOST_TEST(has_warning(filled, "filled 1 hole, the largest of length 4 near ("));
+  // too large; a wrap of the width that is told is a solid, and contains the cube's half
+  const Result large = read("large_hole.off", without(6));
+  BOOST_TEST(!large.is_read && mentions(large.error, "too large to be filled"));
+  BOOST_TEST_GT(large.input.wrap_diameter, 1);
+  IO::Read_surface_options options;
+  options.wrap_diameter = large.input.wrap_diameter;
+  const Result wrapped = read("large_hole.off", without(6), options);
+  BOOST_TEST(wrapped.is_read && has_warning(wrapped, "wrapped it"));
+  BOOST_TEST_GT(wrapped.input.volume, 0.2);
+  BOOST_TEST_EQ(wrapped.input.repairs.size(), 1u);
+  // what is closed is not wrapped
+  is_cube(read("cube.off", off(), options));
+  BOOST_TEST(read("cube.off", off(), options).input.repairs.empty());
+
+  // the same after scaling and shifting: no length is absolute
+  for(double scale : {1e-6, 1e6, 1e12})
+    for(double shift : {0., 1e3, 1e6}) {
+      std::ostringstream points;
+      points.precision(17);
+      for(double d : {0., 0.5})
+        for(int v = 0; v < 8; ++v)
+          for(int k = 0; k < 3; ++k)
+            points << scale * (cube_coordinate(v, k) + d + shift) << (k == 2 ? '\n' : ' ');
+      const Result r = read("scaled.off", off(points.str(), lines.substr(8) + triangle_lines(8)));
+      BOOST_TEST(r.is_read);
+      BOOST_TEST_EQ(r.input.repairs.size(), 2u);
+      BOOST_TEST_LE(std::abs(r.input.volume / std::pow(scale, 3) - 1.875), 1e-15 * (1 + shift) * 20);
+    }
 }
 
 void test_flat_and_tiny()
@@ -693,6 +752,7 @@ int main(int argc, char** argv)
   test_gifti();
   test_space();
   test_touching_bodies();
+  test_holes_and_wraps();
   test_flat_and_tiny();
   test_names();
   for(const char* name :

@@ -669,7 +669,7 @@ class BrainShift(unittest.TestCase):
         far = self.file("far.off", cube_off((500, 0, 0), 10))
         self.fails(*arguments, "--opening", far, names=far, words="has its center inside")
         self.fails(*arguments, "--fixed", WORK / "none.off", names="none.off", words="No such file")
-        opened = self.file("opened.off", cube_off((28, 18, 28), 20, TRIANGLES[:-1]))
+        opened = self.file("opened.off", cube_off((28, 18, 28), 20, TRIANGLES[:4]))
         self.fails(*arguments, "--slide", opened, names=opened, words="not closed")
 
     def test_harmless_points(self):
@@ -877,7 +877,7 @@ class BrainShift(unittest.TestCase):
                 ("outside.off", cube_off((200, 200, 200), 5), "nothing removed: no element is inside"),
                 ("tiny.off", cube_off((28, 18, 28), 1e-3), "nothing removed: no element is inside"),
                 ("all.off", cube_off((0, 0, 0), 1000), "everything removed: no element is left"),
-                ("open.off", cube_off((28, 18, 28), 20, TRIANGLES[:-1]), "not closed: 3 border edges"),
+                ("open.off", cube_off((28, 18, 28), 20, TRIANGLES[:4]), "not closed: 8 border edges"),
                 ("empty.off", "", "is empty"),
                 ("tumor.txt", cube_off((28, 18, 28), 20), "unknown format")):
             with self.subTest(name):

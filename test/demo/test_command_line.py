@@ -72,27 +72,35 @@ BAD_SURFACES = [
     ("index_too_large.off", off(CUBE, TRIANGLES[:-1] + [(1, 7, 99)]), ""),
     ("index_negative.off", off(CUBE, TRIANGLES[:-1] + [(1, 7, -1)]), ""),
     ("face_of_two_vertices.off", off(CUBE, TRIANGLES[:-1] + [(1, 7)]), "fewer than three"),
-    ("open.off", off(CUBE, TRIANGLES[:-1]), "3 border edges"),
-    ("edge_of_three_faces.off", off(CUBE + [(0.5, -1, 0.5)], TRIANGLES + [(0, 1, 8), (0, 8, 5), (1, 8, 5)]),
-     "more than two faces"),
-    ("not_orientable.off", off([(0, 0, 3), (1, 0, 0), (0.3, 1, 0.2), (-0.8, 0.6, 0), (-0.8, -0.6, 0.4),
-                                (0.3, -1, 0)], PROJECTIVE_PLANE), "orient"),
+    ("open.off", off(CUBE, TRIANGLES[:4]), "8 border edges, and 2 holes too large to be filled"),
     ("flat.off", off(CUBE, TRIANGLES).replace(" 1\n", " 0\n"), "is flat"),
     ("zero_volume.off", off([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
                             [(0, 1, 2), (0, 2, 1)]), ""),
     ("large_coordinates.off", off(moved(CUBE, 1e200), TRIANGLES), "overflow"),
     ("small_coordinates.off", off(moved(CUBE, 1e-200), TRIANGLES), "underflow"),
     ("far_away.off", off(moved(CUBE, 1e-6, (1e8, 0, 0)), TRIANGLES), ""),
-    ("self_intersecting.off", off(CUBE + moved(CUBE, 1, (0.5, 0.4, 0.3)),
-                                  TRIANGLES + shifted(TRIANGLES, 8)), "of faces, for example near ("),
-    # a corner in common, but the second cube goes into the first
-    ("pinched_and_crossing.off", off(CUBE + [(1 - (5 * x + 2 * y + 3 * z) / 10, 1 - (3 * x + 5 * y + 4 * z) / 10,
-                                              1 - (2 * x + 3 * y + 20 * z) / 10) for x, y, z in CUBE][1:],
-                                     PINCHED_TRIANGLES), "intersects itself"),
     ("unknown_format.xyz", CUBE_OFF, "unknown format"),
     ("cut.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0", ""),
     ("cut.ply", "ply\nformat ascii 1.0\nelement vertex 8\nproperty double x\n", ""),
     ("empty.obj", "", ""),
+]
+
+# name, contents, words of the refusal and of the repair, volume that is enclosed if that is known
+REPAIRED_SURFACES = [
+    ("hole.off", off(CUBE, TRIANGLES[:-1]), "not closed: 3 border edges", "filled 1 hole", 1),
+    ("tent.off", off(CUBE + [(0.5, -1, 0.5)], TRIANGLES + [(0, 1, 8), (0, 8, 5), (1, 8, 5)]),
+     "more than two faces", "read as the solid", 1 + 1 / 6),
+    ("not_orientable.off", off([(0, 0, 3), (1, 0, 0), (0.3, 1, 0.2), (-0.8, 0.6, 0), (-0.8, -0.6, 0.4),
+                                (0.3, -1, 0)], PROJECTIVE_PLANE), "cannot be oriented", "read as the solid", None),
+    ("fin.off", off(CUBE + [(0.5, -0.5, -0.5)], TRIANGLES + [(0, 1, 8)]), "not closed", "1 face that stands out", 1),
+    ("cut.off", off(CUBE + moved(CUBE, 1, (0.5, 0.4, 0.3)), TRIANGLES + shifted(TRIANGLES, 8)),
+     "of faces, for example near (", "read as the solid", 2 - 0.5 * 0.6 * 0.7),
+    ("face_to_face.off", off(CUBE + moved(CUBE, 1, (1, 0, 0)), TRIANGLES + shifted(TRIANGLES, 8)),
+     "of faces, for example near (", "read as the solid", 2),
+    # a corner in common, but the second cube goes into the first
+    ("pinched_and_crossing.off", off(CUBE + [(1 - (5 * x + 2 * y + 3 * z) / 10, 1 - (3 * x + 5 * y + 4 * z) / 10,
+                                              1 - (2 * x + 3 * y + 20 * z) / 10) for x, y, z in CUBE][1:],
+                                     PINCHED_TRIANGLES), "intersects itself", "read as the solid", None),
 ]
 
 # name, contents, words of the warning
@@ -148,6 +156,7 @@ class CommandLine(unittest.TestCase):
         self.assertIn(words, run.stderr)
         self.assertEqual(run.stdout, "")
         self.assertEqual(sorted(WORK.iterdir()), before)
+        return run
 
     def test_bad_surfaces(self):
         for name, contents, words in BAD_SURFACES:
@@ -380,6 +389,46 @@ class CommandLine(unittest.TestCase):
         self.fails(self.file("aseg.mgz", "x"), "--labels", "1", "--vertices", 500, names="aseg.mgz",
                    words="mri_convert", status=2)
         self.fails(self.file("surface.xyz", "x"), "--vertices", 500, names="surface.xyz", words="convert it")
+
+    def test_repaired_surfaces(self):
+        for name, contents, defect, repair, volume in REPAIRED_SURFACES:
+            with self.subTest(name):
+                path = self.file(name, contents)
+                self.fails(path, "--vertices", 500, "--strict", names=path, words=defect)
+                report = WORK / "report.json"
+                run = self.mesher(path, "--vertices", 500, "--report", report)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                told = json.loads(report.read_text())
+                self.assertEqual(len(told["inputs"]["surface"]["repairs"]), 1)
+                self.assertIn(repair, told["inputs"]["surface"]["repairs"][0])
+                self.assertIn(f"warning: {path}: " + told["inputs"]["surface"]["repairs"][0], run.stderr)
+                self.assertTrue(all(told["checks"].values()))
+                if volume is not None:
+                    self.assertAlmostEqual(told["inputs"]["surface"]["volume"], volume, delta=1e-12)
+        # as a region, too
+        region = self.file("region.off", REPAIRED_SURFACES[4][1])
+        run = self.mesher(self.good, "--region", region, "--vertices", 500)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("region.off: the surface intersects itself", run.stderr)
+
+    def test_wrap(self):
+        # half of a cube's faces; the message says what to do, and that does it
+        path = self.file("half.off", off(CUBE, TRIANGLES[:6]))
+        run = self.fails(path, "--vertices", 500, names=path, words="too large to be filled")
+        width = run.stderr.split("; --wrap ")[1].split()[0]
+        report = WORK / "report.json"
+        run = self.mesher(path, "--vertices", 500, "--wrap", width, "--report", report)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        told = json.loads(report.read_text())
+        self.assertIn("wrapped it", told["inputs"]["surface"]["repairs"][0])
+        self.assertGreater(told["inputs"]["surface"]["volume"], 0.2)
+        self.assertEqual(told["options"]["wrap"], float(width))
+        # what is a solid stays what it is
+        self.assertEqual(self.mesher(self.good, "--vertices", 500, "--wrap", 0.1, "--report", report).returncode, 0)
+        self.assertEqual(json.loads(report.read_text())["inputs"]["surface"]["repairs"], [])
+        self.fails(path, "--vertices", 500, "--wrap", 1e-5, names=path, words="more than a million triangles")
+        self.fails(path, "--vertices", 500, "--wrap", 0, names="--wrap", words="greater than 0", status=2)
+        self.fails(path, "--vertices", 500, "--wrap", 1, "--strict", names="--wrap", words="--strict", status=2)
 
     def test_harmless_surfaces(self):
         for name, contents, words in HARMLESS_SURFACES:

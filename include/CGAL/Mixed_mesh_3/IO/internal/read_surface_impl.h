@@ -576,8 +576,11 @@ inline Component_counts make_solid(const Read_surface_options& options, Points p
   namespace PMP = CGAL::Polygon_mesh_processing;
   Edge_counts edges = count_edges(polygons);
   if(edges.open != 0) {
+    const std::size_t open = edges.open;
     close(options, points, polygons, input);
     edges = count_edges(polygons);
+    if(edges.open != 0)
+      throw Surface_defect{not_closed(open), wrap_diameter_for(points)};
   }
   if(edges.crowded != 0) {
     const std::size_t crowded = edges.crowded;

@@ -319,6 +319,11 @@ inline std::string describe(const repair::Surface_hole& hole, const Points& poin
   return "length " + number_text(hole.length) + " near " + place_text(points[hole.place()]);
 }
 
+inline std::string not_closed(std::size_t border_edges)
+{
+  return "the surface is not closed: " + counted(border_edges, "border edge", "border edges");
+}
+
 // Closes a surface with border edges.
 inline void close(const Read_surface_options& options, Points& points, Polygons& polygons,
                   Surface_input& input)
@@ -327,8 +332,7 @@ inline void close(const Read_surface_options& options, Points& points, Polygons&
   constexpr double largest_share = 0.2; // of the area, that is invented
   constexpr double margin = 1.1;        // of what a wrap has to close
   const Edge_counts edges = count_edges(polygons);
-  const std::string defect = "the surface is not closed: "
-                             + counted(edges.open, "border edge", "border edges");
+  const std::string defect = not_closed(edges.open);
   if(edges.crowded != 0) {
     Polygons rest = polygons;
     const std::size_t dropped = drop_fins(points, rest);

@@ -42,12 +42,12 @@ Source: Zhou, Grinspun, Zorin, Jacobson: Mesh arrangements for solid geometry (S
 
 \param points finite
 \param triangles indices of points; those without area are passed over
-\param most number of pairs of triangles that meet, above which nothing is done
+\param most number of pairs of triangles that meet, or of pieces, above which nothing is done; this many take some
+       ten seconds
 \cost O((n + k) log(n + k)) for n triangles, k pairs of which meet
 */
 Solid_reading read_solid(const std::vector<Solid_reading::Point>& points,
-                         const std::vector<std::array<std::size_t, 3>>& triangles,
-                         std::size_t most = 2000000);
+                         const std::vector<std::array<std::size_t, 3>>& triangles, std::size_t most = 300000);
 
 } // namespace internal
 } // namespace Mixed_meshes_3

@@ -60,7 +60,6 @@ private:
 
   std::vector<Point> m_points;
   std::vector<Arrangement_facet> m_facets;
-  std::size_t m_number_of_meetings = 0;
   bool m_is_complete = true;
   std::map<Point, std::size_t> m_index;
   std::map<Triangle, std::size_t> m_facet;
@@ -70,7 +69,8 @@ private:
   };
 
 public:
-  /// \param most if more pairs of triangles meet, the arrangement is empty and not complete
+  /// \param most if more pairs of triangles meet, or more pieces come of that, the arrangement is empty and not
+  ///        complete
   Triangle_arrangement(const std::vector<Input_point>& points, const std::vector<Triangle>& input,
                        std::size_t most)
   {
@@ -84,14 +84,23 @@ public:
       if(!CGAL::collinear(points[u[0]], points[u[1]], points[u[2]]))
         triangles.push_back(u);
     }
-    std::vector<Pair> pairs;
     try {
-      pairs = meetings(points, triangles, most);
+      arrange(points, std::move(triangles), most);
     } catch(const Too_many&) {
+      m_points.clear();
+      m_facets.clear();
       m_is_complete = false;
-      return;
     }
-    m_number_of_meetings = pairs.size();
+  }
+
+  bool is_complete() const { return m_is_complete; }
+  const std::vector<Point>& points() const { return m_points; }
+  const std::vector<Arrangement_facet>& facets() const { return m_facets; }
+
+private:
+  void arrange(const std::vector<Input_point>& points, std::vector<Triangle> triangles, std::size_t most)
+  {
+    const std::vector<Pair> pairs = meetings(points, triangles, most);
     std::vector<std::vector<std::size_t>> met(triangles.size());
     for(const auto& [s, t] : pairs) {
       met[s].push_back(t);
@@ -115,16 +124,9 @@ public:
       if(met[t].empty())
         add(triangles[t]);
       else
-        cut(t, met[t], triangles);
+        cut(t, met[t], triangles, triangles.size() + most);
   }
 
-  bool is_complete() const { return m_is_complete; }
-  /// Pairs of triangles that meet in more than vertices and edges that both have.
-  std::size_t number_of_meetings() const { return m_number_of_meetings; }
-  const std::vector<Point>& points() const { return m_points; }
-  const std::vector<Arrangement_facet>& facets() const { return m_facets; }
-
-private:
   static std::vector<Pair> meetings(const std::vector<Input_point>& points,
                                     const std::vector<Triangle>& triangles, std::size_t most)
   {
@@ -196,7 +198,8 @@ private:
   }
 
   // Triangulates a triangle such that the edges have all of its points that others have.
-  void cut(std::size_t number, const std::vector<std::size_t>& met, const std::vector<Triangle>& triangles)
+  void cut(std::size_t number, const std::vector<std::size_t>& met, const std::vector<Triangle>& triangles,
+           std::size_t most_facets)
   {
     const Triangle t = triangles[number];
     const std::array<Point, 3> p{m_points[t[0]], m_points[t[1]], m_points[t[2]]};
@@ -230,6 +233,8 @@ private:
         // in the same order for both: the same construction, the same point
         number < other ? self : Kernel::Triangle_3(m_points[o[0]], m_points[o[1]], m_points[o[2]]),
         number < other ? Kernel::Triangle_3(m_points[o[0]], m_points[o[1]], m_points[o[2]]) : self);
+      if(m_facets.size() + cdt.number_of_vertices() > most_facets)
+        throw Too_many();
       if(!common)
         continue;
       if(const Point* q = alternative<Point>(*common)) {
