@@ -328,9 +328,9 @@ inline std::string not_closed(std::size_t border_edges)
 inline void close(const Read_surface_options& options, Points& points, Polygons& polygons,
                   Surface_input& input)
 {
-  constexpr double all_of_it = 0.99;    // of the area
-  constexpr double largest_share = 0.2; // of the area, that is invented
-  constexpr double margin = 1.1;        // of what a wrap has to close
+  constexpr double all_of_it = 0.99;     // of the area
+  constexpr double largest_share = 0.25; // of the area, that is invented
+  constexpr double margin = 1.1;         // of what a wrap has to close
   const Edge_counts edges = count_edges(polygons);
   const std::string defect = not_closed(edges.open);
   if(edges.crowded != 0) {
