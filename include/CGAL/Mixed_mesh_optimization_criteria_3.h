@@ -154,8 +154,8 @@ struct Mixed_mesh_optimization_result_3
   std::size_t number_of_rounds = 0;
   /// With a tolerance: the largest distance between boundary and surface, either way, at sample points.
   double largest_distance = 0;
-  /// Of the surface, if it is not only of noise: all, and what is within 0.05 of the length of the edge of the
-  /// mesh that is to follow it; corners, and those that a vertex is at.
+  /// Of the surface, if it is not only of noise: all, and what is within 0.05 of the length of the edge of
+  /// the mesh that is to follow it; corners, and those that a vertex is at.
   double length_of_sharp_edges = 0, length_of_sharp_edges_kept = 0;
   std::size_t number_of_corners = 0, number_of_corners_kept = 0;
   double quality_bound = std::numeric_limits<double>::infinity(); ///< that of the criteria

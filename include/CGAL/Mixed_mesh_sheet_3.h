@@ -18,8 +18,8 @@ namespace CGAL {
 \brief A triangulated surface inside a domain that need not enclose anything, such as the falx or the
 tentorium of a brain.
 
-It may stick out of the domain, and end inside. It is an oriented 2-manifold, mostly with a border. The surface
-is copied, its coordinates rounded to double.
+It may stick out of the domain, and end inside. It is an oriented 2-manifold, mostly with a border. The
+surface is copied, its coordinates rounded to double.
 
 \sa `Labeled_polyhedral_mixed_mesh_domain_3::add_sheet()`
 */

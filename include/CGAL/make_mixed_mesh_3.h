@@ -96,9 +96,9 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
 \ingroup PkgMixedMesh3Ref
 
 As above, with cells parallel to the axes and the root that the criteria say. If the whole surface is
-perpendicular to the axes, as that of a box is, cells are placed such that it lies in lattice planes if they can,
-with edges of a ratio of at most 1.25: then elements there stay whole, vertices have the coordinates of the
-surface exactly, and without a region all elements are hexahedra, as far as the budget allows.
+perpendicular to the axes, as that of a box is, cells are placed such that it lies in lattice planes if they
+can, with edges of a ratio of at most 1.25: then elements there stay whole, vertices have the coordinates of
+the surface exactly, and without a region all elements are hexahedra, as far as the budget allows.
 */
 template <class Domain, class Region, class GeomTraits,
           class NamedParameters = parameters::Default_named_parameters,

@@ -326,8 +326,8 @@ void test_interfaces()
   BOOST_TEST_EQ((found.at({1, 2}).number_of_bad_vertices), 1u);
 }
 
-// Before it is fitted, an interface between subdomains has vertices on both sides of its surface, those inside
-// next to it; what is thin has elements nevertheless. The boundary is outside.
+// Before it is fitted, an interface between subdomains has vertices on both sides of its surface, those
+// inside next to it; what is thin has elements nevertheless. The boundary is outside.
 void test_both_sides()
 {
   Domain domain;

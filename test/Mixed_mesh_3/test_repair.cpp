@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The solid that triangles enclose: boxes and others that overlap, touch and cut each other, of known volumes;
-// holes that are filled.
+// The solid that triangles enclose: boxes and others that overlap, touch and cut each other, of known
+// volumes; holes that are filled.
 
 #include <CGAL/Mixed_mesh_3/internal/repair/Solid_reading.h>
 #include <CGAL/Mixed_mesh_3/internal/repair/fill_holes.h>
