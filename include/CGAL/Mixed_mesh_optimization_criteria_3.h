@@ -23,7 +23,7 @@ public:
   /// is fitted: 3.1918.
   static constexpr double default_quality_bound = 3.2;
 
-  /// Edges of 60 degrees are sharp for certain, those of smooth surfaces that are given by few facets are not.
+  /// Edges of 60 degrees are sharp for certain, those of smooth surfaces given by few facets are not.
   static constexpr double default_sharp_angle = 50;
 
   /// How far the boundary may be from the surface, and the surface from the boundary, in the mesh's unit:
@@ -96,8 +96,8 @@ public:
   /// Infinity if there is none.
   double quality_bound() const { return m_quality_bound; }
 
-  /// The angle between the normals of two facets, in degrees, from which on their edge is sharp: paths of edges
-  /// of the boundary, and vertices at the corners, are brought there and stay there. 0: none is sharp.
+  /// The angle between the normals of two facets, in degrees, from which on their edge is sharp: paths of
+  /// edges of the boundary, and vertices at the corners, are brought there and stay there. 0: none is sharp.
   /// Default: 50. \pre in [0, 180]
   Mixed_mesh_optimization_criteria_3& sharp_angle(double degrees)
   {
