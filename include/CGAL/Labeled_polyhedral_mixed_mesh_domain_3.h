@@ -274,8 +274,8 @@ public:
     return all;
   }
 
-  /// The planes that the surfaces lie in, as those of `Polyhedral_mixed_mesh_domain_3`; nothing, and 0, if there
-  /// are several subdomains.
+  /// The planes that the surfaces lie in, as those of `Polyhedral_mixed_mesh_domain_3`; nothing, and 0, if
+  /// there are several subdomains.
   std::array<std::map<double, double>, 3> axis_parallel_planes(double& volume) const
   {
     std::array<std::map<double, double>, 3> planes;

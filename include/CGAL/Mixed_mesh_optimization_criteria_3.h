@@ -23,7 +23,7 @@ public:
   /// is fitted: 3.1918.
   static constexpr double default_quality_bound = 3.2;
 
-  /// Edges of 60 degrees are sharp for certain, those of smooth surfaces given by few facets are not.
+  /// Less than the 60 degrees of a hexagonal prism, more than most smooth surfaces of few facets have.
   static constexpr double default_sharp_angle = 50;
 
   /// How far the boundary may be from the surface, and the surface from the boundary, in the mesh's unit:

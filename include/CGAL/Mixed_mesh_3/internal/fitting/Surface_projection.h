@@ -44,8 +44,8 @@ public:
   /// \param strata to be kept by the caller
   Surface_projection(const Domain& domain, const Strata& strata) : m_domain(&domain), m_strata(&strata) {}
 
-  /// Strata from `first_sharp_stratum` on are on those polylines, or at those corners, then. To be kept by the
-  /// caller.
+  /// Strata from `first_sharp_stratum` on are on those polylines, or at those corners, then. To be kept by
+  /// the caller.
   void set_features(const Sharp_features& features) { m_features = &features; }
 
   Vec3 operator()(const Vec3& p, Stratum stratum) const

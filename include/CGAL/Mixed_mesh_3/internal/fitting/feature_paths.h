@@ -34,7 +34,8 @@ namespace internal {
 Each corner takes the boundary vertex that will be nearest, and each polyline, the longest first, the shortest
 path between those of its ends, where the length of an edge counts the more, the farther it is from the
 polyline. Paths have no vertex in common but at corners, and no edge past a vertex of a path joins two others
-of it: on the polyline it would fold. A path may lead through the middle of an edge too, that is bisected then.
+of it: on the polyline it would fold. A path may lead through the middle of an edge too, that is bisected
+then.
 
 Vertices of paths get the strata of their polylines and corners, edges are noted in
 `Working_mesh::sharp_edges`.
@@ -182,7 +183,8 @@ private:
   void for_each_neighbor(const Node& n, const Visit& visit) const
   {
     const auto middle = [&](Vertex_index a, Vertex_index b) {
-      if(m_bisections_left > 0 && a != no_vertex && b != no_vertex && m_whole.count(edge(a, b)) == 0
+      // of a quadrilateral it may be a diagonal
+      if(m_bisections_left > 0 && m_apexes.count(edge(a, b)) > 0 && m_whole.count(edge(a, b)) == 0
          && !m_mesh.is_sharp(a, b))
         visit(edge(a, b));
     };
@@ -313,8 +315,8 @@ private:
     }
   }
 
-  // A triangle with two sharp edges that go on nearly straight would be a needle: the third edge gets a vertex
-  // that is free to move away.
+  // A triangle with two sharp edges that go on nearly straight would be a needle: the third edge gets a
+  // vertex that is free to move away.
   void cut_short_cuts()
   {
     constexpr double straight = -0.5; // cosine of the angle between the two edges

@@ -161,8 +161,8 @@ private:
   }
 
   // The tetrahedra around an edge, and their vertices off it, in order such that (a, b, r[i], r[i + 1])
-  // is positive. Empty unless all its elements are tetrahedra, and the edge is inside or can be flipped on the
-  // boundary: then the ring is open.
+  // is positive. Empty unless all its elements are tetrahedra, and the edge is inside or can be flipped on
+  // the boundary: then the ring is open.
   std::vector<Vertex_index> ring_of(Vertex_index a, Vertex_index b,
                                     std::vector<Element_index>& elements) const
   {
@@ -200,8 +200,8 @@ private:
     return {};
   }
 
-  // Of an edge in a flat place of the boundary, beside which there are sharp edges. Between its ends there will
-  // be an edge of the boundary instead.
+  // Of an edge in a flat place of the boundary, beside which there are sharp edges. Between its ends there
+  // will be an edge of the boundary instead.
   std::vector<Vertex_index> open_ring(Vertex_index a, Vertex_index b,
                                       const std::vector<std::array<Vertex_index, 2>>& links) const
   {

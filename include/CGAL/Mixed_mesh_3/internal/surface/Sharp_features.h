@@ -259,7 +259,7 @@ private:
     for(std::size_t i = 1, cut = 1; i < points.size(); ++i) {
       length += norm(points[i] - points[i - 1]);
       const bool is_last = i + 1 == points.size();
-      if(!is_last && (cut > 2 || length < double(cut) / 3 * whole.length()))
+      if(!is_last && (cut > 2 || length < (double(cut) / 3 - 1e-9) * whole.length()))
         continue;
       const std::size_t corner = is_last ? last : add_corner(points[i], false);
       m_polylines.emplace_back(std::vector<Vec3>(points.begin() + std::ptrdiff_t(begin),
