@@ -209,10 +209,10 @@ private:
 } // namespace internal
 
 /*!
-Slits a mesh along faces between its elements: their vertices are doubled, so that both sides can come apart, or
-slide along each other. Vertices at the rim of the faces, where the elements around hang together yet, stay
-single, but on the boundary of the mesh: there the slit is open. A vertex where sheets meet gets as many copies
-as there are parts around.
+Slits a mesh along faces between its elements: their vertices are doubled, so that both sides can come
+apart, or slide along each other. Vertices at the rim of the faces, where the elements around hang together
+yet, stay single, but on the boundary of the mesh: there the slit is open. A vertex where sheets meet gets
+as many copies as there are parts around.
 
 All vertices keep their numbers, and all elements theirs; copies are at the end, at the same places as what
 they are copies of. Conforming but for the slit, and no element changes its shape. The boundary is a manifold

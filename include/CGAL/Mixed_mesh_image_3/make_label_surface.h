@@ -53,10 +53,10 @@ have the label, the surface is empty.
 \param smoothing the standard deviation of the Gaussian, in millimeters; without (0), the surface has the
        steps of the voxels. The largest spacing of voxels is a good choice
 \param surface the result, in millimeters, outward oriented; cleared first
-\param number_of_vertices how many the surface will be simplified to, if that is known. Where it would have some
-       20 times as many, every second voxel's center along each index is enough, if `smoothing` is about a
-       voxel (wherever the surface crosses an edge between two, it is off by at most a tenth of a voxel then):
-       a quarter of the vertices, and of the time that the simplification takes
+\param number_of_vertices how many the surface will be simplified to, if that is known. Where it
+       would have some 20 times as many, every second voxel's center along each index is enough, if
+       `smoothing` is about a voxel (wherever the surface crosses an edge between two, it is off by at most
+       a tenth of a voxel then): a quarter of the vertices, and of the time that the simplification takes
 \pre `smoothing >= 0`, the determinant of `image.grid.index_to_world` is not 0
 
 \cost linear in the number of voxels of the box around the label, times the width of the Gaussian in voxels
