@@ -99,6 +99,8 @@ void is_repaired(const std::string& name, const std::string& contents, const std
     std::cerr << r.error << '\n';
   BOOST_TEST(!r.input.repairs.empty() && has_warning(r, r.input.repairs.front()));
   BOOST_TEST(CGAL::is_closed(r.surface));
+  for(const auto v : r.surface.vertices())
+    BOOST_TEST(!r.surface.is_isolated(v));
   BOOST_TEST_LE(std::abs(r.input.volume - volume), 1e-13);
   IO::Read_surface_options strict;
   strict.is_strict = true;

@@ -340,6 +340,7 @@ inline void close(const Read_surface_options& options, Points& points, Polygons&
       check_repair(options, {defect, wrap_diameter_for(points)});
       note_repair("dropped " + counted(dropped, "face that stands", "faces that stand") + " out", input);
       polygons = std::move(rest);
+      CGAL::Polygon_mesh_processing::remove_isolated_points_in_polygon_soup(points, polygons);
       return;
     }
   }
