@@ -22,8 +22,13 @@ Surface read_with(const Read& read, const std::string& path, Surface_facts& fact
   Surface surface;
   IO::Surface_input input;
   require([&](std::string* error) {
+<<<<<<< HEAD
     const bool is_read = read(surface, error, &input);
     if(input.wrap_diameter > 0)
+=======
+    const bool is_read = IO::read_closed_surface(path, options, surface, error, &input);
+    if(input.wrap_diameter > 0 && !options.is_strict)
+>>>>>>> 0650bb3 (Cracks are closed by a fan where points are on a line)
       *error += "; --wrap " + rounded(input.wrap_diameter) + " would close it";
     return is_read;
   });

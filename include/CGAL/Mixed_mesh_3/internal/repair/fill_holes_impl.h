@@ -96,7 +96,7 @@ public:
     return result;
   }
 
-  /// Triangles that close a hole; none if that was not possible.
+  /// Triangles that close a hole.
   std::vector<Triangle> patch(Surface_hole& hole) const
   {
     std::vector<Point> border;
@@ -112,6 +112,11 @@ public:
     for(const auto& t : found) {
       patch.push_back({hole.border[std::size_t(t.first)], hole.border[std::size_t(t.second)],
                        hole.border[std::size_t(t.third)]});
+      hole.area += area(patch.back());
+    }
+    // a crack, whose points are on a line
+    for(std::size_t i = 2; found.empty() && i < hole.border.size(); ++i) {
+      patch.push_back({hole.border[0], hole.border[i - 1], hole.border[i]});
       hole.area += area(patch.back());
     }
     hole.width = 2 * std::sqrt(hole.area / CGAL_PI);

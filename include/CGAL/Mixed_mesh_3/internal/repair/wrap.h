@@ -19,8 +19,8 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-Returns triangles that wrap others: closed, manifold, without self-intersections, oriented outwards. What a ball
-of that diameter does not get into is solid.
+Returns triangles that wrap others: closed, manifold, without self-intersections, oriented outwards. What a
+ball of that diameter does not get into is solid.
 
 \cost as that of `CGAL::alpha_wrap_3()`
 */
