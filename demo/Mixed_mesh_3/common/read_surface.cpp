@@ -16,19 +16,14 @@ namespace {
 
 // `read(surface, error, input)` is one of the library's functions.
 template <class Read>
-Surface read_with(const Read& read, const std::string& path, Surface_facts& facts,
-                  std::vector<std::string>& warnings)
+Surface read_with(const Read& read, const std::string& path, const IO::Read_surface_options& options,
+                  Surface_facts& facts, std::vector<std::string>& warnings)
 {
   Surface surface;
   IO::Surface_input input;
   require([&](std::string* error) {
-<<<<<<< HEAD
     const bool is_read = read(surface, error, &input);
-    if(input.wrap_diameter > 0)
-=======
-    const bool is_read = IO::read_closed_surface(path, options, surface, error, &input);
     if(input.wrap_diameter > 0 && !options.is_strict)
->>>>>>> 0650bb3 (Cracks are closed by a fan where points are on a line)
       *error += "; --wrap " + rounded(input.wrap_diameter) + " would close it";
     return is_read;
   });
@@ -53,7 +48,7 @@ Surface read_surface(const std::string& path, const IO::Read_surface_options& op
   const auto read = [&](Surface& surface, std::string* error, IO::Surface_input* input) {
     return IO::read_closed_surface(path, options, surface, error, input);
   };
-  return read_with(read, path, facts, warnings);
+  return read_with(read, path, options, facts, warnings);
 }
 
 Surface read_sheet(const std::string& path, const IO::Read_surface_options& options, Surface_facts& facts,
@@ -62,5 +57,5 @@ Surface read_sheet(const std::string& path, const IO::Read_surface_options& opti
   const auto read = [&](Surface& surface, std::string* error, IO::Surface_input* input) {
     return IO::read_sheet(path, options, surface, error, input);
   };
-  return read_with(read, path, facts, warnings);
+  return read_with(read, path, options, facts, warnings);
 }

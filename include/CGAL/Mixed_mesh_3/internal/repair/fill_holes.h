@@ -41,7 +41,8 @@ Closes the holes of a surface, with as little area as possible. Parts that hang 
 one by one: if the triangles that would close a part had more than a share of its area, its holes are left. A
 part that is but a small share of all, and nearly flat, is a sheet: it bounds nothing and is dropped.
 
-\param points,triangles the surface; it is oriented if it can be, and vertices where it is no manifold are doubled
+\param points,triangles the surface; it is oriented if it can be, and vertices where it is no manifold are
+       doubled
 \param largest_share of the area of a part that holes may have
 \cost as that of `CGAL::Polygon_mesh_processing::triangulate_hole_polyline()`
 */
