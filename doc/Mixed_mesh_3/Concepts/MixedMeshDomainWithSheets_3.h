@@ -9,8 +9,8 @@
 
 \cgalRefines{MixedMeshLabeledDomain_3}
 
-The concept `MixedMeshDomainWithSheets_3` describes a domain that may have sheets inside: surfaces that need not
-enclose anything, such as the falx of a brain. Faces of the mesh are brought onto them.
+The concept `MixedMeshDomainWithSheets_3` describes a domain that may have sheets inside: surfaces that need
+not enclose anything, such as the falx of a brain. Faces of the mesh are brought onto them.
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::Labeled_polyhedral_mixed_mesh_domain_3}
@@ -19,7 +19,7 @@ enclose anything, such as the falx of a brain. Faces of the mesh are brought ont
 class MixedMeshDomainWithSheets_3
 {
 public:
-  /// The sheets: a range of pointers, of any kind, to `CGAL::Mixed_mesh_sheet_3`, or to what has its functions
-  /// `may_intersect()`, `do_intersect()`, `closest_point()` and `locate()`.
+  /// The sheets: a range of pointers, of any kind, to `CGAL::Mixed_mesh_sheet_3`, or to what has its
+  /// functions `may_intersect()`, `do_intersect()`, `closest_point()` and `locate()`.
   unspecified_type sheets() const;
 };

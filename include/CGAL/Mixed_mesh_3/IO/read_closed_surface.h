@@ -68,8 +68,9 @@ Points are merged only where the surface is not closed as given. Coordinates bel
 become zero.
 
 Then, unless that is not wanted, it repairs what is left: holes are filled that are a small part of the
-surface, and faces that cut each other, or have edges in common with more than one other, become the boundary of
-the solid that they enclose: of what they wind around outwards. What cannot be repaired is refused, or wrapped.
+surface, and faces that cut each other, or have edges in common with more than one other, become the
+boundary of the solid that they enclose: of what they wind around outwards. What cannot be repaired is
+refused, or wrapped.
 
 | file | format |
 |------|--------|
@@ -109,9 +110,9 @@ template <class Mesh>
 }
 
 /*!
-Reads a sheet for `Mixed_mesh_sheet_3`: a surface with or without a border, an oriented 2-manifold that does not
-cut itself. Formats, parameters and what is mended as for `read_closed_surface()`; the orientation is that of
-the file, where its faces agree. No volume is given.
+Reads a sheet for `Mixed_mesh_sheet_3`: a surface with or without a border, an oriented 2-manifold that does
+not cut itself. Formats, parameters and what is mended as for `read_closed_surface()`; the orientation is
+that of the file, where its faces agree. No volume is given.
 
 \cost O(n log n)
 */

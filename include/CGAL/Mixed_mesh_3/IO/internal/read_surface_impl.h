@@ -3,7 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What `read_closed_surface()` and `read_sheet()` do: the file, the topology, what can be mended, the orientation.
+// What `read_closed_surface()` and `read_sheet()` do: the file, the topology, what can be mended, the
+// orientation.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_READ_SURFACE_IMPL_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_READ_SURFACE_IMPL_H

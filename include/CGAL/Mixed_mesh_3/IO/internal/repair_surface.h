@@ -245,8 +245,9 @@ inline std::vector<Polygons> parts_of(const Polygons& polygons)
   return parts;
 }
 
-// Drops faces that stand out of a surface: parts with a border, beside edges of more than two faces. Returns the
-// number of dropped faces; 0 if they are more than a quarter of the area, or the surface has other borders.
+// Drops faces that stand out of a surface: parts with a border, beside edges of more than two faces.
+// Returns the number of dropped faces; 0 if they are more than a quarter of the area, or the surface has
+// other borders.
 inline std::size_t drop_fins(const Points& points, Polygons& polygons)
 {
   constexpr double largest_share = 0.25;

@@ -3,7 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Sheets inside the domain, such as the falx: which vertices of the lattice shall be on them, and which faces.
+// Sheets inside the domain, such as the falx: which vertices of the lattice shall be on them, and which
+// faces.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_SHEET_LAYER_H
 #define CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_SHEET_LAYER_H
@@ -52,7 +53,8 @@ vertices only. These are the *sheet faces*. Behind is what is less than some sha
 sheet vertices are not far to either side of the sheet. The order of the vertices makes diagonals; those from
 front to behind, which are at the boundary, have sheet vertices at their ends too.
 
-Where the sheet ends inside the domain, vertices beyond its rim are no sheet vertices, and the sheet faces end.
+Where the sheet ends inside the domain, vertices beyond its rim are no sheet vertices, and the sheet faces
+end.
 
 Where sheet faces touch each other but along edges, or have a face of the boundary between them, which would
 have no area, a vertex counts as one in front, and if edges still touch, it is no sheet vertex. A tetrahedron

@@ -169,8 +169,8 @@ private:
            + (lost > 0 ? lost / m_edge_length : 0);
   }
 
-  // Between subdomains and on sheets a few vertices are often held back from both sides: another run would rarely
-  // help.
+  // Between subdomains and on sheets a few vertices are often held back from both sides: another run would
+  // rarely help.
   bool is_fitted(const Result& r) const
   {
     const double tolerated = m_has_subdomains ? share_tolerated_off * double(r.number_of_boundary_vertices)

@@ -660,9 +660,9 @@ private:
     return norm(cross(p[b] - p[a], p[apexes[0]] - p[a])) + norm(cross(p[b] - p[a], p[apexes[1]] - p[a]));
   }
 
-  // What is small loses most: between the faces of a subdomain within and its surface there is as much, nearly,
-  // as their edges gain by bisection, each by the two tetrahedra on the faces beside it. The largest gains
-  // until all but a tolerated share of the volume is left.
+  // What is small loses most: between the faces of a subdomain within and its surface there is as much,
+  // nearly, as their edges gain by bisection, each by the two tetrahedra on the faces beside it. The
+  // largest gains until all but a tolerated share of the volume is left.
   void bisect_parts(std::size_t most)
   {
     std::map<Subdomain_index, double> tolerated;

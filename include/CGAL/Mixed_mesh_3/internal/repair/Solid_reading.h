@@ -34,16 +34,16 @@ struct Solid_reading
 /*!
 Returns the boundary of the solid that triangles enclose, by the first rule that can be applied.
 
-The triangles are cut where they meet, exactly; of the pieces those are taken that have solid on one side only.
-Then what was computed is rounded to double: triangles may be degenerate or cross each other by a rounding
-error. Where the solid touches itself in points and edges, each sheet has its own vertices.
+The triangles are cut where they meet, exactly; of the pieces those are taken that have solid on one side
+only. Then what was computed is rounded to double: triangles may be degenerate or cross each other by a
+rounding error. Where the solid touches itself in points and edges, each sheet has its own vertices.
 
 Source: Zhou, Grinspun, Zorin, Jacobson: Mesh arrangements for solid geometry (SIGGRAPH 2016).
 
 \param points finite
 \param triangles indices of points; those without area are passed over
-\param most number of pairs of triangles that meet, or of pieces, above which nothing is done; this many take some
-       ten seconds
+\param most number of pairs of triangles that meet, or of pieces, above which nothing is done; this many
+       take some ten seconds
 \cost O((n + k) log(n + k)) for n triangles, k pairs of which meet
 */
 Solid_reading read_solid(const std::vector<Solid_reading::Point>& points,

@@ -33,8 +33,8 @@ struct Solid_facet
   bool is_outwards; // as the facet is oriented
 };
 
-/// Gives each sheet of the boundary vertices of its own, where several meet in an edge or a vertex: sheets are
-/// facets that have the same piece of solid between them, at an edge.
+/// Gives each sheet of the boundary vertices of its own, where several meet in an edge or a vertex: sheets
+/// are facets that have the same piece of solid between them, at an edge.
 class Solid_sheets
 {
   using Triangle = std::array<std::size_t, 3>;

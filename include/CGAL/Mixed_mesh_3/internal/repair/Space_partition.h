@@ -39,8 +39,8 @@ inline std::size_t root_of_set(std::vector<std::size_t>& parent, std::size_t i)
 }
 
 /*!
-The cells of an arrangement. The two sides of each facet see one cell each; around an edge, neighbors see the same
-one. So facets that hang together by edges have consistent cells; where these are, a ray tells.
+The cells of an arrangement. The two sides of each facet see one cell each; around an edge, neighbors see
+the same one. So facets that hang together by edges have consistent cells; where these are, a ray tells.
 */
 class Space_partition
 {

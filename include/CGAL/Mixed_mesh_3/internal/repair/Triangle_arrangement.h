@@ -69,8 +69,8 @@ private:
   };
 
 public:
-  /// \param most if more pairs of triangles meet, or more pieces come of that, the arrangement is empty and not
-  ///        complete
+  /// \param most if more pairs of triangles meet, or more pieces come of that, the arrangement is empty and
+  /// not complete
   Triangle_arrangement(const std::vector<Input_point>& points, const std::vector<Triangle>& input,
                        std::size_t most)
   {

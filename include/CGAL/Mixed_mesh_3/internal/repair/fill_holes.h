@@ -37,9 +37,10 @@ struct Hole_filling
 };
 
 /*!
-Closes the holes of a surface, with as little area as possible. Parts that hang together by edges are looked at
-one by one: if the triangles that would close a part had more than a share of its area, its holes are left. A
-part that is but a small share of all, and nearly flat, is a sheet: it bounds nothing and is dropped.
+Closes the holes of a surface, with as little area as possible. Parts that hang together by edges are looked
+at one by one: if the triangles that would close a part had more than a share of its area, its holes are
+left. A part that is but a small share of all, and nearly flat, is a sheet: it bounds nothing and is
+dropped.
 
 \param points,triangles the surface; it is oriented if it can be, and vertices where it is no manifold are
        doubled
