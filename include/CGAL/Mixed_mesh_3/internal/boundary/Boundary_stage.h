@@ -28,6 +28,7 @@
 #include <iterator>
 #include <map>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -83,8 +84,9 @@ public:
   {
     m_distances.assign(mesh.vertices.size(), -1);
     const std::size_t first_inserted = mesh.vertices.size();
-    if(m_number_of_subdomains > 1)
-      balance_interfaces(located, mesh, threads);
+    if constexpr(Is_labeled_domain<std::decay_t<decltype(located.domain())>>::value)
+      if(m_number_of_subdomains > 1)
+        balance_interfaces(located, mesh, threads);
     do {
       while(mesh.vertices.size() > first_inserted)
         mesh.remove_last_vertex();
