@@ -136,7 +136,7 @@ check_sanitize() {
 
 check_fuzz() {
   local reader work failed=0
-  local -a readers=(VTU MSH NIFTI control_points surface)
+  local -a readers=(VTU MSH MEDIT NETGEN NIFTI control_points surface)
   [[ ! -w /dev/shm ]] || export TMPDIR=/dev/shm # inputs become files, which takes 20 times as long on a disk
   configure "$build/fuzz" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ -DBUILD_TESTING=OFF \
     -DMIXED_MESH_3_BUILD_DEMOS=OFF -DMIXED_MESH_3_BUILD_FUZZERS=ON

@@ -81,6 +81,8 @@ struct Sheet_in_mesh
 What a mesh has of each sheet of its domain. A face belongs to the sheet that is nearest to its vertices.
 
 \tparam Domain a model of `MixedMeshDomainWithSheets_3`
+\param mesh a mesh of the domain
+\param domain the domain, with its sheets
 \param share_of_diagonal how far from the sheet a vertex may be to be on it, as a share of the diagonal of the
        domain's box
 */
