@@ -256,11 +256,11 @@ public:
   }
 
   /// The sharp edges of the surfaces, as those of `Polyhedral_mixed_mesh_domain_3`; none if there are several
-  /// subdomains.
+  /// subdomains, or sheets.
   Mixed_meshes_3::internal::Sharp_edges sharp_edges(double angle) const
   {
     Mixed_meshes_3::internal::Sharp_edges all;
-    if(m_indices.size() > 1)
+    if(m_indices.size() > 1 || !m_sheets.empty())
       return all;
     for(const Labeled& s : m_surfaces) {
       const Mixed_meshes_3::internal::Sharp_edges more = s.surface->sharp_edges(angle);

@@ -91,7 +91,8 @@ void check(const AnyMesh& mesh, const Mixed_mesh_result_3& result, std::size_t b
   BOOST_TEST(d.conforming() && d.positive() && d.unused_vertices == 0 && d.duplicate_vertices == 0);
   BOOST_TEST_EQ(d.closed_manifold_boundary(), result.status != Status::BOUNDARY_NOT_MANIFOLD);
   BOOST_TEST_GT(volume(mesh), 0);
-  BOOST_TEST(result.status != Status::SUCCESS || mesh.number_of_vertices() >= 0.97 * double(budget));
+  BOOST_TEST(result.status != Status::SUCCESS || result.is_lattice_on_surface
+             || mesh.number_of_vertices() >= 0.97 * double(budget));
   BOOST_TEST(result.status != Status::BUDGET_NOT_FILLED || mesh.number_of_vertices() < 0.97 * double(budget));
 }
 
@@ -105,7 +106,7 @@ Mixed_mesh_result_3 run(const Domain& domain, const Region& region, const Mixed_
 }
 
 // Of a mesh that is not fitted: every boundary vertex is outside or on the surface, every other one inside,
-// unless the repair of pinched places made it so.
+// unless the repair of pinched places or of narrow gaps made it so.
 inline void check_sides(const Mesh& mesh, const Mixed_mesh_result_3& result,
                         const Polyhedral_mixed_mesh_domain_3& domain)
 {
@@ -114,7 +115,7 @@ inline void check_sides(const Mesh& mesh, const Mixed_mesh_result_3& result,
     is_boundary[v] = true;
   for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v) {
     const bool is_inside = domain.bounded_side(mesh.point(v)) == CGAL::ON_BOUNDED_SIDE;
-    BOOST_TEST(!is_inside || !is_boundary[v]);
+    BOOST_TEST(!is_inside || !is_boundary[v] || result.number_of_vertices_for_thin_parts > 0);
     BOOST_TEST(is_inside || is_boundary[v] || result.number_of_relabeled_vertices > 0);
   }
 }
