@@ -10,6 +10,8 @@
 
 #include <CGAL/Mixed_mesh_3.h>
 
+#include <CGAL/number_utils.h>
+
 #include <map>
 #include <type_traits>
 
