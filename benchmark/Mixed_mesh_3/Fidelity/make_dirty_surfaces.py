@@ -17,6 +17,8 @@ import pathlib
 
 import numpy as np
 
+from make_surfaces import moved, scaled, turned, united
+
 EXACT = 1e-9  # tolerance of volumes that are known
 
 
@@ -55,30 +57,6 @@ def ball(n=16):
         faces += [(at(i, j), at(i + 1, j), at(i + 1, j + 1)), (at(i, j), at(i + 1, j + 1), at(i, j + 1))]
     faces += [(len(points) - 1, at(n - 1, j + 1), at(n - 1, j)) for j in range(2 * n)]
     return np.array(points, float), np.array(faces)
-
-
-def united(*parts):
-    offsets = np.cumsum([0] + [len(p) for p, _ in parts[:-1]])
-    return np.vstack([p for p, _ in parts]), np.vstack([t + o for (_, t), o in zip(parts, offsets)])
-
-
-def moved(part, by):
-    return part[0] + np.asarray(by, float), part[1]
-
-
-def scaled(part, by):
-    return part[0] * np.asarray(by, float), part[1]
-
-
-def turned(part, angles=(0.31, 0.47, 0.73)):
-    points = part[0]
-    for k, a in enumerate(angles):
-        i, j = (k + 1) % 3, (k + 2) % 3
-        rotation = np.eye(3)
-        rotation[i, i] = rotation[j, j] = math.cos(a)
-        rotation[i, j], rotation[j, i] = -math.sin(a), math.sin(a)
-        points = points @ rotation.T
-    return points, part[1]
 
 
 def merged(part):

@@ -7,23 +7,17 @@
 The surface is parametrized and meshed anew, with the sizes that the volume has.
 """
 
-import argparse
 import json
 import pathlib
 import time
 
 import gmsh
 
-from sizes import Sizes, read_off, write_stl
+from sizes import Sizes, argument_parser, read_off, write_stl
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    for name in ("surface", "region", "mesh"):
-        parser.add_argument(name)
-    parser.add_argument("size", type=float)
-    parser.add_argument("--growth", type=float, default=0.4)
-    parser.add_argument("--largest", type=float, default=20)
+    parser = argument_parser(__doc__)
     parser.add_argument("--hxt", action="store_true")
     o = parser.parse_args()
     stl = str(pathlib.Path(o.mesh).with_suffix(".stl"))

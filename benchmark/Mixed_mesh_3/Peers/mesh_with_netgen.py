@@ -5,7 +5,6 @@
   mesh_with_netgen.py SURFACE.off REGION.off MESH.vol SIZE_IN_REGION [--growth G] [--largest L]
 """
 
-import argparse
 import json
 import pathlib
 import time
@@ -13,16 +12,11 @@ import time
 import netgen.meshing
 import netgen.stl
 
-from sizes import Sizes, distances, read_off, write_stl
+from sizes import Sizes, argument_parser, distances, read_off, write_stl
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    for name in ("surface", "region", "mesh"):
-        parser.add_argument(name)
-    parser.add_argument("size", type=float)
-    parser.add_argument("--growth", type=float, default=0.4)
-    parser.add_argument("--largest", type=float, default=20)
+    parser = argument_parser(__doc__)
     o = parser.parse_args()
     stl, size_file = (str(pathlib.Path(o.mesh).with_suffix(s)) for s in (".stl", ".msz"))
     surface = read_off(o.surface)

@@ -1,11 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sizes that all peers are asked for, and what their formats need: triangles in, a background grid out."""
 
+import argparse
 import itertools
 
 import numpy
 import vtk
 from vtk.util import numpy_support
+
+
+def argument_parser(description):
+    """What the programs that mesh with one peer are called with."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawTextHelpFormatter)
+    for name in ("surface", "region", "mesh"):
+        parser.add_argument(name)
+    parser.add_argument("size", type=float)
+    parser.add_argument("--growth", type=float, default=0.4)
+    parser.add_argument("--largest", type=float, default=20)
+    return parser
 
 
 def read_off(path):
