@@ -275,6 +275,7 @@ private:
     const bool is_automatic = m_criteria.base_level() == Mixed_mesh_criteria_3::automatic && !m_thin_start;
     const int coarsest = (std::max)(coarsest_automatic_base_level, m_lattice.level);
     int level = coarsest_level();
+    const auto first_to_split = points_on_sharp_edges();
     for(int step = 0;; level += step) {
       Octree_ octree = m_thin_start ? *m_thin_start : m_root;
       Candidate candidate;
@@ -283,7 +284,7 @@ private:
           m_tolerance_search.split_far_cells(octree);
         candidate = fill_vertex_budget(
           octree, budget(), m_criteria.grading() * m_radius,
-          [this](const Octree_& o) { return try_octree(o); }, points_on_sharp_edges());
+          [this](const Octree_& o) { return try_octree(o); }, first_to_split);
       } else {
         candidate.number_of_vertices = 8 * octree.number_of_cells_inside();
       }
