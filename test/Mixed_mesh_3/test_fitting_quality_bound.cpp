@@ -504,10 +504,11 @@ void test_crossing_faces()
     const Criteria criteria = Criteria().quality_bound(c.bound).sharp_angle(0);
     Mesh mesh = start;
     const auto result = optimize_mixed_mesh_3(mesh, domain, criteria);
-    BOOST_TEST(result.status == Status::NOT_ALL_ARRIVED && result.is_boundary_simple);
+    BOOST_TEST(result.is_boundary_simple);
+    BOOST_TEST(result.status == Status::SUCCESS || result.status == Status::NOT_ALL_ARRIVED);
     BOOST_TEST_EQ(number_of_boundary_self_intersections(mesh), 0u);
     BOOST_TEST(find_defects(mesh).none());
-    BOOST_TEST_GT(result.number_of_arrived_vertices, result.number_of_boundary_vertices / 8);
+    BOOST_TEST_GT(result.number_of_arrived_vertices, result.number_of_boundary_vertices / 2);
     if(c.bound > 0)
       BOOST_TEST_EQ(number_of_elements_above(mesh, c.bound), 0u);
   }

@@ -462,7 +462,7 @@ private:
     m_moves.set_bound((std::min)(m_final_bound, bound_for_doubles(m_criteria)));
     std::vector<Vertex_index> off;
     for(Vertex_index v = 0; v < m_working.points.size(); ++v)
-      if(m_working.is_on_boundary(v) && !m_is_arrived[v] && !(v < m_is_held.size() && m_is_held[v]))
+      if(m_working.is_on_boundary(v) && !m_is_arrived[v])
         off.push_back(v);
     m_travelers.clear();
     for(int round = 0; round < return_rounds && !off.empty(); ++round) {
