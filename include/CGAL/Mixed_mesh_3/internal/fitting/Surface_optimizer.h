@@ -101,7 +101,7 @@ class Surface_optimizer
   // Of mending: rounds with all on the surface, then others. The costs are raised to a power at which only
   // the worst elements count. A mesh with a larger share of vertices of such elements is not worth it.
   static constexpr int mending_rounds_on_surface = 6, mending_rounds = 24, rounds_until_flips = 3;
-  static constexpr int mending_rounds_of_features = 6; // later than others they leave the surface
+  static constexpr int mending_rounds_of_features = 6; // once vertices may leave sharp edges
   static constexpr double mending_power = 16, mending_goal = 0.8, worth_mending = 0.1,
                           worth_mending_features = 0.3;
   // Once the boundary has arrived, nothing gets worse than that, for the sake of the tolerance for example.
@@ -303,13 +303,18 @@ private:
     attract_boundary();
   }
 
-  // What can not get there shall be on the surface at least.
-  void give_up_features()
+  // What can not get there shall be on the surface at least; and what is there gives way at last to what can
+  // not get to the surface beside it.
+  void give_up_features(bool beside)
   {
-    for(auto& [v, target] : m_travelers)
-      if(m_working.strata[v] >= first_sharp_stratum) {
+    for(const auto& [v, target] : m_travelers)
+      if(m_working.strata[v] >= first_sharp_stratum)
         leave_feature(v);
-      }
+      else if(beside)
+        for(Element_index e : m_working.incident[v])
+          for(Vertex_index u : m_working.elements[e])
+            if(m_working.strata[u] >= first_sharp_stratum)
+              leave_feature(u);
     choose_new_targets();
   }
 
@@ -402,8 +407,8 @@ private:
       acceptable = (std::min)(acceptable_growth * acceptable, acceptable_at_most);
       if(round % rounds_until_new_target == rounds_until_new_target - 1)
         choose_new_targets();
-      if(m_features && round == rounds_for_features)
-        give_up_features();
+      if(m_features && round >= rounds_for_features && (round - rounds_for_features) % 3 == 0)
+        give_up_features(round > rounds_for_features);
     }
     return true;
   }
@@ -550,10 +555,11 @@ private:
     m_moves.attract({});
     m_moves.set_bound(m_final_bound);
     const int more = m_features ? mending_rounds_of_features : 0;
-    for(int round = 0; round < mending_rounds + 2 * more && !bad.empty(); ++round) {
+    for(int round = 0; round < mending_rounds + more && !bad.empty(); ++round) {
       for(Vertex_index v : bad) {
-        const bool is_sharp = m_working.strata[v] >= first_sharp_stratum;
-        if(round >= mending_rounds_on_surface + (is_sharp ? 2 : 1) * more && m_working.is_on_boundary(v))
+        if(round >= mending_rounds_on_surface && m_working.strata[v] >= first_sharp_stratum)
+          leave_feature(v);
+        else if(round >= mending_rounds_on_surface + more && m_working.is_on_boundary(v))
           leave_surface(v);
         m_moves.activate_around(v);
       }
