@@ -22,6 +22,8 @@
 namespace CGAL {
 
 /*!
+\ingroup PkgMixedMesh3Domains
+
 \brief The domain where a function is positive.
 
 The function is as that of `Implicit_mixed_mesh_region_3`: positive inside, and it must not change faster than
@@ -93,7 +95,8 @@ public:
   Point_3 closest_point(const Point_3& p, const Point_3&) const { return closest_point(p); }
 
   /// The points closest to the centers of the cells of a grid that the surface may meet.
-  /// \cost of a grid with cells of `spacing`, but at most 200 in each direction
+  /// \par Complexity
+  /// That of a grid with cells of `spacing`, but at most 200 in each direction
   std::vector<Point_3> surface_samples(double spacing) const
   {
     std::vector<Point_3> samples;

@@ -10,6 +10,7 @@
 
 namespace CGAL {
 
+/// \ingroup PkgMixedMesh3Optimization
 /// How `fit_mixed_mesh_to_surface()` ended: of those that apply the last.
 /// How `fit_mixed_mesh_to_surface()` ended.
 enum class Mixed_mesh_fit_status {
@@ -22,6 +23,7 @@ enum class Mixed_mesh_fit_status {
   EMPTY            ///< unchanged: there is no element
 };
 
+/// \ingroup PkgMixedMesh3Functions
 /// What `fit_mixed_mesh_to_surface()` did.
 /// The status in a few words.
 inline const char* description(Mixed_mesh_fit_status status)
@@ -38,10 +40,13 @@ inline const char* description(Mixed_mesh_fit_status status)
   return "";
 }
 
+/// \ingroup PkgMixedMesh3Optimization
 /// What `fit_mixed_mesh_to_surface()` did.
 struct Mixed_mesh_fit_result_3
 {
+  /// How it ended.
   Mixed_mesh_fit_status status = Mixed_mesh_fit_status::EMPTY;
+  /// All of the boundary.
   std::size_t number_of_boundary_vertices = 0;
   std::size_t number_of_arrived_vertices = 0; ///< boundary vertices on the surface
   std::size_t number_of_frozen_vertices = 0;  ///< held back in the last attempt, lest elements be inverted

@@ -13,7 +13,7 @@
 namespace CGAL {
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Domains
 
 \brief A triangulated surface inside a domain that need not enclose anything, such as the falx or the
 tentorium of a brain.
@@ -41,7 +41,8 @@ public:
     \cgalParamNEnd
   \cgalNamedParamsEnd
 
-  \cost O(n log n) for n triangles
+  \par Complexity
+  O(n log n) for n triangles
   */
   template <class FaceListGraph, class NamedParameters = parameters::Default_named_parameters>
   explicit Mixed_mesh_sheet_3(const FaceListGraph& surface,

@@ -13,6 +13,8 @@
 namespace CGAL {
 
 /*!
+\ingroup PkgMixedMesh3Domains
+
 \brief The domain inside a closed triangulated surface.
 
 A point is inside if a ray from it crosses the surface an odd number of times: a component within
@@ -39,7 +41,8 @@ public:
     \cgalParamNEnd
   \cgalNamedParamsEnd
 
-  \cost O(n log n) for n triangles
+  \par Complexity
+  O(n log n) for n triangles
   */
   template <class FaceListGraph, class NamedParameters = parameters::Default_named_parameters>
   explicit Polyhedral_mixed_mesh_domain_3(const FaceListGraph& surface,

@@ -18,7 +18,7 @@
 namespace CGAL {
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Optimization
 
 \brief Carries the boundary of a mixed mesh onto a closed surface, and lets the inner vertices follow.
 
@@ -61,7 +61,8 @@ mesh.
 \cgalNamedParamsEnd
 
 \return the status and what was done
-\cost a linear system with three unknowns for each vertex that moves inside, in each step and each time that
+\par Complexity
+A linear system with three unknowns for each vertex that moves inside, in each step and each time that
       elements are stiffened
 */
 template <class GeomTraits, class Surface, class Quality,
@@ -86,7 +87,7 @@ Mixed_mesh_fit_result_3 fit_mixed_mesh_to_surface(Mixed_mesh_3<GeomTraits>& mesh
 }
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Optimization
 
 As above, with the paper's aspect-ratio coefficient, acceptable up to `acceptable_aspect_ratio()`.
 */
@@ -100,7 +101,7 @@ Mixed_mesh_fit_result_3 fit_mixed_mesh_to_surface(Mixed_mesh_3<GeomTraits>& mesh
 }
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Optimization
 
 As above, with the default criteria.
 */

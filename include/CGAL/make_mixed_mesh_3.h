@@ -21,7 +21,7 @@
 namespace CGAL {
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Functions
 
 \brief Meshes a domain with mixed elements, fine in a region of interest, within a vertex budget.
 
@@ -72,7 +72,8 @@ threads.
 \cgalNamedParamsEnd
 
 \return the status and what was done
-\cost for n vertices and t triangles of the surfaces O(n log n + t log t), nearly linear; a query for a
+\par Complexity
+For n vertices and t triangles of the surfaces O(n log n + t log t), nearly linear; a query for a
       closest point for each boundary vertex that moves, and for each sample point of a tolerance
 */
 template <class Domain, class Region, class CellTraits, class GeomTraits,
@@ -93,7 +94,7 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
 }
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Functions
 
 As above, with cells parallel to the axes and the root that the criteria say. If the whole surface is
 perpendicular to the axes, as that of a box is, cells are placed such that it lies in lattice planes if they
@@ -115,7 +116,7 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
 }
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Functions
 
 As above, refined everywhere alike, and somewhat more at the surface.
 */

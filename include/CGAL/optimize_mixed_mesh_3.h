@@ -18,7 +18,7 @@
 namespace CGAL {
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Optimization
 
 \brief Brings the boundary of a mixed mesh onto a surface, moves vertices and flips tetrahedra to improve
 elements, and bisects edges of the boundary if asked to.
@@ -68,7 +68,8 @@ edges and where a flat tetrahedron on it is removed; the same input gives the sa
 \cgalNamedParamsEnd
 
 \return the status and what was done
-\cost proportional to the number of elements whose cost can be improved, times the rounds
+\par Complexity
+Proportional to the number of elements whose cost can be improved, times the rounds
 */
 template <class GeomTraits, class Surface, class Quality,
           class NamedParameters = parameters::Default_named_parameters>
@@ -92,7 +93,7 @@ optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface, co
 }
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Optimization
 
 As above, with the aspect-ratio coefficient as the cost of an element.
 */
@@ -106,7 +107,7 @@ optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface,
 }
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Optimization
 
 As above, with the default criteria.
 */

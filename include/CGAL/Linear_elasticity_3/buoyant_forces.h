@@ -71,6 +71,8 @@ std::vector<double> shares_below(const Mesh& mesh, const Height& height)
 } // namespace internal
 
 /*!
+\ingroup PkgLinearElasticity3Ref
+
 What a fluid around a body takes from its weight: forces by volume for
 `Linear_elasticity_3::set_body_forces()`, to be set beside `Linear_elasticity_3::set_gravity()`.
 
@@ -89,7 +91,8 @@ left out.
         acceleration, times the share of the element that is below the level. Zeros if there is no
         acceleration
 \pre the density is not negative
-\cost linear
+\par Complexity
+Linear
 */
 template <class Mesh>
 std::vector<Vec3> buoyant_forces(const Mesh& mesh, const Vec3& acceleration, double fluid_density,

@@ -24,6 +24,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /*!
+\ingroup PkgMixedMesh3Costs
+
 \brief The aspect-ratio coefficient as the cost of an element, with a penalty for warped faces.
 
 For a tetrahedron the cost is its aspect-ratio coefficient (ARC, see `aspect_ratio_coefficient()`). For

@@ -15,6 +15,7 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// \ingroup PkgLinearElasticity3Ref
 /// An isotropic linear elastic material. The defaults are those of the paper's brain tissue.
 struct Elastic_material
 {
@@ -33,6 +34,7 @@ struct Elastic_material
   double bulk_modulus() const { return young_modulus / (3 * (1 - 2 * poisson_ratio)); }
 };
 
+/// \ingroup PkgLinearElasticity3Ref
 /// The materials of the elements of a mesh, by their subdomains, for `Linear_elasticity_3`.
 /// \param mesh the mesh
 /// \param materials that of each subdomain

@@ -13,9 +13,11 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// \ingroup PkgMixedMesh3Fields
 /// A point of a mesh: its element, and where it is there.
 struct Element_location_3
 {
+  /// The element; -1 before a location is found.
   Element_index element = Element_index(-1);
   std::array<double, 3> coordinates{}; ///< in the reference element
   /// Values of the shape functions, in the order of the element's vertices: a field of the mesh is the sum

@@ -18,6 +18,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /*!
+\ingroup PkgMixedMesh3Costs
+
 \brief The reciprocal of the scaled Jacobian as the cost of an element.
 
 Angles alone count: a hexahedron with right angles has the cost 1 whatever its lengths, and the warp of

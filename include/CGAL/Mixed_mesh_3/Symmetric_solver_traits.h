@@ -30,6 +30,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /*!
+\ingroup PkgMixedMesh3Solvers
+
 \brief Solves symmetric positive definite systems with a solver of Eigen.
 
 Where `CGAL::Eigen_solver_traits` starts again at each `factor()`, this class keeps the symbolic factorization
@@ -47,12 +49,15 @@ template <class EigenSolver>
 class Symmetric_solver_traits
 {
 public:
+  /// The number type.
   using NT = double;
+  /// The type of right-hand sides and solutions.
   using Vector = CGAL::Eigen_vector<double>;
 
   /// The lower triangle of a symmetric matrix; the upper one is ignored.
   struct Matrix : CGAL::Eigen_sparse_symmetric_matrix<double>
   {
+    /// The matrix of CGAL that this one adds a constructor to.
     using Base = CGAL::Eigen_sparse_symmetric_matrix<double>;
     using Base::Base;
 
@@ -113,6 +118,7 @@ public:
     return solver().info() == Eigen::Success;
   }
 
+  /// Factors the matrix, then solves for one right-hand side.
   bool linear_solver(const Matrix& a, const Vector& b, Vector& x, NT& denominator)
   {
     return factor(a, denominator) && linear_solver(b, x);
@@ -131,10 +137,12 @@ private:
   std::shared_ptr<State> m_state = std::make_shared<State>();
 };
 
+/// \ingroup PkgMixedMesh3Solvers
 /// Conjugate gradients with Jacobi's preconditioner. The fastest where few layers of vertices move.
 using Conjugate_gradient_solver_traits =
   Symmetric_solver_traits<Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower>>;
 
+/// \ingroup PkgMixedMesh3Solvers
 /// Eigen's simplicial factorization.
 using Simplicial_solver_traits = Symmetric_solver_traits<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>;
 
@@ -149,8 +157,10 @@ struct Quiet_cholmod : Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>
 
 } // namespace internal
 
+/// \ingroup PkgMixedMesh3Solvers
 /// The supernodal factorization of CHOLMOD. The fastest direct solver for large systems, with a good BLAS.
 using Cholmod_solver_traits = Symmetric_solver_traits<internal::Quiet_cholmod>;
+/// \ingroup PkgMixedMesh3Solvers
 /// The fastest direct solver there is.
 using Direct_solver_traits = Cholmod_solver_traits;
 #else

@@ -18,7 +18,7 @@
 namespace CGAL {
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Validity
 
 \brief Makes a mixed mesh of the tetrahedra of a complex, such as `make_mesh_3()` returns.
 
@@ -33,7 +33,8 @@ region.
 \param c3t3 the complex
 \param mesh the result; cleared first
 
-\cost O(n log n)
+\par Complexity
+O(n log n)
 */
 template <class C3t3, class GeomTraits>
 void cells_in_complex_3_to_mixed_mesh(const C3t3& c3t3, Mixed_mesh_3<GeomTraits>& mesh)

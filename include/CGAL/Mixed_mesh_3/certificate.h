@@ -27,6 +27,7 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// \ingroup PkgMixedMesh3Validity
 /// What is known of the sign of the Jacobian of an element.
 enum class Jacobian_sign : std::uint8_t {
   POSITIVE,     ///< proved positive on the whole element
@@ -262,11 +263,14 @@ inline bool is_clearly_positive(Element_kind kind, const std::array<std::array<d
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 The sign of the Jacobian on the whole element, exact on the coordinates as doubles.
 
 \param kind the kind
 \param points the positions of the vertices; the first ones are used. \pre finite
-\cost constant: 64 determinants for a hexahedron; intervals and then rationals where doubles are not enough
+\par Complexity
+Constant: 64 determinants for a hexahedron; intervals and then rationals where doubles are not enough
 */
 inline Jacobian_sign jacobian_sign(Element_kind kind, const std::array<std::array<double, 3>, 8>& points)
 {
@@ -283,6 +287,7 @@ inline Jacobian_sign jacobian_sign(Element_kind kind, const std::array<std::arra
   return internal::jacobian_sign_with<CGAL::Exact_rational>(kind, points, exact_subdivisions);
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// The sign of the Jacobian of an element.
 /// \param element its kind and vertices
 /// \param position `std::array<double, 3>(Vertex_index)`: where a vertex is
@@ -295,6 +300,7 @@ Jacobian_sign jacobian_sign(const Element_view& element, const Position& positio
   return jacobian_sign(element.kind(), points);
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// The sign of the Jacobian of element `e`.
 template <class Mesh>
 Jacobian_sign jacobian_sign(const Mesh& mesh, Element_index e)

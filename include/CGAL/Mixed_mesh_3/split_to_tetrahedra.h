@@ -16,6 +16,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 \brief Splits all elements of a mesh into tetrahedra, for programs that know nothing else.
 
 Every quadrilateral is split by the diagonal through its vertex of smallest index, and every element

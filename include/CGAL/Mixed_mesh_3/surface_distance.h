@@ -96,16 +96,20 @@ inline double diagonal(const Triangle_soup& soup)
 
 } // namespace internal
 
+/// \ingroup PkgMixedMesh3Validity
 /// How far the boundary of a mesh and a surface are from each other.
 struct Hausdorff_distance
 {
   One_sided_distance from_mesh;    ///< the point of the boundary that is farthest from the surface
   One_sided_distance from_surface; ///< the point of the surface that is farthest from the boundary
 
+  /// The larger one of both.
   double distance() const { return (std::max)(from_mesh.distance, from_surface.distance); }
 };
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 \brief Computes the Hausdorff distance between the boundary of a mesh and a surface, both ways.
 
 Not sampled: a bound on the error is proved, up to rounding. Quadrilaterals on the boundary are split into
@@ -128,7 +132,8 @@ two triangles, through their vertex of smallest index.
   \cgalParamNEnd
 \cgalNamedParamsEnd
 
-\cost about O(n log n) for n triangles, if the distances are not all the same; at most some seconds more
+\par Complexity
+About O(n log n) for n triangles, if the distances are not all the same; at most some seconds more
 */
 template <class Mesh, class FaceListGraph, class NamedParameters = parameters::Default_named_parameters>
 Hausdorff_distance hausdorff_distance(const Mesh& mesh, const FaceListGraph& surface,
@@ -144,6 +149,8 @@ Hausdorff_distance hausdorff_distance(const Mesh& mesh, const FaceListGraph& sur
 }
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 Number of vertices on the boundary of a mesh that are not on a surface.
 
 \param mesh the mesh. \pre not empty
@@ -179,6 +186,7 @@ std::size_t number_of_vertices_off_surface(const Mesh& mesh, const FaceListGraph
   return n;
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// Number of pairs of triangles of the boundary that intersect other than in a common edge or vertex, by
 /// exact predicates. A degenerate triangle counts as a pair with itself; where the boundary is not a
 /// manifold, what touches counts as well.

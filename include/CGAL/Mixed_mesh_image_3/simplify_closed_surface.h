@@ -126,6 +126,8 @@ private:
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMeshImage3Ref
+
 \brief Simplifies a surface to a number of vertices, about, by the collapse of the edges that change its
 volume and shape least (Lindstrom, Turk: Fast and memory efficient polygonal simplification, 1998).
 
@@ -134,7 +136,8 @@ surface gets more vertices, up to those it has. So what does not cut itself at t
 
 \param surface a closed triangulated surface that does not cut itself
 \param number_of_vertices how many vertices are wanted
-\cost \f$ O(n \log n) \f$
+\par Complexity
+\f$ O(n \log n) \f$
 */
 template <class Point>
 void simplify_closed_surface(Surface_mesh<Point>& surface, std::size_t number_of_vertices)

@@ -53,7 +53,8 @@ partner is in no patch.
 
 \param is_together `bool(e, f)`: whether two elements may have one dilatation: they are of one material. For
        `e == f`, whether it may be in a patch at all
-\cost linear
+\par Complexity
+Linear
 */
 template <class Is_together>
 Patches dilatation_patches(const Element_list& elements, std::size_t number_of_vertices,

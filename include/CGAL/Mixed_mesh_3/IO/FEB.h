@@ -56,6 +56,8 @@ inline void write_FEB_node_data(Buffered_output& out, const Data_array& data, st
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3IO
+
 \brief Writes a mesh as model of FEBio (`.feb`), version 4.0.
 
 The mesh: node set `all`, element sets such as `region_hex8` and `rest_tet4` (of other subdomains than 1

@@ -16,6 +16,8 @@ namespace Mixed_meshes_3 {
 namespace IO {
 
 /*!
+\ingroup PkgMixedMesh3IO
+
 \brief Faces of elements with a name, to be written with a mesh: where a boundary condition holds, or an
 interface between tissues.
 
@@ -26,7 +28,9 @@ as a face of one of them, and has the orientation from there outwards. A set wit
 */
 struct Facet_set
 {
+  /// The name in files.
   std::string name;
+  /// Faces of elements of the mesh.
   std::vector<Face> faces;
 };
 

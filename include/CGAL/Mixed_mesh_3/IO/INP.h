@@ -59,6 +59,8 @@ void write_INP_surface(Buffered_output& out, const Mesh& mesh, const Facet_set& 
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3IO
+
 \brief Writes a mesh as input of Abaqus (`.inp`): nodes, elements and sets, no analysis.
 
 Element sets: `REGION` and `REST` for the elements of subdomain 1 in the region and the others,

@@ -22,6 +22,8 @@ namespace Mixed_meshes_3 {
 namespace IO {
 
 /*!
+\ingroup PkgMixedMesh3IO
+
 \brief Writes a mesh in the format of Medit (`.mesh`), as text.
 
 References: of subdomain 1, 1 for the elements in the region and 2 for the others; 3 for the boundary faces

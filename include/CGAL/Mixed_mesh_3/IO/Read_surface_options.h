@@ -12,10 +12,15 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace IO {
 
+/// \ingroup PkgMixedMesh3IO
 /// Which way the axes x, y and z point in a patient: to the right, anterior and superior (RAS: images,
 /// FreeSurfer, GIFTI), or to the left, posterior and superior (LPS: DICOM, ITK, and 3D Slicer's files).
-enum class Anatomical_space { RAS, LPS };
+enum class Anatomical_space {
+  RAS, ///< x to the right, y to the front, z up
+  LPS  ///< x to the left, y to the back, z up
+};
 
+/// \ingroup PkgMixedMesh3IO
 /// How a surface file is read.
 struct Read_surface_options
 {

@@ -14,10 +14,13 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace IO {
 
+/// \ingroup PkgMixedMesh3IO
 /// What a surface file held, and what had to be mended.
 struct Surface_input
 {
+  /// Points of the surface.
   std::size_t number_of_points = 0, number_of_polygons = 0; ///< in the file
+  /// Connected parts of the surface.
   std::size_t number_of_components = 0;
   double volume = 0;                 ///< enclosed, in the cube of the unit
   std::vector<std::string> warnings; ///< a line each, without the file's name

@@ -33,10 +33,15 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace IO {
 
+/// \ingroup PkgMixedMesh3IO
+/// What `write_VTU()` writes besides the mesh.
 struct VTU_options
 {
+  /// Values at the vertices.
   std::vector<Data_array> vertex_data;
+  /// Values of the elements.
   std::vector<Data_array> element_data;
+  /// Named faces of elements.
   std::vector<Facet_set> facet_sets = {};
 };
 
@@ -121,6 +126,8 @@ VTU_arrays cell_arrays(const Mesh& mesh)
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3IO
+
 \brief Writes a mesh as VTK unstructured grid: XML, version 1.0, with raw binary data appended.
 
 Elements are sorted by kind, within a kind in the order of the mesh: programs that read blocks of one kind

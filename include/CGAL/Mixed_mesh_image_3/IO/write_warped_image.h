@@ -68,6 +68,8 @@ inline std::string NRRD_header(const Voxel_grid_3& grid, bool is_compressed)
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMeshImage3Ref
+
 Writes a field as NRRD to one of several files that shall appear together.
 
 Floats in millimeters, the components of a voxel side by side, space and components left-posterior-superior:
@@ -109,6 +111,7 @@ what 3D Slicer and ITK take for a transform.
     error);
 }
 
+/// \ingroup PkgMixedMeshImage3Ref
 /// Writes a field in one of the formats that other programs read; parameters as above, and `.nii` or
 /// `.nii.gz` for NIfTI.
 [[nodiscard]] inline bool write_displacement_field(Output_files& files, const std::string& path,
@@ -126,6 +129,8 @@ what 3D Slicer and ITK take for a transform.
 }
 
 /*!
+\ingroup PkgMixedMeshImage3Ref
+
 Writes what `warp_image()` returns, beside each other: for `brain.nii.gz`
 
 | file | what it is |

@@ -300,7 +300,8 @@ smoothly from 1 to 0 over a distance.
 
 Distances are measured along the axes of the grid as if these were at right angles.
 \pre fewer than 2^32 voxels
-\cost linear in the number of voxels in a box around the mesh
+\par Complexity
+Linear in the number of voxels in a box around the mesh
 */
 inline void fade_displacement(double distance, Displacement_field_3& field)
 {

@@ -86,7 +86,8 @@ struct Element_block
 };
 
 /// All elements of a mesh in blocks: by part, then by kind, then in the order of the mesh.
-/// \cost O(n log n), four bytes an element
+/// \par Complexity
+/// O(n log n), four bytes an element
 class Element_blocks
 {
   std::vector<Part> m_parts;

@@ -123,7 +123,8 @@ struct Face_patch
 };
 
 /// The boundary faces and those of sets as patches: each face is in one.
-/// \cost O(n log n)
+/// \par Complexity
+/// O(n log n)
 class Face_patches
 {
   std::vector<Face> m_faces;

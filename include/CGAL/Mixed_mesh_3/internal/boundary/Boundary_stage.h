@@ -410,7 +410,8 @@ Elements at sheets are split too, and their pieces get compartments; the vertice
 
 \param mesh the labels of pinched vertices change; in the paper's mode vertices are added
 \param mode the paper's knows one subdomain only: several are split by the vertex order
-\cost O(n + m log m) for n elements, m of them at the surface, plus m closest-point queries
+\par Complexity
+O(n + m log m) for n elements, m of them at the surface, plus m closest-point queries
 */
 template <class Octree_, class Sheets = No_sheets>
 Boundary_pieces split_boundary(const Octree_& octree, Lattice_mesh& mesh, Boundary_mode mode,

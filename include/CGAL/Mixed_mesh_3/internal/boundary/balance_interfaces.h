@@ -31,7 +31,8 @@ elements of small parts (as vertices near to an isosurface are warped: Labelle, 
 2007). Only where there are two subdomains around the vertex and not the outside, and beside a vertex that
 stays: what is thin is not lost.
 
-\cost linear in the number of elements; a closest-point query for each vertex beside another subdomain
+\par Complexity
+Linear in the number of elements; a closest-point query for each vertex beside another subdomain
 */
 template <class Octree_>
 void balance_interfaces(const Octree_& located, Lattice_mesh& mesh, unsigned threads)

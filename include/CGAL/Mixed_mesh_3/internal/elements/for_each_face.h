@@ -114,7 +114,8 @@ public:
 
 /// Calls `visit(group)` with a `Face_table::Group` for each set of vertices that is a face, among the faces
 /// all of whose vertices satisfy `is_candidate`.
-/// \cost linear in the number of elements, if vertices have boundedly many; 24 bytes per face
+/// \par Complexity
+/// Linear in the number of elements, if vertices have boundedly many; 24 bytes per face
 template <class Is_candidate, class Visitor>
 void for_each_face(const Element_list& elements, std::size_t number_of_vertices,
                    const Is_candidate& is_candidate, const Visitor& visit)

@@ -29,7 +29,8 @@ struct Manifold_defects
   bool empty() const { return edges.empty() && vertices.empty(); }
 };
 
-/// \cost O(n log n) for n polygons
+/// \par Complexity
+/// O(n log n) for n polygons
 inline Manifold_defects manifold_defects(const std::vector<Face_vertices>& polygons)
 {
   Manifold_defects defects;

@@ -28,7 +28,8 @@ struct Shell_counts
 };
 
 /// \param polygons ranges of vertex indices. \pre each edge belongs to two of them
-/// \cost linear, nearly
+/// \par Complexity
+/// Linear, nearly
 template <class Polygons>
 Shell_counts shell_counts(const Polygons& polygons, std::size_t number_of_vertices)
 {

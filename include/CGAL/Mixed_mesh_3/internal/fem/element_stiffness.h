@@ -39,7 +39,8 @@ inline double pointwise_share(const Elastic_material& material)
   return (std::min)(1., largest_multiple_of_mu * material.mu() / material.bulk_modulus());
 }
 
-/// \cost constant: 8 points and 36 blocks for a hexahedron, 1 point and 10 blocks for a tetrahedron
+/// \par Complexity
+/// Constant: 8 points and 36 blocks for a hexahedron, 1 point and 10 blocks for a tetrahedron
 inline void compute_element_stiffness(Element_kind kind, const std::array<Vec3, 8>& points,
                                       const Elastic_material& material, Dilatation dilatation,
                                       Element_stiffness& stiffness)

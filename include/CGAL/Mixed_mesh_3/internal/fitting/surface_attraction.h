@@ -123,7 +123,8 @@ public:
   }
 
   /// Measures all distances.
-  /// \cost a query to an AABB tree for each sample of the surface, and of the boundary
+  /// \par Complexity
+  /// A query to an AABB tree for each sample of the surface, and of the boundary
   void measure()
   {
     m_shifts.assign(m_mesh.points.size(), Vec3{});

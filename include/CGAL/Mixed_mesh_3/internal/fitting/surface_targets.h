@@ -132,7 +132,8 @@ The target of each boundary vertex.
 \param closest as `Surface_projection`
 \param strata of all vertices
 \param starts of all vertices, the points to be projected, if these are others
-\cost one query per boundary vertex, and one for each vertex of a folded face in each round
+\par Complexity
+One query per boundary vertex, and one for each vertex of a folded face in each round
 */
 template <class Project>
 Surface_targets surface_targets(const std::vector<Face>& boundary, const std::vector<Vec3>& points,

@@ -165,7 +165,8 @@ Splits what is too large for walls and gaps, the largest cells first, level by l
 the budget.
 
 \param number_of_vertices `std::size_t(octree)`: of its mesh
-\cost a dozen queries for closest points and more for each leaf at the surface
+\par Complexity
+A dozen queries for closest points and more for each leaf at the surface
 */
 template <class Octree_, class Count>
 Thin_cell_splits split_thin_cells(Octree_& octree, double strictness, std::size_t budget,

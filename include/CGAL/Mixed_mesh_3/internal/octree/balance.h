@@ -45,7 +45,8 @@ up, each refined cell is looked at once.
 
 \param refined the nodes split since the octree was last balanced
 \param split called as `split(node)` to split a leaf, so that the caller can keep data per node
-\cost linear in the number of refined nodes, times the depth
+\par Complexity
+Linear in the number of refined nodes, times the depth
 */
 template <class Split>
 void balance(const Octree& octree, const std::vector<Octree::Node_index>& refined, Adjacency adjacency,

@@ -166,7 +166,8 @@ so, too.
 \param radius, points see `Refinement_sequence`
 \param try_octree `Candidate(octree)`: runs all stages that change the number of vertices
 \return the best candidate; its number of vertices is above the budget only if that of the start is
-\cost O(log n) trials of at most a little more than n vertices; two for large n
+\par Complexity
+O(log n) trials of at most a little more than n vertices; two for large n
 */
 template <class Octree_, class Try>
 auto fill_vertex_budget(Octree_& octree, std::size_t budget, double radius, const Try& try_octree,

@@ -44,7 +44,8 @@ Source: Zhou, Grinspun, Zorin, Jacobson: Mesh arrangements for solid geometry (S
 \param triangles indices of points; those without area are passed over
 \param most number of pairs of triangles that meet, or of pieces, above which nothing is done; this many
        take some ten seconds
-\cost O((n + k) log(n + k)) for n triangles, k pairs of which meet
+\par Complexity
+O((n + k) log(n + k)) for n triangles, k pairs of which meet
 */
 Solid_reading read_solid(const std::vector<Solid_reading::Point>& points,
                          const std::vector<std::array<std::size_t, 3>>& triangles, std::size_t most = 300000);

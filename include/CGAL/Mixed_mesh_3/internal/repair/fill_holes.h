@@ -45,7 +45,8 @@ dropped.
 \param points,triangles the surface; it is oriented if it can be, and vertices where it is no manifold are
        doubled
 \param largest_share of the area of a part that holes may have
-\cost as that of `CGAL::Polygon_mesh_processing::triangulate_hole_polyline()`
+\par Complexity
+As that of `CGAL::Polygon_mesh_processing::triangulate_hole_polyline()`
 */
 Hole_filling fill_holes(std::vector<Predicates_kernel::Point_3>& points,
                         std::vector<std::array<std::size_t, 3>>& triangles, double largest_share);

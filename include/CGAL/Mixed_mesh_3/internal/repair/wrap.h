@@ -22,7 +22,8 @@ namespace internal {
 Returns triangles that wrap others: closed, manifold, without self-intersections, oriented outwards. What a
 ball of that diameter does not get into is solid.
 
-\cost as that of `CGAL::alpha_wrap_3()`
+\par Complexity
+As that of `CGAL::alpha_wrap_3()`
 */
 void wrap(double diameter, std::vector<Predicates_kernel::Point_3>& points,
           std::vector<std::array<std::size_t, 3>>& triangles);

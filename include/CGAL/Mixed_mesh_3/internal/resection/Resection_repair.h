@@ -32,7 +32,8 @@ class Element_adjacency
   std::vector<std::array<Element_index, 6>> m_neighbors;
 
 public:
-  /// \cost linear in the number of elements, if vertices have boundedly many; 56 bytes per hexahedron
+  /// \par Complexity
+  /// Linear in the number of elements, if vertices have boundedly many; 56 bytes per hexahedron
   Element_adjacency(const Element_list& elements, std::size_t number_of_vertices)
     : m_offsets(number_of_vertices + 1, 0), m_elements(elements.connectivity().size())
   {
@@ -152,7 +153,8 @@ public:
 
   /// Finds pieces that came loose: of each connected part of what was there before, all pieces but the
   /// largest, the first one if several are.
-  /// \cost linear
+  /// \par Complexity
+  /// Linear
   void find_floating(bool remove)
   {
     const auto was_there = [this](Element_index e) { return m_states[e] != State::GONE; };
@@ -186,7 +188,8 @@ public:
       }
   }
 
-  /// \cost linear in the number of elements, plus a constant for each fan too many
+  /// \par Complexity
+  /// Linear in the number of elements, plus a constant for each fan too many
   void remove_pinches()
   {
     std::vector<Vertex_index> todo, changed, stuck;
@@ -213,7 +216,8 @@ public:
   }
 
   /// Vertices where the boundary is not a manifold, counted by its faces: trusts nothing above.
-  /// \cost O(n log n) for n boundary faces
+  /// \par Complexity
+  /// O(n log n) for n boundary faces
   std::size_t number_of_pinched_vertices() const
   {
     std::vector<Face_vertices> polygons;

@@ -101,7 +101,8 @@ public:
   bool is_solid(std::size_t region) const { return region != outside && !m_shells[region].is_cavity(); }
 
   /// The region of a point; one that is on a shell counts as outside of it.
-  /// \cost a query for each shell whose box contains the point
+  /// \par Complexity
+  /// A query for each shell whose box contains the point
   std::size_t region_of(const Point_3& p) const
   {
     std::size_t region = outside;

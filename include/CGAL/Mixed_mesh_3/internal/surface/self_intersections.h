@@ -59,7 +59,8 @@ inline bool is_crossing(const std::array<Vertex_index, 3>& s, const std::array<V
 /// The vertices of faces that meet in more than the vertices and edges they share, ascending. Exact.
 /// \param faces triangles, and quadrilaterals as two of them; those without area, which no valid element has,
 ///        are passed over
-/// \cost O(n log n) for n faces, if few meet
+/// \par Complexity
+/// O(n log n) for n faces, if few meet
 inline std::vector<Vertex_index> vertices_of_self_intersections(const std::vector<Vec3>& positions,
                                                                 const std::vector<Face>& faces)
 {

@@ -201,7 +201,8 @@ Replaces the leaves of a balanced octree by hexahedra and transition templates.
 Two leaves of the mesh agree on every face, because face splits depend on the face's split edges
 only. Vertices get the side of the surface they are on; one exactly on it has `ON_BOUNDARY`.
 
-\cost linear in the number of nodes, times the depth
+\par Complexity
+Linear in the number of nodes, times the depth
 */
 template <class Octree_>
 Lattice_mesh apply_transitions(const Octree_& octree, Transition_templates_choice choice,
