@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Linear elasticity on mixed meshes, for many load cases: section 6.2 of Lobos, Bucki, Hitschfeld, Payan:
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_H
 #define CGAL_LINEAR_ELASTICITY_3_H
+
+#include <CGAL/license/Linear_elasticity_3.h>
 
 #include <CGAL/Linear_elasticity_3/Linear_elasticity_result_3.h>
 #include <CGAL/Linear_elasticity_3/buoyant_forces.h>

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Regions of interest: models of `MixedMeshRegion_3`.
 
 #ifndef CGAL_MIXED_MESH_REGIONS_3_H
 #define CGAL_MIXED_MESH_REGIONS_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/octree/weight_in_region.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3.h>

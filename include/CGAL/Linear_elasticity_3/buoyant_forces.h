@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_BUOYANT_FORCES_H
 #define CGAL_LINEAR_ELASTICITY_3_BUOYANT_FORCES_H
+
+#include <CGAL/license/Linear_elasticity_3.h>
 
 #include <CGAL/Mixed_mesh_3/Index.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The four element kinds as constant tables. Every algorithm loops over these tables; none
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_MIXED_ELEMENT_TRAITS_3_H
 #define CGAL_MIXED_MESH_3_MIXED_ELEMENT_TRAITS_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Sparse solvers of Eigen and, if `CGAL_MIXED_MESH_3_USE_CHOLMOD` is defined, of SuiteSparse. The macro is
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_SYMMETRIC_SOLVER_TRAITS_H
 #define CGAL_MIXED_MESH_3_SYMMETRIC_SOLVER_TRAITS_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Eigen_sparse_matrix.h>
 #include <CGAL/Eigen_vector.h>

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Whether a mesh is the solid that its surface bounds: bodies, cavities, handles, volume.
 
 #ifndef CGAL_MIXED_MESH_3_FIDELITY_H
 #define CGAL_MIXED_MESH_3_FIDELITY_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Nested_shells.h>

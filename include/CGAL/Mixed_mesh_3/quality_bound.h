@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The proof that the aspect-ratio coefficient of an element is within a bound. The squares of both sides are
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_QUALITY_BOUND_H
 #define CGAL_MIXED_MESH_3_QUALITY_BOUND_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>

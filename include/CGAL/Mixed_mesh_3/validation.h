@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Checkers of the results of the stages. They know nothing of how these were made.
 
 #ifndef CGAL_MIXED_MESH_3_VALIDATION_H
 #define CGAL_MIXED_MESH_3_VALIDATION_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The boundary stage as a whole: order the vertices, split, look for pinched places, relabel, again.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_BOUNDARY_STAGE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_BOUNDARY_STAGE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/manifold_defects.h>
