@@ -16,7 +16,6 @@ namespace CGAL {
 
 /// \ingroup PkgMixedMesh3Optimization
 /// How `fit_mixed_mesh_to_surface()` ended: of those that apply the last.
-/// How `fit_mixed_mesh_to_surface()` ended.
 enum class Mixed_mesh_fit_status {
   SUCCESS,         ///< the boundary is on the surface, all elements that moved are of acceptable quality
   CAP_REACHED,     ///< the boundary is on the surface; stiffening did not make all elements acceptable
@@ -28,7 +27,6 @@ enum class Mixed_mesh_fit_status {
 };
 
 /// \ingroup PkgMixedMesh3Functions
-/// What `fit_mixed_mesh_to_surface()` did.
 /// The status in a few words.
 inline const char* description(Mixed_mesh_fit_status status)
 {

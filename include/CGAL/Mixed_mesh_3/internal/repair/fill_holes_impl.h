@@ -39,14 +39,13 @@ class Surface_parts
   using Triangle = std::array<std::size_t, 3>;
 
   std::vector<Point>& m_points;
-  std::vector<Triangle>& m_triangles;
   std::map<std::array<std::size_t, 2>, std::size_t> m_directed_edges; // with the triangle
   std::vector<std::size_t> m_part;                                    // of each triangle: its first one
 
 public:
   /// \pre oriented consistently, a manifold
   Surface_parts(std::vector<Point>& points, std::vector<Triangle>& triangles)
-    : m_points(points), m_triangles(triangles), m_part(triangles.size())
+    : m_points(points), m_part(triangles.size())
   {
     for(std::size_t t = 0; t < triangles.size(); ++t)
       for(std::size_t i = 0; i < 3; ++i)
