@@ -9,6 +9,7 @@ XML is the folder that doxygen writes with EXTRACT_ALL: what is documented, and 
 - each class, function, type and constant of include/CGAL has documentation, and so has each public member; that
   of a model may stand with the concept;
 - each of them is in a group, and in a list of a PACKAGE_DESCRIPTION, and these name nothing else;
+- no markup is left in the text, as by quotes that a line ends in;
 - a class that is a model of a concept is in the list of models of that concept, and the other way round.
 
 What is below internal/, or in a namespace internal, is not public.
@@ -27,6 +28,15 @@ def text_of(entity, *tags):
     return "".join("".join(part.itertext()) for tag in tags for part in entity.findall(tag)).strip()
 
 
+def prose_of(paragraph):
+    """The text, without that of programs."""
+    yield paragraph.text or ""
+    for part in paragraph:
+        if part.tag not in ("programlisting", "verbatim", "computeroutput"):
+            yield from prose_of(part)
+        yield part.tail or ""
+
+
 def is_documented(entity):
     return text_of(entity, "briefdescription", "detaileddescription") != ""
 
@@ -36,13 +46,18 @@ class Reference:
 
     def __init__(self, folder):
         self.classes, self.members, self.namespace_members = {}, {}, []
-        self.grouped, self.models, self.models_of = set(), {}, {}
+        self.grouped, self.models, self.models_of, self.stray_markup = set(), {}, {}, []
         compounds = [
             compound
             for path in sorted(glob.glob(os.path.join(folder, "*.xml")))
             for compound in xml.etree.ElementTree.parse(path).getroot().findall("compounddef")
         ]
         for compound in compounds:
+            for paragraph in compound.iter("para"):
+                prose = "".join(prose_of(paragraph))
+                found = re.search(r"(@section|\\ref |</?(tt|b|em|p)>).{,60}", prose, re.DOTALL)
+                if found:
+                    self.stray_markup.append(f"{compound.findtext('compoundname')}: {found.group()!r}")
             kind, name = compound.get("kind"), compound.findtext("compoundname")
             if kind == "group":
                 self.grouped.update(inner.text for inner in compound.findall("innerclass"))
@@ -160,6 +175,7 @@ def main():
         if name not in public and name not in reference.classes
     ]
     defects += sorted(reference.asymmetric_models())
+    defects += [f"{place}: markup that is not understood" for place in sorted(set(reference.stray_markup))]
     for defect in defects:
         print(defect)
     number = sum(len(members) for members in reference.members.values())

@@ -49,7 +49,7 @@ TEMPLATES = (
 BUDGET = ["--vertices", "2000"]
 PARAMETERS = (
     ("parameter_budget", [(f"{n:,} vertices", ["--vertices", str(n)]) for n in (660, 2000, 10000)]),
-    ("parameter_grading", [(f"grading {g}", BUDGET + ["--grading", str(g)]) for g in (0, 0.35, 2)]),
+    ("parameter_grading", [(f"grading {g}", ["--vertices", "5000", "--grading", str(g)]) for g in (0, 0.35, 2)]),
     (
         "parameter_tolerance",
         [
@@ -220,12 +220,15 @@ def draw_parameters(mesher, folder):
                 if options == BUDGET and not regions:
                     colors = ["#dfe6ee"] * len(colors) # everywhere is in the region
                 axes.add_collection(PolyCollection(polygons, facecolors=colors, edgecolors="#333333", linewidths=0.4))
-                axes.autoscale_view()
+                corners = np.concatenate(polygons)
+                (x0, y0), (x1, y1) = corners.min(axis=0) - 2, corners.max(axis=0) + 2
                 axes.set_aspect("equal")
                 axes.set_axis_off()
                 axes.set_title(caption, fontsize=11)
+            for axes in all_axes: # all alike, whatever the boundary is
+                axes.set(xlim=(x0, x1), ylim=(y0, y1))
             figure.tight_layout()
-            figure.savefig(folder / f"{name}.png", dpi=80)
+            figure.savefig(folder / f"{name}.png", dpi=80, bbox_inches="tight")
             plt.close(figure)
 
 
