@@ -11,6 +11,9 @@
 #   layers      arrows between folders run one way: scripts/check_layers.py
 #   doc         the manual, by doxygen; a warning is an error
 #   headers     every header compiles alone, without a warning
+#   layout      the repository as it would lie in CGAL's tree: scripts/lay_out_as_cgal.py; examples and a test
+#               are compiled there, with -Wpedantic, by LAYOUT_COMPILERS (default: g++), also with the CGAL of
+#               CGAL_DIR_61
 #   benchmarks  the benchmarks are built
 #   debug       the examples run with CGAL's assertions and preconditions
 #   sanitize    short tests run with these, AddressSanitizer and UndefinedBehaviorSanitizer
@@ -29,7 +32,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/scripts/setup.sh"
 
 build=$(realpath -m "${BUILD_DIR:-$root/build/check}")
-parts=(format shell python layers doc headers benchmarks debug sanitize fuzz cgal61)
+parts=(format shell python layers doc headers layout benchmarks debug sanitize fuzz cgal61)
 
 # The tests that sanitizers run. Not those that read a surface or mesh one: with sanitizers, a compiler takes three
 # minutes and 4 GB for CGAL's polygon meshes. `cmake --preset sanitize` and `ctest --preset sanitize` run all.
@@ -116,6 +119,37 @@ check_headers() {
   build "$build/debug" test_headers
 }
 
+# Compiles an example of each package in the layout, and runs a test with the CMakeLists.txt that is written there.
+# What follows the folder is for the compilers.
+compile_layout() {
+  local tree=$1 compiler source package
+  shift
+  local -a flags=("$@")
+  for package in Installation Mixed_mesh_3 Linear_elasticity_3; do
+    flags+=("-I$tree/$package/include")
+  done
+  for compiler in ${LAYOUT_COMPILERS:-g++}; do
+    for source in "$tree"/*/examples/*/{mixed_mesh_of_a_brain,elasticity_of_brain_shift}.cpp; do
+      [[ -f $source ]] || continue # a name for each package
+      "$compiler" -std=c++17 -fsyntax-only -Wall -Wextra -Wpedantic -Werror -isystem /usr/include/eigen3 \
+        -DMIXED_MESH_3_DATA_DIR='"data"' "${flags[@]}" "$source" || fail "$source does not compile with $compiler"
+    done
+  done
+  rm -rf "$tree-build"
+  cmake -S "$tree/Mixed_mesh_3/test/Mixed_mesh_3" -B "$tree-build" -DCMAKE_BUILD_TYPE=Debug \
+    -DCGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE=TRUE "-DCMAKE_CXX_FLAGS=${flags[*]}" > "$tree-build.log"
+  cmake --build "$tree-build" --target test_mixed_mesh_elements_traits >> "$tree-build.log"
+  (cd "$tree/Mixed_mesh_3/test/Mixed_mesh_3" && "$tree-build/test_mixed_mesh_elements_traits" data)
+}
+
+check_layout() {
+  scripts/lay_out_as_cgal.py "$build/layout"
+  compile_layout "$build/layout"
+  if [[ -n ${CGAL_DIR_61:-} ]]; then
+    compile_layout "$build/layout" -isystem "$CGAL_DIR_61/include"
+  fi
+}
+
 check_benchmarks() {
   configure_debug "$build/debug"
   build "$build/debug" benchmark/all
@@ -123,7 +157,7 @@ check_benchmarks() {
 
 check_debug() {
   configure_debug "$build/debug"
-  build "$build/debug" examples/Mixed_mesh_3/all
+  build "$build/debug" examples/all
   run_tests "$build/debug" -R '^example_'
 }
 
@@ -165,7 +199,7 @@ check_cgal61() {
   [[ -f $version ]] || fail "there is no $version"
   grep 'define CGAL_VERSION ' "$version"
   configure_debug "$build/cgal61" "-DCMAKE_CXX_FLAGS=-isystem $CGAL_DIR_61/include"
-  build "$build/cgal61" test_headers examples/Mixed_mesh_3/all "${short_tests[@]}"
+  build "$build/cgal61" test_headers examples/all "${short_tests[@]}"
 }
 
 [[ $# -gt 0 ]] || set -- "${parts[@]}"

@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_IMPLICIT_MIXED_MESH_DOMAIN_3_H
 #define CGAL_IMPLICIT_MIXED_MESH_DOMAIN_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_regions_3.h>
@@ -22,6 +26,8 @@
 namespace CGAL {
 
 /*!
+\ingroup PkgMixedMesh3Domains
+
 \brief The domain where a function is positive.
 
 The function is as that of `Implicit_mixed_mesh_region_3`: positive inside, and it must not change faster than
@@ -93,7 +99,8 @@ public:
   Point_3 closest_point(const Point_3& p, const Point_3&) const { return closest_point(p); }
 
   /// The points closest to the centers of the cells of a grid that the surface may meet.
-  /// \cost of a grid with cells of `spacing`, but at most 200 in each direction
+  /// \par Complexity
+  /// That of a grid with cells of `spacing`, but at most 200 in each direction
   std::vector<Point_3> surface_samples(double spacing) const
   {
     std::vector<Point_3> samples;

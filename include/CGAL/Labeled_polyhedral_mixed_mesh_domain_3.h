@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_LABELED_POLYHEDRAL_MIXED_MESH_DOMAIN_3_H
 #define CGAL_LABELED_POLYHEDRAL_MIXED_MESH_DOMAIN_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_sheet_3.h>
@@ -26,7 +30,7 @@
 namespace CGAL {
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Domains
 
 \brief The domain inside one or more closed triangulated surfaces, each of which encloses a subdomain.
 
@@ -38,7 +42,7 @@ the outside.
 As for `Polyhedral_mixed_mesh_domain_3`, all answers are exact on the coordinates of the surfaces, rounded to
 double.
 
-\cgalModels{MixedMeshLabeledDomain_3}
+\cgalModels{MixedMeshDomainWithSheets_3}
 */
 class Labeled_polyhedral_mixed_mesh_domain_3
 {
@@ -46,6 +50,7 @@ class Labeled_polyhedral_mixed_mesh_domain_3
 
 public:
   using Point_3 = Surface::Point_3;
+  /// The label of a subdomain.
   using Subdomain_index = Mixed_meshes_3::Subdomain_index;
 
   /// The surfaces that are seen in a cell: those that meet it and are not hidden inside an earlier one.
@@ -167,7 +172,8 @@ public:
   }
 
   /// The subdomain of any point; 0 outside.
-  /// \cost a ray through the AABB tree of each surface, until one has the point inside
+  /// \par Complexity
+  /// A ray through the AABB tree of each surface, until one has the point inside
   Subdomain_index subdomain_index(const Point_3& p) const
   {
     const auto around = std::find_if(m_surfaces.begin(), m_surfaces.end(), [&](const Labeled& s) {

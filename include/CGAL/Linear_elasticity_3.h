@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Linear elasticity on mixed meshes, for many load cases: section 6.2 of Lobos, Bucki, Hitschfeld, Payan:
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_H
 #define CGAL_LINEAR_ELASTICITY_3_H
+
+#include <CGAL/license/Linear_elasticity_3.h>
 
 #include <CGAL/Linear_elasticity_3/Linear_elasticity_result_3.h>
 #include <CGAL/Linear_elasticity_3/buoyant_forces.h>
@@ -26,6 +30,8 @@
 namespace CGAL {
 
 /*!
+\ingroup PkgLinearElasticity3Ref
+
 \brief Small-strain linear elasticity on a mixed mesh: factored once, solved for many load cases.
 
 Elements are isoparametric; those of the four kinds fit together. What resists a change of volume is the mean
@@ -60,13 +66,19 @@ class Linear_elasticity_3
   Mixed_meshes_3::internal::Elasticity_model<Mesh, SolverTraits> m_model;
 
 public:
+  /// The number of a vertex.
   using Vertex_index = Mixed_meshes_3::Vertex_index;
+  /// The number of an element.
   using Element_index = Mixed_meshes_3::Element_index;
+  /// A material of elements.
   using Elastic_material = Mixed_meshes_3::Elastic_material;
   /// A displacement in mm, a force in mN, a point.
   using Vec3 = Mixed_meshes_3::Vec3;
+  /// As `Vec3`.
   using Vector = Vec3;
+  /// What an operation did.
   using Result = Linear_elasticity_result_3;
+  /// How an operation ended.
   using Status = Linear_elasticity_status;
 
   /// One material: by default E = 1 kPa, nu = 0.45, 1e-6 kg/mm^3.
@@ -112,7 +124,8 @@ public:
   \return `NO_ELEMENTS`, `INVERTED_ELEMENT`, `SOLVER_FAILED` or `SUCCESS`. It is a success if supports leave
   rigid
           motions free: control points may hold them, `solve()` will tell.
-  \cost that of the sparse factorization: with nested dissection O(n^2) operations and O(n^(4/3)) memory for n
+  \par Complexity
+  That of the sparse factorization: with nested dissection O(n^2) operations and O(n^(4/3)) memory for n
         vertices
   */
   Result factor() { return m_model.factor(); }
@@ -133,7 +146,8 @@ public:
   \param is_removed for each element; those removed before stay removed
   \return as `factor()` and `set_control_points()`
   \pre `factor()` was successful
-  \cost linear; that of `factor()` if it is factored
+  \par Complexity
+  Linear; that of `factor()` if it is factored
   */
   Result remove_elements(const std::vector<bool>& is_removed)
   {
@@ -154,6 +168,7 @@ public:
   /// Whether `solve()` iterates, as elements have been removed since `factor()`.
   bool is_iterative() const { return m_model.is_iterative(); }
 
+  /// Whether `factor()` has been called with success, so that `solve()` can be.
   bool is_factored() const { return m_model.body().is_assembled(); }
 
   /// \name Loads
@@ -199,7 +214,8 @@ public:
          a dent that is the deeper, the finer the mesh
   \return `CONTROL_POINT_OUTSIDE` or `SOLVER_FAILED`: none of them is used; or `SUCCESS`
   \pre `factor()` was successful
-  \cost three solutions of the system a point, and 72 bytes a vertex and point
+  \par Complexity
+  Three solutions of the system a point, and 72 bytes a vertex and point
   */
   template <class Points>
   Result set_control_points(const Points& points, double largest_distance = 0, double compliance = 0,
@@ -218,7 +234,8 @@ public:
   \return `FREE_RIGID_MOTION`, `CONTRADICTORY_CONTROL_POINTS`, `SOLVER_FAILED` or `SUCCESS`; `displacements()`
   has
           the solution if successful, else it is as before
-  \cost for new displacements of the same control points: linear, in vertices times control points. For new
+  \par Complexity
+  For new displacements of the same control points: linear, in vertices times control points. For new
         loads or displacements of supports, one solution of the system besides. After `remove_elements()`,
         about ten solutions of the system.
   \pre `factor()` was successful
@@ -243,10 +260,13 @@ public:
   /// The elastic energy of the solution, in microjoules (mN mm). \pre `factor()` was successful
   double energy() const { return m_model.energy(); }
 
+  /// The mesh given to the constructor.
   const Mesh& mesh() const { return m_model.mesh(); }
+  /// True for each element that is removed.
   const std::vector<bool>& removed_elements() const { return m_model.body().stiffness().removed_elements(); }
   /// Of the last `solve()`; 0 if it was direct.
   int number_of_iterations() const { return m_model.number_of_iterations(); }
+  /// How many control points there are.
   std::size_t number_of_control_points() const { return m_model.number_of_control_points(); }
   /// The solver, to set its parameters before `factor()`.
   SolverTraits& solver() { return m_model.body().solver(); }

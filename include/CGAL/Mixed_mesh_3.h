@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_H
 #define CGAL_MIXED_MESH_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
@@ -22,6 +26,8 @@
 namespace CGAL {
 
 /*!
+\ingroup PkgMixedMesh3Mesh
+
 \brief A volume mesh of tetrahedra, pyramids, prisms and hexahedra.
 
 Vertices and elements are numbered from 0, in arrays. The vertices of an element are ordered as in
@@ -34,26 +40,43 @@ template <class GeomTraits>
 class Mixed_mesh_3
 {
 public:
+  /// The geometric traits.
   using Geom_traits = GeomTraits;
+  /// The type of points.
   using Point_3 = typename Geom_traits::Point_3;
   static_assert(!std::is_same_v<std::decay_t<decltype(std::declval<const Point_3&>().x())>, float>,
                 "positions are doubles: float would round them, and elements proved valid could be inverted");
+  /// The number of a vertex, from 0.
   using Vertex_index = Mixed_meshes_3::Vertex_index;
+  /// The number of an element, from 0.
   using Element_index = Mixed_meshes_3::Element_index;
+  /// Tetrahedron, pyramid, prism or hexahedron.
   using Element_kind = Mixed_meshes_3::Element_kind;
+  /// The label of elements.
   using Subdomain_index = Mixed_meshes_3::Subdomain_index;
+  /// What is known of an element besides its kind and vertices.
   using Element_attributes = Mixed_meshes_3::Element_attributes;
+  /// An element: its kind and its vertices, a range.
   using Element = Mixed_meshes_3::Element_view;
+  /// The list of elements.
   using Elements = Mixed_meshes_3::Element_list;
 
+  /// The number of vertices.
   std::size_t number_of_vertices() const { return m_points.size(); }
+  /// The number of elements.
   std::size_t number_of_elements() const { return m_elements.size(); }
+  /// Whether there is no element.
   bool is_empty() const { return m_elements.empty(); }
 
+  /// The position of a vertex. \pre `v < number_of_vertices()`, not checked
   const Point_3& point(Vertex_index v) const { return m_points[v]; }
+  /// An element: its kind, and its vertices in the order of `Mixed_meshes_3::Reference_element`; valid until
+  /// elements are added or the mesh is assigned to. \pre `e < number_of_elements()`, not checked
   Element element(Element_index e) const { return m_elements[e]; }
 
+  /// What is known of an element. \pre `e < number_of_elements()`, not checked
   const Element_attributes& attributes(Element_index e) const { return m_attributes[e]; }
+  /// What is known of all elements, in their order.
   const std::vector<Element_attributes>& attributes() const { return m_attributes; }
   /// Whether the element meets the region of interest.
   bool is_in_region(Element_index e) const { return m_attributes[e].is_in_region; }
@@ -66,8 +89,11 @@ public:
     m_attributes[e].subdomain_index = index;
   }
 
+  /// The positions of all vertices.
   const std::vector<Point_3>& points() const { return m_points; }
+  /// As above; positions may be changed, and it is up to the caller that elements stay valid.
   std::vector<Point_3>& points() { return m_points; }
+  /// All elements.
   const Elements& elements() const { return m_elements; }
 
   /// \name Construction

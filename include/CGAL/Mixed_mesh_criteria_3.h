@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_CRITERIA_3_H
 #define CGAL_MIXED_MESH_CRITERIA_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/options.h>
@@ -17,11 +21,14 @@
 namespace CGAL {
 
 /*!
+\ingroup PkgMixedMesh3Mesh
+
 \brief What a mixed mesh shall be like. Each setter returns the object, so that calls can be chained.
 */
 class Mixed_mesh_criteria_3
 {
 public:
+  /// Stands for the default where that depends on other criteria or the domain.
   static constexpr int automatic = -1;
   /// The share of the budget that is to be used, after bisections; else the status tells. Single cells take
   /// 7 to 20 vertices: with the smallest budgets that make sense, a few hundred, some 3 % may be left over.
@@ -37,6 +44,7 @@ public:
                       && maximal_number_of_vertices < Mixed_meshes_3::Vertex_index(-1));
   }
 
+  /// The vertex budget.
   std::size_t maximal_number_of_vertices() const { return m_maximal_number_of_vertices; }
 
   /// The octree level to which the whole domain is refined at least, in the region or not; cells of level `l`
@@ -50,6 +58,7 @@ public:
     m_base_level = level;
     return *this;
   }
+  /// The value set, or the default.
   int base_level() const { return m_base_level; }
 
   /// How gently cells grow with the distance from the region. A cell is worth (1 + d/r)^-6 h^5, with its
@@ -64,6 +73,7 @@ public:
     m_grading = share_of_radius;
     return *this;
   }
+  /// The value set, or the default.
   double grading() const { return m_grading; }
 
   /// The share of the budget for bisections: vertices on the surface that the optimization inserts at the
@@ -77,6 +87,7 @@ public:
     m_share_of_bisections = share;
     return *this;
   }
+  /// The value set, or the default.
   double share_of_bisections() const
   {
     return m_share_of_bisections != automatic ? m_share_of_bisections : m_fit_to_surface ? 0.08 : 0;
@@ -88,6 +99,7 @@ public:
     m_root_cell = root;
     return *this;
   }
+  /// The value set, or the default.
   Mixed_meshes_3::Root_cell root_cell() const { return m_root_cell; }
 
   /// The transition templates. Default: those with the fewest vertices.
@@ -96,6 +108,7 @@ public:
     m_transition_templates = choice;
     return *this;
   }
+  /// The value set, or the default.
   Mixed_meshes_3::Transition_templates_choice transition_templates() const { return m_transition_templates; }
 
   /// How elements at the surface are split. Default: by vertex order.
@@ -104,6 +117,7 @@ public:
     m_boundary_mode = mode;
     return *this;
   }
+  /// The value set, or the default.
   Mixed_meshes_3::Boundary_mode boundary_mode() const { return m_boundary_mode; }
 
   /// Whether the boundary is carried onto the surface and the elements are optimized, as
@@ -114,6 +128,7 @@ public:
     m_fit_to_surface = fit;
     return *this;
   }
+  /// The value set, or the default.
   bool fit_to_surface() const { return m_fit_to_surface; }
 
   /// How far boundary and surface may be from each other, in the surface's unit. If positive, part of the
@@ -152,6 +167,7 @@ public:
     m_sharp_angle = Mixed_mesh_optimization_criteria_3().sharp_angle(degrees).sharp_angle();
     return *this;
   }
+  /// The value set, or the default.
   double sharp_angle() const { return m_sharp_angle; }
 
   /// How many threads answer queries on the surface. The mesh does not depend on it. Default: 1.
@@ -162,6 +178,7 @@ public:
     m_number_of_threads = threads;
     return *this;
   }
+  /// The value set, or the default.
   unsigned number_of_threads() const { return m_number_of_threads; }
 
   /// Whether thin walls and narrow gaps are resolved before the region, as far as the budget goes. Default:
@@ -173,6 +190,7 @@ public:
     m_thin_parts = choice;
     return *this;
   }
+  /// The value set, or the default.
   Mixed_meshes_3::Thin_parts thin_parts() const { return m_thin_parts; }
 
   /// Whether the best mesh so far, if there is one, is kept when the visitor stops the run: valid, within the
@@ -183,6 +201,7 @@ public:
     m_keep_mesh_if_stopped = keep;
     return *this;
   }
+  /// The value set, or the default.
   bool keep_mesh_if_stopped() const { return m_keep_mesh_if_stopped; }
 
 private:

@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_FIT_CRITERIA_3_H
 #define CGAL_MIXED_MESH_FIT_CRITERIA_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/assertions.h>
 
@@ -13,13 +17,17 @@
 namespace CGAL {
 
 /*!
+\ingroup PkgMixedMesh3Optimization
+
 \brief How a mixed mesh is carried onto a surface. Each setter returns the object, so that calls can be
 chained.
 */
 class Mixed_mesh_fit_criteria_3
 {
 public:
+  /// Stands for the default where that depends on the mesh.
   static constexpr int automatic = -1;
+  /// A `number_of_layers()` for which all vertices move.
   static constexpr int all_layers = std::numeric_limits<int>::max();
 
   /// In how many steps the boundary goes to the surface, the paper's MAX_STEP; steps that fail are halved.
@@ -30,6 +38,7 @@ public:
     m_number_of_steps = steps;
     return *this;
   }
+  /// The value set, or the default.
   int number_of_steps() const { return m_number_of_steps; }
 
   /// Poisson's ratio of the elastic medium, without unit: the larger, the better volumes are kept; the
@@ -41,6 +50,7 @@ public:
     m_poisson_ratio = ratio;
     return *this;
   }
+  /// The value set, or the default.
   double poisson_ratio() const { return m_poisson_ratio; }
 
   /// By how much an element of bad quality is stiffened before its step is done again, without unit.
@@ -51,6 +61,7 @@ public:
     m_stiffness_factor = factor;
     return *this;
   }
+  /// The value set, or the default.
   double stiffness_factor() const { return m_stiffness_factor; }
 
   /// No element becomes stiffer than that, the paper's Y_MAX, as a multiple of its stiffness at the start,
@@ -61,6 +72,7 @@ public:
     m_maximal_stiffness = stiffness;
     return *this;
   }
+  /// The value set, or the default.
   double maximal_stiffness() const { return m_maximal_stiffness; }
 
   /// The aspect-ratio coefficient up to which an element is of acceptable quality, without unit.
@@ -71,6 +83,7 @@ public:
     m_acceptable_aspect_ratio = coefficient;
     return *this;
   }
+  /// The value set, or the default.
   double acceptable_aspect_ratio() const { return m_acceptable_aspect_ratio; }
 
   /// Only vertices within so many layers of elements from the boundary move; 0 moves boundary vertices only.
@@ -82,6 +95,7 @@ public:
     m_number_of_layers = layers;
     return *this;
   }
+  /// The value set, or the default.
   int number_of_layers() const { return m_number_of_layers; }
 
 private:

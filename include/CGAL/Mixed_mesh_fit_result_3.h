@@ -1,17 +1,21 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_FIT_RESULT_3_H
 #define CGAL_MIXED_MESH_FIT_RESULT_3_H
 
+#include <CGAL/license/Mixed_mesh_3.h>
+
 #include <cstddef>
 
 namespace CGAL {
 
+/// \ingroup PkgMixedMesh3Optimization
 /// How `fit_mixed_mesh_to_surface()` ended: of those that apply the last.
-/// How `fit_mixed_mesh_to_surface()` ended.
 enum class Mixed_mesh_fit_status {
   SUCCESS,         ///< the boundary is on the surface, all elements that moved are of acceptable quality
   CAP_REACHED,     ///< the boundary is on the surface; stiffening did not make all elements acceptable
@@ -22,7 +26,7 @@ enum class Mixed_mesh_fit_status {
   EMPTY            ///< unchanged: there is no element
 };
 
-/// What `fit_mixed_mesh_to_surface()` did.
+/// \ingroup PkgMixedMesh3Functions
 /// The status in a few words.
 inline const char* description(Mixed_mesh_fit_status status)
 {
@@ -38,10 +42,13 @@ inline const char* description(Mixed_mesh_fit_status status)
   return "";
 }
 
+/// \ingroup PkgMixedMesh3Optimization
 /// What `fit_mixed_mesh_to_surface()` did.
 struct Mixed_mesh_fit_result_3
 {
+  /// How it ended.
   Mixed_mesh_fit_status status = Mixed_mesh_fit_status::EMPTY;
+  /// All of the boundary.
   std::size_t number_of_boundary_vertices = 0;
   std::size_t number_of_arrived_vertices = 0; ///< boundary vertices on the surface
   std::size_t number_of_frozen_vertices = 0;  ///< held back in the last attempt, lest elements be inverted

@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_OPTIMIZATION_CRITERIA_3_H
 #define CGAL_MIXED_MESH_OPTIMIZATION_CRITERIA_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/assertions.h>
 
@@ -14,6 +18,8 @@
 namespace CGAL {
 
 /*!
+\ingroup PkgMixedMesh3Optimization
+
 \brief How a mixed mesh is optimized. Each setter returns the object, so that calls can be chained.
 */
 class Mixed_mesh_optimization_criteria_3
@@ -35,6 +41,7 @@ public:
     m_tolerance = distance;
     return *this;
   }
+  /// The value set, or the default.
   double tolerance() const { return m_tolerance; }
 
   /// How often moves and flips alternate. Default: 4; 12 with a tolerance and at most 20,000 vertices.
@@ -60,6 +67,7 @@ public:
     m_sliding_threshold = cost;
     return *this;
   }
+  /// The value set, or the default.
   double sliding_threshold() const { return m_sliding_threshold; }
 
   /// Whether tetrahedra may be flipped; else the elements stay the same. Default: yes.
@@ -68,6 +76,7 @@ public:
     m_flips = allowed;
     return *this;
   }
+  /// The value set, or the default.
   bool flips() const { return m_flips; }
 
   /// How many edges of the boundary may be bisected, each for one more vertex on the surface. With n
@@ -79,6 +88,7 @@ public:
     m_number_of_bisections = number;
     return *this;
   }
+  /// The value set, or the default.
   std::size_t number_of_bisections() const { return m_number_of_bisections; }
 
   /// The largest cost that an element may get. Where elements cost more already, none gets worse than the
@@ -105,6 +115,7 @@ public:
     m_sharp_angle = degrees;
     return *this;
   }
+  /// The value set, or the default.
   double sharp_angle() const { return m_sharp_angle; }
 
 private:
@@ -117,6 +128,7 @@ private:
   bool m_flips = true;
 };
 
+/// \ingroup PkgMixedMesh3Optimization
 /// How `optimize_mixed_mesh_3()` ended. The first that applies, from the bottom up.
 enum class Mixed_mesh_optimization_status {
   SUCCESS,               ///< the boundary is on the surface, and within the tolerance if there is one
@@ -128,6 +140,7 @@ enum class Mixed_mesh_optimization_status {
   EMPTY                  ///< unchanged: there is no element
 };
 
+/// \ingroup PkgMixedMesh3Functions
 /// The status in a few words.
 inline const char* description(Mixed_mesh_optimization_status status)
 {
@@ -142,22 +155,27 @@ inline const char* description(Mixed_mesh_optimization_status status)
   return "";
 }
 
+/// \ingroup PkgMixedMesh3Optimization
 /// What `optimize_mixed_mesh_3()` did.
 struct Mixed_mesh_optimization_result_3
 {
+  /// How it ended.
   Mixed_mesh_optimization_status status = Mixed_mesh_optimization_status::EMPTY;
   std::size_t number_of_boundary_vertices = 0; ///< new ones included
   std::size_t number_of_arrived_vertices = 0;  ///< boundary vertices on the surface
   std::size_t number_of_flips = 0;             ///< of tetrahedra
   std::size_t number_of_bisections = 0;        ///< of boundary edges: so many vertices are new
   bool is_boundary_simple = true;              ///< whether the boundary does not cut itself
+  /// Rounds of moves that were done.
   std::size_t number_of_rounds = 0;
   /// With a tolerance: the largest distance between boundary and surface, either way, at sample points.
   double largest_distance = 0;
-  /// Of the surface, if it is not only of noise: all, and what is within 0.05 of the length of the edge of
-  /// the mesh that is to follow it; corners, and those that a vertex is at.
-  double length_of_sharp_edges = 0, length_of_sharp_edges_kept = 0;
-  std::size_t number_of_corners = 0, number_of_corners_kept = 0;
+  /// Of the surface, if they are not only of noise.
+  double length_of_sharp_edges = 0;
+  /// The part that is within 0.05 of the length of the edge of the mesh that is to follow it.
+  double length_of_sharp_edges_kept = 0;
+  std::size_t number_of_corners = 0;      ///< where sharp edges of the surface end or turn
+  std::size_t number_of_corners_kept = 0; ///< those that a vertex is at
   double quality_bound = std::numeric_limits<double>::infinity(); ///< that of the criteria
   /// Elements that are not proved to cost at most the bound: 0 if the mesh had none at the start.
   std::size_t number_of_elements_above_bound = 0;

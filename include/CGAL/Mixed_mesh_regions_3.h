@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Regions of interest: models of `MixedMeshRegion_3`.
 
 #ifndef CGAL_MIXED_MESH_REGIONS_3_H
 #define CGAL_MIXED_MESH_REGIONS_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/octree/weight_in_region.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3.h>
@@ -30,6 +34,8 @@
 namespace CGAL {
 
 /*!
+\ingroup PkgMixedMesh3Domains
+
 \brief The region inside a closed triangulated surface.
 
 \cgalModels{MixedMeshRegion_3}
@@ -66,6 +72,8 @@ public:
 };
 
 /*!
+\ingroup PkgMixedMesh3Domains
+
 \brief The region where a function is positive.
 
 The function must not change faster than the distance (for example, a signed distance, positive
@@ -76,7 +84,9 @@ inside), so that its value at the center of a cell tells where the cell can not 
 class Implicit_mixed_mesh_region_3
 {
 public:
+  /// The type of points.
   using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
+  /// Nothing: the function is asked anywhere.
   struct Surface_part
   {
   };
@@ -105,6 +115,8 @@ private:
 };
 
 /*!
+\ingroup PkgMixedMesh3Domains
+
 \brief A ball.
 
 \cgalModels{MixedMeshRegion_3}
@@ -121,12 +133,15 @@ public:
   }
 };
 
+/// \ingroup PkgMixedMesh3Domains
 /// The region that is everywhere: the whole domain is refined.
 /// \cgalModels{MixedMeshRegion_3}
 class Everywhere_mixed_mesh_region_3
 {
 public:
+  /// The type of points.
   using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
+  /// Nothing: there is no surface.
   struct Surface_part
   {
   };
@@ -140,6 +155,8 @@ public:
 };
 
 /*!
+\ingroup PkgMixedMesh3Domains
+
 \brief A region with a weight: how many times as much an error counts there.
 
 Where the weight is \f$ w \f$, cells become smaller by a factor of about \f$ w^{1/5} \f$. Weights are relative
@@ -152,6 +169,7 @@ template <class Region>
 class Weighted_mixed_mesh_region_3 : public Region
 {
 public:
+  /// The type of points.
   using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
 
   /// Takes the region over (wrap it in `std::move` if it cannot be copied).
@@ -183,6 +201,8 @@ private:
 };
 
 /*!
+\ingroup PkgMixedMesh3Domains
+
 \brief The union of regions.
 
 An error counts as in that of them in which it counts most.
@@ -194,11 +214,14 @@ template <class... Regions>
 class Union_mixed_mesh_region_3
 {
 public:
+  /// The type of points.
   using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
   /// The parts of the regions, and where the cell is relative to each.
   struct Surface_part
   {
+    /// A part of each region.
     std::tuple<typename Regions::Surface_part...> parts;
+    /// Where the cell is relative to each region.
     std::array<Bounded_side, sizeof...(Regions)> sides;
   };
 
@@ -256,6 +279,8 @@ private:
 };
 
 /*!
+\ingroup PkgMixedMesh3Domains
+
 \brief The union of any number of regions inside closed triangulated surfaces, each with a weight.
 
 An error counts as in that of them in which it counts most. Without regions, it counts everywhere alike, as
@@ -268,11 +293,14 @@ class Polyhedral_mixed_mesh_regions_3
   using Region = Polyhedral_mixed_mesh_region_3;
 
 public:
+  /// The type of points.
   using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
   /// The parts of the regions, and where the cell is relative to each.
   struct Surface_part
   {
+    /// A part of each region.
     std::vector<Region::Surface_part> parts;
+    /// Where the cell is relative to each region.
     std::vector<Bounded_side> sides;
   };
 

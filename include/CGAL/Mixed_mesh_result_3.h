@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_RESULT_3_H
 #define CGAL_MIXED_MESH_RESULT_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
 
@@ -14,6 +18,7 @@
 
 namespace CGAL {
 
+/// \ingroup PkgMixedMesh3Functions
 /// How `make_mixed_mesh_3()` ended. In the order of precedence: if several are true, the last of them is
 /// given. `VOLUME_DIFFERS` and `TOPOLOGY_DIFFERS` are found by `Mixed_meshes_3::compare_with_surface()` only,
 /// which `make_mixed_mesh_3()` does not call: a domain need not have a surface with faces.
@@ -34,9 +39,11 @@ enum class Mixed_mesh_status {
   STOPPED                ///< the visitor said so: no mesh, unless the criteria say that it is kept
 };
 
+/// \ingroup PkgMixedMesh3Functions
 /// The one of two statuses that has precedence: what every function of the package decides by.
 inline Mixed_mesh_status worse(Mixed_mesh_status a, Mixed_mesh_status b) { return a < b ? b : a; }
 
+/// \ingroup PkgMixedMesh3Functions
 /// What the end of the optimization means for the whole.
 inline Mixed_mesh_status status_of(Mixed_mesh_optimization_status status)
 {
@@ -51,6 +58,7 @@ inline Mixed_mesh_status status_of(Mixed_mesh_optimization_status status)
   return Mixed_mesh_status::EMPTY;
 }
 
+/// \ingroup PkgMixedMesh3Functions
 /// The status in a few words.
 inline const char* description(Mixed_mesh_status status)
 {
@@ -71,11 +79,15 @@ inline const char* description(Mixed_mesh_status status)
   return "";
 }
 
+/// \ingroup PkgMixedMesh3Functions
 /// What `make_mixed_mesh_3()` did.
 struct Mixed_mesh_result_3
 {
+  /// How it ended.
   Mixed_mesh_status status = Mixed_mesh_status::EMPTY;
+  /// The octree level that all of the domain is refined to.
   int base_level = 0;
+  /// The level of the smallest cells.
   int deepest_level = 0;
   std::size_t number_of_cells = 0; ///< leaves that meet the domain
   /// Those of the octree's mesh, before bisections; without a mesh, those (at least) of the coarsest one at

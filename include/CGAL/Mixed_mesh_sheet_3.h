@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_SHEET_3_H
 #define CGAL_MIXED_MESH_SHEET_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/surface/Sheet_oracle_3.h>
 
@@ -13,7 +17,7 @@
 namespace CGAL {
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Domains
 
 \brief A triangulated surface inside a domain that need not enclose anything, such as the falx or the
 tentorium of a brain.
@@ -41,7 +45,8 @@ public:
     \cgalParamNEnd
   \cgalNamedParamsEnd
 
-  \cost O(n log n) for n triangles
+  \par Complexity
+  O(n log n) for n triangles
   */
   template <class FaceListGraph, class NamedParameters = parameters::Default_named_parameters>
   explicit Mixed_mesh_sheet_3(const FaceListGraph& surface,

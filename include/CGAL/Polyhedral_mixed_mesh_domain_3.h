@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_POLYHEDRAL_MIXED_MESH_DOMAIN_3_H
 #define CGAL_POLYHEDRAL_MIXED_MESH_DOMAIN_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3.h>
 
@@ -13,6 +17,8 @@
 namespace CGAL {
 
 /*!
+\ingroup PkgMixedMesh3Domains
+
 \brief The domain inside a closed triangulated surface.
 
 A point is inside if a ray from it crosses the surface an odd number of times: a component within
@@ -39,7 +45,8 @@ public:
     \cgalParamNEnd
   \cgalNamedParamsEnd
 
-  \cost O(n log n) for n triangles
+  \par Complexity
+  O(n log n) for n triangles
   */
   template <class FaceListGraph, class NamedParameters = parameters::Default_named_parameters>
   explicit Polyhedral_mixed_mesh_domain_3(const FaceListGraph& surface,

@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_FIT_MIXED_MESH_TO_SURFACE_H
 #define CGAL_FIT_MIXED_MESH_TO_SURFACE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
@@ -18,7 +22,7 @@
 namespace CGAL {
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Optimization
 
 \brief Carries the boundary of a mixed mesh onto a closed surface, and lets the inner vertices follow.
 
@@ -61,7 +65,8 @@ mesh.
 \cgalNamedParamsEnd
 
 \return the status and what was done
-\cost a linear system with three unknowns for each vertex that moves inside, in each step and each time that
+\par Complexity
+A linear system with three unknowns for each vertex that moves inside, in each step and each time that
       elements are stiffened
 */
 template <class GeomTraits, class Surface, class Quality,
@@ -86,7 +91,7 @@ Mixed_mesh_fit_result_3 fit_mixed_mesh_to_surface(Mixed_mesh_3<GeomTraits>& mesh
 }
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Optimization
 
 As above, with the paper's aspect-ratio coefficient, acceptable up to `acceptable_aspect_ratio()`.
 */
@@ -100,7 +105,7 @@ Mixed_mesh_fit_result_3 fit_mixed_mesh_to_surface(Mixed_mesh_3<GeomTraits>& mesh
 }
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Optimization
 
 As above, with the default criteria.
 */

@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MAKE_MIXED_MESH_3_H
 #define CGAL_MAKE_MIXED_MESH_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
@@ -21,7 +25,7 @@
 namespace CGAL {
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Functions
 
 \brief Meshes a domain with mixed elements, fine in a region of interest, within a vertex budget.
 
@@ -72,7 +76,8 @@ threads.
 \cgalNamedParamsEnd
 
 \return the status and what was done
-\cost for n vertices and t triangles of the surfaces O(n log n + t log t), nearly linear; a query for a
+\par Complexity
+For n vertices and t triangles of the surfaces O(n log n + t log t), nearly linear; a query for a
       closest point for each boundary vertex that moves, and for each sample point of a tolerance
 */
 template <class Domain, class Region, class CellTraits, class GeomTraits,
@@ -93,7 +98,7 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
 }
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Functions
 
 As above, with cells parallel to the axes and the root that the criteria say. If the whole surface is
 perpendicular to the axes, as that of a box is, cells are placed such that it lies in lattice planes if they
@@ -115,7 +120,7 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
 }
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Functions
 
 As above, refined everywhere alike, and somewhat more at the surface.
 */

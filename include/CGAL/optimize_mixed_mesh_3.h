@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_OPTIMIZE_MIXED_MESH_3_H
 #define CGAL_OPTIMIZE_MIXED_MESH_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
@@ -18,7 +22,7 @@
 namespace CGAL {
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Optimization
 
 \brief Brings the boundary of a mixed mesh onto a surface, moves vertices and flips tetrahedra to improve
 elements, and bisects edges of the boundary if asked to.
@@ -68,7 +72,8 @@ edges and where a flat tetrahedron on it is removed; the same input gives the sa
 \cgalNamedParamsEnd
 
 \return the status and what was done
-\cost proportional to the number of elements whose cost can be improved, times the rounds
+\par Complexity
+Proportional to the number of elements whose cost can be improved, times the rounds
 */
 template <class GeomTraits, class Surface, class Quality,
           class NamedParameters = parameters::Default_named_parameters>
@@ -92,7 +97,7 @@ optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface, co
 }
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Optimization
 
 As above, with the aspect-ratio coefficient as the cost of an element.
 */
@@ -106,7 +111,7 @@ optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface,
 }
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Optimization
 
 As above, with the default criteria.
 */

@@ -27,9 +27,10 @@ and must not throw then.
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::Polyhedral_mixed_mesh_domain_3}
 \cgalHasModels{CGAL::Implicit_mixed_mesh_domain_3}
+\cgalHasModels{CGAL::Labeled_polyhedral_mixed_mesh_domain_3}
 \cgalHasModelsEnd
 
-The example \ref Mixed_mesh_3/custom_domain.cpp has a model given by a formula.
+The example \ref Mixed_mesh_3/mixed_mesh_custom_domain.cpp has a model given by a formula.
 
 \sa `MixedMeshRegion_3`
 \sa `CGAL::make_mixed_mesh_3()`

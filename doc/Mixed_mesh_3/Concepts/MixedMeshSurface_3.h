@@ -13,6 +13,7 @@ The concept `MixedMeshSurface_3` describes where the boundary of a mesh is to be
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::Polyhedral_mixed_mesh_domain_3}
 \cgalHasModels{CGAL::Implicit_mixed_mesh_domain_3}
+\cgalHasModels{CGAL::Labeled_polyhedral_mixed_mesh_domain_3}
 \cgalHasModelsEnd
 
 \sa `MixedMeshDomain_3`

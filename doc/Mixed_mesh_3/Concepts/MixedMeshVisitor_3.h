@@ -31,7 +31,7 @@ need not be `const`. The visitor must outlive the call.
 \cgalHasModels{CGAL::Mixed_meshes_3::Default_visitor}
 \cgalHasModelsEnd
 
-The example \ref Mixed_mesh_3/visitor.cpp has another model.
+The example \ref Mixed_mesh_3/mixed_mesh_visitor.cpp has another model.
 
 \sa `CGAL::make_mixed_mesh_3()`
 */

@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_LINEAR_ELASTICITY_RESULT_3_H
 #define CGAL_LINEAR_ELASTICITY_3_LINEAR_ELASTICITY_RESULT_3_H
+
+#include <CGAL/license/Linear_elasticity_3.h>
 
 #include <array>
 #include <cmath>
@@ -15,9 +19,10 @@
 
 namespace CGAL {
 
+/// \ingroup PkgLinearElasticity3Ref
 /// How an operation of `Linear_elasticity_3` ended.
 enum class Linear_elasticity_status {
-  SUCCESS,
+  SUCCESS,               ///< done
   NO_ELEMENTS,           ///< nothing is there, or nothing is left
   INVERTED_ELEMENT,      ///< the Jacobian of `element` is not positive at a point of the quadrature
   FREE_RIGID_MOTION,     ///< `number_of_free_motions` are neither supported nor controlled, such as `motion`
@@ -26,22 +31,30 @@ enum class Linear_elasticity_status {
   SOLVER_FAILED ///< the system is not positive definite: elements hang together by hinges only
 };
 
+/// \ingroup PkgLinearElasticity3Ref
 /// A rigid motion: the displacement at `p` is `translation + rotation x (p - center)`.
 struct Rigid_motion_3
 {
-  std::array<double, 3> translation{}, rotation{}, center{};
+  std::array<double, 3> translation{}; ///< mm
+  std::array<double, 3> rotation{};    ///< the axis, as long as the angle in radians
+  std::array<double, 3> center{};      ///< mm
 };
 
+/// \ingroup PkgLinearElasticity3Ref
 /// What an operation of `Linear_elasticity_3` did.
 struct Linear_elasticity_result_3
 {
+  /// How it ended; the other members belong to some of the statuses.
   Linear_elasticity_status status = Linear_elasticity_status::SUCCESS;
+  /// The number of the inverted element.
   std::size_t element = 0;
   std::size_t control_point = 0; ///< from 0
   double distance = 0;           ///< mm
+  /// How many rigid motions nothing holds.
   int number_of_free_motions = 0;
   Rigid_motion_3 motion; ///< one of them
 
+  /// Whether it ended well.
   bool is_success() const { return status == Linear_elasticity_status::SUCCESS; }
 
   /// The status in a line. Control points are numbered from 1 in it, elements from 0.

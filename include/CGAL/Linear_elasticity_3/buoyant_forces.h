@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_BUOYANT_FORCES_H
 #define CGAL_LINEAR_ELASTICITY_3_BUOYANT_FORCES_H
+
+#include <CGAL/license/Linear_elasticity_3.h>
 
 #include <CGAL/Mixed_mesh_3/Index.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
@@ -71,6 +75,8 @@ std::vector<double> shares_below(const Mesh& mesh, const Height& height)
 } // namespace internal
 
 /*!
+\ingroup PkgLinearElasticity3Ref
+
 What a fluid around a body takes from its weight: forces by volume for
 `Linear_elasticity_3::set_body_forces()`, to be set beside `Linear_elasticity_3::set_gravity()`.
 
@@ -89,7 +95,8 @@ left out.
         acceleration, times the share of the element that is below the level. Zeros if there is no
         acceleration
 \pre the density is not negative
-\cost linear
+\par Complexity
+Linear
 */
 template <class Mesh>
 std::vector<Vec3> buoyant_forces(const Mesh& mesh, const Vec3& acceleration, double fluid_density,

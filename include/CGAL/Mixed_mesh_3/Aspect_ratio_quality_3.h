@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The cost of an element that the fitting and the optimization work with: the aspect-ratio coefficient
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_ASPECT_RATIO_QUALITY_3_H
 #define CGAL_MIXED_MESH_3_ASPECT_RATIO_QUALITY_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/aspect_ratio.h>
@@ -24,6 +28,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /*!
+\ingroup PkgMixedMesh3Costs
+
 \brief The aspect-ratio coefficient as the cost of an element, with a penalty for warped faces.
 
 For a tetrahedron the cost is its aspect-ratio coefficient (ARC, see `aspect_ratio_coefficient()`). For

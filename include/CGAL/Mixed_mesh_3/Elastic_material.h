@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_ELASTIC_MATERIAL_H
 #define CGAL_MIXED_MESH_3_ELASTIC_MATERIAL_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Index.h>
@@ -15,6 +19,7 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// \ingroup PkgLinearElasticity3Ref
 /// An isotropic linear elastic material. The defaults are those of the paper's brain tissue.
 struct Elastic_material
 {
@@ -33,6 +38,7 @@ struct Elastic_material
   double bulk_modulus() const { return young_modulus / (3 * (1 - 2 * poisson_ratio)); }
 };
 
+/// \ingroup PkgLinearElasticity3Ref
 /// The materials of the elements of a mesh, by their subdomains, for `Linear_elasticity_3`.
 /// \param mesh the mesh
 /// \param materials that of each subdomain

@@ -1,22 +1,29 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_ELEMENT_ATTRIBUTES_H
 #define CGAL_MIXED_MESH_3_ELEMENT_ATTRIBUTES_H
 
+#include <CGAL/license/Mixed_mesh_3.h>
+
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// \ingroup PkgMixedMesh3Mesh
 /// What an element is part of: a material, for example a tumor. 0 is what is outside, as in CGAL's labeled
 /// domains.
 using Subdomain_index = int;
 
+/// \ingroup PkgMixedMesh3Mesh
 /// What is around an element beside a sheet, such as the falx: faces between elements of two compartments are
 /// on a sheet. 0: no matter which, as for most elements.
 using Compartment_index = int;
 
+/// \ingroup PkgMixedMesh3Mesh
 /// What is known of an element besides its kind and vertices; every stage hands it on.
 struct Element_attributes
 {
@@ -25,17 +32,22 @@ struct Element_attributes
   Compartment_index compartment = 0;   ///< not negative
 };
 
+/// \ingroup PkgMixedMesh3Mesh
 /// Whether a face between elements is on a sheet.
 inline bool are_beside_sheet(const Element_attributes& a, const Element_attributes& b)
 {
   return a.compartment != b.compartment && a.compartment != 0 && b.compartment != 0;
 }
 
+/// \ingroup PkgMixedMesh3Mesh
+/// Whether all attributes are equal.
 inline bool operator==(const Element_attributes& a, const Element_attributes& b)
 {
   return a.subdomain_index == b.subdomain_index && a.is_in_region == b.is_in_region
          && a.compartment == b.compartment;
 }
+/// \ingroup PkgMixedMesh3Mesh
+/// Whether an attribute differs.
 inline bool operator!=(const Element_attributes& a, const Element_attributes& b) { return !(a == b); }
 
 } // namespace Mixed_meshes_3

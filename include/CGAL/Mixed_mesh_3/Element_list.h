@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_ELEMENT_LIST_H
 #define CGAL_MIXED_MESH_3_ELEMENT_LIST_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Index.h>
 #include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
@@ -22,6 +26,7 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// \ingroup PkgMixedMesh3Mesh
 /// An element as seen in a list: a kind and its vertices. Valid as long as the list is not changed.
 class Element_view
 {
@@ -29,17 +34,26 @@ class Element_view
   Element_kind m_kind;
 
 public:
+  /// An element of a kind with the vertices that a pointer leads to.
   Element_view(Element_kind kind, const Vertex_index* vertices) : m_vertices(vertices), m_kind(kind) {}
 
+  /// The kind.
   Element_kind kind() const { return m_kind; }
+  /// The row of its kind in the table: faces, edges, corners.
   const Reference_element& reference() const { return reference_elements[m_kind]; }
+  /// The number of vertices.
   int size() const { return reference().number_of_vertices; }
+  /// Vertex `i`. \pre `0 <= i < size()`, not checked
   Vertex_index operator[](int i) const { return m_vertices[i]; }
+  /// The first vertex.
   const Vertex_index* begin() const { return m_vertices; }
+  /// Past the last vertex.
   const Vertex_index* end() const { return m_vertices + size(); }
 };
 
 /*!
+\ingroup PkgMixedMesh3Mesh
+
 \brief The connectivity of a mesh of mixed elements, in one contiguous array.
 
 Elements keep the order in which they were added. Geometry is elsewhere: the stages use this list
@@ -58,11 +72,15 @@ class Element_list
   std::vector<Vertex_index> m_vertices;
 
 public:
+  /// The number of elements.
   std::size_t size() const { return m_kinds.size(); }
+  /// Whether there is none.
   bool empty() const { return m_kinds.empty(); }
 
+  /// An element; valid until elements are added. \pre `e < size()`, not checked
   Element_view operator[](Element_index e) const { return {m_kinds[e], m_vertices.data() + m_offsets[e]}; }
 
+  /// Adds an element. \pre `vertices` points to as many as the kind has
   void add(Element_kind kind, const Vertex_index* vertices)
   {
     check_size(1);
@@ -79,6 +97,7 @@ public:
     add(kind, std::data(vertices));
   }
 
+  /// Adds an element.
   void add(Element_kind kind, std::initializer_list<Vertex_index> vertices)
   {
     add<std::initializer_list<Vertex_index>>(kind, vertices);
@@ -96,6 +115,7 @@ public:
     m_vertices.resize(m_vertices.size() + n * size);
   }
 
+  /// Takes memory for so many elements, with so many vertices altogether, counted once for each element.
   void reserve(std::size_t elements, std::size_t vertices)
   {
     m_kinds.reserve(elements);

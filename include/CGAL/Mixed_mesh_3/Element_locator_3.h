@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_ELEMENT_LOCATOR_3_H
 #define CGAL_MIXED_MESH_3_ELEMENT_LOCATOR_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Element_location_3.h>
@@ -119,6 +123,8 @@ inline std::array<double, 4> nearest_weights(const Vec3* p, int size)
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3Fields
+
 \brief Finds the element of a mesh that contains a point, and the point's coordinates there.
 
 For the mesh as it is, or displaced: by the shape functions, or by a `Recovered_displacement_3`. Of several
@@ -308,7 +314,9 @@ class Element_locator_3
   }
 
 public:
-  /// For the mesh as it is. \cost O(n log n) in the number of elements
+  /// For the mesh as it is.
+  /// \par Complexity
+  /// O(n log n) in the number of elements
   explicit Element_locator_3(const Mesh& mesh) : m_mesh(&mesh)
   {
     m_points.reserve(mesh.number_of_vertices());
@@ -328,7 +336,9 @@ public:
 
   /// For the mesh displaced, the same field between vertices; without the elements that it has as removed.
   /// What is located is a point of the mesh before: from here to there the field takes it, exactly so up to
-  /// rounding. \cost O(n log n) in the number of elements
+  /// rounding.
+  /// \par Complexity
+  /// O(n log n) in the number of elements
   explicit Element_locator_3(const Recovered_displacement_3<Mesh>& displacement)
     : m_mesh(&displacement.mesh()),
       m_points(internal::displaced_points(displacement.mesh(), displacement.displacements())),
@@ -338,7 +348,8 @@ public:
   }
 
   /// The element that contains a point, or none.
-  /// \cost proportional to the number of elements whose boxes are near: constant unless sizes differ much
+  /// \par Complexity
+  /// Proportional to the number of elements whose boxes are near: constant unless sizes differ much
   template <class Point>
   std::optional<Element_location_3> locate(const Point& point) const
   {
@@ -359,7 +370,8 @@ public:
   is taken to be made of the faces between displaced vertices, which it differs little from.
 
   \pre the mesh is not empty
-  \cost as `locate()`, and linear in the number of boundary faces for a point outside
+  \par Complexity
+  As `locate()`, and linear in the number of boundary faces for a point outside
   */
   template <class Point>
   Element_location_3 nearest(const Point& point) const

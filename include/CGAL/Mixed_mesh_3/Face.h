@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_FACE_H
 #define CGAL_MIXED_MESH_3_FACE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Index.h>
@@ -28,6 +32,7 @@ inline constexpr Element_index no_element = Element_index(-1);
 
 } // namespace internal
 
+/// \ingroup PkgMixedMesh3Mesh
 /// The three or four vertices of a face: a range.
 class Face_vertices
 {
@@ -43,16 +48,22 @@ public:
     std::copy(vertices.begin(), vertices.end(), m_vertices.begin());
   }
 
+  /// Three or four.
   int size() const { return m_size; }
+  /// Vertex `i`. \pre `0 <= i < size()`, not checked
   Vertex_index operator[](int i) const { return m_vertices[std::size_t(i)]; }
+  /// As above, to be changed.
   Vertex_index& operator[](int i) { return m_vertices[std::size_t(i)]; }
+  /// The first vertex.
   const Vertex_index* begin() const { return m_vertices.data(); }
+  /// Past the last vertex.
   const Vertex_index* end() const { return m_vertices.data() + m_size; }
 
   /// All four; the fourth of a triangle is the same for all triangles, and larger than any index.
   const std::array<Vertex_index, 4>& padded() const { return m_vertices; }
 };
 
+/// \ingroup PkgMixedMesh3Mesh
 /// A face of an element, with its vertices counter-clockwise seen from outside the element.
 class Face
 {
@@ -72,7 +83,9 @@ public:
                    : Face_vertices{e[f.vertices[0]], e[f.vertices[1]], e[f.vertices[2]], e[f.vertices[3]]};
   }
 
+  /// Its vertices, counter-clockwise seen from outside the element.
   const Face_vertices& vertices() const { return m_vertices; }
+  /// The element that it is a face of.
   Element_index element() const { return m_element; }
   /// The position in `Reference_element::faces` of its element.
   int local_index() const { return m_local_index; }
@@ -82,6 +95,7 @@ public:
   {
     return std::make_tuple(m_element, m_local_index) < std::make_tuple(f.m_element, f.m_local_index);
   }
+  /// Whether both are the same face of the same element.
   bool operator==(const Face& f) const
   {
     return m_element == f.m_element && m_local_index == f.m_local_index;

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The four element kinds as constant tables. Every algorithm loops over these tables; none
@@ -9,28 +11,45 @@
 #ifndef CGAL_MIXED_MESH_3_MIXED_ELEMENT_TRAITS_3_H
 #define CGAL_MIXED_MESH_3_MIXED_ELEMENT_TRAITS_3_H
 
+#include <CGAL/license/Mixed_mesh_3.h>
+
 #include <array>
 #include <cstdint>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// \ingroup PkgMixedMesh3Elements
 /// The kinds of elements; the value is the index into `reference_elements` and the value of the
 /// cell data `kind` in the files written.
-enum Element_kind : std::uint8_t { TETRAHEDRON, PYRAMID, PRISM, HEXAHEDRON };
+enum Element_kind : std::uint8_t {
+  TETRAHEDRON, ///< four vertices
+  PYRAMID,     ///< five: a quadrilateral and an apex
+  PRISM,       ///< six: two triangles
+  HEXAHEDRON   ///< eight
+};
 
+/// \ingroup PkgMixedMesh3Elements
+/// The number of kinds of elements.
 inline constexpr int number_of_element_kinds = 4;
+/// \ingroup PkgMixedMesh3Elements
+/// All kinds, in the order of their values.
 inline constexpr Element_kind element_kinds[number_of_element_kinds] = {TETRAHEDRON, PYRAMID, PRISM,
                                                                         HEXAHEDRON};
 
+/// \ingroup PkgMixedMesh3Elements
 /// A face of an element: its local vertices, counter-clockwise seen from outside the element.
 struct Element_face
 {
+  /// Three or four.
   int size;
+  /// Local numbers; the fourth of a triangle says nothing.
   std::uint8_t vertices[4];
 };
 
 /*!
+\ingroup PkgMixedMesh3Elements
+
 A row of the table of element kinds: combinatorics and reference coordinates.
 
 Vertex order (positive Jacobian; the order of Gmsh, Abaqus, Medit and FEBio):
@@ -46,22 +65,32 @@ Vertex order (positive Jacobian; the order of Gmsh, Abaqus, Medit and FEBio):
 */
 struct Reference_element
 {
+  /// Singular.
   const char* name;
+  /// Plural.
   const char* plural;
+  /// From 4 to 8.
   int number_of_vertices;
+  /// From 6 to 12.
   int number_of_edges;
+  /// Local vertices of each edge.
   std::uint8_t edges[12][2];
+  /// From 4 to 6.
   int number_of_faces;
+  /// The faces, in an order of ours: that of `Face::local_index()`.
   Element_face faces[6];
   /// Corner tetrahedra: a vertex with its three neighbors (of the apex of a pyramid there are
   /// four, so it has none of its own; the four at the base cover the pyramid).
   int number_of_corners;
+  /// Local vertices of each corner tetrahedron, positively oriented.
   std::uint8_t corners[8][4];
   /// Coordinates of the vertices of the reference element; the barycentric tetrahedron and
   /// triangle, [-1,1] in the other directions, height 1 for the pyramid.
   std::int8_t coordinates[8][3];
 };
 
+/// \ingroup PkgMixedMesh3Elements
+/// The table of element kinds, by `Element_kind`.
 inline constexpr Reference_element reference_elements[] = {
   {"tetrahedron",
    "tetrahedra",
@@ -126,19 +155,27 @@ inline constexpr int even_permutations[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3Elements
+
 \brief Model of `MixedElementTraits_3` for one kind, known at compile time.
 
 Adds the shape functions to the table.
 
 \tparam Kind the element kind.
+\cgalModels{MixedElementTraits_3}
 */
 template <Element_kind Kind>
 struct Mixed_element_traits_3
 {
+  /// The kind.
   static constexpr Element_kind kind = Kind;
+  /// Its row in the table.
   static constexpr const Reference_element& reference = reference_elements[Kind];
+  /// The number of vertices.
   static constexpr int number_of_vertices = reference_elements[Kind].number_of_vertices;
+  /// A value for each vertex.
   using Shape_values = std::array<double, number_of_vertices>;
+  /// Derivatives by the three reference coordinates, for each vertex.
   using Shape_gradients = std::array<std::array<double, 3>, number_of_vertices>;
 
   /// Values of the shape functions at the point `(r,s,t)` of the reference element. They are 1 at

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // From the integer lattice of the octree to points: models of `OctreeCellTraits_3`.
 
 #ifndef CGAL_MIXED_MESH_3_OCTREE_CELL_TRAITS_3_H
 #define CGAL_MIXED_MESH_3_OCTREE_CELL_TRAITS_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/Lattice_point.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
@@ -47,14 +51,20 @@ inline double lattice_unit(double root_side, double granularity)
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3Octree
+
 \brief Model of `OctreeCellTraits_3`: cells are boxes parallel to the axes.
 
 Every lattice point is an exact double, but where planes are given.
+
+\cgalModels{OctreeCellTraits_3}
 */
 class Axis_aligned_octree_cell_traits_3
 {
 public:
+  /// The type of points.
   using Point_3 = Predicates_kernel::Point_3;
+  /// The type of triangles.
   using Triangle_3 = Predicates_kernel::Triangle_3;
 
   /// A cell as the domain and the region see it.
@@ -64,6 +74,7 @@ public:
     Point_3 m_center;
 
   public:
+    /// A cell from its box and its center.
     Cell(const Bbox_3& bbox, const Point_3& center) : m_bbox(bbox), m_center(center) {}
     const Bbox_3& bbox() const { return m_bbox; }
     const Point_3& center() const { return m_center; }
@@ -122,6 +133,7 @@ public:
 
   /// Cells of this level and finer ones have all planes that were given; 0 if none were.
   int level_on_surface() const { return m_level_on_surface; }
+  /// Whether there shall be no cells smaller than those of `level_on_surface()`.
   bool is_uniform() const { return m_is_uniform; }
 
   /// The position of a lattice point.
@@ -164,18 +176,25 @@ private:
 };
 
 /*!
+\ingroup PkgMixedMesh3Octree
+
 \brief Model of `OctreeCellTraits_3`: cubes whose third axis has a given direction, for example that
 from the tumor to the skull opening.
 
 The frame comes from a quaternion of small integers, so that it is exactly orthogonal and lattice
 points are exact doubles; its axis is within 4 degrees of the wanted one.
+
+\cgalModels{OctreeCellTraits_3}
 */
 class Rotated_octree_cell_traits_3
 {
 public:
+  /// The type of points.
   using Point_3 = Predicates_kernel::Point_3;
+  /// The type of triangles.
   using Triangle_3 = Predicates_kernel::Triangle_3;
 
+  /// A cell as the domain and the region see it.
   class Cell
   {
     std::array<Point_3, 8> m_vertices;
@@ -183,6 +202,7 @@ public:
     Bbox_3 m_bbox;
 
   public:
+    /// A cell from its vertices, in the order of lattice coordinates, and its center.
     Cell(const std::array<Point_3, 8>& vertices, const Point_3& center)
       : m_vertices(vertices), m_center(center)
     {

@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_RECOVERED_DISPLACEMENT_3_H
 #define CGAL_MIXED_MESH_3_RECOVERED_DISPLACEMENT_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Element_location_3.h>
@@ -25,12 +29,14 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// \ingroup PkgMixedMesh3Fields
 /// How displacements between vertices are made from those of the vertices.
 enum class Displacement_interpolation {
   LINEAR,   ///< by the shape functions of the elements
   RECOVERED ///< by these, and by the gradients of the displacement: see `Recovered_displacement_3`
 };
 
+/// \ingroup PkgMixedMesh3Fields
 /// How the gradient at a vertex is made.
 enum class Gradient_recovery {
   AVERAGE, ///< mean of the elements' gradients at their centers, weighted by volume
@@ -68,6 +74,8 @@ bool all_of_test_points(const F& f)
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3Fields
+
 \brief The displacement of a mesh between its vertices, one order better than by the shape functions.
 
 \f[ u(x) = \sum_i N_i(x) \left( u_i + \tfrac12 G_i (x - x_i) \right) \f]
@@ -196,7 +204,8 @@ public:
   \param removed_elements true for each element that has been removed; empty: none
   \param recovery how gradients are made
   \pre a displacement for each vertex; `removed_elements` is empty or has a value for each element
-  \cost linear in the number of elements, if vertices have boundedly many
+  \par Complexity
+  Linear in the number of elements, if vertices have boundedly many
   */
   template <class Displacements>
   Recovered_displacement_3(const Mesh& mesh, const Displacements& displacements,
@@ -245,9 +254,11 @@ public:
     });
   }
 
+  /// The mesh given to the constructor.
   const Mesh& mesh() const { return *m_mesh; }
   /// Displacements of the vertices.
   const std::vector<Vec3>& displacements() const { return m_displacements; }
+  /// Whether the element is left out.
   bool is_removed(Element_index e) const { return !m_is_removed.empty() && m_is_removed[e]; }
   /// Elements in which the displacement is that of the shape functions, or they would be turned inside out.
   std::size_t number_of_linear_elements() const { return m_number_of_linear_elements; }

@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_SCALED_JACOBIAN_QUALITY_3_H
 #define CGAL_MIXED_MESH_3_SCALED_JACOBIAN_QUALITY_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
@@ -18,6 +22,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /*!
+\ingroup PkgMixedMesh3Costs
+
 \brief The reciprocal of the scaled Jacobian as the cost of an element.
 
 Angles alone count: a hexahedron with right angles has the cost 1 whatever its lengths, and the warp of

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Sparse solvers of Eigen and, if `CGAL_MIXED_MESH_3_USE_CHOLMOD` is defined, of SuiteSparse. The macro is
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_SYMMETRIC_SOLVER_TRAITS_H
 #define CGAL_MIXED_MESH_3_SYMMETRIC_SOLVER_TRAITS_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Eigen_sparse_matrix.h>
 #include <CGAL/Eigen_vector.h>
@@ -30,6 +34,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /*!
+\ingroup PkgMixedMesh3Solvers
+
 \brief Solves symmetric positive definite systems with a solver of Eigen.
 
 Where `CGAL::Eigen_solver_traits` starts again at each `factor()`, this class keeps the symbolic factorization
@@ -47,12 +53,15 @@ template <class EigenSolver>
 class Symmetric_solver_traits
 {
 public:
+  /// The number type.
   using NT = double;
+  /// The type of right-hand sides and solutions.
   using Vector = CGAL::Eigen_vector<double>;
 
   /// The lower triangle of a symmetric matrix; the upper one is ignored.
   struct Matrix : CGAL::Eigen_sparse_symmetric_matrix<double>
   {
+    /// The matrix of CGAL that this one adds a constructor to.
     using Base = CGAL::Eigen_sparse_symmetric_matrix<double>;
     using Base::Base;
 
@@ -113,6 +122,7 @@ public:
     return solver().info() == Eigen::Success;
   }
 
+  /// Factors the matrix, then solves for one right-hand side.
   bool linear_solver(const Matrix& a, const Vector& b, Vector& x, NT& denominator)
   {
     return factor(a, denominator) && linear_solver(b, x);
@@ -131,10 +141,12 @@ private:
   std::shared_ptr<State> m_state = std::make_shared<State>();
 };
 
+/// \ingroup PkgMixedMesh3Solvers
 /// Conjugate gradients with Jacobi's preconditioner. The fastest where few layers of vertices move.
 using Conjugate_gradient_solver_traits =
   Symmetric_solver_traits<Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower>>;
 
+/// \ingroup PkgMixedMesh3Solvers
 /// Eigen's simplicial factorization.
 using Simplicial_solver_traits = Symmetric_solver_traits<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>;
 
@@ -149,8 +161,10 @@ struct Quiet_cholmod : Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>
 
 } // namespace internal
 
+/// \ingroup PkgMixedMesh3Solvers
 /// The supernodal factorization of CHOLMOD. The fastest direct solver for large systems, with a good BLAS.
 using Cholmod_solver_traits = Symmetric_solver_traits<internal::Quiet_cholmod>;
+/// \ingroup PkgMixedMesh3Solvers
 /// The fastest direct solver there is.
 using Direct_solver_traits = Cholmod_solver_traits;
 #else

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The boundary of a mesh: faces, vertices, areas and normals.
 
 #ifndef CGAL_MIXED_MESH_3_BOUNDARY_FACES_H
 #define CGAL_MIXED_MESH_3_BOUNDARY_FACES_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
@@ -18,11 +22,13 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// \ingroup PkgMixedMesh3Validity
 /// The faces that belong to one element only, in the order of the elements.
 /// \param mesh the mesh
 /// \param is_candidate `bool(Vertex_index)`: looks at faces all of whose vertices satisfy it only;
 ///        faster if few do
-/// \cost linear in the number of elements, if vertices have boundedly many
+/// \par Complexity
+/// Linear in the number of elements, if vertices have boundedly many
 template <class Mesh, class Is_candidate>
 std::vector<Face> boundary_faces(const Mesh& mesh, const Is_candidate& is_candidate)
 {
@@ -35,6 +41,7 @@ std::vector<Face> boundary_faces(const Mesh& mesh, const Is_candidate& is_candid
   return faces;
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// As above, looking at all faces.
 template <class Mesh>
 std::vector<Face> boundary_faces(const Mesh& mesh)
@@ -42,6 +49,7 @@ std::vector<Face> boundary_faces(const Mesh& mesh)
   return boundary_faces(mesh, [](Vertex_index) { return true; });
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// The vertices of faces, ascending.
 inline std::vector<Vertex_index> vertices_of(const std::vector<Face>& faces)
 {
@@ -53,6 +61,7 @@ inline std::vector<Vertex_index> vertices_of(const std::vector<Face>& faces)
   return vertices;
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// The vertices of the boundary faces, ascending.
 template <class Mesh>
 std::vector<Vertex_index> boundary_vertices(const Mesh& mesh)
@@ -60,6 +69,7 @@ std::vector<Vertex_index> boundary_vertices(const Mesh& mesh)
   return vertices_of(boundary_faces(mesh));
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// The integral of the normal of unit length over a face, outwards: its length is the area of a planar face.
 template <class Mesh>
 Vec3 vector_area(const Mesh& mesh, const Face& face)
@@ -70,6 +80,7 @@ Vec3 vector_area(const Mesh& mesh, const Face& face)
   return 0.5 * (face.vertices().size() == 3 ? cross(edge(0, 1), edge(0, 2)) : cross(edge(0, 2), edge(1, 3)));
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// The area of a face; of a quadrilateral, the mean of its two triangulations.
 template <class Mesh>
 double area(const Mesh& mesh, const Face& face)

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // From CGAL's Mesh_3.
 
 #ifndef CGAL_MIXED_MESH_3_CELLS_IN_COMPLEX_3_TO_MIXED_MESH_H
 #define CGAL_MIXED_MESH_3_CELLS_IN_COMPLEX_3_TO_MIXED_MESH_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3.h>
 
@@ -18,7 +22,7 @@
 namespace CGAL {
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3Validity
 
 \brief Makes a mixed mesh of the tetrahedra of a complex, such as `make_mesh_3()` returns.
 
@@ -33,7 +37,8 @@ region.
 \param c3t3 the complex
 \param mesh the result; cleared first
 
-\cost O(n log n)
+\par Complexity
+O(n log n)
 */
 template <class C3t3, class GeomTraits>
 void cells_in_complex_3_to_mixed_mesh(const C3t3& c3t3, Mixed_mesh_3<GeomTraits>& mesh)

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The proof that an element is not inverted anywhere: its Jacobian is positive on the whole element, not
@@ -9,6 +11,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_CERTIFICATE_H
 #define CGAL_MIXED_MESH_3_CERTIFICATE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
@@ -27,6 +31,7 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// \ingroup PkgMixedMesh3Validity
 /// What is known of the sign of the Jacobian of an element.
 enum class Jacobian_sign : std::uint8_t {
   POSITIVE,     ///< proved positive on the whole element
@@ -262,11 +267,14 @@ inline bool is_clearly_positive(Element_kind kind, const std::array<std::array<d
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 The sign of the Jacobian on the whole element, exact on the coordinates as doubles.
 
 \param kind the kind
 \param points the positions of the vertices; the first ones are used. \pre finite
-\cost constant: 64 determinants for a hexahedron; intervals and then rationals where doubles are not enough
+\par Complexity
+Constant: 64 determinants for a hexahedron; intervals and then rationals where doubles are not enough
 */
 inline Jacobian_sign jacobian_sign(Element_kind kind, const std::array<std::array<double, 3>, 8>& points)
 {
@@ -283,6 +291,7 @@ inline Jacobian_sign jacobian_sign(Element_kind kind, const std::array<std::arra
   return internal::jacobian_sign_with<CGAL::Exact_rational>(kind, points, exact_subdivisions);
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// The sign of the Jacobian of an element.
 /// \param element its kind and vertices
 /// \param position `std::array<double, 3>(Vertex_index)`: where a vertex is
@@ -295,6 +304,7 @@ Jacobian_sign jacobian_sign(const Element_view& element, const Position& positio
   return jacobian_sign(element.kind(), points);
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// The sign of the Jacobian of element `e`.
 template <class Mesh>
 Jacobian_sign jacobian_sign(const Mesh& mesh, Element_index e)

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Whether a mesh is the solid that its surface bounds: bodies, cavities, handles, volume.
 
 #ifndef CGAL_MIXED_MESH_3_FIDELITY_H
 #define CGAL_MIXED_MESH_3_FIDELITY_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Nested_shells.h>
@@ -30,6 +34,7 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// \ingroup PkgMixedMesh3Validity
 /// The topology of a solid, and its volume.
 struct Solid_topology
 {
@@ -43,6 +48,7 @@ struct Solid_topology
   {
     return 2 * (std::ptrdiff_t(number_of_bodies + number_of_cavities) - std::ptrdiff_t(number_of_handles));
   }
+  /// Whether all numbers are equal.
   bool has_same_topology(const Solid_topology& s) const
   {
     return number_of_bodies == s.number_of_bodies && number_of_handles == s.number_of_handles
@@ -50,6 +56,7 @@ struct Solid_topology
   }
 };
 
+/// \ingroup PkgMixedMesh3Validity
 /// In what a mesh can differ from the solid that it stands for.
 enum class Solid_difference_kind {
   BODY_MISSING,    ///< nothing of it is meshed
@@ -66,15 +73,18 @@ enum class Solid_difference_kind {
   VOLUME           ///< of a body, of a cavity or of all, beyond the tolerance
 };
 
+/// \ingroup PkgMixedMesh3Validity
 /// A difference between a mesh and the solid that it stands for.
 struct Solid_difference
 {
+  /// What differs.
   Solid_difference_kind kind;
   Predicates_kernel::Point_3 point; ///< where it is, or one of several places
   double volume;        ///< of the smaller of the bodies and cavities it is about: how much it matters
   std::string sentence; ///< in English, with the point, without a full stop
 };
 
+/// \ingroup PkgMixedMesh3Validity
 /// A mesh beside the solid that it stands for.
 struct Solid_comparison
 {
@@ -92,6 +102,7 @@ struct Solid_comparison
   }
 };
 
+/// \ingroup PkgMixedMesh3Validity
 /// What a comparison means for the status of a mesh.
 inline Mixed_mesh_status status_of(const Solid_comparison& comparison)
 {
@@ -318,6 +329,8 @@ private:
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 \brief Compares a mesh with the solid that a closed surface bounds: bodies, cavities, handles, volumes.
 
 The boundary of the mesh and the surface are cut into connected components, their *shells*. A shell inside an
@@ -353,7 +366,8 @@ Quadrilaterals on the boundary are split into two triangles, through their verte
   \cgalParamNEnd
 \cgalNamedParamsEnd
 
-\cost O(n log n) for n triangles, and O(s^2) comparisons of boxes for s shells
+\par Complexity
+O(n log n) for n triangles, and O(s^2) comparisons of boxes for s shells
 */
 template <class Mesh, class FaceListGraph, class NamedParameters = parameters::Default_named_parameters>
 Solid_comparison compare_with_surface(const Mesh& mesh, const FaceListGraph& surface,

@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_INTERFACES_H
 #define CGAL_MIXED_MESH_3_INTERFACES_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Face.h>
@@ -23,12 +27,14 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// \ingroup PkgMixedMesh3Validity
 /// Where two subdomains of a mesh meet, or one of them and the outside.
 struct Subdomain_interface
 {
   Subdomain_index first = 1;  ///< positive, less than the other one
   Subdomain_index second = 0; ///< 0: the outside
   std::vector<Face> faces;    ///< of the elements of the first, in the order of the elements
+  /// Sum of the areas of the faces, in the square of the mesh's unit.
   double area = 0;
   /// Edges that are not between two faces of the interface, although no third subdomain meets there.
   std::size_t number_of_bad_edges = 0;
@@ -100,11 +106,14 @@ private:
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 The interfaces between the subdomains of a mesh, and those to the outside, which are the boundary; by their
 subdomains.
 
 \param mesh a conforming mesh
-\cost O(n log n) for n elements
+\par Complexity
+O(n log n) for n elements
 */
 template <class Mesh>
 std::vector<Subdomain_interface> find_interfaces(const Mesh& mesh)
@@ -132,6 +141,8 @@ std::vector<Subdomain_interface> find_interfaces(const Mesh& mesh)
 }
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 How many vertices of an interface are farther from its surface than a share of the diagonal of the domain's
 box.
 
@@ -155,6 +166,7 @@ std::size_t number_of_vertices_off_interface(const Mesh& mesh, const Subdomain_i
   }));
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// The volume of each subdomain.
 template <class Mesh>
 std::map<Subdomain_index, double> volumes_of_subdomains(const Mesh& mesh)

@@ -1,29 +1,41 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_OPTIONS_H
 #define CGAL_MIXED_MESH_3_OPTIONS_H
 
+#include <CGAL/license/Mixed_mesh_3.h>
+
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// \ingroup PkgMixedMesh3Octree
 /// Across what neighboring leaves may differ by one level only.
-enum class Adjacency { FACE = 1, EDGE = 2, VERTEX = 3 };
+enum class Adjacency {
+  FACE = 1,  ///< a face
+  EDGE = 2,  ///< a face or an edge
+  VERTEX = 3 ///< a face, an edge or a vertex
+};
 
+/// \ingroup PkgMixedMesh3Octree
 /// How cells with hanging vertices are decomposed.
 enum class Transition_templates_choice {
   FEWEST_VERTICES, ///< 118 of 144 templates need no vertex at the cell's center
   CENTERED         ///< every such cell is coned from its center
 };
 
+/// \ingroup PkgMixedMesh3Octree
 /// The shape of the root cell of axis-aligned octrees.
 enum class Root_cell {
   CUBE, ///< a cube around the bounding box: all cells are cubes, of aspect-ratio coefficient 1
   BOX   ///< the bounding box itself, as in the paper: cells have its proportions
 };
 
+/// \ingroup PkgMixedMesh3Mesh
 /// What is split before all else: cells as large as a wall is thick, or half as large as a gap is wide.
 enum class Thin_parts {
   WHERE_NEEDED, ///< if the mesh has another topology than the surface otherwise, loses parts or volume
@@ -31,6 +43,7 @@ enum class Thin_parts {
   LIKE_OTHERS   ///< never
 };
 
+/// \ingroup PkgMixedMesh3Octree
 /// How elements at the surface are split.
 enum class Boundary_mode {
   VERTEX_ORDER, ///< by one order of all vertices: inserts none, keeps pyramids

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Measures of elements and of meshes.
 
 #ifndef CGAL_MIXED_MESH_3_QUALITY_H
 #define CGAL_MIXED_MESH_3_QUALITY_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/aspect_ratio.h>
@@ -39,6 +43,7 @@ struct Element_measure
 
 } // namespace internal
 
+/// \ingroup PkgMixedMesh3Validity
 /// Volume of element `e` in the cube of the mesh's unit. Quadrilateral faces are bilinear patches.
 template <class Mesh>
 double volume(const Mesh& mesh, std::size_t e)
@@ -46,6 +51,7 @@ double volume(const Mesh& mesh, std::size_t e)
   return internal::Element_measure<internal::volume>()(mesh, e);
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// Sum of the volumes of all elements.
 template <class Mesh>
 double volume(const Mesh& mesh)
@@ -62,6 +68,8 @@ double volume(const Mesh& mesh)
 /// @{
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 Aspect-ratio coefficient (ARC): 1 is ideal, infinity degenerate. Section 5.3 of Lobos, Bucki, Hitschfeld,
 Payan: "Mixed-element mesh for an intra-operative modeling of the brain tumor extraction".
 
@@ -75,6 +83,8 @@ Payan: "Mixed-element mesh for an intra-operative modeling of the brain tumor ex
 inline constexpr internal::Element_measure<internal::aspect_ratio_coefficient> aspect_ratio_coefficient{};
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 Scaled Jacobian, as in Stimpson, Ernst, Knupp, Pebay, Thompson: "The Verdict geometric quality library"
 (SAND2007-1751), and in Verdict's code for pyramids: 1 is ideal, 0 degenerate, negative inverted.
 
@@ -89,6 +99,8 @@ value for the ideal element: the regular tetrahedron, the pyramid and the prism 
 inline constexpr internal::Element_measure<internal::scaled_jacobian> scaled_jacobian{};
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 Smallest angle, in degrees, between two faces at an edge, inside the element. The normal of a quadrilateral
 is its vector area (half the cross product of its diagonals), its mean normal.
 
@@ -97,28 +109,37 @@ face without area counts as 180 degrees. Why they matter: Shewchuk, "What is a g
 */
 inline constexpr internal::Element_measure<internal::smallest_dihedral_angle> smallest_dihedral_angle{};
 
+/// \ingroup PkgMixedMesh3Validity
 /// Largest angle, in degrees, between two faces at an edge; see `smallest_dihedral_angle`.
 inline constexpr internal::Element_measure<internal::largest_dihedral_angle> largest_dihedral_angle{};
 
+/// \ingroup PkgMixedMesh3Validity
 /// Largest angle, in degrees, between the normals of the two triangles of a quadrilateral face, for the
 /// worse of its two diagonals; 0 for a tetrahedron.
 inline constexpr internal::Element_measure<internal::quad_warp> quad_warp{};
 
 /// @}
 
+/// \ingroup PkgMixedMesh3Validity
 /// The values of a measure over some elements; all zero if there are none.
 struct Quality_statistics
 {
+  /// The number of elements.
   std::size_t count = 0;
+  /// The mean of their values.
   double mean = 0;
+  /// The smallest value.
   double minimum = 0;
+  /// The largest value.
   double maximum = 0;
   double share = 0; ///< of elements with a value in the interval asked for
 };
 
+/// \ingroup PkgMixedMesh3Validity
 /// A row for each kind of element, by `Element_kind`, and one for all elements, the last.
 using Quality_table = std::array<Quality_statistics, number_of_element_kinds + 1>;
 
+/// \ingroup PkgMixedMesh3Validity
 /// The values of a measure for each kind, and for all elements.
 /// \param mesh the mesh
 /// \param measure `double(const Mesh&, std::size_t)`, such as `scaled_jacobian`
@@ -148,6 +169,7 @@ Quality_table quality_statistics(const Mesh& mesh, const Measure& measure,
   return rows;
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// The paper's Table 1: the aspect-ratio coefficient, and the share of elements where it is at most 7.
 template <class Mesh>
 Quality_table quality_statistics(const Mesh& mesh)
@@ -155,6 +177,7 @@ Quality_table quality_statistics(const Mesh& mesh)
   return quality_statistics(mesh, aspect_ratio_coefficient, 0, 7);
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// Counts the elements by the value of a measure. No element is left out: there is a bin below the first
 /// edge, one for each interval between two edges, which contains its lower edge, and one from the last
 /// edge on.

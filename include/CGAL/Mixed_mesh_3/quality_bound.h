@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The proof that the aspect-ratio coefficient of an element is within a bound. The squares of both sides are
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_QUALITY_BOUND_H
 #define CGAL_MIXED_MESH_3_QUALITY_BOUND_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
@@ -148,6 +152,8 @@ public:
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 Whether the aspect-ratio coefficient (ARC) of an element is at most a bound: proved, exact on the coordinates
 and on the bound as doubles. The number 8.47867 in the ARC of a tetrahedron is the decimal one.
 
@@ -157,7 +163,8 @@ Like `aspect_ratio_coefficient`, this says nothing of the Jacobian of a prism or
 \param kind the kind
 \param points the positions of the vertices; the first ones are used. \pre finite
 \param bound the largest ARC. \pre finite, at least 1
-\cost constant: a few products of intervals; rationals where the ARC is within some 1e-13 of the bound
+\par Complexity
+Constant: a few products of intervals; rationals where the ARC is within some 1e-13 of the bound
 */
 inline bool is_aspect_ratio_at_most(Element_kind kind, const std::array<std::array<double, 3>, 8>& points,
                                     double bound)
@@ -173,6 +180,7 @@ inline bool is_aspect_ratio_at_most(Element_kind kind, const std::array<std::arr
   return internal::Aspect_ratio_test<CGAL::Exact_rational>(kind, points, bound)(kind).make_certain();
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// Whether the aspect-ratio coefficient (ARC) of element `e` is at most `bound`.
 template <class Mesh>
 bool is_aspect_ratio_at_most(const Mesh& mesh, Element_index e, double bound)
@@ -184,9 +192,11 @@ bool is_aspect_ratio_at_most(const Mesh& mesh, Element_index e, double bound)
   return is_aspect_ratio_at_most(element.kind(), points, bound);
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// How many elements have an aspect-ratio coefficient (ARC) above `bound`: proved for these, and for the
 /// others that they have none.
-/// \cost linear in the number of elements
+/// \par Complexity
+/// Linear in the number of elements
 template <class Mesh>
 std::size_t number_of_elements_above(const Mesh& mesh, double bound)
 {
@@ -197,6 +207,8 @@ std::size_t number_of_elements_above(const Mesh& mesh, double bound)
 }
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 Between which angles, in degrees, all dihedral angles of a tetrahedron are whose aspect-ratio coefficient
 (ARC) is at most a bound. Both are attained; the manual has the proof.
 

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Resection: which elements are removed with a tumor, and the mesh that is left.
 
 #ifndef CGAL_MIXED_MESH_3_RESECT_H
 #define CGAL_MIXED_MESH_3_RESECT_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
@@ -28,6 +32,7 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// \ingroup PkgMixedMesh3Resection
 /// How `resect()` ended.
 enum class Resection_status {
   SUCCESS,              ///< something is removed, and the boundary of what is left is a closed 2-manifold
@@ -37,6 +42,7 @@ enum class Resection_status {
   BOUNDARY_NOT_MANIFOLD ///< pinched vertices remain: the boundary of the mesh was not a manifold before
 };
 
+/// \ingroup PkgMixedMesh3Resection
 /// A status in words.
 inline const char* description(Resection_status status)
 {
@@ -51,6 +57,8 @@ inline const char* description(Resection_status status)
   return "";
 }
 
+/// \ingroup PkgMixedMesh3Resection
+/// What `resect()` shall know and do besides.
 struct Resection_options
 {
   /// Elements removed by earlier resections, true for each; empty: none. They stay removed.
@@ -59,6 +67,7 @@ struct Resection_options
   bool keep_floating_pieces = false;
 };
 
+/// \ingroup PkgMixedMesh3Resection
 /// A piece that comes loose: elements connected across faces.
 struct Floating_piece_3
 {
@@ -66,10 +75,12 @@ struct Floating_piece_3
   double volume = 0;                   ///< in the cube of the mesh's unit: mm^3
 };
 
+/// \ingroup PkgMixedMesh3Resection
 /// What `resect()` removes: of the elements not removed before, those asked for, less
 /// `number_of_restored_elements`, plus `number_of_floating_elements` plus `number_of_pinch_elements`.
 struct Resection_3
 {
+  /// How it ended.
   Resection_status status = Resection_status::NOTHING_REMOVED;
   std::vector<bool> is_removed;                ///< for each element, those removed before too
   std::size_t number_of_asked_elements = 0;    ///< asked for, and not removed before
@@ -123,6 +134,8 @@ struct Side_of_domain<Domain, std::void_t<decltype(std::declval<const Domain&>()
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3Resection
+
 \brief Removes elements from a mesh, such that what is left can be computed with.
 
 An element that hangs on by a vertex or an edge is a hinge: elasticity is singular there. So the boundary of
@@ -138,7 +151,8 @@ The same input gives the same result. The mesh is not changed: `remaining_mesh()
 \param options what has been removed before, and whether loose pieces stay. \pre its set is empty, or has one
        for each element
 \return what is removed, and why
-\cost linear in the number of elements, plus a tenth of a millisecond for each pinched vertex
+\par Complexity
+Linear in the number of elements, plus a tenth of a millisecond for each pinched vertex
 */
 template <class Mesh>
 Resection_3 resect(const Mesh& mesh, const std::vector<bool>& is_asked,
@@ -199,6 +213,8 @@ Resection_3 resect(const Mesh& mesh, const std::vector<bool>& is_asked,
 }
 
 /*!
+\ingroup PkgMixedMesh3Resection
+
 \brief Removes the elements in a tumor: those whose centroid, the mean of their vertices, is inside.
 
 A centroid on the surface is not inside. The answer is exact on the centroid, rounded to double, as far as
@@ -221,7 +237,8 @@ that of the domain is.
 \cgalNamedParamsEnd
 
 \return what is removed, and why
-\cost as above, plus an inside test for each element
+\par Complexity
+As above, plus an inside test for each element
 */
 template <class Mesh, class Tumor, class NamedParameters = parameters::Default_named_parameters>
 Resection_3 resect(const Mesh& mesh, const Tumor& tumor,
@@ -249,6 +266,8 @@ Resection_3 resect(const Mesh& mesh, const Tumor& tumor,
 }
 
 /*!
+\ingroup PkgMixedMesh3Resection
+
 \brief The mesh that is left: without the elements removed, and without the vertices that only they had.
 
 Elements and vertices keep their order, elements their attributes.
@@ -257,7 +276,8 @@ Elements and vertices keep their order, elements their attributes.
 \param is_removed true for each element that is removed. \pre one for each element
 \param vertex_map if not null, receives for each vertex of the result its index in `mesh`, in increasing order
 \param element_map if not null, receives for each element of the result its index in `mesh`, likewise
-\cost linear in the number of elements
+\par Complexity
+Linear in the number of elements
 */
 template <class Mesh>
 Mesh remaining_mesh(const Mesh& mesh, const std::vector<bool>& is_removed,
@@ -295,12 +315,15 @@ Mesh remaining_mesh(const Mesh& mesh, const std::vector<bool>& is_removed,
 }
 
 /*!
+\ingroup PkgMixedMesh3Resection
+
 The surface of the cavity: the faces of elements that are left against elements that are removed, in the
 numbers of `mesh`, in the order of the elements left.
 
 \param mesh the mesh
 \param is_removed true for each element that is removed. \pre one for each element
-\cost linear in the number of elements
+\par Complexity
+Linear in the number of elements
 */
 template <class Mesh>
 std::vector<Face> cavity_faces(const Mesh& mesh, const std::vector<bool>& is_removed)

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Sheets inside a mesh, such as the falx of a brain: faces that have an element on both sides.
 
 #ifndef CGAL_MIXED_MESH_3_SHEETS_H
 #define CGAL_MIXED_MESH_3_SHEETS_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Face.h>
@@ -47,6 +51,8 @@ std::vector<std::pair<Face, Face>> faces_between_compartments(const Mesh& mesh)
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 The faces between two elements of different compartments: those on sheets. Seen from the element of the
 smaller compartment; in the order of the elements.
 
@@ -55,7 +61,8 @@ All functions of this package that make a mesh out of another one keep them, and
 between them. A face between subdomains is on their interface, and not on a sheet.
 
 \param mesh a conforming mesh
-\cost linear in the number of elements, if vertices have boundedly many
+\par Complexity
+Linear in the number of elements, if vertices have boundedly many
 */
 template <class Mesh>
 std::vector<Face> find_sheet_faces(const Mesh& mesh)
@@ -66,11 +73,14 @@ std::vector<Face> find_sheet_faces(const Mesh& mesh)
   return faces;
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// What a mesh has of a sheet.
 struct Sheet_in_mesh
 {
   std::vector<Face> faces; ///< of the elements in front of it
+  /// Sum of the areas of the faces, in the square of the mesh's unit.
   double area = 0;
+  /// Vertices of the faces.
   std::size_t number_of_vertices = 0;
   std::size_t number_of_vertices_off = 0; ///< that are not on the sheet
   double largest_distance = 0;            ///< of a vertex from the sheet
@@ -78,6 +88,8 @@ struct Sheet_in_mesh
 };
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 What a mesh has of each sheet of its domain. A face belongs to the sheet that is nearest to its vertices.
 
 \tparam Domain a model of `MixedMeshDomainWithSheets_3`
@@ -142,6 +154,7 @@ std::vector<Sheet_in_mesh> find_sheets(const Mesh& mesh, const Domain& domain,
   return sheets;
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// The area of a sheet inside a domain, by so many samples, about.
 /// \tparam Domain with `subdomain_index(point)` for any point, as `Labeled_polyhedral_mixed_mesh_domain_3`
 template <class Sheet, class Domain>

@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_SPLIT_ALONG_FACES_H
 #define CGAL_MIXED_MESH_3_SPLIT_ALONG_FACES_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
@@ -23,6 +27,7 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// \ingroup PkgMixedMesh3Validity
 /// What `split_along_faces()` did.
 struct Slit
 {
@@ -209,6 +214,8 @@ private:
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 Slits a mesh along faces between its elements: their vertices are doubled, so that both sides can come
 apart, or slide along each other. Vertices at the rim of the faces, where the elements around hang together
 yet, stay single, but on the boundary of the mesh: there the slit is open. A vertex where sheets meet gets
@@ -221,7 +228,8 @@ if it was one: where it would not be, faces stay closed.
 \param mesh a conforming mesh; vertices are added
 \param faces of the mesh, from either side, such as those of `find_sheet_faces()`. Those on the boundary are
        ignored
-\cost O(n log n) for n elements, some times
+\par Complexity
+O(n log n) for n elements, some times
 */
 template <class Mesh>
 Slit split_along_faces(Mesh& mesh, const std::vector<Face>& faces)

@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_SPLIT_TO_TETRAHEDRA_H
 #define CGAL_MIXED_MESH_3_SPLIT_TO_TETRAHEDRA_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3.h>
 
@@ -16,6 +20,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 \brief Splits all elements of a mesh into tetrahedra, for programs that know nothing else.
 
 Every quadrilateral is split by the diagonal through its vertex of smallest index, and every element

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // How well the boundary of a mesh represents a surface.
 
 #ifndef CGAL_MIXED_MESH_3_SURFACE_DISTANCE_H
 #define CGAL_MIXED_MESH_3_SURFACE_DISTANCE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/hausdorff_distance.h>
@@ -96,16 +100,20 @@ inline double diagonal(const Triangle_soup& soup)
 
 } // namespace internal
 
+/// \ingroup PkgMixedMesh3Validity
 /// How far the boundary of a mesh and a surface are from each other.
 struct Hausdorff_distance
 {
   One_sided_distance from_mesh;    ///< the point of the boundary that is farthest from the surface
   One_sided_distance from_surface; ///< the point of the surface that is farthest from the boundary
 
+  /// The larger one of both.
   double distance() const { return (std::max)(from_mesh.distance, from_surface.distance); }
 };
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 \brief Computes the Hausdorff distance between the boundary of a mesh and a surface, both ways.
 
 Not sampled: a bound on the error is proved, up to rounding. Quadrilaterals on the boundary are split into
@@ -128,7 +136,8 @@ two triangles, through their vertex of smallest index.
   \cgalParamNEnd
 \cgalNamedParamsEnd
 
-\cost about O(n log n) for n triangles, if the distances are not all the same; at most some seconds more
+\par Complexity
+About O(n log n) for n triangles, if the distances are not all the same; at most some seconds more
 */
 template <class Mesh, class FaceListGraph, class NamedParameters = parameters::Default_named_parameters>
 Hausdorff_distance hausdorff_distance(const Mesh& mesh, const FaceListGraph& surface,
@@ -144,6 +153,8 @@ Hausdorff_distance hausdorff_distance(const Mesh& mesh, const FaceListGraph& sur
 }
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 Number of vertices on the boundary of a mesh that are not on a surface.
 
 \param mesh the mesh. \pre not empty
@@ -179,6 +190,7 @@ std::size_t number_of_vertices_off_surface(const Mesh& mesh, const FaceListGraph
   return n;
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// Number of pairs of triangles of the boundary that intersect other than in a common edge or vertex, by
 /// exact predicates. A degenerate triangle counts as a pair with itself; where the boundary is not a
 /// manifold, what touches counts as well.

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Checkers of the results of the stages. They know nothing of how these were made.
 
 #ifndef CGAL_MIXED_MESH_3_VALIDATION_H
 #define CGAL_MIXED_MESH_3_VALIDATION_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
@@ -31,8 +35,10 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// \ingroup PkgMixedMesh3Validity
 /// Whether no two leaves adjacent across faces (and edges, and vertices) differ by more than a level.
-/// \cost linear in the number of leaves, times the depth
+/// \par Complexity
+/// Linear in the number of leaves, times the depth
 inline bool is_balanced(const internal::Octree& octree, Adjacency adjacency)
 {
   using internal::Octree;
@@ -48,6 +54,7 @@ inline bool is_balanced(const internal::Octree& octree, Adjacency adjacency)
   return true;
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// What is wrong with a mesh: all zero if nothing is.
 struct Mesh_defects
 {
@@ -58,21 +65,27 @@ struct Mesh_defects
   std::size_t nonpositive_corners = 0;  ///< corner tetrahedra whose orientation is not positive, exactly
   std::size_t nonpositive_elements = 0; ///< whose Jacobian is not positive everywhere, exactly
   std::size_t undecided_elements = 0;   ///< of which that could be neither proved nor disproved
+  /// Vertices of no element.
   std::size_t unused_vertices = 0;
   std::size_t duplicate_vertices = 0; ///< with the coordinates of an earlier one
+  /// Vertices with a coordinate that is infinite or no number.
   std::size_t nonfinite_vertices = 0;
   std::size_t invalid_elements = 0; ///< a vertex that does not exist, or the same one twice
 
+  /// Whether two elements have a vertex, an edge, a face or nothing in common.
   bool conforming() const { return nonconforming_faces == 0 && invalid_elements == 0; }
+  /// Whether the boundary is a closed oriented 2-manifold.
   bool closed_manifold_boundary() const
   {
     return nonmanifold_boundary_edges == 0 && nonmanifold_boundary_vertices == 0 && invalid_elements == 0;
   }
+  /// Whether the Jacobian of each element is proved positive all over it.
   bool positive() const
   {
     return nonpositive_corners == 0 && nonpositive_elements == 0 && undecided_elements == 0
            && nonfinite_vertices == 0 && invalid_elements == 0;
   }
+  /// Whether there is no defect at all.
   bool none() const
   {
     return conforming() && closed_manifold_boundary() && positive() && unused_vertices == 0
@@ -202,12 +215,15 @@ void find_nonconforming_faces(const Mesh& mesh, Mesh_defects& defects)
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3Validity
+
 Looks for all defects that a finite-element solver would stumble over.
 
 Signs are exact on the coordinates as doubles, and those of Jacobians hold on whole elements: a mesh
 without defects has no inverted element.
 
-\cost O(n log n) for n elements; about 120 bytes per hexahedron
+\par Complexity
+O(n log n) for n elements; about 120 bytes per hexahedron
 */
 template <class Mesh>
 Mesh_defects find_defects(const Mesh& mesh)
@@ -223,6 +239,7 @@ Mesh_defects find_defects(const Mesh& mesh)
   return defects;
 }
 
+/// \ingroup PkgMixedMesh3Validity
 /// Looks for defects in what the transition stage hands on; positions are those of the lattice. Its elements
 /// end where the octree does: the boundary need not be a manifold, nor is every vertex used.
 inline Mesh_defects find_defects(const internal::Lattice_mesh& lattice)

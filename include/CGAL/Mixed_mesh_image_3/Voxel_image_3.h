@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Images of voxels, and where their voxels are in space. What a file format makes of them is in IO.
@@ -19,9 +21,11 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// \ingroup PkgMixedMeshImage3Ref
 /// Rows of an affine map `x -> A x + b` of space: the last column is `b`.
 using Affine_map_3 = std::array<std::array<double, 4>, 3>;
 
+/// \ingroup PkgMixedMeshImage3Ref
 /// The image of a point.
 inline std::array<double, 3> transform(const Affine_map_3& map, const std::array<double, 3>& p)
 {
@@ -31,6 +35,7 @@ inline std::array<double, 3> transform(const Affine_map_3& map, const std::array
   return q;
 }
 
+/// \ingroup PkgMixedMeshImage3Ref
 /// The determinant of the linear part: the volume of a voxel; negative if the map mirrors.
 inline double determinant(const Affine_map_3& m)
 {
@@ -38,6 +43,7 @@ inline double determinant(const Affine_map_3& m)
          + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
+/// \ingroup PkgMixedMeshImage3Ref
 /// The inverse map. \pre `determinant(m) != 0`
 inline Affine_map_3 inverse(const Affine_map_3& m)
 {
@@ -55,9 +61,11 @@ inline Affine_map_3 inverse(const Affine_map_3& m)
   return inverse;
 }
 
+/// \ingroup PkgMixedMeshImage3Ref
 /// The voxels of an image: how many there are, and where.
 struct Voxel_grid_3
 {
+  /// Voxels along each axis of the image.
   std::array<std::size_t, 3> size{};
   /// From indices to millimeters in the image's world: x to the right, y to the front, z upwards. The
   /// index of a voxel is its center.
@@ -66,6 +74,7 @@ struct Voxel_grid_3
   /// 3 Talairach's, 4 MNI's.
   int world = 1;
 
+  /// The number of voxels.
   std::size_t number_of_voxels() const { return size[0] * size[1] * size[2]; }
 
   /// Where voxel `(i,j,k)` is in the array of voxels: `i` runs fastest.
@@ -75,40 +84,49 @@ struct Voxel_grid_3
   }
 };
 
+/// \ingroup PkgMixedMeshImage3Ref
 /// Types of numbers in image files; the values are NIfTI's.
 enum class Voxel_type : std::int16_t {
-  UINT8 = 2,
-  INT16 = 4,
-  INT32 = 8,
-  FLOAT32 = 16,
-  FLOAT64 = 64,
-  INT8 = 256,
-  UINT16 = 512,
-  UINT32 = 768,
-  INT64 = 1024,
-  UINT64 = 1280
+  UINT8 = 2,    ///< unsigned integer of 8 bits
+  INT16 = 4,    ///< integer of 16 bits
+  INT32 = 8,    ///< integer of 32 bits
+  FLOAT32 = 16, ///< floating-point number of 32 bits
+  FLOAT64 = 64, ///< floating-point number of 64 bits
+  INT8 = 256,   ///< integer of 8 bits
+  UINT16 = 512, ///< unsigned integer of 16 bits
+  UINT32 = 768, ///< unsigned integer of 32 bits
+  INT64 = 1024, ///< integer of 64 bits
+  UINT64 = 1280 ///< unsigned integer of 64 bits
 };
 
+/// \ingroup PkgMixedMeshImage3Ref
 /// An image with a number in each voxel, and how a file holds it: as `type`, where the value of a voxel
 /// is `slope` times the number stored plus `intercept`.
 struct Voxel_image_3
 {
+  /// The voxels and their place.
   Voxel_grid_3 grid;
   std::vector<float> values; ///< at `grid.offset(i, j, k)`
+  /// The type of values in the file.
   Voxel_type type = Voxel_type::FLOAT32;
-  double slope = 1, intercept = 0;
+  double slope = 1;     ///< not 0
+  double intercept = 0; ///< in the unit of the values
 };
 
+/// \ingroup PkgMixedMeshImage3Ref
 /// A vector in each voxel, in millimeters: what is at the center `x` of the voxel has its counterpart
 /// at `x` plus the vector.
 struct Displacement_field_3
 {
+  /// The voxels and their place.
   Voxel_grid_3 grid;
   std::vector<std::array<float, 3>> vectors; ///< at `grid.offset(i, j, k)`
   std::vector<std::uint8_t> is_in_mesh;      ///< whether the voxel's center is in the mesh
 };
 
 /*!
+\ingroup PkgMixedMesh3Fields
+
 The value of an image at a point, linear in each index between the centers of voxels; outside the image it
 is the value at the nearest point of it.
 
@@ -140,6 +158,7 @@ inline float interpolate(const Voxel_image_3& image, const std::array<double, 3>
   return a + t[2] * (b - a);
 }
 
+/// \ingroup PkgMixedMeshImage3Ref
 /// The value of the voxel nearest to a point, in indices; of equally near ones that of larger index. Outside
 /// the image it is the value of the voxel nearest to it.
 inline float nearest_value(const Voxel_image_3& image, const std::array<double, 3>& p)

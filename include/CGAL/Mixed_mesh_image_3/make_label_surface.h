@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // From a segmentation to a closed surface: a level of the label's indicator, smoothed.
@@ -23,6 +25,7 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// \ingroup PkgMixedMeshImage3Ref
 /// The distance between the centers of neighboring voxels, in millimeters, along each index.
 inline std::array<double, 3> voxel_spacing(const Voxel_grid_3& grid)
 {
@@ -35,6 +38,8 @@ inline std::array<double, 3> voxel_spacing(const Voxel_grid_3& grid)
 }
 
 /*!
+\ingroup PkgMixedMeshImage3Ref
+
 \brief The closed surface around the voxels that have a label.
 
 The indicator of these voxels, 1 in them and 0 elsewhere and outside the image, is smoothed by a Gaussian. The
@@ -59,7 +64,8 @@ have the label, the surface is empty.
        a tenth of a voxel then): a quarter of the vertices, and of the time that the simplification takes
 \pre `smoothing >= 0`, the determinant of `image.grid.index_to_world` is not 0
 
-\cost linear in the number of voxels of the box around the label, times the width of the Gaussian in voxels
+\par Complexity
+Linear in the number of voxels of the box around the label, times the width of the Gaussian in voxels
 */
 template <class HasLabel, class Surface_mesh_>
 void make_label_surface(const Voxel_image_3& image, const HasLabel& has_label, double smoothing,

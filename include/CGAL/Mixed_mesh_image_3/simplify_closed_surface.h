@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Surfaces out of images have several vertices for each voxel: far more than a mesh can follow.
@@ -126,6 +128,8 @@ private:
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMeshImage3Ref
+
 \brief Simplifies a surface to a number of vertices, about, by the collapse of the edges that change its
 volume and shape least (Lindstrom, Turk: Fast and memory efficient polygonal simplification, 1998).
 
@@ -134,7 +138,8 @@ surface gets more vertices, up to those it has. So what does not cut itself at t
 
 \param surface a closed triangulated surface that does not cut itself
 \param number_of_vertices how many vertices are wanted
-\cost \f$ O(n \log n) \f$
+\par Complexity
+\f$ O(n \log n) \f$
 */
 template <class Point>
 void simplify_closed_surface(Surface_mesh<Point>& surface, std::size_t number_of_vertices)

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The image as it looks after the deformation: section 6.2 of Lobos, Bucki, Hitschfeld, Payan:
@@ -35,12 +37,15 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
+/// \ingroup PkgMixedMeshImage3Ref
 /// The value of an image between the centers of voxels.
 enum class Image_interpolation {
   LINEAR, ///< `interpolate()`
   NEAREST ///< `nearest_value()`: for labels, between which there is nothing
 };
 
+/// \ingroup PkgMixedMeshImage3Ref
+/// How `warp_image()` and `resample_image()` make images.
 struct Warp_options
 {
   /// Outside the mesh a voxel has the displacement of the voxel of the mesh nearest to it, times a factor
@@ -61,9 +66,11 @@ struct Warp_options
   float resected_value = 0;
 };
 
+/// \ingroup PkgMixedMeshImage3Ref
 /// What the image becomes; all on the grid of the image.
 struct Warped_image_3
 {
+  /// The warped image.
   Voxel_image_3 image;
   Displacement_field_3 forward;  ///< at points before the deformation: where they go
   Displacement_field_3 backward; ///< at points after the deformation: where they come from
@@ -199,6 +206,8 @@ void for_each_displaced_voxel(const Displacement_field_3& field, const Visitor& 
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMeshImage3Ref
+
 Resamples an image: the value of a voxel of the result is the image's where the field takes the voxel,
 linear between voxels or that of the nearest one. Voxels that stay keep their value exactly.
 
@@ -208,7 +217,8 @@ With the backward field it deforms an image as the mesh; with the forward field 
 \param field where voxels of the result come from. \pre on the same grid
 \param interpolation between voxels
 \return the image, of the same type
-\cost linear in the number of voxels
+\par Complexity
+Linear in the number of voxels
 */
 inline Voxel_image_3 resample_image(const Voxel_image_3& image, const Displacement_field_3& field,
                                     Image_interpolation interpolation = Image_interpolation::LINEAR)
@@ -226,6 +236,8 @@ inline Voxel_image_3 resample_image(const Voxel_image_3& image, const Displaceme
 }
 
 /*!
+\ingroup PkgMixedMeshImage3Ref
+
 \brief Deforms an image with a mesh.
 
 For each voxel, the element of the deformed mesh that contains its center tells which point of the tissue
@@ -247,7 +259,8 @@ and points outside the remaining mesh that come from a resected element.
 \pre a displacement for each vertex
 \return the image, both fields, and the mask
 \throw std::runtime_error a line, if the image and the mesh do not overlap, or if a displacement is not finite
-\cost linear in the number of voxels, and of elements
+\par Complexity
+Linear in the number of voxels, and of elements
 */
 template <class Mesh, class Displacements>
 Warped_image_3 warp_image(const Voxel_image_3& image, const Mesh& mesh, const Displacements& displacements,

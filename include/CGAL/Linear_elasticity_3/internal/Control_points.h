@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The control points of an elastic body: in which elements they are, which vertices each has the mean of, and
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_CONTROL_POINTS_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_CONTROL_POINTS_H
+
+#include <CGAL/license/Linear_elasticity_3.h>
 
 #include <CGAL/Linear_elasticity_3/Linear_elasticity_result_3.h>
 #include <CGAL/Linear_elasticity_3/internal/Elastic_body.h>

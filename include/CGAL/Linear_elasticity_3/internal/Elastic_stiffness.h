@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The stiffness of an elastic body on the elements of a mixed mesh: that of the elements, and of patches of
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTIC_STIFFNESS_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTIC_STIFFNESS_H
+
+#include <CGAL/license/Linear_elasticity_3.h>
 
 #include <CGAL/Linear_elasticity_3/internal/dilatation_patches.h>
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What holds the vertices of an elastic body, the connected parts of the body, and which motions of these are
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTIC_SUPPORTS_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTIC_SUPPORTS_H
+
+#include <CGAL/license/Linear_elasticity_3.h>
 
 #include <CGAL/Linear_elasticity_3/internal/Elastic_stiffness.h>
 #include <CGAL/Linear_elasticity_3/internal/rigid_modes.h>

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What Linear_elasticity_3 does, in which order: factor, place control points, remove elements, solve.
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTICITY_MODEL_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTICITY_MODEL_H
+
+#include <CGAL/license/Linear_elasticity_3.h>
 
 #include <CGAL/Linear_elasticity_3/Linear_elasticity_result_3.h>
 #include <CGAL/Linear_elasticity_3/internal/Control_points.h>

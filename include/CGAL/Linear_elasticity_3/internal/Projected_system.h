@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The system of linear equations of an elastic body, without its control points: projected on the directions
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_PROJECTED_SYSTEM_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_PROJECTED_SYSTEM_H
+
+#include <CGAL/license/Linear_elasticity_3.h>
 
 #include <CGAL/Linear_elasticity_3/internal/Elastic_stiffness.h>
 #include <CGAL/Linear_elasticity_3/internal/Elastic_supports.h>

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Tetrahedra, pyramids and prisms in patches of which each has one dilatation, against volumetric locking:
@@ -9,6 +11,8 @@
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_DILATATION_PATCHES_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_DILATATION_PATCHES_H
+
+#include <CGAL/license/Linear_elasticity_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
@@ -53,7 +57,8 @@ partner is in no patch.
 
 \param is_together `bool(e, f)`: whether two elements may have one dilatation: they are of one material. For
        `e == f`, whether it may be in a patch at all
-\cost linear
+\par Complexity
+Linear
 */
 template <class Is_together>
 Patches dilatation_patches(const Element_list& elements, std::size_t number_of_vertices,

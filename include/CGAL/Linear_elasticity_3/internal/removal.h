@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The solution after elements have been removed, with the factor of the system as it was before.
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_REMOVAL_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_REMOVAL_H
+
+#include <CGAL/license/Linear_elasticity_3.h>
 
 #include <CGAL/Linear_elasticity_3/internal/Elastic_body.h>
 #include <CGAL/Linear_elasticity_3/internal/control_constraints.h>

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Which rigid motions the supports of a body leave free.
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_RIGID_MODES_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_RIGID_MODES_H
+
+#include <CGAL/license/Linear_elasticity_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>

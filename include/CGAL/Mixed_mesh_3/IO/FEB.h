@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_IO_FEB_H
 #define CGAL_MIXED_MESH_3_IO_FEB_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/Data_array.h>
 #include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
@@ -56,6 +60,8 @@ inline void write_FEB_node_data(Buffered_output& out, const Data_array& data, st
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3IO
+
 \brief Writes a mesh as model of FEBio (`.feb`), version 4.0.
 
 The mesh: node set `all`, element sets such as `region_hex8` and `rest_tet4` (of other subdomains than 1

@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_IO_FACET_SET_H
 #define CGAL_MIXED_MESH_3_IO_FACET_SET_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Face.h>
 
@@ -16,6 +20,8 @@ namespace Mixed_meshes_3 {
 namespace IO {
 
 /*!
+\ingroup PkgMixedMesh3IO
+
 \brief Faces of elements with a name, to be written with a mesh: where a boundary condition holds, or an
 interface between tissues.
 
@@ -26,7 +32,9 @@ as a face of one of them, and has the orientation from there outwards. A set wit
 */
 struct Facet_set
 {
+  /// The name in files.
   std::string name;
+  /// Faces of elements of the mesh.
   std::vector<Face> faces;
 };
 

@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_IO_INP_H
 #define CGAL_MIXED_MESH_3_IO_INP_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
@@ -59,6 +63,8 @@ void write_INP_surface(Buffered_output& out, const Mesh& mesh, const Facet_set& 
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3IO
+
 \brief Writes a mesh as input of Abaqus (`.inp`): nodes, elements and sets, no analysis.
 
 Element sets: `REGION` and `REST` for the elements of subdomain 1 in the region and the others,

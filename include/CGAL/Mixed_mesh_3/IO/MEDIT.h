@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_IO_MEDIT_H
 #define CGAL_MIXED_MESH_3_IO_MEDIT_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
@@ -22,6 +26,8 @@ namespace Mixed_meshes_3 {
 namespace IO {
 
 /*!
+\ingroup PkgMixedMesh3IO
+
 \brief Writes a mesh in the format of Medit (`.mesh`), as text.
 
 References: of subdomain 1, 1 for the elements in the region and 2 for the others; 3 for the boundary faces

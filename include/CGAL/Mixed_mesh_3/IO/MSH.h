@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_IO_MSH_H
 #define CGAL_MIXED_MESH_3_IO_MSH_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/Data_array.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
@@ -25,8 +29,12 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace IO {
 
+/// \ingroup PkgMixedMesh3IO
 /// Version of the format of Gmsh.
-enum class MSH_version { V2_2, V4_1 };
+enum class MSH_version {
+  V2_2, ///< of Gmsh 2 and 3
+  V4_1  ///< of Gmsh 4
+};
 
 namespace internal {
 
@@ -285,6 +293,8 @@ inline void write_MSH_node_data(Buffered_output& out, const Data_array& data, st
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3IO
+
 \brief Writes a mesh in the format of Gmsh, as text.
 
 Physical groups: the volumes "region" (1) and "rest" (2) for the elements of subdomain 1 in the region and the

@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_IO_READ_SURFACE_OPTIONS_H
 #define CGAL_MIXED_MESH_3_IO_READ_SURFACE_OPTIONS_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <optional>
 
@@ -12,10 +16,15 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace IO {
 
+/// \ingroup PkgMixedMesh3IO
 /// Which way the axes x, y and z point in a patient: to the right, anterior and superior (RAS: images,
 /// FreeSurfer, GIFTI), or to the left, posterior and superior (LPS: DICOM, ITK, and 3D Slicer's files).
-enum class Anatomical_space { RAS, LPS };
+enum class Anatomical_space {
+  RAS, ///< x to the right, y to the front, z up
+  LPS  ///< x to the left, y to the back, z up
+};
 
+/// \ingroup PkgMixedMesh3IO
 /// How a surface file is read.
 struct Read_surface_options
 {

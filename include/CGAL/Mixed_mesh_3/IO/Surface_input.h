@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_IO_SURFACE_INPUT_H
 #define CGAL_MIXED_MESH_3_IO_SURFACE_INPUT_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <cstddef>
 #include <string>
@@ -14,10 +18,13 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace IO {
 
+/// \ingroup PkgMixedMesh3IO
 /// What a surface file held, and what had to be mended.
 struct Surface_input
 {
+  /// Points of the surface.
   std::size_t number_of_points = 0, number_of_polygons = 0; ///< in the file
+  /// Connected parts of the surface.
   std::size_t number_of_components = 0;
   double volume = 0;                 ///< enclosed, in the cube of the unit
   std::vector<std::string> warnings; ///< a line each, without the file's name

@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_IO_VTU_H
 #define CGAL_MIXED_MESH_3_IO_VTU_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/IO/Data_array.h>
@@ -33,10 +37,15 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace IO {
 
+/// \ingroup PkgMixedMesh3IO
+/// What `write_VTU()` writes besides the mesh.
 struct VTU_options
 {
+  /// Values at the vertices.
   std::vector<Data_array> vertex_data;
+  /// Values of the elements.
   std::vector<Data_array> element_data;
+  /// Named faces of elements.
   std::vector<Facet_set> facet_sets = {};
 };
 
@@ -121,6 +130,8 @@ VTU_arrays cell_arrays(const Mesh& mesh)
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3IO
+
 \brief Writes a mesh as VTK unstructured grid: XML, version 1.0, with raw binary data appended.
 
 Elements are sorted by kind, within a kind in the order of the mesh: programs that read blocks of one kind

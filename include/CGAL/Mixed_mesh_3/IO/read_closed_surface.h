@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_IO_READ_CLOSED_SURFACE_H
 #define CGAL_MIXED_MESH_3_IO_READ_CLOSED_SURFACE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/Read_surface_options.h>
 #include <CGAL/Mixed_mesh_3/IO/Surface_input.h>
@@ -61,6 +65,8 @@ bool read_surface_as(const Read& read, const std::string& path, const Read_surfa
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3IO
+
 Reads a closed surface, and mends what is harmless: faces that do not have the same points where they meet,
 duplicate faces, unused points, polygons (triangulated), faces whose vertices are on a line, inconsistent or
 inward orientation. A surface may touch itself in points and edges: it gets a vertex for each sheet there.
@@ -91,7 +97,8 @@ with `SPACE=LPS`, which 3D Slicer writes, is obeyed: x and y are negated, so tha
        not the surface of a solid
 \param input if not null, receives what was read, with a warning for everything mended
 \return whether all went well; if not, `mesh` is as it was
-\cost O((n + k) log(n + k)) for n faces, of which k pairs cut each other
+\par Complexity
+O((n + k) log(n + k)) for n faces, of which k pairs cut each other
 */
 template <class Mesh>
 [[nodiscard]] bool read_closed_surface(const std::string& path, const Read_surface_options& options,
@@ -101,6 +108,7 @@ template <class Mesh>
   return internal::read_surface_as(internal::read_surface, path, options, mesh, error, input);
 }
 
+/// \ingroup PkgMixedMesh3IO
 /// The same with default options.
 template <class Mesh>
 [[nodiscard]] bool read_closed_surface(const std::string& path, Mesh& mesh, std::string* error = nullptr,
@@ -110,11 +118,14 @@ template <class Mesh>
 }
 
 /*!
+\ingroup PkgMixedMesh3IO
+
 Reads a sheet for `Mixed_mesh_sheet_3`: a surface with or without a border, an oriented 2-manifold that does
 not cut itself. Formats, parameters and what is mended as for `read_closed_surface()`; the orientation is
 that of the file, where its faces agree. No volume is given.
 
-\cost O(n log n)
+\par Complexity
+O(n log n)
 */
 template <class Mesh>
 [[nodiscard]] bool read_sheet(const std::string& path, const Read_surface_options& options, Mesh& mesh,

@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_IO_READ_MIXED_MESH_H
 #define CGAL_MIXED_MESH_3_IO_READ_MIXED_MESH_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/internal/Mesh_input.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/read_MEDIT.h>
@@ -41,6 +45,8 @@ inline Mesh_input read_mesh_input(const std::string& file, const std::string& ex
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMesh3IO
+
 Reads a mesh of linear hexahedra, prisms, pyramids and tetrahedra, in the format that the extension tells.
 
 | extension       | format |
@@ -70,7 +76,8 @@ or not fit together; see `find_defects()`.
 \param mesh the result; as it was if the file cannot be read or has no element
 \param error if not null, receives then a line that names the file and the defect
 \return whether all went well
-\cost O(n log n); memory for the file and twice the mesh
+\par Complexity
+O(n log n); memory for the file and twice the mesh
 */
 template <class Mesh>
 [[nodiscard]] bool read_mixed_mesh(const std::string& file, Mesh& mesh, std::string* error = nullptr)

@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_IO_WRITE_MIXED_MESH_H
 #define CGAL_MIXED_MESH_3_IO_WRITE_MIXED_MESH_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/Data_array.h>
 #include <CGAL/Mixed_mesh_3/IO/FEB.h>
@@ -34,9 +38,19 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace IO {
 
+/// \ingroup PkgMixedMesh3IO
 /// The formats that can be written.
-enum class Format { VTU, MSH_4_1, MSH_2_2, MEDIT, INP, FEB };
+enum class Format {
+  VTU,     ///< VTK's unstructured grid, in XML
+  MSH_4_1, ///< Gmsh, now
+  MSH_2_2, ///< Gmsh, the older format
+  MEDIT,   ///< Medit
+  INP,     ///< Abaqus
+  FEB      ///< FEBio
+};
 
+/// \ingroup PkgMixedMesh3IO
+/// How `write_mixed_mesh()` writes, and what besides the mesh.
 struct Write_options
 {
   /// Whether to write `split_to_tetrahedra(mesh)` instead of the mesh.
@@ -92,6 +106,7 @@ bool write(std::ostream& stream, const Mesh& mesh, Format format, const Write_op
 
 } // namespace internal
 
+/// \ingroup PkgMixedMesh3IO
 /// The format for a file name, from its extension in upper or lower case; empty if unknown.
 inline std::optional<Format> format_of(const std::string& path)
 {
@@ -105,6 +120,7 @@ inline std::optional<Format> format_of(const std::string& path)
   return std::nullopt;
 }
 
+/// \ingroup PkgMixedMesh3IO
 /// Whether any file can be written to a path: its directory must exist and be writable.
 /// \param path the file
 /// \param error if not null, receives a line that names the file and says what is wrong, if anything is
@@ -114,6 +130,8 @@ inline std::optional<Format> format_of(const std::string& path)
 }
 
 /*!
+\ingroup PkgMixedMesh3IO
+
 \brief Files that appear together, when all of them are complete.
 
 Each is written under another, hidden name in its directory; `commit()` renames them, all or none. Files not
@@ -139,6 +157,7 @@ class Output_files
   }
 
 public:
+  /// No file yet.
   Output_files() = default;
 
   /// \param go_on asked often while files are written; as soon as it returns `false`, `write()` fails
@@ -178,6 +197,8 @@ public:
 };
 
 /*!
+\ingroup PkgMixedMesh3IO
+
 \brief Checks whether a mesh can be written to a path: to be called before meshing.
 
 The extension must be known, the directory exist and be writable. An existing file is not touched; a
@@ -196,6 +217,7 @@ temporary one is created beside it and removed.
   return internal::is_success(path + ": unknown extension, known are" + known, error);
 }
 
+/// \ingroup PkgMixedMesh3IO
 /// Writes a mesh to one of several files that shall appear together, as the function below does to one.
 template <class Mesh>
 [[nodiscard]] bool write_mixed_mesh(Output_files& files, const std::string& path, const Mesh& mesh,
@@ -256,6 +278,8 @@ template <class Mesh>
 }
 
 /*!
+\ingroup PkgMixedMesh3IO
+
 \brief Writes a mesh to a file, in the format that the extension tells.
 
 | extension | format |

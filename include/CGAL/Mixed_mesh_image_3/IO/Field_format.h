@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_IMAGE_3_IO_FIELD_FORMAT_H
@@ -12,6 +14,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace IO {
 
+/// \ingroup PkgMixedMeshImage3Ref
 /// Files that hold a field of displacements. All have floats in millimeters, one vector for each voxel;
 /// programs differ in what they take for the first two directions.
 enum class Field_format {
@@ -20,6 +23,7 @@ enum class Field_format {
   NRRD   ///< NRRD in the space left-posterior-superior (LPS): 3D Slicer, ITK
 };
 
+/// \ingroup PkgMixedMeshImage3Ref
 /// The end of the name of a field's file, after `_forward` or `_backward`.
 /// \param format of the field
 /// \param extension of the image it belongs to: `.nii` or `.nii.gz`

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // NIfTI images. Headers are interpreted by nifti_clib (Debian: libnifti2-dev, zlib1g-dev; link nifti2, znz
@@ -537,6 +539,8 @@ inline Voxel_image_3 read_image(const std::string& path)
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMeshImage3Ref
+
 Reads a NIfTI image (`.nii`, `.nii.gz`; NIfTI-1 and NIfTI-2, either byte order).
 
 Positions are those of the sform, else of the qform, else the voxels' sizes times the indices; in
@@ -557,6 +561,8 @@ integers beyond 2^24 lose digits. Not for several threads at once.
 }
 
 /*!
+\ingroup PkgMixedMeshImage3Ref
+
 Writes an image to one of several files that shall appear together.
 
 As NIfTI-1, in the image's type: integers are rounded, and cut off at the ends of their range. Positions
@@ -595,6 +601,7 @@ are written as sform, and as qform if the axes are at right angles.
     error);
 }
 
+/// \ingroup PkgMixedMeshImage3Ref
 /// As above, a field: a vector image (five dimensions, `NIFTI_INTENT_DISPVECT`) of floats in millimeters,
 /// components in the directions of the image's world: right, front, up.
 [[nodiscard]] inline bool write_NIFTI(Output_files& files, const std::string& path,
@@ -603,6 +610,7 @@ are written as sform, and as qform if the axes are at right angles.
   return internal::write_NIFTI_field(files, path, field, NIFTI_INTENT_DISPVECT, {1, 1, 1}, error);
 }
 
+/// \ingroup PkgMixedMeshImage3Ref
 /// Writes an image or a field to a file, which appears when it is complete.
 template <class Image>
 [[nodiscard]] bool write_NIFTI(const std::string& path, const Image& image, std::string* error = nullptr)

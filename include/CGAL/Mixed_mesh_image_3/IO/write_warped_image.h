@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What warp_image() returns, as files that other programs read.
@@ -68,6 +70,8 @@ inline std::string NRRD_header(const Voxel_grid_3& grid, bool is_compressed)
 } // namespace internal
 
 /*!
+\ingroup PkgMixedMeshImage3Ref
+
 Writes a field as NRRD to one of several files that shall appear together.
 
 Floats in millimeters, the components of a voxel side by side, space and components left-posterior-superior:
@@ -109,6 +113,7 @@ what 3D Slicer and ITK take for a transform.
     error);
 }
 
+/// \ingroup PkgMixedMeshImage3Ref
 /// Writes a field in one of the formats that other programs read; parameters as above, and `.nii` or
 /// `.nii.gz` for NIfTI.
 [[nodiscard]] inline bool write_displacement_field(Output_files& files, const std::string& path,
@@ -126,6 +131,8 @@ what 3D Slicer and ITK take for a transform.
 }
 
 /*!
+\ingroup PkgMixedMeshImage3Ref
+
 Writes what `warp_image()` returns, beside each other: for `brain.nii.gz`
 
 | file | what it is |

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Fields of a mesh on the voxels of an image: in the elements, and fading outside.
@@ -300,7 +302,8 @@ smoothly from 1 to 0 over a distance.
 
 Distances are measured along the axes of the grid as if these were at right angles.
 \pre fewer than 2^32 voxels
-\cost linear in the number of voxels in a box around the mesh
+\par Complexity
+Linear in the number of voxels in a box around the mesh
 */
 inline void fade_displacement(double distance, Displacement_field_3& field)
 {

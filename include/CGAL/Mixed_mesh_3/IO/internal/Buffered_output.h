@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What all writers share: buffered text and binary output.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_BUFFERED_OUTPUT_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_BUFFERED_OUTPUT_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Index.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What formats write as a block: elements of one kind with the same attributes.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_ELEMENT_BLOCKS_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_ELEMENT_BLOCKS_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
@@ -86,7 +90,8 @@ struct Element_block
 };
 
 /// All elements of a mesh in blocks: by part, then by kind, then in the order of the mesh.
-/// \cost O(n log n), four bytes an element
+/// \par Complexity
+/// O(n log n), four bytes an element
 class Element_blocks
 {
   std::vector<Part> m_parts;

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What the readers of surfaces share: points and polygons as a file has them, the words and bytes in it. A
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_SURFACE_SOUP_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_SURFACE_SOUP_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/Read_surface_options.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Mesh_input.h>

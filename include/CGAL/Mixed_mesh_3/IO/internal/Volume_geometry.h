@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Where a volume of FreeSurfer is in the scanner. Coordinates of its surfaces ("surface RAS", "tkregister")
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_VOLUME_GEOMETRY_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_VOLUME_GEOMETRY_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 

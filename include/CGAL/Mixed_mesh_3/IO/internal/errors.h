@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // How readers and writers say what is wrong: within, by an exception or a line of text; to the caller, by
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_ERRORS_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_ERRORS_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <exception>
 #include <filesystem>

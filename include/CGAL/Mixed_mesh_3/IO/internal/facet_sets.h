@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Facet sets as writers need them: checked, on tetrahedra, as patches that no two sets share.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_FACET_SETS_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_FACET_SETS_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
@@ -123,7 +127,8 @@ struct Face_patch
 };
 
 /// The boundary faces and those of sets as patches: each face is in one.
-/// \cost O(n log n)
+/// \par Complexity
+/// O(n log n)
 class Face_patches
 {
   std::vector<Face> m_faces;

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Binary triangle surfaces of FreeSurfer: lh.pial, rh.white, ...
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_READ_FREESURFER_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_READ_FREESURFER_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/internal/Surface_soup.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Volume_geometry.h>

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // VTK polygonal data in the legacy format, text and binary, versions up to 5.1: polygons and strips of
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_READ_VTK_POLYDATA_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_READ_VTK_POLYDATA_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/internal/Surface_soup.h>
 

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What `read_closed_surface()` and `read_sheet()` do: the file, the topology, what can be mended, the
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_READ_SURFACE_IMPL_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_READ_SURFACE_IMPL_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/internal/read_surface_file.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/repair_surface.h>

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What is not harmless in a surface: repaired, with a line that says so, or refused.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_REPAIR_SURFACE_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_REPAIR_SURFACE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/Read_surface_options.h>
 #include <CGAL/Mixed_mesh_3/IO/Surface_input.h>

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Plain doubles for measures (lengths, volumes, quality). Decisions use the kernel's predicates.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_BASE_VECTOR_3_H
 #define CGAL_MIXED_MESH_3_INTERNAL_BASE_VECTOR_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/double.h>
 #include <CGAL/number_utils.h>

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The boundary stage as a whole: order the vertices, split, look for pinched places, relabel, again.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_BOUNDARY_STAGE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_BOUNDARY_STAGE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/manifold_defects.h>
@@ -410,7 +414,8 @@ Elements at sheets are split too, and their pieces get compartments; the vertice
 
 \param mesh the labels of pinched vertices change; in the paper's mode vertices are added
 \param mode the paper's knows one subdomain only: several are split by the vertex order
-\cost O(n + m log m) for n elements, m of them at the surface, plus m closest-point queries
+\par Complexity
+O(n + m log m) for n elements, m of them at the surface, plus m closest-point queries
 */
 template <class Octree_, class Sheets = No_sheets>
 Boundary_pieces split_boundary(const Octree_& octree, Lattice_mesh& mesh, Boundary_mode mode,

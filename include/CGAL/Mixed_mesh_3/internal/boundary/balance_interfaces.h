@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Interfaces between subdomains start on both sides of their surfaces, as near as can be.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_BALANCE_INTERFACES_H
 #define CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_BALANCE_INTERFACES_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>
 #include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
@@ -31,7 +35,8 @@ elements of small parts (as vertices near to an isosurface are warped: Labelle, 
 2007). Only where there are two subdomains around the vertex and not the outside, and beside a vertex that
 stays: what is thin is not lost.
 
-\cost linear in the number of elements; a closest-point query for each vertex beside another subdomain
+\par Complexity
+Linear in the number of elements; a closest-point query for each vertex beside another subdomain
 */
 template <class Octree_>
 void balance_interfaces(const Octree_& located, Lattice_mesh& mesh, unsigned threads)

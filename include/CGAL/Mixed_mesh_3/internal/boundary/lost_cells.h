@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What octree meshes lose: parts of the domain that no octree vertex is inside of.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_LOST_CELLS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_LOST_CELLS_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/boundary/Boundary_stage.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>

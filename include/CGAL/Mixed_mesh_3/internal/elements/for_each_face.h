@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The one place where faces are found: which faces of the elements are the same.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_FOR_EACH_FACE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_FOR_EACH_FACE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Face.h>
@@ -114,7 +118,8 @@ public:
 
 /// Calls `visit(group)` with a `Face_table::Group` for each set of vertices that is a face, among the faces
 /// all of whose vertices satisfy `is_candidate`.
-/// \cost linear in the number of elements, if vertices have boundedly many; 24 bytes per face
+/// \par Complexity
+/// Linear in the number of elements, if vertices have boundedly many; 24 bytes per face
 template <class Is_candidate, class Visitor>
 void for_each_face(const Element_list& elements, std::size_t number_of_vertices,
                    const Is_candidate& is_candidate, const Visitor& visit)

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The boundary of a set of elements as a surface: is it a closed 2-manifold, and where is it not.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_MANIFOLD_DEFECTS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_MANIFOLD_DEFECTS_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Face.h>
 
@@ -29,7 +33,8 @@ struct Manifold_defects
   bool empty() const { return edges.empty() && vertices.empty(); }
 };
 
-/// \cost O(n log n) for n polygons
+/// \par Complexity
+/// O(n log n) for n polygons
 inline Manifold_defects manifold_defects(const std::vector<Face_vertices>& polygons)
 {
   Manifold_defects defects;

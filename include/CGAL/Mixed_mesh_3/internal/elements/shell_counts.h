@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_SHELL_COUNTS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_SHELL_COUNTS_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <cstddef>
 #include <numeric>
@@ -28,7 +32,8 @@ struct Shell_counts
 };
 
 /// \param polygons ranges of vertex indices. \pre each edge belongs to two of them
-/// \cost linear, nearly
+/// \par Complexity
+/// Linear, nearly
 template <class Polygons>
 Shell_counts shell_counts(const Polygons& polygons, std::size_t number_of_vertices)
 {

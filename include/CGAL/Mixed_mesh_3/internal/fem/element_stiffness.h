@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The isoparametric stiffness of an element of linear elasticity.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FEM_ELEMENT_STIFFNESS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FEM_ELEMENT_STIFFNESS_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
 #include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
@@ -39,7 +43,8 @@ inline double pointwise_share(const Elastic_material& material)
   return (std::min)(1., largest_multiple_of_mu * material.mu() / material.bulk_modulus());
 }
 
-/// \cost constant: 8 points and 36 blocks for a hexahedron, 1 point and 10 blocks for a tetrahedron
+/// \par Complexity
+/// Constant: 8 points and 36 blocks for a hexahedron, 1 point and 10 blocks for a tetrahedron
 inline void compute_element_stiffness(Element_kind kind, const std::array<Vec3, 8>& points,
                                       const Elastic_material& material, Dilatation dilatation,
                                       Element_stiffness& stiffness)

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Which surfaces a vertex is to be on: that of the domain, or, between several subdomains, one or more.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_STRATA_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_STRATA_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Face.h>

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // How far from the mesh the surfaces of a domain may be, and points of them where that is measured.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_TOLERANCES_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_TOLERANCES_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Moves vertices, one by one, to where the elements around them are best.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_VERTEX_OPTIMIZER_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_VERTEX_OPTIMIZER_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
 

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A mixed mesh while vertices move and tetrahedra are flipped: with the elements around each vertex, and
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_WORKING_MESH_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_WORKING_MESH_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Face.h>

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Algorithm 1 of Lobos, Bucki, Hitschfeld, Payan: "Mixed-element mesh for an intra-operative modeling of the
@@ -11,6 +13,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_RELAX_TO_SURFACE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_RELAX_TO_SURFACE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Where the boundary of a mesh is far from the surface, and where its vertices should slide to come nearer.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_ATTRACTION_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_ATTRACTION_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
@@ -123,7 +127,8 @@ public:
   }
 
   /// Measures all distances.
-  /// \cost a query to an AABB tree for each sample of the surface, and of the boundary
+  /// \par Complexity
+  /// A query to an AABB tree for each sample of the surface, and of the boundary
   void measure()
   {
     m_shifts.assign(m_mesh.points.size(), Vec3{});

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Where each boundary vertex shall go: the closest point of the surface, moved along the surface until no
@@ -9,6 +11,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_TARGETS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_TARGETS_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
@@ -132,7 +136,8 @@ The target of each boundary vertex.
 \param closest as `Surface_projection`
 \param strata of all vertices
 \param starts of all vertices, the points to be projected, if these are others
-\cost one query per boundary vertex, and one for each vertex of a folded face in each round
+\par Complexity
+One query per boundary vertex, and one for each vertex of a folded face in each round
 */
 template <class Project>
 Surface_targets surface_targets(const std::vector<Face>& boundary, const std::vector<Vec3>& points,

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The core works on doubles: one driver for all kernels of the user's mesh, and for domains and regions
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_MESH_DOMAIN_H
 #define CGAL_MIXED_MESH_3_INTERNAL_MESHING_MESH_DOMAIN_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
 #include <CGAL/Mixed_mesh_3.h>

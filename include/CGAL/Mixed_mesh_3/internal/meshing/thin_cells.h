@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Where the octree is too coarse for the topology: cells as large as a wall is thick, or a gap is wide.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_THIN_CELLS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_MESHING_THIN_CELLS_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
@@ -165,7 +169,8 @@ Splits what is too large for walls and gaps, the largest cells first, level by l
 the budget.
 
 \param number_of_vertices `std::size_t(octree)`: of its mesh
-\cost a dozen queries for closest points and more for each leaf at the surface
+\par Complexity
+A dozen queries for closest points and more for each leaf at the surface
 */
 template <class Octree_, class Count>
 Thin_cell_splits split_thin_cells(Octree_& octree, double strictness, std::size_t budget,

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The octree: integers only. Nodes are in one array, the eight children of a node side by side;
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_OCTREE_OCTREE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_OCTREE_OCTREE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/Lattice_point.h>
 

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Which cell is split next: the one where a vertex removes most of the error.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_OCTREE_REFINEMENT_SEQUENCE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_OCTREE_REFINEMENT_SEQUENCE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/weight_in_region.h>

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // 2:1 balance: the "one-irregular" octree of section 5.2 of the paper, and the edge patterns that
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_OCTREE_BALANCE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_OCTREE_BALANCE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
 #include <CGAL/Mixed_mesh_3/options.h>
@@ -45,7 +49,8 @@ up, each refined cell is looked at once.
 
 \param refined the nodes split since the octree was last balanced
 \param split called as `split(node)` to split a leaf, so that the caller can keep data per node
-\cost linear in the number of refined nodes, times the depth
+\par Complexity
+Linear in the number of refined nodes, times the depth
 */
 template <class Split>
 void balance(const Octree& octree, const std::vector<Octree::Node_index>& refined, Adjacency adjacency,

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The octree of a vertex budget (section 5.1 of the paper): as many splits of the sequence as the *final*
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_OCTREE_FILL_VERTEX_BUDGET_H
 #define CGAL_MIXED_MESH_3_INTERNAL_OCTREE_FILL_VERTEX_BUDGET_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/octree/Refinement_sequence.h>
 
@@ -166,7 +170,8 @@ so, too.
 \param radius, points see `Refinement_sequence`
 \param try_octree `Candidate(octree)`: runs all stages that change the number of vertices
 \return the best candidate; its number of vertices is above the budget only if that of the start is
-\cost O(log n) trials of at most a little more than n vertices; two for large n
+\par Complexity
+O(log n) trials of at most a little more than n vertices; two for large n
 */
 template <class Octree_, class Try>
 auto fill_vertex_budget(Octree_& octree, std::size_t budget, double radius, const Try& try_octree,

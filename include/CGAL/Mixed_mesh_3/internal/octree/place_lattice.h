@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Where the octree's lattice can lie on the surface: if all of that is parallel to planes of the axes, cells
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_OCTREE_PLACE_LATTICE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_OCTREE_PLACE_LATTICE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
 

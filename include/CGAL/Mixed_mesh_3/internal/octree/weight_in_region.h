@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // How much an error counts: how it falls with the distance from a region, and what several regions add.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_OCTREE_WEIGHT_IN_REGION_H
 #define CGAL_MIXED_MESH_3_INTERNAL_OCTREE_WEIGHT_IN_REGION_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <algorithm>
 #include <cmath>

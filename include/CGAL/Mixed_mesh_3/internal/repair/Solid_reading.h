@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The solid that any triangles enclose: they may cut each other, overlap, and share edges of any number.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_REPAIR_SOLID_READING_H
 #define CGAL_MIXED_MESH_3_INTERNAL_REPAIR_SOLID_READING_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/repair/Solid_rule.h>
@@ -44,7 +48,8 @@ Source: Zhou, Grinspun, Zorin, Jacobson: Mesh arrangements for solid geometry (S
 \param triangles indices of points; those without area are passed over
 \param most number of pairs of triangles that meet, or of pieces, above which nothing is done; this many
        take some ten seconds
-\cost O((n + k) log(n + k)) for n triangles, k pairs of which meet
+\par Complexity
+O((n + k) log(n + k)) for n triangles, k pairs of which meet
 */
 Solid_reading read_solid(const std::vector<Solid_reading::Point>& points,
                          const std::vector<std::array<std::size_t, 3>>& triangles, std::size_t most = 300000);

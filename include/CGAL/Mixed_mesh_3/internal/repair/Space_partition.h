@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The cells into which triangles divide space, and which of them are solid.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_REPAIR_SPACE_PARTITION_H
 #define CGAL_MIXED_MESH_3_INTERNAL_REPAIR_SPACE_PARTITION_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/repair/Solid_rule.h>

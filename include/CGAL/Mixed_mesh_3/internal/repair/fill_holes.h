@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Holes of a surface are closed, if little is to be invented for that.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_REPAIR_FILL_HOLES_H
 #define CGAL_MIXED_MESH_3_INTERNAL_REPAIR_FILL_HOLES_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 
@@ -45,7 +49,8 @@ dropped.
 \param points,triangles the surface; it is oriented if it can be, and vertices where it is no manifold are
        doubled
 \param largest_share of the area of a part that holes may have
-\cost as that of `CGAL::Polygon_mesh_processing::triangulate_hole_polyline()`
+\par Complexity
+As that of `CGAL::Polygon_mesh_processing::triangulate_hole_polyline()`
 */
 Hole_filling fill_holes(std::vector<Predicates_kernel::Point_3>& points,
                         std::vector<std::array<std::size_t, 3>>& triangles, double largest_share);

@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_REPAIR_FILL_HOLES_IMPL_H
 #define CGAL_MIXED_MESH_3_INTERNAL_REPAIR_FILL_HOLES_IMPL_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/compiled.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
@@ -35,14 +39,13 @@ class Surface_parts
   using Triangle = std::array<std::size_t, 3>;
 
   std::vector<Point>& m_points;
-  std::vector<Triangle>& m_triangles;
   std::map<std::array<std::size_t, 2>, std::size_t> m_directed_edges; // with the triangle
   std::vector<std::size_t> m_part;                                    // of each triangle: its first one
 
 public:
   /// \pre oriented consistently, a manifold
   Surface_parts(std::vector<Point>& points, std::vector<Triangle>& triangles)
-    : m_points(points), m_triangles(triangles), m_part(triangles.size())
+    : m_points(points), m_part(triangles.size())
   {
     for(std::size_t t = 0; t < triangles.size(); ++t)
       for(std::size_t i = 0; i < 3; ++i)

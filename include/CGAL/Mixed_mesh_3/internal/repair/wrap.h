@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A closed surface around any triangles.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_REPAIR_WRAP_H
 #define CGAL_MIXED_MESH_3_INTERNAL_REPAIR_WRAP_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 
@@ -22,7 +26,8 @@ namespace internal {
 Returns triangles that wrap others: closed, manifold, without self-intersections, oriented outwards. What a
 ball of that diameter does not get into is solid.
 
-\cost as that of `CGAL::alpha_wrap_3()`
+\par Complexity
+As that of `CGAL::alpha_wrap_3()`
 */
 void wrap(double diameter, std::vector<Predicates_kernel::Point_3>& points,
           std::vector<std::array<std::size_t, 3>>& triangles);

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Makes a set of elements removable: what is left has a manifold boundary, and no loose pieces.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_RESECTION_RESECTION_REPAIR_H
 #define CGAL_MIXED_MESH_3_INTERNAL_RESECTION_RESECTION_REPAIR_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Face.h>
@@ -32,7 +36,8 @@ class Element_adjacency
   std::vector<std::array<Element_index, 6>> m_neighbors;
 
 public:
-  /// \cost linear in the number of elements, if vertices have boundedly many; 56 bytes per hexahedron
+  /// \par Complexity
+  /// Linear in the number of elements, if vertices have boundedly many; 56 bytes per hexahedron
   Element_adjacency(const Element_list& elements, std::size_t number_of_vertices)
     : m_offsets(number_of_vertices + 1, 0), m_elements(elements.connectivity().size())
   {
@@ -152,7 +157,8 @@ public:
 
   /// Finds pieces that came loose: of each connected part of what was there before, all pieces but the
   /// largest, the first one if several are.
-  /// \cost linear
+  /// \par Complexity
+  /// Linear
   void find_floating(bool remove)
   {
     const auto was_there = [this](Element_index e) { return m_states[e] != State::GONE; };
@@ -186,7 +192,8 @@ public:
       }
   }
 
-  /// \cost linear in the number of elements, plus a constant for each fan too many
+  /// \par Complexity
+  /// Linear in the number of elements, plus a constant for each fan too many
   void remove_pinches()
   {
     std::vector<Vertex_index> todo, changed, stuck;
@@ -213,7 +220,8 @@ public:
   }
 
   /// Vertices where the boundary is not a manifold, counted by its faces: trusts nothing above.
-  /// \cost O(n log n) for n boundary faces
+  /// \par Complexity
+  /// O(n log n) for n boundary faces
   std::size_t number_of_pinched_vertices() const
   {
     std::vector<Face_vertices> polygons;

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The connected components of a closed surface, which of them is inside which, and points between them.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_SURFACE_NESTED_SHELLS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_SURFACE_NESTED_SHELLS_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/hausdorff_distance.h>
@@ -101,7 +105,8 @@ public:
   bool is_solid(std::size_t region) const { return region != outside && !m_shells[region].is_cavity(); }
 
   /// The region of a point; one that is on a shell counts as outside of it.
-  /// \cost a query for each shell whose box contains the point
+  /// \par Complexity
+  /// A query for each shell whose box contains the point
   std::size_t region_of(const Point_3& p) const
   {
     std::size_t region = outside;

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Queries on a triangulated surface that need not enclose anything: it has a front and a behind near by only.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SHEET_ORACLE_3_H
 #define CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SHEET_ORACLE_3_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>

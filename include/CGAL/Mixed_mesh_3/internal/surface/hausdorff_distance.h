@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The Hausdorff distance between sets of triangles, by branch and bound. Not CGAL's
@@ -9,6 +11,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_SURFACE_HAUSDORFF_DISTANCE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_SURFACE_HAUSDORFF_DISTANCE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 

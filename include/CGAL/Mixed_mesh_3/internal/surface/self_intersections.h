@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Where the boundary of a mesh cuts itself.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SELF_INTERSECTIONS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SELF_INTERSECTIONS_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/Face.h>
@@ -59,7 +63,8 @@ inline bool is_crossing(const std::array<Vertex_index, 3>& s, const std::array<V
 /// The vertices of faces that meet in more than the vertices and edges they share, ascending. Exact.
 /// \param faces triangles, and quadrilaterals as two of them; those without area, which no valid element has,
 ///        are passed over
-/// \cost O(n log n) for n faces, if few meet
+/// \par Complexity
+/// O(n log n) for n faces, if few meet
 inline std::vector<Vertex_index> vertices_of_self_intersections(const std::vector<Vec3>& positions,
                                                                 const std::vector<Face>& faces)
 {

@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What the stages after the octree hand on: elements between lattice points.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_TRANSITIONS_LATTICE_MESH_H
 #define CGAL_MIXED_MESH_3_INTERNAL_TRANSITIONS_LATTICE_MESH_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>

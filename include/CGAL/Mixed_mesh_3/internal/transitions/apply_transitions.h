@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Mixed_mesh_3 authors.
 // This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
 //
+// $URL$
+// $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // From the balanced octree to a conforming mixed mesh (section 5.2 of the paper): numbers the
@@ -8,6 +10,8 @@
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_TRANSITIONS_APPLY_TRANSITIONS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_TRANSITIONS_APPLY_TRANSITIONS_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
@@ -201,7 +205,8 @@ Replaces the leaves of a balanced octree by hexahedra and transition templates.
 Two leaves of the mesh agree on every face, because face splits depend on the face's split edges
 only. Vertices get the side of the surface they are on; one exactly on it has `ON_BOUNDARY`.
 
-\cost linear in the number of nodes, times the depth
+\par Complexity
+Linear in the number of nodes, times the depth
 */
 template <class Octree_>
 Lattice_mesh apply_transitions(const Octree_& octree, Transition_templates_choice choice,

@@ -7,7 +7,7 @@
 // a tumor: section 6.2 of Lobos, Bucki, Hitschfeld, Payan: "Mixed-element mesh for an intra-operative
 // modeling of the brain tumor extraction". All lengths are in mm.
 //
-//   brain_shift_of_a_brain [VERTICES]
+//   elasticity_of_brain_shift [VERTICES]
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Linear_elasticity_3.h>
@@ -111,7 +111,7 @@ try {
   data.vertex_data = {{"displacement", &displacements, 3}};
   data.element_data = {{"resected", &is_removed}};
   std::string error;
-  if(!mm3::IO::write_mixed_mesh("brain_shift_of_a_brain.vtu", mesh, data, &error))
+  if(!mm3::IO::write_mixed_mesh("elasticity_of_brain_shift.vtu", mesh, data, &error))
     throw std::runtime_error(error);
   return EXIT_SUCCESS;
 } catch(const std::exception& e) {

@@ -5,7 +5,7 @@
 //
 // A brain with a tumor: elements of both, and a conforming interface between them on the tumor's surface.
 //
-//   subdomains [BRAIN [TUMOR [VERTICES]]]
+//   mixed_mesh_subdomains [BRAIN [TUMOR [VERTICES]]]
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>

@@ -113,7 +113,7 @@ int main()
             << "; its vertices are on the surface to " << farthest << '\n';
 
   std::string error;
-  if(!mm3::IO::write_mixed_mesh("custom_domain.vtu", mesh, {}, &error)) {
+  if(!mm3::IO::write_mixed_mesh("mixed_mesh_custom_domain.vtu", mesh, {}, &error)) {
     std::cerr << error << '\n';
     return EXIT_FAILURE;
   }

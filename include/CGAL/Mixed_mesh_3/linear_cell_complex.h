@@ -1,0 +1,278 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_LINEAR_CELL_COMPLEX_H
+#define CGAL_MIXED_MESH_3_LINEAR_CELL_COMPLEX_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3.h>
+#include <CGAL/Mixed_mesh_3/Face.h>
+
+#include <CGAL/Cell_attribute.h>
+#include <CGAL/Cell_attribute_with_point.h>
+#include <CGAL/number_utils.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+
+/*!
+\ingroup PkgMixedMesh3Validity
+
+\brief Items of a linear cell complex whose volumes hold what a mesh knows of its elements.
+
+With these, or others whose 3-attributes have `Mixed_meshes_3::Element_attributes` as information, labels go
+from mesh to complex and back.
+
+\cgalModels{LinearCellComplexItems}
+*/
+struct Mixed_mesh_linear_cell_complex_items_3
+{
+  /// The attributes of darts.
+  template <class LCC>
+  struct Dart_wrapper
+  {
+    /// The point of a vertex, nothing for edges and faces, and what is known of an element.
+    using Attributes = std::tuple<Cell_attribute_with_point<LCC>, void, void,
+                                  Cell_attribute<LCC, Mixed_meshes_3::Element_attributes>>;
+  };
+};
+
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// Whether volumes of a complex hold `Element_attributes`.
+template <class Attribute, class = void>
+struct Holds_element_attributes : std::false_type
+{
+};
+template <class Attribute>
+struct Holds_element_attributes<Attribute, std::void_t<typename Attribute::Info>>
+  : std::is_same<typename Attribute::Info, Element_attributes>
+{
+};
+template <class LCC>
+inline constexpr bool holds_element_attributes =
+  Holds_element_attributes<typename LCC::template Attribute_type<3>::type>::value;
+
+/// The face that numbers an element: a quadrilateral of a pyramid, a triangle of a prism. It is the one that
+/// has vertex 0, and 1 as its last one.
+inline int base_face(Element_kind kind)
+{
+  constexpr int faces[number_of_element_kinds] = {3, 0, 0, 4};
+  return faces[kind];
+}
+
+/// The kind of a volume with so many faces, triangles among them, and vertices; none if it is not an element.
+inline std::pair<Element_kind, bool> kind_of_volume(int faces, int triangles, std::size_t vertices)
+{
+  for(const Element_kind kind : element_kinds) {
+    const Reference_element& r = reference_elements[kind];
+    int n = 0;
+    for(int f = 0; f < r.number_of_faces; ++f)
+      n += r.faces[f].size == 3;
+    if(r.number_of_faces == faces && n == triangles && std::size_t(r.number_of_vertices) == vertices)
+      return {kind, true};
+  }
+  return {TETRAHEDRON, false};
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+
+/*!
+\ingroup PkgMixedMesh3Validity
+
+\brief Adds the elements of a mesh to a linear cell complex, as volumes.
+
+Elements with a face in common are sewn there. A vertex at which the mesh is pinched becomes several. Labels
+are handed over if the complex has a place for them, as with `Mixed_mesh_linear_cell_complex_items_3`.
+
+\tparam GeomTraits a model of `MixedMeshTraits_3`
+\tparam LCC `Linear_cell_complex_for_combinatorial_map` of dimensions 3, 3
+\param mesh a conforming mesh
+\param lcc the elements are added to it
+\par Complexity
+O(n log n) for n elements
+*/
+template <class GeomTraits, class LCC>
+void mixed_mesh_to_linear_cell_complex(const Mixed_mesh_3<GeomTraits>& mesh, LCC& lcc)
+{
+  using namespace Mixed_meshes_3;
+  using Dart = std::decay_t<decltype(lcc.create_dart())>;
+  const bool was_automatic = lcc.are_attributes_automatically_managed();
+  lcc.set_automatic_attributes_management(false); // vertices are the same wherever it is sewn
+  std::vector<decltype(lcc.create_vertex_attribute(typename LCC::Point()))> vertices;
+  for(const auto& p : mesh.points())
+    vertices.push_back(lcc.create_vertex_attribute(
+      typename LCC::Point(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()))));
+
+  // By its vertices in order, a dart of a face that no second element has had yet, from the smallest vertex.
+  std::map<std::vector<Vertex_index>, Dart> open_faces;
+  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
+    const Element_view element = mesh.element(Element_index(e));
+    const int base = Mixed_meshes_3::internal::base_face(element.kind());
+    std::map<std::pair<Vertex_index, Vertex_index>, Dart> edges;
+    Dart first{};
+    for(int i = 0; i < element.reference().number_of_faces; ++i) {
+      const int f = i == 0 ? base : i <= base ? i - 1 : i;
+      const Face face(mesh.elements(), Element_index(e), f);
+      // Clockwise seen from outside, as in volumes that the complex makes itself.
+      std::vector<Vertex_index> v(face.vertices().begin(), face.vertices().end());
+      std::reverse(v.begin() + 1, v.end());
+      std::vector<Dart> darts;
+      for(std::size_t k = 0; k < v.size(); ++k)
+        darts.push_back(lcc.create_dart(vertices[v[k]]));
+      if(i == 0)
+        first = darts[0];
+      std::size_t smallest = 0;
+      for(std::size_t k = 0; k < v.size(); ++k) {
+        lcc.template sew<1>(darts[k], darts[(k + 1) % v.size()]);
+        const Vertex_index a = v[k], b = v[(k + 1) % v.size()];
+        const auto opposite = edges.find({b, a});
+        if(opposite == edges.end())
+          edges.emplace(std::pair(a, b), darts[k]);
+        else
+          lcc.template sew<2>(darts[k], opposite->second);
+        smallest = a < v[smallest] ? k : smallest;
+      }
+      std::vector<Vertex_index> key = v;
+      std::sort(key.begin(), key.end());
+      const auto [other, is_new] = open_faces.try_emplace(key, darts[smallest]);
+      if(!is_new) { // seen from the other side: the dart that ends at the smallest vertex
+        lcc.template sew<3>(darts[(smallest + v.size() - 1) % v.size()], other->second);
+        open_faces.erase(other);
+      }
+    }
+    if constexpr(Mixed_meshes_3::internal::holds_element_attributes<LCC>)
+      lcc.template set_attribute<3>(first,
+                                    lcc.template create_attribute<3>(mesh.attributes(Element_index(e))));
+  }
+  lcc.correct_invalid_attributes(); // a vertex at which the mesh is pinched becomes several
+  if(was_automatic)
+    lcc.set_automatic_attributes_management(true);
+}
+
+/*!
+\ingroup PkgMixedMesh3Validity
+
+\brief Makes a mixed mesh of the volumes of a linear cell complex.
+
+Each volume becomes an element with the orientation that the complex gives it: positive are those whose faces
+are clockwise seen from outside, as in what `make_hexahedron()` of the complex makes of the points in the
+figure of its manual. Labels are taken over if the complex has them, as with
+`Mixed_mesh_linear_cell_complex_items_3`.
+`Mixed_meshes_3::find_defects()` tells whether the mesh is valid.
+
+\tparam LCC `Linear_cell_complex_for_combinatorial_map` of dimensions 3, 3
+\tparam GeomTraits a model of `MixedMeshTraits_3`
+\param lcc the complex
+\param mesh the result; cleared first. Vertices in the order of the complex, those without a volume left out
+\return whether each volume is a tetrahedron, pyramid, prism or hexahedron, closed; if not, `mesh` is empty
+\par Complexity
+O(n log n) for n volumes
+*/
+template <class LCC, class GeomTraits>
+bool linear_cell_complex_to_mixed_mesh(const LCC& lcc, Mixed_mesh_3<GeomTraits>& mesh)
+{
+  using namespace Mixed_meshes_3;
+  mesh.clear();
+  using Dart = std::decay_t<decltype(lcc.beta(lcc.darts().begin(), 1))>;
+  const auto size_of_face = [&](Dart dart) {
+    int n = 0;
+    Dart next = dart;
+    do {
+      next = lcc.template is_free<1>(next) ? dart : lcc.beta(next, 1);
+      ++n;
+    } while(next != dart && n < 5);
+    return n;
+  };
+  // Of vertices: where they are in the complex, then in the mesh.
+  std::map<const typename LCC::Point*, Vertex_index> indices;
+  for(auto a = lcc.vertex_attributes().begin(); a != lcc.vertex_attributes().end(); ++a)
+    indices.emplace(&lcc.point_of_vertex_attribute(a), Mixed_meshes_3::internal::no_vertex);
+
+  struct Volume
+  {
+    Element_kind kind;
+    std::vector<const typename LCC::Point*> vertices;
+    Element_attributes attributes;
+  };
+  std::vector<Volume> volumes;
+  std::set<const typename LCC::Point*> used;
+  for(auto d = lcc.template one_dart_per_cell<3>().begin(); d != lcc.template one_dart_per_cell<3>().end();
+      ++d) {
+    int faces = 0, triangles = 0;
+    std::set<const typename LCC::Point*> vertices;
+    for(auto f = lcc.template one_dart_per_incident_cell<2, 3>(d).begin(),
+             end = lcc.template one_dart_per_incident_cell<2, 3>(d).end();
+        f != end; ++f) {
+      const int n = size_of_face(f);
+      ++faces;
+      triangles += n == 3;
+      if(n < 3 || n > 4)
+        return false;
+    }
+    bool is_closed = true;
+    for(auto f = lcc.template darts_of_cell<3>(d).begin(), end = lcc.template darts_of_cell<3>(d).end();
+        f != end; ++f) {
+      is_closed = is_closed && !lcc.template is_free<2>(f);
+      vertices.insert(&lcc.point(f));
+    }
+    const auto [kind, is_element] = Mixed_meshes_3::internal::kind_of_volume(faces, triangles,
+                                                                             vertices.size());
+    if(!is_closed || !is_element)
+      return false;
+
+    const Element_face& base = reference_elements[kind].faces[Mixed_meshes_3::internal::base_face(kind)];
+    auto dart = lcc.template darts_of_cell<3>(d).begin();
+    while(size_of_face(dart) != base.size)
+      ++dart;
+    Volume volume{kind, std::vector<const typename LCC::Point*>(vertices.size()), {}};
+    Dart b = dart;
+    for(int i = 0; i < base.size; ++i, b = lcc.beta(b, 0)) {
+      const int v = base.vertices[i];
+      const int above = kind == HEXAHEDRON ? v + 4 : kind == PRISM ? v + 3 : base.size;
+      volume.vertices[std::size_t(v)] = &lcc.point(b);
+      volume.vertices[std::size_t(above)] = &lcc.point(lcc.beta(b, 2, 1, 1));
+    }
+    if(std::set(volume.vertices.begin(), volume.vertices.end()) != vertices)
+      return false;
+    if constexpr(Mixed_meshes_3::internal::holds_element_attributes<LCC>)
+      if(lcc.template attribute<3>(d) != LCC::null_handle)
+        volume.attributes = lcc.template info<3>(d);
+    used.insert(vertices.begin(), vertices.end());
+    volumes.push_back(std::move(volume));
+  }
+
+  for(auto a = lcc.vertex_attributes().begin(); a != lcc.vertex_attributes().end(); ++a) {
+    const typename LCC::Point& p = lcc.point_of_vertex_attribute(a);
+    if(used.count(&p) != 0)
+      indices[&p] = mesh.add_vertex(
+        typename GeomTraits::Point_3(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())));
+  }
+  for(const Volume& volume : volumes) {
+    std::vector<Vertex_index> vertices;
+    for(const auto* p : volume.vertices)
+      vertices.push_back(indices.at(p));
+    mesh.add_element(volume.kind, vertices, volume.attributes);
+  }
+  return true;
+}
+
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_LINEAR_CELL_COMPLEX_H
