@@ -136,8 +136,10 @@ public:
       m_is_held(m_working.points.size(), 0)
   {
     attract_boundary();
-    if(has_many_vertices())
+    if(has_many_vertices()) {
       m_moves.set_notable_gain(notable_gain_of_many);
+      m_moves.use_colors(criteria.number_of_threads());
+    }
   }
 
   Surface_optimizer(const Surface_optimizer&) = delete; // members refer to each other

@@ -8,9 +8,12 @@
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_VERTEX_OPTIMIZER_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_VERTEX_OPTIMIZER_H
 
+#include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_coloring.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +23,23 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
+
+/// A mark that several threads may set at the same time, but only one reads then.
+class Shared_mark
+{
+  std::atomic<bool> m_is_set;
+
+public:
+  Shared_mark(bool is_set = false) : m_is_set(is_set) {}
+  Shared_mark(const Shared_mark& other) : m_is_set(bool(other)) {}
+  Shared_mark& operator=(const Shared_mark& other) { return *this = bool(other); }
+  Shared_mark& operator=(bool is_set)
+  {
+    m_is_set.store(is_set, std::memory_order_relaxed);
+    return *this;
+  }
+  operator bool() const { return m_is_set.load(std::memory_order_relaxed); }
+};
 
 /// What draws a boundary vertex to a place: `weight` times the squared distance adds to what is minimized.
 struct Attraction
@@ -36,6 +56,9 @@ one), and all are proved positive: neither validity nor the bound is ever left.
 Boundary vertices slide on the surface, and only where an element is bad (free sliding would lose volume) or
 an attraction draws them.
 
+By default vertices move in the order of their numbers; or by colors: those of one color share no element, so
+that several threads move them, with the same result as one.
+
 \tparam Quality a model of `MixedMeshQuality_3`
 \tparam Project as `Surface_projection`
 */
@@ -47,13 +70,15 @@ class Vertex_optimizer
   const Project& m_project;
   const double m_worth_sliding;
   double m_bound;
-  std::vector<double> m_radii;           // of the next trial step of each vertex; 0: not known
-  std::vector<std::uint8_t> m_is_active; // whether it may have something to gain
+  std::vector<double> m_radii;          // of the next trial step of each vertex; 0: not known
+  std::vector<Shared_mark> m_is_active; // whether it may have something to gain
   std::vector<std::uint8_t> m_is_fixed;
   std::vector<std::uint8_t> m_is_loose;  // boundary vertices that need not stay on the surface
   std::vector<Attraction> m_attractions; // one for each vertex, or none
   std::vector<double> m_costs;           // of each element; negative: not known
-  std::vector<double> m_trial_costs;     // of the elements around the vertex that is moved
+  std::vector<double> m_trial_costs;     // of those around a vertex that is moved: none moves beside it
+  Vertex_coloring m_coloring;
+  unsigned m_threads = 0; // 0: without colors
   double m_power = 4;
   double m_good_enough = 1;
   double m_notable_gain = 3e-3;
@@ -61,6 +86,7 @@ class Vertex_optimizer
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   // The first trial step, as a share of the shortest edge; steps grow and shrink by how they succeed.
   static constexpr double first_step = 0.1, growth = 1.5, shrinkage = 0.4, smallest_step = 0.01;
+  static constexpr std::size_t moves_worth_a_thread = 64;
 
 public:
   /// \param worth_sliding boundary vertices slide if an element has a larger cost
@@ -68,7 +94,7 @@ public:
   Vertex_optimizer(Working_mesh& mesh, const Quality& quality, const Project& project, double worth_sliding,
                    double bound)
     : m_mesh(mesh), m_quality(quality), m_project(project), m_worth_sliding(worth_sliding), m_bound(bound),
-      m_radii(mesh.points.size(), 0), m_is_active(mesh.points.size(), 0), m_is_fixed(mesh.points.size(), 0),
+      m_radii(mesh.points.size(), 0), m_is_active(mesh.points.size()), m_is_fixed(mesh.points.size(), 0),
       m_is_loose(mesh.points.size(), 0)
   {
     for(Vertex_index v = 0; v < mesh.points.size(); ++v)
@@ -81,11 +107,14 @@ public:
   /// The gain that wakes the neighbors of a vertex, as a share of its sum. Default: 0.003.
   void set_notable_gain(double share) { m_notable_gain = share; }
 
+  /// From now on, vertices move by colors.
+  void use_colors(unsigned threads) { m_threads = threads; }
+
   /// Vertices that the mesh has more than before are free to move.
   void add_vertices()
   {
     m_radii.resize(m_mesh.points.size(), 0);
-    m_is_active.resize(m_mesh.points.size(), 1);
+    m_is_active.resize(m_mesh.points.size(), true);
     m_is_fixed.resize(m_mesh.points.size(), 0);
     m_is_loose.resize(m_mesh.points.size(), 0);
   }
@@ -106,14 +135,14 @@ public:
   /// To be called when positions were changed from outside.
   void forget_costs() { m_costs.clear(); }
 
-  void activate(Vertex_index v) { m_is_active[v] = 1; }
-  void activate_all() { std::fill(m_is_active.begin(), m_is_active.end(), 1); }
+  void activate(Vertex_index v) { m_is_active[v] = true; }
+  void activate_all() { std::fill(m_is_active.begin(), m_is_active.end(), true); }
 
   void activate_around(Vertex_index v)
   {
     for(Element_index e : m_mesh.incident[v])
       for(Vertex_index u : m_mesh.elements[e])
-        m_is_active[u] = 1;
+        m_is_active[u] = true;
   }
 
   /// Replaces the attractions.
@@ -131,14 +160,11 @@ public:
   {
     m_power = power;
     m_good_enough = good_enough;
-    bool moved = true;
-    for(int sweep = 0; sweep < sweeps && moved; ++sweep) {
-      moved = false;
-      for(Vertex_index v = 0; v < m_mesh.points.size(); ++v)
-        if(m_is_active[v]) {
-          m_is_active[v] = 0;
-          moved = improve(v) || moved;
-        }
+    m_costs.resize(m_mesh.elements.size(), -1);
+    m_trial_costs.resize(m_mesh.elements.size());
+    if(m_threads > 0)
+      m_coloring.update(m_mesh);
+    for(int sweep = 0; sweep < sweeps && (m_threads > 0 ? sweep_by_colors() : this->sweep()); ++sweep) {
     }
   }
 
@@ -162,10 +188,10 @@ public:
       limit = (std::max)(limit, known_cost(e));
     const Vec3 old = m_mesh.points[v];
     m_mesh.points[v] = p;
-    m_trial_costs.clear();
+    m_trial_costs.resize(m_mesh.elements.size());
     for(Element_index e : m_mesh.incident[v]) {
-      m_trial_costs.push_back(cost(e));
-      if(!(m_trial_costs.back() <= limit)) {
+      m_trial_costs[e] = cost(e);
+      if(!(m_trial_costs[e] <= limit)) {
         m_mesh.points[v] = old;
         return false;
       }
@@ -180,6 +206,41 @@ public:
   }
 
 private:
+  // \return whether a vertex moved
+  bool sweep()
+  {
+    bool moved = false;
+    for(Vertex_index v = 0; v < m_mesh.points.size(); ++v)
+      if(m_is_active[v]) {
+        m_is_active[v] = false;
+        moved = improve(v) || moved;
+      }
+    return moved;
+  }
+
+  bool sweep_by_colors()
+  {
+    Shared_mark moved;
+    std::vector<Vertex_index> active, in_turn;
+    for(const std::vector<Vertex_index>& vertices : m_coloring.vertices()) {
+      active.clear();
+      in_turn.clear();
+      for(Vertex_index v : vertices)
+        if(m_is_active[v]) {
+          m_is_active[v] = false;
+          (m_project.is_concurrent(m_mesh.strata[v]) ? active : in_turn).push_back(v);
+        }
+      const auto move = [&](Vertex_index v) {
+        if(improve(v))
+          moved = true;
+      };
+      parallel_for(
+        active.size(), m_threads, [&](std::size_t i) { move(active[i]); }, moves_worth_a_thread);
+      std::for_each(in_turn.begin(), in_turn.end(), move);
+    }
+    return moved;
+  }
+
   double cost(Element_index e) const
   {
     return m_quality(m_mesh.elements[e].kind, m_mesh.relative_points(m_mesh.elements[e]));
@@ -198,8 +259,8 @@ private:
   // The trial position is the new one.
   void accept(Vertex_index v)
   {
-    for(std::size_t i = 0; i < m_trial_costs.size(); ++i)
-      m_costs[m_mesh.incident[v][i]] = m_trial_costs[i];
+    for(Element_index e : m_mesh.incident[v])
+      m_costs[e] = m_trial_costs[e];
   }
 
   bool is_valid(Vertex_index v) const
@@ -225,11 +286,10 @@ private:
   double energy(Vertex_index v, double limit, double most)
   {
     double sum = attraction_energy(v);
-    m_trial_costs.clear();
     for(Element_index e : m_mesh.incident[v]) {
-      m_trial_costs.push_back(cost(e));
-      sum += power(m_trial_costs.back(), m_power);
-      if(!(sum < limit && m_trial_costs.back() <= most))
+      m_trial_costs[e] = cost(e);
+      sum += power(m_trial_costs[e], m_power);
+      if(!(sum < limit && m_trial_costs[e] <= most))
         return infinity;
     }
     return sum;
