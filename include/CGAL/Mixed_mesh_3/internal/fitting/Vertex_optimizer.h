@@ -81,11 +81,11 @@ class Vertex_optimizer
   unsigned m_threads = 0; // 0: without colors
   double m_power = 4;
   double m_good_enough = 1;
-  double m_notable_gain = 3e-3;
+  double m_notable_gain = 3e-3, m_first_step = 0.1, m_growth = 1.5;
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  // The first trial step, as a share of the shortest edge; steps grow and shrink by how they succeed.
-  static constexpr double first_step = 0.1, growth = 1.5, shrinkage = 0.4, smallest_step = 0.01;
+  // Steps grow and shrink by how they succeed.
+  static constexpr double shrinkage = 0.4, smallest_step = 0.01;
   static constexpr std::size_t moves_worth_a_thread = 64;
 
 public:
@@ -106,6 +106,14 @@ public:
 
   /// The gain that wakes the neighbors of a vertex, as a share of its sum. Default: 0.003.
   void set_notable_gain(double share) { m_notable_gain = share; }
+
+  /// The first trial step of a vertex, as a share of the shortest edge, and by what one that succeeds grows.
+  /// Default: 0.1, 1.5.
+  void set_steps(double first, double growth)
+  {
+    m_first_step = first;
+    m_growth = growth;
+  }
 
   /// From now on, vertices move by colors.
   void use_colors(unsigned threads) { m_threads = threads; }
@@ -328,7 +336,7 @@ private:
     if(!(slope > 0 && slope < infinity))
       return false;
     if(m_radii[v] == 0)
-      m_radii[v] = first_step * shortest;
+      m_radii[v] = m_first_step * shortest;
     for(double radius = m_radii[v]; radius > smallest_step * m_radii[v]; radius *= shrinkage) {
       Vec3 p = old - (radius / slope) * gradient;
       if(slides) {
@@ -340,7 +348,7 @@ private:
       const double now = energy(v, sum, (std::max)(m_bound, worst));
       if(now < sum && is_valid(v)) {
         accept(v);
-        m_radii[v] = radius == m_radii[v] ? growth * radius : radius;
+        m_radii[v] = radius == m_radii[v] ? m_growth * radius : radius;
         if(sum - now > m_notable_gain * sum)
           activate_around(v);
         return true;
