@@ -276,6 +276,7 @@ bool fit_by_optimization(Mesh& mesh, const Domain& domain, const Options& o, Sta
                           .tolerance(outcome.result.tolerance)
                           .quality_bound(o.largest_arc)
                           .sharp_angle(o.sharp_angle)
+                          .number_of_threads(o.threads)
                           .number_of_bisections(o.vertices - mesh.number_of_vertices());
   const auto r = log.fit(mm3::stage_names[int(mm3::Stage::OPTIMIZATION)], [&] {
     return CGAL::optimize_mixed_mesh_3(mesh, domain, criteria, CGAL::parameters::visitor(std::ref(log)));

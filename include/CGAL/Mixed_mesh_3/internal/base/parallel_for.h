@@ -11,6 +11,7 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <system_error>
 #include <thread>
@@ -22,26 +23,27 @@ namespace internal {
 
 /// Calls `f(i)` for all i below `n`. Calls must be independent: each writes its own result, so that
 /// the outcome does not depend on the number of threads. `f` must not throw.
+/// \param worth_a_thread how many calls take much longer than a thread takes to start
 template <class F>
-void parallel_for(std::size_t n, unsigned threads, const F& f)
+void parallel_for(std::size_t n, unsigned threads, const F& f, std::size_t worth_a_thread = 512)
 {
-  constexpr std::size_t worth_a_thread = 512;
-  const std::size_t blocks = (std::max)(std::size_t(1), (std::min)(std::size_t(threads), n / worth_a_thread));
-  const auto run = [&](std::size_t block) {
-    for(std::size_t i = n * block / blocks; i < n * (block + 1) / blocks; ++i)
-      f(i);
+  constexpr std::size_t blocks_per_thread = 8; // so that none waits long for the last one
+  const std::size_t used = (std::max)(std::size_t(1), (std::min)(std::size_t(threads), n / worth_a_thread)),
+                    block = used == 1 ? n : n / (used * blocks_per_thread) + 1;
+  std::atomic<std::size_t> next{0};
+  const auto run = [&] {
+    for(std::size_t first = next.fetch_add(block); first < n; first = next.fetch_add(block))
+      for(std::size_t i = first; i < (std::min)(n, first + block); ++i)
+        f(i);
   };
   std::vector<std::thread> workers;
-  std::size_t block = 1;
   try {
-    for(; block < blocks; ++block)
-      workers.emplace_back(run, block);
+    while(workers.size() + 1 < used)
+      workers.emplace_back(run);
   } catch(const std::system_error&) {
-    // the system gives no more threads: the rest is done here
+    // the system gives no more threads: the others do the rest
   }
-  run(0);
-  for(; block < blocks; ++block)
-    run(block);
+  run();
   for(std::thread& worker : workers)
     worker.join();
 }

@@ -119,6 +119,10 @@ class Surface_optimizer
   // smaller meshes would take a third more, for a mean aspect-ratio coefficient of 1.378 instead of 1.381.
   static constexpr std::size_t many_vertices = 20000;
   static constexpr double good_enough_of_many = 1.15, notable_gain_of_many = 0.01;
+  // Longer steps, and fewer sweeps of each power, make a fifth fewer moves: with 50,000 vertices the mean is
+  // 1.3895 instead of 1.3901.
+  static constexpr double first_step_of_many = 0.3, growth_of_many = 2;
+  static constexpr int sweeps_of_many[2] = {3, 5};
   // No half of a bisected tetrahedron may cost more. And how many edges are bisected in the region, times the
   // number of vertices to the power of 2/3, like that of all vertices on the surface: 110 of 2,000, 320 of
   // 10,000.
@@ -135,13 +139,16 @@ public:
       m_working(mesh, m_strata.of_vertices(mesh.number_of_vertices(), m_boundary)),
       m_moves(m_working, m_quality, m_project, criteria.sliding_threshold(), bound_for_doubles(criteria)),
       m_mean_edge_lengths(mean_edge_lengths()), m_tolerances(tolerances()), m_samples(surface_samples()),
-      m_attraction(m_working, m_project, m_samples), m_is_arrived(m_working.points.size(), 0),
-      m_simple_points(m_working.points), m_simple_is_arrived(m_working.points.size(), 0),
-      m_is_held(m_working.points.size(), 0)
+      m_attraction(m_working, m_project, m_samples, criteria.number_of_threads()),
+      m_is_arrived(m_working.points.size(), 0), m_simple_points(m_working.points),
+      m_simple_is_arrived(m_working.points.size(), 0), m_is_held(m_working.points.size(), 0)
   {
     attract_boundary();
-    if(has_many_vertices())
+    if(has_many_vertices()) {
       m_moves.set_notable_gain(notable_gain_of_many);
+      m_moves.set_steps(first_step_of_many, growth_of_many);
+      m_moves.use_colors(criteria.number_of_threads());
+    }
   }
 
   Surface_optimizer(const Surface_optimizer&) = delete; // members refer to each other
@@ -779,7 +786,7 @@ private:
     const int late = rounds / 4;
     // many short rounds, so that boundary vertices can follow what draws them
     const bool is_patient = rounds > 6;
-    const int sweeps = is_patient ? 3 : 8, rounds_to_flip = is_patient ? 3 : 1;
+    const int rounds_to_flip = is_patient ? 3 : 1;
     Tetrahedron_flipper<Quality> flipper(m_working, m_quality, bound_for_doubles(m_criteria));
     m_moves.set_bound((std::min)(acceptable_in_the_end, bound_for_doubles(m_criteria)));
     for(int round = 0; round < rounds; ++round) {
@@ -789,6 +796,7 @@ private:
         remember_if_simple();
       const int phase = round < first ? 0 : 1;
       const double power = phase == 0 ? 4 : 8;
+      const int sweeps = is_patient ? 3 : has_many_vertices() ? sweeps_of_many[phase] : 8;
       if(m_criteria.flips() && round % rounds_to_flip == 0)
         m_result.number_of_flips += flip(flipper, power, worth_flipping[phase]);
       choose_new_targets();

@@ -25,7 +25,7 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /// Points of the surfaces of a domain near given ones: the closest ones, where a stratum is on one interface.
-/// Not for several threads at once.
+/// For several threads at once where `is_concurrent()`.
 template <class Domain>
 class Surface_projection
 {
@@ -75,6 +75,12 @@ public:
     } else {
       return to_vec3(m_domain->closest_point(point(p), point(hint)));
     }
+  }
+
+  /// Whether several threads may ask for points of that stratum at the same time.
+  bool is_concurrent(Stratum stratum) const
+  {
+    return stratum >= first_sharp_stratum || m_strata->interfaces(stratum).size() < 2;
   }
 
   /// Whether what the projection gave is on all interfaces: where several meet, it need not be.

@@ -12,9 +12,12 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_coloring.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -24,6 +27,23 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
+
+/// A mark that several threads may set at the same time, but only one reads then.
+class Shared_mark
+{
+  std::atomic<bool> m_is_set;
+
+public:
+  Shared_mark(bool is_set = false) : m_is_set(is_set) {}
+  Shared_mark(const Shared_mark& other) : m_is_set(bool(other)) {}
+  Shared_mark& operator=(const Shared_mark& other) { return *this = bool(other); }
+  Shared_mark& operator=(bool is_set)
+  {
+    m_is_set.store(is_set, std::memory_order_relaxed);
+    return *this;
+  }
+  operator bool() const { return m_is_set.load(std::memory_order_relaxed); }
+};
 
 /// What draws a boundary vertex to a place: `weight` times the squared distance adds to what is minimized.
 struct Attraction
@@ -40,6 +60,9 @@ one), and all are proved positive: neither validity nor the bound is ever left.
 Boundary vertices slide on the surface, and only where an element is bad (free sliding would lose volume) or
 an attraction draws them.
 
+By default vertices move in the order of their numbers; or by colors: those of one color share no element, so
+that several threads move them, with the same result as one.
+
 \tparam Quality a model of `MixedMeshQuality_3`
 \tparam Project as `Surface_projection`
 */
@@ -51,20 +74,23 @@ class Vertex_optimizer
   const Project& m_project;
   const double m_worth_sliding;
   double m_bound;
-  std::vector<double> m_radii;           // of the next trial step of each vertex; 0: not known
-  std::vector<std::uint8_t> m_is_active; // whether it may have something to gain
+  std::vector<double> m_radii;          // of the next trial step of each vertex; 0: not known
+  std::vector<Shared_mark> m_is_active; // whether it may have something to gain
   std::vector<std::uint8_t> m_is_fixed;
   std::vector<std::uint8_t> m_is_loose;  // boundary vertices that need not stay on the surface
   std::vector<Attraction> m_attractions; // one for each vertex, or none
   std::vector<double> m_costs;           // of each element; negative: not known
-  std::vector<double> m_trial_costs;     // of the elements around the vertex that is moved
+  std::vector<double> m_trial_costs;     // of those around a vertex that is moved: none moves beside it
+  Vertex_coloring m_coloring;
+  unsigned m_threads = 0; // 0: without colors
   double m_power = 4;
   double m_good_enough = 1;
-  double m_notable_gain = 3e-3;
+  double m_notable_gain = 3e-3, m_first_step = 0.1, m_growth = 1.5;
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  // The first trial step, as a share of the shortest edge; steps grow and shrink by how they succeed.
-  static constexpr double first_step = 0.1, growth = 1.5, shrinkage = 0.4, smallest_step = 0.01;
+  // Steps grow and shrink by how they succeed.
+  static constexpr double shrinkage = 0.4, smallest_step = 0.01;
+  static constexpr std::size_t moves_worth_a_thread = 64;
 
 public:
   /// \param worth_sliding boundary vertices slide if an element has a larger cost
@@ -72,7 +98,7 @@ public:
   Vertex_optimizer(Working_mesh& mesh, const Quality& quality, const Project& project, double worth_sliding,
                    double bound)
     : m_mesh(mesh), m_quality(quality), m_project(project), m_worth_sliding(worth_sliding), m_bound(bound),
-      m_radii(mesh.points.size(), 0), m_is_active(mesh.points.size(), 0), m_is_fixed(mesh.points.size(), 0),
+      m_radii(mesh.points.size(), 0), m_is_active(mesh.points.size()), m_is_fixed(mesh.points.size(), 0),
       m_is_loose(mesh.points.size(), 0)
   {
     for(Vertex_index v = 0; v < mesh.points.size(); ++v)
@@ -85,11 +111,22 @@ public:
   /// The gain that wakes the neighbors of a vertex, as a share of its sum. Default: 0.003.
   void set_notable_gain(double share) { m_notable_gain = share; }
 
+  /// The first trial step of a vertex, as a share of the shortest edge, and by what one that succeeds grows.
+  /// Default: 0.1, 1.5.
+  void set_steps(double first, double growth)
+  {
+    m_first_step = first;
+    m_growth = growth;
+  }
+
+  /// From now on, vertices move by colors.
+  void use_colors(unsigned threads) { m_threads = threads; }
+
   /// Vertices that the mesh has more than before are free to move.
   void add_vertices()
   {
     m_radii.resize(m_mesh.points.size(), 0);
-    m_is_active.resize(m_mesh.points.size(), 1);
+    m_is_active.resize(m_mesh.points.size(), true);
     m_is_fixed.resize(m_mesh.points.size(), 0);
     m_is_loose.resize(m_mesh.points.size(), 0);
   }
@@ -110,14 +147,14 @@ public:
   /// To be called when positions were changed from outside.
   void forget_costs() { m_costs.clear(); }
 
-  void activate(Vertex_index v) { m_is_active[v] = 1; }
-  void activate_all() { std::fill(m_is_active.begin(), m_is_active.end(), 1); }
+  void activate(Vertex_index v) { m_is_active[v] = true; }
+  void activate_all() { std::fill(m_is_active.begin(), m_is_active.end(), true); }
 
   void activate_around(Vertex_index v)
   {
     for(Element_index e : m_mesh.incident[v])
       for(Vertex_index u : m_mesh.elements[e])
-        m_is_active[u] = 1;
+        m_is_active[u] = true;
   }
 
   /// Replaces the attractions.
@@ -135,14 +172,11 @@ public:
   {
     m_power = power;
     m_good_enough = good_enough;
-    bool moved = true;
-    for(int sweep = 0; sweep < sweeps && moved; ++sweep) {
-      moved = false;
-      for(Vertex_index v = 0; v < m_mesh.points.size(); ++v)
-        if(m_is_active[v]) {
-          m_is_active[v] = 0;
-          moved = improve(v) || moved;
-        }
+    m_costs.resize(m_mesh.elements.size(), -1);
+    m_trial_costs.resize(m_mesh.elements.size());
+    if(m_threads > 0)
+      m_coloring.update(m_mesh);
+    for(int sweep = 0; sweep < sweeps && (m_threads > 0 ? sweep_by_colors() : this->sweep()); ++sweep) {
     }
   }
 
@@ -166,10 +200,10 @@ public:
       limit = (std::max)(limit, known_cost(e));
     const Vec3 old = m_mesh.points[v];
     m_mesh.points[v] = p;
-    m_trial_costs.clear();
+    m_trial_costs.resize(m_mesh.elements.size());
     for(Element_index e : m_mesh.incident[v]) {
-      m_trial_costs.push_back(cost(e));
-      if(!(m_trial_costs.back() <= limit)) {
+      m_trial_costs[e] = cost(e);
+      if(!(m_trial_costs[e] <= limit)) {
         m_mesh.points[v] = old;
         return false;
       }
@@ -184,6 +218,41 @@ public:
   }
 
 private:
+  // \return whether a vertex moved
+  bool sweep()
+  {
+    bool moved = false;
+    for(Vertex_index v = 0; v < m_mesh.points.size(); ++v)
+      if(m_is_active[v]) {
+        m_is_active[v] = false;
+        moved = improve(v) || moved;
+      }
+    return moved;
+  }
+
+  bool sweep_by_colors()
+  {
+    Shared_mark moved;
+    std::vector<Vertex_index> active, in_turn;
+    for(const std::vector<Vertex_index>& vertices : m_coloring.vertices()) {
+      active.clear();
+      in_turn.clear();
+      for(Vertex_index v : vertices)
+        if(m_is_active[v]) {
+          m_is_active[v] = false;
+          (m_project.is_concurrent(m_mesh.strata[v]) ? active : in_turn).push_back(v);
+        }
+      const auto move = [&](Vertex_index v) {
+        if(improve(v))
+          moved = true;
+      };
+      parallel_for(
+        active.size(), m_threads, [&](std::size_t i) { move(active[i]); }, moves_worth_a_thread);
+      std::for_each(in_turn.begin(), in_turn.end(), move);
+    }
+    return moved;
+  }
+
   double cost(Element_index e) const
   {
     return m_quality(m_mesh.elements[e].kind, m_mesh.relative_points(m_mesh.elements[e]));
@@ -202,8 +271,8 @@ private:
   // The trial position is the new one.
   void accept(Vertex_index v)
   {
-    for(std::size_t i = 0; i < m_trial_costs.size(); ++i)
-      m_costs[m_mesh.incident[v][i]] = m_trial_costs[i];
+    for(Element_index e : m_mesh.incident[v])
+      m_costs[e] = m_trial_costs[e];
   }
 
   bool is_valid(Vertex_index v) const
@@ -229,11 +298,10 @@ private:
   double energy(Vertex_index v, double limit, double most)
   {
     double sum = attraction_energy(v);
-    m_trial_costs.clear();
     for(Element_index e : m_mesh.incident[v]) {
-      m_trial_costs.push_back(cost(e));
-      sum += power(m_trial_costs.back(), m_power);
-      if(!(sum < limit && m_trial_costs.back() <= most))
+      m_trial_costs[e] = cost(e);
+      sum += power(m_trial_costs[e], m_power);
+      if(!(sum < limit && m_trial_costs[e] <= most))
         return infinity;
     }
     return sum;
@@ -272,7 +340,7 @@ private:
     if(!(slope > 0 && slope < infinity))
       return false;
     if(m_radii[v] == 0)
-      m_radii[v] = first_step * shortest;
+      m_radii[v] = m_first_step * shortest;
     for(double radius = m_radii[v]; radius > smallest_step * m_radii[v]; radius *= shrinkage) {
       Vec3 p = old - (radius / slope) * gradient;
       if(slides) {
@@ -284,7 +352,7 @@ private:
       const double now = energy(v, sum, (std::max)(m_bound, worst));
       if(now < sum && is_valid(v)) {
         accept(v);
-        m_radii[v] = radius == m_radii[v] ? growth * radius : radius;
+        m_radii[v] = radius == m_radii[v] ? m_growth * radius : radius;
         if(sum - now > m_notable_gain * sum)
           activate_around(v);
         return true;

@@ -13,6 +13,7 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+#include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/base/compatibility.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_tolerances.h>
@@ -49,6 +50,7 @@ class Surface_attraction
   const Working_mesh& m_mesh;
   const Project& m_project;
   const std::vector<Surface_sample>& m_samples;
+  const unsigned m_threads;
   std::vector<double> m_tolerances_of_triangles;
   std::vector<Triangle> m_triangles; // of the boundary
   std::vector<Stratum> m_strata;     // theirs
@@ -69,14 +71,17 @@ class Surface_attraction
 
   // Samples nearer than this share of the tolerance draw nothing.
   static constexpr double tolerated_share = 0.35;
+  // Samples one after the other, each of which is a hint for the next, and so for one thread.
+  static constexpr std::size_t samples_in_turn = 1024;
   // In the unit of costs to the fourth power, at a shift as long as the edges around the vertex.
   static constexpr double weight = 100, stiffening = 1.5, stiffest = 300;
 
 public:
   /// \param samples of the surface; may be empty
   Surface_attraction(const Working_mesh& mesh, const Project& project,
-                     const std::vector<Surface_sample>& samples)
-    : m_mesh(mesh), m_project(project), m_samples(samples), m_stiffness(mesh.points.size(), 1)
+                     const std::vector<Surface_sample>& samples, unsigned threads = 1)
+    : m_mesh(mesh), m_project(project), m_samples(samples), m_threads(threads),
+      m_stiffness(mesh.points.size(), 1)
   {
   }
 
@@ -228,12 +233,22 @@ private:
     CGAL::AABB_tree<Traits> tree(triangles.begin(), triangles.end());
     tree.do_not_accelerate_distance_queries(); // the last triangle is a good hint, as samples are in order
     tree.build();
-    auto nearest = std::make_pair(triangles[0][0], triangles.cbegin());
-    for(std::size_t i : asked) {
-      const Vec3& s = m_samples[i].point;
-      nearest = tree.closest_point_and_primitive(point(s), nearest);
-      m_nearest[i] = std::size_t(nearest.second - triangles.cbegin());
-      const Vec3 p = to_vec3(nearest.first);
+    std::vector<Vec3> found(asked.size());
+    parallel_for((asked.size() + samples_in_turn - 1) / samples_in_turn, m_threads,
+                 [&](std::size_t block) {
+                   const std::size_t first = block * samples_in_turn;
+                   const auto last_time = triangles.cbegin() + std::ptrdiff_t(m_nearest[asked[first]]);
+                   auto nearest = std::make_pair((*last_time)[0], last_time);
+                   for(std::size_t k = first; k < (std::min)(first + samples_in_turn, asked.size()); ++k) {
+                     nearest = tree.closest_point_and_primitive(point(m_samples[asked[k]].point), nearest);
+                     m_nearest[asked[k]] = std::size_t(nearest.second - triangles.cbegin());
+                     found[k] = to_vec3(nearest.first);
+                   }
+                 },
+                 1);
+    for(std::size_t k = 0; k < asked.size(); ++k) {
+      const std::size_t i = asked[k];
+      const Vec3 &s = m_samples[i].point, &p = found[k];
       m_slack_of_samples[i] = threshold(m_samples[i].tolerance) - norm(s - p);
       add(m_nearest[i], barycentric_coordinates(m_triangles[m_nearest[i]], p), s - p, s, 1,
           m_samples[i].tolerance);
@@ -261,8 +276,25 @@ private:
     return int((std::min)((std::max)(std::ceil(longest / tolerance), 2.), largest));
   }
 
+  static int number_of_samples(int steps) { return (steps + 1) * (steps + 2) / 2 - 3; }
+
+  // Calls `f(b, p)` for each sample of a triangle, with its barycentric coordinates.
+  template <class F>
+  void for_each_sample(std::size_t triangle, const F& f) const
+  {
+    const Triangle& t = m_triangles[triangle];
+    const int n = m_steps_of_triangles[triangle];
+    for(int i = 0; i <= n; ++i)
+      for(int j = 0; i + j <= n; ++j)
+        if((i > 0) + (j > 0) + (i + j < n) > 1) { // not at a vertex
+          const std::array<double, 3> b{1 - double(i + j) / n, double(i) / n, double(j) / n};
+          f(b, b[0] * m_mesh.points[t[0]] + (b[1] * m_mesh.points[t[1]] + b[2] * m_mesh.points[t[2]]));
+        }
+  }
+
   void measure_from_boundary()
   {
+    std::vector<std::size_t> asked, starts{0}; // triangles, and where what was found for each begins
     for(std::size_t k = 0; k < m_triangles.size(); ++k) {
       const Triangle& t = m_triangles[k];
       const double tolerance = m_tolerances_of_triangles[k];
@@ -271,19 +303,27 @@ private:
         continue;
       m_slack_of_triangles[k] = threshold(tolerance);
       m_steps_of_triangles[k] = n;
-      Vec3 hint = m_mesh.points[t[0]];
-      const double share = 4. / ((n + 1) * (n + 2) / 2 - 3); // as if it were four samples
-      for(int i = 0; i <= n; ++i)
-        for(int j = 0; i + j <= n; ++j)
-          if((i > 0) + (j > 0) + (i + j < n) > 1) { // not at a vertex
-            const std::array<double, 3> b{1 - double(i + j) / n, double(i) / n, double(j) / n};
-            const Vec3 p = b[0] * m_mesh.points[t[0]]
-                           + (b[1] * m_mesh.points[t[1]] + b[2] * m_mesh.points[t[2]]);
-            hint = m_project(p, hint, m_strata[k]);
-            m_slack_of_triangles[k] = (std::min)(m_slack_of_triangles[k],
-                                                 threshold(tolerance) - norm(hint - p));
-            add(k, b, hint - p, hint, share, tolerance);
-          }
+      asked.push_back(k);
+      starts.push_back(starts.back() + std::size_t(number_of_samples(n)));
+    }
+    std::vector<Vec3> found(starts.back());
+    parallel_for(asked.size(), m_threads, [&](std::size_t i) {
+      Vec3 hint = m_mesh.points[m_triangles[asked[i]][0]];
+      auto out = found.begin() + std::ptrdiff_t(starts[i]);
+      for_each_sample(asked[i], [&](const auto&, const Vec3& p) {
+        *out++ = hint = m_project(p, hint, m_strata[asked[i]]);
+      });
+    });
+    for(std::size_t i = 0; i < asked.size(); ++i) {
+      const std::size_t k = asked[i];
+      const double tolerance = m_tolerances_of_triangles[k],
+                   share = 4. / number_of_samples(m_steps_of_triangles[k]); // as if it were four samples
+      auto q = found.cbegin() + std::ptrdiff_t(starts[i]);
+      for_each_sample(k, [&](const std::array<double, 3>& b, const Vec3& p) {
+        m_slack_of_triangles[k] = (std::min)(m_slack_of_triangles[k], threshold(tolerance) - norm(*q - p));
+        add(k, b, *q - p, *q, share, tolerance);
+        ++q;
+      });
     }
   }
 };

@@ -236,6 +236,7 @@ private:
                             .tolerance(m_result.tolerance)
                             .quality_bound(m_criteria.quality_bound())
                             .sharp_angle(m_criteria.sharp_angle())
+                            .number_of_threads(m_criteria.number_of_threads())
                             .number_of_bisections(m_criteria.share_of_bisections() > 0 ? rest : 0);
     const Aspect_ratio_quality_3 quality;
     Bounded_optimization optimize(mesh, m_root.domain(), criteria, quality);
