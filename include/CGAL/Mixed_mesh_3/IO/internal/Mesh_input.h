@@ -9,6 +9,7 @@
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_MESH_INPUT_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_MESH_INPUT_H
 
+#include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
@@ -39,6 +40,7 @@ struct Mesh_input
   std::vector<Mixed_meshes_3::Vec3> points;
   Element_list elements;
   std::vector<Element_attributes> attributes;
+  Subdomain_names subdomain_names;
 };
 
 // Vertices and elements are counted in 32 bits, with one value to spare.
