@@ -170,6 +170,37 @@ void test_round_trip(const fs::path& directory, const std::string& name, const M
 }
 
 // References of the file tell the subdomain: in ours, a part in the region has another one than the rest.
+// Names of subdomains that the mesh has come back; those that files cannot have are refused.
+void test_subdomain_names(const fs::path& directory)
+{
+  Mesh mesh = one_of_each_kind();
+  std::vector<Element_attributes> attributes = mesh.attributes();
+  for(std::size_t e = 0; e < attributes.size(); ++e)
+    attributes[e].subdomain_index = e % 2 == 0 ? 7 : 1;
+  mesh.assign(mesh.points(), mesh.elements(), attributes);
+  const IO::Subdomain_names both{{1, "brain"}, {7, "Left-Ventricle_1"}};
+  IO::Write_options options;
+  options.subdomain_names = both;
+  options.subdomain_names[9] = "nowhere";
+  for(const char* extension : {".vtu", ".msh", ".msh2"}) {
+    const std::string path = (directory / ("names" + std::string(extension))).string();
+    BOOST_TEST(IO::write_mixed_mesh(path, mesh, options));
+    Mesh read;
+    IO::Subdomain_names names{{3, "old"}};
+    BOOST_TEST(IO::read_mixed_mesh(path, read, names));
+    BOOST_TEST(names == (std::string(extension) == ".msh2" ? IO::Subdomain_names() : both));
+  }
+  for(const char* name : {"", "two words", "1", "region", "Subdomain_2", "BRAIN", "\"", "a<b"}) {
+    options.subdomain_names = {{1, "brain"}, {7, name}};
+    std::string error;
+    BOOST_TEST(!IO::write_mixed_mesh((directory / "names.vtu").string(), mesh, options, &error));
+    BOOST_TEST(error.find("subdomain 7") != std::string::npos);
+  }
+  options.subdomain_names = both;
+  options.facet_sets.push_back({"Brain", {}});
+  BOOST_TEST(!IO::write_mixed_mesh((directory / "names.vtu").string(), mesh, options));
+}
+
 void test_MEDIT(const fs::path& directory, const Mesh& mesh)
 {
   const std::string path = (directory / "round_trip.mesh").string();
@@ -580,5 +611,6 @@ int main(int argc, char** argv)
   test_hand_written(directory);
   test_formats_of_others(directory);
   test_round_trips(data, directory);
+  test_subdomain_names(directory);
   return boost::report_errors();
 }

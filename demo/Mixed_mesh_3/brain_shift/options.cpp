@@ -73,7 +73,7 @@ CLI::Option* add_inputs(CLI::App& app, Options& o)
       ->type_name("SURFACE");
   app
     .add_option("--tumor-label,--tumour-label", o.tumor_label,
-                "Label of a subdomain of the mesh: its elements are removed, after the shift")
+                "Number or name of a subdomain of the mesh: its elements are removed, after the shift")
     ->excludes(tumor)
     ->type_name("LABEL");
   add_surface_options(app, o.surface_options);
@@ -143,7 +143,7 @@ void add_physics(CLI::App& app, Options& o)
   app
     .add_option(
       "--material", o.material_texts,
-      "Material of the subdomain with a label: Young's modulus in kPa, Poisson's ratio, and, if you "
+      "Material of the subdomain with a number or name: Young's modulus in kPa, Poisson's ratio, and, if you "
       "like, density in g/cm^3; can be given several times. Other subdomains have that of "
       "--young-modulus, --poisson-ratio and --density")
     ->type_name("LABEL=E,NU[,RHO]")

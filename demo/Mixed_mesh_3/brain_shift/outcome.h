@@ -29,6 +29,7 @@ using Locations = std::vector<CGAL::Mixed_meshes_3::Element_location_3>;
 struct Subdomain_facts
 {
   CGAL::Mixed_meshes_3::Subdomain_index index = 0;
+  std::string name; // empty: the file has none
   std::size_t elements = 0;
   double volume = 0;
   CGAL::Mixed_meshes_3::Elastic_material material;

@@ -17,10 +17,11 @@
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 
-Mesh read_mesh(const std::string& path, std::vector<std::string>& warnings)
+Mesh read_mesh(const std::string& path, mm3::IO::Subdomain_names& subdomain_names,
+               std::vector<std::string>& warnings)
 {
   Mesh mesh;
-  require([&](std::string* error) { return mm3::IO::read_mixed_mesh(path, mesh, error); });
+  require([&](std::string* error) { return mm3::IO::read_mixed_mesh(path, mesh, subdomain_names, error); });
   const mm3::Mesh_defects d = mm3::find_defects(mesh);
   const auto refuse = [&path](const std::string& defect) { throw std::runtime_error(path + ": " + defect); };
   if(d.invalid_elements != 0)

@@ -10,11 +10,14 @@
 
 #include "common/types.h"
 
+#include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
+
 #include <string>
 #include <vector>
 
 /// \param warnings what is harmless is added to it
 /// \throw std::runtime_error a line naming the file and the defect
-Mesh read_mesh(const std::string& path, std::vector<std::string>& warnings);
+Mesh read_mesh(const std::string& path, CGAL::Mixed_meshes_3::IO::Subdomain_names& subdomain_names,
+               std::vector<std::string>& warnings);
 
 #endif // MIXED_MESH_3_DEMO_BRAIN_SHIFT_READ_MESH_H

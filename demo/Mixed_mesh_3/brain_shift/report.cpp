@@ -72,6 +72,7 @@ Json describe_subdomains(const std::vector<Subdomain_facts>& subdomains)
   Json result = Json::array();
   for(const Subdomain_facts& facts : subdomains)
     result.push_back({{"index", facts.index},
+                      {"name", facts.name.empty() ? Json() : Json(facts.name)},
                       {"elements", facts.elements},
                       {"volume", facts.volume},
                       {"Young's modulus", quantity(facts.material.young_modulus, "kPa")},
@@ -137,9 +138,9 @@ void print_subdomains(const std::vector<Subdomain_facts>& subdomains)
   if(subdomains.size() < 2)
     return;
   for(const Subdomain_facts& facts : subdomains)
-    std::cout << "subdomain " << facts.index << ": " << counted(facts.elements, "element", "elements") << ", "
-              << rounded(facts.volume / 1000) << " ml; Young's modulus "
-              << rounded(facts.material.young_modulus) << " kPa, Poisson's ratio "
+    std::cout << "subdomain " << facts.index << (facts.name.empty() ? "" : " (" + facts.name + ")") << ": "
+              << counted(facts.elements, "element", "elements") << ", " << rounded(facts.volume / 1000)
+              << " ml; Young's modulus " << rounded(facts.material.young_modulus) << " kPa, Poisson's ratio "
               << rounded(facts.material.poisson_ratio) << '\n';
 }
 

@@ -38,6 +38,7 @@ namespace {
 struct Inputs
 {
   Mesh mesh;
+  mm3::IO::Subdomain_names subdomain_names;
   Tumor tumor;
   Boundary_patches patches;
   mm3::Voxel_image_3 image, labels; // empty if there is none
@@ -60,10 +61,10 @@ Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
                                                   : read_fiducials(o.control_points, o.control_points_after);
   if(!o.quiet)
     tell_of_many_points(outcome.points.size());
-  inputs.mesh = log("read mesh", [&] { return read_mesh(o.mesh, outcome.warnings); });
+  inputs.mesh = log("read mesh", [&] { return read_mesh(o.mesh, inputs.subdomain_names, outcome.warnings); });
   outcome.mesh = facts_of(inputs.mesh);
   outcome.volume = mm3::volume(inputs.mesh);
-  outcome.subdomains = find_subdomains(inputs.mesh, o);
+  outcome.subdomains = find_subdomains(inputs.mesh, inputs.subdomain_names, o);
   // The response of each vertex and control point to each control point: 3 x 3 numbers.
   const double n = double(outcome.points.size());
   check_memory(o.control_points + ": " + std::to_string(outcome.points.size()) + " control points",
@@ -106,6 +107,7 @@ void write_meshes(mm3::IO::Output_files& files, const Inputs& inputs, const std:
   if(outcome.resection)
     data.vertex_data.push_back({"displacement_before_resection", &before, 3});
   data.facet_sets = facet_sets(mesh, {}, inputs.patches, outcome.supports, o);
+  data.subdomain_names = inputs.subdomain_names;
   mm3::IO::Write_options data_of_vtu = data; // other formats have no data of elements
   data_of_vtu.element_data.push_back({"resected", &resected});
   for(const std::string& path : o.outputs)
@@ -113,7 +115,7 @@ void write_meshes(mm3::IO::Output_files& files, const Inputs& inputs, const std:
 }
 
 void write_deformed_meshes(mm3::IO::Output_files& files, const Remaining_mesh& remaining,
-                           const Boundary_patches& patches, const Options& o, const Outcome& outcome)
+                           const Inputs& inputs, const Options& o, const Outcome& outcome)
 {
   Mesh deformed = remaining.mesh;
   for(std::size_t v = 0; v < deformed.number_of_vertices(); ++v) {
@@ -121,7 +123,8 @@ void write_deformed_meshes(mm3::IO::Output_files& files, const Remaining_mesh& r
     deformed.points()[v] = deformed.points()[v] + Kernel::Vector_3(u[0], u[1], u[2]);
   }
   mm3::IO::Write_options with_sets;
-  with_sets.facet_sets = facet_sets(deformed, remaining.vertices, patches, outcome.supports, o);
+  with_sets.facet_sets = facet_sets(deformed, remaining.vertices, inputs.patches, outcome.supports, o);
+  with_sets.subdomain_names = inputs.subdomain_names;
   for(const std::string& path : o.deformed_outputs)
     write_mesh(files, path, deformed, with_sets);
 }
@@ -135,7 +138,7 @@ void write_files(const Inputs& inputs, const std::vector<bool>& is_removed, cons
     write_images(files, inputs.image, inputs.labels, inputs.mesh, inputs.tumor, is_removed, o, log, outcome);
   log("write meshes", [&] {
     write_meshes(files, inputs, is_removed, o, outcome);
-    write_deformed_meshes(files, remaining, inputs.patches, o, outcome);
+    write_deformed_meshes(files, remaining, inputs, o, outcome);
   });
   outcome.seconds = log.seconds();
   outcome.peak_bytes = log.peak_bytes();

@@ -26,13 +26,15 @@ std::string list(const std::vector<Subdomain_facts>& subdomains)
   constexpr std::size_t many = 10;
   std::string text;
   for(std::size_t i = 0; i < (std::min)(many, subdomains.size()); ++i)
-    text += (i == 0 ? "" : ", ") + std::to_string(subdomains[i].index);
+    text += (i == 0 ? "" : ", ") + std::to_string(subdomains[i].index)
+            + (subdomains[i].name.empty() ? "" : " (" + subdomains[i].name + ")");
   return text + (subdomains.size() > many ? ", ..." : "");
 }
 
 } // namespace
 
-std::vector<Subdomain_facts> find_subdomains(const Mesh& mesh, const Options& o)
+std::vector<Subdomain_facts> find_subdomains(const Mesh& mesh, const mm3::IO::Subdomain_names& names,
+                                             const Options& o)
 {
   std::map<mm3::Subdomain_index, Subdomain_facts> of_index;
   for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e) {
@@ -43,6 +45,8 @@ std::vector<Subdomain_facts> find_subdomains(const Mesh& mesh, const Options& o)
   std::vector<Subdomain_facts> subdomains;
   for(auto& [index, facts] : of_index) {
     facts.index = index;
+    if(const auto named = names.find(index); named != names.end())
+      facts.name = named->second;
     facts.material = o.material;
     subdomains.push_back(facts);
   }
@@ -61,7 +65,9 @@ std::vector<Subdomain_facts> find_subdomains(const Mesh& mesh, const Options& o)
 const Subdomain_facts& find_subdomain(const std::vector<Subdomain_facts>& subdomains,
                                       const std::string& label, const Options& o)
 {
-  const auto has_label = [&label](const Subdomain_facts& s) { return std::to_string(s.index) == label; };
+  const auto has_label = [&label](const Subdomain_facts& s) { // no name begins with a digit
+    return std::to_string(s.index) == label || (!s.name.empty() && s.name == label);
+  };
   const auto place = std::find_if(subdomains.begin(), subdomains.end(), has_label);
   if(place == subdomains.end())
     throw std::runtime_error(o.mesh + ": has no subdomain " + control_points::quoted(label) + ", but "

@@ -12,12 +12,16 @@
 #include "brain_shift/outcome.h"
 #include "common/types.h"
 
+#include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
+
 #include <string>
 #include <vector>
 
 /// The subdomains of the mesh with their materials, in the order of their indices.
 /// \throw std::runtime_error if the mesh lacks a label of --material, or if a label has two materials
-std::vector<Subdomain_facts> find_subdomains(const Mesh& mesh, const Options& options);
+std::vector<Subdomain_facts> find_subdomains(const Mesh& mesh,
+                                             const CGAL::Mixed_meshes_3::IO::Subdomain_names& names,
+                                             const Options& options);
 
 /// That with a label of the command line.
 /// \throw std::runtime_error if there is none

@@ -12,6 +12,8 @@
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/version.h>
 
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -56,18 +58,15 @@ Voxel_selection labels_option(const std::string& option, const std::string& text
   return *labels;
 }
 
-// A name for files: letters, digits, _ and -, a letter first.
+// A name for files.
 bool is_name(const std::string& name)
 {
   constexpr std::size_t longest = 24; // names of two are part of that of their interface
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-  return !name.empty() && name.size() <= longest && is_letter(name[0])
-         && std::all_of(name.begin(), name.end(), [&](char c) {
-              return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-';
-            });
+  return name.size() <= longest && mm3::IO::is_facet_set_name(name);
 }
 
-const char* const what_a_name_is = "a name has up to 24 letters, digits, _ and -, a letter first";
+const char* const what_a_name_is = "a name has up to 24 letters, digits, _ and -, a letter first, and is "
+                                   "neither all, boundary, region or rest, nor begins as those of files";
 
 // The name is that of the file, without its ending, if there is none.
 Subdomain_option subdomain_option(const std::string& option, const std::string& text)
@@ -382,8 +381,11 @@ void check_subdomains(const Options& o)
     return;
   if(o.labels.empty() && !o.has_each_label)
     names.push_back(surrounding_name(o));
-  for(auto name = names.begin(); name != names.end(); ++name)
-    if(std::find(names.begin(), name, *name) != name || *name == "outside")
+  for(const Subdomain_option& sheet : o.sheets)
+    names.push_back(sheet.name);
+  for(auto name = names.begin(); name != names.end(); ++name) // files may not know upper from lower case
+    if(std::any_of(names.begin(), name, [&](const std::string& s) { return boost::iequals(s, *name); })
+       || boost::iequals(*name, "outside"))
       throw CLI::ValidationError("--subdomain " + *name, "the name is taken, give NAME=FILE");
   if(o.mode == mm3::Boundary_mode::PAPER || o.no_optimize)
     throw CLI::ValidationError(o.no_optimize ? "--no-optimize" : "--mode paper",

@@ -84,15 +84,21 @@ public:
   const Label_image& image(const std::string& file) { return m_images.try_emplace(file, file).first->second; }
 
   // \param share of the domain
+  // \param number_of_parts of the domain that have surfaces
   Surface operator()(const std::string& file, const Voxel_selection& voxels, Surface_facts& facts,
-                     double share = 1)
+                     double share = 1, std::size_t number_of_parts = 1)
   {
     if(!is_image(file))
       return read_surface(file, m_options.surface_options, facts, m_warnings);
     // several times as many as the mesh has at its boundary; of parts more, as they are finer
     const double finer = share < 1 ? 3 : 1, least = share < 1 ? 1000 : 2000;
-    const double vertices = (std::max)(finer * 20 * std::pow(share * double(m_options.vertices), 2. / 3),
-                                       least);
+    double vertices = (std::max)(finer * 20 * std::pow(share * double(m_options.vertices), 2. / 3), least);
+    // of many parts, those together: what is much finer than the mesh costs time only
+    constexpr double many = 2e4, times_budget = 2, least_of_one = 100;
+    if(share < 1)
+      vertices = (std::min)(vertices, (std::max)((std::max)(many, times_budget * double(m_options.vertices))
+                                                   / double(number_of_parts),
+                                                 least_of_one));
     Surface surface = image(file).surface_of(voxels, {m_options.smoothing, std::size_t(vertices)}, facts,
                                              m_warnings);
     if(surface.is_empty() && share == 1)
@@ -101,10 +107,11 @@ public:
     return surface;
   }
 
-  Subdomain operator()(const Subdomain_option& s, mm3::Subdomain_index index, double share = 1)
+  Subdomain operator()(const Subdomain_option& s, mm3::Subdomain_index index, double share = 1,
+                       std::size_t number_of_parts = 1)
   {
     Surface_facts facts;
-    auto surface = std::make_shared<const Surface>((*this)(s.file, s.voxels, facts, share));
+    auto surface = std::make_shared<const Surface>((*this)(s.file, s.voxels, facts, share, number_of_parts));
     return {s.name, index, std::move(surface), facts, std::nullopt};
   }
 
@@ -140,7 +147,7 @@ std::vector<Subdomain> read_labels(const Options& o, Surface_reader& read, Outco
     if(i == largest)
       continue;
     Subdomain s = read({labels[i].name, o.surface, all[i]}, index_of(i),
-                       double(sizes[i].first) / number_of_all);
+                       double(sizes[i].first) / number_of_all, all.size() - 1);
     s.volume = double(sizes[i].first) * read.image(o.surface).volume_of_voxel();
     if(s.surface->is_empty()) {
       outcome.has_lost_labels = true;
@@ -380,12 +387,16 @@ Mesh make_mesh_until_stopped(const Domain& domain, const Inputs& inputs, const O
   return mesh;
 }
 
-void write_files(const Mesh& mesh, const std::vector<mm3::IO::Facet_set>& facet_sets, const Options& o,
-                 Stage_log& log, Outcome& outcome)
+void write_files(const Mesh& mesh, const std::vector<mm3::IO::Facet_set>& facet_sets,
+                 const std::vector<Subdomain>& subdomains, const Options& o, Stage_log& log, Outcome& outcome)
 {
   mm3::IO::Write_options write_options;
   write_options.msh_2_2 = o.msh2;
   write_options.facet_sets = facet_sets;
+  if(subdomains.size() > 1)
+    for(const Subdomain& s : subdomains)
+      if(s.index != 0)
+        write_options.subdomain_names.emplace(s.index, s.name);
   const Deferred_signals deferred({SIGINT, SIGTERM, SIGHUP}, Deferred_signals::Second::DEFERRED);
   mm3::IO::Output_files files([] { return !Deferred_signals::has_come(); }); // appear together, at the end
   for(const std::string& path : o.outputs)
@@ -417,7 +428,7 @@ bool run(const Options& o)
   std::vector<mm3::IO::Facet_set> facet_sets = examine_sheets(mesh, domain, sheets, o, outcome);
   for(mm3::IO::Facet_set& set : interfaces_of(mesh, inputs.subdomains))
     facet_sets.push_back(std::move(set));
-  write_files(mesh, facet_sets, o, log, outcome);
+  write_files(mesh, facet_sets, inputs.subdomains, o, log, outcome);
   log.finish_progress();
   for(const std::string& warning : outcome.warnings)
     std::cerr << "warning: " << printable(warning) << '\n';

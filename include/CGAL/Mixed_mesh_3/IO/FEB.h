@@ -16,6 +16,7 @@
 #include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <ostream>
 #include <string>
@@ -66,7 +67,7 @@ inline void write_FEB_node_data(Buffered_output& out, const Data_array& data, st
 
 The mesh: node set `all`, element sets such as `region_hex8` and `rest_tet4` (of other subdomains than 1
 `subdomain_2_rest_tet4` and so on), surface `boundary` (counter-clockwise seen from outside) and a surface for
-each facet set, with its name. FEBio takes no
+each facet set, and an element set for each subdomain with a name, with these names. FEBio takes no
 mesh without materials: there are `region` and `rest`, and those of other subdomains, with numbers to be
 replaced (neo-Hookean, Young's modulus 1, Poisson's ratio 0.45). There are no boundary conditions, loads or
 steps. The numbers of nodes and elements are the indices plus 1.
@@ -78,12 +79,13 @@ model can refer to, for example.
 \param mesh the mesh
 \param facet_sets named faces
 \param vertex_data of one or three components, as many as vertices
+\param subdomain_names of those that have one
 
 \return whether the stream took everything.
 */
 template <class Mesh>
 bool write_FEB(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_set>& facet_sets = {},
-               const std::vector<Data_array>& vertex_data = {})
+               const std::vector<Data_array>& vertex_data = {}, const Subdomain_names& subdomain_names = {})
 {
   using namespace internal;
   const Element_blocks blocks(mesh);
@@ -124,6 +126,17 @@ bool write_FEB(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_s
     out << "    </Elements>\n";
   }
 
+  for(const auto& [name, parts] : blocks.named_parts(subdomain_names)) {
+    out << "    <ElementSet name=\"" << name << "\">";
+    bool is_first = true;
+    for(const Element_block& block : blocks)
+      if(std::count(parts.begin(), parts.end(), block.part) != 0)
+        for(Element_index e : block) {
+          out << (is_first ? "" : ",") << e + 1;
+          is_first = false;
+        }
+    out << "</ElementSet>\n";
+  }
   write_FEB_surface(out, "boundary", boundary_faces(mesh));
   for(const Facet_set& set : facet_sets)
     write_FEB_surface(out, set.name, set.faces);

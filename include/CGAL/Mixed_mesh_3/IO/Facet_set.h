@@ -12,6 +12,8 @@
 
 #include <CGAL/Mixed_mesh_3/Face.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,38 @@ struct Facet_set
   /// Faces of elements of the mesh.
   std::vector<Face> faces;
 };
+
+namespace internal {
+
+inline bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+/// Not all programs distinguish upper and lower case.
+inline std::string in_upper_case(std::string name)
+{
+  for(char& c : name)
+    c = c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
+  return name;
+}
+
+} // namespace internal
+
+/// Whether all formats can have it beside the names that writers give: see `Facet_set`.
+inline bool is_facet_set_name(const std::string& name)
+{
+  using internal::is_letter;
+  const auto is_allowed = [](char c) {
+    return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  const std::string upper = internal::in_upper_case(name);
+  bool is_free = true;
+  for(const char* used : {"ALL", "BOUNDARY", "REGION", "REST"})
+    is_free = is_free && upper != used;
+  for(const char* begin : {"SUBDOMAIN_", "REGION_", "REST_"})
+    is_free = is_free && upper.rfind(begin, 0) != 0;
+  constexpr std::size_t longest = 60;
+  return is_free && !name.empty() && name.size() <= longest && is_letter(name.front())
+         && std::all_of(name.begin(), name.end(), is_allowed);
+}
 
 } // namespace IO
 } // namespace Mixed_meshes_3

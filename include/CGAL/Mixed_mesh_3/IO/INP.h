@@ -71,7 +71,7 @@ Element sets: `REGION` and `REST` for the elements of subdomain 1 in the region 
 `SUBDOMAIN_2_REGION` and so on for those of other subdomains, each made of one set for each type, such as
 `REGION_C3D8`. Node set: `BOUNDARY`, the vertices of the boundary faces. For each facet set a surface of
 elements with its name in upper case, of element sets such as `NAME_S1`: the elements with their face S1 in
-the set. The numbers of nodes and elements are the indices plus 1.
+the set. Subdomains with names are element sets with these in upper case, too. The numbers of nodes and elements are the indices plus 1.
 
 \note CalculiX has no pyramids, and Gmsh 4.8 drops them when it reads this format: see
 `split_to_tetrahedra()`.
@@ -79,7 +79,8 @@ the set. The numbers of nodes and elements are the indices plus 1.
 \return whether the stream took everything.
 */
 template <class Mesh>
-bool write_INP(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_set>& facet_sets = {})
+bool write_INP(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_set>& facet_sets = {},
+               const Subdomain_names& subdomain_names = {})
 {
   using namespace internal;
   const Element_blocks blocks(mesh);
@@ -109,6 +110,12 @@ bool write_INP(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_s
     for(const Element_block& block : blocks)
       if(block.part == part)
         out << set_name(part) << '_' << block.names().abaqus_type << '\n';
+  }
+
+  for(const auto& [name, parts] : blocks.named_parts(subdomain_names)) {
+    out << "*ELSET, ELSET=" << in_upper_case(name) << '\n';
+    for(std::size_t part : parts)
+      out << set_name(part) << '\n';
   }
 
   write_INP_set(out, "*NSET, NSET=BOUNDARY", boundary_vertices(mesh));

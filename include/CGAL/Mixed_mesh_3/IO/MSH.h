@@ -69,6 +69,7 @@ class MSH_model
   std::vector<std::size_t> m_vertex_entity;
   Element_blocks m_blocks;
   Face_patches m_patches;
+  std::vector<MSH_group> m_subdomains; // those with names
 
   // An entity's box has all its vertices, but each vertex is on the first entity only.
   template <class Mesh, class Vertices>
@@ -94,6 +95,7 @@ class MSH_model
       m_groups.push_back({m_blocks.parts()[part].name(), 3, m_blocks.tag(part)});
     for(std::size_t set = 0; set < facet_sets.size(); ++set)
       m_groups.push_back({facet_sets[set].name, 2, m_patches.set_tag(set)});
+    m_groups.insert(m_groups.end(), m_subdomains.begin(), m_subdomains.end());
     for(MSH_group& group : m_groups)
       for(const MSH_entity& e : m_entities)
         if(e.number_of_elements != 0 && std::count(e.groups.begin(), e.groups.end(), group.tag) != 0)
@@ -101,9 +103,10 @@ class MSH_model
   }
 
 public:
-  // \param has_one_number whether a face can be in one group only: Gmsh 2.2
+  // \param has_one_number whether a face or an element can be in one group only: Gmsh 2.2
   template <class Mesh>
-  MSH_model(const Mesh& mesh, const std::vector<Facet_set>& facet_sets, bool has_one_number)
+  MSH_model(const Mesh& mesh, const std::vector<Facet_set>& facet_sets, bool has_one_number,
+            const Subdomain_names& subdomain_names)
     : m_vertex_entity(mesh.number_of_vertices(), no_entity), m_blocks(mesh),
       m_patches(mesh, facet_sets, m_blocks.first_free_tag())
   {
@@ -121,6 +124,12 @@ public:
     std::vector<std::size_t> entity_of(mesh.number_of_elements());
     for(std::size_t part = 0; part < m_blocks.parts().size(); ++part)
       m_entities.push_back({3, m_blocks.tag(part), {m_blocks.tag(part)}});
+    if(!has_one_number)
+      for(const auto& [name, parts] : m_blocks.named_parts(subdomain_names)) {
+        m_subdomains.push_back({name, 3, m_patches.set_tag(facet_sets.size() + m_subdomains.size())});
+        for(std::size_t part : parts)
+          m_entities[patches.size() + part].groups.push_back(m_subdomains.back().tag);
+      }
     for(const Element_block& block : m_blocks)
       for(Element_index e : block)
         entity_of[e] = patches.size() + block.part;
@@ -304,7 +313,8 @@ the indices plus 1; boundary faces are numbered after the elements. Elements are
 
 The surfaces of facet sets follow, with their names and the next numbers. Each face is written once. In
 version 4.1 a boundary face of sets is in their groups and in "boundary"; in 2.2, where it can be in one group
-only, it is in that of its first set, and "boundary" is what is left.
+only, it is in that of its first set, and "boundary" is what is left. In version 4.1, subdomains with names
+are physical volumes with these, too.
 
 Values at the vertices become views, at time 0.
 
@@ -313,15 +323,17 @@ Values at the vertices become views, at time 0.
 \param version of the format
 \param facet_sets named faces
 \param vertex_data of one or three components, as many as vertices; names without quotes
+\param subdomain_names version 4.1 only
 
 \return whether the stream took everything.
 */
 template <class Mesh>
 bool write_MSH(std::ostream& stream, const Mesh& mesh, MSH_version version = MSH_version::V4_1,
-               const std::vector<Facet_set>& facet_sets = {}, const std::vector<Data_array>& vertex_data = {})
+               const std::vector<Facet_set>& facet_sets = {}, const std::vector<Data_array>& vertex_data = {},
+               const Subdomain_names& subdomain_names = {})
 {
   using namespace internal;
-  const MSH_model model(mesh, facet_sets, version == MSH_version::V2_2);
+  const MSH_model model(mesh, facet_sets, version == MSH_version::V2_2, subdomain_names);
   Buffered_output out(stream);
   out << "$MeshFormat\n" << (version == MSH_version::V4_1 ? "4.1" : "2.2") << " 0 8\n$EndMeshFormat\n";
   write_MSH_physical_names(out, model);

@@ -13,6 +13,7 @@
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/IO/Data_array.h>
 #include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
+#include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
@@ -47,6 +48,7 @@ struct VTU_options
   std::vector<Data_array> element_data;
   /// Named faces of elements.
   std::vector<Facet_set> facet_sets = {};
+  Subdomain_names subdomain_names = {};
 };
 
 namespace internal {
@@ -127,6 +129,24 @@ VTU_arrays cell_arrays(const Mesh& mesh)
           })};
 }
 
+// As text, between what is binary: VTK has each string as its characters' numbers, and a 0.
+inline void write_VTU_subdomain_names(Buffered_output& out, const Subdomain_names& names)
+{
+  out << "    <FieldData>\n      <DataArray type=\"Int32\" Name=\"subdomain_indices\" NumberOfTuples=\""
+      << names.size() << "\" format=\"ascii\">\n       ";
+  for(const auto& [index, name] : names)
+    out << ' ' << index;
+  out << "\n      </DataArray>\n      <Array type=\"String\" Name=\"subdomain_names\" NumberOfTuples=\""
+      << names.size() << "\" format=\"ascii\">\n";
+  for(const auto& [index, name] : names) {
+    out << "       ";
+    for(char c : name)
+      out << ' ' << int(c);
+    out << " 0\n";
+  }
+  out << "      </Array>\n    </FieldData>\n";
+}
+
 } // namespace internal
 
 /*!
@@ -139,7 +159,8 @@ find four. Element data: `kind` (the number of the `Element_kind`), `ARC` (the a
 `in_region` (1 or 0), `subdomain` (the subdomain index), `compartment`
 (if there are sheets, see `find_sheet_faces()`), what the options add, and for each facet set
 `facets_` with its name: the number of the element's faces in the set, since a file of elements has no faces
-of their own; a threshold above 0 selects the elements. Nothing of the size of the mesh is allocated but for
+of their own; a threshold above 0 selects the elements. Field data, if subdomains have names: `subdomain_indices`
+and `subdomain_names`. Nothing of the size of the mesh is allocated but for
 facet sets.
 
 VTK disagrees with itself on wedges. Written in the documented order, as here, their faces look
@@ -223,12 +244,20 @@ bool write_VTU(std::ostream& stream, const Mesh& mesh, const VTU_options& option
   const char* const byte_order = "LittleEndian";
 #endif
 
+  Subdomain_names names;
+  for(const Element_attributes& a : mesh.attributes())
+    if(const auto named = options.subdomain_names.find(a.subdomain_index);
+       named != options.subdomain_names.end() && names.count(named->first) == 0)
+      names.insert(*named);
+
   Buffered_output out(stream);
   out << "<?xml version=\"1.0\"?>\n"
       << "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"" << byte_order
       << "\" header_type=\"UInt64\">\n"
-      << "  <UnstructuredGrid>\n"
-      << "    <Piece NumberOfPoints=\"" << n << "\" NumberOfCells=\"" << m << "\">\n";
+      << "  <UnstructuredGrid>\n";
+  if(!names.empty())
+    write_VTU_subdomain_names(out, names);
+  out << "    <Piece NumberOfPoints=\"" << n << "\" NumberOfCells=\"" << m << "\">\n";
   std::uint64_t offset = 0;
   for(const Section& section : sections) {
     out << "      <" << section.name << ">\n";

@@ -10,6 +10,8 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/facet_sets.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Mesh_input.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/read_MEDIT.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/read_MSH.h>
@@ -43,6 +45,56 @@ inline Mesh_input read_mesh_input(const std::string& file, const std::string& ex
 }
 
 } // namespace internal
+
+/*!
+\ingroup PkgMixedMesh3IO
+
+Reads a mesh, as the function below does, and the names of its subdomains: of VTK's and Gmsh's (4.1) formats,
+as `write_mixed_mesh()` writes them. Names that it would not write are left out.
+
+\param subdomain_names the names that the file has
+*/
+template <class Mesh>
+[[nodiscard]] bool read_mixed_mesh(const std::string& file, Mesh& mesh, Subdomain_names& subdomain_names,
+                                   std::string* error = nullptr)
+{
+  using internal::refuse;
+  return internal::is_read(file, error, [&] {
+    std::string extension = std::filesystem::path(file).extension().string();
+    for(char& c : extension)
+      if(c >= 'A' && c <= 'Z')
+        c = char(c - 'A' + 'a');
+    internal::Mesh_input input = internal::read_mesh_input(file, extension);
+    std::vector<typename Mesh::Point_3> points;
+    points.reserve(input.points.size());
+    for(const auto& p : input.points) {
+      for(double x : p)
+        if(!std::isfinite(x))
+          refuse(file,
+                 "vertex " + std::to_string(points.size()) + " has a coordinate that is not a finite number");
+        else if(std::abs(x) > internal::largest_coordinate)
+          refuse(file, "vertex " + std::to_string(points.size())
+                         + " has a coordinate beyond 1e30: volumes and "
+                           "areas of its elements would overflow");
+      points.emplace_back(p[0], p[1], p[2]);
+    }
+    if(input.elements.empty())
+      refuse(file, "has no hexahedra, prisms, pyramids or tetrahedra");
+    Mesh result;
+    result.assign(std::move(points), std::move(input.elements), std::move(input.attributes));
+    mesh = std::move(result);
+    subdomain_names.clear();
+    for(const auto& [index, name] : input.subdomain_names) {
+      const bool is_new = std::none_of(subdomain_names.begin(), subdomain_names.end(),
+                                       [&](const auto& other) {
+                                         return internal::in_upper_case(other.second)
+                                                == internal::in_upper_case(name);
+                                       });
+      if(is_new && internal::is_facet_set_name(name))
+        subdomain_names.emplace(index, name);
+    }
+  });
+}
 
 /*!
 \ingroup PkgMixedMesh3IO
@@ -82,32 +134,8 @@ O(n log n); memory for the file and twice the mesh
 template <class Mesh>
 [[nodiscard]] bool read_mixed_mesh(const std::string& file, Mesh& mesh, std::string* error = nullptr)
 {
-  using internal::refuse;
-  return internal::is_read(file, error, [&] {
-    std::string extension = std::filesystem::path(file).extension().string();
-    for(char& c : extension)
-      if(c >= 'A' && c <= 'Z')
-        c = char(c - 'A' + 'a');
-    internal::Mesh_input input = internal::read_mesh_input(file, extension);
-    std::vector<typename Mesh::Point_3> points;
-    points.reserve(input.points.size());
-    for(const auto& p : input.points) {
-      for(double x : p)
-        if(!std::isfinite(x))
-          refuse(file,
-                 "vertex " + std::to_string(points.size()) + " has a coordinate that is not a finite number");
-        else if(std::abs(x) > internal::largest_coordinate)
-          refuse(file, "vertex " + std::to_string(points.size())
-                         + " has a coordinate beyond 1e30: volumes and "
-                           "areas of its elements would overflow");
-      points.emplace_back(p[0], p[1], p[2]);
-    }
-    if(input.elements.empty())
-      refuse(file, "has no hexahedra, prisms, pyramids or tetrahedra");
-    Mesh result;
-    result.assign(std::move(points), std::move(input.elements), std::move(input.attributes));
-    mesh = std::move(result);
-  });
+  Subdomain_names names;
+  return read_mixed_mesh(file, mesh, names, error);
 }
 
 } // namespace IO

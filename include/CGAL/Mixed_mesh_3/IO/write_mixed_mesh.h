@@ -16,6 +16,7 @@
 #include <CGAL/Mixed_mesh_3/IO/INP.h>
 #include <CGAL/Mixed_mesh_3/IO/MEDIT.h>
 #include <CGAL/Mixed_mesh_3/IO/MSH.h>
+#include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
 #include <CGAL/Mixed_mesh_3/IO/VTU.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Output_file.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
@@ -64,6 +65,8 @@ struct Write_options
   std::vector<Data_array> element_data;
   /// Named faces of elements, in all formats. `Format::MSH_2_2` and `Format::MEDIT` take no face in two sets.
   std::vector<Facet_set> facet_sets = {};
+  /// In all formats but `Format::MSH_2_2` and `Format::MEDIT`, which have no place for them.
+  Subdomain_names subdomain_names = {};
 };
 
 namespace internal {
@@ -93,13 +96,14 @@ template <class Mesh>
 bool write(std::ostream& stream, const Mesh& mesh, Format format, const Write_options& options)
 {
   const std::vector<Facet_set>& sets = options.facet_sets;
+  const Subdomain_names& names = options.subdomain_names;
   switch(format) {
-  case Format::VTU: return write_VTU(stream, mesh, {options.vertex_data, options.element_data, sets});
-  case Format::MSH_4_1: return write_MSH(stream, mesh, MSH_version::V4_1, sets, options.vertex_data);
+  case Format::VTU: return write_VTU(stream, mesh, {options.vertex_data, options.element_data, sets, names});
+  case Format::MSH_4_1: return write_MSH(stream, mesh, MSH_version::V4_1, sets, options.vertex_data, names);
   case Format::MSH_2_2: return write_MSH(stream, mesh, MSH_version::V2_2, sets, options.vertex_data);
   case Format::MEDIT: return write_MEDIT(stream, mesh, sets);
-  case Format::INP: return write_INP(stream, mesh, sets);
-  case Format::FEB: return write_FEB(stream, mesh, sets, options.vertex_data);
+  case Format::INP: return write_INP(stream, mesh, sets, names);
+  case Format::FEB: return write_FEB(stream, mesh, sets, options.vertex_data, names);
   }
   return false;
 }
@@ -253,6 +257,10 @@ template <class Mesh>
   const std::string defect = internal::facet_set_defect(mesh, options.facet_sets, has_one_number);
   if(!defect.empty())
     return refused(defect);
+  const std::string defect_of_names = internal::subdomain_name_defect(options.subdomain_names,
+                                                                      options.facet_sets);
+  if(!defect_of_names.empty())
+    return refused(defect_of_names);
 
   if(options.tetrahedra) {
     std::vector<Element_index> origins;

@@ -12,6 +12,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/element_names.h>
@@ -23,6 +24,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -131,6 +133,22 @@ public:
   const std::vector<Element_block>& blocks() const { return m_blocks; }
   auto begin() const { return m_blocks.begin(); }
   auto end() const { return m_blocks.end(); }
+
+  /// Of each subdomain with elements that has a name: the name, and its parts.
+  std::vector<std::pair<std::string, std::vector<std::size_t>>>
+  named_parts(const Subdomain_names& names) const
+  {
+    std::vector<std::pair<std::string, std::vector<std::size_t>>> result;
+    for(const auto& [index, name] : names) {
+      std::vector<std::size_t> parts;
+      for(std::size_t part = 0; part < m_parts.size(); ++part)
+        if(m_parts[part].attributes.subdomain_index == index)
+          parts.push_back(part);
+      if(!parts.empty())
+        result.emplace_back(name, parts);
+    }
+    return result;
+  }
 
   int tag(std::size_t part) const
   {

@@ -13,6 +13,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
@@ -43,6 +44,7 @@ struct Mesh_input
   std::vector<Mixed_meshes_3::Vec3> points;
   Element_list elements;
   std::vector<Element_attributes> attributes;
+  Subdomain_names subdomain_names;
 };
 
 // Vertices and elements are counted in 32 bits, with one value to spare.

@@ -346,6 +346,28 @@ protected:
     return n;
   }
 
+  // How many bytes an array of strings has; 0 if they are compressed, which is not for us.
+  std::uint64_t size_of_text(const Array& array) const
+  {
+    std::uint64_t size = 0;
+    if(format_of(array) == "ascii") {
+      for(Text_input in(array.text); !in.word().empty();)
+        ++size;
+      return size;
+    }
+    if(m_is_compressed)
+      return 0;
+    std::string_view text = array.text;
+    if(format_of(array) == "appended") {
+      const std::uint64_t offset = number(array.tag, "offset");
+      if(!m_has_appended || offset > m_appended.size())
+        refuse_array(array, "is truncated");
+      text = m_appended.substr(std::size_t(offset));
+    }
+    Encoded_bytes in(text, format_of(array) == "binary" || m_is_base64);
+    return header_word(array, in);
+  }
+
   // `Value`: double, or std::int64_t for integers only; those beyond its range become negative.
   template <class Value>
   std::vector<Value> values(const Piece& piece, const char* section, const char* name, std::uint64_t count)

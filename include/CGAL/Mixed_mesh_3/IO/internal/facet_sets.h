@@ -13,12 +13,14 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
+#include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,31 +30,18 @@ namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
 
-inline bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-
-/// Not all programs distinguish upper and lower case.
-inline std::string in_upper_case(std::string name)
+/// What is wrong with names of subdomains, beside facet sets; empty if nothing is.
+inline std::string subdomain_name_defect(const Subdomain_names& subdomain_names,
+                                         const std::vector<Facet_set>& sets)
 {
-  for(char& c : name)
-    c = c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
-  return name;
-}
-
-/// Whether all formats can have it beside the names that writers give.
-inline bool is_facet_set_name(const std::string& name)
-{
-  const auto is_allowed = [](char c) {
-    return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  };
-  const std::string upper = in_upper_case(name);
-  bool is_free = true;
-  for(const char* used : {"ALL", "BOUNDARY", "REGION", "REST"})
-    is_free = is_free && upper != used;
-  for(const char* begin : {"SUBDOMAIN_", "REGION_", "REST_"})
-    is_free = is_free && upper.rfind(begin, 0) != 0;
-  constexpr std::size_t longest = 60;
-  return is_free && !name.empty() && name.size() <= longest && is_letter(name.front())
-         && std::all_of(name.begin(), name.end(), is_allowed);
+  std::set<std::string> names;
+  for(const Facet_set& set : sets)
+    names.insert(in_upper_case(set.name));
+  for(const auto& [index, name] : subdomain_names)
+    if(!is_facet_set_name(name) || !names.insert(in_upper_case(name)).second)
+      return "the subdomain " + std::to_string(index) + " has the name \"" + name
+             + "\", which cannot be written, or is there twice";
+  return std::string();
 }
 
 /// Whether they are faces of the mesh, each there once.

@@ -21,6 +21,7 @@
 #include <cstdint>
 #include <numeric>
 #include <map>
+#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -49,6 +50,7 @@ class MSH_reader
   bool m_is_version_4 = false, m_is_binary = false, m_has_nodes = false, m_has_elements = false;
   std::map<std::int64_t, Element_attributes> m_groups;  // of physical groups of volumes with names of ours
   std::map<std::int32_t, Element_attributes> m_volumes; // version 4 only
+  std::map<std::int64_t, std::string> m_names;          // of other physical groups of volumes
   std::vector<std::int64_t> m_node_tags;                // increasing
   std::vector<std::int64_t> m_element_tags;
   Mesh_input m_mesh;
@@ -146,8 +148,11 @@ class MSH_reader
       const std::size_t end = rest.substr(0, 1) == "\"" ? rest.find('"', 1) : std::string_view::npos;
       if(end == std::string_view::npos)
         refuse("is damaged or truncated in " + m_section);
-      if(const auto part = Part::named(rest.substr(1, end - 1)); part && dimension == 3)
+      const std::string_view name = rest.substr(1, end - 1);
+      if(const auto part = Part::named(name); part && dimension == 3)
         m_groups.emplace(tag, part->attributes);
+      else if(dimension == 3)
+        m_names.emplace(tag, name);
       m_in.skip(end + 1);
     }
   }
@@ -175,10 +180,19 @@ class MSH_reader
         for(int i = 0; i < (dimension == 0 ? 3 : 6); ++i) // a point or a box
           get<double>();
         Element_attributes attributes;
-        for(std::size_t groups = checked(get_tag(), 1); groups != 0; --groups)
-          add_group(get_int(), attributes);
+        bool is_ours = false; // then another group is the subdomain with its name
+        std::vector<std::string> names;
+        for(std::size_t groups = checked(get_tag(), 1); groups != 0; --groups) {
+          const std::int64_t group = std::abs(std::int64_t(get_int()));
+          add_group(group, attributes);
+          is_ours = is_ours || m_groups.count(group) != 0;
+          if(const auto named = m_names.find(group); named != m_names.end())
+            names.push_back(named->second);
+        }
         if(dimension == 3)
           m_volumes[tag] = attributes;
+        if(dimension == 3 && is_ours && names.size() == 1)
+          m_mesh.subdomain_names.emplace(attributes.subdomain_index, names.front());
         if(dimension != 0) // what bounds it
           for(std::size_t entities = checked(get_tag(), 1); entities != 0; --entities)
             get_int();

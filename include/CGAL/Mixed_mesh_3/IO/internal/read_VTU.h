@@ -126,6 +126,26 @@ class VTU_reader : VTK_XML_reader
     }
   }
 
+  void read_subdomain_names(Mesh_input& mesh)
+  {
+    const Array* const array = file().array("FieldData", "subdomain_names");
+    if(array == nullptr)
+      return;
+    std::vector<std::string> names(1);
+    for(std::int64_t c : values<std::int64_t>(file(), "FieldData", "subdomain_names", size_of_text(*array)))
+      if(c != 0)
+        names.back() += char(c);
+      else
+        names.emplace_back();
+    names.pop_back();
+    const auto indices = values<std::int64_t>(file(), "FieldData", "subdomain_indices", names.size());
+    for(std::size_t i = 0; i < names.size(); ++i) {
+      if(indices[i] < 1 || indices[i] > (std::numeric_limits<Subdomain_index>::max)())
+        refuse("its array \"subdomain_indices\" has a number that is no positive integer");
+      mesh.subdomain_names.emplace(Subdomain_index(indices[i]), names[i]);
+    }
+  }
+
 public:
   VTU_reader(const std::string& path, const std::string& bytes)
     : VTK_XML_reader(path, bytes, "UnstructuredGrid")
@@ -137,6 +157,7 @@ public:
     Mesh_input mesh;
     for(const Piece& piece : pieces())
       read_piece(piece, mesh);
+    read_subdomain_names(mesh);
     return mesh;
   }
 };

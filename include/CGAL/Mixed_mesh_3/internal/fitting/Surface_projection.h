@@ -34,11 +34,11 @@ class Surface_projection
   const Domain* m_domain;
   const Strata* m_strata;
   const Sharp_features* m_features = nullptr;
+  int m_maximal_number_of_cycles = 20;
   // On the surface of each interface, by its first subdomain and whether it is to the outside, what was found
   // last: one query is near to the one before, mostly. Of several subdomains.
   mutable std::map<std::pair<Subdomain_index, bool>, Vec3> m_last;
 
-  static constexpr int maximal_number_of_cycles = 20;
   static constexpr double accuracy = 1e-9;      // in diagonals of the domain
   static constexpr double least_progress = 0.7; // surfaces that do not meet there are given up soon
 
@@ -51,6 +51,10 @@ public:
   /// Strata from `first_sharp_stratum` on are on those polylines, or at those corners, then. To be kept by
   /// the caller.
   void set_features(const Sharp_features& features) { m_features = &features; }
+
+  /// Where several interfaces meet, one cycle of projections does from now on: what is found is near the place
+  /// where they do, rather than there. For estimates.
+  void set_approximate() { m_maximal_number_of_cycles = 1; }
 
   Vec3 operator()(const Vec3& p, Stratum stratum) const
   {
@@ -155,7 +159,7 @@ private:
   {
     Vec3 p = closest(start, interfaces[0]);
     double last = std::numeric_limits<double>::infinity();
-    for(int cycle = 0; cycle < maximal_number_of_cycles; ++cycle) {
+    for(int cycle = 0; cycle < m_maximal_number_of_cycles; ++cycle) {
       Vec3 q = p;
       for(auto i = interfaces.begin() + 1; i != interfaces.end(); ++i)
         q = closest(q, *i);
@@ -170,6 +174,8 @@ private:
       // steep angles only: where surfaces touch, it would lead far away
       p = closest(share > 0.05 ? p + (1 / share) * (back - p) : back, interfaces[0]);
     }
+    if(m_maximal_number_of_cycles == 1)
+      return p;
     Vec3 sum{};
     for(const Interface& i : interfaces)
       sum = sum + closest(start, i);

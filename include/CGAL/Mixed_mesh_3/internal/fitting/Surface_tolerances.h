@@ -15,10 +15,16 @@
 #include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Spatial_sort_traits_adapter_3.h>
+#include <CGAL/hilbert_sort.h>
+#include <CGAL/property_map.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -92,10 +98,31 @@ public:
       for(Subdomain_index index : indices)
         add(domain.surface_samples((std::max)(2 * (*this)(index), least_spacing(index)), index),
             (*this)(index));
+      // queries about one after the other are faster where they are near
+      if(indices.size() > 2)
+        sort_along_curve(result);
     } else {
       add(domain.surface_samples((std::max)(2 * m_tolerance, least_spacing(1))), m_tolerance);
     }
     return result;
+  }
+
+private:
+  static void sort_along_curve(std::vector<Surface_sample>& samples)
+  {
+    using Kernel = CGAL::Simple_cartesian<double>;
+    std::vector<std::pair<Kernel::Point_3, std::size_t>> numbered;
+    for(std::size_t i = 0; i < samples.size(); ++i)
+      numbered.emplace_back(Kernel::Point_3(samples[i].point[0], samples[i].point[1], samples[i].point[2]),
+                            i);
+    using Map = CGAL::First_of_pair_property_map<std::pair<Kernel::Point_3, std::size_t>>;
+    CGAL::hilbert_sort(numbered.begin(), numbered.end(),
+                       CGAL::Spatial_sort_traits_adapter_3<Kernel, Map>(Map()),
+                       CGAL::Hilbert_sort_middle_policy());
+    std::vector<Surface_sample> sorted;
+    for(const auto& [point, i] : numbered)
+      sorted.push_back(samples[i]);
+    samples = std::move(sorted);
   }
 };
 

@@ -136,15 +136,17 @@ The target of each boundary vertex.
 \param closest as `Surface_projection`
 \param strata of all vertices
 \param starts of all vertices, the points to be projected, if these are others
+\param maximal_number_of_rounds of sliding
+
 \par Complexity
 One query per boundary vertex, and one for each vertex of a folded face in each round
 */
 template <class Project>
 Surface_targets surface_targets(const std::vector<Face>& boundary, const std::vector<Vec3>& points,
                                 const Project& closest, const std::vector<Stratum>& strata,
-                                const std::vector<Vec3>& starts = {})
+                                const std::vector<Vec3>& starts = {}, int maximal_number_of_rounds = 100)
 {
-  constexpr int maximal_number_of_rounds = 100, rounds_until_wider = 10;
+  constexpr int rounds_until_wider = 10;
 
   // Number the boundary vertices.
   Surface_targets result;

@@ -1,0 +1,162 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Names of subdomains: what mixed_mesh_3 writes, VTK and Gmsh read, and brain_shift understands.
+
+  test_subdomain_names.py MESHER SHIFT WORK_DIRECTORY
+"""
+
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+
+MESHER, SHIFT, WORK = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
+
+try:
+    import gmsh
+    import numpy as np
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+except ImportError as error:
+    print("skipped:", error)
+    sys.exit(77)
+
+NAMES = {1: "box", 2: "tumor", 3: "Left-Ventricle"}
+FACES = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+
+
+def box(name, low, high):
+    """Its file, with triangles."""
+    corners = [[(low, high)[i >> k & 1][k] for k in range(3)] for i in range(8)]
+    triangles = [(f[0], f[i], f[i + 1]) for f in FACES for i in (1, 2)]
+    lines = ["OFF", f"8 {len(triangles)} 0", *(" ".join(map(str, p)) for p in corners),
+             *("3 %d %d %d" % t for t in triangles)]
+    (WORK / name).write_text("\n".join(lines) + "\n")
+    return WORK / name
+
+
+class Test(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        shutil.rmtree(WORK, ignore_errors=True)
+        WORK.mkdir(parents=True)
+        cls.files = {end: WORK / f"mesh.{end}" for end in ("vtu", "msh", "inp", "feb", "mesh")}
+        outputs = [word for file in cls.files.values() for word in ("--output", file)]
+        subprocess.run([MESHER, box("box.off", (0, 0, 0), (60, 50, 40)), "--subdomain",
+                        f"tumor={box('a.off', (8, 8, 8), (22, 22, 22))}", "--subdomain",
+                        f"Left-Ventricle={box('b.off', (35, 20, 10), (52, 40, 30))}", "--vertices", "500",
+                        "--report", WORK / "mesh.json", *outputs], check=True, capture_output=True)
+        told = json.loads((WORK / "mesh.json").read_text())
+        cls.elements = {s["index"]: s["elements"] for s in told["subdomains"]}
+        (WORK / "points.csv").write_text("x,y,z,dx,dy,dz\n30,25,40,0,0,-0.5\n")
+
+    def numbers_in_vtu(self, path):
+        reader = vtk.vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(path))
+        reader.Update()
+        grid = reader.GetOutput()
+        names = grid.GetFieldData().GetAbstractArray("subdomain_names")
+        indices = vtk_to_numpy(grid.GetFieldData().GetArray("subdomain_indices"))
+        subdomain = vtk_to_numpy(grid.GetCellData().GetArray("subdomain"))
+        self.assertEqual(names.GetNumberOfValues(), len(indices))
+        self.assertEqual({int(n): names.GetValue(i) for i, n in enumerate(indices)}, NAMES)
+        return grid, {n: np.count_nonzero(subdomain == n) for n in NAMES}
+
+    def test_vtk(self):
+        self.assertEqual(self.numbers_in_vtu(self.files["vtu"])[1], self.elements)
+
+    def test_gmsh(self):
+        gmsh.initialize()
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.open(str(self.files["msh"]))
+        found = {}
+        for dimension, tag in gmsh.model.getPhysicalGroups(3):
+            name = gmsh.model.getPhysicalName(dimension, tag)
+            found[name] = sum(len(numbers) for entity in gmsh.model.getEntitiesForPhysicalGroup(3, tag)
+                              for numbers in gmsh.model.mesh.getElements(3, entity)[1])
+        gmsh.finalize()
+        for index, name in NAMES.items():
+            self.assertEqual(found[name], self.elements[index])
+
+    def test_abaqus(self):
+        """Sets of sets."""
+        sets, now = {}, None
+        for line in self.files["inp"].read_text().splitlines():
+            if line.startswith("*"):
+                name = re.search("ELSET=([^,]*)$", line)
+                now = sets.setdefault(name[1], []) if name else None
+            elif now is not None:
+                now.append(line)
+        size = lambda name: sum(size(x) if x in sets else 1 for x in sets[name])
+        for index, name in NAMES.items():
+            self.assertEqual(size(name.upper()), self.elements[index])
+
+    def test_febio(self):
+        import xml.etree.ElementTree as ElementTree
+        mesh = ElementTree.parse(self.files["feb"]).getroot().find("Mesh")
+        elements = {e.get("id"): block.get("name") for block in mesh.iter("Elements") for e in block.iter("elem")}
+        sets = {s.get("name"): s.text.split(",") for s in mesh.iter("ElementSet")}
+        self.assertEqual(set(sets), set(NAMES.values()))
+        for index, name in NAMES.items():
+            self.assertEqual(len(set(sets[name])), self.elements[index])
+            prefix = "re" if index == 1 else f"subdomain_{index}_"
+            self.assertTrue(all(elements[e].startswith(prefix) for e in sets[name]))
+
+    def shift(self, file, *more):
+        command = [SHIFT, file, "--control-points", WORK / "points.csv", "--report", WORK / "shift.json", *more]
+        return subprocess.run(list(map(str, command)), capture_output=True, text=True)
+
+    def test_by_name(self):
+        """As by number, from each format that has names; files written anew have them, too."""
+        told = {}
+        again = WORK / "again.vtu"
+        # as other programs save them
+        grid, _ = self.numbers_in_vtu(self.files["vtu"])
+        copies = {}
+        for mode in ("Ascii", "Binary", "Appended"):
+            writer = vtk.vtkXMLUnstructuredGridWriter()
+            copies[mode] = WORK / f"{mode}.vtu"
+            writer.SetFileName(str(copies[mode]))
+            writer.SetInputData(grid)
+            writer.SetCompressorTypeToNone()
+            getattr(writer, f"SetDataModeTo{mode}")()
+            writer.Write()
+        for label, file in ((2, self.files["vtu"]), ("tumor", self.files["vtu"]), ("tumor", self.files["msh"]),
+                            *(("tumor", copy) for copy in copies.values())):
+            with self.subTest(label=label, file=file):
+                run = self.shift(file, "--material", f"{label}=3000,0.45", "--tumor-label", label, "--output", again)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                report = json.loads((WORK / "shift.json").read_text())
+                told[str(label) + file.name] = [(s["index"], s["name"], s["elements"], s["Young's modulus"])
+                                                for s in report["subdomains"]] + [report["resection"]["cavity volume"]]
+                self.assertEqual(self.numbers_in_vtu(again)[1], self.elements)
+        first = next(iter(told.values()))
+        self.assertEqual([s[1] for s in first[:3]], list(NAMES.values()))
+        self.assertEqual([s[3]["value"] for s in first[:3]], [1, 3000, 1])
+        for values in told.values():
+            self.assertEqual([v[:3] for v in values[:3]], [v[:3] for v in first[:3]])
+            self.assertAlmostEqual(values[3], first[3], delta=1e-9 * first[3])
+
+    def test_bad_names(self):
+        run = self.shift(self.files["vtu"], "--material", "lesion=3,0.45")
+        self.assertEqual(run.returncode, 1)
+        self.assertIn('has no subdomain "lesion", but 1 (box), 2 (tumor), 3 (Left-Ventricle)', run.stderr)
+        run = self.shift(self.files["msh"], "--material", "tumor=3,0.45", "--material", "2=3,0.45")
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("is given two materials", run.stderr)
+        run = self.shift(self.files["mesh"], "--tumor-label", "tumor")  # Medit has no names
+        self.assertEqual(run.returncode, 1)
+        self.assertIn('has no subdomain "tumor", but 1, 2, 3', run.stderr)
+        for names in (["Tumor=", "tumor="], ["region="], ["BOX="], ["subdomain_2="]):
+            options = [word for name in names for word in ("--subdomain", name + str(WORK / "a.off"))]
+            run = subprocess.run([MESHER, WORK / "box.off", "--vertices", "500", *options], capture_output=True,
+                                 text=True)
+            self.assertEqual(run.returncode, 2, run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
