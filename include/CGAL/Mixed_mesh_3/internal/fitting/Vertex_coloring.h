@@ -37,7 +37,8 @@ class Vertex_coloring
   static constexpr Color none = Color(-1);
 
 public:
-  /// \cost proportional to the number of vertices, and of neighbors of those that get a color
+  /// \par Complexity
+  /// Proportional to the number of vertices, and of neighbors of those that get a color
   void update(const Working_mesh& mesh)
   {
     if(m_number_of_elements == mesh.elements.size())
