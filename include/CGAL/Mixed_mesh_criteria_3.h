@@ -170,7 +170,8 @@ public:
   /// The value set, or the default.
   double sharp_angle() const { return m_sharp_angle; }
 
-  /// How many threads answer queries on the surface and move vertices. The mesh does not depend on it. Default: 1.
+  /// How many threads answer queries on the surface and move vertices. The mesh does not depend on it.
+  /// Default: 1.
   /// \pre at least 1
   Mixed_mesh_criteria_3& number_of_threads(unsigned threads)
   {

@@ -52,8 +52,8 @@ public:
   /// the caller.
   void set_features(const Sharp_features& features) { m_features = &features; }
 
-  /// Where several interfaces meet, one cycle of projections does from now on: what is found is near the place
-  /// where they do, rather than there. For estimates.
+  /// Where several interfaces meet, one cycle of projections does from now on: what is found is near the
+  /// place where they do, rather than there. For estimates.
   void set_approximate() { m_maximal_number_of_cycles = 1; }
 
   Vec3 operator()(const Vec3& p, Stratum stratum) const
