@@ -362,7 +362,9 @@ void set_up(CLI::App& app, Options& o)
     ->check(number("greater than 0", [](double x) { return x > 0; }))
     ->type_name("S");
   app.add_flag("--quiet", o.quiet, "Print errors and warnings only");
-  app.add_option("--threads", o.threads, "Threads for queries on the surface and moves of vertices; the mesh is the same")
+  app
+    .add_option("--threads", o.threads,
+                "Threads for queries on the surface and moves of vertices; the mesh is the same")
     ->check(CLI::Range(1, 256))
     ->type_name("T");
   add_algorithm_1(app, o, no_optimize);
