@@ -241,6 +241,15 @@ void test_repeatability(const Polyhedral_mixed_mesh_domain_3& domain,
       first = content(mesh);
     BOOST_TEST(content(mesh) == first);
   }
+  // so large that vertices move by colors; cells without bisections, so that more are moved at a time
+  first = {};
+  for(unsigned threads : {1, 2, 3}) {
+    Mesh mesh;
+    run(domain, region, Mixed_mesh_criteria_3(22000).share_of_bisections(0).number_of_threads(threads), mesh);
+    if(first.points.empty())
+      first = content(mesh);
+    BOOST_TEST(content(mesh) == first);
+  }
 }
 
 template <class MeshKernel, class AnySurface>

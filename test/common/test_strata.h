@@ -54,6 +54,7 @@ struct Test_projection
   Vec3 operator()(const Vec3& p, const Vec3& hint, Stratum) const { return function(p, hint); }
   Vec3 operator()(const Vec3& p, Stratum) const { return function(p, p); }
   bool is_reached(const Vec3&, Stratum) const { return true; }
+  bool is_concurrent(Stratum) const { return true; }
 };
 template <class Function>
 Test_projection(Function) -> Test_projection<Function>;

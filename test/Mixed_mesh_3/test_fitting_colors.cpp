@@ -1,0 +1,133 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Vertices that move by colors: no two of an element at the same time, and the same result with any number of
+// threads.
+
+#include "test_fitting.h"
+#include "test_strata.h"
+
+#include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_coloring.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_optimizer.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+
+#include <boost/core/lightweight_test.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <random>
+#include <vector>
+
+namespace {
+
+using namespace CGAL::Mixed_meshes_3;
+using internal::Vertex_coloring;
+using internal::Working_mesh;
+
+// Cubes whose vertices were moved a little, those of the boundary as well.
+Working_mesh shaken_cubes(int n)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-0.2, 0.2);
+  Mesh mesh;
+  const auto vertex = [n](int i, int j, int k) {
+    return Vertex_index(std::size_t(i + (n + 1) * (j + (n + 1) * k)));
+  };
+  for(int k = 0; k <= n; ++k)
+    for(int j = 0; j <= n; ++j)
+      for(int i = 0; i <= n; ++i) {
+        const double x = i + uniform(random), y = j + uniform(random), z = k + uniform(random);
+        mesh.add_vertex(Mesh::Point_3(x, y, z));
+      }
+  for(int k = 0; k < n; ++k)
+    for(int j = 0; j < n; ++j)
+      for(int i = 0; i < n; ++i)
+        mesh.add_element(HEXAHEDRON, {vertex(i, j, k), vertex(i + 1, j, k), vertex(i + 1, j + 1, k),
+                                      vertex(i, j + 1, k), vertex(i, j, k + 1), vertex(i + 1, j, k + 1),
+                                      vertex(i + 1, j + 1, k + 1), vertex(i, j + 1, k + 1)});
+  return working_mesh(mesh, boundary_faces(mesh));
+}
+
+// Each vertex has one color, and no two of an element have the same.
+void check_colors(const Working_mesh& mesh, const Vertex_coloring& coloring)
+{
+  std::vector<std::size_t> color_of(mesh.points.size(), coloring.vertices().size());
+  for(std::size_t color = 0; color < coloring.vertices().size(); ++color) {
+    const std::vector<Vertex_index>& vertices = coloring.vertices()[color];
+    BOOST_TEST(!vertices.empty() && std::is_sorted(vertices.begin(), vertices.end()));
+    for(Vertex_index v : vertices) {
+      BOOST_TEST_EQ(color_of[v], coloring.vertices().size());
+      color_of[v] = color;
+    }
+  }
+  for(const Working_mesh::Element& element : mesh.elements)
+    if(!element.is_removed)
+      for(const Vertex_index* v = element.begin(); v != element.end(); ++v)
+        BOOST_TEST(
+          color_of[*v] < coloring.vertices().size()
+          && std::none_of(element.begin(), v, [&](Vertex_index u) { return color_of[u] == color_of[*v]; }));
+}
+
+void test_coloring()
+{
+  Working_mesh mesh = shaken_cubes(5);
+  Vertex_coloring coloring;
+  coloring.update(mesh);
+  check_colors(mesh, coloring);
+  BOOST_TEST_EQ(coloring.vertices().size(), 8u); // every other one in three directions
+
+  // new elements between vertices of the same color, and a new vertex
+  const Vertex_index middle = mesh.add_vertex({2.5, 2.5, 2.5}, internal::free_stratum);
+  std::size_t i = 0;
+  for(const std::vector<Vertex_index>& same : std::vector(coloring.vertices())) {
+    mesh.add({TETRAHEDRON, {}, false, {same[0], same[1], same[2], middle}});
+    mesh.remove(Element_index(i++));
+  }
+  coloring.update(mesh);
+  check_colors(mesh, coloring);
+}
+
+double largest_cost(const Working_mesh& mesh)
+{
+  double largest = 0;
+  for(const Working_mesh::Element& element : mesh.elements)
+    largest = (std::max)(largest, Aspect_ratio_quality_3()(element.kind, mesh.relative_points(element)));
+  return largest;
+}
+
+void test_threads()
+{
+  const Working_mesh start = shaken_cubes(13);
+  const Aspect_ratio_quality_3 quality;
+  const Test_projection project{[](const Vec3& p, const Vec3&) { return p; }};
+  std::vector<Vec3> first;
+  for(unsigned threads : {1, 2, 3, 7, 2}) {
+    Working_mesh mesh = start;
+    internal::Vertex_optimizer optimizer(mesh, quality, project, 1., 1000.);
+    optimizer.use_colors(threads);
+    optimizer.activate_all();
+    optimizer.run(4, 1, 6);
+    for(const Working_mesh::Element& element : mesh.elements)
+      BOOST_TEST(mesh.is_positive(element));
+    BOOST_TEST_LT(largest_cost(mesh), largest_cost(start));
+    for(Vertex_index v = 0; v < mesh.points.size(); ++v)
+      BOOST_TEST(!mesh.is_on_boundary(v) || mesh.points[v] == start.points[v]);
+    if(first.empty())
+      first = mesh.points;
+    BOOST_TEST(mesh.points == first);
+  }
+  BOOST_TEST(first != start.points);
+}
+
+} // namespace
+
+int main()
+{
+  test_coloring();
+  test_threads();
+  return boost::report_errors();
+}
