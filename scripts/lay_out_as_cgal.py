@@ -9,7 +9,7 @@
   FOLDER/Installation/include/CGAL/license/{Mixed_mesh_3,Linear_elasticity_3}.h
 
 Elasticity is a package: whoever meshes for another solver does not want it, and it takes meshes from elsewhere.
-Images are none: CGAL has images of its own, and neither nifti_clib nor zlib. They lie with the programs.
+Images are none: CGAL has images of its own, and does not use nifti_clib. They lie with the programs.
 
 Checked: the notice of each header, with its license and what CGAL's scripts fill in; that headers of a package, and
 no others, include its license; guards that begin with CGAL_ and are different; that names of programs say what

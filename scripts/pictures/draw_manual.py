@@ -54,7 +54,7 @@ PARAMETERS = (
         "parameter_tolerance",
         [
             ("tolerance 30 mm: as without", BUDGET + ["--tolerance", "30"]),
-            ("default tolerance: 4.2 mm", BUDGET),
+            ("default tolerance: 4.1 mm", BUDGET),
             ("tolerance 3 mm", BUDGET + ["--tolerance", "3"]),
         ],
     ),
