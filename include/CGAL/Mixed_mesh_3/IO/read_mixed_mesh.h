@@ -90,7 +90,7 @@ template <class Mesh>
                                          return internal::in_upper_case(other.second)
                                                 == internal::in_upper_case(name);
                                        });
-      if(is_new && internal::is_facet_set_name(name))
+      if(is_new && is_facet_set_name(name))
         subdomain_names.emplace(index, name);
     }
   });
