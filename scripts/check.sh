@@ -12,7 +12,7 @@
 #   doc         the manual, by doxygen; a warning is an error
 #   headers     every header compiles alone, without a warning
 #   layout      the repository as it would lie in CGAL's tree: scripts/lay_out_as_cgal.py; examples and a test
-#               are compiled there, with -Wpedantic, by LAYOUT_COMPILERS (default: g++), also with the CGAL of
+#               are compiled there, with -Wpedantic, by LAYOUT_COMPILERS (default: g++ clang++), also with the CGAL of
 #               CGAL_DIR_61
 #   benchmarks  the benchmarks are built
 #   debug       the examples run with CGAL's assertions and preconditions
@@ -128,7 +128,7 @@ compile_layout() {
   for package in Installation Mixed_mesh_3 Linear_elasticity_3; do
     flags+=("-I$tree/$package/include")
   done
-  for compiler in ${LAYOUT_COMPILERS:-g++}; do
+  for compiler in ${LAYOUT_COMPILERS:-g++ clang++}; do
     for source in "$tree"/*/examples/*/{mixed_mesh_of_a_brain,elasticity_of_brain_shift}.cpp; do
       [[ -f $source ]] || continue # a name for each package
       "$compiler" -std=c++17 -fsyntax-only -Wall -Wextra -Wpedantic -Werror -isystem /usr/include/eigen3 \

@@ -71,7 +71,8 @@ Element sets: `REGION` and `REST` for the elements of subdomain 1 in the region 
 `SUBDOMAIN_2_REGION` and so on for those of other subdomains, each made of one set for each type, such as
 `REGION_C3D8`. Node set: `BOUNDARY`, the vertices of the boundary faces. For each facet set a surface of
 elements with its name in upper case, of element sets such as `NAME_S1`: the elements with their face S1 in
-the set. Subdomains with names are element sets with these in upper case, too. The numbers of nodes and elements are the indices plus 1.
+the set. Subdomains with names are element sets with these in upper case, too. The numbers of nodes and
+elements are the indices plus 1.
 
 \note CalculiX has no pyramids, and Gmsh 4.8 drops them when it reads this format: see
 `split_to_tetrahedra()`.

@@ -159,9 +159,9 @@ find four. Element data: `kind` (the number of the `Element_kind`), `ARC` (the a
 `in_region` (1 or 0), `subdomain` (the subdomain index), `compartment`
 (if there are sheets, see `find_sheet_faces()`), what the options add, and for each facet set
 `facets_` with its name: the number of the element's faces in the set, since a file of elements has no faces
-of their own; a threshold above 0 selects the elements. Field data, if subdomains have names: `subdomain_indices`
-and `subdomain_names`. Nothing of the size of the mesh is allocated but for
-facet sets.
+of their own; a threshold above 0 selects the elements. Field data, if subdomains have
+names: `subdomain_indices` and `subdomain_names`. Nothing of the size of the mesh is allocated but for facet
+sets.
 
 VTK disagrees with itself on wedges. Written in the documented order, as here, their faces look
 outwards and `vtkCellSizeFilter` finds a positive volume, but the Jacobian of the shape functions of

@@ -52,7 +52,11 @@ inline Mesh_input read_mesh_input(const std::string& file, const std::string& ex
 Reads a mesh, as the function below does, and the names of its subdomains: of VTK's and Gmsh's (4.1) formats,
 as `write_mixed_mesh()` writes them. Names that it would not write are left out.
 
+\param file the file
+\param mesh the result; as it was if the file cannot be read or has no element
 \param subdomain_names the names that the file has
+\param error if not null, receives then a line that names the file and the defect
+\return whether all went well
 */
 template <class Mesh>
 [[nodiscard]] bool read_mixed_mesh(const std::string& file, Mesh& mesh, Subdomain_names& subdomain_names,

@@ -705,7 +705,8 @@ private:
           gains[first][std::minmax(v[i], v[(i + 1) % 3])] += gain(v[i], v[(i + 1) % 3], v[(i + 2) % 3],
                                                                   m_boundary.strata[f]);
     }
-    for(const auto& [index, of_edges] : gains) {
+    for(const auto& [subdomain, of_edges] : gains) {
+      const Subdomain_index index = subdomain; // which a lambda may capture
       double loss = -tolerated.at(index);
       std::vector<double> largest;
       for(const auto& [edge, g] : of_edges) {

@@ -230,7 +230,8 @@ private:
     states[start].cost = 0;
     queue.emplace(0, start);
     while(!queue.empty()) {
-      const auto [cost, n] = queue.top();
+      const double cost = queue.top().first;
+      const Node n = queue.top().second;
       queue.pop();
       const State state = states.at(n);
       if(cost > state.cost)
