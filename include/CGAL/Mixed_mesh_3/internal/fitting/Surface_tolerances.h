@@ -46,16 +46,18 @@ loses is in proportion to its area times \f$ n^{-2/3} \f$, and area by volume is
 class Surface_tolerances
 {
   double m_tolerance;
+  std::size_t m_number_of_vertices;
   std::map<Subdomain_index, double> m_smaller;
 
   // With less, the parts of a brain would take cells that its surface and the region lack.
   static constexpr double share_of_chord = 3;
+  // More than about ten samples of a face find nothing more; a few subdomains have fewer.
+  static constexpr std::size_t samples_per_vertex = 20, least_samples = 50000;
 
 public:
   template <class Domain>
-  Surface_tolerances([[maybe_unused]] const Domain& domain, double tolerance,
-                     [[maybe_unused]] std::size_t number_of_vertices)
-    : m_tolerance(tolerance)
+  Surface_tolerances([[maybe_unused]] const Domain& domain, double tolerance, std::size_t number_of_vertices)
+    : m_tolerance(tolerance), m_number_of_vertices(number_of_vertices)
   {
     if constexpr(Is_labeled_domain<Domain>::value)
       for(Subdomain_index index : domain.subdomain_indices())
@@ -99,8 +101,10 @@ public:
         add(domain.surface_samples((std::max)(2 * (*this)(index), least_spacing(index)), index),
             (*this)(index));
       // queries about one after the other are faster where they are near
-      if(indices.size() > 2)
+      if(indices.size() > 2) {
         sort_along_curve(result);
+        thin_out(result);
+      }
     } else {
       add(domain.surface_samples((std::max)(2 * m_tolerance, least_spacing(1))), m_tolerance);
     }
@@ -108,6 +112,17 @@ public:
   }
 
 private:
+  // Of many subdomains: evenly, as they are sorted along a curve.
+  void thin_out(std::vector<Surface_sample>& samples) const
+  {
+    const std::size_t most = samples_per_vertex * m_number_of_vertices + least_samples,
+                      step = samples.size() / most + 1;
+    std::size_t n = 0;
+    for(std::size_t i = 0; i < samples.size(); i += step)
+      samples[n++] = samples[i];
+    samples.erase(samples.begin() + std::ptrdiff_t(n), samples.end());
+  }
+
   static void sort_along_curve(std::vector<Surface_sample>& samples)
   {
     using Kernel = CGAL::Simple_cartesian<double>;
