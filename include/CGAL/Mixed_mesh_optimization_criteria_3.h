@@ -126,6 +126,7 @@ public:
     m_number_of_threads = threads;
     return *this;
   }
+  /// The value set, or the default.
   unsigned number_of_threads() const { return m_number_of_threads; }
 
 private:

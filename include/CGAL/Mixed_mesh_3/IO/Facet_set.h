@@ -54,6 +54,7 @@ inline std::string in_upper_case(std::string name)
 
 } // namespace internal
 
+/// \ingroup PkgMixedMesh3IO
 /// Whether all formats can have it beside the names that writers give: see `Facet_set`.
 inline bool is_facet_set_name(const std::string& name)
 {

@@ -48,6 +48,7 @@ struct VTU_options
   std::vector<Data_array> element_data;
   /// Named faces of elements.
   std::vector<Facet_set> facet_sets = {};
+  /// Names of subdomains; those without elements are not written.
   Subdomain_names subdomain_names = {};
 };
 

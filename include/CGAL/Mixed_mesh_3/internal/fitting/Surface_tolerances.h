@@ -51,7 +51,7 @@ class Surface_tolerances
 
   // With less, the parts of a brain would take cells that its surface and the region lack.
   static constexpr double share_of_chord = 3;
-  // More than about ten samples of a face find nothing more; a few subdomains have fewer.
+  // About ten samples of a face are enough; a few subdomains have fewer.
   static constexpr std::size_t samples_per_vertex = 20, least_samples = 50000;
 
 public:
