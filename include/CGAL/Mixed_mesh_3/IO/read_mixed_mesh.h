@@ -88,14 +88,14 @@ template <class Mesh>
     result.assign(std::move(points), std::move(input.elements), std::move(input.attributes));
     mesh = std::move(result);
     subdomain_names.clear();
-    for(const auto& [index, name] : input.subdomain_names) {
+    for(const auto& named : input.subdomain_names) {
+      const std::string upper = internal::in_upper_case(named.second);
       const bool is_new = std::none_of(subdomain_names.begin(), subdomain_names.end(),
                                        [&](const auto& other) {
-                                         return internal::in_upper_case(other.second)
-                                                == internal::in_upper_case(name);
+                                         return internal::in_upper_case(other.second) == upper;
                                        });
-      if(is_new && is_facet_set_name(name))
-        subdomain_names.emplace(index, name);
+      if(is_new && is_facet_set_name(named.second))
+        subdomain_names.insert(named);
     }
   });
 }
