@@ -20,7 +20,7 @@ namespace Mixed_meshes_3 {
 namespace IO {
 
 /*!
-\ingroup PkgMixedMesh3Ref
+\ingroup PkgMixedMesh3IO
 
 \brief What subdomains are called in files: "tumor", say.
 
