@@ -15,6 +15,7 @@
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/for_each_face.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/manifold_defects.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 
 #include <algorithm>
@@ -68,38 +69,18 @@ public:
   void operator()(Subdomain_interface& one) const
   {
     std::map<Edge, std::array<int, 2>> edges; // how often in each direction
-    std::map<Vertex_index, std::vector<Edge>> links;
+    std::vector<Face_vertices> polygons;
     for(const Face& face : one.faces) {
-      const Face_vertices& v = face.vertices();
-      for(int i = 0; i < v.size(); ++i) {
+      const Face_vertices& v = polygons.emplace_back(face.vertices());
+      for(int i = 0; i < v.size(); ++i)
         ++edges[edge(v, i)][v[i] < v[(i + 1) % v.size()] ? 0 : 1];
-        links[v[i]].emplace_back(v[(i + 1) % v.size()], v[(i + v.size() - 1) % v.size()]);
-      }
     }
     for(const auto& [e, times] : edges) {
       const bool is_inside = times[0] == 1 && times[1] == 1,
                  is_border = times[0] + times[1] == 1 && m_faces_at_edges.at(e) > 2;
       one.number_of_bad_edges += !is_inside && !is_border;
     }
-    for(const auto& [v, around] : links)
-      one.number_of_bad_vertices += !is_one_fan(around);
-  }
-
-private:
-  // Whether the links of the faces around a vertex are connected.
-  static bool is_one_fan(std::vector<Edge> links)
-  {
-    std::vector<Vertex_index> reached{links.back().first, links.back().second};
-    links.pop_back();
-    for(std::size_t i = 0; i < reached.size(); ++i) {
-      const auto touches = [&](const Edge& l) { return l.first == reached[i] || l.second == reached[i]; };
-      const auto rest = std::stable_partition(links.begin(), links.end(),
-                                              [&](const Edge& l) { return !touches(l); });
-      for(auto l = rest; l != links.end(); ++l)
-        reached.push_back(l->first == reached[i] ? l->second : l->first);
-      links.erase(rest, links.end());
-    }
-    return links.empty();
+    one.number_of_bad_vertices = vertices_with_several_fans(polygons).size();
   }
 };
 

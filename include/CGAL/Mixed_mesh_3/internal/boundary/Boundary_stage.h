@@ -31,6 +31,7 @@
 #include <initializer_list>
 #include <iterator>
 #include <map>
+#include <set>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -310,9 +311,15 @@ private:
     subdomains[piece] = a;
   }
 
-  // Those of the whole boundary, and, if there are several subdomains, those of each. All are between
-  // interface vertices.
-  std::pair<Polygons, std::map<Subdomain_rank, Polygons>> boundary_polygons() const
+  struct Boundary_polygons
+  {
+    Polygons whole;
+    std::map<Subdomain_rank, Polygons> of_subdomains;                            // if there are several
+    std::map<std::pair<Subdomain_rank, Subdomain_rank>, Polygons> of_interfaces; // the earlier one first
+  };
+
+  // All are between interface vertices.
+  Boundary_polygons boundary_polygons() const
   {
     struct Piece_face
     {
@@ -335,17 +342,19 @@ private:
       }
     std::sort(faces.begin(), faces.end(),
               [](const Piece_face& a, const Piece_face& b) { return a.key < b.key; });
-    Polygons whole;
-    std::map<Subdomain_rank, Polygons> of_subdomains;
+    Boundary_polygons result;
     for(std::size_t i = 0, n = 0; i < faces.size(); i += n) {
       n = i + 1 < faces.size() && faces[i + 1].key == faces[i].key ? 2 : 1;
       if(n == 1)
-        whole.push_back(faces[i].vertices);
-      if(m_number_of_subdomains > 1 && (n == 1 || faces[i].subdomain != faces[i + 1].subdomain))
+        result.whole.push_back(faces[i].vertices);
+      const Subdomain_rank a = faces[i].subdomain, b = n == 1 ? outside_rank : faces[i + 1].subdomain;
+      if(m_number_of_subdomains > 1 && a != b) {
         for(std::size_t j = i; j < i + n; ++j)
-          of_subdomains[faces[j].subdomain].push_back(faces[j].vertices);
+          result.of_subdomains[faces[j].subdomain].push_back(faces[j].vertices);
+        result.of_interfaces[std::minmax(a, b)].push_back(faces[i].vertices);
+      }
     }
-    return {std::move(whole), std::move(of_subdomains)};
+    return result;
   }
 
   // Of the ends of bad edges, those nearer to the surface.
@@ -359,17 +368,41 @@ private:
     return pinched;
   }
 
-  // Labels pinched vertices: those of the boundary inside, those of a subdomain with the one before it.
+  // Labels pinched vertices: those of the boundary inside, those of a subdomain or of an interface with the
+  // subdomain before it. Those on the rim can not be inside: there, what is around them is labeled.
   bool relabel()
   {
-    const auto [whole, of_subdomains] = boundary_polygons();
-    defects = manifold_defects(whole);
+    const Boundary_polygons polygons = boundary_polygons();
+    defects = manifold_defects(polygons.whole);
     bool changed = false;
-    for(Vertex_index v : pinched_vertices(defects))
-      changed = relabel(v, outside_rank) || changed;
-    for(const auto& [pinched, polygons] : of_subdomains)
-      for(Vertex_index v : pinched_vertices(manifold_defects(polygons)))
-        changed = relabel(v, pinched) || changed;
+    std::set<Vertex_index> on_rim;
+    const auto relabel_each = [&](const std::vector<Vertex_index>& pinched, Subdomain_rank subdomain) {
+      for(Vertex_index v : pinched)
+        if(is_outside_on_rim(v))
+          on_rim.insert(v);
+        else
+          changed = relabel(v, subdomain) || changed;
+    };
+    relabel_each(pinched_vertices(defects), outside_rank);
+    on_rim.clear();
+    for(const auto& [subdomain, its_polygons] : polygons.of_subdomains)
+      relabel_each(pinched_vertices(manifold_defects(its_polygons)), subdomain);
+    if(!changed)
+      for(const auto& [pair, its_polygons] : polygons.of_interfaces)
+        relabel_each(vertices_with_several_fans(its_polygons), pair.second);
+    return changed || relabel_around(on_rim);
+  }
+
+  // With the first subdomain at one of the vertices.
+  bool relabel_around(const std::set<Vertex_index>& vertices)
+  {
+    bool changed = false;
+    for(std::size_t i = 0; i < pieces.size() && !vertices.empty(); ++i)
+      for(Vertex_index v : pieces[i])
+        if(vertices.count(v) > 0)
+          for(Vertex_index w : pieces[i])
+            if(m_mesh.is_inside(w))
+              changed = set_subdomain(w, m_around[v].begin()->first) || changed;
     return changed;
   }
 
@@ -381,7 +414,14 @@ private:
       const auto mine = around.lower_bound(pinched);
       label = mine == around.begin() ? mine->first : std::prev(mine)->first;
     }
-    if((m_mesh.is_on_rim[v] && !m_mesh.is_inside(v)) || m_mesh.subdomain(v) <= label)
+    return set_subdomain(v, label);
+  }
+
+  bool is_outside_on_rim(Vertex_index v) const { return m_mesh.is_on_rim[v] && !m_mesh.is_inside(v); }
+
+  bool set_subdomain(Vertex_index v, Subdomain_rank label)
+  {
+    if(m_mesh.subdomain(v) <= label)
       return false;
     m_mesh.sides[v] = ON_BOUNDED_SIDE;
     m_mesh.subdomains[v] = label;

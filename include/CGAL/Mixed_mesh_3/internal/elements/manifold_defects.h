@@ -18,6 +18,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <tuple>
 #include <vector>
 
@@ -32,6 +33,39 @@ struct Manifold_defects
   std::vector<Vertex_index> vertices;             ///< with more than one fan of polygons around
   bool empty() const { return edges.empty() && vertices.empty(); }
 };
+
+/// Whether the polygons around a vertex are connected by the edges at it.
+/// \param links the vertices after and before it, for each polygon
+inline bool is_one_fan(std::vector<std::array<Vertex_index, 2>> links)
+{
+  std::vector<Vertex_index> reached{links.back()[0], links.back()[1]};
+  links.pop_back();
+  for(std::size_t i = 0; i < reached.size(); ++i) {
+    const auto touches = [&](const auto& l) { return l[0] == reached[i] || l[1] == reached[i]; };
+    const auto rest = std::stable_partition(links.begin(), links.end(),
+                                            [&](const auto& l) { return !touches(l); });
+    for(auto l = rest; l != links.end(); ++l)
+      reached.push_back((*l)[0] == reached[i] ? (*l)[1] : (*l)[0]);
+    links.erase(rest, links.end());
+  }
+  return links.empty();
+}
+
+/// Vertices with more than one fan of polygons around, in a set of polygons that may have a border; ordered.
+/// \par Complexity
+/// O(n log n) for n polygons of which few are around each vertex
+inline std::vector<Vertex_index> vertices_with_several_fans(const std::vector<Face_vertices>& polygons)
+{
+  std::map<Vertex_index, std::vector<std::array<Vertex_index, 2>>> links;
+  for(const Face_vertices& p : polygons)
+    for(int i = 0; i < p.size(); ++i)
+      links[p[i]].push_back({p[(i + 1) % p.size()], p[(i + p.size() - 1) % p.size()]});
+  std::vector<Vertex_index> result;
+  for(const auto& [v, around] : links)
+    if(!is_one_fan(around))
+      result.push_back(v);
+  return result;
+}
 
 /// \par Complexity
 /// O(n log n) for n polygons
