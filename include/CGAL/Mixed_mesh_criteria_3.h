@@ -79,18 +79,22 @@ public:
   /// The share of the budget for bisections: vertices on the surface that the optimization inserts at the
   /// middles of boundary edges. Each costs one vertex, where an octree cell costs 8 to 19. Without
   /// `fit_to_surface()`, so many vertices are left over, for a later `optimize_mixed_mesh_3()`. 0: none is
-  /// bisected, even if the octree leaves vertices over. Default: 0.08, or 0 without `fit_to_surface()`.
-  /// \pre `automatic`, or in [0, 0.5]
+  /// bisected, even if the octree leaves vertices over. Default: 0.08, or 0.12 with subdomains within others,
+  /// which lose most; 0 without `fit_to_surface()`. \pre `automatic`, or in [0, 0.5]
   Mixed_mesh_criteria_3& share_of_bisections(double share)
   {
     CGAL_precondition(share == automatic || (share >= 0 && share <= 0.5));
     m_share_of_bisections = share;
     return *this;
   }
+  /// The value set, or the default for one subdomain.
+  double share_of_bisections() const { return share_of_bisections_for(1); }
   /// The value set, or the default.
-  double share_of_bisections() const
+  double share_of_bisections_for(std::size_t number_of_subdomains) const
   {
-    return m_share_of_bisections != automatic ? m_share_of_bisections : m_fit_to_surface ? 0.08 : 0;
+    if(m_share_of_bisections != automatic)
+      return m_share_of_bisections;
+    return !m_fit_to_surface ? 0 : number_of_subdomains > 1 ? 0.12 : 0.08;
   }
 
   /// The shape of the root, hence of all cells. Default: a cube.

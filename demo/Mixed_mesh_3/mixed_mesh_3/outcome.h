@@ -117,7 +117,7 @@ struct Interface_outcome
   std::string first, second;
   std::size_t faces = 0, vertices = 0, vertices_off = 0, bad_edges = 0, bad_vertices = 0;
   double area = 0;
-  bool is_manifold = true;
+  bool is_manifold = true, is_of_boundary = false;
 };
 
 /// A surface inside that need not enclose anything, and the faces of the mesh on it.

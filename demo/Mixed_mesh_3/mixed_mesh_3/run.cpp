@@ -245,7 +245,8 @@ Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3
                     .thin_parts(thin_parts)
                     .number_of_threads(o.threads)
                     .keep_mesh_if_stopped(true);
-  criteria.share_of_bisections(criteria.share_of_bisections()).fit_to_surface(false);
+  criteria.share_of_bisections(criteria.share_of_bisections_for(domain.subdomain_indices().size()))
+    .fit_to_surface(false);
   if(o.tolerance > 0)
     criteria.tolerance(o.tolerance);
   Mesh mesh;

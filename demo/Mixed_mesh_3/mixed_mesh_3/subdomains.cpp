@@ -105,15 +105,29 @@ void warn_of(const Subdomain_outcome& s, const Options& o, std::vector<std::stri
                        + " than its surface encloses; try more vertices");
 }
 
-void warn_of(const Interface_outcome& i, std::vector<std::string>& warnings)
+void warn_of(const std::vector<Interface_outcome>& interfaces, std::vector<std::string>& warnings)
 {
-  const std::string named = "the interface between " + i.first + " and " + i.second;
-  if(!i.is_manifold)
-    warnings.push_back(named + " is no manifold: " + std::to_string(i.bad_edges) + " edges and "
-                       + std::to_string(i.bad_vertices) + " vertices where it touches itself");
-  if(i.vertices_off > 0)
-    warnings.push_back(std::to_string(i.vertices_off) + " of " + std::to_string(i.vertices) + " vertices of "
-                       + named + " are not on its surface");
+  constexpr std::size_t most = 10; // of many labels, nearly all interfaces have some vertices off
+  const auto named = [](const Interface_outcome& i) {
+    return "the interface between " + i.first + " and " + i.second;
+  };
+  std::vector<const Interface_outcome*> off; // within; others are boundary vertices
+  for(const Interface_outcome& i : interfaces) {
+    if(!i.is_manifold)
+      warnings.push_back(named(i) + " is no manifold: " + std::to_string(i.bad_edges) + " edges and "
+                         + std::to_string(i.bad_vertices) + " vertices where it touches itself");
+    if(!i.is_of_boundary && i.vertices_off > 0)
+      off.push_back(&i);
+  }
+  std::stable_sort(off.begin(), off.end(), [](const Interface_outcome* a, const Interface_outcome* b) {
+    return a->vertices_off > b->vertices_off;
+  });
+  for(std::size_t i = 0; i < (std::min)(most, off.size()); ++i)
+    warnings.push_back(std::to_string(off[i]->vertices_off) + " of " + std::to_string(off[i]->vertices)
+                       + " vertices of " + named(*off[i]) + " are not on its surface");
+  if(off.size() > most)
+    warnings.push_back(std::to_string(off.size() - most)
+                       + " interfaces more have vertices that are not on their surfaces, see the report");
 }
 
 } // namespace
@@ -178,11 +192,11 @@ void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vecto
                               one.number_of_bad_edges,
                               one.number_of_bad_vertices,
                               one.area,
-                              one.is_manifold()};
-    if(one.second != 0 || !i.is_manifold)
-      warn_of(i, outcome.warnings);
+                              one.is_manifold(),
+                              one.second == 0};
     outcome.interfaces.push_back(i);
   }
+  warn_of(outcome.interfaces, outcome.warnings);
 }
 
 std::vector<mm3::IO::Facet_set> interfaces_of(const Mesh& mesh, const std::vector<Subdomain>& subdomains)

@@ -210,11 +210,16 @@ private:
       }
   }
 
+  double share_of_bisections() const
+  {
+    return m_criteria.share_of_bisections_for(subdomain_indices(m_root.domain()).size());
+  }
+
   // What the octree may have; the rest is for the optimization.
   std::size_t budget() const
   {
     const std::size_t n = m_criteria.maximal_number_of_vertices();
-    return n - std::size_t(m_criteria.share_of_bisections() * double(n));
+    return n - std::size_t(share_of_bisections() * double(n));
   }
 
   // Smaller ones take too many vertices from the region, larger ones leave furrows unresolved: with 0.42,
@@ -237,7 +242,7 @@ private:
                             .quality_bound(m_criteria.quality_bound())
                             .sharp_angle(m_criteria.sharp_angle())
                             .number_of_threads(m_criteria.number_of_threads())
-                            .number_of_bisections(m_criteria.share_of_bisections() > 0 ? rest : 0);
+                            .number_of_bisections(share_of_bisections() > 0 ? rest : 0);
     const Aspect_ratio_quality_3 quality;
     Bounded_optimization optimize(mesh, m_root.domain(), criteria, quality);
     m_result.optimization = optimize([this] { return m_visitor.go_on(); });

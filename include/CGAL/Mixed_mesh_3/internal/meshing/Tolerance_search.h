@@ -60,7 +60,6 @@ class Tolerance_search
   Visitor& m_visitor;
   Mixed_mesh_result_3& m_result;
   const bool m_has_subdomains;
-  const bool m_spares_region; // whether cells in it are left to what follows
   std::vector<Surface_sample> m_samples;
   std::vector<std::vector<Vec3>> m_far_points; // of the surface, where cells are split
   bool m_is_stopped = false;                   // by the visitor
@@ -72,8 +71,7 @@ public:
   Tolerance_search(const Octree_& root, const Mixed_mesh_criteria_3& criteria, Visitor& visitor,
                    Mixed_mesh_result_3& result)
     : m_root(root), m_criteria(criteria), m_visitor(visitor), m_result(result),
-      m_has_subdomains(subdomain_indices(root.domain()).size() > 1),
-      m_spares_region(!m_has_subdomains || !root.is_region_everywhere())
+      m_has_subdomains(subdomain_indices(root.domain()).size() > 1)
   {
   }
 
@@ -91,14 +89,14 @@ public:
       run(m_has_subdomains ? largest_share_of_subdomains : largest_share);
   }
 
-  /// One level more around each far point, outside the region, round by round.
+  /// One level more around each far point, round by round.
   void split_far_cells(Octree_& octree) const
   {
     for(const std::vector<Vec3>& points : m_far_points) {
       std::vector<Octree::Node_index> leaves;
       for(const Vec3& p : points) {
         const Octree::Node_index n = octree.leaf_at(Predicates_kernel::Point_3(p[0], p[1], p[2]));
-        if(octree.is_alive(n) && !(m_spares_region && octree.is_in_region(n))
+        if(octree.is_alive(n) && (m_has_subdomains || !octree.is_in_region(n))
            && octree.octree().level(n) < Octree::max_level)
           leaves.push_back(n);
       }
@@ -114,8 +112,10 @@ private:
     const double limit = share * double(m_criteria.maximal_number_of_vertices());
     m_samples = tolerances().samples(m_root.domain(),
                                      [this](Subdomain_index) { return m_result.tolerance / 2; });
-    const auto is_in_region = [&](const Surface_sample& s) { // where cells are split anyway
-      return m_spares_region && m_root.region().depth({s.point[0], s.point[1], s.point[2]}) >= 0;
+    // where cells are split anyway, but maybe not as much as small parts need it
+    const bool spares_region = !m_has_subdomains || !(m_only_parts || m_root.is_region_everywhere());
+    const auto is_in_region = [&](const Surface_sample& s) {
+      return spares_region && m_root.region().depth({s.point[0], s.point[1], s.point[2]}) >= 0;
     };
     m_samples.erase(std::remove_if(m_samples.begin(), m_samples.end(), is_in_region), m_samples.end());
     Octree_ octree = m_root;
@@ -230,7 +230,7 @@ private:
       return Outcome::TOO_MANY;
     };
     if(m_has_subdomains)
-      return split_subdomains(estimate, try_beyond);
+      return split_subdomains(estimate, try_beyond, octree, candidate);
     const bool is_wish = m_criteria.tolerance() == Mixed_mesh_criteria_3::automatic;
     for(const double* multiple = is_wish ? std::begin(multiples_of_wish) : std::begin(multiples);
         multiple != (is_wish ? std::end(multiples_of_wish) : std::end(multiples)); ++multiple)
@@ -242,7 +242,8 @@ private:
   // The tolerances of small subdomains are so small that all of their surface may be far: how far is too far
   // is searched for, by bisection.
   template <class Try>
-  bool split_subdomains(const Estimate& estimate, const Try& try_beyond)
+  bool split_subdomains(const Estimate& estimate, const Try& try_beyond, Octree_& octree,
+                        Candidate& candidate)
   {
     if(estimate.far_points.empty())
       return false;
@@ -265,6 +266,8 @@ private:
     if(best.empty())
       return false;
     m_far_points.push_back(std::move(best));
+    octree = m_root;
+    candidate = try_base_octree(octree); // the last trial may have been too much
     return true;
   }
 };
