@@ -45,8 +45,13 @@ find_package(CGAL REQUIRED)
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.2.0 QUIET CONFIG)
 include(CGAL_Eigen3_support)
+find_package(TBB QUIET)
+include(CGAL_TBB_support)
 
 link_libraries(Threads::Threads)
+if(TARGET CGAL::TBB_support)
+  link_libraries(CGAL::TBB_support)
+endif()
 add_definitions(-DMIXED_MESH_3_DATA_DIR="${{CMAKE_CURRENT_SOURCE_DIR}}/data")
 {programs}
 """

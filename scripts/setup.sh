@@ -21,7 +21,7 @@ packages_for() {
   case $1 in
     build) echo g++ cmake ninja-build libcgal-dev libcli11-dev nlohmann-json3-dev \
                 libboost-dev libgmp-dev libmpfr-dev libeigen3-dev libsuitesparse-dev libnifti2-dev \
-                zlib1g-dev \
+                zlib1g-dev libtbb-dev \
                 libopenblas0-serial ;; # several times faster than the reference BLAS, for CHOLMOD
     # VTK opens an X display even to render off-screen: Xvfb and Mesa's software renderer provide it.
     pictures) echo python3-vtk9 xvfb libgl1-mesa-dri ;;

@@ -174,18 +174,6 @@ public:
   /// The value set, or the default.
   double sharp_angle() const { return m_sharp_angle; }
 
-  /// How many threads answer queries on the surface and move vertices. The mesh does not depend on it.
-  /// Default: 1.
-  /// \pre at least 1
-  Mixed_mesh_criteria_3& number_of_threads(unsigned threads)
-  {
-    CGAL_precondition(threads > 0);
-    m_number_of_threads = threads;
-    return *this;
-  }
-  /// The value set, or the default.
-  unsigned number_of_threads() const { return m_number_of_threads; }
-
   /// Whether thin walls and narrow gaps are resolved before the region, as far as the budget goes. Default:
   /// if a mesh without that turns out to have other bodies, handles or cavities than the surface, to have
   /// lost parts of it, or, fitted, to have a volume more than 5 % off. That takes a second run; the better
@@ -223,6 +211,7 @@ private:
   double m_tolerance = automatic;
   double m_quality_bound = Mixed_mesh_optimization_criteria_3::default_quality_bound;
   double m_sharp_angle = Mixed_mesh_optimization_criteria_3::default_sharp_angle;
+  friend Mixed_meshes_3::internal::Concurrency;
   unsigned m_number_of_threads = 1;
 };
 

@@ -16,6 +16,11 @@
 #include <limits>
 
 namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+struct Concurrency;
+}
+} // namespace Mixed_meshes_3
 
 /*!
 \ingroup PkgMixedMesh3Optimization
@@ -118,18 +123,8 @@ public:
   /// The value set, or the default.
   double sharp_angle() const { return m_sharp_angle; }
 
-  /// How many threads move vertices, if there are more than 20,000. The mesh does not depend on it.
-  /// Default: 1. \pre at least 1
-  Mixed_mesh_optimization_criteria_3& number_of_threads(unsigned threads)
-  {
-    CGAL_precondition(threads > 0);
-    m_number_of_threads = threads;
-    return *this;
-  }
-  /// The value set, or the default.
-  unsigned number_of_threads() const { return m_number_of_threads; }
-
 private:
+  friend Mixed_meshes_3::internal::Concurrency;
   unsigned m_number_of_threads = 1;
   std::size_t m_number_of_bisections = 0;
   double m_sharp_angle = default_sharp_angle;

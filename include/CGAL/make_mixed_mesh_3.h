@@ -12,6 +12,7 @@
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/arguments.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/mesh_domain.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/place_lattice.h>
@@ -21,6 +22,7 @@
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/tags.h>
 
 namespace CGAL {
 
@@ -45,6 +47,8 @@ default; the boundary is a closed oriented
 2-manifold unless the status says otherwise; the same input gives the same mesh, whatever the number of
 threads.
 
+\tparam ConcurrencyTag enables sequential versus parallel algorithm: `Sequential_tag`, `Parallel_tag` (with TBB), or
+        `Parallel_if_available_tag`
 \tparam Domain a model of `MixedMeshDomain_3`, or of `FaceListGraph`
 \tparam Region a model of `MixedMeshRegion_3`, or of `FaceListGraph`
 \tparam CellTraits a model of `OctreeCellTraits_3`
@@ -80,8 +84,8 @@ threads.
 For n vertices and t triangles of the surfaces O(n log n + t log t), nearly linear; a query for a
       closest point for each boundary vertex that moves, and for each sample point of a tolerance
 */
-template <class Domain, class Region, class CellTraits, class GeomTraits,
-          class NamedParameters = parameters::Default_named_parameters,
+template <class ConcurrencyTag = Sequential_tag, class Domain, class Region, class CellTraits,
+          class GeomTraits, class NamedParameters = parameters::Default_named_parameters,
           class RegionNamedParameters = parameters::Default_named_parameters>
 Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region,
                                       const Mixed_mesh_criteria_3& criteria, const CellTraits& cell_traits,
@@ -93,7 +97,8 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
   const auto& d = mm3::as_domain(domain, np);
   const auto& r = mm3::as_region(region, np_region);
   return mm3::with_visitor(np, [&](auto& visitor) {
-    return mm3::mesh_domain_as(d, r, criteria, cell_traits, visitor, mesh);
+    return mm3::mesh_domain_as(d, r, mm3::Concurrency::with<ConcurrencyTag>(criteria), cell_traits, visitor,
+                               mesh);
   });
 }
 
@@ -105,7 +110,7 @@ perpendicular to the axes, as that of a box is, cells are placed such that it li
 can, with edges of a ratio of at most 1.25: then elements there stay whole, vertices have the coordinates of
 the surface exactly, and without a region all elements are hexahedra, as far as the budget allows.
 */
-template <class Domain, class Region, class GeomTraits,
+template <class ConcurrencyTag = Sequential_tag, class Domain, class Region, class GeomTraits,
           class NamedParameters = parameters::Default_named_parameters,
           class RegionNamedParameters = parameters::Default_named_parameters>
 Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region,
@@ -116,7 +121,7 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
   namespace mm3 = Mixed_meshes_3::internal;
   const auto& d = mm3::as_domain(domain, np);
   const auto& r = mm3::as_region(region, np_region);
-  return make_mixed_mesh_3(d, r, criteria, mm3::cell_traits_of(d, r, criteria), mesh, np);
+  return make_mixed_mesh_3<ConcurrencyTag>(d, r, criteria, mm3::cell_traits_of(d, r, criteria), mesh, np);
 }
 
 /*!
@@ -124,12 +129,13 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
 
 As above, refined everywhere alike, and somewhat more at the surface.
 */
-template <class Domain, class GeomTraits, class NamedParameters = parameters::Default_named_parameters>
+template <class ConcurrencyTag = Sequential_tag, class Domain, class GeomTraits,
+          class NamedParameters = parameters::Default_named_parameters>
 Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Mixed_mesh_criteria_3& criteria,
                                       Mixed_mesh_3<GeomTraits>& mesh,
                                       const NamedParameters& np = parameters::default_values())
 {
-  return make_mixed_mesh_3(domain, Everywhere_mixed_mesh_region_3(), criteria, mesh, np);
+  return make_mixed_mesh_3<ConcurrencyTag>(domain, Everywhere_mixed_mesh_region_3(), criteria, mesh, np);
 }
 
 } // namespace CGAL

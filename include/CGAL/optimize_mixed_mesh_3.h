@@ -12,12 +12,14 @@
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Bounded_optimization.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/arguments.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
 
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/tags.h>
 
 namespace CGAL {
 
@@ -48,6 +50,8 @@ itself (if it does at the start, `is_boundary_simple` may be false); hexahedra, 
 vertex is removed, and none is added but by bisections; the boundary's faces stay but for those at bisected
 edges and where a flat tetrahedron on it is removed; the same input gives the same mesh.
 
+\tparam ConcurrencyTag enables sequential versus parallel algorithm: `Sequential_tag`, `Parallel_tag` (with TBB), or
+        `Parallel_if_available_tag`
 \tparam GeomTraits a model of `MixedMeshTraits_3`
 \tparam Surface a model of `MixedMeshSurface_3`, or of `FaceListGraph`
 \tparam Quality a model of `MixedMeshQuality_3`
@@ -75,7 +79,7 @@ edges and where a flat tetrahedron on it is removed; the same input gives the sa
 \par Complexity
 Proportional to the number of elements whose cost can be improved, times the rounds
 */
-template <class GeomTraits, class Surface, class Quality,
+template <class ConcurrencyTag = Sequential_tag, class GeomTraits, class Surface, class Quality,
           class NamedParameters = parameters::Default_named_parameters>
 Mixed_mesh_optimization_result_3
 optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface, const Quality& quality,
@@ -92,7 +96,8 @@ optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface, co
   }
   const auto& s = mm3::as_surface(surface, np);
   return mm3::with_visitor(np, [&](auto& visitor) {
-    return mm3::Bounded_optimization(mesh, s, criteria, quality)([&] { return visitor.go_on(); });
+    return mm3::Bounded_optimization(mesh, s, mm3::Concurrency::with<ConcurrencyTag>(criteria),
+                                     quality)([&] { return visitor.go_on(); });
   });
 }
 
@@ -101,13 +106,15 @@ optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface, co
 
 As above, with the aspect-ratio coefficient as the cost of an element.
 */
-template <class GeomTraits, class Surface, class NamedParameters = parameters::Default_named_parameters>
+template <class ConcurrencyTag = Sequential_tag, class GeomTraits, class Surface,
+          class NamedParameters = parameters::Default_named_parameters>
 Mixed_mesh_optimization_result_3
 optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface,
                       const Mixed_mesh_optimization_criteria_3& criteria,
                       const NamedParameters& np = parameters::default_values())
 {
-  return optimize_mixed_mesh_3(mesh, surface, Mixed_meshes_3::Aspect_ratio_quality_3(), criteria, np);
+  return optimize_mixed_mesh_3<ConcurrencyTag>(mesh, surface, Mixed_meshes_3::Aspect_ratio_quality_3(),
+                                               criteria, np);
 }
 
 /*!
@@ -115,12 +122,13 @@ optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface,
 
 As above, with the default criteria.
 */
-template <class Surface, class GeomTraits, class NamedParameters = parameters::Default_named_parameters>
+template <class ConcurrencyTag = Sequential_tag, class Surface, class GeomTraits,
+          class NamedParameters = parameters::Default_named_parameters>
 Mixed_mesh_optimization_result_3
 optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface,
                       const NamedParameters& np = parameters::default_values())
 {
-  return optimize_mixed_mesh_3(mesh, surface, Mixed_mesh_optimization_criteria_3(), np);
+  return optimize_mixed_mesh_3<ConcurrencyTag>(mesh, surface, Mixed_mesh_optimization_criteria_3(), np);
 }
 
 } // namespace CGAL

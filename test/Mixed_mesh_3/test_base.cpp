@@ -7,6 +7,7 @@
 
 #include <CGAL/Mixed_mesh_3/Index.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Lattice_point.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
@@ -100,6 +101,20 @@ void test_parallel_for()
   BOOST_TEST(ids == std::vector<std::thread::id>(600, std::this_thread::get_id()));
 }
 
+void test_concurrency_tags()
+{
+  using CGAL::Mixed_meshes_3::internal::number_of_threads;
+  BOOST_TEST_EQ(number_of_threads<CGAL::Sequential_tag>(), 1u);
+#ifdef CGAL_LINKED_WITH_TBB
+  for(std::size_t threads : {1, 2, 5}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    BOOST_TEST_EQ(number_of_threads<CGAL::Parallel_tag>(), threads);
+  }
+#else
+  BOOST_TEST_EQ(number_of_threads<CGAL::Parallel_if_available_tag>(), 1u);
+#endif
+}
+
 // An index is made of integers and is one, but not one of another kind.
 static_assert(
   std::is_convertible_v<std::size_t, Vertex_index> && std::is_convertible_v<Vertex_index, std::size_t>);
@@ -125,6 +140,7 @@ int main()
   test_rounding();
   test_lattice_key();
   test_parallel_for();
+  test_concurrency_tags();
   test_index();
   return boost::report_errors();
 }

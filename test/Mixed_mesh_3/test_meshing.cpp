@@ -211,8 +211,9 @@ void test_tolerance(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& 
               << result.number_of_vertices_in_region << " vertices in the region" << std::endl;
     last = distance;
     Mesh again;
-    make_mixed_mesh_3(domain, region, Mixed_mesh_criteria_3(660).tolerance(tolerance).number_of_threads(3),
-                      traits, again);
+    const Thread_limit limit(3);
+    make_mixed_mesh_3<CGAL::Parallel_if_available_tag>(
+      domain, region, Mixed_mesh_criteria_3(660).tolerance(tolerance), traits, again);
     BOOST_TEST(content(again) == content(mesh));
   }
   last = std::numeric_limits<double>::infinity();
@@ -234,18 +235,22 @@ void test_repeatability(const Polyhedral_mixed_mesh_domain_3& domain,
                         const Polyhedral_mixed_mesh_region_3& region)
 {
   Content first;
+  using Tag = CGAL::Parallel_if_available_tag;
+  Mesh sequential;
+  run(domain, region, Mixed_mesh_criteria_3(1000), sequential);
+  first = content(sequential);
   for(unsigned threads : {1, 1, 2, 5, 1}) {
+    const Thread_limit limit(threads);
     Mesh mesh;
-    run(domain, region, Mixed_mesh_criteria_3(1000).number_of_threads(threads), mesh);
-    if(first.points.empty())
-      first = content(mesh);
+    run<Tag>(domain, region, Mixed_mesh_criteria_3(1000), mesh);
     BOOST_TEST(content(mesh) == first);
   }
   // so large that vertices move by colors; cells without bisections, so that more are moved at a time
   first = {};
   for(unsigned threads : {1, 2, 3}) {
+    const Thread_limit limit(threads);
     Mesh mesh;
-    run(domain, region, Mixed_mesh_criteria_3(22000).share_of_bisections(0).number_of_threads(threads), mesh);
+    run<Tag>(domain, region, Mixed_mesh_criteria_3(22000).share_of_bisections(0), mesh);
     if(first.points.empty())
       first = content(mesh);
     BOOST_TEST(content(mesh) == first);

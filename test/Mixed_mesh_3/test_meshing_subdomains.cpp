@@ -198,8 +198,9 @@ void test_nested()
 
   // the same bytes from several threads
   Mesh again;
-  run(domain, CGAL::Everywhere_mixed_mesh_region_3(), Mixed_mesh_criteria_3(3000).number_of_threads(4),
-      again);
+  const Thread_limit limit(4);
+  run<CGAL::Parallel_if_available_tag>(domain, CGAL::Everywhere_mixed_mesh_region_3(),
+                                       Mixed_mesh_criteria_3(3000), again);
   BOOST_TEST(content(again) == content(mesh));
 
   // one surface is a domain without labels

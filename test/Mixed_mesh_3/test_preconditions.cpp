@@ -87,8 +87,6 @@ void test_criteria()
     FORBIDDEN(criteria.share_of_bisections(share));
   for(double share : {double(Criteria::automatic), 0., 0.5})
     ALLOWED(criteria.share_of_bisections(share));
-  FORBIDDEN(criteria.number_of_threads(0));
-  ALLOWED(criteria.number_of_threads(1));
 
   CGAL::Mixed_mesh_optimization_criteria_3 optimization;
   for(double distance : {-1., nan})

@@ -18,6 +18,10 @@
 
 #include <boost/core/lightweight_test.hpp>
 
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/global_control.h>
+#endif
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -96,11 +100,25 @@ void check(const AnyMesh& mesh, const Mixed_mesh_result_3& result, std::size_t b
   BOOST_TEST(result.status != Status::BUDGET_NOT_FILLED || mesh.number_of_vertices() < 0.97 * double(budget));
 }
 
-template <class Domain, class Region>
+// What CGAL::Parallel_if_available_tag stands for, as long as it lives.
+class Thread_limit
+{
+#ifdef CGAL_LINKED_WITH_TBB
+  tbb::global_control m_control;
+
+public:
+  explicit Thread_limit(std::size_t n) : m_control(tbb::global_control::max_allowed_parallelism, n) {}
+#else
+public:
+  explicit Thread_limit(std::size_t) {}
+#endif
+};
+
+template <class ConcurrencyTag = CGAL::Sequential_tag, class Domain, class Region>
 Mixed_mesh_result_3 run(const Domain& domain, const Region& region, const Mixed_mesh_criteria_3& criteria,
                         Mesh& mesh)
 {
-  const Mixed_mesh_result_3 result = make_mixed_mesh_3(domain, region, criteria, mesh);
+  const Mixed_mesh_result_3 result = make_mixed_mesh_3<ConcurrencyTag>(domain, region, criteria, mesh);
   check(mesh, result, criteria.maximal_number_of_vertices());
   return result;
 }

@@ -10,6 +10,7 @@
 // The boundary gets onto the surface by the optimization, by Algorithm 1 alone, or not at all.
 
 #include "common/Stage_log.h"
+#include "common/Thread_limit.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
@@ -39,8 +40,8 @@ int main(int argc, char** argv)
       << "usage: benchmark_make_mixed_mesh_3 SURFACE REGION VERTICES [THREADS [optimize|relax|none]]\n";
     return 2;
   }
+  const Thread_limit limit(argc > 4 ? std::stoul(argv[4]) : 1);
   const auto criteria = CGAL::Mixed_mesh_criteria_3(std::stoul(argv[3]))
-                          .number_of_threads(argc > 4 ? unsigned(std::stoul(argv[4])) : 1)
                           .fit_to_surface(argc <= 5 || std::string(argv[5]) == "optimize");
   const bool relaxes = argc > 5 && std::string(argv[5]) == "relax";
   Stage_log log(false);
@@ -49,8 +50,9 @@ int main(int argc, char** argv)
   const auto domain = log("AABB trees", [&] { return CGAL::Polyhedral_mixed_mesh_domain_3(surface); });
   const auto region = log("AABB trees", [&] { return CGAL::Polyhedral_mixed_mesh_region_3(region_surface); });
   CGAL::Mixed_mesh_3<Kernel> mesh;
-  const auto result = CGAL::make_mixed_mesh_3(domain, region, criteria, mesh,
-                                              CGAL::parameters::visitor(std::ref(log)));
+  const auto result = CGAL::make_mixed_mesh_3<CGAL::Parallel_if_available_tag>(domain, region, criteria, mesh,
+                                                                               CGAL::parameters::visitor(
+                                                                                 std::ref(log)));
   if(relaxes)
     log("Algorithm 1",
         [&] { return CGAL::fit_mixed_mesh_to_surface(mesh, domain, CGAL::Mixed_mesh_fit_criteria_3()); });

@@ -5,6 +5,7 @@
 
 #include "mixed_mesh_3/options.h"
 
+#include "common/Thread_limit.h"
 #include "common/Deferred_signals.h"
 #include "common/command_line.h"
 #include "common/resources.h"
@@ -409,6 +410,8 @@ void check_sheets(const Options& o)
 // What options say together, and what this program was built without, is wrong use.
 void check_options(Options& o)
 {
+  if(o.threads > 1 && !Thread_limit::has_threads)
+    throw CLI::ValidationError("--threads", "this program was built without TBB");
   if(o.no_optimize && !has_eigen)
     throw CLI::ValidationError("--no-optimize", "this program was built without Eigen");
   const bool has_image = is_image(o.surface);

@@ -5,6 +5,7 @@
 
 #include "mixed_mesh_3/run.h"
 
+#include "common/Thread_limit.h"
 #include "common/Deferred_signals.h"
 #include "common/Stage_log.h"
 #include "common/messages.h"
@@ -243,14 +244,14 @@ Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3
                     .fit_to_surface(o.fit() == Fit::OPTIMIZATION)
                     .sharp_angle(o.sharp_angle)
                     .thin_parts(thin_parts)
-                    .number_of_threads(o.threads)
                     .keep_mesh_if_stopped(true);
   criteria.share_of_bisections(criteria.share_of_bisections_for(domain.subdomain_indices().size()))
     .fit_to_surface(false);
   if(o.tolerance > 0)
     criteria.tolerance(o.tolerance);
   Mesh mesh;
-  result = CGAL::make_mixed_mesh_3(domain, regions, criteria, mesh, CGAL::parameters::visitor(std::ref(log)));
+  result = CGAL::make_mixed_mesh_3<CGAL::Parallel_if_available_tag>(domain, regions, criteria, mesh,
+                                                                    CGAL::parameters::visitor(std::ref(log)));
   refuse(result, o);
   if(o.tetrahedra) // now, so that what is fitted, checked and reported is what is written
     return log("split to tetrahedra", [&] { return mm3::split_to_tetrahedra(mesh); });
@@ -284,10 +285,11 @@ bool fit_by_optimization(Mesh& mesh, const Domain& domain, const Options& o, Sta
                           .tolerance(outcome.result.tolerance)
                           .quality_bound(o.largest_arc)
                           .sharp_angle(o.sharp_angle)
-                          .number_of_threads(o.threads)
                           .number_of_bisections(o.vertices - mesh.number_of_vertices());
   const auto r = log.fit(mm3::stage_names[int(mm3::Stage::OPTIMIZATION)], [&] {
-    return CGAL::optimize_mixed_mesh_3(mesh, domain, criteria, CGAL::parameters::visitor(std::ref(log)));
+    return CGAL::optimize_mixed_mesh_3<CGAL::Parallel_if_available_tag>(mesh, domain, criteria,
+                                                                        CGAL::parameters::visitor(
+                                                                          std::ref(log)));
   });
   outcome.result.optimization = r;
   outcome.is_stopped = r.status == Status::STOPPED;
@@ -413,6 +415,7 @@ void write_files(const Mesh& mesh, const std::vector<mm3::IO::Facet_set>& facet_
 
 bool run(const Options& o)
 {
+  const Thread_limit limit(o.threads);
   check_feasible(o);
   if(!o.quiet && o.outputs.empty() && o.report.empty())
     std::cerr << "note: nothing will be written, without --output and --report\n";

@@ -21,7 +21,7 @@ Answers may be too cautious, but must not contradict each other: where `locate()
 `ON_BOUNDARY`, `bounded_side()` would say the same of every point of the closed cell.
 
 A model need not be copied. It must outlive the call. `bounded_side()` and `closest_point()` are
-called by several threads at once if `CGAL::Mixed_mesh_criteria_3::number_of_threads()` is above 1,
+called by several threads at once if the function that takes the domain is called with `CGAL::Parallel_tag`,
 and must not throw then.
 
 \cgalHasModelsBegin

@@ -10,12 +10,12 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
-#include <algorithm>
-#include <atomic>
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#endif
+
 #include <cstddef>
-#include <system_error>
-#include <thread>
-#include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -23,29 +23,25 @@ namespace internal {
 
 /// Calls `f(i)` for all i below `n`. Calls must be independent: each writes its own result, so that
 /// the outcome does not depend on the number of threads. `f` must not throw.
+/// \param threads 1: one after the other
 /// \param worth_a_thread how many calls take much longer than a thread takes to start
 template <class F>
-void parallel_for(std::size_t n, unsigned threads, const F& f, std::size_t worth_a_thread = 512)
+void parallel_for(std::size_t n, [[maybe_unused]] unsigned threads, const F& f,
+                  [[maybe_unused]] std::size_t worth_a_thread = 512)
 {
-  constexpr std::size_t blocks_per_thread = 8; // so that none waits long for the last one
-  const std::size_t used = (std::max)(std::size_t(1), (std::min)(std::size_t(threads), n / worth_a_thread)),
-                    block = used == 1 ? n : n / (used * blocks_per_thread) + 1;
-  std::atomic<std::size_t> next{0};
-  const auto run = [&] {
-    for(std::size_t first = next.fetch_add(block); first < n; first = next.fetch_add(block))
-      for(std::size_t i = first; i < (std::min)(n, first + block); ++i)
-        f(i);
-  };
-  std::vector<std::thread> workers;
-  try {
-    while(workers.size() + 1 < used)
-      workers.emplace_back(run);
-  } catch(const std::system_error&) {
-    // the system gives no more threads: the others do the rest
+#ifdef CGAL_LINKED_WITH_TBB
+  if(threads > 1 && n >= 2 * worth_a_thread) {
+    constexpr std::size_t blocks_per_thread = 8; // so that none waits long for the last one
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, worth_a_thread / blocks_per_thread + 1),
+                      [&](const auto& range) {
+                        for(std::size_t i = range.begin(); i < range.end(); ++i)
+                          f(i);
+                      });
+    return;
   }
-  run();
-  for(std::thread& worker : workers)
-    worker.join();
+#endif
+  for(std::size_t i = 0; i < n; ++i)
+    f(i);
 }
 
 } // namespace internal

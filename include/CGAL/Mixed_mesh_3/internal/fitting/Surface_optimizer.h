@@ -12,6 +12,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/bisect_boundary_edges.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/feature_paths.h>
@@ -139,7 +140,7 @@ public:
       m_working(mesh, m_strata.of_vertices(mesh.number_of_vertices(), m_boundary)),
       m_moves(m_working, m_quality, m_project, criteria.sliding_threshold(), bound_for_doubles(criteria)),
       m_mean_edge_lengths(mean_edge_lengths()), m_tolerances(tolerances()), m_samples(surface_samples()),
-      m_attraction(m_working, m_project, m_samples, criteria.number_of_threads()),
+      m_attraction(m_working, m_project, m_samples, Concurrency::number_of_threads(criteria)),
       m_is_arrived(m_working.points.size(), 0), m_simple_points(m_working.points),
       m_simple_is_arrived(m_working.points.size(), 0), m_is_held(m_working.points.size(), 0)
   {
@@ -147,7 +148,7 @@ public:
     if(has_many_vertices()) {
       m_moves.set_notable_gain(notable_gain_of_many);
       m_moves.set_steps(first_step_of_many, growth_of_many);
-      m_moves.use_colors(criteria.number_of_threads());
+      m_moves.use_colors(Concurrency::number_of_threads(criteria));
     }
   }
 

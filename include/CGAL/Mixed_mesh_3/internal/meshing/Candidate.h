@@ -10,6 +10,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/Boundary_stage.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/thin_cells.h>
@@ -48,13 +49,15 @@ Candidate make_candidate(const Octree_& octree, const Mixed_mesh_criteria_3& cri
     return c;
   {
     const Scope scope(visitor, Stage::TRANSITIONS);
-    c.mesh = apply_transitions(octree, criteria.transition_templates(), criteria.number_of_threads());
+    c.mesh = apply_transitions(octree, criteria.transition_templates(),
+                               Concurrency::number_of_threads(criteria));
     if(are_gaps_wider)
       widen_gaps(octree, c.mesh);
   }
   {
     const Scope scope(visitor, Stage::BOUNDARY);
-    c.boundary = split_boundary(octree, c.mesh, criteria.boundary_mode(), criteria.number_of_threads());
+    c.boundary = split_boundary(octree, c.mesh, criteria.boundary_mode(),
+                                Concurrency::number_of_threads(criteria));
   }
   c.number_of_vertices = c.boundary.number_of_vertices;
   visitor.progress(c.number_of_vertices, criteria.maximal_number_of_vertices());

@@ -14,6 +14,7 @@
 
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
 #include <CGAL/Mixed_mesh_3/Default_visitor.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/assemble_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/lost_cells.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Bounded_optimization.h>
@@ -203,7 +204,8 @@ private:
     if constexpr(Is_domain_with_sheets<Domain>::value)
       if(has_sheets(m_root.domain())) {
         m_best.boundary = split_boundary(m_octree, m_best.mesh, m_criteria.boundary_mode(),
-                                         m_criteria.number_of_threads(), Sheet_layer(m_octree, m_best.mesh));
+                                         Concurrency::number_of_threads(m_criteria),
+                                         Sheet_layer(m_octree, m_best.mesh));
         m_result.number_of_lost_sheets = m_best.boundary.number_of_lost_sheets;
         if(m_result.number_of_lost_sheets > 0)
           m_result.status = worse(m_result.status, Mixed_mesh_status::PARTS_LOST);
@@ -241,10 +243,10 @@ private:
                             .tolerance(m_result.tolerance)
                             .quality_bound(m_criteria.quality_bound())
                             .sharp_angle(m_criteria.sharp_angle())
-                            .number_of_threads(m_criteria.number_of_threads())
                             .number_of_bisections(share_of_bisections() > 0 ? rest : 0);
     const Aspect_ratio_quality_3 quality;
-    Bounded_optimization optimize(mesh, m_root.domain(), criteria, quality);
+    const auto with_threads = Concurrency::with_threads(criteria, Concurrency::number_of_threads(m_criteria));
+    Bounded_optimization optimize(mesh, m_root.domain(), with_threads, quality);
     m_result.optimization = optimize([this] { return m_visitor.go_on(); });
     const bool is_only_wished = m_criteria.tolerance() == Mixed_mesh_criteria_3::automatic
                                 && m_result.optimization.status
