@@ -91,7 +91,7 @@ def rows(reports):
                *(f"{r['mesh']['vertices']}, {mean_arc(r, 'after')}" for r in others))
     times = [reports.shift(name) for name in ("paper", "own")]
     yield ("Section 6.2, displacements of four control points: CPU ms", "100",
-           *(f"{t['solve']:.1f}" for t in times))
+           *(f"{t['solve']:.2g}" for t in times))
     yield ("Section 6.2, after a resection: CPU ms", "12,000",
            *(f"{t['remove elements'] + t['solve after resection']:.1f}" for t in times))
 
