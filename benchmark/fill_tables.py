@@ -49,13 +49,11 @@ def peers(rows):
 
 
 def scale(rows):
-    """The default path, by one thread and two."""
-    two = {r["budget"]: r for r in rows if r["threads"] == 2}
+    """The default path, by one thread."""
     for r in rows:
         if r["threads"] == 1:
             yield {"N": f"{r['budget']:,}", "CPU s": f"{r['CPU seconds']:.2f}",
                    "of it optimization": f"{r['stages']['optimization']:.2f}",
-                   "wall s, two threads": f"{two[r['budget']]['seconds']:.2f}" if r["budget"] in two else "-",
                    "bytes/vertex": f"{r['bytes per vertex']:,.0f}", "ARC mean": f"{r['ARC mean']:.3f}",
                    "ARC max": f"{r['ARC max']:.2f}"}
 
