@@ -13,7 +13,8 @@
 #   scale     time and memory of ours for growing budgets (660 to 2000000)
 #   accuracy  the error of brain shift, beside meshes of Mesh_3; takes an hour
 #
-# Writes to out/benchmark/. RUNS is the number of runs that a median is of, 5
+# Writes to out/benchmark/; benchmark/fill_tables.py out/benchmark puts the
+# tables into benchmark/results, README and manual. RUNS is the number of runs that a median is of, 5
 # by default. BUILD_DIR overrides the build directory, build/release.
 
 set -euo pipefail
@@ -57,7 +58,7 @@ run_paper() {
 
 run_scale() {
   /usr/bin/python3 "$root/benchmark/Mixed_mesh_3/Performance/run.py" "$programs/benchmark_make_mixed_mesh_3" \
-    --runs "${RUNS:-5}" --save "$out/scale.json" "${sizes[@]}" | tee "$out/scale.md"
+    --runs "${RUNS:-5}" --threads 1 2 --save "$out/scale" "${sizes[@]}"
 }
 
 run_accuracy() {

@@ -22,19 +22,18 @@ are what they print, without output; TetGen's with the reading of its background
 """
 
 import argparse
-import csv
-import datetime
 import json
 import math
-import os
 import pathlib
-import platform
 import re
 import statistics
 import subprocess
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1]))
+from results import markdown, save as write_results  # noqa: E402
+
 DATA = HERE.parents[2] / "data"
 GROWTH = 0.4
 TIMEOUT = 300
@@ -276,28 +275,8 @@ def cells(name, wanted, line):
     }
 
 
-def markdown(rows):
-    heads = list(next((r for r in rows if len(r) > 3), rows[0]))
-    lines = ["| " + " | ".join(heads) + " |", "|---|" + "--:|" * (len(heads) - 1)]
-    lines += ["| " + " | ".join(str(r.get(h, "")) for h in heads) + " |" for r in rows]
-    return "\n".join(lines) + "\n"
-
-
-def machine():
-    with open("/proc/cpuinfo") as info:
-        names = [line.split(":")[1].strip() for line in info if line.startswith("model name")]
-    return {"date": datetime.date.today().isoformat(), "processor": (names or [platform.processor()])[0],
-            "processors": os.cpu_count(), "load": os.getloadavg()[0], "system": platform.platform()}
-
-
 def save(results, base):
-    rows = [cells(r["mesher"], r["wanted"], r) for r in results]
-    base.with_suffix(".md").write_text(markdown(rows))
-    base.with_suffix(".json").write_text(json.dumps({"machine": machine(), "rows": results}, indent=2) + "\n")
-    with open(base.with_suffix(".csv"), "w", newline="") as out:
-        writer = csv.DictWriter(out, max(rows, key=len).keys())
-        writer.writeheader()
-        writer.writerows(rows)
+    write_results(base, [cells(r["mesher"], r["wanted"], r) for r in results], results)
 
 
 def main():

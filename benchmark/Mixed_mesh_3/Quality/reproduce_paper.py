@@ -14,8 +14,12 @@ import argparse
 import json
 import pathlib
 import subprocess
+import sys
 
 BENCHMARK = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(BENCHMARK))
+import results  # noqa: E402
+
 DATA = BENCHMARK.parent / "data"
 OPENINGS = BENCHMARK / "Linear_elasticity_3" / "openings.json"
 AS_PAPER = ("--mode", "paper", "--grading", "0", "--no-optimize")
@@ -87,7 +91,7 @@ def rows(reports):
                *(f"{r['mesh']['vertices']}, {mean_arc(r, 'after')}" for r in others))
     times = [reports.shift(name) for name in ("paper", "own")]
     yield ("Section 6.2, displacements of four control points: CPU ms", "100",
-           *(f"{t['solve']:.1f}" for t in times))
+           *(f"{t['solve']:.2g}" for t in times))
     yield ("Section 6.2, after a resection: CPU ms", "12,000",
            *(f"{t['remove elements'] + t['solve after resection']:.1f}" for t in times))
 
@@ -98,13 +102,11 @@ def main():
     parser.add_argument("work", type=pathlib.Path)
     parser.add_argument("--save", type=pathlib.Path, help="base of the names of the tables")
     options = parser.parse_args()
-    table = list(rows(Reports(options.programs.resolve(), options.work.resolve())))
-    lines = ["| | paper | ours, as the paper | ours |", "|---|--:|--:|--:|"]
-    lines += ["| " + " | ".join(map(str, row)) + " |" for row in table]
-    print("\n".join(lines))
+    heads = ("", "paper", "ours, as the paper", "ours")
+    table = [dict(zip(heads, row)) for row in rows(Reports(options.programs.resolve(), options.work.resolve()))]
+    print(results.markdown(table), end="")
     if options.save:
-        options.save.with_suffix(".md").write_text("\n".join(lines) + "\n")
-        options.save.with_suffix(".json").write_text(json.dumps(table, indent=2) + "\n")
+        results.save(options.save, table, table)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Puts what was measured into the tables of README and manual.
+
+  fill_tables.py [FOLDER]     takes over the results in FOLDER (out/benchmark of scripts/benchmark.sh) first
+  fill_tables.py --check      changes nothing, and fails if a table is not what benchmark/results says
+
+A table stands between <!-- table NAME --> and <!-- end of table -->; TABLES says what is in each. In a section
+that has one, there is no other table with numbers.
+"""
+
+import json
+import pathlib
+import re
+import shutil
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+RESULTS = ROOT / "benchmark" / "results"
+sys.path.insert(0, str(RESULTS.parent))
+from results import markdown  # noqa: E402
+
+TEXTS = ("README.md", "doc/Mixed_mesh_3/Mixed_mesh_3.txt")
+BLOCK = re.compile(r"(<!-- table ([a-z_]+) -->\n)(.*?)(<!-- end of table -->\n)", re.DOTALL)
+SECTION = re.compile(r"^(?=## |\\section )", re.MULTILINE)
+NUMBERS = re.compile(r"^\|.*\d.*\|$", re.MULTILINE)
+
+
+def load(name):
+    return json.loads((RESULTS / f"{name}.json").read_text())
+
+
+def number(value, form):
+    return "-" if value is None else format(value, form)
+
+
+def peers(rows):
+    """All meshers with as many vertices."""
+    for r in rows:
+        if "failure" in r:
+            yield {"mesher": r["mesher"], "N": f"{r['wanted']:,}", "vertices": "-"}
+            continue
+        yield {"mesher": r["mesher"], "N": f"{r['wanted']:,}", "vertices": f"{r['vertices']:,}",
+               "ARC mean": number(r["ARC mean"], ".2f"), "ARC max": number(r["ARC max"], ".3g"),
+               "dihedral angles": f"{r['smallest dihedral angle']:.0f} to {r['largest dihedral angle']:.0f}",
+               "Hausdorff": number(max(r["Hausdorff surface to mesh"], r["Hausdorff mesh to surface"]), ".2f"),
+               "volume": f"{r['volume ratio'] - 1:+.1%}", "in region": f"{r['share of vertices in region']:.0%}",
+               "edge there": f"{r['mean edge in region']:.2f}", "CPU s": number(r["CPU seconds"], ".2f")}
+
+
+def scale(rows):
+    """The default path, by one thread."""
+    for r in rows:
+        if r["threads"] == 1:
+            yield {"N": f"{r['budget']:,}", "CPU s": f"{r['CPU seconds']:.2f}",
+                   "of it optimization": f"{r['stages']['optimization']:.2f}",
+                   "bytes/vertex": f"{r['bytes per vertex']:,.0f}", "ARC mean": f"{r['ARC mean']:.3f}",
+                   "ARC max": f"{r['ARC max']:.2f}"}
+
+
+TABLES = {
+    "peers": lambda: peers(load("peers")["rows"]),
+    "paper": lambda: load("paper")["rows"],
+    "scale": lambda: scale(load("scale")["rows"]),
+}
+
+
+def filled(text):
+    """With the tables as they are measured."""
+    return BLOCK.sub(lambda block: block[1] + markdown(list(TABLES[block[2]]())) + block[4], text)
+
+
+def defects(name, text):
+    if filled(text) != text:
+        yield f"{name}: a table is not what benchmark/results says; run benchmark/fill_tables.py"
+    for section in SECTION.split(text):
+        if BLOCK.search(section):
+            for line in NUMBERS.findall(BLOCK.sub("", section)):
+                yield f"{name}: numbers from nowhere: {line}"
+
+
+def main():
+    arguments = sys.argv[1:]
+    if len(arguments) > 1 or arguments[:1] in (["-h"], ["--help"]):
+        sys.exit(__doc__)
+    texts = {name: (ROOT / name).read_text() for name in TEXTS}
+    if arguments == ["--check"]:
+        found = [defect for name, text in texts.items() for defect in defects(name, text)]
+        tables = {block[2] for text in texts.values() for block in BLOCK.finditer(text)}
+        found += [f"no text has the table {name}" for name in TABLES if name not in tables]
+        sys.exit("\n".join(found) or 0)
+    if arguments:
+        RESULTS.mkdir(exist_ok=True)
+        for name in TABLES:
+            for file in pathlib.Path(arguments[0]).glob(f"{name}.*"):
+                shutil.copy(file, RESULTS)
+    for name, text in texts.items():
+        (ROOT / name).write_text(filled(text))
+
+
+if __name__ == "__main__":
+    main()
