@@ -212,8 +212,9 @@ void test_tolerance(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& 
     last = distance;
     Mesh again;
     const Thread_limit limit(3);
-    make_mixed_mesh_3<CGAL::Parallel_if_available_tag>(
-      domain, region, Mixed_mesh_criteria_3(660).tolerance(tolerance), traits, again);
+    make_mixed_mesh_3<CGAL::Parallel_if_available_tag>(domain, region,
+                                                       Mixed_mesh_criteria_3(660).tolerance(tolerance),
+                                                       traits, again);
     BOOST_TEST(content(again) == content(mesh));
   }
   last = std::numeric_limits<double>::infinity();
