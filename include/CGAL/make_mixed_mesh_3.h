@@ -47,8 +47,8 @@ default; the boundary is a closed oriented
 2-manifold unless the status says otherwise; the same input gives the same mesh, whatever the number of
 threads.
 
-\tparam ConcurrencyTag enables sequential versus parallel algorithm: `Sequential_tag`, `Parallel_tag` (with TBB), or
-        `Parallel_if_available_tag`
+\tparam ConcurrencyTag enables sequential versus parallel algorithm: `Sequential_tag`, `Parallel_tag`, which
+        needs TBB, or `Parallel_if_available_tag`
 \tparam Domain a model of `MixedMeshDomain_3`, or of `FaceListGraph`
 \tparam Region a model of `MixedMeshRegion_3`, or of `FaceListGraph`
 \tparam CellTraits a model of `OctreeCellTraits_3`

@@ -50,8 +50,8 @@ itself (if it does at the start, `is_boundary_simple` may be false); hexahedra, 
 vertex is removed, and none is added but by bisections; the boundary's faces stay but for those at bisected
 edges and where a flat tetrahedron on it is removed; the same input gives the same mesh.
 
-\tparam ConcurrencyTag enables sequential versus parallel algorithm: `Sequential_tag`, `Parallel_tag` (with TBB), or
-        `Parallel_if_available_tag`
+\tparam ConcurrencyTag enables sequential versus parallel algorithm: `Sequential_tag`, `Parallel_tag`, which
+        needs TBB, or `Parallel_if_available_tag`
 \tparam GeomTraits a model of `MixedMeshTraits_3`
 \tparam Surface a model of `MixedMeshSurface_3`, or of `FaceListGraph`
 \tparam Quality a model of `MixedMeshQuality_3`
