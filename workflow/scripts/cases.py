@@ -13,7 +13,7 @@ MESH_NUMBERS = ("threshold", "smoothing", "vertices", "tolerance")
 MESH_TEXTS = ("labels", "region_labels")
 SHIFT_NUMBERS = ("fixed_below", "slide_beyond", "control_radius", "young_modulus", "poisson_ratio", "fluid_level")
 SHIFT_TEXTS = ("tumor_label", "up", "gravity", "material")
-COLUMNS = ("id", *FILES, "tumor", "opening", "space", *MESH_NUMBERS, *MESH_TEXTS, *SHIFT_NUMBERS, *SHIFT_TEXTS)
+COLUMNS = ("id", *FILES, "tumor", "opening", *MESH_NUMBERS, *MESH_TEXTS, *SHIFT_NUMBERS, *SHIFT_TEXTS)
 
 
 class Bad_table(Exception):

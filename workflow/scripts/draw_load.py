@@ -5,8 +5,8 @@
   draw_load.py MESH.mesh DIRECTORY --seed TEXT [--opening "X Y Z R"] [--tumor FILE] [--ball "X Y Z R"]
     [--tumor-label LABEL] [--up X,Y,Z]
 
-Writes to DIRECTORY control_points.csv, opening.off, tumor.off, and load.json with the arguments of brain_shift and
-the numbers drawn. The same text as seed, and the same mesh, make the same load. Units: mm.
+Writes to DIRECTORY control_points.csv, opening.off, tumor.off, and load.json with the arguments of brain_shift
+and the numbers drawn. The same text as seed, and the same mesh, make the same load. Units: mm.
 """
 
 import argparse
@@ -25,7 +25,8 @@ COMPLIANCE = 0.005
 
 
 def random_numbers(text):
-    return np.random.Generator(np.random.PCG64(int.from_bytes(hashlib.sha256(text.encode()).digest()[:16], "big")))
+    seed = int.from_bytes(hashlib.sha256(text.encode()).digest()[:16], "big")
+    return np.random.Generator(np.random.PCG64(seed))
 
 
 def direction(text):
@@ -107,12 +108,13 @@ def draw(given):
     folder = pathlib.Path(given.directory)
     folder.mkdir(parents=True, exist_ok=True)
     write_text(folder / "control_points.csv", "x,y,z,dx,dy,dz\n" + "\n".join(rows) + "\n")
-    write_off(folder / "opening.off", *sphere(center, radius))
+    # Most of the ball inside, as other places would look like the right one to the program.
+    write_off(folder / "opening.off", *sphere(center + 0.4 * radius * inwards, np.hypot(1, 0.4) * radius))
     write_off(folder / "tumor.off", *sphere(tumor, tumor_radius))
     numbers = lambda vector: ",".join(f"{x:.6f}" for x in vector)
-    arguments = [f"--control-points={folder / 'control_points.csv'}", "--slide=skull",
-                 f"--opening={folder / 'opening.off'}", "--fixed=base", f"--fixed-below={fixed:.6f}",
-                 f"--control-radius={0.3 * radius:.6f}", f"--control-compliance={COMPLIANCE}", f"--gravity={numbers(-GRAVITY * against)}",
+    arguments = [f"--control-points={folder / 'control_points.csv'}", f"--control-radius={0.3 * radius:.6f}",
+                 f"--control-compliance={COMPLIANCE}", "--slide=skull", f"--opening={folder / 'opening.off'}",
+                 "--fixed=base", f"--fixed-below={fixed:.6f}", f"--gravity={numbers(-GRAVITY * against)}",
                  f"--fluid-level={fluid:.6f}"]
     if resected and given.tumor_label:
         arguments.append(f"--tumor-label={given.tumor_label}")

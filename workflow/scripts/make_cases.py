@@ -5,8 +5,8 @@
   make_cases.py DIRECTORY [--cases 24] [--seed 1] [--broken] [--voxel 4] [--templates /usr/share/mricron/templates]
 
 Brains are the surface data/brain.off, and images of Debian's package mricron-data if they are there: of a man
-(ch2bet.nii.gz) and of a macaque (inia19-t1-brain.nii.gz, scaled to a man's size); images are resampled to voxels of
-that many mm. --broken adds a case whose surface has lost half of its triangles. Writes DIRECTORY/cases.csv.
+(ch2bet.nii.gz) and of a macaque (inia19-t1-brain.nii.gz, scaled to a man's size); images are resampled to --voxel
+mm. --broken adds a case whose surface has lost half of its triangles. Writes DIRECTORY/cases.csv.
 """
 
 import argparse
@@ -52,8 +52,10 @@ def read_off(path):
 
 
 def bent_image(source, bend, voxel, path):
-    """The image, not compressed, on voxels around the bent brain; the brain's size and place are made those of data/."""
-    from scipy.ndimage import map_coordinates
+    """The image on voxels around the bent brain, not compressed. The brain's size and place are made those of data/;
+    cavities inside become tissue. Returns the threshold of the brain.
+    """
+    from scipy.ndimage import binary_fill_holes, map_coordinates
 
     image = nibabel.load(source)
     values = np.squeeze(np.asarray(image.dataobj)).astype(np.float32)
@@ -72,10 +74,12 @@ def bent_image(source, bend, voxel, path):
     affine = np.diag([voxel] * 3 + [1.])
     affine[:3, 3] = start
     sampled = map_coordinates(values, voxels.T, order=1, cval=0).reshape(size)
+    threshold = 0.2 * float(np.percentile(values[values > 0], 50))
+    sampled[binary_fill_holes(sampled >= threshold) & (sampled < threshold)] = np.ceil(threshold)
     bent = nibabel.Nifti1Image(np.round(sampled).astype(np.int16), affine)
     bent.header.set_xyzt_units("mm")
     nibabel.save(bent, path)
-    return float(np.percentile(values[values > 0], 2))
+    return threshold
 
 
 def ball(center, radius):

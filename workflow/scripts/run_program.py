@@ -4,7 +4,8 @@
 
   run_program.py REPORT.json TIMES.json [--load LOAD.json] PROGRAM [ARGUMENT...]
 
-LOAD.json has more arguments. Exit status is the program's; what it says goes where it would.
+LOAD.json has more arguments. Exit status is the program's; what it says goes where it would. What killed runs have
+left beside the report is removed.
 """
 
 import json
@@ -22,7 +23,9 @@ def main():
     report, times, *command = sys.argv[1:]
     if command[0] == "--load":
         command = command[2:] + json.loads(pathlib.Path(command[1]).read_text())["arguments"]
-    whole = f"{report}.{os.getpid()}.json"
+    for left in pathlib.Path(report).parent.glob(".*.tmp*"):
+        left.unlink(missing_ok=True)
+    whole = str(pathlib.Path(report).parent / f".{os.getpid()}.tmp.json")
     try:
         status = subprocess.run([*command, f"--report={whole}"]).returncode
         if status:
