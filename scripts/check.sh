@@ -45,7 +45,7 @@ short_tests=(
 sources() {
   local ending
   for ending in "$@"; do
-    find benchmark cmake demo doc examples include scripts src test -type f -name "*$ending"
+    find benchmark cmake demo doc examples include scripts src test workflow -type f -name "*$ending"
   done | sort
 }
 

@@ -11,7 +11,8 @@ FILES = ("brain", "region", "control_points", "image")
 # Options of mixed_mesh_3 and brain_shift with one number, or with any text.
 MESH_NUMBERS = ("threshold", "smoothing", "vertices", "tolerance")
 MESH_TEXTS = ("labels", "region_labels")
-SHIFT_NUMBERS = ("fixed_below", "slide_beyond", "control_radius", "young_modulus", "poisson_ratio", "fluid_level")
+SHIFT_NUMBERS = ("fixed_below", "slide_beyond", "control_radius", "young_modulus", "poisson_ratio",
+                 "fluid_level")
 SHIFT_TEXTS = ("tumor_label", "up", "gravity", "material")
 COLUMNS = ("id", *FILES, "tumor", "opening", *MESH_NUMBERS, *MESH_TEXTS, *SHIFT_NUMBERS, *SHIFT_TEXTS)
 

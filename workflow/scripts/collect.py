@@ -9,11 +9,11 @@ import pathlib
 
 from text_files import write_text
 
-COLUMNS = ("id", "status", "brain", "vertices", "elements", "ARC mean", "ARC max", "Hausdorff mm", "loads done",
-           "loads", "largest shift mm", "loads with inverted elements", "warnings", "message")
-LOAD_COLUMNS = ("id", "load", "status", "displacements", "largest shift mm", "inverted elements", "resected ml",
-                "opening", "opening_radius", "depth", "against_gravity", "fluid_level", "fixed_below", "resected",
-                "message")
+COLUMNS = ("id", "status", "brain", "vertices", "elements", "ARC mean", "ARC max", "Hausdorff mm",
+           "loads done", "loads", "largest shift mm", "loads with inverted elements", "warnings", "message")
+LOAD_COLUMNS = ("id", "load", "status", "displacements", "largest shift mm", "inverted elements",
+                "resected ml", "opening", "opening_radius", "depth", "against_gravity", "fluid_level",
+                "fixed_below", "resected", "message")
 STYLE = """body { font: 15px sans-serif; margin: 2em; color: #222 } table { border-collapse: collapse }
 td, th { padding: .25em .7em; text-align: right; border-bottom: 1px solid #ddd; vertical-align: top }
 th { background: #f3f3f3 } td:first-child, td:last-child, th:first-child, th:last-child { text-align: left }
@@ -64,7 +64,8 @@ def _case_row(case, loads):
     id, row = case["id"], dict.fromkeys(COLUMNS, "")
     rows, warnings = zip(*(_load_row(id, load) for load in loads))
     done = [r for r in rows if r["status"] == "done"]
-    row.update({"id": id, "brain": pathlib.Path(case["brain"]).name, "loads": len(rows), "loads done": len(done)})
+    row.update({"id": id, "brain": pathlib.Path(case["brain"]).name, "loads": len(rows),
+                "loads done": len(done)})
     mesh = _report(f"{id}/mesh.json")
     if mesh:
         arc = mesh["quality"]["after"]["all"]
@@ -103,7 +104,8 @@ def _bars(rows):
     """The largest shift of each load, as a picture; orange where elements are inverted."""
     done = [r for r in rows if r["status"] == "done"]
     longest = max([float(r["largest shift mm"]) for r in done] + [1e-9])
-    bars = [f'<rect x="{9 * i}" width="7" y="{30 - 30 * float(r["largest shift mm"]) / longest:.1f}" height="30"'
+    top = [30 - 30 * float(r["largest shift mm"]) / longest for r in done]
+    bars = [f'<rect x="{9 * i}" width="7" y="{top[i]:.1f}" height="30"'
             f'{" class=inverted" if r["inverted elements"] else ""}><title>{html.escape(r["load"])}: '
             f'{r["largest shift mm"]} mm</title></rect>' for i, r in enumerate(done)]
     return f'<svg width="{9 * len(done)}" height="30" overflow="hidden">{"".join(bars)}</svg>'
@@ -118,8 +120,8 @@ def _table(columns, rows):
 def _page(title, told, rows, loads):
     parts = [f'<!DOCTYPE html>\n<html lang="en"><meta charset="utf-8"><title>{html.escape(title)}</title>',
              f"<style>{STYLE}</style>", f"<h1>{html.escape(title)}</h1>", f"<p>{html.escape(told)}</p>",
-             _table(COLUMNS, rows), "<h2>Loads</h2><p>Bars: the largest shift of each load; orange: some elements"
-             " are inverted by it, as the strain is not small there.</p>"]
+             _table(COLUMNS, rows), "<h2>Loads</h2><p>Bars: the largest shift of each load; orange: some"
+             " elements are inverted by it, as the strain is not small there.</p>"]
     for row in rows:
         mine = loads[row["id"]]
         parts.append(f"<details><summary>{html.escape(row['id'])} {_bars(mine)}</summary>"
@@ -135,8 +137,8 @@ def write_cohort(cases, runs, table):
         rows.append(row)
     count = lambda status: sum(row["status"] == status for row in rows)
     done = sum(row["loads done"] for row in rows)
-    told = (f"{count('done')} of {len(rows)} cases done, {count('failed')} failed, {count('missing')} not run; "
-            f"{done} of {len(runs)} loads done")
+    told = (f"{count('done')} of {len(rows)} cases done, {count('failed')} failed, {count('missing')} not "
+            f"run; {done} of {len(runs)} loads done")
     write_text("cohort.csv", _csv(COLUMNS, rows))
     write_text("loads.csv", _csv(LOAD_COLUMNS, [row for case in loads.values() for row in case]))
     write_text("cohort.md", f"{told}\n\n{_markdown(COLUMNS, rows)}")

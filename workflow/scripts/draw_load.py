@@ -5,8 +5,8 @@
   draw_load.py MESH.mesh DIRECTORY --seed TEXT [--opening "X Y Z R"] [--tumor FILE] [--ball "X Y Z R"]
     [--tumor-label LABEL] [--up X,Y,Z]
 
-Writes to DIRECTORY control_points.csv, opening.off, tumor.off, and load.json with the arguments of brain_shift
-and the numbers drawn. The same text as seed, and the same mesh, make the same load. Units: mm.
+Writes to DIRECTORY control_points.csv, opening.off, tumor.off, and load.json with the arguments of
+brain_shift and the numbers drawn. The same text as seed, and the same mesh, make the same load. Units: mm.
 """
 
 import argparse
@@ -20,7 +20,7 @@ from text_files import write_text
 
 GRAVITY = 9810.  # mm/s^2
 NUMBER_OF_CONTROL_POINTS = 6
-# Of control points, in mm/mN: they give way by tenths of a millimeter where they ask too much of coarse elements.
+# Of control points, in mm/mN: they give way by tenths of a millimeter where they ask too much of elements.
 COMPLIANCE = 0.005
 
 
@@ -96,7 +96,7 @@ def draw(given):
     # Control points must be free.
     fixed = min(random.uniform(0.15, 0.4), 0.8 * float(heights[within[chosen]].min()))
 
-    # A ball around an element of the mesh, in the tumor if there is one, so that there is something to resect.
+    # A ball around an element of the mesh, in the tumor if there is one, so that something is resected.
     resected = bool(random.uniform() < 0.75)
     if given.ball:
         *tumor, tumor_radius = map(float, given.ball.split())
@@ -121,8 +121,8 @@ def draw(given):
     elif resected:
         arguments.append(f"--tumor={given.tumor or folder / 'tumor.off'}")
     drawn = {"opening": numbers(center), "opening_radius": f"{radius:.6f}", "depth": f"{depth:.6f}",
-             "against_gravity": numbers(against), "fluid_level": f"{fluid:.6f}", "fixed_below": f"{fixed:.6f}",
-             "resected": arguments[-1].split("=", 1)[1] if resected else ""}
+             "against_gravity": numbers(against), "fluid_level": f"{fluid:.6f}",
+             "fixed_below": f"{fixed:.6f}", "resected": arguments[-1].split("=", 1)[1] if resected else ""}
     write_text(folder / "load.json", json.dumps({"arguments": arguments, "drawn": drawn}, indent=2) + "\n")
 
 

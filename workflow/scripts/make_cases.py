@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes a cohort of synthetic cases: brains that are scaled and bent by a seed, each with a tumor and an opening.
+"""Makes a cohort of synthetic cases: brains, scaled and bent by a seed, each with a tumor and an opening.
 
-  make_cases.py DIRECTORY [--cases 24] [--seed 1] [--broken] [--voxel 4] [--templates /usr/share/mricron/templates]
+  make_cases.py DIRECTORY [--cases 24] [--seed 1] [--broken] [--voxel 4] [--templates DIRECTORY]
 
 Brains are the surface data/brain.off, and images of Debian's package mricron-data if they are there: of a man
-(ch2bet.nii.gz) and of a macaque (inia19-t1-brain.nii.gz, scaled to a man's size); images are resampled to --voxel
-mm. --broken adds a case whose surface has lost half of its triangles. Writes DIRECTORY/cases.csv.
+(ch2bet.nii.gz) and of a macaque (inia19-t1-brain.nii.gz, scaled to a man's size); images are resampled to
+--voxel mm. --broken adds a case whose surface has lost half of its triangles. Writes DIRECTORY/cases.csv.
 """
 
 import argparse
@@ -52,8 +52,8 @@ def read_off(path):
 
 
 def bent_image(source, bend, voxel, path):
-    """The image on voxels around the bent brain, not compressed. The brain's size and place are made those of data/;
-    cavities inside become tissue. Returns the threshold of the brain.
+    """The image on voxels around the bent brain, not compressed. The brain's size and place are made those of
+    data/; cavities inside become tissue. Returns the threshold of the brain.
     """
     from scipy.ndimage import binary_fill_holes, map_coordinates
 
@@ -112,7 +112,8 @@ def main():
         side = np.array([random.choice([-1, 1]), 1, 1])
         tumor, opening = bend.forward(np.array([TUMOR * side, OPENING * side]))
         rows.append({"id": f"case_{i + 1:02}", "brain": brain, "threshold": threshold, "image": image,
-                     "tumor": ball(tumor, random.uniform(10, 16)), "opening": ball(opening, random.uniform(16, 24))})
+                     "tumor": ball(tumor, random.uniform(10, 16)),
+                     "opening": ball(opening, random.uniform(16, 24))})
     if given.broken:
         write_off(given.directory / "broken.off", points, triangles[::2])
         rows.insert(len(rows) // 2, {**rows[0], "id": "broken", "brain": "broken.off"})

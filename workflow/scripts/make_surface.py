@@ -21,7 +21,8 @@ def disk(center, radius, axis, corners=64):
     first = np.cross(axis, np.eye(3)[np.argmin(abs(axis))])
     first /= np.linalg.norm(first)
     angles = np.linspace(0, 2 * np.pi, corners, endpoint=False)
-    return center + radius * (np.outer(np.cos(angles), first) + np.outer(np.sin(angles), np.cross(axis, first)))
+    second = np.cross(axis, first)
+    return center + radius * (np.outer(np.cos(angles), first) + np.outer(np.sin(angles), second))
 
 
 def hull(points):

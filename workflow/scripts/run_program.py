@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs mixed_mesh_3 or brain_shift, and splits its report: what is the same in each run, and times and memory.
+"""Runs mixed_mesh_3 or brain_shift, and splits its report: what is the same in each run; times and memory.
 
   run_program.py REPORT.json TIMES.json [--load LOAD.json] PROGRAM [ARGUMENT...]
 
-LOAD.json has more arguments. Exit status is the program's; what it says goes where it would. What killed runs have
-left beside the report is removed.
+LOAD.json has more arguments. Exit status is the program's; what it says goes where it would. What killed runs
+have left beside the report is removed.
 """
 
 import json
