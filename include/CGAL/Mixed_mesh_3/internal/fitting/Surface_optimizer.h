@@ -118,8 +118,8 @@ class Surface_optimizer
   static constexpr double share_of_first_power = 0.6;
   // Of that many vertices most are inside, where much time gains little: with 50,000, the thresholds of
   // smaller meshes would take a third more, for a mean aspect-ratio coefficient of 1.378 instead of 1.381.
-  // With 100,000, good enough from 1.15 on instead of 1.3 takes 5 % more moves, for a mean of 1.341 instead of
-  // 1.340; a notable gain of 0.02 a fifth fewer, for 1.343. With 200,000: 1.3430 instead of 1.3432.
+  // With 100,000, good enough from 1.15 on instead of 1.3 takes 5 % more moves, for a mean of 1.341 instead
+  // of 1.340; a notable gain of 0.02 a fifth fewer, for 1.343. With 200,000: 1.3430 instead of 1.3432.
   static constexpr std::size_t many_vertices = 20000;
   static constexpr double good_enough_of_many = 1.3, notable_gain_of_many = 0.01;
   // Longer steps, and fewer sweeps of each power, make a fifth fewer moves: with 50,000 vertices the mean is
