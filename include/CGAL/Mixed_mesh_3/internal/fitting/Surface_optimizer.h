@@ -17,6 +17,7 @@
 #include <CGAL/Mixed_mesh_3/internal/fitting/bisect_boundary_edges.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/feature_paths.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/flips.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/merge_boundary_vertices.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Strata.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
@@ -32,6 +33,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -112,6 +114,10 @@ class Surface_optimizer
   // Once the boundary has arrived, nothing gets worse than that, for the sake of the tolerance for example.
   static constexpr double acceptable_in_the_end = 3;
   static constexpr double retreat_cost = 1000;
+  // Of merging: where it makes elements so many times worse than the bound, nothing would mend them.
+  static constexpr int merging_rounds = 24;
+  static constexpr double worth_merging = 100;
+
   // The fourth power serves all elements, the eighth the worst ones: vertices whose elements are all
   // better than that stay then, and tetrahedra are not flipped.
   static constexpr double good_enough[2] = {1.02, 1.4}, worth_flipping[2] = {1.2, 1.4};
@@ -201,6 +207,8 @@ public:
         retreat_from_self_intersections();
       if(m_crossing.empty())
         return_to_surface();
+      if(m_crossing.empty() && !has_sheets(m_domain))
+        is_stopped = !merge_left_behind(go_on);
     }
     if(m_criteria.tolerance() > 0) {
       m_attraction.measure();
@@ -479,10 +487,7 @@ private:
   void return_to_surface()
   {
     m_moves.set_bound((std::min)(m_final_bound, bound_for_doubles(m_criteria)));
-    std::vector<Vertex_index> off;
-    for(Vertex_index v = 0; v < m_working.points.size(); ++v)
-      if(m_working.is_on_boundary(v) && !m_is_arrived[v])
-        off.push_back(v);
+    std::vector<Vertex_index> off = left_behind();
     m_travelers.clear();
     for(int round = 0; round < return_rounds && !off.empty(); ++round) {
       const State simple = state();
@@ -505,6 +510,88 @@ private:
                                [&](Vertex_index v) { return m_is_arrived[v] || is_crossing(v); }),
                 off.end());
     }
+  }
+
+  std::vector<Vertex_index> left_behind() const
+  {
+    std::vector<Vertex_index> off;
+    for(Vertex_index v = 0; v < m_working.points.size(); ++v)
+      if(m_working.is_on_boundary(v) && !m_is_arrived[v])
+        off.push_back(v);
+    return off;
+  }
+
+  // What can not get to the surface at all is merged with what is beside it. If elements are above the bound
+  // then, or faces cut each other, all goes back, and others are tried.
+  template <class Go_on>
+  bool merge_left_behind(const Go_on& go_on)
+  {
+    const double bound = (std::min)(m_final_bound, bound_for_doubles(m_criteria));
+    Boundary_vertex_merger merger(m_working, m_quality, worth_merging * bound);
+    Tetrahedron_flipper<Quality> flipper(m_working, m_quality, bound);
+    std::set<Working_mesh::Edge>
+      failed; // from a vertex to the one it was merged with, or to itself if it moved
+    m_moves.attract({});
+    m_moves.set_bound(bound);
+    for(int round = 0; round < merging_rounds; ++round) {
+      if(!go_on())
+        return false;
+      const State simple = state();
+      const Working_mesh working = m_working;
+      const Mixed_mesh_optimization_result_3 result = m_result;
+      const std::vector<Working_mesh::Edge> merged = merge_with_neighbors(merger, failed);
+      if(merged.empty())
+        break;
+      for(int i = 0; i < mending_rounds_on_surface; ++i)
+        improve_worst(flipper, bound, i);
+      const std::vector<Vertex_index> crossing = find_crossing();
+      std::vector<Vertex_index> bad = m_moves.vertices_above(bound);
+      if(bad.empty() && crossing.empty())
+        continue;
+      bad.insert(bad.end(), crossing.begin(), crossing.end());
+      std::sort(bad.begin(), bad.end());
+      const std::size_t before = failed.size();
+      for(Vertex_index v : crossing)
+        if(!simple.is_arrived[v])
+          failed.insert({v, v});
+      for(const Working_mesh::Edge& edge : merged)
+        if(std::binary_search(bad.begin(), bad.end(), edge.second))
+          failed.insert(edge);
+      if(failed.size() == before)
+        failed.insert(merged.begin(), merged.end());
+      m_working = working;
+      m_result = result;
+      restore(simple);
+      m_boundary = m_working.interface_faces(m_strata);
+    }
+    if(!m_working.merged.empty())
+      attract_boundary();
+    return true;
+  }
+
+  // Those that can not become travelers.
+  std::vector<Working_mesh::Edge> merge_with_neighbors(Boundary_vertex_merger<Quality>& merger,
+                                                       const std::set<Working_mesh::Edge>& failed)
+  {
+    std::vector<Working_mesh::Edge> merged;
+    m_travelers.clear();
+    for(Vertex_index v : left_behind()) {
+      const Vec3 place = m_project(m_working.points[v], m_working.strata[v]);
+      const Vertex_index w = merger(v, place, [&](Vertex_index u) { return failed.count({v, u}) == 0; });
+      if(w != no_vertex) {
+        leave_feature(v);
+        m_working.strata[v] = free_stratum;
+        m_moves.fix(v);
+        m_moves.activate_around(w);
+        --m_result.number_of_boundary_vertices;
+        merged.emplace_back(v, w);
+      } else if(failed.count({v, v}) == 0) {
+        m_travelers.emplace_back(v, place);
+      }
+    }
+    if(!merged.empty())
+      m_boundary = m_working.interface_faces(m_strata);
+    return merged;
   }
 
   // \return the number of vertices of faces that cut each other
@@ -577,15 +664,21 @@ private:
           leave_surface(v);
         m_moves.activate_around(v);
       }
-      if(m_criteria.flips() && round % rounds_until_flips == 0)
-        m_result.number_of_flips += flip(flipper, mending_power, mending_goal * m_final_bound);
-      m_moves.reset_steps();
-      m_moves.run(mending_power, mending_goal * m_final_bound, arrival_sweeps);
-      choose_new_targets();
-      advance(m_final_bound);
+      improve_worst(flipper, m_final_bound, round);
       bad = m_moves.vertices_above(m_final_bound);
     }
     return true;
+  }
+
+  // A round of steps at a power at which the worst elements count, below the bound.
+  void improve_worst(Tetrahedron_flipper<Quality>& flipper, double bound, int round)
+  {
+    if(m_criteria.flips() && round % rounds_until_flips == 0)
+      m_result.number_of_flips += flip(flipper, mending_power, mending_goal * bound);
+    m_moves.reset_steps();
+    m_moves.run(mending_power, mending_goal * bound, arrival_sweeps);
+    choose_new_targets();
+    advance(bound);
   }
 
   void leave_surface(Vertex_index v)

@@ -80,6 +80,7 @@ struct Working_mesh
   std::vector<Stratum> strata;                        ///< of the vertices
   using Edge = std::pair<Vertex_index, Vertex_index>; ///< the smaller one first
   std::map<Edge, Stratum> sharp_edges;                ///< edges of the boundary along sharp ones
+  std::vector<Vertex_index> merged;                   ///< vertices that no element has any more
 
   /// \param strata_of_vertices on which surfaces they are to be
   template <class Mesh>
@@ -185,7 +186,10 @@ struct Working_mesh
       mesh.points() = std::move(new_points);
       return;
     }
-    mesh.assign(std::move(new_points), element_list(), attributes());
+    if(merged.empty())
+      mesh.assign(std::move(new_points), element_list(), attributes());
+    else
+      store_without_merged(mesh, std::move(new_points));
   }
 
   /// The elements that are not removed.
@@ -206,6 +210,29 @@ struct Working_mesh
       if(!element.is_removed)
         list.push_back(element.attributes);
     return list;
+  }
+
+private:
+  template <class Mesh, class Point_3>
+  void store_without_merged(Mesh& mesh, std::vector<Point_3> all_points) const
+  {
+    std::vector<Vertex_index> numbers(points.size(), 0);
+    for(Vertex_index v : merged)
+      numbers[v] = no_vertex;
+    std::vector<Point_3> new_points;
+    for(std::size_t v = 0; v < points.size(); ++v)
+      if(numbers[v] != no_vertex) {
+        numbers[v] = Vertex_index(new_points.size());
+        new_points.push_back(all_points[v]);
+      }
+    Element_list list;
+    for(Element element : elements)
+      if(!element.is_removed) {
+        for(int i = 0; i < element.size(); ++i)
+          element.vertices[std::size_t(i)] = numbers[element.vertices[std::size_t(i)]];
+        list.add(element.kind, element.vertices.data());
+      }
+    mesh.assign(std::move(new_points), std::move(list), attributes());
   }
 };
 

@@ -1,0 +1,199 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Merging of boundary vertices, one after the other until nothing is left to merge: after each, the mesh and
+// each of its subdomains are without defects, with the topology of the start.
+
+#include "test_fitting.h"
+#include "test_strata.h"
+
+#include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/shell_counts.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/merge_boundary_vertices.h>
+#include <CGAL/Mixed_mesh_3/quality.h>
+#include <CGAL/Mixed_mesh_3/validation.h>
+
+#include <boost/core/lightweight_test.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace {
+
+using namespace CGAL::Mixed_meshes_3;
+using internal::Boundary_vertex_merger;
+using internal::Working_mesh;
+using internal::no_vertex;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+using Cell = std::array<int, 3>;
+
+// Of the cells of a grid of tetrahedra those that belong to a subdomain, not 0.
+Mesh cells_of_grid(int n, unsigned seed, const std::function<Subdomain_index(const Cell&)>& subdomain)
+{
+  Mesh all = grid(n, TETRAHEDRON);
+  distort(all, 0.1 / n, seed);
+  Mesh mesh;
+  std::vector<Vertex_index> numbers(all.number_of_vertices(), no_vertex);
+  for(Element_index e = 0; e < all.number_of_elements(); ++e) {
+    const int cell = int(e) / 6;
+    const Subdomain_index index = subdomain({cell % n, cell / n % n, cell / n / n});
+    if(index == 0)
+      continue;
+    std::array<Vertex_index, 4> v{};
+    for(int i = 0; i < 4; ++i) {
+      Vertex_index& number = numbers[all.element(e)[i]];
+      if(number == no_vertex)
+        number = mesh.add_vertex(all.point(all.element(e)[i]));
+      v[std::size_t(i)] = number;
+    }
+    Element_attributes attributes;
+    attributes.subdomain_index = index;
+    mesh.add_element(TETRAHEDRON, v, attributes);
+  }
+  return mesh;
+}
+
+Mesh part(const Mesh& mesh, Subdomain_index index)
+{
+  Mesh result;
+  std::vector<Vertex_index> numbers(mesh.number_of_vertices(), no_vertex);
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
+    if(mesh.attributes(e).subdomain_index != index)
+      continue;
+    std::vector<Vertex_index> v;
+    for(Vertex_index u : mesh.element(e)) {
+      if(numbers[u] == no_vertex)
+        numbers[u] = result.add_vertex(mesh.point(u));
+      v.push_back(numbers[u]);
+    }
+    result.add_element(mesh.element(e).kind(), v);
+  }
+  return result;
+}
+
+internal::Shell_counts shells_of(const Mesh& mesh)
+{
+  std::vector<Face_vertices> polygons;
+  for(const Face& face : boundary_faces(mesh))
+    polygons.push_back(face.vertices());
+  return internal::shell_counts(polygons, mesh.number_of_vertices());
+}
+
+// \return the number of vertices that were merged
+std::size_t test_merging(const Mesh& start, unsigned seed, double worst = infinity)
+{
+  std::vector<Subdomain_index> indices;
+  for(Element_index e = 0; e < start.number_of_elements(); ++e)
+    indices.push_back(start.attributes(e).subdomain_index);
+  std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+
+  const Aspect_ratio_quality_3 quality;
+  Working_mesh working = working_mesh(start, boundary_faces(start));
+  Boundary_vertex_merger merger(working, quality, worst);
+  std::vector<Vertex_index> order(start.number_of_vertices());
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937(seed));
+  for(Vertex_index v : order) {
+    if(!working.is_on_boundary(v))
+      continue;
+    const std::size_t before = working.merged.size();
+    const Vertex_index w = merger(v, working.points[v], [](Vertex_index) { return true; });
+    BOOST_TEST_EQ(working.merged.size(), before + (w != no_vertex));
+    if(w == no_vertex)
+      continue;
+    Mesh mesh = start;
+    working.store(mesh);
+    BOOST_TEST_EQ(mesh.number_of_vertices(), start.number_of_vertices() - working.merged.size());
+    BOOST_TEST(find_defects(mesh).none());
+    for(Subdomain_index index : indices) {
+      const Mesh before_part = part(start, index), after_part = part(mesh, index);
+      BOOST_TEST(find_defects(after_part).none());
+      BOOST_TEST_EQ(shells_of(after_part).number_of_shells, shells_of(before_part).number_of_shells);
+      BOOST_TEST_EQ(shells_of(after_part).euler_characteristic, shells_of(before_part).euler_characteristic);
+    }
+    BOOST_TEST_EQ(shells_of(mesh).euler_characteristic, shells_of(start).euler_characteristic);
+    for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
+      BOOST_TEST(quality(mesh.element(e).kind(), internal::element_points(mesh, mesh.element(e))) <= worst);
+  }
+  return working.merged.size();
+}
+
+void test_cells()
+{
+  const auto is_in_middle = [](int i) { return i == 1; };
+  std::size_t merged = 0;
+  for(unsigned seed = 1; seed <= 3; ++seed) {
+    merged += test_merging(cells_of_grid(3, seed, [](const Cell&) { return 1; }), seed);
+    // a tunnel, a cavity, walls and gaps of one cell
+    merged += test_merging(
+      cells_of_grid(3, seed, [&](const Cell& c) { return !(is_in_middle(c[0]) && is_in_middle(c[1])); }),
+      seed);
+    merged += test_merging(
+      cells_of_grid(3, seed, [&](const Cell& c) { return !std::all_of(c.begin(), c.end(), is_in_middle); }),
+      seed);
+    merged += test_merging(cells_of_grid(4, seed, [](const Cell& c) { return c[0] % 2 == 0 || c[2] == 0; }),
+                           seed);
+    // subdomains beside each other, and one within
+    merged += test_merging(cells_of_grid(4, seed, [](const Cell& c) { return c[0] < 2 ? 1 : 2; }), seed);
+    merged += test_merging(
+      cells_of_grid(3, seed, [&](const Cell& c) { return is_in_middle(c[0]) && is_in_middle(c[2]) ? 2 : 1; }),
+      seed);
+  }
+  BOOST_TEST(merged > 100);
+}
+
+void test_bound()
+{
+  const Mesh start = cells_of_grid(3, 1, [](const Cell&) { return 1; });
+  BOOST_TEST(test_merging(start, 1, 3) < test_merging(start, 1));
+}
+
+// Elements that are no tetrahedra may have the vertex, but not the edge.
+void test_other_kinds()
+{
+  for(Element_kind kind : {HEXAHEDRON, PRISM, PYRAMID})
+    BOOST_TEST_EQ(test_merging(grid(2, kind), 1), 0u);
+  test_merging(four_kinds<Mesh>(1, {0, 0, 0}), 1);
+}
+
+// A corner of a cube is nearer to places beyond it than any faces without it.
+void test_place()
+{
+  const Mesh start = cells_of_grid(2, 1, [](const Cell&) { return 1; });
+  const Aspect_ratio_quality_3 quality;
+  const Vec3 center{0.5, 0.5, 0.5};
+  int number_of_corners = 0;
+  for(Vertex_index v = 0; v < start.number_of_vertices(); ++v) {
+    Working_mesh working = working_mesh(start, boundary_faces(start));
+    Boundary_vertex_merger merger(working, quality, infinity);
+    const Vec3 p = working.points[v];
+    if(norm(p - center) < 0.8)
+      continue;
+    ++number_of_corners;
+    BOOST_TEST_EQ(merger(v, p + 2. * (p - center), [](Vertex_index) { return true; }), no_vertex);
+    BOOST_TEST_NE(merger(v, center, [](Vertex_index) { return true; }), no_vertex);
+  }
+  BOOST_TEST_EQ(number_of_corners, 8);
+}
+
+} // namespace
+
+int main()
+{
+  test_cells();
+  test_bound();
+  test_other_kinds();
+  test_place();
+  return boost::report_errors();
+}
