@@ -12,6 +12,7 @@
 
 #include <CGAL/Mixed_mesh_3/IO/Read_surface_options.h>
 #include <CGAL/Mixed_mesh_3/IO/Surface_input.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/Surface_soup.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 
@@ -34,6 +35,10 @@ using Surface = CGAL::Surface_mesh<Predicates_kernel::Point_3>;
 /// Reads a surface and mends it, or refuses.
 void read_surface(const std::string& path, const Read_surface_options& options, Surface& mesh,
                   Surface_input& input);
+
+/// Mends a surface, or refuses; the name stands for it in what is said.
+void make_surface(const std::string& name, const Read_surface_options& options, Surface_soup soup,
+                  Surface& mesh, Surface_input& input);
 
 /// Reads a sheet, or refuses.
 void read_sheet(const std::string& path, const Read_surface_options& options, Surface& mesh,
@@ -115,6 +120,39 @@ template <class Mesh>
                                        Surface_input* input = nullptr)
 {
   return read_closed_surface(path, Read_surface_options(), mesh, error, input);
+}
+
+/*!
+\ingroup PkgMixedMesh3IO
+
+Makes a closed surface of arrays, as `read_closed_surface()` does of a file.
+
+\param points a range of ranges of three coordinates
+\param polygons a range of ranges of indices of points
+\param name stands for the surface in `error`
+\param options,mesh,error,input as there
+\return whether all went well; if not, `mesh` is as it was
+\par Complexity
+As there
+*/
+template <class Points, class Polygons, class Mesh>
+[[nodiscard]] bool make_closed_surface(const Points& points, const Polygons& polygons, const std::string& name,
+                                       const Read_surface_options& options, Mesh& mesh,
+                                       std::string* error = nullptr, Surface_input* input = nullptr)
+{
+  const auto make = [&](const std::string&, const Read_surface_options&, internal::Surface& surface,
+                        Surface_input& found) {
+    internal::Surface_soup soup;
+    for(const auto& p : points)
+      soup.points.push_back({double(p[0]), double(p[1]), double(p[2])});
+    for(const auto& polygon : polygons) {
+      soup.polygons.emplace_back();
+      for(const auto v : polygon)
+        soup.polygons.back().push_back(internal::vertex_index(v));
+    }
+    internal::make_surface(name, options, std::move(soup), surface, found);
+  };
+  return internal::read_surface_as(make, name, options, mesh, error, input);
 }
 
 /*!

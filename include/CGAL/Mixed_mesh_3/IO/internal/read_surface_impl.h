@@ -643,28 +643,24 @@ inline Component_counts make_solid(const Read_surface_options& options, Points p
   }
 }
 
-// The faces of a file, without what is superfluous.
-inline void read_faces(const std::string& path, const Read_surface_options& options, Points& points,
-                       Polygons& polygons, Surface_input& input)
+// The faces of a soup, without what is superfluous.
+inline void take_faces(const std::string& path, const Read_surface_options& options, Surface_soup soup,
+                       Points& points, Polygons& polygons, Surface_input& input)
 {
-  bool repeats_points;
-  {
-    Surface_soup soup = read_surface_file(path);
-    check_indices(path, soup);
-    set_space(soup, options);
-    check_coordinates(path, soup);
-    for(const Vec3& p : soup.points)
-      points.emplace_back(p[0], p[1], p[2]);
-    polygons = std::move(soup.polygons);
-    input.warnings = std::move(soup.warnings);
-    repeats_points = soup.repeats_points;
-  }
+  check_indices(path, soup);
+  set_space(soup, options);
+  check_coordinates(path, soup);
+  for(const Vec3& p : soup.points)
+    points.emplace_back(p[0], p[1], p[2]);
+  soup.points = {};
+  polygons = std::move(soup.polygons);
+  input.warnings = std::move(soup.warnings);
   input.number_of_points = points.size();
   input.number_of_polygons = polygons.size();
 
   if(count_edges(polygons).open != 0) {
     const std::size_t merged = merge_border_points(points, polygons);
-    if(merged != 0 && !repeats_points)
+    if(merged != 0 && !soup.repeats_points)
       input.warnings.push_back("merged " + counted(merged, "duplicate point", "duplicate points"));
   }
   remove_superfluous(points, polygons, input);
@@ -675,9 +671,15 @@ inline void read_faces(const std::string& path, const Read_surface_options& opti
 CGAL_MIXED_MESH_3_INLINE void read_surface(const std::string& path, const Read_surface_options& options,
                                            Surface& mesh, Surface_input& input)
 {
+  make_surface(path, options, read_surface_file(path), mesh, input);
+}
+
+CGAL_MIXED_MESH_3_INLINE void make_surface(const std::string& path, const Read_surface_options& options,
+                                           Surface_soup soup, Surface& mesh, Surface_input& input)
+{
   Points points;
   Polygons polygons;
-  read_faces(path, options, points, polygons, input);
+  take_faces(path, options, std::move(soup), points, polygons, input);
   if(is_flat(points))
     refuse(path, "the surface is flat: it encloses no volume");
 
@@ -718,7 +720,7 @@ CGAL_MIXED_MESH_3_INLINE void read_sheet(const std::string& path, const Read_sur
   namespace PMP = CGAL::Polygon_mesh_processing;
   Points points;
   Polygons polygons;
-  read_faces(path, options, points, polygons, input);
+  take_faces(path, options, read_surface_file(path), points, polygons, input);
   const Edge_counts edges = count_edges(polygons);
   if(edges.crowded != 0)
     refuse(path,

@@ -1,0 +1,69 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "arrays.h"
+
+#include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
+
+#include <stdexcept>
+
+std::vector<Vector> vectors_of(const Doubles& array, const std::string& name)
+{
+  if(array.ndim() != 2 || array.shape(1) != 3)
+    throw std::invalid_argument(name + ": expected an array of shape (n, 3)");
+  std::vector<Vector> vectors;
+  const auto rows = array.unchecked<2>();
+  for(py::ssize_t i = 0; i < rows.shape(0); ++i)
+    vectors.push_back({rows(i, 0), rows(i, 1), rows(i, 2)});
+  return vectors;
+}
+
+py::array_t<double> array_of(const std::vector<Vector>& vectors)
+{
+  py::array_t<double> array({py::ssize_t(vectors.size()), py::ssize_t(3)});
+  if(!vectors.empty())
+    std::copy_n(vectors.front().data(), 3 * vectors.size(), array.mutable_data());
+  return array;
+}
+
+std::vector<bool> marks_of(const py::array_t<bool, py::array::c_style | py::array::forcecast>& array,
+                           std::size_t n, const std::string& name)
+{
+  if(array.ndim() != 1 || std::size_t(array.shape(0)) != n)
+    throw std::invalid_argument(name + ": expected " + std::to_string(n) + " truth values");
+  return std::vector<bool>(array.data(), array.data() + n);
+}
+
+py::array_t<bool> array_of(const std::vector<bool>& marks)
+{
+  py::array_t<bool> array(py::ssize_t(marks.size()));
+  std::copy(marks.begin(), marks.end(), array.mutable_data());
+  return array;
+}
+
+Surface surface_of(const Doubles& points, const Integers& triangles, const std::string& name,
+                   std::vector<std::string>& warnings)
+{
+  if(triangles.ndim() != 2)
+    throw std::invalid_argument(name + ": expected triangles of shape (n, 3)");
+  std::vector<std::vector<std::int64_t>> polygons;
+  const auto rows = triangles.unchecked<2>();
+  for(py::ssize_t i = 0; i < rows.shape(0); ++i)
+    polygons.emplace_back(&rows(i, 0), &rows(i, 0) + rows.shape(1));
+  const std::vector<Vector> coordinates = vectors_of(points, name);
+  Surface surface;
+  std::string error;
+  mm3::IO::Surface_input input;
+  bool is_closed;
+  {
+    const py::gil_scoped_release release;
+    is_closed = mm3::IO::make_closed_surface(coordinates, polygons, name, {}, surface, &error, &input);
+  }
+  if(!is_closed)
+    throw std::invalid_argument(error);
+  for(const std::string& warning : input.warnings)
+    warnings.push_back(name + ": " + warning);
+  return surface;
+}

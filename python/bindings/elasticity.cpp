@@ -1,0 +1,177 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Linear elasticity and resection.
+
+#include "arrays.h"
+
+#include <CGAL/Linear_elasticity_3.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/resect.h>
+
+#include <pybind11/stl.h>
+
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+namespace {
+
+using Marks = py::array_t<bool, py::array::c_style | py::array::forcecast>;
+
+struct Elasticity_error : std::runtime_error
+{
+  using runtime_error::runtime_error;
+};
+
+void check(const CGAL::Linear_elasticity_result_3& result)
+{
+  if(!result.is_success())
+    throw Elasticity_error(result.description());
+}
+
+// Keeps the mesh that the solver refers to, and factors when that is first needed.
+class Elasticity
+{
+  using Solver = CGAL::Linear_elasticity_3<Mesh>;
+
+  std::shared_ptr<const Mesh> m_mesh;
+  std::unique_ptr<Solver> m_solver;
+
+  void factor()
+  {
+    if(!m_solver->is_factored())
+      check(m_solver->factor());
+  }
+
+  void require_supports_open(const char* name) const
+  {
+    if(m_solver->is_factored())
+      throw Elasticity_error(std::string(name) + "(): supports are set before the first control points");
+  }
+
+public:
+  Elasticity(std::shared_ptr<const Mesh> mesh,
+             const std::map<int, std::tuple<double, double, double>>& materials,
+             const std::tuple<double, double, double>& other)
+    : m_mesh(std::move(mesh))
+  {
+    const auto material = [](const std::tuple<double, double, double>& m) {
+      const auto [young_modulus, poisson_ratio, density] = m;
+      if(!(young_modulus > 0) || !(poisson_ratio >= 0 && poisson_ratio < 0.5) || !(density >= 0))
+        throw std::invalid_argument(
+          "material: expected a positive Young's modulus, Poisson's ratio from 0 to "
+          "below 0.5, and a density that is not negative");
+      return mm3::Elastic_material{young_modulus, poisson_ratio, density};
+    };
+    std::map<mm3::Subdomain_index, mm3::Elastic_material> of_labels;
+    for(const auto& [label, m] : materials)
+      of_labels[mm3::Subdomain_index(label)] = material(m);
+    m_solver = std::make_unique<Solver>(*m_mesh,
+                                        mm3::materials_of_elements(*m_mesh, of_labels, material(other)));
+  }
+
+  void fix(const Marks& vertices)
+  {
+    require_supports_open("fix");
+    const std::vector<bool> marks = marks_of(vertices, m_mesh->number_of_vertices(), "fix");
+    for(mm3::Vertex_index v = 0; v < marks.size(); ++v)
+      if(marks[v])
+        m_solver->prescribe(v);
+  }
+
+  void slide(const Marks& vertices)
+  {
+    require_supports_open("slide");
+    const std::vector<bool> marks = marks_of(vertices, m_mesh->number_of_vertices(), "slide");
+    m_solver->slide_along_boundary([&](mm3::Vertex_index v) { return marks[v]; });
+  }
+
+  void set_gravity(const std::array<double, 3>& acceleration) { m_solver->set_gravity(Vector(acceleration)); }
+
+  void set_control_points(const Doubles& points, double largest_distance, double compliance, double radius)
+  {
+    const std::vector<Vector> positions = vectors_of(points, "points");
+    const py::gil_scoped_release release;
+    factor();
+    check(m_solver->set_control_points(positions, largest_distance, compliance, radius));
+  }
+
+  py::array_t<double> solve(const Doubles& displacements)
+  {
+    const std::vector<Vector> given = vectors_of(displacements, "displacements");
+    {
+      const py::gil_scoped_release release;
+      factor();
+      if(given.size() != m_solver->number_of_control_points())
+        throw std::invalid_argument("displacements: expected one for each of "
+                                    + std::to_string(m_solver->number_of_control_points())
+                                    + " control points");
+      check(m_solver->solve(given));
+    }
+    return array_of(m_solver->displacements());
+  }
+
+  void remove(const Marks& elements)
+  {
+    const std::vector<bool> marks = marks_of(elements, m_mesh->number_of_elements(), "elements");
+    const py::gil_scoped_release release;
+    factor();
+    check(m_solver->remove_elements(marks));
+  }
+
+  double energy() const { return m_solver->energy(); }
+  py::array_t<double> control_forces() const { return array_of(m_solver->control_forces()); }
+};
+
+py::array_t<bool> removed_elements(const mm3::Resection_3& r)
+{
+  if(r.status != mm3::Resection_status::SUCCESS)
+    throw Elasticity_error(std::string("resect(): ") + mm3::description(r.status));
+  return array_of(r.is_removed);
+}
+
+py::array_t<bool> resect(const Mesh& mesh, const Doubles& points, const Integers& triangles)
+{
+  std::vector<std::string> warnings;
+  const Surface tumor = surface_of(points, triangles, "tumor", warnings);
+  return removed_elements(mm3::resect(mesh, tumor));
+}
+
+py::array_t<bool> resect_elements(const Mesh& mesh, const Marks& elements)
+{
+  return removed_elements(mm3::resect(mesh, marks_of(elements, mesh.number_of_elements(), "elements")));
+}
+
+py::array_t<bool> boundary_vertices(const Mesh& mesh)
+{
+  std::vector<bool> is_boundary(mesh.number_of_vertices(), false);
+  for(mm3::Vertex_index v : mm3::boundary_vertices(mesh))
+    is_boundary[v] = true;
+  return array_of(is_boundary);
+}
+
+} // namespace
+
+void add_elasticity(py::module_& module)
+{
+  py::register_exception<Elasticity_error>(module, "ElasticityError", PyExc_RuntimeError);
+  py::class_<Elasticity>(module, "Elasticity")
+    .def(py::init<std::shared_ptr<const Mesh>, const std::map<int, std::tuple<double, double, double>>&,
+                  const std::tuple<double, double, double>&>())
+    .def("fix", &Elasticity::fix)
+    .def("slide", &Elasticity::slide)
+    .def("set_gravity", &Elasticity::set_gravity)
+    .def("set_control_points", &Elasticity::set_control_points)
+    .def("solve", &Elasticity::solve)
+    .def("remove", &Elasticity::remove)
+    .def("control_forces", &Elasticity::control_forces)
+    .def_property_readonly("energy", &Elasticity::energy);
+  module.def("resect", &resect);
+  module.def("resect_elements", &resect_elements);
+  module.def("boundary_vertices", &boundary_vertices);
+}

@@ -1,0 +1,128 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Images of labels to surfaces, and images that follow a displacement.
+
+#include "arrays.h"
+
+#include <CGAL/Mixed_mesh_image_3/make_label_surface.h>
+#include <CGAL/Mixed_mesh_image_3/simplify_closed_surface.h>
+#include <CGAL/Mixed_mesh_image_3/warp_image.h>
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+namespace {
+
+// With the first index running fastest, as in files.
+using Voxels = py::array_t<float, py::array::f_style | py::array::forcecast>;
+
+mm3::Voxel_image_3 image_of(const Voxels& values, const Doubles& affine)
+{
+  if(values.ndim() != 3 || values.size() == 0)
+    throw std::invalid_argument("image: expected an array of three dimensions");
+  if(affine.ndim() != 2 || affine.shape(0) != 4 || affine.shape(1) != 4)
+    throw std::invalid_argument("affine: expected an array of shape (4, 4)");
+  mm3::Voxel_image_3 image;
+  for(int i = 0; i < 3; ++i) {
+    image.grid.size[std::size_t(i)] = std::size_t(values.shape(i));
+    for(int j = 0; j < 4; ++j)
+      image.grid.index_to_world[std::size_t(i)][std::size_t(j)] = affine.at(i, j);
+  }
+  const double d = mm3::determinant(image.grid.index_to_world);
+  if(!(std::abs(d) > 0 && std::isfinite(d)))
+    throw std::invalid_argument("affine: has no inverse");
+  image.values.assign(values.data(), values.data() + values.size());
+  return image;
+}
+
+py::array_t<float, py::array::f_style> array_of(const mm3::Voxel_image_3& image)
+{
+  const auto& n = image.grid.size;
+  py::array_t<float, py::array::f_style> array({n[0], n[1], n[2]});
+  std::copy(image.values.begin(), image.values.end(), array.mutable_data());
+  return array;
+}
+
+// (i, j, k, 3)
+py::array_t<float> array_of(const mm3::Displacement_field_3& field)
+{
+  const auto& n = field.grid.size;
+  py::array_t<float> array({n[0], n[1], n[2], std::size_t(3)});
+  auto values = array.mutable_unchecked<4>();
+  for(std::size_t k = 0; k < n[2]; ++k)
+    for(std::size_t j = 0; j < n[1]; ++j)
+      for(std::size_t i = 0; i < n[0]; ++i)
+        for(std::size_t c = 0; c < 3; ++c)
+          values(py::ssize_t(i), py::ssize_t(j), py::ssize_t(k),
+                 py::ssize_t(c)) = field.vectors[field.grid.offset(i, j, k)][c];
+  return array;
+}
+
+// The surface of voxels with one of some values, simplified; without points if smoothing leaves nothing.
+py::tuple label_surface(const Voxels& values, const Doubles& affine, const std::set<float>& labels,
+                        std::optional<double> smoothing, std::size_t vertices)
+{
+  const mm3::Voxel_image_3 image = image_of(values, affine);
+  const auto spacing = mm3::voxel_spacing(image.grid);
+  const double deviation = smoothing.value_or(*std::max_element(spacing.begin(), spacing.end()));
+  if(!(deviation >= 0 && deviation <= 100 * *std::min_element(spacing.begin(), spacing.end())))
+    throw std::invalid_argument("smoothing: expected at most the width of 100 voxels, in mm");
+  Surface surface;
+  {
+    const py::gil_scoped_release release;
+    mm3::make_label_surface(
+      image, [&](float value) { return labels.count(value) > 0; }, deviation, surface, vertices);
+    if(!surface.is_empty())
+      mm3::simplify_closed_surface(surface, vertices);
+    surface.collect_garbage();
+  }
+  py::array_t<double> points({py::ssize_t(surface.number_of_vertices()), py::ssize_t(3)});
+  py::array_t<std::int64_t> triangles({py::ssize_t(surface.number_of_faces()), py::ssize_t(3)});
+  double* p = points.mutable_data();
+  for(const auto v : surface.vertices())
+    for(int i = 0; i < 3; ++i)
+      *p++ = surface.point(v)[i];
+  std::int64_t* t = triangles.mutable_data();
+  for(const auto f : surface.faces())
+    for(const auto v : surface.vertices_around_face(surface.halfedge(f)))
+      *t++ = std::int64_t(std::size_t(v));
+  return py::make_tuple(points, triangles);
+}
+
+py::tuple warp(const Voxels& values, const Doubles& affine, const Mesh& mesh, const Doubles& displacements,
+               const std::optional<py::array_t<bool, py::array::c_style | py::array::forcecast>>& removed,
+               bool is_of_labels)
+{
+  const mm3::Voxel_image_3 image = image_of(values, affine);
+  const std::vector<Vector> vectors = vectors_of(displacements, "displacements");
+  if(vectors.size() != mesh.number_of_vertices())
+    throw std::invalid_argument("displacements: expected one for each vertex");
+  mm3::Warp_options options;
+  options.image_interpolation = is_of_labels ? mm3::Image_interpolation::NEAREST
+                                             : mm3::Image_interpolation::LINEAR;
+  if(removed)
+    options.resected_elements = marks_of(*removed, mesh.number_of_elements(), "removed");
+  mm3::Warped_image_3 warped;
+  {
+    const py::gil_scoped_release release;
+    warped = mm3::warp_image(image, mesh, vectors, options);
+  }
+  return py::make_tuple(array_of(warped.image), array_of(warped.forward), array_of(warped.backward),
+                        array_of(warped.mask));
+}
+
+} // namespace
+
+void add_images(py::module_& module)
+{
+  module.def("label_surface", &label_surface);
+  module.def("warp", &warp);
+}

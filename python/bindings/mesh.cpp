@@ -1,0 +1,168 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The mesh as arrays, its certificate and its quality.
+
+#include "arrays.h"
+
+#include <CGAL/Mixed_mesh_3/certificate.h>
+#include <CGAL/Mixed_mesh_3/quality.h>
+#include <CGAL/Mixed_mesh_3/validation.h>
+
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <stdexcept>
+
+namespace {
+
+using Kinds = py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast>;
+
+std::shared_ptr<Mesh> make_mesh(const Doubles& points, const Kinds& kinds, const Integers& connectivity,
+                                const std::optional<Integers>& labels)
+{
+  auto mesh = std::make_shared<Mesh>();
+  for(const Vector& p : vectors_of(points, "points"))
+    mesh->add_vertex({p[0], p[1], p[2]});
+  if(kinds.ndim() != 1 || connectivity.ndim() != 1)
+    throw std::invalid_argument("kinds, connectivity: expected arrays of one dimension");
+  if(labels && (labels->ndim() != 1 || labels->shape(0) != kinds.shape(0)))
+    throw std::invalid_argument("labels: expected one for each element");
+  py::ssize_t next = 0;
+  for(py::ssize_t e = 0; e < kinds.shape(0); ++e) {
+    const std::string name = "element " + std::to_string(e);
+    if(kinds.at(e) >= mm3::number_of_element_kinds)
+      throw std::invalid_argument(name + " has the kind " + std::to_string(int(kinds.at(e)))
+                                  + "; expected 0 to 3");
+    const auto kind = mm3::Element_kind(kinds.at(e));
+    std::vector<mm3::Vertex_index> vertices;
+    for(int i = 0; i < mm3::reference_elements[kind].number_of_vertices; ++i, ++next) {
+      if(next >= connectivity.shape(0))
+        throw std::invalid_argument("connectivity: ends before the elements do");
+      const std::int64_t v = connectivity.at(next);
+      if(v < 0 || std::size_t(v) >= mesh->number_of_vertices())
+        throw std::invalid_argument(name + " has the vertex " + std::to_string(v) + ", which does not exist");
+      vertices.push_back(mm3::Vertex_index(v));
+    }
+    mm3::Element_attributes attributes;
+    if(labels) {
+      if(labels->at(e) < 1 || labels->at(e) > 2000000000)
+        throw std::invalid_argument(name + " has the label " + std::to_string(labels->at(e))
+                                    + "; expected 1 or more");
+      attributes.subdomain_index = mm3::Subdomain_index(labels->at(e));
+    }
+    mesh->add_element(kind, vertices, attributes);
+  }
+  if(next != connectivity.shape(0))
+    throw std::invalid_argument("connectivity: goes on after the last element");
+  return mesh;
+}
+
+// Arrays that look into the mesh; it lives as long as they do, and is not changed.
+template <class T>
+py::array view_of(const T* data, std::vector<py::ssize_t> shape, const py::object& owner)
+{
+  py::array_t<T> array(std::move(shape), data, owner);
+  array.attr("flags").attr("writeable") = false;
+  return std::move(array);
+}
+
+template <class T, class Of_element>
+py::array_t<T> of_elements(const Mesh& mesh, const Of_element& of_element)
+{
+  py::array_t<T> array(py::ssize_t(mesh.number_of_elements()));
+  for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e)
+    array.mutable_data()[e] = of_element(e);
+  return array;
+}
+
+// For each element whether its Jacobian is proved positive all over it.
+py::array_t<bool> certify(const Mesh& mesh)
+{
+  std::vector<bool> is_positive(mesh.number_of_elements());
+  {
+    const py::gil_scoped_release release;
+    for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e)
+      is_positive[e] = mm3::jacobian_sign(mesh, e) == mm3::Jacobian_sign::POSITIVE;
+  }
+  return array_of(is_positive);
+}
+
+py::dict defects(const Mesh& mesh)
+{
+  mm3::Mesh_defects d;
+  {
+    const py::gil_scoped_release release;
+    d = mm3::find_defects(mesh);
+  }
+  py::dict result;
+  result["nonconforming faces"] = d.nonconforming_faces;
+  result["nonmanifold boundary edges"] = d.nonmanifold_boundary_edges;
+  result["nonmanifold boundary vertices"] = d.nonmanifold_boundary_vertices;
+  result["nonpositive elements"] = d.nonpositive_elements;
+  result["undecided elements"] = d.undecided_elements;
+  result["unused vertices"] = d.unused_vertices;
+  result["duplicate vertices"] = d.duplicate_vertices;
+  return result;
+}
+
+py::array_t<double> quality(const Mesh& mesh, const std::string& measure)
+{
+  if(measure == "ARC")
+    return of_elements<double>(mesh, [&](std::size_t e) { return mm3::aspect_ratio_coefficient(mesh, e); });
+  if(measure == "scaled Jacobian")
+    return of_elements<double>(mesh, [&](std::size_t e) { return mm3::scaled_jacobian(mesh, e); });
+  if(measure == "volume")
+    return of_elements<double>(mesh, [&](std::size_t e) { return mm3::volume(mesh, e); });
+  throw std::invalid_argument("quality: unknown measure '" + measure
+                              + "'; expected ARC, scaled Jacobian or volume");
+}
+
+} // namespace
+
+void add_mesh(py::module_& module)
+{
+  static_assert(sizeof(Kernel::Point_3) == 3 * sizeof(double), "points are viewed as doubles");
+  static_assert(sizeof(mm3::Element_kind) == 1 && sizeof(mm3::Vertex_index) == sizeof(std::uint32_t));
+  py::class_<Mesh, std::shared_ptr<Mesh>>(module, "Mesh")
+    .def(py::init(&make_mesh), py::arg("points"), py::arg("kinds"), py::arg("connectivity"),
+         py::arg("labels") = py::none())
+    .def_property_readonly(
+      "points",
+      [](const py::object& self) {
+        const Mesh& mesh = self.cast<const Mesh&>();
+        const auto n = py::ssize_t(mesh.number_of_vertices());
+        return view_of(reinterpret_cast<const double*>(mesh.points().data()), {n, 3}, self);
+      })
+    .def_property_readonly("kinds",
+                           [](const py::object& self) {
+                             const auto& kinds = self.cast<const Mesh&>().elements().kinds();
+                             return view_of(reinterpret_cast<const std::uint8_t*>(kinds.data()),
+                                            {py::ssize_t(kinds.size())}, self);
+                           })
+    .def_property_readonly("connectivity",
+                           [](const py::object& self) {
+                             const auto& v = self.cast<const Mesh&>().elements().connectivity();
+                             return view_of(reinterpret_cast<const std::uint32_t*>(v.data()),
+                                            {py::ssize_t(v.size())}, self);
+                           })
+    .def_property_readonly("offsets",
+                           [](const py::object& self) {
+                             const auto& v = self.cast<const Mesh&>().elements().offsets();
+                             return view_of(v.data(), {py::ssize_t(v.size())}, self);
+                           })
+    .def_property_readonly("labels",
+                           [](const Mesh& mesh) {
+                             return of_elements<std::int32_t>(mesh, [&](mm3::Element_index e) {
+                               return std::int32_t(mesh.subdomain_index(e));
+                             });
+                           })
+    .def_property_readonly("in_region", [](const Mesh& mesh) {
+      return of_elements<bool>(mesh, [&](mm3::Element_index e) { return mesh.attributes(e).is_in_region; });
+    });
+  module.def("certify", &certify);
+  module.def("defects", &defects);
+  module.def("quality", &quality);
+}

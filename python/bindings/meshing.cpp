@@ -1,0 +1,254 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Surfaces to meshes.
+
+#include "arrays.h"
+
+#include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
+#include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/fidelity.h>
+#include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
+#include <CGAL/fit_mixed_mesh_to_surface.h>
+#include <CGAL/make_mixed_mesh_3.h>
+#include <CGAL/optimize_mixed_mesh_3.h>
+
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <tuple>
+
+namespace {
+
+using Domain = CGAL::Labeled_polyhedral_mixed_mesh_domain_3;
+using Status = CGAL::Mixed_mesh_status;
+using Clock = std::chrono::steady_clock;
+
+struct Meshing_error : std::runtime_error
+{
+  using runtime_error::runtime_error;
+};
+
+// Tells Python how far it is, and stops when Python says so: by an exception of the function, or by Ctrl-C.
+class Python_visitor : public mm3::Default_visitor
+{
+  using Progress = std::function<void(const char*, std::size_t, std::size_t)>;
+
+  Progress m_progress;
+  const char* m_stage = "";
+  Clock::time_point m_last = Clock::now();
+  std::exception_ptr m_exception;
+
+  template <class Function>
+  void in_python(const Function& function)
+  {
+    const py::gil_scoped_acquire acquire;
+    try {
+      function();
+    } catch(...) {
+      m_exception = std::current_exception();
+    }
+  }
+
+public:
+  explicit Python_visitor(Progress progress) : m_progress(std::move(progress)) {}
+
+  void begin_stage(mm3::Stage stage)
+  {
+    m_stage = mm3::stage_names[int(stage)];
+    progress(0, 0);
+  }
+
+  void progress(std::size_t vertices, std::size_t budget)
+  {
+    if(m_progress && !m_exception)
+      in_python([&] { m_progress(m_stage, vertices, budget); });
+  }
+
+  bool go_on()
+  {
+    constexpr std::chrono::milliseconds interval(50);
+    if(!m_exception && Clock::now() - m_last > interval) {
+      m_last = Clock::now();
+      in_python([] {
+        if(PyErr_CheckSignals() != 0)
+          throw py::error_already_set();
+      });
+    }
+    return !m_exception;
+  }
+
+  void rethrow() const
+  {
+    if(m_exception)
+      std::rethrow_exception(m_exception);
+  }
+};
+
+using Progress = std::function<void(const char*, std::size_t, std::size_t)>;
+using Soup = std::tuple<Doubles, Integers>;
+using Weighted_soup = std::tuple<Doubles, Integers, double>;
+using Labeled_soup = std::tuple<Doubles, Integers, int>;
+
+[[noreturn]] void refuse(const CGAL::Mixed_mesh_result_3& result, std::size_t vertices, std::size_t regions)
+{
+  switch(result.status) {
+  case Status::BUDGET_TOO_SMALL:
+    throw Meshing_error("vertices=" + std::to_string(vertices)
+                        + ": too small, the coarsest mesh of the surface at base level "
+                        + std::to_string(result.base_level) + " has at least "
+                        + std::to_string(result.number_of_vertices_needed) + " vertices");
+  case Status::EMPTY:
+    throw Meshing_error(
+      "surface: too thin for this budget, no octree vertex is inside; try more vertices or a "
+      "larger base_level");
+  case Status::REGION_NOT_MET:
+    throw Meshing_error(regions == 1 ? "region: the region does not meet the domain"
+                                     : "none of the regions meets the domain");
+  default: throw Meshing_error(std::string(CGAL::description(result.status)));
+  }
+}
+
+// What the report says beside the status.
+void compare(const Mesh& mesh, const Surface& surface, const CGAL::Mixed_mesh_result_3& result,
+             py::dict& report, std::vector<std::string>& warnings)
+{
+  mm3::Solid_comparison comparison;
+  {
+    const py::gil_scoped_release release;
+    comparison = mm3::compare_with_surface(mesh, surface);
+  }
+  for(const mm3::Solid_difference& difference : comparison.differences)
+    warnings.push_back("surface: " + difference.sentence);
+  const auto& o = result.optimization;
+  report["volume"] = comparison.mesh.volume;
+  report["volume of surface"] = comparison.surface.volume;
+  report["same topology"] = comparison.has_same_topology();
+  report["boundary vertices"] = o.number_of_boundary_vertices;
+  report["boundary vertices not on surface"] = o.number_of_boundary_vertices - o.number_of_arrived_vertices;
+  report["number of vertices needed"] = result.number_of_vertices_for_thin_parts;
+}
+
+std::pair<std::shared_ptr<Mesh>, py::dict>
+make_mesh(const Soup& soup, const std::vector<Weighted_soup>& regions,
+          const std::vector<Labeled_soup>& subdomains, std::size_t vertices, double tolerance, double grading,
+          std::optional<int> base_level, double quality_bound, double sharp_angle, const Progress& progress)
+{
+  std::vector<std::string> warnings;
+  Domain domain;
+  for(const auto& [points, triangles, label] : subdomains) {
+    if(label < 0)
+      throw std::invalid_argument("subdomains: expected labels from 2 on, or 0 for a cavity");
+    domain.add(surface_of(points, triangles, "subdomain " + std::to_string(label), warnings),
+               mm3::Subdomain_index(label));
+  }
+  const Surface surface = surface_of(std::get<0>(soup), std::get<1>(soup), "surface", warnings);
+  domain.add(surface, 1);
+  CGAL::Polyhedral_mixed_mesh_regions_3 all_regions;
+  for(std::size_t i = 0; i < regions.size(); ++i) {
+    const auto& [points, triangles, weight] = regions[i];
+    const std::string name = regions.size() == 1 ? "region" : "region " + std::to_string(i);
+    if(!(weight > 0))
+      throw std::invalid_argument(name + ": the weight is not positive");
+    all_regions.add(std::make_shared<const CGAL::Polyhedral_mixed_mesh_region_3>(
+                      surface_of(points, triangles, name, warnings)),
+                    weight);
+  }
+  auto criteria = CGAL::Mixed_mesh_criteria_3(vertices)
+                    .grading(grading)
+                    .quality_bound(quality_bound)
+                    .sharp_angle(sharp_angle);
+  criteria.share_of_bisections(criteria.share_of_bisections_for(domain.subdomain_indices().size()));
+  if(base_level)
+    criteria.base_level(*base_level);
+  if(tolerance > 0)
+    criteria.tolerance(tolerance);
+  Python_visitor visitor(progress);
+  auto mesh = std::make_shared<Mesh>();
+  CGAL::Mixed_mesh_result_3 result;
+  {
+    const py::gil_scoped_release release;
+    result = CGAL::make_mixed_mesh_3<CGAL::Parallel_if_available_tag>(domain, all_regions, criteria, *mesh,
+                                                                      CGAL::parameters::visitor(
+                                                                        std::ref(visitor)));
+  }
+  visitor.rethrow();
+  if(!result.has_mesh() || result.status == Status::BOUNDARY_NOT_MANIFOLD)
+    refuse(result, vertices, regions.size());
+  py::dict report;
+  report["status"] = std::string(CGAL::description(result.status));
+  compare(*mesh, surface, result, report, warnings);
+  report["warnings"] = warnings;
+  return {mesh, report};
+}
+
+py::dict optimize(Mesh& mesh, const Soup& soup, double tolerance, double quality_bound,
+                  std::size_t bisections, const Progress& progress)
+{
+  std::vector<std::string> warnings;
+  const Surface surface = surface_of(std::get<0>(soup), std::get<1>(soup), "surface", warnings);
+  const auto criteria = CGAL::Mixed_mesh_optimization_criteria_3()
+                          .tolerance(tolerance)
+                          .quality_bound(quality_bound)
+                          .number_of_bisections(bisections);
+  Python_visitor visitor(progress);
+  CGAL::Mixed_mesh_optimization_result_3 result;
+  {
+    const py::gil_scoped_release release;
+    result = CGAL::optimize_mixed_mesh_3<CGAL::Parallel_if_available_tag>(mesh, surface, criteria,
+                                                                          CGAL::parameters::visitor(
+                                                                            std::ref(visitor)));
+  }
+  visitor.rethrow();
+  if(result.status == CGAL::Mixed_mesh_optimization_status::INVALID_MESH)
+    throw std::invalid_argument("mesh: an element is inverted, see certify()");
+  py::dict report;
+  report["success"] = result.status == CGAL::Mixed_mesh_optimization_status::SUCCESS;
+  report["boundary vertices"] = result.number_of_boundary_vertices;
+  report["boundary vertices not on surface"] = result.number_of_boundary_vertices
+                                               - result.number_of_arrived_vertices;
+  report["warnings"] = warnings;
+  return report;
+}
+
+py::dict fit(Mesh& mesh, const Soup& soup, const Progress& progress)
+{
+  std::vector<std::string> warnings;
+  const Surface surface = surface_of(std::get<0>(soup), std::get<1>(soup), "surface", warnings);
+  Python_visitor visitor(progress);
+  CGAL::Mixed_mesh_fit_result_3 result;
+  {
+    const py::gil_scoped_release release;
+    result = CGAL::fit_mixed_mesh_to_surface(mesh, surface, CGAL::Mixed_mesh_fit_criteria_3(),
+                                             CGAL::parameters::visitor(std::ref(visitor)));
+  }
+  visitor.rethrow();
+  if(result.status == CGAL::Mixed_mesh_fit_status::INVALID_MESH)
+    throw std::invalid_argument("mesh: an element is inverted, see certify()");
+  py::dict report;
+  report["on surface"] = result.is_on_surface();
+  report["warnings"] = warnings;
+  return report;
+}
+
+std::shared_ptr<Mesh> copy(const Mesh& mesh) { return std::make_shared<Mesh>(mesh); }
+
+} // namespace
+
+void add_meshing(py::module_& module)
+{
+  py::register_exception<Meshing_error>(module, "MeshingError", PyExc_RuntimeError);
+  module.def("mesh", &make_mesh);
+  module.def("optimize", &optimize);
+  module.def("fit", &fit);
+  module.def("copy", &copy);
+}

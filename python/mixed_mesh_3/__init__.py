@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Mixed-element finite-element meshes from arrays, and what is computed on them.
+
+Points are (n, 3) arrays in mm, triangles (m, 3) arrays of their numbers. The meshes are those of the program
+mixed_mesh_3, byte for byte; what it guarantees, and what its parameters do, is in the manual of the C++ package.
+
+    import mixed_mesh_3
+    mesh, report = mixed_mesh_3.mesh(points, triangles, region=(points, triangles), vertices=660)
+    mixed_mesh_3.certify(mesh).all()
+"""
+
+import numpy as _np
+
+from . import _core
+from ._core import ElasticityError, Mesh, MeshingError, boundary_vertices
+
+__all__ = ["Elasticity", "ElasticityError", "KINDS", "Mesh", "MeshingError", "boundary_vertices", "certify", "defects",
+           "fit", "label_surface", "mesh", "mesh_labels", "optimize", "quality", "resect", "warp"]
+
+#: The kinds of elements, as meshio calls them: the values of Mesh.kinds are their places.
+KINDS = ("tetra", "pyramid", "wedge", "hexahedron")
+_SIZES = (4, 5, 6, 8)
+_VTK_TYPES = (10, 14, 13, 12)
+_VTK_WEDGE = (0, 2, 1, 3, 5, 4)  # VTK's is the mirror image of ours, and so is that of meshio and PyVista
+
+
+def _cells(self):
+    """The elements: for each kind that there is, their vertices as an array of shape (n, 4), (n, 5), (n, 6) or (n, 8)."""
+    result = {}
+    for number, kind in enumerate(KINDS):
+        of_kind = _np.flatnonzero(self.kinds == number)
+        if of_kind.size:
+            result[kind] = self.connectivity[self.offsets[of_kind][:, None] + _np.arange(_SIZES[number])]
+    return result
+
+
+def _vtk_connectivity(self):
+    connectivity = self.connectivity.astype(_np.int64)
+    wedges = self.offsets[_np.flatnonzero(self.kinds == KINDS.index("wedge"))].astype(_np.int64)[:, None]
+    connectivity[wedges + _np.arange(6)] = connectivity[wedges + _VTK_WEDGE]
+    return connectivity
+
+
+def _to_meshio(self):
+    """The mesh as a meshio.Mesh, with labels; meshio must be installed."""
+    import meshio
+    cells = {kind: v[:, _VTK_WEDGE] if kind == "wedge" else v for kind, v in self.cells.items()}
+    labels = [self.labels[self.kinds == KINDS.index(kind)] for kind in cells]
+    return meshio.Mesh(_np.array(self.points), list(cells.items()), cell_data={"label": labels})
+
+
+def _to_pyvista(self):
+    """The mesh as a pyvista.UnstructuredGrid, with labels; PyVista must be installed."""
+    import pyvista
+    starts = self.offsets[:-1].astype(_np.int64)
+    cells = _np.insert(_vtk_connectivity(self), starts, _np.diff(self.offsets))
+    grid = pyvista.UnstructuredGrid(cells, _np.array(_VTK_TYPES, dtype=_np.uint8)[self.kinds], _np.array(self.points))
+    grid.cell_data["label"] = self.labels
+    return grid
+
+
+def _show(self):
+    counts = ", ".join(f"{len(v)} {kind}" for kind, v in self.cells.items())
+    return f"<mixed_mesh_3.Mesh: {len(self.points)} vertices, {counts}>"
+
+
+Mesh.cells = property(_cells)
+Mesh.to_meshio = _to_meshio
+Mesh.to_pyvista = _to_pyvista
+Mesh.__repr__ = _show
+
+
+def _regions(region):
+    if region is None:
+        return []
+    regions = region if isinstance(region, list) else [region]
+    return [tuple(r) if len(r) == 3 else (*r, 1.0) for r in regions]
+
+
+def mesh(points, triangles, *, region=None, subdomains=None, vertices=660, tolerance=0.0, grading=0.35, base_level=None,
+         quality_bound=3.2, sharp_angle=50.0, progress=None):
+    """Meshes the inside of a closed surface, fine in a region of interest.
+
+    region: (points, triangles) of a closed surface, or a list of them, each with a weight as its third entry if that is
+        wanted; None: everywhere.
+    subdomains: {label: (points, triangles)}: parts inside, which count from the first to the last where they overlap;
+        labels from 2 on, the rest has 1, and 0 is a cavity.
+    vertices: how many there may be at most.
+    tolerance: how far the boundary may be from the surface, in mm; 0: what the budget allows.
+    quality_bound: no element has a larger aspect-ratio coefficient.
+    progress: called as progress(stage, vertices, budget); what it raises ends the run, as Ctrl-C does.
+
+    Returns the mesh and a report: a dictionary with "status", "warnings" and measures. Raises ValueError if a surface
+    is not one of a solid and cannot be mended, MeshingError if there is no mesh.
+    """
+    return _core.mesh((points, triangles), _regions(region), [(*s, label) for label, s in (subdomains or {}).items()],
+                      vertices, tolerance, grading, base_level, quality_bound,
+                      sharp_angle, progress)
+
+
+def label_surface(image, affine, labels, *, smoothing=None, vertices=20000):
+    """The surface of the voxels of an image that have one of some labels: (points, triangles), in mm.
+
+    affine: (4, 4), from indices to mm, as nibabel has it. smoothing: standard deviation of the Gaussian in mm; None: a
+    voxel. vertices: how many it is simplified to.
+    """
+    return _core.label_surface(image, affine, {float(label) for label in _np.atleast_1d(labels)}, smoothing, vertices)
+
+
+def mesh_labels(image, affine, labels=None, *, smoothing=None, vertices=660, **options):
+    """Meshes an image of labels.
+
+    labels: the values to mesh; None: all that are not 0. The label with most voxels surrounds the others, and has the
+    label 1 in the mesh, the others those of their values (from 2 on). options: as for mesh().
+    """
+    image = _np.asarray(image)
+    values, counts = _np.unique(image[image != 0] if labels is None else image[_np.isin(image, labels)], return_counts=True)
+    if not values.size:
+        raise ValueError("image: there are no voxels with these labels")
+    if (values != _np.floor(values)).any() or (values < 1).any():
+        raise ValueError("image: labels are whole numbers from 1 on")
+    largest = int(counts.argmax())
+
+    def surface(of, share):  # as fine as the mesh can use
+        finer, least = (3, 1000) if share < 1 else (1, 2000)
+        size = max(finer * 20 * (share * vertices) ** (2 / 3), least)
+        return label_surface(image, affine, of, smoothing=smoothing, vertices=int(size))
+
+    parts = {}
+    for value, count in zip(values, counts):
+        if value == values[largest]:
+            continue
+        if value == 1:
+            raise ValueError("image: label 1 is that of what is around the others; give it to the label with most voxels")
+        points, triangles = surface(value, count / counts.sum())
+        if len(points):  # else smoothing leaves nothing
+            parts[int(value)] = (points, triangles)
+    around = surface(values, 1)
+    if not len(around[0]):
+        raise ValueError("image: nothing is left of the labels after smoothing")
+    result, report = mesh(*around, subdomains=parts, vertices=vertices, **options)
+    meshed = set(_np.unique(result.labels)) - {1}
+    report["labels lost"] = sorted({int(v) for i, v in enumerate(values) if i != largest} - meshed)
+    return result, report
+
+
+def optimize(mesh, points, triangles, *, tolerance=0.0, quality_bound=3.2, bisections=0, progress=None):
+    """A mesh with its boundary on the surface and better elements, and a report; the given one stays as it is."""
+    result = _core.copy(mesh)
+    return result, _core.optimize(result, (points, triangles), tolerance, quality_bound, bisections, progress)
+
+
+def fit(mesh, points, triangles, *, progress=None):
+    """A mesh with its boundary carried onto another surface by elastic relaxation (an atlas to a subject), and a
+    report; the given one stays as it is."""
+    result = _core.copy(mesh)
+    return result, _core.fit(result, (points, triangles), progress)
+
+
+def certify(mesh):
+    """For each element whether its Jacobian is proved to be positive all over it, exactly."""
+    return _core.certify(mesh)
+
+
+def defects(mesh):
+    """What is wrong with a mesh, as a dictionary of numbers: all 0 if nothing is."""
+    return _core.defects(mesh)
+
+
+def quality(mesh, measure="ARC"):
+    """A measure of each element: "ARC", the aspect-ratio coefficient, "scaled Jacobian" or "volume"."""
+    return _core.quality(mesh, measure)
+
+
+def resect(mesh, points=None, triangles=None, *, label=None):
+    """Which elements are removed with what a closed surface encloses, or with a label: an array of truth values."""
+    if (points is None) == (label is None):
+        raise ValueError("resect(): expected points and triangles, or a label")
+    return _core.resect_elements(mesh, mesh.labels == label) if points is None else _core.resect(mesh, points, triangles)
+
+
+def warp(image, affine, mesh, displacements, *, removed=None, is_of_labels=False):
+    """An image that follows the displacements of a mesh's vertices.
+
+    removed: elements that were resected. is_of_labels: values are those of the nearest voxel. Returns the image, the
+    displacement fields forward and backward, of shape (i, j, k, 3) in mm, and a mask: 0 outside, 1 tissue, 2 resected.
+    """
+    warped, *rest = _core.warp(image, affine, mesh, displacements, removed, is_of_labels)
+    return (warped.astype(_np.asarray(image).dtype) if is_of_labels else warped, *rest)
+
+
+class Elasticity(_core.Elasticity):
+    """Linear elasticity: displacements of a mesh's vertices, in mm, from those of control points.
+
+        model = Elasticity(mesh, young_modulus=3.0)
+        model.fix(is_fixed)
+        model.set_control_points(points)
+        displacements = model.solve(displacements_of_points)
+
+    young_modulus in kPa, density in kg/mm^3. materials: {label: (young_modulus, poisson_ratio)} or with a density as
+    third entry, for labels with another material. Errors are raised as ElasticityError, with the reason.
+    """
+
+    def __init__(self, mesh, young_modulus=1.0, poisson_ratio=0.45, density=1e-6, *, materials=None):
+        of_labels = {label: (*m, density)[:3] for label, m in (materials or {}).items()}
+        super().__init__(mesh, of_labels, (young_modulus, poisson_ratio, density))
+
+    def set_control_points(self, points, *, largest_distance=0.0, compliance=0.0, radius=0.0):
+        """Points at which displacements are given. largest_distance: points so far outside stand for the nearest one
+        of the boundary. compliance in mm/mN: displacements give way so much. radius: of which they are a mean."""
+        super().set_control_points(points, largest_distance, compliance, radius)
+
+    def solve(self, displacements=None):
+        """The displacement of each vertex, (n, 3) in mm, for those of the control points."""
+        return super().solve(_np.empty((0, 3)) if displacements is None else displacements)

@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A tour of the Python package: from two surfaces to a brain that has shifted, and its tumor removed.
+
+  tutorial.py DATA        the folder data of the repository
+
+Each part can be pasted into a notebook."""
+
+# %% Surfaces are arrays. Any reader will do (meshio, nibabel, trimesh); for the files here, a few lines.
+import pathlib
+import sys
+
+import numpy as np
+
+import mixed_mesh_3 as mm3
+
+data = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "data")
+
+
+def read_off(path):
+    words = path.read_text().split()
+    n, m = int(words[1]), int(words[2])
+    points = np.array(words[4:4 + 3 * n], dtype=float).reshape(n, 3)
+    return points, np.array(words[4 + 3 * n:4 + 3 * n + 4 * m], dtype=int).reshape(m, 4)[:, 1:]
+
+
+brain, region, tumor = (read_off(data / f"{name}.off") for name in ("brain", "region", "tumour"))
+
+# %% A mesh of 660 vertices, fine between the tumor and the opening of the skull
+mesh, report = mm3.mesh(*brain, region=region, vertices=660)
+print(mesh, report["status"])
+assert mm3.certify(mesh).all(), "each element is proved to be valid"
+print("aspect-ratio coefficients: mean %.2f, largest %.2f" % (mm3.quality(mesh).mean(), mm3.quality(mesh).max()))
+
+# %% The brain shifts: the lowest fifth is fixed, and 20 measured points of the surface sink by 5 mm
+boundary = mm3.boundary_vertices(mesh)
+height = mesh.points[:, 2]
+is_low = height < height.min() + 0.2 * (height.max() - height.min())
+model = mm3.Elasticity(mesh, young_modulus=3.0)
+model.fix(boundary & is_low)
+top = np.flatnonzero(boundary)[np.argsort(height[boundary])[-20:]]
+model.set_control_points(mesh.points[top])
+measured = np.tile([0.0, 0.0, -5.0], (len(top), 1))
+shift = model.solve(measured)
+assert np.abs(shift[top] - measured).max() < 1e-6
+print("largest displacement: %.2f mm" % np.linalg.norm(shift, axis=1).max())
+
+# %% The tumor is resected: how the rest moves then
+removed = mm3.resect(mesh, *tumor)
+model.remove(removed)
+after = model.solve(measured)
+print("resected: %.1f cm3" % (mm3.quality(mesh, "volume")[removed].sum() / 1000))
+
+# %% An image follows: here one of stripes, 2 mm wide voxels
+lower, upper = mesh.points.min(axis=0) - 10, mesh.points.max(axis=0) + 10
+affine = np.diag([2.0, 2.0, 2.0, 1.0])
+affine[:3, 3] = lower
+size = ((upper - lower) / 2).astype(int)
+image = np.indices(size).sum(axis=0) % 10 * 100.0
+warped, forward, backward, mask = mm3.warp(image, affine, mesh, after, removed=removed)
+print("voxels of tissue: %d, resected: %d" % ((mask == 1).sum(), (mask == 2).sum()))

@@ -1,0 +1,270 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Python package: arrays against the files of the programs, errors, interruption, and the wheel.
+
+  test_python.py BUILD SOURCE FOLDER        BUILD holds bin/ and python/
+"""
+
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+import unittest
+
+try:
+    import numpy as np
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+BUILD, SOURCE, FOLDER = (pathlib.Path(a).resolve() for a in sys.argv[1:4])
+if not list((BUILD / "python" / "mixed_mesh_3").glob("_core*")):
+    print("skipped: the module was not built, see MIXED_MESH_3_BUILD_PYTHON")
+    sys.exit(77)
+sys.path.insert(0, str(BUILD / "python"))
+import mixed_mesh_3 as mm3  # noqa: E402
+
+DATA = SOURCE / "data"
+
+
+def read_off(path):
+    words = path.read_text().split()
+    n, m = int(words[1]), int(words[2])
+    points = np.array(words[4:4 + 3 * n], dtype=float).reshape(n, 3)
+    return points, np.array(words[4 + 3 * n:4 + 3 * n + 4 * m], dtype=int).reshape(m, 4)[:, 1:]
+
+
+BRAIN, REGION, TUMOR = (read_off(DATA / f"{name}.off") for name in ("brain", "region", "tumour"))
+CUBE = (np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=float),
+        np.array([[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4],
+                  [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]]))
+
+
+def read_vtu(path):
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    grid = reader.GetOutput()
+    cells = {}
+    for i in range(grid.GetNumberOfCells()):
+        cell = grid.GetCell(i)
+        ids = [cell.GetPointId(k) for k in range(cell.GetNumberOfPoints())]
+        cells.setdefault(cell.GetCellType(), []).append(ids)
+    return vtk_to_numpy(grid.GetPoints().GetData()), {kind: np.array(v) for kind, v in cells.items()}
+
+
+class Test(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        FOLDER.mkdir(parents=True, exist_ok=True)
+        cls.mesh, cls.report = mm3.mesh(*BRAIN, region=REGION, vertices=660)
+
+    def run_program(self, name, *arguments):
+        subprocess.run([BUILD / "bin" / name, *map(str, arguments)], check=True, cwd=FOLDER,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def test_same_bytes_as_program(self):
+        self.run_program("mixed_mesh_3", DATA / "brain.off", "--region", DATA / "region.off", "--vertices", 660,
+                         "--output", "brain.vtu", "--report", "brain.json")
+        points, cells = read_vtu(FOLDER / "brain.vtu")
+        self.assertEqual(points.tobytes(), np.array(self.mesh.points).tobytes())
+        vtk_types = {"tetra": 10, "pyramid": 14, "wedge": 13, "hexahedron": 12}
+        self.assertEqual({vtk_types[k] for k in self.mesh.cells}, set(cells))
+        for kind, v in self.mesh.cells.items():
+            v = v[:, [0, 2, 1, 3, 5, 4]] if kind == "wedge" else v
+            np.testing.assert_array_equal(v, cells[vtk_types[kind]])
+        report = json.loads((FOLDER / "brain.json").read_text())
+        self.assertEqual(self.report["status"], report["status"])
+        self.assertAlmostEqual(mm3.quality(self.mesh).max(), report["quality"]["after"]["all"]["max"]
+                               if "all" in report["quality"].get("after", {}) else mm3.quality(self.mesh).max())
+
+    def test_mesh_is_certified(self):
+        self.assertTrue(mm3.certify(self.mesh).all())
+        self.assertEqual(set(mm3.defects(self.mesh).values()), {0})
+        self.assertEqual(self.report["status"], "success")
+        self.assertLessEqual(mm3.quality(self.mesh).max(), 3.2)
+        self.assertAlmostEqual(mm3.quality(self.mesh, "volume").sum(), self.report["volume"], delta=1)
+        self.assertTrue(self.mesh.in_region.any() and not self.mesh.in_region.all())
+
+    def test_arrays_live_as_long_as_they_are_used(self):
+        mesh, _ = mm3.mesh(*CUBE, vertices=100)
+        points = mesh.points
+        copy = points.copy()
+        del mesh
+        mm3.mesh(*CUBE, vertices=200)
+        np.testing.assert_array_equal(points, copy)
+        with self.assertRaises(ValueError):
+            points[0, 0] = 1
+
+    def test_arrays_make_a_mesh(self):
+        m = self.mesh
+        again = mm3.Mesh(m.points, m.kinds, m.connectivity, m.labels)
+        np.testing.assert_array_equal(again.points, m.points)
+        np.testing.assert_array_equal(again.connectivity, m.connectivity)
+        swapped = m.connectivity.copy()
+        first = m.offsets[np.flatnonzero(m.kinds == 0)[0]]
+        swapped[[first, first + 1]] = swapped[[first + 1, first]]
+        inverted = mm3.Mesh(m.points, m.kinds, swapped)
+        self.assertEqual((~mm3.certify(inverted)).sum(), 1)
+        self.assertGreater(mm3.defects(inverted)["nonpositive elements"], 0)
+        with self.assertRaisesRegex(ValueError, "inverted"):
+            mm3.optimize(inverted, *BRAIN)
+        with self.assertRaisesRegex(ValueError, "element 0 has the vertex 99999, which does not exist"):
+            mm3.Mesh(m.points, [0], [0, 1, 2, 99999])
+        with self.assertRaisesRegex(ValueError, "ends before"):
+            mm3.Mesh(m.points, [0], [0, 1, 2])
+
+    def test_errors_are_those_of_the_program(self):
+        points, triangles = CUBE
+        for text, arguments, options, error in [
+            ("surface: face 2 has a vertex that does not exist", (points, np.where(triangles == 6, 99, triangles)),
+             {}, ValueError),
+            ("surface: vertex 2 has a coordinate that is not a finite number",
+             (np.where(np.arange(8)[:, None] == 2, np.nan, points), triangles), {}, ValueError),
+            ("surface: the surface is flat", (points * [1, 1, 0], triangles), {}, ValueError),
+            ("too small, the coarsest mesh of the surface", CUBE, {"vertices": 4, "base_level": 3}, mm3.MeshingError),
+            ("the region does not meet the domain", CUBE, {"region": (points + 10, triangles)}, mm3.MeshingError),
+            ("region: the weight is not positive", CUBE, {"region": (points, triangles, 0)}, ValueError),
+            (r"points|shape \(n, 3\)", (points[:, :2], triangles), {}, ValueError),
+        ]:
+            with self.assertRaisesRegex(error, text):
+                mm3.mesh(*arguments, **options)
+
+    def test_progress_and_interruption(self):
+        calls = []
+        mm3.mesh(*CUBE, vertices=300, progress=lambda *c: calls.append(c))
+        self.assertTrue({stage for stage, _, _ in calls} >= {"octree", "optimization"})
+
+        def fail(*_):
+            raise KeyError("enough")
+        with self.assertRaisesRegex(KeyError, "enough"):
+            mm3.mesh(*CUBE, vertices=300, progress=fail)
+        threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        start = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            mm3.mesh(*BRAIN, vertices=300000)
+        self.assertLess(time.monotonic() - start, 60)
+
+    def test_subdomains(self):
+        mesh, report = mm3.mesh(*BRAIN, region=REGION, subdomains={2: TUMOR}, vertices=1000)
+        self.assertEqual(set(mesh.labels), {1, 2})
+        self.assertTrue(mm3.certify(mesh).all())
+        removed = mm3.resect(mesh, label=2)
+        np.testing.assert_array_equal(removed, mesh.labels == 2)
+
+    def test_labels_of_an_image(self):
+        n, affine = 24, np.diag([-2.0, 2.0, 2.0, 1.0])
+        affine[:3, 3] = [20, -30, 5]
+        x = np.indices((n, n, n)) - (n - 1) / 2
+        image = np.where((x ** 2).sum(axis=0) < 100, 1, 0)
+        image[(x[0] - 3) ** 2 + x[1] ** 2 + x[2] ** 2 < 16] = 7
+        mesh, report = mm3.mesh_labels(image, affine, vertices=800)
+        self.assertEqual(set(mesh.labels), {1, 7})
+        self.assertEqual(report["labels lost"], [])
+        self.assertTrue(mm3.certify(mesh).all())
+        volumes = mm3.quality(mesh, "volume")
+        self.assertAlmostEqual(volumes.sum() / ((image > 0).sum() * 8), 1, delta=0.05)
+        center = affine @ [(n - 1) / 2 + 3, (n - 1) / 2, (n - 1) / 2, 1]
+        inner = mesh.points[np.unique(np.concatenate(
+            [mesh.connectivity[a:b] for a, b, label in zip(mesh.offsets, mesh.offsets[1:], mesh.labels) if label == 7]))]
+        np.testing.assert_allclose(inner.mean(axis=0), center[:3], atol=1)
+        with self.assertRaisesRegex(ValueError, "no voxels"):
+            mm3.mesh_labels(image, affine, labels=[3])
+        with self.assertRaisesRegex(ValueError, "no inverse"):
+            mm3.label_surface(image, np.zeros((4, 4)), 1)
+
+    def test_optimize_and_fit(self):
+        wider = (BRAIN[0] * [1.05, 1, 1], BRAIN[1])
+        optimized, report = mm3.optimize(self.mesh, *wider)
+        self.assertTrue(mm3.certify(optimized).all())
+        self.assertLess(report["boundary vertices not on surface"], 20)
+        self.assertGreater(np.ptp(optimized.points[:, 0]), 1.03 * np.ptp(self.mesh.points[:, 0]))
+        fitted, report = mm3.fit(self.mesh, *wider)
+        self.assertTrue(mm3.certify(fitted).all())
+        np.testing.assert_array_equal(fitted.connectivity, self.mesh.connectivity)
+
+    def test_elasticity_as_program(self):
+        boundary = np.flatnonzero(mm3.boundary_vertices(self.mesh))
+        z = self.mesh.points[:, 2]
+        top = boundary[np.argsort(z[boundary])[-5:]]
+        with open(FOLDER / "points.csv", "w", encoding="ascii") as file:
+            for v in top:
+                file.write(",".join(repr(float(c)) for c in self.mesh.points[v]) + ",0,0,-3\n")
+        self.run_program("mixed_mesh_3", DATA / "brain.off", "--region", DATA / "region.off", "--vertices", 660,
+                         "--output", "shift.vtu")
+        self.run_program("brain_shift", "shift.vtu", "points.csv", "--output", "shifted.vtu", "--fixed-below", 0.2,
+                         "--slide-below", 0)
+        reader = vtk.vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(FOLDER / "shifted.vtu"))
+        reader.Update()
+        data = reader.GetOutput().GetPointData()
+        expected = vtk_to_numpy(data.GetArray("displacement"))
+        model = mm3.Elasticity(self.mesh)
+        is_boundary = mm3.boundary_vertices(self.mesh)
+        lowest, highest = z[is_boundary].min(), z[is_boundary].max()
+        model.fix(is_boundary & (z < lowest + 0.2 * (highest - lowest)))
+        model.set_control_points(self.mesh.points[top])
+        shift = model.solve(np.tile([0, 0, -3.0], (5, 1)))
+        np.testing.assert_allclose(shift, expected, atol=1e-9)
+        self.assertGreater(model.energy, 0)
+        with self.assertRaisesRegex(mm3.ElasticityError, "supports are set before"):
+            model.fix(is_boundary)
+        with self.assertRaisesRegex(mm3.ElasticityError, "outside the mesh"):
+            model.set_control_points([[1e4, 0, 0]])
+        with self.assertRaisesRegex(mm3.ElasticityError, "rigid motions"):
+            mm3.Elasticity(self.mesh).solve()
+        with self.assertRaisesRegex(ValueError, "Poisson"):
+            mm3.Elasticity(self.mesh, poisson_ratio=0.5)
+
+    def test_warp(self):
+        affine = np.diag([4.0, 4.0, 4.0, 1.0])
+        affine[:3, 3] = self.mesh.points.min(axis=0) - 20
+        size = ((np.ptp(self.mesh.points, axis=0) + 40) / 4).astype(int)
+        image = np.random.default_rng(1).integers(0, 5, size).astype(np.int16)
+        shift = np.tile([4.0, 0, 0], (len(self.mesh.points), 1))  # a voxel
+        warped, forward, backward, mask = mm3.warp(image, affine, self.mesh, shift, is_of_labels=True)
+        self.assertEqual(warped.dtype, np.int16)
+        inside = mask == 1
+        np.testing.assert_array_equal(warped[1:][inside[1:]], image[:-1][inside[1:]])
+        np.testing.assert_allclose(backward[inside], np.tile([-4, 0, 0], (inside.sum(), 1)), atol=1e-4)
+
+    def test_other_packages(self):
+        class Meshio:
+            def __init__(self, points, cells, cell_data):
+                self.points, self.cells, self.cell_data = points, dict(cells), cell_data
+        sys.modules["meshio"] = type(sys)("meshio")
+        sys.modules["meshio"].Mesh = Meshio
+        result = self.mesh.to_meshio()
+        self.assertEqual(sum(map(len, result.cells.values())), len(self.mesh.kinds))
+        self.assertEqual([len(v) for v in result.cell_data["label"]], [len(v) for v in result.cells.values()])
+
+    def test_wheel(self):
+        shutil.rmtree(FOLDER / "wheel", ignore_errors=True)
+        (FOLDER / "wheel").mkdir()
+        name = subprocess.run([sys.executable, SOURCE / "python" / "build_wheel.py", FOLDER / "wheel", BUILD], check=True,
+                              capture_output=True, text=True).stdout.strip()
+        environment = FOLDER / "wheel" / "environment"
+        made = subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", environment],
+                              capture_output=True, text=True)
+        if made.returncode != 0:
+            self.skipTest("python3-venv is not installed")
+        python = environment / "bin" / "python"
+        subprocess.run([python, "-m", "pip", "install", "--quiet", "--no-index", FOLDER / "wheel" / name], check=True)
+        clean = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"}
+        out = subprocess.run([python, SOURCE / "python" / "tutorial.py", DATA], check=True, capture_output=True,
+                             text=True, cwd=FOLDER, env=clean).stdout
+        self.assertIn("success", out)
+        start = "import time; t = time.time(); import numpy; u = time.time(); import mixed_mesh_3; print(time.time() - u)"
+        seconds = float(subprocess.run([python, "-c", start], check=True, capture_output=True, text=True, env=clean).stdout)
+        print(f"import, beside NumPy's: {seconds:.3f} s", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
