@@ -16,9 +16,9 @@ echo '{"private": true}' > package.json
 npm install --no-audit --no-fund "three@$THREE" "esbuild@$ESBUILD"
 cat > entry.js << 'END'
 export {
-  AmbientLight, BufferAttribute, BufferGeometry, DirectionalLight, DoubleSide, DynamicDrawUsage, LineBasicMaterial,
-  LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial, OrthographicCamera, Raycaster, Scene, SphereGeometry,
-  Vector2, Vector3, WebGLRenderer
+  AmbientLight, BufferAttribute, BufferGeometry, ColorManagement, DirectionalLight, DoubleSide, LineBasicMaterial,
+  LineSegments, LinearSRGBColorSpace, Mesh, MeshLambertMaterial, OrthographicCamera, Raycaster, Scene, Vector2,
+  Vector3, WebGLRenderer
 } from "three";
 export { OrbitControls } from "three/addons/controls/OrbitControls.js";
 END
