@@ -245,9 +245,10 @@ void add_outputs(CLI::App& app, Options& o, CLI::Option* image)
   app.add_option("--report", o.report, "Report with counts, displacements, forces, parameters and times")
     ->type_name("FILE.json");
   app
-    .add_option("--page", o.page,
-                "Page for a browser, in one file that needs no network: the mesh in 3D before and after, to turn and "
-                "to cut open, displacements, control points and quality")
+    .add_option(
+      "--page", o.page,
+      "Page for a browser, in one file that needs no network: the mesh in 3D before and after, to turn and "
+      "to cut open, displacements, control points and quality")
     ->type_name("FILE.html");
 }
 

@@ -213,9 +213,10 @@ void add_files(CLI::App& app, Options& o)
   app.add_option("--report", o.report, "Report with counts, quality, checks, times and memory")
     ->type_name("FILE.json");
   app
-    .add_option("--page", o.page,
-                "Page for a browser, in one file that needs no network: the mesh in 3D, to turn and to cut open, "
-                "quality, checks and warnings with their places")
+    .add_option(
+      "--page", o.page,
+      "Page for a browser, in one file that needs no network: the mesh in 3D, to turn and to cut open, "
+      "quality, checks and warnings with their places")
     ->type_name("FILE.html");
 }
 

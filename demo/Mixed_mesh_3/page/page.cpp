@@ -11,10 +11,13 @@
 
 #include <CGAL/Bbox_3.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <string_view>
+#include <utility>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 
@@ -130,9 +133,7 @@ Json describe(const Page_data::Step& step)
     displacements.add(x);
   for(const bool b : step.is_removed)
     is_removed.add(std::uint8_t(b));
-  return {{"name", step.name},
-          {"displacements", displacements.text()},
-          {"removed", is_removed.text()}};
+  return {{"name", step.name}, {"displacements", displacements.text()}, {"removed", is_removed.text()}};
 }
 
 Json describe(const Mesh& mesh, const Page_data& data, Json report)
@@ -171,18 +172,15 @@ std::string in_script(const Json& json)
 std::string page(const Mesh& mesh, const Page_data& data, Json report)
 {
   const std::string json = in_script(describe(mesh, data, std::move(report)));
-  // The template names what comes where: {{style}}, {{data}}, ...
   std::string text;
-  std::string_view rest = page_files::html;
+  std::string_view rest = page_files[0].text;
   for(std::size_t begin; (begin = rest.find("{{")) != std::string_view::npos;) {
     const std::size_t end = rest.find("}}", begin);
     const std::string_view name = rest.substr(begin + 2, end - begin - 2);
-    text += rest.substr(0, begin);
-    text += name == "style"     ? std::string_view(page_files::css)
-            : name == "library" ? std::string_view(page_files::library)
-            : name == "data"    ? std::string_view(json)
-                                : std::string_view(page_files::script);
+    const auto file = std::find_if(std::begin(page_files), std::end(page_files),
+                                   [&](const Page_file& f) { return f.name == name; });
+    text.append(rest.substr(0, begin)).append(file != std::end(page_files) ? file->text : json);
     rest.remove_prefix(end + 2);
   }
-  return text += rest;
+  return text.append(rest);
 }

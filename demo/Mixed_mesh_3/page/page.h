@@ -24,8 +24,8 @@ struct Page_data
   struct Step
   {
     std::string name;
-    std::vector<double> displacements;     // x, y, z of each vertex
-    std::vector<bool> is_removed = {};     // each element; empty: none
+    std::vector<double> displacements; // x, y, z of each vertex
+    std::vector<bool> is_removed = {}; // each element; empty: none
   };
 
   std::string command;

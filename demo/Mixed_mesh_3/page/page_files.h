@@ -8,13 +8,16 @@
 #ifndef MIXED_MESH_3_DEMO_PAGE_PAGE_FILES_H
 #define MIXED_MESH_3_DEMO_PAGE_PAGE_FILES_H
 
-namespace page_files {
+#include <string_view>
 
-extern const char html[];    // page.html
-extern const char css[];     // page.css
-extern const char library[]; // three.js
-extern const char script[];  // page.js
+struct Page_file
+{
+  std::string_view name, text;
+};
 
-} // namespace page_files
+inline constexpr int number_of_page_files = 6;
+
+/// The first one is the template: {{page.css}} in it is where that file comes, {{data}} where mesh and report do.
+extern const Page_file page_files[number_of_page_files];
 
 #endif // MIXED_MESH_3_DEMO_PAGE_PAGE_FILES_H
