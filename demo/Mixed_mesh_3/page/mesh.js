@@ -132,7 +132,7 @@ const state = {
   picked: -1,
   place: -1
 };
-const unit = () => state.isPatient ? " mm" : "";
+const unit = () => state.isPatient ? "\u00a0mm" : "";
 
 const KIND_COLORS = ["#f7cc5c", "#e67345", "#8c6bad", "#6ba6d4"];
 const LABEL_COLORS = ["#eddbcc", "#5c9ecc", "#f29e4d", "#73b36b", "#b885bf", "#d9635f", "#8f7a66", "#e8c84a"];

@@ -86,7 +86,7 @@ function pick(e) {
   if (MODES.region) rows.push(["Region", isInRegion[e] ? "meets it" : "outside"]);
   if (state.step > 0) {
     const own = vertices.subarray(firstVertex[e], firstVertex[e + 1]), step = steps[state.step - 1];
-    rows.push(["Shift", number(own.reduce((sum, v) => sum + step.lengths[v], 0) / own.length) + " mm"]);
+    rows.push(["Shift", number(own.reduce((sum, v) => sum + step.lengths[v], 0) / own.length) + "\u00a0mm"]);
   }
   const close = make("button", {"aria-label": "Close", onclick: () => pick(-1)}, "\u00d7");
   card.replaceChildren(make("h3", {}, `${capital(data.kinds[kindOf[e]].name)} ${e}`), close, list(rows));
@@ -100,7 +100,7 @@ function number(x) {
 }
 function count(n) { return n.toLocaleString("en"); }
 function percent(x) {
-  return x === undefined ? "\u2013" : (100 * x).toFixed(x > 0.9995 || x === 0 ? 0 : 1) + " %";
+  return x === undefined ? "\u2013" : (100 * x).toFixed(x > 0.9995 || x === 0 ? 0 : 1) + "\u00a0%";
 }
 function capital(text) { return text.charAt(0).toUpperCase() + text.slice(1); }
 function fileName(path) { return path.split("/").pop(); }
@@ -158,7 +158,7 @@ const AXES = () => state.isPatient ? [["Sagittal", "R", "L"], ["Coronal", "A", "
 function cutText(x) {
   const [, plus, minus] = AXES()[state.axis], there = x + center[state.axis];
   if (!state.isPatient) return number(there);
-  return `${plus && there >= 0 ? plus : minus} ${Math.abs(there).toFixed(1)} mm`;
+  return `${plus && there >= 0 ? plus : minus} ${Math.abs(there).toFixed(1)}\u00a0mm`;
 }
 
 // What depends on the state is made anew, with the focus on what had it.
@@ -281,7 +281,7 @@ const sourceFile = report.inputs.surface?.file ?? report.inputs.mesh?.file ?? ""
 function showFacts() {
   const mesh = report.mesh ?? report.inputs.mesh, fidelity = report.surface,
         shift = report["shift after resection"] ?? report.shift;
-  const cubic = volume => state.isPatient ? `${number(volume / 1000)} ml` : number(volume);
+  const cubic = volume => state.isPatient ? `${number(volume / 1000)}\u00a0ml` : number(volume);
   const facts =
     [["vertices", count(mesh.vertices)], ["elements", count(mesh.elements)], ["volume", cubic(mesh.volume)]];
   if (fidelity)
@@ -290,9 +290,10 @@ function showFacts() {
       ["of the surface\u2019s volume", percent(fidelity["ratio of volumes"])]);
   if (shift)
     facts.push(
-      ["largest shift", number(shift["largest displacement"]) + " mm"],
-      ["control points missed by up to", number(shift["control points missed by at most"]) + " mm"]);
-  if (report.resection) facts.push(["resected", number(report.resection["cavity volume"] / 1000) + " ml"]);
+      ["largest shift", number(shift["largest displacement"]) + "\u00a0mm"],
+      ["control points missed by up to", number(shift["control points missed by at most"]) + "\u00a0mm"]);
+  if (report.resection)
+    facts.push(["resected", number(report.resection["cavity volume"] / 1000) + "\u00a0ml"]);
   if (report.octree) facts.push(["largest ARC", number(worstRatio)]);
   while (facts.length % 3 !== 0) facts.push(["", ""]);
   $("facts").replaceChildren(

@@ -91,8 +91,9 @@ function draw() {
   setGeometry(lines, {position: pointsOf(ends, where)});
   lines.visible = state.hasEdges;
   drawPicked(where);
-  $("shown").textContent = `${count(numberShown)} of ${count(numberOfElements)} elements shown`;
-  $("shown").dataset.shown = numberShown;
+  $("shown").replaceChildren(
+    `${count(numberShown)} of ${count(numberOfElements)}`, make("span", {}, " elements shown"));
+  Object.assign($("shown").dataset, {elements: numberShown, faces: drawn.length});  // for tests
 }
 
 function pointsOf(list, where) {
