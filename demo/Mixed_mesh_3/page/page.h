@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A page to look at in a browser, in one file that needs no network: the mesh to turn and to cut open, and what the
-// report says.
+// A page for a browser, in one file that needs no network: the mesh to turn and to cut open, and what
+// the report says.
 
 #ifndef MIXED_MESH_3_DEMO_PAGE_PAGE_H
 #define MIXED_MESH_3_DEMO_PAGE_PAGE_H
@@ -36,8 +36,8 @@ struct Page_data
   std::vector<Step> steps = {};
 };
 
-/// The text of the page. What differs from run to run, times and memory, is left out of the report, so that the
-/// same command has the same bytes.
+/// The text of the page. What differs from run to run, times and memory, is left out of the report, so that
+/// the same command has the same bytes.
 /// \param report as the program writes it
 std::string page(const Mesh& mesh, const Page_data& data, Json report);
 
