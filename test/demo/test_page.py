@@ -346,6 +346,31 @@ def test_files():
     assert b"nothing will be written" not in result.stderr and b"wrote only.html" in result.stdout
 
 
+def test_warnings():
+    """Each is there; those that name a point have it in the picture."""
+    make(MESHER, str(DATA / "brain.off"), "--space", "RAS", "--region", str(DATA / "region.off"), "--vertices", "300",
+         "--tolerance", "2", "--page", "coarse.html", "--report", "coarse.json")
+    report = json.loads((WORK / "coarse.json").read_text())
+    distances = report["surface"]["Hausdorff distance"]
+    farthest = max((distances[way] for way in ("from mesh to surface", "from surface to mesh")), key=lambda d: d["distance"])
+    numbers = [i for i, text in enumerate(report["warnings"]) if text.startswith("--tolerance")]
+    assert len(numbers) == 1
+    with Page() as page:
+        page.open(WORK / "coarse.html")
+        page.look()
+        texts = page.run("return [...document.querySelectorAll('#places li.warning > span:nth-child(2)')].map(s => s.textContent)")
+        assert texts == report["warnings"]
+        page.choose("cuts", 0)
+        page.run("document.querySelectorAll('#places li')[arguments[0]].querySelector('button').click()", numbers[0])
+        page.look()
+        at = page.run("return mixedMeshPage.state.cut[0]") + data_of(WORK / "coarse.html")["center"][0]
+        assert abs(at - farthest["at"][0]) < 1e-3
+        pins = page.run("return [...document.querySelectorAll('#overlay .pin.warning.current text')].map(t => t.textContent)")
+        assert pins == [str(numbers[0] + 1)]
+        assert not page.run("return document.getElementById('isPatient') !== null") # the axes are known
+        page.is_quiet()
+
+
 def test_large():
     path = WORK / "brain_10000.html"
     make(MESHER, str(DATA / "brain.off"), "--region", str(DATA / "region.off"), "--vertices", "10000", "--page", path.name)
@@ -398,6 +423,7 @@ def main():
     test_without_3d(path)
     test_brain_shift()
     test_hostile_names()
+    test_warnings()
     test_files()
     test_large()
 

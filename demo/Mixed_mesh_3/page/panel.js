@@ -34,7 +34,10 @@ function findPlaces() {
     const [d, what] = ["from mesh to surface", "from surface to mesh"]
                         .map(key => [distances[key], key])
                         .reduce((a, b) => a[0].distance >= b[0].distance ? a : b);
-    result.push({kind: "note", at: relative(d.at), length: d.distance, text: `Farthest ${what}`});
+    const at = relative(d.at),
+          isThere = p => p && Math.hypot(...p.map((x, c) => x - at[c])) < 1e-3 * diagonal;
+    if (!result.some(place => isThere(place.at)))  // a warning tells it already
+      result.push({kind: "note", at, length: d.distance, text: `Farthest ${what}`});
   }
   const shift = report["shift after resection"] ?? report.shift;
   if (shift)
