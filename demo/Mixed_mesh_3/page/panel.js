@@ -8,11 +8,7 @@
 const relative = p => p.map((x, c) => x - center[c]);
 const controlPoints =
   (report["control points"] ?? [])
-    .map((c, i) => ({
-           from: relative(c.position),
-           to: relative(c.position.map((x, k) => x + c.displacement[k])),
-           text: `Control point ${i + 1}, measured: ${number(Math.hypot(...c.displacement))} mm`
-         }));
+    .map(c => [relative(c.position), relative(c.position.map((x, k) => x + c.displacement[k]))]);
 const places = findPlaces();
 
 // Warnings, those that name a point with it; then what is worth looking at.
@@ -257,7 +253,7 @@ function showLegend() {
         make("span", {class: "swatch", style: `background: ${row.color}`}), make("span", {}, row.name),
         make("span", {}, count(row.count))));
     });
-    legend.replaceChildren(caption, rows);
+    legend.replaceChildren(caption, rows, ...arrowsExplained());
     return;
   }
   const ticks = [0, 1, 2, 3, 4].map(i => mode.from + i / 4 * (mode.to - mode.from));
@@ -267,7 +263,13 @@ function showLegend() {
     make("div", {class: "ramp", style: `background: linear-gradient(to right, ${mode.colors.join(", ")})`}),
     make(
       "div", {class: "ticks"},
-      ...ticks.map((x, i) => make("span", {}, (isOpen && i === 4 ? "\u2265 " : "") + number(x)))));
+      ...ticks.map((x, i) => make("span", {}, (isOpen && i === 4 ? "\u2265 " : "") + number(x)))),
+    ...arrowsExplained());
+}
+
+function arrowsExplained() {
+  if (controlPoints.length === 0 || !state.hasPlaces) return [];
+  return [make("p", {class: "caption arrows"}, `measured at ${count(controlPoints.length)} control points`)];
 }
 
 function update() {

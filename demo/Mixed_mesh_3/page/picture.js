@@ -203,12 +203,8 @@ function drawOverlay() {
       svg("text", {x: x0 + pixels / 2, y: y0 - 14}, number(length) + unit()))
   ];
   if (state.hasPlaces) {
-    for (const control of controlPoints) {
-      const [a, b] = [onScreen(control.from), onScreen(control.to)];
-      parts.push(svg(
-        "g", {class: "control"}, svg("title", {}, control.text), svg("circle", {cx: a[0], cy: a[1], r: 3.5}),
-        svg("path", {d: arrow(a, b)})));
-    }
+    const arrows = controlPoints.map(([from, to]) => arrow(onScreen(from), onScreen(to)));
+    parts.push(svg("path", {class: "control", d: arrows.join("")}));
     places.forEach((place, i) => {
       if (!place.at) return;
       const [x, y] = onScreen(place.at);
@@ -223,11 +219,13 @@ function drawOverlay() {
   overlay.replaceChildren(...parts);
 }
 
+// A dot, a line, a head.
 function arrow([x, y], [X, Y]) {
   const l = Math.hypot(X - x, Y - y), [u, v] = l > 0 ? [(X - x) / l, (Y - y) / l] : [0, 0],
         h = Math.min(7, l);
-  return `M${x} ${y}L${X} ${Y}L${X - h * u + h / 2 * v} ${Y - h * v - h / 2 * u}` +
-    `L${X - h * u - h / 2 * v} ${Y - h * v + h / 2 * u}L${X} ${Y}`;
+  const left = [X - h * u + h / 2 * v, Y - h * v - h / 2 * u],
+        right = [X - h * u - h / 2 * v, Y - h * v + h / 2 * u];
+  return `M${x - 3} ${y}a3 3 0 1 0 6 0a3 3 0 1 0 -6 0ZM${x} ${y}L${X} ${Y}L${left}L${right}L${X} ${Y}`;
 }
 
 // ---- mouse and keys --------------------------------------------------------------------------------------
