@@ -189,7 +189,7 @@ const MODES = {
     {name: "Shift", caption: "Displacement, mm", colors: SHIFT_COLORS, from: 0, to: largestDisplacement || 1}
 };
 if (steps.length === 0) delete MODES.displacement;
-if (!isInRegion.includes(1)) delete MODES.region;
+if (!isInRegion.includes(1) || !isInRegion.includes(0)) delete MODES.region;  // none, or everywhere
 for (const mode of Object.values(MODES))
   if (mode.category) {
     for (const row of mode.rows) row.count = 0;

@@ -368,7 +368,7 @@ function showHistogram() {
   picture.append(svg("line", {x1: 0, x2: width, y1: height, y2: height}));
   for (const x of [1, 1.5, 2, 2.5, 3])
     picture.append(svg(
-      "text", {x: Math.max((x - 1) * 10 * bar, 5), y: height + 16},
+      "text", {x: Math.max((x - 1) * 10 * bar, 9), y: height + 16},
       (x === 3 ? "\u2265 " : "") + x.toFixed(1)));
   $("histogram")
     .replaceChildren(

@@ -211,7 +211,8 @@ function drawOverlay() {
       const pin = svg(
         "g",
         {class: `pin ${place.kind}${i === state.place ? " current" : ""}`, transform: `translate(${x} ${y})`},
-        svg("title", {}, place.text), svg("circle", {r: 9}), svg("text", {}, i + 1));
+        svg("title", {}, place.text), svg("circle", {r: 9}),
+        svg("text", {class: i < 99 ? "" : "long"}, i + 1));
       pin.addEventListener("click", () => showPlace(i));
       parts.push(pin);
     });
