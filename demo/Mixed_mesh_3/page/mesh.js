@@ -156,7 +156,6 @@ const subdomainNames = new Map(data["subdomain names"]);
 const labels = [...new Set(labelOf)].sort((a, b) => a - b);
 const labelRow = new Map(labels.map((label, i) => [label, i]));
 const nameOf = label => (subdomainNames.get(label) ?? "subdomain") + ` (${label})`;
-const elementsName = (n, kind) => `${count(n)} ${n === 1 ? kind.name : kind.plural}`;
 
 // Modes of color. Those with categories have a row for each in the legend; the others a ramp.
 const MODES = {
