@@ -308,6 +308,9 @@ def test_brain_shift():
         page.choose("steps", 1)
         assert page.slide("amount", 0)["hash"] == before["hash"]
         assert page.slide("amount", 3)["hash"] != shifted["hash"]
+        page.choose("colors", "kind") # which do not change: it is the mesh that moves
+        assert len({page.slide("amount", x)["hash"] for x in (0, 1, 3)}) == 3
+        page.choose("colors", "displacement")
         arrows = page.run("return document.querySelector('#overlay .control').getAttribute('d')")
         assert arrows.count("Z") == len(report["control points"]) # each starts with a dot
         assert "mm" in page.text("#legend")
