@@ -5,7 +5,8 @@
 #
 #   scripts/check.sh [PART...]            all parts, or those named
 #
-#   format      C++ is as clang-format 14 makes it with .clang-format; no line is longer than 110 columns
+#   format      C++ and JavaScript are as clang-format 14 makes them with .clang-format; no line is longer than
+#               110 columns
 #   shell       shell scripts, by shellcheck
 #   python      programs in Python, by pyflakes
 #   layers      arrows between folders run one way: scripts/check_layers.py
@@ -53,7 +54,8 @@ check_format() {
   local -a files
   local formatter
   formatter=$(command -v clang-format-14 || command -v clang-format)
-  mapfile -t files < <(sources .h .cpp | grep -v '/transition_tables\.h$') # which is generated
+  # without what is generated, and a library
+  mapfile -t files < <(sources .h .cpp .js | grep -vE '/(transition_tables\.h|three\.js)$')
   "$formatter" --dry-run --Werror "${files[@]}"
   # Comments, which it leaves alone.
   if LC_ALL=C.UTF-8 grep -nE '^.{111,}' "${files[@]}"; then

@@ -15,7 +15,7 @@ source "$root/scripts/setup.sh"
 
 build=${BUILD_DIR:-$root/build/test}
 
-install_packages build pictures tests cohort
+install_packages build pictures tests cohort page
 
 if [[ ! -f $build/build.ninja ]]; then
   cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON

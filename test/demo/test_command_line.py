@@ -126,7 +126,7 @@ HARMLESS_SURFACES = [
 ]
 
 
-NOTHING_WRITTEN = "note: nothing will be written, without --output and --report"
+NOTHING_WRITTEN = "note: nothing will be written, without --output, --report and --page"
 
 
 class CommandLine(unittest.TestCase):

@@ -244,6 +244,12 @@ void add_outputs(CLI::App& app, Options& o, CLI::Option* image)
     ->type_name("HOW");
   app.add_option("--report", o.report, "Report with counts, displacements, forces, parameters and times")
     ->type_name("FILE.json");
+  app
+    .add_option(
+      "--page", o.page,
+      "Page for a browser, in one file that needs no network: the mesh in 3D before and after, to turn and "
+      "to cut open, displacements, control points and quality")
+    ->type_name("FILE.html");
 }
 
 void set_up(CLI::App& app, Options& o)
@@ -352,6 +358,7 @@ std::optional<int> parse_command_line(int argc, char** argv, Options& options)
   CLI::App app("Computes how a brain shifts from the displacements of some points, before and after a tumor "
                "is resected, and deforms the image with it. Linear elasticity, small strain.");
   set_up(app, options);
+  options.command = command_of("brain_shift", argc, argv);
   return parse("brain_shift", app, argc, argv, [&] { check_use(app, options); });
 }
 
@@ -397,8 +404,9 @@ std::vector<std::string> outputs_of(const Options& o)
   std::vector<std::string> outputs;
   for(const auto& paths : {o.outputs, o.deformed_outputs, image_outputs(o)})
     outputs.insert(outputs.end(), paths.begin(), paths.end());
-  if(!o.report.empty())
-    outputs.push_back(o.report);
+  for(const std::string& path : {o.report, o.page})
+    if(!path.empty())
+      outputs.push_back(path);
   return outputs;
 }
 
@@ -416,8 +424,9 @@ void check_feasible(const Options& o)
   }
   for(const std::string& path : image_outputs(o))
     outputs.push_back(path);
-  if(!o.report.empty())
-    outputs.push_back(o.report);
+  for(const std::string& path : {o.report, o.page})
+    if(!path.empty())
+      outputs.push_back(path);
   std::vector<std::string> inputs{o.mesh,  o.control_points, o.control_points_after,
                                   o.tumor, o.image,          o.labels};
   for(const auto& patches : {o.fixed_patches, o.sliding_patches, o.openings})

@@ -146,7 +146,7 @@ void print_subdomains(const std::vector<Subdomain_facts>& subdomains)
 
 } // namespace
 
-std::string report(const Options& o, const Outcome& outcome, const Stage_log& log)
+Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
 {
   Json report;
   report["program"] = describe_program("brain_shift");
@@ -185,7 +185,7 @@ std::string report(const Options& o, const Outcome& outcome, const Stage_log& lo
   report["stages"] = describe_stages(log, "ms", 1000);
   report["ms"] = 1000 * outcome.seconds;
   report["peak memory MiB"] = mebibytes(outcome.peak_bytes);
-  return text_of(report);
+  return report;
 }
 
 void print_summary(const Options& o, const Outcome& outcome, const Stage_log& log)

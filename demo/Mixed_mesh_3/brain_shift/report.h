@@ -11,11 +11,10 @@
 #include "brain_shift/options.h"
 #include "brain_shift/outcome.h"
 #include "common/Stage_log.h"
+#include "common/report_json.h"
 
-#include <string>
-
-/// The report, in JSON.
-std::string report(const Options& options, const Outcome& outcome, const Stage_log& log);
+/// The report.
+Json report(const Options& options, const Outcome& outcome, const Stage_log& log);
 
 /// A few lines on the standard output.
 void print_summary(const Options& options, const Outcome& outcome, const Stage_log& log);

@@ -19,6 +19,7 @@
 #include "common/messages.h"
 #include "common/resources.h"
 #include "common/write_files.h"
+#include "page/page.h"
 
 #include <CGAL/Mixed_mesh_3/quality.h>
 
@@ -129,6 +130,16 @@ void write_deformed_meshes(mm3::IO::Output_files& files, const Remaining_mesh& r
     write_mesh(files, path, deformed, with_sets);
 }
 
+// Coordinates are right, anterior and superior in mm, as those of the image and of control points are.
+Page_data page_data(const Inputs& inputs, const std::vector<bool>& is_removed, const Options& o,
+                    const Outcome& outcome)
+{
+  Page_data data{o.command, inputs.subdomain_names, true, {{"shifted", flat(outcome.before.displacements)}}};
+  if(outcome.after)
+    data.steps.push_back({"resected", flat(outcome.after->displacements), is_removed});
+  return data;
+}
+
 void write_files(const Inputs& inputs, const std::vector<bool>& is_removed, const Remaining_mesh& remaining,
                  const Options& o, Stage_log& log, Outcome& outcome)
 {
@@ -140,10 +151,15 @@ void write_files(const Inputs& inputs, const std::vector<bool>& is_removed, cons
     write_meshes(files, inputs, is_removed, o, outcome);
     write_deformed_meshes(files, remaining, inputs, o, outcome);
   });
+  if(!o.page.empty())
+    log("write page", [&] {
+      write_text(files, o.page,
+                 page(inputs.mesh, page_data(inputs, is_removed, o, outcome), report(o, outcome, log)));
+    });
   outcome.seconds = log.seconds();
   outcome.peak_bytes = log.peak_bytes();
   if(!o.report.empty())
-    write_text(files, o.report, report(o, outcome, log));
+    write_text(files, o.report, text_of(report(o, outcome, log)));
   require([&](std::string* error) { return files.commit(error); });
 }
 
@@ -153,8 +169,8 @@ void run(const Options& o)
 {
   check_feasible(o);
   if(!o.quiet && outputs_of(o).empty())
-    std::cerr << "note: nothing will be written, without --output, --output-deformed, --output-image and "
-                 "--report\n";
+    std::cerr << "note: nothing will be written, without --output, --output-deformed, --output-image, "
+                 "--report and --page\n";
   Stage_log log(!o.quiet && isatty(STDERR_FILENO));
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);

@@ -67,6 +67,24 @@ void add_surface_options(CLI::App& app, CGAL::Mixed_meshes_3::IO::Read_surface_o
     ->excludes(strict);
 }
 
+std::string command_of(const char* name, int argc, const char* const* argv)
+{
+  const char* const plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+  std::string command = name;
+  for(int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if(!word.empty() && word.find_first_not_of(plain) == std::string::npos) {
+      command += ' ' + word;
+      continue;
+    }
+    command += " '";
+    for(const char c : word)
+      command += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    command += '\'';
+  }
+  return command;
+}
+
 std::optional<int> parse(const char* name, CLI::App& app, int argc, char** argv,
                          const std::function<void()>& check)
 {

@@ -23,6 +23,9 @@ CLI::Validator number(const std::string& wanted, const std::function<bool(double
 /// Accepts whole numbers from 1 on, as they are written without a fraction or an exponent.
 CLI::Validator count(std::size_t largest);
 
+/// The command line, as a shell takes it.
+std::string command_of(const char* name, int argc, const char* const* argv);
+
 /// Accepts Poisson's ratios: with larger ones, what is left of 1/2 drowns in rounding errors.
 CLI::Validator poisson_ratio();
 /// Adds the options of programs that read surfaces: --space, and what is done with those of no solid.

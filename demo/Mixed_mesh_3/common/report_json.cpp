@@ -40,8 +40,8 @@ Json space_of(const mm3::IO::Read_surface_options& options)
   return options.space ? Json(*options.space == mm3::IO::Anatomical_space::LPS ? "LPS" : "RAS") : Json();
 }
 
-std::string text_of(const Json& report)
+std::string text_of(const Json& report, int indent)
 {
   // file names need not be UTF-8
-  return report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return report.dump(indent, ' ', false, Json::error_handler_t::replace) + '\n';
 }

@@ -33,7 +33,8 @@ Json describe_stages(const Stage_log& log, const std::string& unit, double per_s
 double mebibytes(std::size_t bytes);
 
 /// As it is written to a file.
-std::string text_of(const Json& report);
+/// \param indent of each level; -1: all in one line
+std::string text_of(const Json& report, int indent = 2);
 
 /// The space that surfaces are read in: "RAS" or "LPS"; null if files decide.
 Json space_of(const CGAL::Mixed_meshes_3::IO::Read_surface_options& options);

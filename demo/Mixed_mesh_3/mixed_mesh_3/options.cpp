@@ -212,6 +212,12 @@ void add_files(CLI::App& app, Options& o)
     ->allow_extra_args(false);
   app.add_option("--report", o.report, "Report with counts, quality, checks, times and memory")
     ->type_name("FILE.json");
+  app
+    .add_option(
+      "--page", o.page,
+      "Page for a browser, in one file that needs no network: the mesh in 3D, to turn and to cut open, "
+      "quality, checks and warnings with their places")
+    ->type_name("FILE.html");
 }
 
 // Returns the option that those of Algorithm 1 need.
@@ -443,6 +449,7 @@ std::optional<int> parse_command_line(int argc, char** argv, Options& options)
   CLI::App app("Makes a mixed-element (hexahedra, prisms, pyramids, tetrahedra) finite-element mesh of the "
                "domain inside a closed surface, fine in a region of interest, within a vertex budget.");
   set_up(app, options);
+  options.command = command_of("mixed_mesh_3", argc, argv);
   return parse("mixed_mesh_3", app, argc, argv, [&] { check_options(options); });
 }
 
@@ -459,12 +466,14 @@ void check_feasible(const Options& o)
   Output_paths outputs(inputs);
   for(const std::string& path : o.outputs)
     require([&](std::string* error) { return mm3::IO::check_output_path(path, error); });
-  if(!o.report.empty())
-    require([&](std::string* error) { return mm3::IO::check_output_directory(o.report, error); });
+  for(const std::string& path : {o.report, o.page})
+    if(!path.empty())
+      require([&](std::string* error) { return mm3::IO::check_output_directory(path, error); });
   for(const std::string& path : o.outputs)
     outputs.add(path);
-  if(!o.report.empty())
-    outputs.add(o.report);
+  for(const std::string& path : {o.report, o.page})
+    if(!path.empty())
+      outputs.add(path);
   // More than measured with 100,000 and 200,000 vertices; a direct solver takes more.
   const double bytes_per_vertex = o.fit() == Fit::ALGORITHM_1 ? 3000 : o.tetrahedra ? 1500 : 1100;
   check_memory("--vertices " + std::to_string(o.vertices) + ":", double(o.vertices) * bytes_per_vertex);

@@ -45,7 +45,8 @@ struct Options
 {
   using Templates = CGAL::Mixed_meshes_3::Transition_templates_choice;
 
-  std::string surface, report;
+  std::string surface, report, page;
+  std::string command; // with all options
   std::vector<Region_option> regions;
   std::vector<Subdomain_option> subdomains; // inside the surface; those before count where they overlap
   std::vector<Subdomain_option> labels;     // of an image, with names, instead of voxels

@@ -308,7 +308,7 @@ std::string parts_in_words(const Outcome& outcome)
 
 } // namespace
 
-std::string report(const Options& o, const Outcome& outcome, const Stage_log& log)
+Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
 {
   Json report;
   report["program"] = describe_program("mixed_mesh_3");
@@ -341,7 +341,7 @@ std::string report(const Options& o, const Outcome& outcome, const Stage_log& lo
   report["stages"] = describe_stages(log, "seconds", 1);
   report["seconds"] = outcome.seconds;
   report["peak memory MiB"] = mebibytes(outcome.peak_bytes);
-  return text_of(report);
+  return report;
 }
 
 void print_summary(const Options& o, const Outcome& outcome)
@@ -358,6 +358,7 @@ void print_summary(const Options& o, const Outcome& outcome)
             << parts_in_words(outcome) << "all checks hold; " << outcome.seconds << " s\n";
   for(const std::string& path : o.outputs)
     std::cout << "wrote " << printable(path) << '\n';
-  if(!o.report.empty())
-    std::cout << "wrote " << printable(o.report) << '\n';
+  for(const std::string& path : {o.report, o.page})
+    if(!path.empty())
+      std::cout << "wrote " << printable(path) << '\n';
 }

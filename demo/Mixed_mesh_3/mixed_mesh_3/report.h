@@ -9,13 +9,12 @@
 #define MIXED_MESH_3_DEMO_MIXED_MESH_3_REPORT_H
 
 #include "common/Stage_log.h"
+#include "common/report_json.h"
 #include "mixed_mesh_3/options.h"
 #include "mixed_mesh_3/outcome.h"
 
-#include <string>
-
-/// The report, in JSON.
-std::string report(const Options& options, const Outcome& outcome, const Stage_log& log);
+/// The report.
+Json report(const Options& options, const Outcome& outcome, const Stage_log& log);
 
 /// A few lines on the standard output.
 void print_summary(const Options& options, const Outcome& outcome);

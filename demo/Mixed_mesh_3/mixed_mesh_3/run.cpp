@@ -19,11 +19,14 @@
 #include "mixed_mesh_3/sheets.h"
 #include "mixed_mesh_3/subdomains.h"
 #include "mixed_mesh_3/verdict.h"
+#include "page/page.h"
 
 #include <CGAL/Mixed_mesh_3/fidelity.h>
 #include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
 #include <CGAL/make_mixed_mesh_3.h>
 #include <CGAL/optimize_mixed_mesh_3.h>
+
+#include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
 #include <array>
@@ -390,24 +393,40 @@ Mesh make_mesh_until_stopped(const Domain& domain, const Inputs& inputs, const O
   return mesh;
 }
 
+// Of these formats, the file does not say where the patient is, nor in which unit.
+bool is_in_patient_space(const Options& o)
+{
+  const auto endings = {".off", ".obj", ".stl", ".ply", ".vtp", ".vtk"};
+  return o.surface_options.space || std::none_of(endings.begin(), endings.end(), [&](const char* ending) {
+           return boost::algorithm::iends_with(o.surface, ending);
+         });
+}
+
 void write_files(const Mesh& mesh, const std::vector<mm3::IO::Facet_set>& facet_sets,
                  const std::vector<Subdomain>& subdomains, const Options& o, Stage_log& log, Outcome& outcome)
 {
   mm3::IO::Write_options write_options;
   write_options.msh_2_2 = o.msh2;
   write_options.facet_sets = facet_sets;
+  mm3::IO::Subdomain_names subdomain_names;
+  for(const Subdomain& s : subdomains)
+    if(s.index != 0)
+      subdomain_names.emplace(s.index, s.name);
   if(subdomains.size() > 1)
-    for(const Subdomain& s : subdomains)
-      if(s.index != 0)
-        write_options.subdomain_names.emplace(s.index, s.name);
+    write_options.subdomain_names = subdomain_names;
   const Deferred_signals deferred({SIGINT, SIGTERM, SIGHUP}, Deferred_signals::Second::DEFERRED);
   mm3::IO::Output_files files([] { return !Deferred_signals::has_come(); }); // appear together, at the end
   for(const std::string& path : o.outputs)
     log("write " + path, [&] { write_mesh(files, path, mesh, write_options); });
+  if(!o.page.empty())
+    log("write " + o.page, [&] {
+      const Page_data data{o.command, subdomain_names, is_in_patient_space(o)};
+      write_text(files, o.page, page(mesh, data, report(o, outcome, log)));
+    });
   outcome.seconds = log.seconds();
   outcome.peak_bytes = log.peak_bytes();
   if(!o.report.empty())
-    write_text(files, o.report, report(o, outcome, log));
+    write_text(files, o.report, text_of(report(o, outcome, log)));
   require([&](std::string* error) { return files.commit(error); });
 }
 
@@ -417,8 +436,8 @@ bool run(const Options& o)
 {
   const Thread_limit limit(o.threads);
   check_feasible(o);
-  if(!o.quiet && o.outputs.empty() && o.report.empty())
-    std::cerr << "note: nothing will be written, without --output and --report\n";
+  if(!o.quiet && o.outputs.empty() && o.report.empty() && o.page.empty())
+    std::cerr << "note: nothing will be written, without --output, --report and --page\n";
   Stage_log log(!o.quiet && isatty(STDERR_FILENO));
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);

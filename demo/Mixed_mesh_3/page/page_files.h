@@ -1,0 +1,23 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The files of this folder that pages are made of, as CMake puts them into the program (page_files.cpp.in).
+
+#ifndef MIXED_MESH_3_DEMO_PAGE_PAGE_FILES_H
+#define MIXED_MESH_3_DEMO_PAGE_PAGE_FILES_H
+
+#include <string_view>
+
+struct Page_file
+{
+  std::string_view name, text;
+};
+
+inline constexpr int number_of_page_files = 6;
+
+/// The first one is the template: {{page.css}} is where that file comes, {{data}} where mesh and report do.
+extern const Page_file page_files[number_of_page_files];
+
+#endif // MIXED_MESH_3_DEMO_PAGE_PAGE_FILES_H
