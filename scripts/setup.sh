@@ -3,7 +3,7 @@
 #
 # Installs the Debian packages that are missing for the purposes named:
 #
-#   scripts/setup.sh [build] [pictures] [tests] [image] [benchmark] [checks] [cohort] [page]
+#   scripts/setup.sh [build] [pictures] [tests] [image] [benchmark] [checks] [cohort] [page] [python]
 #
 # When nothing is missing, apt is not called. The other scripts source this
 # file for its two functions, install_packages and build_jobs.
@@ -33,11 +33,13 @@ packages_for() {
     cohort) echo snakemake python3-nibabel python3-numpy python3-scipy ;;
     # The browser that pages are tested with.
     page) echo chromium chromium-driver ;;
+    # What the Python package is built with, and what its test installs it into.
+    python) echo pybind11-dev python3-dev python3-numpy python3-pip python3-venv ;;
     # The peers of scripts/benchmark.sh, and its plots.
     benchmark) echo tetgen python3-gmsh python3-netgen python3-matplotlib ;;
     # What scripts/check.sh runs besides the compiler.
     checks) echo clang clang-format-14 doxygen pyflakes3 shellcheck ;;
-    *) fail "unknown purpose '$1': expected build, pictures, tests, image, benchmark, checks, cohort or page" ;;
+    *) fail "unknown purpose '$1': expected build, pictures, tests, image, benchmark, checks, cohort, page or python" ;;
   esac
 }
 

@@ -15,10 +15,11 @@ source "$root/scripts/setup.sh"
 
 build=${BUILD_DIR:-$root/build/test}
 
-install_packages build pictures tests cohort page
+install_packages build pictures tests cohort page python
 
 if [[ ! -f $build/build.ninja ]]; then
-  cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON
+  cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON \
+    -DMIXED_MESH_3_BUILD_PYTHON=ON -DPython_EXECUTABLE=/usr/bin/python3
 fi
 cmake --build "$build" --parallel "$(build_jobs 1500)"
 echo "built in $((SECONDS / 60)) min $((SECONDS % 60)) s, packages included"

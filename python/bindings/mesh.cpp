@@ -125,7 +125,8 @@ py::array_t<double> quality(const Mesh& mesh, const std::string& measure)
 void add_mesh(py::module_& module)
 {
   static_assert(sizeof(Kernel::Point_3) == 3 * sizeof(double), "points are viewed as doubles");
-  static_assert(sizeof(mm3::Element_kind) == 1 && sizeof(mm3::Vertex_index) == sizeof(std::uint32_t));
+  static_assert(sizeof(mm3::Element_kind) == 1 && sizeof(mm3::Vertex_index) == sizeof(std::uint32_t)
+                && sizeof(std::size_t) == sizeof(std::int64_t));
   py::class_<Mesh, std::shared_ptr<Mesh>>(module, "Mesh")
     .def(py::init(&make_mesh), py::arg("points"), py::arg("kinds"), py::arg("connectivity"),
          py::arg("labels") = py::none())
@@ -151,7 +152,8 @@ void add_mesh(py::module_& module)
     .def_property_readonly("offsets",
                            [](const py::object& self) {
                              const auto& v = self.cast<const Mesh&>().elements().offsets();
-                             return view_of(v.data(), {py::ssize_t(v.size())}, self);
+                             return view_of(reinterpret_cast<const std::int64_t*>(v.data()),
+                                            {py::ssize_t(v.size())}, self);
                            })
     .def_property_readonly("labels",
                            [](const Mesh& mesh) {

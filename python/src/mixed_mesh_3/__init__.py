@@ -36,7 +36,7 @@ def _cells(self):
 
 def _vtk_connectivity(self):
     connectivity = self.connectivity.astype(_np.int64)
-    wedges = self.offsets[_np.flatnonzero(self.kinds == KINDS.index("wedge"))].astype(_np.int64)[:, None]
+    wedges = self.offsets[_np.flatnonzero(self.kinds == KINDS.index("wedge"))][:, None]
     connectivity[wedges + _np.arange(6)] = connectivity[wedges + _VTK_WEDGE]
     return connectivity
 
@@ -52,7 +52,7 @@ def _to_meshio(self):
 def _to_pyvista(self):
     """The mesh as a pyvista.UnstructuredGrid, with labels; PyVista must be installed."""
     import pyvista
-    starts = self.offsets[:-1].astype(_np.int64)
+    starts = self.offsets[:-1]
     cells = _np.insert(_vtk_connectivity(self), starts, _np.diff(self.offsets))
     grid = pyvista.UnstructuredGrid(cells, _np.array(_VTK_TYPES, dtype=_np.uint8)[self.kinds], _np.array(self.points))
     grid.cell_data["label"] = self.labels
