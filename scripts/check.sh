@@ -46,7 +46,7 @@ short_tests=(
 sources() {
   local ending
   for ending in "$@"; do
-    find benchmark cmake demo doc examples include scripts src test workflow -type f -name "*$ending"
+    find benchmark cmake demo doc examples include python scripts src test workflow -type f -name "*$ending"
   done | sort
 }
 

@@ -75,7 +75,8 @@ public:
   /// The value set, or the default.
   double sliding_threshold() const { return m_sliding_threshold; }
 
-  /// Whether tetrahedra may be flipped; else the elements stay the same. Default: yes.
+  /// Whether tetrahedra may be flipped, and boundary vertices merged that can not get to the surface; else the
+  /// elements stay the same. Default: yes.
   Mixed_mesh_optimization_criteria_3& flips(bool allowed)
   {
     m_flips = allowed;
@@ -172,6 +173,7 @@ struct Mixed_mesh_optimization_result_3
   std::size_t number_of_arrived_vertices = 0;  ///< boundary vertices on the surface
   std::size_t number_of_flips = 0;             ///< of tetrahedra
   std::size_t number_of_bisections = 0;        ///< of boundary edges: so many vertices are new
+  std::size_t number_of_merged_vertices = 0;   ///< of the boundary: so many are gone
   bool is_boundary_simple = true;              ///< whether the boundary does not cut itself
   /// Rounds of moves that were done.
   std::size_t number_of_rounds = 0;

@@ -118,6 +118,20 @@ using Labeled_soup = std::tuple<Doubles, Integers, int>;
   }
 }
 
+// As files have them: by kind, within a kind in the order of the mesh.
+Mesh sorted_by_kind(const Mesh& mesh)
+{
+  Mesh sorted;
+  for(const auto& p : mesh.points())
+    sorted.add_vertex(p);
+  for(mm3::Element_kind kind : mm3::element_kinds)
+    for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e)
+      if(const auto element = mesh.element(e); element.kind() == kind)
+        sorted.add_element(kind, std::vector<mm3::Vertex_index>(element.begin(), element.end()),
+                           mesh.attributes(e));
+  return sorted;
+}
+
 // What the report says beside the status.
 void compare(const Mesh& mesh, const Surface& surface, const CGAL::Mixed_mesh_result_3& result,
              py::dict& report, std::vector<std::string>& warnings)
@@ -187,6 +201,7 @@ make_mesh(const Soup& soup, const std::vector<Weighted_soup>& regions,
   py::dict report;
   report["status"] = std::string(CGAL::description(result.status));
   compare(*mesh, surface, result, report, warnings);
+  *mesh = sorted_by_kind(*mesh);
   report["warnings"] = warnings;
   return {mesh, report};
 }

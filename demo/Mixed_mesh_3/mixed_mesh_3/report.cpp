@@ -177,6 +177,7 @@ Json describe(const CGAL::Mixed_mesh_optimization_result_3& r)
           {"arrived", r.number_of_arrived_vertices},
           {"rounds", r.number_of_rounds},
           {"flips", r.number_of_flips},
+          {"merged vertices", r.number_of_merged_vertices},
           {"sharp edges",
            {{"length", r.length_of_sharp_edges},
             {"share kept", r.length_of_sharp_edges > 0

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Mixed-element finite-element meshes from arrays, and what is computed on them.
 
-Points are (n, 3) arrays in mm, triangles (m, 3) arrays of their numbers. The meshes are those of the program
-mixed_mesh_3, byte for byte; what it guarantees, and what its parameters do, is in the manual of the C++ package.
+Points are (n, 3) arrays in mm, triangles (m, 3) arrays of their numbers. The meshes are those of make_mixed_mesh_3() in
+C++, and of the program mixed_mesh_3 where that does not mesh a surface with thin parts a second time; what they
+guarantee, and what parameters do, is in the manual. Elements are sorted by kind, as in files.
 
     import mixed_mesh_3
     mesh, report = mixed_mesh_3.mesh(points, triangles, region=(points, triangles), vertices=660)

@@ -207,7 +207,7 @@ public:
         retreat_from_self_intersections();
       if(m_crossing.empty())
         return_to_surface();
-      if(m_crossing.empty() && !has_sheets(m_domain))
+      if(m_crossing.empty() && m_criteria.flips() && !has_sheets(m_domain))
         is_stopped = !merge_left_behind(go_on);
     }
     if(m_criteria.tolerance() > 0) {
@@ -584,6 +584,7 @@ private:
         m_moves.fix(v);
         m_moves.activate_around(w);
         --m_result.number_of_boundary_vertices;
+        ++m_result.number_of_merged_vertices;
         merged.emplace_back(v, w);
       } else if(failed.count({v, v}) == 0) {
         m_travelers.emplace_back(v, place);
