@@ -45,6 +45,13 @@ of those of its elements. The rotation depends on the displacements, which gives
 
 and, differentiated once more, the product with the tangent stiffness. The energy does not change when all is
 turned; so forces have no moment, and a rigid motion has none of them.
+
+In a step of Newton's that turns elements, these are stretched by what the step has of second order, and the
+forces of that would make the tangent far too stiff for the next one. So the tangent takes the forces that the
+step should have made, to first order, as if they were unknowns of their own: D. Magisano, L. Leonetti,
+G. Garcea: "How to improve efficiency and robustness of the Newton method in geometrically non-linear
+structural problem discretized via displacement-based finite elements", Comput. Methods Appl. Mech. Engrg 313,
+2017.
 */
 class Corotational_elements
 {
@@ -58,7 +65,7 @@ class Corotational_elements
     std::size_t first_entry; // of the matrices
     double volume;
     Polar_rotation frame;
-    Eigen::Vector3d couple; // h
+    Eigen::Vector3d couple; // h, of the forces that are expected
   };
 
   // Elements of one dilatation: those of a patch, or one alone, which has its dilatation in its matrix.
@@ -73,9 +80,30 @@ class Corotational_elements
   std::vector<Group> m_groups;
   Vectors m_positions, m_gradients; // X, g
   Vectors m_turned, m_forces;       // R^T x, q
+  Vectors m_expected_forces;        // what the last step made of q, to first order
   std::vector<double> m_matrices;   // K of each element
   double m_energy = 0;
   Vector m_internal_forces;
+
+  using Nodes = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 8>;
+
+  // How an element moves in its frame, and how that turns.
+  struct Change
+  {
+    Nodes displacements;
+    Eigen::Vector3d turn;
+  };
+
+  Eigen::Index size(const Element& element) const { return (*m_elements)[element.number].size(); }
+
+  auto nodes(const Vectors& vectors, const Element& element) const
+  {
+    return vectors.middleCols(element.first_node, size(element));
+  }
+  auto nodes(Vectors& vectors, const Element& element) const
+  {
+    return vectors.middleCols(element.first_node, size(element));
+  }
 
 public:
   /// \pre the stiffness is assembled, and no element is inverted
@@ -108,7 +136,7 @@ public:
       if(!is_in_patch[e] && !stiffness.is_removed(e))
         add({e}, 0);
     m_turned = m_positions;
-    m_forces = Vectors::Zero(3, number_of_nodes);
+    m_forces = m_expected_forces = Vectors::Zero(3, number_of_nodes);
   }
 
   /// Of the displacements that `move()` was given.
@@ -119,45 +147,33 @@ public:
   /// Finds the rotations, the energy and the forces. \param u three components of each vertex
   void move(const Vector& u)
   {
-    m_energy = 0;
-    m_internal_forces = Vector::Zero(u.size());
-    for(const Group& group : m_groups) {
-      double dilatation = 0;
-      for(std::size_t i = group.first; i < group.last; ++i)
-        dilatation += move(m_frames[i], u);
-      const double pressure = group.modulus * dilatation;
-      m_energy += pressure * dilatation / 2;
-      for(std::size_t i = group.first; i < group.last; ++i)
-        add_forces(m_frames[i], pressure);
-    }
+    find_forces(u);
+    m_expected_forces = m_forces;
+    find_couples();
+  }
+
+  /// As `move()`, but with the tangent of the forces that a step is expected to make.
+  /// \param step from the last displacements
+  void move_by(const Vector& step, const Vector& u)
+  {
+    for_each_change(step, [this](const Element& element, const Change&, const Nodes& forces) {
+      nodes(m_expected_forces, element) = nodes(m_forces, element) + forces;
+    });
+    find_forces(u);
+    find_couples();
   }
 
   /// The tangent stiffness at these displacements times others.
   Vector product(const Vector& p) const
   {
     Vector f = Vector::Zero(p.size());
-    std::vector<Change> changes;
-    for(const Group& group : m_groups) {
-      changes.resize(group.last - group.first);
-      double dilatation = 0;
-      for(std::size_t i = group.first; i < group.last; ++i)
-        dilatation += change(m_frames[i], p, changes[i - group.first]);
-      for(std::size_t i = group.first; i < group.last; ++i)
-        add_changes(m_frames[i], group.modulus * dilatation, changes[i - group.first], f);
-    }
+    for_each_change(p, [&](const Element& element, const Change& change, const Nodes& forces) {
+      add_changes(element, change, forces, f);
+    });
     return f;
   }
 
 private:
-  using Nodes = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 8>;
-
-  // How an element moves in its frame, and how that turns.
-  struct Change
-  {
-    Nodes displacements;
-    Eigen::Vector3d turn;
-  };
-
   void add_element(const Elastic_stiffness& stiffness, Element_index e)
   {
     const Element_view view = (*m_elements)[e];
@@ -186,17 +202,6 @@ private:
     m_frames.push_back(element);
   }
 
-  Eigen::Index size(const Element& element) const { return (*m_elements)[element.number].size(); }
-
-  auto nodes(const Vectors& vectors, const Element& element) const
-  {
-    return vectors.middleCols(element.first_node, size(element));
-  }
-  auto nodes(Vectors& vectors, const Element& element) const
-  {
-    return vectors.middleCols(element.first_node, size(element));
-  }
-
   // What an element's vertices have.
   Nodes gather(const Vector& u, const Element& element) const
   {
@@ -212,9 +217,9 @@ private:
   {
     const Eigen::Index n = v.size();
     Nodes q(3, v.cols());
-    Eigen::Map<Eigen::VectorXd>(q.data(), n).noalias() =
-      Eigen::Map<const Eigen::MatrixXd>(&m_matrices[element.first_entry], n, n)
-      * Eigen::Map<const Eigen::VectorXd>(v.data(), n);
+    Eigen::Map<Eigen::VectorXd>(q.data(), n).noalias() = Eigen::Map<const Eigen::MatrixXd>(
+                                                           &m_matrices[element.first_entry], n, n)
+                                                         * Eigen::Map<const Eigen::VectorXd>(v.data(), n);
     return q;
   }
 
@@ -249,16 +254,58 @@ private:
     return dilatation(element, v);
   }
 
-  void add_forces(Element& element, double pressure)
+  void find_forces(const Vector& u)
+  {
+    m_energy = 0;
+    m_internal_forces = Vector::Zero(u.size());
+    for(const Group& group : m_groups) {
+      double dilatation = 0;
+      for(std::size_t i = group.first; i < group.last; ++i)
+        dilatation += move(m_frames[i], u);
+      const double pressure = group.modulus * dilatation;
+      m_energy += pressure * dilatation / 2;
+      for(std::size_t i = group.first; i < group.last; ++i)
+        add_forces(m_frames[i], pressure);
+    }
+  }
+
+  void add_forces(const Element& element, double pressure)
   {
     auto q = nodes(m_forces, element);
     const auto g = nodes(m_gradients, element);
     q += pressure * element.volume * g;
-    element.couple = element.frame.turn * moment(nodes(m_turned, element), q);
+    const Eigen::Vector3d couple = element.frame.turn * moment(nodes(m_turned, element), q);
     const Element_view view = (*m_elements)[element.number];
     for(int a = 0; a < view.size(); ++a)
       m_internal_forces.segment<3>(3 * Eigen::Index(view[a])) += element.frame.rotation
-                                                                 * (q.col(a) - element.couple.cross(g.col(a)));
+                                                                 * (q.col(a) - couple.cross(g.col(a)));
+  }
+
+  void find_couples()
+  {
+    for(Element& element : m_frames)
+      element.couple = element.frame.turn
+                       * moment(nodes(m_turned, element), nodes(m_expected_forces, element));
+  }
+
+  // f(element, its change, the change of its forces in its frame)
+  template <class Function>
+  void for_each_change(const Vector& p, const Function& f) const
+  {
+    std::vector<Change> changes;
+    for(const Group& group : m_groups) {
+      changes.resize(group.last - group.first);
+      double dilatation = 0;
+      for(std::size_t i = group.first; i < group.last; ++i)
+        dilatation += change(m_frames[i], p, changes[i - group.first]);
+      for(std::size_t i = group.first; i < group.last; ++i) {
+        const Element& element = m_frames[i];
+        const Change& change = changes[i - group.first];
+        f(element, change,
+          Nodes(stiffness_times(element, change.displacements)
+                + group.modulus * dilatation * element.volume * nodes(m_gradients, element)));
+      }
+    }
   }
 
   // Returns the change of the integral of the dilatation.
@@ -274,11 +321,11 @@ private:
   }
 
   // The derivative of `add_forces()`.
-  void add_changes(const Element& element, double pressure, const Change& change, Vector& f) const
+  void add_changes(const Element& element, const Change& change, const Nodes& dq, Vector& f) const
   {
-    const auto q = nodes(m_forces, element), y = nodes(m_turned, element), g = nodes(m_gradients, element);
+    const auto q = nodes(m_expected_forces, element), y = nodes(m_turned, element),
+               g = nodes(m_gradients, element);
     const Nodes& v = change.displacements;
-    const Nodes dq = stiffness_times(element, v) + pressure * element.volume * g;
     const Eigen::Matrix3d du = v * g.transpose();
     const Eigen::Vector3d& h = element.couple;
     const Eigen::Vector3d dh = element.frame.turn
