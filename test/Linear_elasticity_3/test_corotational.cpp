@@ -226,7 +226,7 @@ double tip_angle(const Mesh& mesh, const Field& u, double length)
 // Bent by a force by volume, as far as that the tip turns by 45 and by 90 degrees.
 void test_bar(int n, int kind, double force, double degrees, double bound)
 {
-  const double length = 8;
+  const double length = 20;
   const Mesh mesh = bar(n, kind, {length, 1, 1});
   const Elastic_material material{100, 0.3};
   const Vec3 load = force * Vec3{-0.6, 0, -0.8};
@@ -236,15 +236,22 @@ void test_bar(int n, int kind, double force, double degrees, double bound)
   BOOST_TEST(is_success(problem.factor()));
   problem.set_body_force(load);
   BOOST_TEST(is_success(problem.solve()));
-  const Field linear = problem.displacements();
+  const auto tip = [&](const Field& u) {
+    return u[std::size_t(std::lround(length)) * n];
+  }; // end of the first row
+  Field linear = problem.displacements();
+  static Field linear_expected, expected; // of hexahedra, which come first
+  if(kind == HEXAHEDRON)
+    linear_expected = linear;
+  // A bar of other elements is stiffer, with small rotations as well: it gets so much more load.
+  problem.set_body_force((norm(tip(linear_expected)) / norm(tip(linear))) * load);
+  linear = linear_expected;
   problem.set_corotational(true);
   problem.set_iteration_tolerance(1e-6);
   BOOST_TEST(is_success(problem.solve()));
   const Mesh hexahedra = bar(n, HEXAHEDRON, {length, 1, 1});
-  static Field expected; // the reference is that of hexahedra, which come first
   if(kind == HEXAHEDRON)
     expected = total_lagrangian_solution(hexahedra, material, vertices_where(hexahedra, is_clamped), load);
-  const auto tip = [n](const Field& u) { return u[std::size_t(8 * n)]; }; // the last of the first row
   const Vec3 a = tip(problem.displacements()), b = tip(expected);
   const double angle = -tip_angle(hexahedra, expected, length) * 180 / pi;
   std::cout << "  bar of " << name_of(kind) << ": tip at " << a[0] << ' ' << a[2] << ", total Lagrangian "
@@ -266,8 +273,8 @@ int main()
     test_patch(kind);
     test_small_loads(kind);
   }
-  for(const auto& [force, degrees] : {std::pair(0.073, 45.), std::pair(0.196, 90.)})
+  for(const auto& [force, degrees] : {std::pair(0.0051, 45.), std::pair(0.0125, 90.)})
     for(int kind : {HEXAHEDRON, PRISM, PYRAMID, TETRAHEDRON})
-      test_bar(4, kind, force, degrees, kind == HEXAHEDRON ? 0.01 : 0.05);
+      test_bar(2, kind, force, degrees, kind == HEXAHEDRON ? 0.01 : 0.02);
   return boost::report_errors();
 }
