@@ -144,11 +144,16 @@ public:
   /// The gradient of the energy: the forces on all vertices that hold these displacements.
   const Vector& forces() const { return m_internal_forces; }
 
-  /// Finds the rotations, the energy and the forces. \param u three components of each vertex
-  void move(const Vector& u)
+  /// Finds the rotations, the energy and the forces.
+  /// \param u three components of each vertex
+  /// \param is_positive whether the tangent leaves out what depends on the forces, so that it has no negative
+  ///        curvature
+  void move(const Vector& u, bool is_positive = false)
   {
     find_forces(u);
     m_expected_forces = m_forces;
+    if(is_positive)
+      m_expected_forces.setZero();
     find_couples();
   }
 

@@ -42,8 +42,11 @@ struct Corotational_state
 Newton's method. Each step is solved by conjugate gradients in the space of displacements that supports and
 control points allow, with the factor of the linear stiffness as the preconditioner, as after a removal
 (`solve_after_removal()`). Steps are whole: with the forces that `Corotational_elements` expects in its tangent,
-a search along them for less energy would only be in the way. Loads come at once if that converges, else in
-parts.
+a search along them for less energy would only be in the way. That is for large rotations of slender bodies.
+
+Large strains are another matter: an element that is pressed has negative curvature. If Newton's method goes
+astray, steps are made with the positive part of the tangent, as in Gauss and Newton's method, as far as the
+potential falls; near the solution, with all of it. Loads come at once if that converges, else in parts.
 */
 template <class SolverTraits>
 class Corotational_solution
@@ -53,7 +56,8 @@ class Corotational_solution
   using Status = Linear_elasticity_status;
 
   // Two to six steps are usual, with five to fifteen iterations each; with 50 to 80 in a bar bent by 90 degrees.
-  static constexpr int largest_number_of_steps = 15, largest_number_of_iterations = 1000;
+  static constexpr int largest_number_of_steps = 15, largest_number_of_descents = 40,
+                       largest_number_of_iterations = 1000;
   static constexpr double smallest_part = 1. / 64; // of the loads
   // The residual that is enough before all of the loads are there, and what rounding leaves of it; relative.
   static constexpr double rough = 0.03, rounding = 1e-9;
@@ -175,7 +179,8 @@ private:
   // Adds conjugate gradients' solution of the tangent system for a residual to a displacement.
   // \pre r is preconditioned, m_step has the result
   // \param bound of r . z
-  void add_newton_step(Vector r, double bound, Vector& step)
+  // \return whether there was no negative curvature
+  bool add_newton_step(Vector r, double bound, Vector& step)
   {
     Vector p = m_step.displacements;
     double rz = r.dot(p);
@@ -185,17 +190,18 @@ private:
       if(!(curvature > 0) || !std::isfinite(alpha)) {
         if(i == 0)
           step += p; // a direction in which the potential falls, at least
-        return;
+        return false;
       }
       step += alpha * p;
       r -= alpha * q;
       ++m_state.number_of_iterations;
       if(!precondition(r))
-        return;
+        return true;
       const double next = r.dot(m_step.displacements);
       p = m_step.displacements + (next / rz) * p;
       rz = next;
     }
+    return true;
   }
 
   // The square of the energy norm that residuals are compared with.
@@ -208,28 +214,79 @@ private:
   Result find_equilibrium(const Vector& force, const Vector& points, const Vector& supports, double tolerance,
                           Vector& u)
   {
-    // Of the steps: what is left of a large one is stretch, not rotation, and would not let the next converge.
-    constexpr double accuracy_of_large_steps = 1e-3, accuracy = 0.05, large = 0.2;
+    constexpr double accuracy = 1e-3; // of the first step
     m_elements.move(u);
-    if(const Result result = predict(force, points, supports, accuracy_of_large_steps, u);
-       !result.is_success())
+    if(const Result result = predict(force, points, supports, accuracy, u); !result.is_success())
       return result;
-    for(int step = 0; step < largest_number_of_steps; ++step) {
+    const Vector start = u;
+    if(converge(Method::NEWTON, force, points, tolerance, u))
+      return Result();
+    u = start;
+    m_elements.move(u, true);
+    return converge(Method::DESCENT, force, points, tolerance, u) ? Result() : failed(Status::NOT_CONVERGED);
+  }
+
+  enum class Method { NEWTON, DESCENT };
+
+  // \pre supports and control points are satisfied
+  bool converge(Method method, const Vector& force, const Vector& points, double tolerance, Vector& u)
+  {
+    // What is left of a large step is stretch, not rotation, and would not let the next converge.
+    constexpr double accuracy_of_large_steps = 1e-3, accuracy = 0.05, large = 0.2;
+    double last = 0; // residual
+    for(int step = 0;
+        step < (method == Method::NEWTON ? largest_number_of_steps : largest_number_of_descents); ++step) {
       Vector r = residual(force, points, u);
       if(!precondition(r))
-        return failed(Status::SOLVER_FAILED);
-      const double rz = r.dot(m_step.displacements), bound = scale(u, tolerance);
-      const double norm = scale(u, 1);
-      m_state.residuals.push_back(norm > 0 ? std::sqrt((std::max)(0., rz) / norm) : 0);
+        return false;
+      const double rz = r.dot(m_step.displacements), bound = scale(u, tolerance), norm = scale(u, 1);
+      const double now = norm > 0 ? std::sqrt((std::max)(0., rz) / norm) : 0;
+      m_state.residuals.push_back(now);
       if(!(rz > bound))
-        return std::isfinite(rz) ? Result() : failed(Status::NOT_CONVERGED);
-      const double wanted = m_state.residuals.back() > large ? accuracy_of_large_steps : accuracy;
+        return std::isfinite(rz);
+      const bool is_astray = step > 0 && now > last && last < 1; // from far, it comes on detours
+      if(method == Method::NEWTON && is_astray)
+        return false;
+      last = now;
+      const double wanted = method == Method::NEWTON && now > large ? accuracy_of_large_steps : accuracy;
       Vector d = Vector::Zero(u.size());
-      add_newton_step(r, (std::max)(wanted * wanted * rz, bound / 4), d);
-      u += d;
-      m_elements.move_by(d, u);
+      const bool is_convex = add_newton_step(r, (std::max)(wanted * wanted * rz, bound / 4), d);
+      if(method == Method::NEWTON) {
+        if(!is_convex)
+          return false;
+        u += d;
+        m_elements.move_by(d, u);
+      } else {
+        if(!descend(force, points, d, -r.dot(d), u))
+          return false;
+        m_elements.move(u, now > large);
+      }
     }
-    return failed(Status::NOT_CONVERGED);
+    return false;
+  }
+
+  // Along a step, as far as the potential falls enough.
+  bool descend(const Vector& force, const Vector& points, const Vector& d, double slope, Vector& u)
+  {
+    constexpr double enough = 1e-4, shortest = 1e-4;
+    const double before = potential(force, points, u);
+    const double error = 1e-13 * (m_elements.energy() + std::abs(force.dot(u))); // of rounding
+    const Vector from = u;
+    for(double length = 1; length > shortest; length /= 2) {
+      u = from + length * d;
+      m_elements.move(u, true);
+      if(potential(force, points, u) <= before + enough * length * slope + error)
+        return true;
+    }
+    return false;
+  }
+
+  double potential(const Vector& force, const Vector& points, const Vector& u) const
+  {
+    double result = m_elements.energy() - force.dot(u);
+    if(m_constraints.compliance() > 0)
+      result += (points - m_constraints.at_points(u)).squaredNorm() / (2 * m_constraints.compliance());
+    return result;
   }
 
   // To displacements that satisfy supports and control points, by the tangent at the last ones.
