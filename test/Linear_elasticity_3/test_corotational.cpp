@@ -266,6 +266,95 @@ void test_bar(int n, int kind, double force, double degrees, double bound)
   BOOST_TEST_LT(std::abs(angle - degrees), 2);
 }
 
+// After a removal, the old factor does: the solution is that of a model which never had the elements. And with
+// control points alone, some of them compliant, all turns.
+void test_removal_and_controls()
+{
+  const Mesh mesh = any_grid(4, HEXAHEDRON, 0.1, Moved::INNER); // others would get other patches
+  const std::vector<bool> is_removed = elements_where(mesh,
+                                                      [](const Vec3& p) { return p[0] > 0.5 && p[2] > 0.7; });
+  const std::vector<Vec3> points{{0.2, 0.3, 0.9}, {0.3, 0.8, 0.8}};
+  const Field wanted{{0.3, 0, -0.1}, {0.25, 0.05, -0.1}};
+  Field after[2];
+  for(bool at_once : {false, true}) {
+    Elasticity problem(mesh);
+    problem.slide_along_boundary([&](Vertex_index v) { return position(mesh, v)[1] == 0; });
+    fix_where(problem, [](const Vec3& p) { return p[2] == 0; });
+    problem.set_corotational(true);
+    problem.set_iteration_tolerance(1e-8);
+    BOOST_TEST(is_success(problem.factor()));
+    if(at_once) {
+      BOOST_TEST(is_success(problem.remove_elements(is_removed)));
+      BOOST_TEST(is_success(problem.factor()));
+    }
+    BOOST_TEST(is_success(problem.set_control_points(points)));
+    problem.set_body_force({0.05, 0, 0});
+    BOOST_TEST(is_success(problem.solve(wanted)));
+    for(std::size_t i = 0; i < points.size() && !at_once; ++i)
+      BOOST_TEST_LT(norm(interpolated(mesh, problem.displacements(), points[i]) - wanted[i]), 1e-10);
+    if(!at_once) {
+      BOOST_TEST(is_success(problem.remove_elements(is_removed)));
+      BOOST_TEST(problem.is_iterative());
+      BOOST_TEST(is_success(problem.solve(wanted)));
+    }
+    after[at_once] = problem.displacements();
+  }
+  BOOST_TEST_LT(difference(after[0], after[1]), 1e-5);
+
+  const Function turn = rotation({1, -1, 0.5}, 0.9);
+  std::vector<Vec3> corners;
+  for(const Vec3& p : {Vec3{0.1, 0.1, 0.1}, {0.9, 0.1, 0.2}, {0.2, 0.9, 0.2}, {0.1, 0.2, 0.9}})
+    corners.push_back(p);
+  Field turned;
+  for(const Vec3& p : corners)
+    turned.push_back(turn(p));
+  const Mesh mixed = any_grid(4, number_of_element_kinds, 0.1);
+  for(double compliance : {0., 0.3}) {
+    Elasticity problem(mixed);
+    problem.set_corotational(true);
+    problem.set_iteration_tolerance(1e-8);
+    BOOST_TEST(is_success(problem.factor()));
+    BOOST_TEST(is_success(problem.set_control_points(corners, 0, compliance)));
+    BOOST_TEST(is_success(problem.solve(turned)));
+    BOOST_TEST_LT(difference(problem.displacements(), at_vertices(mixed, turn)), 1e-6);
+    BOOST_TEST_LT(problem.energy(), 1e-10);
+    if(compliance > 0) { // with a load, springs give way by as much as they bear
+      problem.set_body_force({0, 0.02, -0.05});
+      BOOST_TEST(is_success(problem.solve(turned)));
+      Vec3 sum{};
+      for(std::size_t i = 0; i < corners.size(); ++i) {
+        const Vec3 force = problem.control_forces()[i];
+        const Vec3 u = interpolated(mixed, problem.displacements(), corners[i]);
+        BOOST_TEST_LT(norm(turned[i] - u - compliance * force), 1e-10);
+        sum = sum + force;
+      }
+      double total = 0;
+      for(Element_index e = 0; e < mixed.number_of_elements(); ++e)
+        total += volume(mixed, e);
+      BOOST_TEST_LT(norm(sum - total * Vec3{0, -0.02, 0.05}), 1e-7);
+    }
+  }
+}
+
+// Pressed flat beyond what an element can bear: an answer with a name, and the next question is answered.
+void test_too_much()
+{
+  const Mesh mesh = any_grid(4, HEXAHEDRON);
+  Elasticity problem(mesh);
+  fix_where(problem, [](const Vec3& p) { return p[2] == 0; });
+  const auto is_top = [](const Vec3& p) { return p[2] == 1; };
+  prescribe(problem, vertices_where(mesh, is_top), [](const Vec3&) { return Vec3{0, 0, -1.2}; });
+  BOOST_TEST(is_success(problem.factor()));
+  problem.set_corotational(true);
+  const auto result = problem.solve();
+  std::cout << "  pressed through its base: " << result.description() << '\n';
+  BOOST_TEST(result.status == Status::INVERTED_ELEMENT || result.status == Status::NOT_CONVERGED);
+  for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
+    if(is_top(position(mesh, v)))
+      problem.set_support_displacement(v, {0, 0, -0.1});
+  BOOST_TEST(is_success(problem.solve()));
+}
+
 } // namespace
 
 int main()
@@ -276,6 +365,8 @@ int main()
     test_patch(kind);
     test_small_loads(kind);
   }
+  test_removal_and_controls();
+  test_too_much();
   for(const auto& [force, degrees] : {std::pair(0.0051, 45.), std::pair(0.0131, 90.)})
     for(int kind : {HEXAHEDRON, PRISM, PYRAMID, TETRAHEDRON})
       test_bar(2, kind, force, degrees, kind == HEXAHEDRON ? 0.01 : 0.02);
