@@ -156,7 +156,8 @@ public:
     return m_model.remove_elements(is_removed);
   }
 
-  /// How exact `solve()` is after `remove_elements()`, and with finite rotations: the error in the energy norm, relative to that of the
+  /// How exact `solve()` is after `remove_elements()`, and with finite rotations: the error in the energy
+  /// norm, relative to that of the
   /// solution. Default: 1e-3, well below what the mesh makes wrong. Each power of ten takes about five
   /// iterations.
   /// \pre positive
@@ -167,15 +168,18 @@ public:
   }
 
   /*!
-  Chooses between small rotations, which is the default, and finite ones: corotational elements. The law of the
-  material stays linear, in a frame that turns with each element; so rotations may be large, but strains should
+  Chooses between small rotations, which is the default, and finite ones: corotational elements. The law of
+  the
+  material stays linear, in a frame that turns with each element; so rotations may be large, but strains
+  should
   not be. Supports, control points, loads, removals and the factorization are as before. Directions in which
   vertices slide, and forces, do not turn.
 
   `solve()` then is Newton's method, each step by conjugate gradients with the factor of the linear system as
   preconditioner, to the tolerance of `set_iteration_tolerance()`; from the last solution, if there is one. It
   may end with
-  - `INVERTED_ELEMENT`: the displacement inverts an element, by the certificate (`Mixed_meshes_3::jacobian_sign()`).
+  - `INVERTED_ELEMENT`: the displacement inverts an element, by the certificate
+  (`Mixed_meshes_3::jacobian_sign()`).
     It is a solution all the same, and `displacements()` has it;
   - `NOT_CONVERGED`: no equilibrium was found, with all of the loads at once nor in parts.
   */

@@ -4,7 +4,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What corotational elements are compared with: a total Lagrangian solution for hexahedra of a St.
-// Venant-Kirchhoff material, whose bulk modulus acts on the mean of the trace of Green's strain. It has nothing
+// Venant-Kirchhoff material, whose bulk modulus acts on the mean of the trace of Green's strain. It has
+// nothing
 // in common with the package: shape functions, quadrature, strain, assembly and Newton's method are its own.
 
 #ifndef MIXED_MESH_3_TEST_TOTAL_LAGRANGIAN_REFERENCE_H

@@ -24,7 +24,8 @@ namespace CGAL {
 enum class Linear_elasticity_status {
   SUCCESS,          ///< done
   NO_ELEMENTS,      ///< nothing is there, or nothing is left
-  INVERTED_ELEMENT, ///< the Jacobian of `element` is not positive: at a point of the quadrature, in `factor()`;
+  INVERTED_ELEMENT, ///< the Jacobian of `element` is not positive: at a point of the quadrature, in
+                    ///< `factor()`;
                     ///< anywhere in the deformed element, in a corotational `solve()`
   FREE_RIGID_MOTION,     ///< `number_of_free_motions` are neither supported nor controlled, such as `motion`
   CONTROL_POINT_OUTSIDE, ///< `control_point` is `distance` outside the mesh

@@ -6,7 +6,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Corotational elements: linear elasticity in a frame that turns with each element. C. A. Felippa, B. Haugen:
-// "A unified formulation of small-strain corotational finite elements: I. Theory", Comput. Methods Appl. Mech.
+// "A unified formulation of small-strain corotational finite elements: I. Theory", Comput. Methods Appl.
+// Mech.
 // Engrg 194, 2005; the rotation as in M. Mueller, M. Gross: "Interactive virtual materials", Graphics
 // Interface, 2004, but with the forces that are the exact gradient of the energy.
 
@@ -38,7 +39,8 @@ decomposition \f$ F = R U \f$, its energy is the linear one of the displacements
 
     W = 1/2 v^T K v,   v_a = R^T x_a - X_a
 
-where K is the matrix of Linear_elasticity_3, with the same treatment of dilatation: that of a patch is the mean
+where K is the matrix of Linear_elasticity_3, with the same treatment of dilatation: that of a patch is the
+mean
 of those of its elements. The rotation depends on the displacements, which gives the forces
 
     f_a = R (q_a - h x g_a),   q = K v,   h = (tr(U) 1 - U)^-1 sum_a R^T x_a x q_a

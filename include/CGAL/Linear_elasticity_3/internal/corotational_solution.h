@@ -41,7 +41,8 @@ struct Corotational_state
 /*!
 Newton's method. Each step is solved by conjugate gradients in the space of displacements that supports and
 control points allow, with the factor of the linear stiffness as the preconditioner, as after a removal
-(`solve_after_removal()`). Steps are whole: with the forces that `Corotational_elements` expects in its tangent,
+(`solve_after_removal()`). Steps are whole: with the forces that `Corotational_elements` expects in its
+tangent,
 a search along them for less energy would only be in the way. That is for large rotations of slender bodies.
 
 Large strains are another matter: an element that is pressed has negative curvature. If Newton's method goes
@@ -55,7 +56,8 @@ class Corotational_solution
   using Result = Linear_elasticity_result_3;
   using Status = Linear_elasticity_status;
 
-  // Two to six steps are usual, with five to fifteen iterations each; with 50 to 80 in a bar bent by 90 degrees.
+  // Two to six steps are usual, with five to fifteen iterations each; with 50 to 80 in a bar bent by 90
+  // degrees.
   static constexpr int largest_number_of_steps = 15, largest_number_of_descents = 40,
                        largest_number_of_iterations = 1000;
   static constexpr double smallest_part = 1. / 64; // of the loads
