@@ -32,7 +32,8 @@ namespace CGAL {
 /*!
 \ingroup PkgLinearElasticity3Ref
 
-\brief Small-strain linear elasticity on a mixed mesh: factored once, solved for many load cases.
+\brief Linear elasticity on a mixed mesh: factored once, solved for many load cases. Of small rotations, or of
+finite ones.
 
 Elements are isoparametric; those of the four kinds fit together. What resists a change of volume is the mean
 dilatation of a hexahedron, of two prisms, and of a patch of tetrahedra and pyramids, so that nearly
@@ -155,7 +156,8 @@ public:
     return m_model.remove_elements(is_removed);
   }
 
-  /// How exact `solve()` is after `remove_elements()`: the error in the energy norm, relative to that of the
+  /// How exact `solve()` is after `remove_elements()`, and with finite rotations: the error in the energy
+  /// norm, relative to that of the
   /// solution. Default: 1e-3, well below what the mesh makes wrong. Each power of ten takes about five
   /// iterations.
   /// \pre positive
@@ -164,6 +166,31 @@ public:
     CGAL_precondition(tolerance > 0);
     m_model.set_iteration_tolerance(tolerance);
   }
+
+  /*!
+  Chooses between small rotations, which is the default, and finite ones: corotational elements. The law of
+  the
+  material stays linear, in a frame that turns with each element; so rotations may be large, but strains
+  should
+  not be. Supports, control points, loads, removals and the factorization are as before. Directions in which
+  vertices slide, and forces, do not turn.
+
+  `solve()` then is Newton's method, each step by conjugate gradients with the factor of the linear system as
+  preconditioner, to the tolerance of `set_iteration_tolerance()`; from the last solution, if there is one. It
+  may end with
+  - `INVERTED_ELEMENT`: the displacement inverts an element, by the certificate
+  (`Mixed_meshes_3::jacobian_sign()`).
+    It is a solution all the same, and `displacements()` has it;
+  - `NOT_CONVERGED`: no equilibrium was found, with all of the loads at once nor in parts.
+  */
+  void set_corotational(bool is_corotational) { m_model.set_corotational(is_corotational); }
+
+  /// Whether rotations are finite.
+  bool is_corotational() const { return m_model.is_corotational(); }
+
+  /// Of the last `solve()` with finite rotations: the residual before each step, and of what came out. In the
+  /// energy norm, relative to that of the displacements.
+  const std::vector<double>& residuals() const { return m_model.residuals(); }
 
   /// Whether `solve()` iterates, as elements have been removed since `factor()`.
   bool is_iterative() const { return m_model.is_iterative(); }
@@ -233,7 +260,7 @@ public:
   \param control_displacements in mm, of each control point
   \return `FREE_RIGID_MOTION`, `CONTRADICTORY_CONTROL_POINTS`, `SOLVER_FAILED` or `SUCCESS`; `displacements()`
   has
-          the solution if successful, else it is as before
+          the solution if successful, else it is as before. With finite rotations, see `set_corotational()`
   \par Complexity
   For new displacements of the same control points: linear, in vertices times control points. For new
         loads or displacements of supports, one solution of the system besides. After `remove_elements()`,
@@ -264,7 +291,7 @@ public:
   const Mesh& mesh() const { return m_model.mesh(); }
   /// True for each element that is removed.
   const std::vector<bool>& removed_elements() const { return m_model.body().stiffness().removed_elements(); }
-  /// Of the last `solve()`; 0 if it was direct.
+  /// Of conjugate gradients in the last `solve()`; 0 if it was direct.
   int number_of_iterations() const { return m_model.number_of_iterations(); }
   /// How many control points there are.
   std::size_t number_of_control_points() const { return m_model.number_of_control_points(); }

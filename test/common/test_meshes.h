@@ -19,6 +19,28 @@
 #include <random>
 #include <vector>
 
+// A cell of hexahedra, or divided into elements of another kind. \param center its point, for pyramids
+template <class Mesh, class Center>
+void add_cell(Mesh& mesh, const std::array<CGAL::Mixed_meshes_3::Vertex_index, 8>& v,
+              CGAL::Mixed_meshes_3::Element_kind kind, const Center& center)
+{
+  using namespace CGAL::Mixed_meshes_3;
+  if(kind == HEXAHEDRON) {
+    mesh.add_element(kind, v);
+  } else if(kind == PRISM) {
+    mesh.add_element(kind, {v[0], v[1], v[2], v[4], v[5], v[6]});
+    mesh.add_element(kind, {v[0], v[2], v[3], v[4], v[6], v[7]});
+  } else if(kind == PYRAMID) {
+    const Vertex_index apex = mesh.add_vertex(center());
+    for(const Element_face& f : reference_elements[HEXAHEDRON].faces) // seen from inside: reversed
+      mesh.add_element(kind, {v[f.vertices[3]], v[f.vertices[2]], v[f.vertices[1]], v[f.vertices[0]], apex});
+  } else { // around the diagonal, the same in each cell
+    static constexpr int path[6][2] = {{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}};
+    for(const auto& p : path)
+      mesh.add_element(kind, {v[0], v[p[0]], v[p[1]], v[6]});
+  }
+}
+
 // n^3 cells, of elements of one kind.
 // place: Mesh::Point_3(double, double, double), from coordinates in cells; called for each vertex once, in
 // the order of the vertices
@@ -40,21 +62,7 @@ Mesh grid_of_cells(int n, CGAL::Mixed_meshes_3::Element_kind kind, const Place& 
           const auto& c = reference_elements[HEXAHEDRON].coordinates[i];
           v[i] = vertex(x + (c[0] + 1) / 2, y + (c[1] + 1) / 2, z + (c[2] + 1) / 2);
         }
-        if(kind == HEXAHEDRON) {
-          mesh.add_element(kind, v);
-        } else if(kind == PRISM) {
-          mesh.add_element(kind, {v[0], v[1], v[2], v[4], v[5], v[6]});
-          mesh.add_element(kind, {v[0], v[2], v[3], v[4], v[6], v[7]});
-        } else if(kind == PYRAMID) {
-          const Vertex_index center = mesh.add_vertex(place(x + 0.5, y + 0.5, z + 0.5));
-          for(const Element_face& f : reference_elements[HEXAHEDRON].faces) // seen from inside: reversed
-            mesh.add_element(kind, {v[f.vertices[3]], v[f.vertices[2]], v[f.vertices[1]], v[f.vertices[0]],
-                                    center});
-        } else { // around the diagonal, the same in each cell
-          static constexpr int path[6][2] = {{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}};
-          for(const auto& p : path)
-            mesh.add_element(kind, {v[0], v[p[0]], v[p[1]], v[6]});
-        }
+        add_cell(mesh, v, kind, [&] { return place(x + 0.5, y + 0.5, z + 0.5); });
       }
   return mesh;
 }

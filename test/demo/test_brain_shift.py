@@ -357,6 +357,27 @@ class BrainShift(unittest.TestCase):
         difference = (values - self.values)[mask == 1]
         self.assertTrue(np.allclose(difference, -np.dot(self.gradient, [3, -6, 1.5]), atol=1e-3))
 
+    def test_finite_rotation_is_exact(self):
+        # All control points turn by 40 degrees, nothing is fixed: everything turns, and nothing is strained.
+        axis, angle, center = np.array([1, 2, -1]) / np.sqrt(6), np.radians(40), np.array([10, -10, 20.])
+        skew = np.cross(np.eye(3), -axis)
+        turn = np.sin(angle) * skew + (1 - np.cos(angle)) * skew @ skew
+        spread = np.vstack([VALUES[:, :3], [[0, -60, 20], [-30, 0, 30]]])
+        points = self.file("rotation.csv", HEADER + "".join(
+            ",".join(map(str, (*p, *(turn @ (p - center))))) + "\n" for p in spread))
+        arguments = [self.mesh, "--control-points", points, "--fixed-below", 0, "--max-distance", 40, "--output",
+                     WORK / "turned.vtu"]
+        told, run = self.succeeds(*arguments, "--corotational")
+        self.assertEqual(run.stderr, "")
+        self.assertEqual(told["parameters"]["rotations"], "finite (corotational elements)")
+        self.assertLess(told["shift"]["residuals"][-1], 1e-3)
+        self.assertGreater(told["shift"]["iterations"], 0)
+        self.assertEqual(told["shift"]["inverted elements"], 0)
+        small, _ = self.succeeds(*arguments)
+        self.assertEqual(small["parameters"]["rotations"], "small")
+        self.assertNotIn("residuals", small["shift"])
+        self.assertLess(told["shift"]["energy"], 1e-3 * small["shift"]["energy"])
+
     def test_supports_and_loads(self):
         base, _ = self.succeeds(self.mesh, "--control-points", self.points)
         at = lambda told: told["shift"]["largest displacement"]

@@ -196,6 +196,14 @@ void add_physics(CLI::App& app, Options& o)
     ->capture_default_str();
 }
 
+void add_method(CLI::App& app, Options& o)
+{
+  app.add_flag(
+    "--corotational", o.corotational,
+    "Finite rotations: elements that turn with the tissue, by Newton's method; strains should still be "
+    "small (default: small rotations)");
+}
+
 void add_outputs(CLI::App& app, Options& o, CLI::Option* image)
 {
   app
@@ -257,6 +265,7 @@ void set_up(CLI::App& app, Options& o)
   CLI::Option* const image = add_inputs(app, o);
   add_supports(app, o);
   add_physics(app, o);
+  add_method(app, o);
   add_outputs(app, o, image);
   app.add_flag("--quiet", o.quiet, "Print errors and warnings only");
   app.set_version_flag("--version", "brain_shift 0.1 (CGAL " CGAL_VERSION_STR ")");
@@ -355,8 +364,10 @@ void check_use(const CLI::App& app, Options& o)
 
 std::optional<int> parse_command_line(int argc, char** argv, Options& options)
 {
-  CLI::App app("Computes how a brain shifts from the displacements of some points, before and after a tumor "
-               "is resected, and deforms the image with it. Linear elasticity, small strain.");
+  CLI::App app(
+    "Computes how a brain shifts from the displacements of some points, before and after a tumor "
+    "is resected, and deforms the image with it. Linear elasticity, small strain; small rotations, or "
+    "finite ones.");
   set_up(app, options);
   options.command = command_of("brain_shift", argc, argv);
   return parse("brain_shift", app, argc, argv, [&] { check_use(app, options); });

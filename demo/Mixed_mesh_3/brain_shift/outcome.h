@@ -70,6 +70,9 @@ struct Shift
   std::size_t inverted_elements = 0;
   std::vector<Control> controls;
   double largest_miss = 0;
+  // of finite rotations: before each step of Newton's, and at the end; of conjugate gradients, in all
+  std::vector<double> residuals;
+  int iterations = 0;
 };
 
 /// What is removed, and what is left.

@@ -61,6 +61,7 @@ Json parameters_of(const Options& o)
           {"largest distance of control points", quantity(o.max_distance, "mm")},
           {"compliance of control points", quantity(o.compliance, "mm/mN")},
           {"radius of control points", quantity(o.control_radius, "mm")},
+          {"rotations", o.corotational ? "finite (corotational elements)" : "small"},
           {"space of surfaces", space_of(o.surface_options)},
           {"interpolation between vertices",
            o.interpolation == mm3::Displacement_interpolation::LINEAR ? "linear" : "recovered"}};
@@ -106,12 +107,17 @@ Json describe(const Shift& shift, const std::vector<Control_point>& points)
     }
     controls.push_back(control);
   }
-  return {{"largest displacement", shift.largest},
-          {"at", shift.at},
-          {"energy", shift.energy},
-          {"inverted elements", shift.inverted_elements},
-          {"control points", controls},
-          {"control points missed by at most", shift.largest_miss}};
+  Json result = {{"largest displacement", shift.largest},
+                 {"at", shift.at},
+                 {"energy", shift.energy},
+                 {"inverted elements", shift.inverted_elements},
+                 {"control points", controls},
+                 {"control points missed by at most", shift.largest_miss}};
+  if(!shift.residuals.empty()) {
+    result["residuals"] = shift.residuals;
+    result["iterations"] = shift.iterations;
+  }
+  return result;
 }
 
 Json describe(const Resection_facts& resection)

@@ -42,6 +42,9 @@ namespace {
   case Elasticity_status::FREE_RIGID_MOTION:
     throw std::runtime_error(o.mesh + ": " + result.description()
                              + ", and the control points do not hold it; see --fixed-below");
+  case Elasticity_status::NOT_CONVERGED:
+    throw std::runtime_error(o.mesh + ": " + result.description()
+                             + "; --control-radius, or --control-compliance, would spread it");
   default: throw std::runtime_error(o.mesh + ": " + result.description());
   }
 }
@@ -51,6 +54,16 @@ void check(const CGAL::Linear_elasticity_result_3& result, const Options& o,
 {
   if(!result.is_success())
     refuse(result, o, points);
+}
+
+void solve(Elasticity& elasticity, const std::vector<Vector>& displacements, const Options& o,
+           const std::vector<Control_point>& points)
+{
+  const CGAL::Linear_elasticity_result_3 result = elasticity.solve(displacements);
+  const bool is_solution = elasticity.is_corotational()
+                           && result.status == Elasticity_status::INVERTED_ELEMENT; // those are counted
+  if(!is_solution)
+    check(result, o, points);
 }
 
 // Says which vertices of the boundary are fixed, and which slide.
@@ -153,6 +166,10 @@ Shift shift_of(const Elasticity& elasticity, const Options& o, const std::vector
   Shift shift;
   shift.displacements = elasticity.displacements();
   shift.energy = elasticity.energy();
+  if(elasticity.is_corotational()) {
+    shift.residuals = elasticity.residuals();
+    shift.iterations = elasticity.number_of_iterations();
+  }
   measure(mesh, shift);
   const std::vector<std::size_t> inverted = find_inverted_elements(mesh, shift.displacements,
                                                                    elasticity.removed_elements());
@@ -206,7 +223,7 @@ void remove(Elasticity& elasticity, const std::vector<bool>& is_removed, const O
   if(left.size() != outcome.points.size())
     log("control points", [&] { set_control_points(elasticity, o, left); });
   log("remove elements", [&] { check(elasticity.remove_elements(is_removed), o, left); });
-  log("solve after resection", [&] { check(elasticity.solve(displacements_of(left)), o, left); });
+  log("solve after resection", [&] { solve(elasticity, displacements_of(left), o, left); });
   outcome.after = log("checks",
                       [&] { return shift_of(elasticity, o, is_used, "shift after resection", outcome); });
 }
@@ -252,12 +269,13 @@ std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_
 
   // Before surgery the mesh is factored; then each measurement is a matter of milliseconds.
   log("factor", [&] { check(elasticity.factor(), o, points); });
+  elasticity.set_corotational(o.corotational);
   elasticity.set_gravity(o.acceleration);
   if(norm(Vector(o.acceleration)) > 0)
     elasticity.set_body_forces(
       mm3::buoyant_forces(mesh, o.acceleration, o.fluid_density * 1e-6 /* kg/mm^3 */, o.fluid_level));
   log("control points", [&] { set_control_points(elasticity, o, points); });
-  log("solve", [&] { check(elasticity.solve(displacements_of(points)), o, points); });
+  log("solve", [&] { solve(elasticity, displacements_of(points), o, points); });
   outcome.before = log("checks", [&] {
     return shift_of(elasticity, o, std::vector<bool>(points.size(), true), "shift", outcome);
   });

@@ -22,13 +22,16 @@ namespace CGAL {
 /// \ingroup PkgLinearElasticity3Ref
 /// How an operation of `Linear_elasticity_3` ended.
 enum class Linear_elasticity_status {
-  SUCCESS,               ///< done
-  NO_ELEMENTS,           ///< nothing is there, or nothing is left
-  INVERTED_ELEMENT,      ///< the Jacobian of `element` is not positive at a point of the quadrature
+  SUCCESS,          ///< done
+  NO_ELEMENTS,      ///< nothing is there, or nothing is left
+  INVERTED_ELEMENT, ///< the Jacobian of `element` is not positive: at a point of the quadrature, in
+                    ///< `factor()`;
+                    ///< anywhere in the deformed element, in a corotational `solve()`
   FREE_RIGID_MOTION,     ///< `number_of_free_motions` are neither supported nor controlled, such as `motion`
   CONTROL_POINT_OUTSIDE, ///< `control_point` is `distance` outside the mesh
   CONTRADICTORY_CONTROL_POINTS, ///< the displacement of `control_point` cannot be had with the others
-  SOLVER_FAILED ///< the system is not positive definite: elements hang together by hinges only
+  SOLVER_FAILED, ///< the system is not positive definite: elements hang together by hinges only
+  NOT_CONVERGED  ///< no equilibrium of finite rotations was found: the loads are too large, or it is unstable
 };
 
 /// \ingroup PkgLinearElasticity3Ref
@@ -78,6 +81,9 @@ struct Linear_elasticity_result_3
     case Linear_elasticity_status::SOLVER_FAILED:
       out << "the system cannot be solved: parts hang together by a vertex or an edge only, or elements are "
              "flat up to rounding";
+      break;
+    case Linear_elasticity_status::NOT_CONVERGED:
+      out << "no equilibrium was found: too much is asked for, or the body buckles";
       break;
     }
     return out.str();

@@ -68,6 +68,32 @@ public:
   const std::vector<Vec3>& points() const { return m_points; }
   std::size_t number_of_vertices() const { return m_points.size(); }
 
+  /// Of an element that is not in a patch, and of one that is.
+  Dilatation dilatation(Element_index e) const
+  {
+    return m_patch_of[e] == no_patch ? Dilatation::MEAN : Dilatation::PATCH;
+  }
+  /// What is left of each. \pre assembled
+  const Patches& patches() const { return m_patches; }
+
+  /// That of the mean dilatation of a patch. \pre not empty
+  double mean_bulk_modulus(const std::vector<Element_index>& patch) const
+  {
+    const Elastic_material& m = material(patch.front());
+    return (1 - pointwise_share(m)) * m.bulk_modulus();
+  }
+
+  const Elastic_material& material(Element_index e) const
+  {
+    return m_materials.size() == 1 ? m_materials.front() : m_materials[e];
+  }
+
+  /// Positions of an element's vertices, relative to one of them.
+  Element_points points_of(const Element_view& element) const
+  {
+    return relative_points(element, [this](Vertex_index v) { return m_points[v]; });
+  }
+
   const std::vector<bool>& removed_elements() const { return m_is_removed; }
   bool is_removed(Element_index e) const { return m_is_removed[e]; }
   bool is_all_removed() const
@@ -206,16 +232,6 @@ public:
   }
 
 private:
-  const Elastic_material& material(Element_index e) const
-  {
-    return m_materials.size() == 1 ? m_materials.front() : m_materials[e];
-  }
-
-  Element_points points_of(const Element_view& element) const
-  {
-    return relative_points(element, [this](Vertex_index v) { return m_points[v]; });
-  }
-
   std::vector<Vertex_index> vertices_of(const std::vector<Element_index>& elements) const
   {
     std::vector<Vertex_index> vertices;
@@ -237,7 +253,7 @@ private:
   {
     Elastic_material m = material(e);
     m.young_modulus *= factor;
-    m_system->add(e, m, m_points, m_points, m_patch_of[e] == no_patch ? Dilatation::MEAN : Dilatation::PATCH);
+    m_system->add(e, m, m_points, m_points, dilatation(e));
   }
 
   void add_patch(std::size_t i, double factor)
@@ -261,9 +277,7 @@ private:
         }
       }
     }
-    const Elastic_material& m = material(patch.front());
-    const double mean = (1 - pointwise_share(m)) * m.bulk_modulus();
-    m_system->add_patch(vertices, gradients, factor * mean / volume, m_points);
+    m_system->add_patch(vertices, gradients, factor * mean_bulk_modulus(patch) / volume, m_points);
   }
 };
 

@@ -14,18 +14,22 @@
 
 #include <CGAL/Linear_elasticity_3/Linear_elasticity_result_3.h>
 #include <CGAL/Linear_elasticity_3/internal/Control_points.h>
+#include <CGAL/Linear_elasticity_3/internal/Corotational_elements.h>
 #include <CGAL/Linear_elasticity_3/internal/Elastic_body.h>
 #include <CGAL/Linear_elasticity_3/internal/boundary_measures.h>
 #include <CGAL/Linear_elasticity_3/internal/control_constraints.h>
+#include <CGAL/Linear_elasticity_3/internal/corotational_solution.h>
 #include <CGAL/Linear_elasticity_3/internal/removal.h>
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Element_locator_3.h>
+#include <CGAL/Mixed_mesh_3/certificate.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -55,6 +59,9 @@ class Elasticity_model
   bool m_is_iterative = false; // as elements have been removed since the body was factored
   double m_iteration_tolerance = 1e-3;
   int m_number_of_iterations = 0; // of the last solution
+  bool m_is_corotational = false;
+  std::optional<Corotational_elements> m_corotational; // of the elements that are left, when needed
+  Corotational_state m_state;
   Eigen::VectorXd m_control_forces;
   std::vector<Vec3> m_displacements;
 
@@ -70,7 +77,19 @@ public:
   std::size_t number_of_control_points() const { return m_controls.positions().size(); }
   bool is_iterative() const { return m_is_iterative; }
   void set_iteration_tolerance(double tolerance) { m_iteration_tolerance = tolerance; }
-  int number_of_iterations() const { return m_is_iterative ? m_number_of_iterations : 0; }
+  int number_of_iterations() const
+  {
+    return m_is_iterative || m_is_corotational ? m_number_of_iterations : 0;
+  }
+  bool is_corotational() const { return m_is_corotational; }
+  const std::vector<double>& residuals() const { return m_state.residuals; }
+
+  void set_corotational(bool is_corotational)
+  {
+    m_is_corotational = is_corotational;
+    m_state = Corotational_state();
+    m_number_of_iterations = 0;
+  }
 
   template <class Is_sliding>
   void slide_along_boundary(const Is_sliding& is_sliding)
@@ -84,6 +103,8 @@ public:
   Result factor()
   {
     m_body.clear();
+    m_corotational.reset();
+    m_state = Corotational_state();
     m_controls.forget_elements();
     if(m_body.stiffness().is_all_removed())
       return failed(Status::NO_ELEMENTS);
@@ -98,6 +119,7 @@ public:
   Result remove_elements(const std::vector<bool>& is_removed)
   {
     m_body.subtract(is_removed);
+    m_corotational.reset();
     m_controls.forget_elements();
     if(m_body.stiffness().is_all_removed()) {
       m_body.clear();
@@ -130,6 +152,8 @@ public:
       return failed(Status::SOLVER_FAILED);
     if(const Result result = m_controls.prepare(m_body); !result.is_success())
       return result;
+    if(m_is_corotational)
+      return solve_corotational(wanted);
     Control_solution solution;
     Result result = m_controls.constraints().solve(m_body.loaded(), m_body.load(), wanted,
                                                    m_body.system().free_motions(), solution);
@@ -141,12 +165,7 @@ public:
       result = factor_system();
       return result.is_success() ? solve(displacements) : result;
     }
-    m_control_forces = solution.forces;
-    m_displacements.assign(m_body.stiffness().number_of_vertices(), Vec3{});
-    for(Vertex_index v = 0; v < m_displacements.size(); ++v)
-      if(m_body.supports().is_kept(v))
-        for(int k = 0; k < 3; ++k)
-          m_displacements[v][k] = solution.displacements[3 * Eigen::Index(v) + k];
+    keep(solution);
     return result;
   }
 
@@ -163,6 +182,8 @@ public:
 
   double energy() const
   {
+    if(m_is_corotational)
+      return m_state.energy;
     const std::size_t n = m_body.stiffness().number_of_vertices();
     Eigen::VectorXd u(3 * Eigen::Index(n));
     for(std::size_t v = 0; v < n; ++v)
@@ -184,6 +205,51 @@ private:
   static Result failed(Status status, Result result = Result())
   {
     result.status = status;
+    return result;
+  }
+
+  void keep(const Control_solution& solution)
+  {
+    m_control_forces = solution.forces;
+    m_displacements.assign(m_body.stiffness().number_of_vertices(), Vec3{});
+    for(Vertex_index v = 0; v < m_displacements.size(); ++v)
+      if(m_body.supports().is_kept(v))
+        for(int k = 0; k < 3; ++k)
+          m_displacements[v][k] = solution.displacements[3 * Eigen::Index(v) + k];
+  }
+
+  Result solve_corotational(const Eigen::VectorXd& wanted)
+  {
+    if(!m_corotational)
+      m_corotational.emplace(m_body.stiffness());
+    const Eigen::Index n = 3 * Eigen::Index(m_body.stiffness().number_of_vertices());
+    if(m_state.displacements.size() == 0)
+      m_state.displacements = m_state.force = Eigen::VectorXd::Zero(n);
+    Control_solution solution;
+    Corotational_solution<SolverTraits> corotational(m_body, m_controls.constraints(), *m_corotational,
+                                                     m_state);
+    const Result result = corotational.solve(wanted, m_iteration_tolerance, solution);
+    m_number_of_iterations = m_state.number_of_iterations;
+    if(!result.is_success()) {
+      m_state.displacements.resize(0); // the next one starts at rest
+      return result;
+    }
+    m_state.energy = m_corotational->energy();
+    keep(solution);
+    return inverted_element();
+  }
+
+  // Where the last displacements invert an element, by the certificate.
+  Result inverted_element() const
+  {
+    const auto moved = [this](Vertex_index v) { return to_vec3(m_mesh->point(v)) + m_displacements[v]; };
+    Result result;
+    for(Element_index e = 0; e < m_mesh->number_of_elements(); ++e)
+      if(!m_body.stiffness().is_removed(e)
+         && jacobian_sign(m_mesh->element(e), moved) != Jacobian_sign::POSITIVE) {
+        result.element = e;
+        return failed(Status::INVERTED_ELEMENT, result);
+      }
     return result;
   }
 

@@ -105,6 +105,17 @@ public:
   }
 
   bool is_solved() const { return m_is_solved; }
+  double compliance() const { return m_compliance; }
+
+  /// B u, for each column.
+  Matrix at_points(const Matrix& u) const
+  {
+    Matrix at = Matrix::Zero(3 * Index(m_weights.size()), u.cols());
+    for(std::size_t p = 0; p < m_weights.size(); ++p)
+      for(const auto& [v, w] : m_weights[p])
+        at.middleRows<3>(3 * Index(p)) += w * u.middleRows<3>(3 * Index(v));
+    return at;
+  }
 
   /// \param loaded the solution for the load without control points
   /// \param load the right-hand side f of that
@@ -178,16 +189,6 @@ private:
   {
     const auto largest = [](const Vector& x) { return x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0; };
     return miss * (std::max)(largest(u), largest(wanted));
-  }
-
-  // B u, for each column.
-  Matrix at_points(const Matrix& u) const
-  {
-    Matrix at = Matrix::Zero(3 * Index(m_weights.size()), u.cols());
-    for(std::size_t p = 0; p < m_weights.size(); ++p)
-      for(const auto& [v, w] : m_weights[p])
-        at.middleRows<3>(3 * Index(p)) += w * u.middleRows<3>(3 * Index(v));
-    return at;
   }
 
   Vector pick(const Vector& x) const

@@ -1,0 +1,332 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The equilibrium of corotational elements, with the factor of the linear system.
+
+#ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_COROTATIONAL_SOLUTION_H
+#define CGAL_LINEAR_ELASTICITY_3_INTERNAL_COROTATIONAL_SOLUTION_H
+
+#include <CGAL/license/Linear_elasticity_3.h>
+
+#include <CGAL/Linear_elasticity_3/Linear_elasticity_result_3.h>
+#include <CGAL/Linear_elasticity_3/internal/Corotational_elements.h>
+#include <CGAL/Linear_elasticity_3/internal/Elastic_body.h>
+#include <CGAL/Linear_elasticity_3/internal/control_constraints.h>
+#include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// What the next solution starts from.
+struct Corotational_state
+{
+  Eigen::VectorXd displacements, force; // of all vertices; body forces on them
+  std::vector<double> residuals;        // before each step of Newton's, those that went astray included
+  int number_of_iterations = 0;         // of conjugate gradients
+  double energy = 0;                    // of the last solution
+};
+
+/*!
+Newton's method. Each step is solved by conjugate gradients in the space of displacements that supports and
+control points allow, with the factor of the linear stiffness as the preconditioner, as after a removal
+(`solve_after_removal()`). Steps are whole: with the forces that `Corotational_elements` expects in its
+tangent,
+a search along them for less energy would only be in the way. That is for large rotations of slender bodies.
+
+Large strains are another matter: an element that is pressed has negative curvature. If Newton's method goes
+astray, steps are made with the positive part of the tangent, as in Gauss and Newton's method, as far as the
+potential falls; near the solution, with all of it. Loads come at once if that converges, else in parts.
+*/
+template <class SolverTraits>
+class Corotational_solution
+{
+  using Vector = Eigen::VectorXd;
+  using Result = Linear_elasticity_result_3;
+  using Status = Linear_elasticity_status;
+
+  // Two to six steps are usual, with five to fifteen iterations each; with 50 to 80 in a bar bent by 90
+  // degrees.
+  static constexpr int largest_number_of_steps = 15, largest_number_of_descents = 40,
+                       largest_number_of_iterations = 1000;
+  static constexpr double smallest_part = 1. / 64; // of the loads
+  // Of all steps together, times the number of vertices: with 20,000, it takes a minute or two until it is given
+  // up. Bars bent by 90 degrees take half of it.
+  static constexpr double largest_work = 2e7;
+  // The residual that is enough before all of the loads are there, and what rounding leaves of it; relative.
+  static constexpr double rough = 0.03, rounding = 1e-9;
+
+  Elastic_body<SolverTraits>& m_body;
+  const Control_constraints& m_constraints;
+  Corotational_elements& m_elements;
+  Corotational_state& m_state;
+  Control_solution m_step; // of the preconditioner
+
+public:
+  /// \param body factored, and `solve_loads()` called since
+  Corotational_solution(Elastic_body<SolverTraits>& body, const Control_constraints& constraints,
+                        Corotational_elements& elements, Corotational_state& state)
+    : m_body(body), m_constraints(constraints), m_elements(elements), m_state(state)
+  {
+  }
+
+  /// \param wanted displacements of the control points
+  /// \param tolerance of the error in the energy norm, relative to that of the solution
+  /// \param solution unchanged if it fails
+  Result solve(const Vector& wanted, double tolerance, Control_solution& solution)
+  {
+    m_state.residuals.clear();
+    m_state.number_of_iterations = 0;
+    const Vector first_points = m_constraints.at_points(m_state.displacements), first_force = m_state.force;
+    const Vector first_supports = supported(m_state.displacements);
+    double done = 0, part = 1;
+    while(done < 1) {
+      const double load = (std::min)(1., done + part);
+      const auto partly = [&](const Vector& a, const Vector& b) -> Vector {
+        return load == 1 ? b : (a + load * (b - a)).eval();
+      };
+      Vector u = m_state.displacements;
+      const Vector force = partly(first_force, m_body.force()), points = partly(first_points, wanted);
+      const Vector supports = partly(first_supports, supported(Vector()));
+      const Result result = find_equilibrium(force, points, supports, load == 1 ? tolerance : rough, u);
+      if(result.is_success()) {
+        m_state.displacements = u;
+        m_state.force = force;
+        done = load;
+        continue;
+      }
+      part /= 2;
+      if(result.status != Status::NOT_CONVERGED || part < smallest_part || is_too_much())
+        return result;
+    }
+    solution = {m_state.displacements, m_step.forces};
+    if(m_constraints.compliance() > 0)
+      solution.forces = (wanted - m_constraints.at_points(m_state.displacements))
+                        / m_constraints.compliance();
+    return Result();
+  }
+
+private:
+  bool is_too_much() const
+  {
+    return m_state.number_of_iterations * (double(m_body.force().size()) / 3) > largest_work;
+  }
+
+  static Result failed(Status status)
+  {
+    Result result;
+    result.status = status;
+    return result;
+  }
+
+  // Displacements in the directions that supports hold: those of u, or those that supports have.
+  Vector supported(const Vector& u) const
+  {
+    const auto& of_vertices = m_body.supports().of_vertices();
+    Vector result = Vector::Zero(3 * Eigen::Index(of_vertices.size()));
+    for(Vertex_index v = 0; v < of_vertices.size(); ++v)
+      if(m_body.supports().is_kept(v)) {
+        const Eigen::Index i = 3 * Eigen::Index(v);
+        const Vec3 all = u.size() == 0 ? of_vertices[v].displacement : Vec3{u[i], u[i + 1], u[i + 2]};
+        const Vec3 held = all - of_vertices[v].free_part(all);
+        result.segment<3>(i) = Eigen::Vector3d(held.data());
+      }
+    return result;
+  }
+
+  // Forces that are not in equilibrium, but for those of exact control points.
+  Vector residual(const Vector& force, const Vector& points, const Vector& u) const
+  {
+    Vector r = force - m_elements.forces();
+    if(m_constraints.compliance() > 0)
+      m_constraints.add_forces((points - m_constraints.at_points(u)) / m_constraints.compliance(), r);
+    return m_body.supports().free_part(std::move(r));
+  }
+
+  Vector tangent_times(const Vector& p) const
+  {
+    Vector q = m_elements.product(p);
+    if(m_constraints.compliance() > 0)
+      m_constraints.add_forces(m_constraints.at_points(p) / m_constraints.compliance(), q);
+    return m_body.supports().free_part(std::move(q));
+  }
+
+  // The linear solution for forces, and displacements of control points. Is in m_step.
+  Result solve_linear(const Vector& force, const Vector& points)
+  {
+    Eigen::MatrixXd z;
+    if(!m_body.solve(force, z))
+      return failed(Status::SOLVER_FAILED);
+    return m_constraints.solve(z.col(0), force, points, m_body.system().free_motions(), m_step);
+  }
+
+  // The same for a residual. What control points take of it is taken from it, so that rounding errors do not
+  // grow.
+  bool precondition(Vector& r)
+  {
+    const Result result = solve_linear(r, Vector::Zero(m_step.forces.size()));
+    // what control points miss is rounding, when nothing but that is left of the residual
+    if(!result.is_success() && result.status != Status::CONTRADICTORY_CONTROL_POINTS)
+      return false;
+    if(m_constraints.compliance() == 0) {
+      m_constraints.add_forces(m_step.forces, r);
+      r = m_body.supports().free_part(std::move(r));
+    }
+    return true;
+  }
+
+  // Adds conjugate gradients' solution of the tangent system for a residual to a displacement.
+  // \pre r is preconditioned, m_step has the result
+  // \param bound of r . z
+  // \return whether there was no negative curvature
+  bool add_newton_step(Vector r, double bound, Vector& step)
+  {
+    Vector p = m_step.displacements;
+    double rz = r.dot(p);
+    for(int i = 0; i < largest_number_of_iterations && rz > bound && !is_too_much(); ++i) {
+      const Vector q = tangent_times(p);
+      const double curvature = p.dot(q), alpha = rz / curvature;
+      if(!(curvature > 0) || !std::isfinite(alpha)) {
+        if(i == 0)
+          step += p; // a direction in which the potential falls, at least
+        return false;
+      }
+      step += alpha * p;
+      r -= alpha * q;
+      ++m_state.number_of_iterations;
+      if(!precondition(r))
+        return true;
+      const double next = r.dot(m_step.displacements);
+      p = m_step.displacements + (next / rz) * p;
+      rz = next;
+    }
+    return true;
+  }
+
+  // The square of the energy norm that residuals are compared with.
+  double scale(const Vector& u, double tolerance) const
+  {
+    const double linear = u.dot(m_body.stiffness().product(u));
+    return tolerance * tolerance * 2 * m_elements.energy() + rounding * rounding * linear;
+  }
+
+  Result find_equilibrium(const Vector& force, const Vector& points, const Vector& supports, double tolerance,
+                          Vector& u)
+  {
+    constexpr double accuracy = 1e-3; // of the first step
+    m_elements.move(u);
+    if(const Result result = predict(force, points, supports, accuracy, u); !result.is_success())
+      return result;
+    const Vector start = u;
+    if(converge(Method::NEWTON, force, points, tolerance, u))
+      return Result();
+    u = start;
+    m_elements.move(u, true);
+    return converge(Method::DESCENT, force, points, tolerance, u) ? Result() : failed(Status::NOT_CONVERGED);
+  }
+
+  enum class Method { NEWTON, DESCENT };
+
+  // \pre supports and control points are satisfied
+  bool converge(Method method, const Vector& force, const Vector& points, double tolerance, Vector& u)
+  {
+    // What is left of a large step is stretch, not rotation, and would not let the next converge.
+    constexpr double accuracy_of_large_steps = 1e-3, accuracy = 0.05, large = 0.2;
+    double last = 0; // residual
+    for(int step = 0;
+        step < (method == Method::NEWTON ? largest_number_of_steps : largest_number_of_descents); ++step) {
+      Vector r = residual(force, points, u);
+      if(is_too_much() || !precondition(r))
+        return false;
+      const double rz = r.dot(m_step.displacements), bound = scale(u, tolerance), norm = scale(u, 1);
+      const double now = norm > 0 ? std::sqrt((std::max)(0., rz) / norm) : 0;
+      m_state.residuals.push_back(now);
+      if(!(rz > bound))
+        return std::isfinite(rz);
+      const bool is_astray = step > 0 && now > last && last < 1; // from far, it comes on detours
+      if(method == Method::NEWTON && is_astray)
+        return false;
+      last = now;
+      const double wanted = method == Method::NEWTON && now > large ? accuracy_of_large_steps : accuracy;
+      Vector d = Vector::Zero(u.size());
+      const bool is_convex = add_newton_step(r, (std::max)(wanted * wanted * rz, bound / 4), d);
+      if(method == Method::NEWTON) {
+        if(!is_convex)
+          return false;
+        u += d;
+        m_elements.move_by(d, u);
+      } else {
+        if(!descend(force, points, d, -r.dot(d), u))
+          return false;
+        m_elements.move(u, now > large);
+      }
+    }
+    return false;
+  }
+
+  // Along a step, as far as the potential falls enough.
+  bool descend(const Vector& force, const Vector& points, const Vector& d, double slope, Vector& u)
+  {
+    constexpr double enough = 1e-4, shortest = 1e-4;
+    const double before = potential(force, points, u);
+    const double error = 1e-13 * (m_elements.energy() + std::abs(force.dot(u))); // of rounding
+    const Vector from = u;
+    for(double length = 1; length > shortest; length /= 2) {
+      u = from + length * d;
+      m_elements.move(u, true);
+      if(potential(force, points, u) <= before + enough * length * slope + error)
+        return true;
+    }
+    return false;
+  }
+
+  double potential(const Vector& force, const Vector& points, const Vector& u) const
+  {
+    double result = m_elements.energy() - force.dot(u);
+    if(m_constraints.compliance() > 0)
+      result += (points - m_constraints.at_points(u)).squaredNorm() / (2 * m_constraints.compliance());
+    return result;
+  }
+
+  // To displacements that satisfy supports and control points, by the tangent at the last ones.
+  Result predict(const Vector& force, const Vector& points, const Vector& supports, double accuracy,
+                 Vector& u)
+  {
+    Vector d = supports - supported(u);
+    Vector r = residual(force, points, u);
+    if(d.squaredNorm() > 0)
+      r -= tangent_times(d);
+    m_step.forces = Vector::Zero(points.size());
+    const bool is_exact = m_constraints.compliance() == 0;
+    const Result result = solve_linear(r, is_exact ? (points - m_constraints.at_points(u + d)).eval()
+                                                   : Vector::Zero(points.size()).eval());
+    if(!result.is_success())
+      return result;
+    d += m_step.displacements;
+    // No better than the linear solution at the first time, when the tangent is the stiffness itself.
+    r = m_body.supports().free_part(residual(force, points, u) - tangent_times(d));
+    if(!precondition(r))
+      return failed(Status::SOLVER_FAILED);
+    add_newton_step(r, accuracy * accuracy * d.dot(tangent_times(d)), d);
+    u += d;
+    m_elements.move_by(d, u);
+    return Result();
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_LINEAR_ELASTICITY_3_INTERNAL_COROTATIONAL_SOLUTION_H
