@@ -93,6 +93,8 @@ public:
 
   void set_gravity(const std::array<double, 3>& acceleration) { m_solver->set_gravity(Vector(acceleration)); }
 
+  void set_corotational(bool is_corotational) { m_solver->set_corotational(is_corotational); }
+
   void set_control_points(const Doubles& points, double largest_distance, double compliance, double radius)
   {
     const std::vector<Vector> positions = vectors_of(points, "points");
@@ -166,6 +168,7 @@ void add_elasticity(py::module_& module)
     .def("fix", &Elasticity::fix)
     .def("slide", &Elasticity::slide)
     .def("set_gravity", &Elasticity::set_gravity)
+    .def("set_corotational", &Elasticity::set_corotational)
     .def("set_control_points", &Elasticity::set_control_points)
     .def("solve", &Elasticity::solve)
     .def("remove", &Elasticity::remove)

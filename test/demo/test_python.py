@@ -217,6 +217,9 @@ class Test(unittest.TestCase):
         shift = model.solve(np.tile([0, 0, -3.0], (5, 1)))
         np.testing.assert_array_equal(shift, expected)
         self.assertGreater(model.energy, 0)
+        model.set_corotational(True)
+        np.testing.assert_allclose(model.solve(np.tile([0, 0, -1e-3], (5, 1))), shift * 1e-3 / 3, atol=1e-6)
+        model.set_corotational(False)
         with self.assertRaisesRegex(mm3.ElasticityError, "supports are set before"):
             model.fix(is_boundary)
         with self.assertRaisesRegex(mm3.ElasticityError, "outside the mesh"):

@@ -191,7 +191,8 @@ def warp(image, affine, mesh, displacements, *, removed=None, is_of_labels=False
 
 
 class Elasticity(_core.Elasticity):
-    """Linear elasticity: displacements of a mesh's vertices, in mm, from those of control points.
+    """Elasticity: displacements of a mesh's vertices, in mm, from those of control points. Rotations are small, or
+    finite after set_corotational(True).
 
         model = Elasticity(mesh, young_modulus=3.0)
         model.fix(is_fixed)
