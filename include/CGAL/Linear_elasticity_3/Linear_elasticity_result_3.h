@@ -22,11 +22,11 @@ namespace CGAL {
 /// \ingroup PkgLinearElasticity3Ref
 /// How an operation of `Linear_elasticity_3` ended.
 enum class Linear_elasticity_status {
-  SUCCESS,          ///< done
-  NO_ELEMENTS,      ///< nothing is there, or nothing is left
-  INVERTED_ELEMENT, ///< the Jacobian of `element` is not positive: at a point of the quadrature, in
-                    ///< `factor()`;
-                    ///< anywhere in the deformed element, in a corotational `solve()`
+  SUCCESS,               ///< done
+  NO_ELEMENTS,           ///< nothing is there, or nothing is left
+  INVERTED_ELEMENT,      ///< the Jacobian of `element` is not positive: at a point of the quadrature, in
+                         ///< `factor()`;
+                         ///< anywhere in the deformed element, in a corotational `solve()`
   FREE_RIGID_MOTION,     ///< `number_of_free_motions` are neither supported nor controlled, such as `motion`
   CONTROL_POINT_OUTSIDE, ///< `control_point` is `distance` outside the mesh
   CONTRADICTORY_CONTROL_POINTS, ///< the displacement of `control_point` cannot be had with the others

@@ -136,9 +136,10 @@ Makes a closed surface of arrays, as `read_closed_surface()` does of a file.
 As there
 */
 template <class Points, class Polygons, class Mesh>
-[[nodiscard]] bool make_closed_surface(const Points& points, const Polygons& polygons, const std::string& name,
-                                       const Read_surface_options& options, Mesh& mesh,
-                                       std::string* error = nullptr, Surface_input* input = nullptr)
+[[nodiscard]] bool make_closed_surface(const Points& points, const Polygons& polygons,
+                                       const std::string& name, const Read_surface_options& options,
+                                       Mesh& mesh, std::string* error = nullptr,
+                                       Surface_input* input = nullptr)
 {
   const auto make = [&](const std::string&, const Read_surface_options&, internal::Surface& surface,
                         Surface_input& found) {

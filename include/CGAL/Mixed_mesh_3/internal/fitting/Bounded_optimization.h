@@ -161,8 +161,8 @@ private:
   // The mesh is the start: what had arrived has come back.
   static Result stopped(Result result)
   {
-    result.number_of_arrived_vertices = result.number_of_flips = result.number_of_bisections
-      = result.number_of_merged_vertices = 0;
+    result.number_of_arrived_vertices = result.number_of_flips = result.number_of_bisections =
+      result.number_of_merged_vertices = 0;
     return result;
   }
 
