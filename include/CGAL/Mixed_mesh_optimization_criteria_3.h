@@ -75,8 +75,8 @@ public:
   /// The value set, or the default.
   double sliding_threshold() const { return m_sliding_threshold; }
 
-  /// Whether tetrahedra may be flipped, and boundary vertices merged that can not get to the surface; else the
-  /// elements stay the same. Default: yes.
+  /// Whether tetrahedra may be flipped, and boundary vertices merged that can not get to the surface; else
+  /// the elements stay the same. Default: yes.
   Mixed_mesh_optimization_criteria_3& flips(bool allowed)
   {
     m_flips = allowed;

@@ -41,8 +41,8 @@ round: the middle goes to the closest point of the surface, and the tetrahedra a
 two. Each adds one vertex, on the surface, behind those that are there already.
 
 No element gets a cost above `criteria.quality_bound()`, or, where one has, above the worst one at the start:
-where that bound and the surface conflict, boundary vertices stay off the surface. In the end, those are merged
-with neighbors on the boundary, where the elements stay within the bound and the topology is the same.
+where that bound and the surface conflict, boundary vertices stay off the surface. In the end, those are
+merged with neighbors on the boundary, where the elements stay within the bound and the topology is the same.
 
 Guarantees: if the mesh was valid, it is valid after each move and in the end (the Jacobian of each element is
 proved positive on the whole element, on the coordinates as they are); boundary vertices counted in
@@ -50,8 +50,8 @@ proved positive on the whole element, on the coordinates as they are); boundary 
 itself (if it does at the start, `is_boundary_simple` may be false); hexahedra, prisms and pyramids stay; no
 vertex is added but by bisections; none is removed but those that are merged: then those behind get smaller
 numbers; the boundary's faces stay but for those at bisected edges, at merged vertices, and where a flat
-tetrahedron on it is removed; the same input gives the same mesh. With `criteria.flips(false)` no vertex and no
-element is removed.
+tetrahedron on it is removed; the same input gives the same mesh. With `criteria.flips(false)` no vertex and
+no element is removed.
 
 \tparam ConcurrencyTag enables sequential versus parallel algorithm: `Sequential_tag`, `Parallel_tag`, which
         needs TBB, or `Parallel_if_available_tag`

@@ -61,8 +61,8 @@ class Corotational_solution
   static constexpr int largest_number_of_steps = 15, largest_number_of_descents = 40,
                        largest_number_of_iterations = 1000;
   static constexpr double smallest_part = 1. / 64; // of the loads
-  // Of all steps together, times the number of vertices: with 20,000, it takes a minute or two until it is given
-  // up. Bars bent by 90 degrees take half of it.
+  // Of all steps together, times the number of vertices: with 20,000, it takes a minute or two until it is
+  // given up. Bars bent by 90 degrees take half of it.
   static constexpr double largest_work = 2e7;
   // The residual that is enough before all of the loads are there, and what rounding leaves of it; relative.
   static constexpr double rough = 0.03, rounding = 1e-9;
