@@ -17,10 +17,8 @@ build=${BUILD_DIR:-$root/build/test}
 
 install_packages build pictures tests cohort page python
 
-if [[ ! -f $build/build.ninja ]]; then
-  cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON \
-    -DMIXED_MESH_3_BUILD_PYTHON=ON -DPython_EXECUTABLE=/usr/bin/python3
-fi
+cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON \
+  -DMIXED_MESH_3_BUILD_PYTHON=ON -DPython_EXECUTABLE=/usr/bin/python3
 cmake --build "$build" --parallel "$(build_jobs 1500)"
 echo "built in $((SECONDS / 60)) min $((SECONDS % 60)) s, packages included"
 ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$(nproc)" "$@"

@@ -15,6 +15,7 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -41,6 +42,8 @@ class Elasticity
 
   std::shared_ptr<const Mesh> m_mesh;
   std::unique_ptr<Solver> m_solver;
+  bool m_is_corotational = false;
+  std::mutex m_mutex; // other threads of Python may call while it computes
 
   void factor()
   {
@@ -51,7 +54,9 @@ class Elasticity
   void require_supports_open(const char* name) const
   {
     if(m_solver->is_factored())
-      throw Elasticity_error(std::string(name) + "(): supports are set before the first control points");
+      throw Elasticity_error(std::string(name)
+                             + "(): supports are set before the first control points, and the first "
+                               "solution");
   }
 
 public:
@@ -93,12 +98,19 @@ public:
 
   void set_gravity(const std::array<double, 3>& acceleration) { m_solver->set_gravity(Vector(acceleration)); }
 
-  void set_corotational(bool is_corotational) { m_solver->set_corotational(is_corotational); }
+  void set_corotational(bool is_corotational)
+  {
+    m_is_corotational = is_corotational;
+    m_solver->set_corotational(is_corotational);
+  }
 
   void set_control_points(const Doubles& points, double largest_distance, double compliance, double radius)
   {
     const std::vector<Vector> positions = vectors_of(points, "points");
+    if(!(largest_distance >= 0 && compliance >= 0 && radius >= 0))
+      throw std::invalid_argument("set_control_points(): expected numbers that are not negative");
     const py::gil_scoped_release release;
+    const std::lock_guard<std::mutex> lock(m_mutex);
     factor();
     check(m_solver->set_control_points(positions, largest_distance, compliance, radius));
   }
@@ -106,22 +118,33 @@ public:
   py::array_t<double> solve(const Doubles& displacements)
   {
     const std::vector<Vector> given = vectors_of(displacements, "displacements");
+    std::vector<Vector> found;
+    CGAL::Linear_elasticity_result_3 result;
     {
       const py::gil_scoped_release release;
+      const std::lock_guard<std::mutex> lock(m_mutex);
       factor();
       if(given.size() != m_solver->number_of_control_points())
         throw std::invalid_argument("displacements: expected one for each of "
                                     + std::to_string(m_solver->number_of_control_points())
                                     + " control points");
-      check(m_solver->solve(given));
+      result = m_solver->solve(given);
+      found = m_solver->displacements();
     }
-    return array_of(m_solver->displacements());
+    if(m_is_corotational && result.status == CGAL::Linear_elasticity_status::INVERTED_ELEMENT) {
+      if(PyErr_WarnEx(PyExc_RuntimeWarning, result.description().c_str(), 1) != 0)
+        throw py::error_already_set();
+    } else {
+      check(result);
+    }
+    return array_of(found);
   }
 
   void remove(const Marks& elements)
   {
     const std::vector<bool> marks = marks_of(elements, m_mesh->number_of_elements(), "elements");
     const py::gil_scoped_release release;
+    const std::lock_guard<std::mutex> lock(m_mutex);
     factor();
     check(m_solver->remove_elements(marks));
   }

@@ -22,7 +22,7 @@ __all__ = ["Elasticity", "ElasticityError", "KINDS", "Mesh", "MeshingError", "bo
 KINDS = ("tetra", "pyramid", "wedge", "hexahedron")
 _SIZES = (4, 5, 6, 8)
 _VTK_TYPES = (10, 14, 13, 12)
-_VTK_WEDGE = (0, 2, 1, 3, 5, 4)  # VTK's is the mirror image of ours, and so is that of meshio and PyVista
+_VTK_WEDGE = (0, 2, 1, 3, 5, 4)  # VTK's is the mirror image of ours; meshio has the order of Gmsh, as we do
 
 
 def _cells(self):
@@ -45,7 +45,7 @@ def _vtk_connectivity(self):
 def _to_meshio(self):
     """The mesh as a meshio.Mesh, with labels; meshio must be installed."""
     import meshio
-    cells = {kind: v[:, _VTK_WEDGE] if kind == "wedge" else v for kind, v in self.cells.items()}
+    cells = self.cells
     labels = [self.labels[self.kinds == KINDS.index(kind)] for kind in cells]
     return meshio.Mesh(_np.array(self.points), list(cells.items()), cell_data={"label": labels})
 

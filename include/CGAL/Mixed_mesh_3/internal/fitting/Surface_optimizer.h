@@ -441,11 +441,13 @@ private:
     std::vector<std::uint8_t> is_arrived;
     std::vector<std::pair<Vertex_index, Vec3>> travelers;
     std::size_t number_of_arrived_vertices;
+    typename Moves::Freedom freedom;
   };
 
   State state() const
   {
-    return {m_working.points, m_is_arrived, m_travelers, m_result.number_of_arrived_vertices};
+    return {m_working.points, m_is_arrived, m_travelers, m_result.number_of_arrived_vertices,
+            m_moves.freedom()};
   }
 
   // \pre no elements were changed since
@@ -455,8 +457,7 @@ private:
     m_is_arrived = s.is_arrived;
     m_travelers = s.travelers;
     m_result.number_of_arrived_vertices = s.number_of_arrived_vertices;
-    for(const auto& [v, target] : m_travelers)
-      m_moves.fix(v);
+    m_moves.set_freedom(s.freedom);
     m_moves.forget_costs();
     m_moves.activate_all();
   }
@@ -533,9 +534,13 @@ private:
       failed; // from a vertex to the one it was merged with, or to itself if it moved
     m_moves.attract({});
     m_moves.set_bound(bound);
-    for(int round = 0; round < merging_rounds; ++round) {
-      if(!go_on())
+    if(!m_moves.vertices_above(bound).empty())
+      return true; // they would not get better
+    for(int round = 0; round < merging_rounds && !left_behind().empty(); ++round) {
+      if(!go_on()) {
+        attract_boundary();
         return false;
+      }
       const State simple = state();
       const Working_mesh working = m_working;
       const Mixed_mesh_optimization_result_3 result = m_result;
@@ -562,10 +567,10 @@ private:
       m_working = working;
       m_result = result;
       restore(simple);
+      m_moves.forget_elements();
       m_boundary = m_working.interface_faces(m_strata);
     }
-    if(!m_working.merged.empty())
-      attract_boundary();
+    attract_boundary();
     return true;
   }
 
@@ -576,6 +581,8 @@ private:
     std::vector<Working_mesh::Edge> merged;
     m_travelers.clear();
     for(Vertex_index v : left_behind()) {
+      if(v < m_is_held.size() && m_is_held[v])
+        continue;
       const Vec3 place = m_project(m_working.points[v], m_working.strata[v]);
       const Vertex_index w = merger(v, place, [&](Vertex_index u) { return failed.count({v, u}) == 0; });
       if(w != no_vertex) {

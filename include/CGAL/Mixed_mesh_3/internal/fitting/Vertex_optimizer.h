@@ -146,6 +146,24 @@ public:
 
   /// To be called when positions were changed from outside.
   void forget_costs() { m_costs.clear(); }
+  /// To be called when elements were changed to what they were before.
+  void forget_elements()
+  {
+    m_costs.clear();
+    m_coloring = Vertex_coloring();
+  }
+
+  /// Which vertices are fixed, and which need not stay on the surface.
+  struct Freedom
+  {
+    std::vector<std::uint8_t> is_fixed, is_loose;
+  };
+  Freedom freedom() const { return {m_is_fixed, m_is_loose}; }
+  void set_freedom(const Freedom& freedom)
+  {
+    m_is_fixed = freedom.is_fixed;
+    m_is_loose = freedom.is_loose;
+  }
 
   void activate(Vertex_index v) { m_is_active[v] = true; }
   void activate_all() { std::fill(m_is_active.begin(), m_is_active.end(), true); }
