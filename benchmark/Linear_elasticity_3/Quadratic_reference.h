@@ -87,7 +87,6 @@ public:
 
   std::vector<Vector> at(const std::vector<Vector>& points, const Displacements& displacements) const
   {
-    using namespace mm3::internal;
     const mm3::Element_locator_3<Mesh> locator(m_mesh);
     std::vector<Vector> values;
     for(const Vector& p : points) {
@@ -111,7 +110,6 @@ private:
 
   void add_middles()
   {
-    using namespace mm3::internal;
     std::map<std::pair<int, int>, int> middles;
     const auto middle = [&](int a, int b) {
       const auto [it, is_new] = middles.emplace(std::make_pair((std::min)(a, b), (std::max)(a, b)),
@@ -194,13 +192,13 @@ private:
 
   Stiffness stiffness(const Nodes& nodes) const
   {
-    using namespace mm3::internal;
     const double lambda = m_material.lambda(), mu = m_material.mu();
     constexpr double near = 0.5854101966249685, far = 0.1381966011250105; // exact for degree 2
     std::array<Vec3, 8> corners{};
     for(int i = 1; i < 4; ++i)
       corners[i] = m_points[std::size_t(nodes[i])] - m_points[std::size_t(nodes[0])];
-    const Strain_operator linear = strain_operator(mm3::TETRAHEDRON, corners, 0);
+    const mm3::internal::Strain_operator linear = mm3::internal::strain_operator(mm3::TETRAHEDRON, corners,
+                                                                                 0);
     const double volume = linear.volume / 4;
     Stiffness k{};
     for(int q = 0; q < 4; ++q) {
@@ -258,11 +256,10 @@ private:
 
   void factor_linear_part()
   {
-    using namespace mm3::internal;
     std::vector<bool> is_free;
     for(std::size_t v = 0; v < m_mesh.number_of_vertices(); ++v)
       is_free.push_back(m_unknown[v] >= 0);
-    Elasticity_system system(m_mesh.elements(), is_free);
+    mm3::internal::Elasticity_system system(m_mesh.elements(), is_free);
     system.clear();
     const Displacements zero(m_mesh.number_of_vertices(), Vec3{});
     for(auto e : system.active_elements())

@@ -46,7 +46,6 @@ double root_mean_square(const std::vector<Vector>& u, const std::vector<bool>& i
 double relative_error(const std::vector<Vector>& u, const std::vector<Vector>& exact,
                       const std::vector<bool>& is_in_subset)
 {
-  using namespace mm3::internal;
   std::vector<Vector> difference;
   for(std::size_t i = 0; i < u.size(); ++i)
     difference.push_back(u[i] - exact[i]);
@@ -56,7 +55,6 @@ double relative_error(const std::vector<Vector>& u, const std::vector<Vector>& e
 std::vector<Vector> at_points(const Mesh& mesh, const std::vector<Vector>& displacements,
                               const std::vector<Vector>& points)
 {
-  using namespace mm3::internal;
   const mm3::Element_locator_3<Mesh> locator(mesh);
   std::vector<Vector> values;
   for(const Vector& p : points) {
@@ -106,7 +104,6 @@ struct Test_case
             const CGAL::Polyhedral_mixed_mesh_region_3& inside_brain)
     : opening(o), loads{{"bump", bump_displacement(o, brain)}, {"smooth", smooth_displacement(o)}}
   {
-    using namespace mm3::internal;
     require([&](std::string* error) {
       return mm3::IO::read_closed_surface(work + "/regions/" + o.name + ".off", region, error);
     });

@@ -85,7 +85,6 @@ struct Opening_coordinates
 
   Opening_coordinates(const Vector& p, const Opening& o)
   {
-    using namespace mm3::internal;
     depth = dot(p - o.center, o.axis);
     from_axis = norm(p - o.center - depth * o.axis);
     from_opening = norm(p - o.center);
@@ -106,7 +105,6 @@ inline Boundary_displacement bump_displacement(const Opening& o, const Brain& br
   constexpr double fixed_share = 0.3;
   const double fixed_below = brain.lowest + fixed_share * (brain.highest - brain.lowest);
   return [=](const Vector& p) -> std::optional<Vector> {
-    using namespace mm3::internal;
     if(p[2] < fixed_below)
       return Vector{};
     if(!is_in_patch(p, o))
@@ -120,7 +118,6 @@ inline Boundary_displacement smooth_displacement(const Opening& o)
 {
   constexpr double width = 25;
   return [=](const Vector& p) -> std::optional<Vector> {
-    using namespace mm3::internal;
     const double distance = Opening_coordinates(p, o).from_opening;
     return (push * std::exp(-distance * distance / (2 * width * width))) * o.axis;
   };
