@@ -19,8 +19,9 @@ file(WRITE ${names} "@INCLUDE = \"${doxyfile}\"\nGENERATE_HTML = NO\nGENERATE_XM
 file(GLOB descriptions CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/doc/*/PackageDescription.txt)
 add_custom_target(doc
   COMMAND ${DOXYGEN} ${doxyfile}
-  # There is nothing to include for a concept.
-  COMMAND sh -c "sed -i '/^<p><code>#include &lt;Concepts/d' ${PROJECT_BINARY_DIR}/doc/class*.html"
+  # There is nothing to include for a concept, nor below internal/.
+  COMMAND sh -c "sed -i -e '/^<p><code>#include &lt;Concepts/d' -e '/^<p><code>#include &lt;CGAL.*.internal./d' \
+                     ${PROJECT_BINARY_DIR}/doc/class*.html ${PROJECT_BINARY_DIR}/doc/struct*.html"
   COMMAND ${CMAKE_COMMAND} -E rm -rf ${PROJECT_BINARY_DIR}/doc_names
   COMMAND ${DOXYGEN} ${names}
   COMMAND ${DEBIAN_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/check_reference.py ${PROJECT_BINARY_DIR}/doc_names

@@ -20,20 +20,28 @@
 
 namespace CGAL {
 
+/// \cond not public
 template <class ET>
 class Lazy_exact_nt;
+/// \endcond
 
 namespace Mixed_meshes_3 {
 
-/// A vector, or a position, in doubles. A type of our own, so that its operators are found by
-/// argument-dependent lookup.
+/// \ingroup PkgMixedMesh3Elements
+/// A vector, or a position, in doubles: displacements, forces, vertices of elements. It is an array, `v[0]`
+/// to `v[2]`. A type of our own, so that its operators are found by argument-dependent lookup. Its header comes
+/// with those that use it.
 struct Vec3 : std::array<double, 3>
 {
-  Vec3() = default; // `Vec3{}` is zero
+  /// `Vec3{}` is zero; without braces the coordinates are undefined.
+  Vec3() = default;
+  /// Its coordinates.
   constexpr Vec3(double x, double y, double z) : std::array<double, 3>{x, y, z} {}
+  /// Converts an array.
   constexpr Vec3(const std::array<double, 3>& a) : std::array<double, 3>(a) {}
 };
 
+/// \cond not public
 // A lazy number rounds to a double that depends on what was asked of it before, unless it is made exact.
 template <class FT>
 double rounded(const FT& x)
@@ -63,6 +71,7 @@ inline Vec3 cross(const Vec3& a, const Vec3& b)
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 inline double determinant(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(cross(a, b), c); }
+/// \endcond
 
 } // namespace Mixed_meshes_3
 } // namespace CGAL
