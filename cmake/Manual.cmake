@@ -4,7 +4,9 @@
 
 find_program(DOXYGEN doxygen)
 find_program(DEBIAN_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
-mark_as_advanced(DOXYGEN DEBIAN_PYTHON)
+# Formulas are typeset by MathJax: by that of this system, so that they are readable without a network, or from the net.
+find_path(MATHJAX MathJax.js PATHS /usr/share/javascript/mathjax /usr/share/mathjax NO_DEFAULT_PATH)
+mark_as_advanced(DOXYGEN DEBIAN_PYTHON MATHJAX)
 if(NOT DOXYGEN OR NOT DEBIAN_PYTHON)
   return()
 endif()
@@ -13,6 +15,9 @@ endif()
 set(doxyfile ${PROJECT_BINARY_DIR}/Doxyfile)
 set(names ${PROJECT_BINARY_DIR}/Doxyfile_names)
 file(WRITE ${doxyfile} "@INCLUDE = Doxyfile.in\nOUTPUT_DIRECTORY = \"${PROJECT_BINARY_DIR}\"\n")
+if(MATHJAX)
+  file(APPEND ${doxyfile} "MATHJAX_RELPATH = ${MATHJAX}\n")
+endif()
 file(WRITE ${names} "@INCLUDE = \"${doxyfile}\"\nGENERATE_HTML = NO\nGENERATE_XML = YES\nXML_OUTPUT = doc_names\n"
                     "XML_PROGRAMLISTING = NO\nEXTRACT_ALL = YES\nHIDE_UNDOC_MEMBERS = NO\n"
                     "HIDE_UNDOC_CLASSES = NO\nWARNINGS = NO\nWARN_AS_ERROR = NO\n")
