@@ -4,7 +4,7 @@
 
 find_program(DOXYGEN doxygen)
 find_program(DEBIAN_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
-# Formulas are typeset by MathJax: by that of this system, so that they are readable without a network, or from the net.
+# Formulas are typeset by MathJax: that of this system, which needs no network, or else that of the net.
 find_path(MATHJAX MathJax.js PATHS /usr/share/javascript/mathjax /usr/share/mathjax NO_DEFAULT_PATH)
 mark_as_advanced(DOXYGEN DEBIAN_PYTHON MATHJAX)
 if(NOT DOXYGEN OR NOT DEBIAN_PYTHON)

@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One atlas, two subjects: the mesh of one brain is fitted to others, such that vertices and elements have the same
-// numbers in all of them, and what belongs to one of them can be compared.
+// One atlas, two subjects: the mesh of one brain is fitted to others, such that vertices and elements have
+// the same numbers in all of them.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
@@ -28,13 +28,14 @@ using Mesh = CGAL::Mixed_mesh_3<Kernel>;
 
 bool fit(Mesh mesh, const Surface& subject, const std::string& file)
 {
-  // Algorithm 1 moves all vertices at once; then the optimization, without flips: elements stay what they are.
+  // Algorithm 1 moves all vertices at once; then the optimization, without flips: elements stay the same.
   const auto fitted = CGAL::fit_mixed_mesh_to_surface(mesh, subject);
   const auto optimized = CGAL::optimize_mixed_mesh_3(mesh, subject,
                                                      CGAL::Mixed_mesh_optimization_criteria_3().flips(false));
   std::cout << file << ": " << fitted.number_of_arrived_vertices << ", then "
             << optimized.number_of_arrived_vertices << " of " << optimized.number_of_boundary_vertices
-            << " boundary vertices on the surface; ARC up to " << mm3::quality_statistics(mesh).back().maximum << '\n';
+            << " boundary vertices on the surface; ARC up to " << mm3::quality_statistics(mesh).back().maximum
+            << '\n';
   std::string error;
   if(!mm3::IO::write_mixed_mesh(file, mesh, {}, &error)) {
     std::cerr << error << '\n';
@@ -52,13 +53,14 @@ int main()
      || !CGAL::make_mixed_mesh_3(brain, 660, atlas).has_mesh())
     return EXIT_FAILURE;
 
-  // The subjects: a wider and shorter brain, and one that is bent. They lie where the atlas does; others have to be
-  // brought there first, as the fit is to the nearest points of the surface.
+  // The subjects: a wider and shorter brain, and one that is bent. They lie where the atlas does; others have
+  // to be brought there first, as the fit is to the nearest points of the surface.
   Surface wide = brain, bent = brain;
   for(const auto v : brain.vertices()) {
     const Point& p = brain.point(v);
     wide.point(v) = Point(1.1 * p.x(), 0.92 * p.y(), 1.05 * p.z());
     bent.point(v) = Point(p.x() + 0.002 * p.y() * p.y(), p.y(), p.z() - 5);
   }
-  return fit(atlas, wide, "atlas_wide.vtu") && fit(atlas, bent, "atlas_bent.vtu") ? EXIT_SUCCESS : EXIT_FAILURE;
+  return fit(atlas, wide, "atlas_wide.vtu") && fit(atlas, bent, "atlas_bent.vtu") ? EXIT_SUCCESS
+                                                                                  : EXIT_FAILURE;
 }

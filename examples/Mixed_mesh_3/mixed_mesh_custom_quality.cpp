@@ -22,8 +22,8 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Vector = Kernel::Vector_3;
 
-// Model of MixedMeshQuality_3. At a corner with the edges e, the cost is (sum e^2 / 3)^1.5 / det(e), divided by that of
-// an element whose edges are of one length; the worst corner counts.
+// Model of MixedMeshQuality_3. At a corner with the edges e, the cost is (sum e^2 / 3)^1.5 / det(e), divided
+// by that of an element whose edges are of one length; the worst corner counts.
 struct Corner_quality
 {
   using Points = std::array<mm3::Vec3, 8>;
@@ -38,7 +38,8 @@ struct Corner_quality
       Vector e[3];
       for(int i = 0; i < 3; ++i)
         e[i] = Vector(p[v[i + 1]][0] - p[v[0]][0], p[v[i + 1]][1] - p[v[0]][1], p[v[i + 1]][2] - p[v[0]][2]);
-      const double det = CGAL::determinant(e[0], e[1], e[2]), squares = e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
+      const double det = CGAL::determinant(e[0], e[1], e[2]),
+                   squares = e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
       const double cost = det > 0 ? std::pow(squares / 3, 1.5) / det / ideal[kind]
                                   : std::numeric_limits<double>::infinity();
       if(cost <= worst)

@@ -29,8 +29,8 @@ namespace Mixed_meshes_3 {
 
 /// \ingroup PkgMixedMesh3Elements
 /// A vector, or a position, in doubles: displacements, forces, vertices of elements. It is an array, `v[0]`
-/// to `v[2]`. A type of our own, so that its operators are found by argument-dependent lookup. Its header comes
-/// with those that use it.
+/// to `v[2]`. A type of our own, so that its operators are found by argument-dependent lookup. Its header
+/// comes with those that use it.
 struct Vec3 : std::array<double, 3>
 {
   /// `Vec3{}` is zero; without braces the coordinates are undefined.

@@ -84,9 +84,10 @@ decltype(auto) as_domain(const T& domain, const NamedParameters& np)
     Is_face_graph<T>::value || (Is_surface_model<T>::value && Is_region_model<T>::value),
     "the domain must be a closed triangulated surface (a model of FaceListGraph, its header included) "
     "or a model of MixedMeshDomain_3");
-  static_assert(has_points_of_doubles<T>(),
-                "the points of a domain must be those of CGAL::Mixed_meshes_3::Predicates_kernel, or have doubles "
-                "as coordinates, whatever the kernel of the mesh: numbers of an exact kernel do not convert");
+  static_assert(
+    has_points_of_doubles<T>(),
+    "the points of a domain must be those of CGAL::Mixed_meshes_3::Predicates_kernel, or have doubles "
+    "as coordinates, whatever the kernel of the mesh: numbers of an exact kernel do not convert");
   return as_model<Polyhedral_mixed_mesh_domain_3>(domain, np);
 }
 
@@ -97,9 +98,10 @@ decltype(auto) as_surface(const T& surface, const NamedParameters& np)
     Is_face_graph<T>::value || Is_surface_model<T>::value,
     "the surface must be closed and triangulated (a model of FaceListGraph, its header included) or a "
     "model of MixedMeshSurface_3");
-  static_assert(has_points_of_doubles<T>(),
-                "the points of a domain must be those of CGAL::Mixed_meshes_3::Predicates_kernel, or have doubles "
-                "as coordinates, whatever the kernel of the mesh: numbers of an exact kernel do not convert");
+  static_assert(
+    has_points_of_doubles<T>(),
+    "the points of a domain must be those of CGAL::Mixed_meshes_3::Predicates_kernel, or have doubles "
+    "as coordinates, whatever the kernel of the mesh: numbers of an exact kernel do not convert");
   return as_model<Polyhedral_mixed_mesh_domain_3>(surface, np);
 }
 
