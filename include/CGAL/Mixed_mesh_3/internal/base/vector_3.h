@@ -55,23 +55,40 @@ double rounded(const CGAL::Lazy_exact_nt<ET>& x)
   return CGAL::to_double(x.exact());
 }
 
+/// \endcond
+
+/// \ingroup PkgMixedMesh3Elements
+/// The coordinates of a point of any kernel, rounded to double.
 template <class Point>
 Vec3 to_vec3(const Point& p)
 {
   return {rounded(p.x()), rounded(p.y()), rounded(p.z())};
 }
 
+/// \ingroup PkgMixedMesh3Elements
+/// The sum.
 inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+/// \ingroup PkgMixedMesh3Elements
+/// The difference.
 inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+/// \ingroup PkgMixedMesh3Elements
+/// The multiple by a number.
 inline Vec3 operator*(double s, const Vec3& a) { return {s * a[0], s * a[1], s * a[2]}; }
+/// \ingroup PkgMixedMesh3Elements
+/// The scalar product.
 inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+/// \ingroup PkgMixedMesh3Elements
+/// The length.
 inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
+/// \ingroup PkgMixedMesh3Elements
+/// The vector product.
 inline Vec3 cross(const Vec3& a, const Vec3& b)
 {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
+/// \ingroup PkgMixedMesh3Elements
+/// The volume that three vectors span, positive if they are right-handed.
 inline double determinant(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(cross(a, b), c); }
-/// \endcond
 
 } // namespace Mixed_meshes_3
 } // namespace CGAL
