@@ -12,7 +12,7 @@ XML is the folder that doxygen writes with EXTRACT_ALL: what is documented, and 
 - no markup is left in the text, as by quotes that a line ends in;
 - a class that is a model of a concept is in the list of models of that concept, and the other way round.
 
-What is below internal/, or in a namespace internal, is not public.
+What is below internal/ and in no group, or in a namespace internal, is not public.
 """
 
 import glob
@@ -126,15 +126,19 @@ class Reference:
     def public_namespace_members(self):
         for member in self.namespace_members:
             scope = member.findtext("qualifiedname").rpartition("::")[0]
-            if scope in NAMESPACES and "/internal/" not in member.find("location").get("file"):
+            if scope in NAMESPACES and self.is_public(member, member.findtext("qualifiedname")):
                 yield member
+
+    def is_public(self, entity, name):
+        """What a file below internal/ has is public if it is in a group."""
+        return "/internal/" not in entity.find("location").get("file") or name in self.grouped
 
     def public_names(self):
         """Of namespaces: classes, functions, types and constants."""
         names = {m.findtext("qualifiedname") for m in self.public_namespace_members()}
         for name, compound in self.classes.items():
             scope = name.rpartition("::")[0]
-            if scope in NAMESPACES and "/internal/" not in compound.find("location").get("file"):
+            if scope in NAMESPACES and self.is_public(compound, name):
                 names.add(name)
         # Operators are found by those who need no list.
         return {name for name in names if "::operator" not in name}

@@ -38,7 +38,7 @@ packages_for() {
     # The peers of scripts/benchmark.sh, and its plots.
     benchmark) echo tetgen python3-gmsh python3-netgen python3-matplotlib ;;
     # What scripts/check.sh runs besides the compiler.
-    checks) echo clang clang-format-14 doxygen pyflakes3 shellcheck ;;
+    checks) echo clang clang-format-14 doxygen libjs-mathjax pyflakes3 shellcheck ;;
     *) fail "unknown purpose '$1': expected build, pictures, tests, image, benchmark, checks, cohort, page or python" ;;
   esac
 }

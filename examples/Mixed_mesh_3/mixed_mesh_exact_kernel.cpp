@@ -38,9 +38,9 @@ int main()
     surface.add_face(V((i + 1) % 4), V(i), V(5));
   }
 
-  // Regions have no kernel of their own: the upper tip, as a ball.
+  // Regions have no kernel of their own: the upper tip, as a ball about a point that is rounded, too.
   const CGAL::Polyhedral_mixed_mesh_domain_3 domain(surface);
-  const CGAL::Ball_mixed_mesh_region_3 tip({0, 0, 0.33}, 0.15);
+  const CGAL::Ball_mixed_mesh_region_3 tip(p[4], 0.15);
   Mesh mesh;
   if(!CGAL::make_mixed_mesh_3(domain, tip, 1000, mesh).has_mesh())
     return EXIT_FAILURE;

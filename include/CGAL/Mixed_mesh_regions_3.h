@@ -131,6 +131,16 @@ public:
   {
     CGAL_precondition(radius > 0);
   }
+
+  /// As above; a center of another kernel is rounded to doubles.
+  template <class Kernel>
+  Ball_mixed_mesh_region_3(const CGAL::Point_3<Kernel>& center, double radius)
+    : Ball_mixed_mesh_region_3(Point_3(Mixed_meshes_3::rounded(center.x()),
+                                       Mixed_meshes_3::rounded(center.y()),
+                                       Mixed_meshes_3::rounded(center.z())),
+                               radius)
+  {
+  }
 };
 
 /// \ingroup PkgMixedMesh3Domains

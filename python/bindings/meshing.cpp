@@ -207,14 +207,15 @@ make_mesh(const Soup& soup, const std::vector<Weighted_soup>& regions,
 }
 
 py::dict optimize(Mesh& mesh, const Soup& soup, double tolerance, double quality_bound,
-                  std::size_t bisections, const Progress& progress)
+                  std::size_t bisections, bool flips, const Progress& progress)
 {
   std::vector<std::string> warnings;
   const Surface surface = surface_of(std::get<0>(soup), std::get<1>(soup), "surface", warnings);
   const auto criteria = CGAL::Mixed_mesh_optimization_criteria_3()
                           .tolerance(tolerance)
                           .quality_bound(quality_bound)
-                          .number_of_bisections(bisections);
+                          .number_of_bisections(bisections)
+                          .flips(flips);
   Python_visitor visitor(progress);
   CGAL::Mixed_mesh_optimization_result_3 result;
   {

@@ -387,6 +387,16 @@ static_assert(is_cell_traits_with_all<Axis_aligned_octree_cell_traits_3>());
 static_assert(is_cell_traits_with_all<Rotated_octree_cell_traits_3>());
 static_assert(is_cell_traits_with_all<Cell_traits_archetype>());
 
+// A model with points of an exact kernel is refused, with a message; a ball may have a center of any kernel.
+struct Exact_surface
+{
+  using Point_3 = CGAL::Exact_predicates_exact_constructions_kernel::Point_3;
+  Point_3 closest_point(const Point_3& p) const { return p; }
+};
+static_assert(mm3::internal::has_points_of_doubles<Domain_archetype>());
+static_assert(!mm3::internal::has_points_of_doubles<Exact_surface>());
+static_assert(std::is_constructible_v<Ball_mixed_mesh_region_3, Exact_surface::Point_3, double>);
+
 static_assert(is_visitor<mm3::Default_visitor>() && is_visitor<Visitor_archetype>());
 
 static_assert(is_quality<mm3::Aspect_ratio_quality_3>() && is_quality<mm3::Scaled_jacobian_quality_3>());

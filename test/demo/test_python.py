@@ -196,6 +196,10 @@ class Test(unittest.TestCase):
         fitted, report = mm3.fit(self.mesh, *wider)
         self.assertTrue(mm3.certify(fitted).all())
         np.testing.assert_array_equal(fitted.connectivity, self.mesh.connectivity)
+        improved, report = mm3.optimize(fitted, *wider, flips=False)
+        self.assertTrue(report["success"])
+        np.testing.assert_array_equal(improved.connectivity, self.mesh.connectivity)
+        self.assertLess(mm3.quality(improved).max(), mm3.quality(fitted).max())
 
     def test_elasticity_as_program(self):
         boundary = np.flatnonzero(mm3.boundary_vertices(self.mesh))

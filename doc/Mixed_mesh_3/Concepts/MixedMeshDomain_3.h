@@ -17,6 +17,10 @@ Queries come from the octree, from the root down. A domain can hand what it know
 in a cell, for example the triangles that meet it, down to the children of the cell: this is
 `Surface_part`. A domain that has no use for it takes an empty struct.
 
+Points are those of `MixedMeshSurface_3::Point_3`, of doubles: with the cell traits of the package,
+`CGAL::Mixed_meshes_3::Predicates_kernel::Point_3`, whatever the kernel of the mesh. Where an answer takes
+exact numbers, a model makes them of the coordinates.
+
 Answers may be too cautious, but must not contradict each other: where `locate()` does not answer
 `ON_BOUNDARY`, `bounded_side()` would say the same of every point of the closed cell.
 

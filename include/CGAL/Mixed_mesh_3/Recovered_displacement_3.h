@@ -78,7 +78,7 @@ bool all_of_test_points(const F& f)
 
 \brief The displacement of a mesh between its vertices, one order better than by the shape functions.
 
-\f[ u(x) = \sum_i N_i(x) \left( u_i + \tfrac12 G_i (x - x_i) \right) \f]
+\f[ u(x) = \sum_i N_i(x) \left( u_i + \frac12 G_i (x - x_i) \right) \f]
 
 with the shape functions \f$ N_i \f$ of the element and gradients \f$ G_i \f$ of the displacement at the
 vertices, which are recovered from the displacements of the vertices around. The field is continuous, it
@@ -89,7 +89,7 @@ schemes using supplementary derivative data", Procedia Computer Science 1, 2010.
 
 As \f$ \sum_i N_i x_i = x \f$, this is a sum over pairs of the element's vertices,
 
-\f[ u(x) = \sum_i N_i u_i + \sum_{i<j} N_i N_j b_{ij}, \qquad b_{ij} = \tfrac12 (G_i - G_j) (x_j - x_i), \f]
+\f[ u(x) = \sum_i N_i u_i + \sum_{i<j} N_i N_j b_{ij}, \qquad b_{ij} = \frac12 (G_i - G_j) (x_j - x_i), \f]
 
 and so are the exceptions to the formula; all of them keep the field continuous, and linear fields linear:
 

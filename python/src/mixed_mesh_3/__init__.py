@@ -145,10 +145,12 @@ def mesh_labels(image, affine, labels=None, *, smoothing=None, vertices=660, **o
     return result, report
 
 
-def optimize(mesh, points, triangles, *, tolerance=0.0, quality_bound=3.2, bisections=0, progress=None):
-    """A mesh with its boundary on the surface and better elements, and a report; the given one stays as it is."""
+def optimize(mesh, points, triangles, *, tolerance=0.0, quality_bound=3.2, bisections=0, flips=True,
+             progress=None):
+    """A mesh with its boundary on the surface and better elements, and a report; the given one stays as it is. Without
+    flips, vertices and elements stay the same ones, as for an atlas after fit()."""
     result = _core.copy(mesh)
-    return result, _core.optimize(result, (points, triangles), tolerance, quality_bound, bisections, progress)
+    return result, _core.optimize(result, (points, triangles), tolerance, quality_bound, bisections, flips, progress)
 
 
 def fit(mesh, points, triangles, *, progress=None):

@@ -185,7 +185,7 @@ private:
   {
     const Element_view view = (*m_elements)[e];
     const Eigen::Index first = m_frames.empty() ? 0 : m_frames.back().first_node + size(m_frames.back());
-    Element element{e, first, m_matrices.size(), 0, {}, {}};
+    Element element{e, first, m_matrices.size(), 0, {}, Eigen::Vector3d::Zero()};
     const Element_points points = stiffness.points_of(view);
     m_gradients.middleCols(first, view.size()).setZero();
     for(int q = 0; q < quadrature_rule(view.kind()).number_of_points; ++q) {

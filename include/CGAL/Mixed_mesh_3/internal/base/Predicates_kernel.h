@@ -15,7 +15,9 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
-/// The kernel that decides geometry: exact predicates on doubles, whatever kernel the user has.
+/// \ingroup PkgMixedMesh3Domains
+/// The kernel that decides geometry: exact predicates on doubles, whatever kernel the user has. Domains and
+/// regions are asked about its points. Its header comes with each of theirs.
 using Predicates_kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 } // namespace Mixed_meshes_3

@@ -20,20 +20,28 @@
 
 namespace CGAL {
 
+/// \cond not public
 template <class ET>
 class Lazy_exact_nt;
+/// \endcond
 
 namespace Mixed_meshes_3 {
 
-/// A vector, or a position, in doubles. A type of our own, so that its operators are found by
-/// argument-dependent lookup.
+/// \ingroup PkgMixedMesh3Elements
+/// A vector, or a position, in doubles: displacements, forces, vertices of elements. It is an array, `v[0]`
+/// to `v[2]`. A type of our own, so that its operators are found by argument-dependent lookup. Its header
+/// comes with those that use it.
 struct Vec3 : std::array<double, 3>
 {
-  Vec3() = default; // `Vec3{}` is zero
+  /// `Vec3{}` is zero; without braces the coordinates are undefined.
+  Vec3() = default;
+  /// Its coordinates.
   constexpr Vec3(double x, double y, double z) : std::array<double, 3>{x, y, z} {}
+  /// Converts an array.
   constexpr Vec3(const std::array<double, 3>& a) : std::array<double, 3>(a) {}
 };
 
+/// \cond not public
 // A lazy number rounds to a double that depends on what was asked of it before, unless it is made exact.
 template <class FT>
 double rounded(const FT& x)
@@ -47,21 +55,39 @@ double rounded(const CGAL::Lazy_exact_nt<ET>& x)
   return CGAL::to_double(x.exact());
 }
 
+/// \endcond
+
+/// \ingroup PkgMixedMesh3Elements
+/// The coordinates of a point of any kernel, rounded to double.
 template <class Point>
 Vec3 to_vec3(const Point& p)
 {
   return {rounded(p.x()), rounded(p.y()), rounded(p.z())};
 }
 
+/// \ingroup PkgMixedMesh3Elements
+/// The sum.
 inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+/// \ingroup PkgMixedMesh3Elements
+/// The difference.
 inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+/// \ingroup PkgMixedMesh3Elements
+/// The multiple by a number.
 inline Vec3 operator*(double s, const Vec3& a) { return {s * a[0], s * a[1], s * a[2]}; }
+/// \ingroup PkgMixedMesh3Elements
+/// The scalar product.
 inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+/// \ingroup PkgMixedMesh3Elements
+/// The length.
 inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
+/// \ingroup PkgMixedMesh3Elements
+/// The vector product.
 inline Vec3 cross(const Vec3& a, const Vec3& b)
 {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
+/// \ingroup PkgMixedMesh3Elements
+/// The volume that three vectors span, positive if they are right-handed.
 inline double determinant(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(cross(a, b), c); }
 
 } // namespace Mixed_meshes_3

@@ -57,6 +57,16 @@ struct Is_region_model<
 {
 };
 
+/// Whether the coordinates of a model's points convert to double, as those of an exact kernel do not.
+template <class T>
+constexpr bool has_points_of_doubles()
+{
+  if constexpr(Is_surface_model<T>::value)
+    return std::is_convertible_v<decltype(std::declval<const typename T::Point_3&>().x()), double>;
+  else
+    return true;
+}
+
 /// What is given, or a `Model` made of it if that is a surface.
 template <class Model, class T, class NamedParameters>
 decltype(auto) as_model(const T& given, [[maybe_unused]] const NamedParameters& np)
@@ -74,6 +84,10 @@ decltype(auto) as_domain(const T& domain, const NamedParameters& np)
     Is_face_graph<T>::value || (Is_surface_model<T>::value && Is_region_model<T>::value),
     "the domain must be a closed triangulated surface (a model of FaceListGraph, its header included) "
     "or a model of MixedMeshDomain_3");
+  static_assert(
+    has_points_of_doubles<T>(),
+    "the points of a domain must be those of CGAL::Mixed_meshes_3::Predicates_kernel, or have doubles "
+    "as coordinates, whatever the kernel of the mesh: numbers of an exact kernel do not convert");
   return as_model<Polyhedral_mixed_mesh_domain_3>(domain, np);
 }
 
@@ -84,6 +98,10 @@ decltype(auto) as_surface(const T& surface, const NamedParameters& np)
     Is_face_graph<T>::value || Is_surface_model<T>::value,
     "the surface must be closed and triangulated (a model of FaceListGraph, its header included) or a "
     "model of MixedMeshSurface_3");
+  static_assert(
+    has_points_of_doubles<T>(),
+    "the points of a domain must be those of CGAL::Mixed_meshes_3::Predicates_kernel, or have doubles "
+    "as coordinates, whatever the kernel of the mesh: numbers of an exact kernel do not convert");
   return as_model<Polyhedral_mixed_mesh_domain_3>(surface, np);
 }
 

@@ -99,6 +99,7 @@ public:
 
 } // namespace internal
 
+/// \ingroup PkgMixedMesh3Validity
 /// How far a surface is from another one.
 struct One_sided_distance
 {
