@@ -45,6 +45,21 @@ struct Petsc_error : std::runtime_error
   Petsc_error() : std::runtime_error("PETSc failed") {}
 };
 
+/// Of several processes, one that leaves alone would keep the others waiting.
+template <class F>
+auto together(const F& f)
+{
+  try {
+    return f();
+  } catch(...) {
+    int size = 1;
+    MPI_Comm_size(PETSC_COMM_WORLD, &size);
+    if(size > 1)
+      MPI_Abort(PETSC_COMM_WORLD, 1);
+    throw;
+  }
+}
+
 inline void check_petsc(PetscErrorCode code)
 {
   if(code != 0)
@@ -210,9 +225,7 @@ private:
   {
     const PetscInt nodes = m_message.size / m_message.block_size;
     const int size = petsc_size(), rank = petsc_rank();
-    const auto first = [&](int r) {
-      return PetscInt(m_message.block_size * ((long long)(nodes)*r / size));
-    };
+    const auto first = [&](int r) { return PetscInt(m_message.block_size * ((long long)(nodes)*r / size)); };
     for(int r = 0; r < size; ++r) {
       m_starts.push_back(int(first(r)));
       m_counts.push_back(int(first(r + 1) - first(r)));
@@ -231,10 +244,10 @@ private:
     check_petsc(MatSetBlockSize(m_matrix, m_message.block_size));
     check_petsc(MatSetType(m_matrix, MATAIJ));
     // one of both is for the type that the matrix has
-    check_petsc(MatSeqAIJSetPreallocationCSR(m_matrix, rows.starts.data(), rows.columns.data(),
-                                             rows.values.data()));
-    check_petsc(MatMPIAIJSetPreallocationCSR(m_matrix, rows.starts.data(), rows.columns.data(),
-                                             rows.values.data()));
+    check_petsc(
+      MatSeqAIJSetPreallocationCSR(m_matrix, rows.starts.data(), rows.columns.data(), rows.values.data()));
+    check_petsc(
+      MatMPIAIJSetPreallocationCSR(m_matrix, rows.starts.data(), rows.columns.data(), rows.values.data()));
     check_petsc(MatSetOption(m_matrix, MAT_SPD, PETSC_TRUE));
     check_petsc(MatCreateVecs(m_matrix, &m_solution, &m_right));
   }
@@ -249,8 +262,8 @@ private:
       scatter(near == nullptr ? nullptr : near->data() + Eigen::Index(i) * near->rows(), vectors[i]);
     }
     MatNullSpace kernel = nullptr;
-    check_petsc(MatNullSpaceCreate(PETSC_COMM_WORLD, PETSC_FALSE, PetscInt(vectors.size()), vectors.data(),
-                                   &kernel));
+    check_petsc(
+      MatNullSpaceCreate(PETSC_COMM_WORLD, PETSC_FALSE, PetscInt(vectors.size()), vectors.data(), &kernel));
     check_petsc(MatSetNearNullSpace(m_matrix, kernel));
     check_petsc(MatNullSpaceDestroy(&kernel));
     for(Vec& vector : vectors)
@@ -380,10 +393,11 @@ public:
       int iterations = 0;
       switch(message.command) {
       case Petsc_command::FACTOR:
-        systems.try_emplace(message.system, message, nullptr, nullptr);
+        internal::together([&] { systems.try_emplace(message.system, message, nullptr, nullptr); });
         break;
       case Petsc_command::SOLVE:
-        systems.at(message.system).solve(message.tolerance, nullptr, nullptr, iterations);
+        internal::together(
+          [&] { return systems.at(message.system).solve(message.tolerance, nullptr, nullptr, iterations); });
         break;
       case Petsc_command::RELEASE: systems.erase(message.system); break;
       case Petsc_command::END: return;
@@ -475,6 +489,9 @@ public:
   /// Of the solution that took most, of those since `factor()`.
   int largest_number_of_iterations() const { return m_state->most_iterations; }
 
+  /// Of the `Petsc_session`.
+  int number_of_processes() const { return internal::petsc_size(); }
+
 private:
   static Eigen::MatrixXd orthonormal(Eigen::MatrixXd vectors)
   {
@@ -517,11 +534,13 @@ private:
       const bool has_kernel = near_kernel.rows() == n && n % block_size == 0;
       static int last_number = 0; // processes tell systems by it
       number = ++last_number;
-      internal::Petsc_message message{internal::Petsc_command::FACTOR, number, n, has_kernel ? block_size : 1,
-                                      has_kernel ? int(near_kernel.cols()) : 0, tolerance};
+      internal::Petsc_message message{
+        internal::Petsc_command::FACTOR,          number,   n, has_kernel ? block_size : 1,
+        has_kernel ? int(near_kernel.cols()) : 0, tolerance};
       internal::share(message);
       try {
-        system = std::make_unique<internal::Petsc_system>(message, &lower, &near_kernel);
+        internal::together(
+          [&] { system = std::make_unique<internal::Petsc_system>(message, &lower, &near_kernel); });
       } catch(const internal::Petsc_error&) { // the only process there is
         return false;
       }
@@ -535,7 +554,8 @@ private:
       internal::share(message);
       x.eigen_object().resize(b.size());
       try {
-        const bool is_solved = system->solve(tolerance, b.data(), x.eigen_object().data(), iterations);
+        const bool is_solved = internal::together(
+          [&] { return system->solve(tolerance, b.data(), x.eigen_object().data(), iterations); });
         most_iterations = (std::max)(most_iterations, iterations);
         return is_solved;
       } catch(const internal::Petsc_error&) {
