@@ -352,13 +352,6 @@ public:
     PetscPopSignalHandler();
     PetscPushErrorHandler(number_of_processes() == 1 ? PetscReturnErrorHandler : PetscMPIAbortErrorHandler,
                           nullptr);
-    // What is better than PETSc's own defaults for elasticity, unless the user knows still better.
-    for(const auto& [name, value] : std::initializer_list<std::pair<const char*, const char*>>{}) {
-      PetscBool is_set = PETSC_FALSE;
-      PetscOptionsHasName(nullptr, nullptr, name, &is_set);
-      if(!is_set)
-        PetscOptionsSetValue(nullptr, name, value);
-    }
   }
 
   Petsc_session(const Petsc_session&) = delete;

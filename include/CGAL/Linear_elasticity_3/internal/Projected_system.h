@@ -90,13 +90,9 @@ public:
         if(supports.is_free(v))
           m_unknowns.push_back(v);
     }
-    std::vector<int> starts{0}, rows;
-    std::vector<double> values;
-    reduce(all, stiffness.number_of_vertices(), springs, starts, rows, values);
-    project(supports, starts, rows, values, largest);
     if(m_unknowns.empty())
       return true; // CGAL's matrices are not
-    matrix.emplace(make_matrix<Matrix>(starts, rows, values));
+    matrix.emplace(projected_matrix(stiffness, supports, springs, largest));
     if constexpr(std::is_invocable_v<Set_near_kernel, SolverTraits&, Eigen::MatrixXd>)
       Set_near_kernel()(solver(), rigid_motions(stiffness.points(), supports));
     typename SolverTraits::NT denominator = 1;
@@ -203,6 +199,17 @@ private:
       }
     }
     return chosen;
+  }
+
+  // Its parts are gone when it is factored, which takes the most memory.
+  Matrix projected_matrix(const Elastic_stiffness& stiffness, const Elastic_supports& supports,
+                          const std::vector<double>& springs, double largest) const
+  {
+    std::vector<int> starts{0}, rows;
+    std::vector<double> values;
+    reduce(stiffness.system(), stiffness.number_of_vertices(), springs, starts, rows, values);
+    project(supports, starts, rows, values, largest);
+    return make_matrix<Matrix>(starts, rows, values);
   }
 
   // The rows and columns of the unknowns, with springs: the lower triangle in compressed columns.
