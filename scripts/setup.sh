@@ -3,7 +3,7 @@
 #
 # Installs the Debian packages that are missing for the purposes named:
 #
-#   scripts/setup.sh [build] [pictures] [tests] [image] [benchmark] [checks] [cohort] [page] [python]
+#   scripts/setup.sh [build] [pictures] [tests] [image] [benchmark] [checks] [cohort] [page] [python] [petsc]
 #
 # When nothing is missing, apt is not called. The other scripts source this
 # file for its two functions, install_packages and build_jobs.
@@ -35,11 +35,13 @@ packages_for() {
     page) echo chromium chromium-driver ;;
     # What the Python package is built with, and what its test installs it into.
     python) echo pybind11-dev python3-dev python3-numpy python3-pip python3-venv ;;
+    # The solver of brain_shift --solver petsc, and mpirun.
+    petsc) echo libpetsc-real-dev openmpi-bin pkg-config ;;
     # The peers of scripts/benchmark.sh, and its plots.
     benchmark) echo tetgen python3-gmsh python3-netgen python3-matplotlib ;;
     # What scripts/check.sh runs besides the compiler.
     checks) echo clang clang-format-14 doxygen libjs-mathjax pyflakes3 shellcheck ;;
-    *) fail "unknown purpose '$1': expected build, pictures, tests, image, benchmark, checks, cohort, page or python" ;;
+    *) fail "unknown purpose '$1': expected build, pictures, tests, image, benchmark, checks, cohort, page, python or petsc" ;;
   esac
 }
 

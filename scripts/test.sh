@@ -15,7 +15,7 @@ source "$root/scripts/setup.sh"
 
 build=${BUILD_DIR:-$root/build/test}
 
-install_packages build pictures tests cohort page python
+install_packages build pictures tests cohort page python petsc
 
 cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON \
   -DMIXED_MESH_3_BUILD_PYTHON=ON -DPython_EXECUTABLE=/usr/bin/python3

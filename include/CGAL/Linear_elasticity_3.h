@@ -59,7 +59,10 @@ The mesh must outlive the object and not change. Models can be moved: one that w
 or assigned to. They cannot be copied, as factorizations cannot.
 
 \tparam Mesh a `Mixed_mesh_3`
-\tparam SolverTraits a model of `SparseLinearAlgebraWithFactorTraits_d`, direct
+\tparam SolverTraits a model of `SparseLinearAlgebraWithFactorTraits_d`, direct, or as exact as one. If it has a
+        member `set_near_kernel(Eigen::MatrixXd, int)`, as `Petsc_solver_traits` has, that gets before each
+        factorization the rigid motions of the unknowns, in the directions that are free: six columns, and the
+        number of unknowns of a vertex, 3
 */
 template <class Mesh, class SolverTraits = Mixed_meshes_3::Direct_solver_traits>
 class Linear_elasticity_3

@@ -14,21 +14,34 @@
 #include "brain_shift/use_one_thread.h"
 #include "common/messages.h"
 
+#if MIXED_MESH_3_HAS_PETSC
+#include <CGAL/Mixed_mesh_3/Petsc_solver_traits.h>
+#else
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include <unistd.h>
+#endif
+
 #include <exception>
 #include <iostream>
 #include <new>
 #include <string>
 
-int main(int argc, char** argv)
+namespace {
+
+int fail(const std::string& what)
+{
+  std::cerr << "brain_shift: error: " << printable(what) << '\n';
+  return 1;
+}
+
+int run_command_line(int argc, char** argv)
 {
   Options options;
   if(const auto status = parse_command_line(argc, argv, options))
     return *status;
-  const auto fail = [](const std::string& what) {
-    std::cerr << "brain_shift: error: " << printable(what) << '\n';
-    return 1;
-  };
-  use_one_thread();
   try {
     run(options);
     return 0;
@@ -38,3 +51,56 @@ int main(int argc, char** argv)
     return fail(e.what());
   }
 }
+
+} // namespace
+
+// PETSc takes a tenth of a second to load. So it is in a program of its own, brain_shift_petsc, beside this one.
+#if MIXED_MESH_3_HAS_PETSC
+
+int main(int argc, char** argv)
+{
+  use_one_thread();
+  try {
+    CGAL::Mixed_meshes_3::Petsc_session session;
+    if(session.is_first())
+      return run_command_line(argc, argv);
+    session.serve();
+    return 0;
+  } catch(const std::exception& e) {
+    return fail(e.what());
+  }
+}
+
+#else
+
+namespace {
+
+bool asks_for_petsc(int argc, char** argv)
+{
+  for(int i = 1; i < argc; ++i)
+    if(const std::string_view word = argv[i];
+       word == "--solver=petsc" || (word == "petsc" && std::string_view(argv[i - 1]) == "--solver"))
+      return true;
+  return false;
+}
+
+// Returns if there is none.
+void become_program_with_petsc(char** argv)
+{
+  std::error_code error;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  if(!error)
+    execv((self.parent_path() / "brain_shift_petsc").c_str(), argv);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  if(asks_for_petsc(argc, argv))
+    become_program_with_petsc(argv);
+  use_one_thread();
+  return run_command_line(argc, argv);
+}
+
+#endif

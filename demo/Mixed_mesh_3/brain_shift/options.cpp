@@ -36,6 +36,13 @@ constexpr bool has_nifti = true;
 constexpr bool has_nifti = false;
 #endif
 
+// Of brain_shift_petsc, which is the same program for --solver petsc.
+#if MIXED_MESH_3_HAS_PETSC
+constexpr bool has_petsc = true;
+#else
+constexpr bool has_petsc = false;
+#endif
+
 constexpr const char* label_prefix = "label:";
 constexpr double kg_per_mm3 = 1e-6; // of 1 g/cm^3
 
@@ -202,6 +209,14 @@ void add_method(CLI::App& app, Options& o)
     "--corotational", o.corotational,
     "Finite rotations: elements that turn with the tissue, by Newton's method; strains should still be "
     "small (default: small rotations)");
+  const std::vector<std::pair<std::string, bool>> solvers{{"direct", false}, {"petsc", true}};
+  app
+    .add_option(
+      "--solver", o.uses_petsc,
+      "direct: factors the system (default); petsc: conjugate gradients and multigrid of PETSc, for "
+      "10^5 vertices and more, in all processes of mpirun")
+    ->transform(CLI::CheckedTransformer(solvers).description("{direct,petsc}"))
+    ->type_name("SOLVER");
 }
 
 void add_outputs(CLI::App& app, Options& o, CLI::Option* image)
@@ -356,6 +371,9 @@ void check_use(const CLI::App& app, Options& o)
   for(const std::string& text : o.material_texts)
     o.materials.push_back(material_of(text, o.material));
   check_patches(app, o);
+  if(o.uses_petsc != has_petsc)
+    throw CLI::ValidationError("--solver", has_petsc ? "this program is for petsc only"
+                                                     : "this program was built without PETSc");
   if(!o.image.empty() && !has_nifti)
     throw CLI::ValidationError("--image", "this program was built without nifti_clib");
 }

@@ -50,6 +50,7 @@ struct Options
   std::vector<CGAL::Mixed_meshes_3::IO::Field_format> field_formats;
   CGAL::Mixed_meshes_3::IO::Read_surface_options surface_options;
   bool quiet = false;
+  bool uses_petsc = false; // as solver
 
   // of the texts
   std::array<double, 3> up_direction{}, acceleration{};

@@ -90,6 +90,12 @@ struct Resection_facts
   Mesh_facts left;
 };
 
+/// How PETSc solved.
+struct Petsc_facts
+{
+  int processes = 0, iterations = 0; // of the solution that took most
+};
+
 struct Outcome
 {
   Mesh_facts mesh;
@@ -100,6 +106,7 @@ struct Outcome
   std::optional<Surface_facts> tumor;
   std::optional<Image_facts> image;
   Supports supports;
+  std::optional<Petsc_facts> petsc;
   Shift before; // the resection
   std::optional<Resection_facts> resection;
   std::optional<Shift> after;

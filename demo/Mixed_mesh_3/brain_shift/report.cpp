@@ -174,6 +174,10 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
                      {"energy", "microjoule"},
                      {"times", "ms"},
                      {"heights", "height of the mesh"}};
+  report["solver"] = outcome.petsc ? Json{{"name", "PETSc, conjugate gradients with GAMG"},
+                                          {"processes", outcome.petsc->processes},
+                                          {"largest number of iterations", outcome.petsc->iterations}}
+                                   : Json{{"name", "direct"}};
   report["subdomains"] = describe_subdomains(outcome.subdomains);
   report["supports"] = {{"boundary vertices", outcome.supports.boundary_vertices},
                         {"fixed", outcome.supports.fixed},
@@ -207,8 +211,11 @@ void print_summary(const Options& o, const Outcome& outcome, const Stage_log& lo
             << counted(outcome.points.size(), "control point", "control points") << '\n';
   print_subdomains(outcome.subdomains);
   std::cout << "before surgery: factor " << ms("factor") << ", control points " << ms("control points")
-            << '\n'
-            << "shift: up to " << rounded(outcome.before.largest) << " mm; " << ms("solve") << '\n';
+            << '\n';
+  if(outcome.petsc)
+    std::cout << "PETSc: " << counted(std::size_t(outcome.petsc->processes), "process", "processes")
+              << ", up to " << outcome.petsc->iterations << " iterations\n";
+  std::cout << "shift: up to " << rounded(outcome.before.largest) << " mm; " << ms("solve") << '\n';
   if(outcome.resection)
     std::cout << "resection: " << outcome.resection->removed << " elements, "
               << rounded(outcome.resection->volume / 1000) << " ml; shift up to "

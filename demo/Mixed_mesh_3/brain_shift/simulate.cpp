@@ -10,6 +10,9 @@
 #include "common/misfit.h"
 
 #include <CGAL/Linear_elasticity_3.h>
+#if MIXED_MESH_3_HAS_PETSC
+#include <CGAL/Mixed_mesh_3/Petsc_solver_traits.h>
+#endif
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
 
@@ -21,7 +24,11 @@
 #include <string>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
+#if MIXED_MESH_3_HAS_PETSC
+using Elasticity = CGAL::Linear_elasticity_3<Mesh, mm3::Petsc_solver_traits>;
+#else
 using Elasticity = CGAL::Linear_elasticity_3<Mesh>;
+#endif
 using Elasticity_status = CGAL::Linear_elasticity_status;
 
 namespace {
@@ -203,6 +210,14 @@ void set_control_points(Elasticity& elasticity, const Options& o, const std::vec
   check(elasticity.set_control_points(positions, o.max_distance, o.compliance, o.control_radius), o, points);
 }
 
+void tell_of_solver([[maybe_unused]] Elasticity& elasticity, [[maybe_unused]] Outcome& outcome)
+{
+#if MIXED_MESH_3_HAS_PETSC
+  outcome.petsc = {elasticity.solver().number_of_processes(),
+                   elasticity.solver().largest_number_of_iterations()};
+#endif
+}
+
 // How the rest moves when elements are removed.
 void remove(Elasticity& elasticity, const std::vector<bool>& is_removed, const Options& o, Stage_log& log,
             Outcome& outcome)
@@ -279,9 +294,11 @@ std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_
   outcome.before = log("checks", [&] {
     return shift_of(elasticity, o, std::vector<bool>(points.size(), true), "shift", outcome);
   });
+  tell_of_solver(elasticity, outcome);
   if(!tumor.is_given())
     return std::vector<bool>(mesh.number_of_elements(), false);
   const std::vector<bool> is_removed = log("resect", [&] { return resect(mesh, tumor, o, outcome); });
   remove(elasticity, is_removed, o, log, outcome);
+  tell_of_solver(elasticity, outcome);
   return is_removed;
 }

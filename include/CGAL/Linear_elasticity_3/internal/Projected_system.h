@@ -15,6 +15,7 @@
 
 #include <CGAL/Linear_elasticity_3/internal/Elastic_stiffness.h>
 #include <CGAL/Linear_elasticity_3/internal/Elastic_supports.h>
+#include <CGAL/Linear_elasticity_3/internal/rigid_modes.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
 #include <CGAL/Mixed_mesh_3/Face.h>
@@ -29,12 +30,24 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
+
+/// For solvers that have such a function: those that iterate.
+struct Set_near_kernel
+{
+  template <class Solver>
+  auto operator()(Solver& solver, Eigen::MatrixXd vectors) const
+    -> decltype(solver.set_near_kernel(std::move(vectors), 3))
+  {
+    return solver.set_near_kernel(std::move(vectors), 3);
+  }
+};
 
 /// \tparam SolverTraits a model of `SparseLinearAlgebraWithFactorTraits_d`; it need not be movable
 template <class SolverTraits>
@@ -77,13 +90,11 @@ public:
         if(supports.is_free(v))
           m_unknowns.push_back(v);
     }
-    std::vector<int> starts{0}, rows;
-    std::vector<double> values;
-    reduce(all, stiffness.number_of_vertices(), springs, starts, rows, values);
-    project(supports, starts, rows, values, largest);
     if(m_unknowns.empty())
       return true; // CGAL's matrices are not
-    matrix.emplace(make_matrix<Matrix>(starts, rows, values));
+    matrix.emplace(projected_matrix(stiffness, supports, springs, largest));
+    if constexpr(std::is_invocable_v<Set_near_kernel, SolverTraits&, Eigen::MatrixXd>)
+      Set_near_kernel()(solver(), rigid_motions(stiffness.points(), supports));
     typename SolverTraits::NT denominator = 1;
     if(solver().factor(*matrix, denominator) && !is_nearly_singular(largest))
       return true;
@@ -114,6 +125,28 @@ public:
   }
 
 private:
+  // The six rigid motions of the unknowns, in the directions that are free: columns of about the same size.
+  Eigen::MatrixXd rigid_motions(const std::vector<Vec3>& points, const Elastic_supports& supports) const
+  {
+    const double n = double(m_unknowns.size());
+    Vec3 center{};
+    for(Vertex_index v : m_unknowns)
+      center = center + (1 / n) * points[v];
+    double size = 0;
+    for(Vertex_index v : m_unknowns)
+      size = (std::max)(size, norm(points[v] - center));
+    Eigen::MatrixXd motions(3 * Eigen::Index(m_unknowns.size()), 6);
+    for(std::size_t i = 0; i < m_unknowns.size(); ++i)
+      for(int m = 0; m < 6; ++m) {
+        Rigid_mode mode{Vec3{}, Vec3{}, center};
+        (m < 3 ? mode.translation : mode.rotation)[m % 3] = m < 3 || size == 0 ? 1 : 1 / size;
+        const Vec3 u = supports.free_part(m_unknowns[i], mode(points[m_unknowns[i]]));
+        for(int k = 0; k < 3; ++k)
+          motions(3 * Eigen::Index(i) + k, m) = u[k];
+      }
+    return motions;
+  }
+
   // What is to be added to the diagonal; and the motions that are held by it.
   std::vector<double> find_springs(const Elastic_stiffness& stiffness, const Elastic_supports& supports)
   {
@@ -166,6 +199,17 @@ private:
       }
     }
     return chosen;
+  }
+
+  // Its parts are gone when it is factored, which takes the most memory.
+  Matrix projected_matrix(const Elastic_stiffness& stiffness, const Elastic_supports& supports,
+                          const std::vector<double>& springs, double largest) const
+  {
+    std::vector<int> starts{0}, rows;
+    std::vector<double> values;
+    reduce(stiffness.system(), stiffness.number_of_vertices(), springs, starts, rows, values);
+    project(supports, starts, rows, values, largest);
+    return make_matrix<Matrix>(starts, rows, values);
   }
 
   // The rows and columns of the unknowns, with springs: the lower triangle in compressed columns.
