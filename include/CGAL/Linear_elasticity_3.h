@@ -44,7 +44,7 @@ Units: millimeters, kilopascals, kilograms, seconds. So forces are in millinewto
 volume in mN/mm^3.
 
 The order of use:
--# *supports*: `prescribe()` and `slide()` vertices; the others are free;
+-# *supports*: `prescribe()` and `slide()` vertices, let them `touch()` a wall; the others are free;
 -# `factor()`;
 -# *loads*: `set_body_force()` or `set_body_forces()`, `set_gravity()`, `set_support_displacement()`,
    `set_control_points()`; in any order, and again as often as wanted;
@@ -119,6 +119,34 @@ public:
   void slide_along_boundary(const Is_sliding& is_sliding)
   {
     m_model.slide_along_boundary(is_sliding);
+  }
+
+  /*!
+  Lets a vertex touch a plane wall without friction: it can slide along it and leave it, but not get beyond it.
+  Which vertices do, `solve()` finds out; each change of that is a new factorization. A vertex that is
+  prescribed, or cannot move in that direction, stays as it is.
+
+  Other supports, or control points, should hold rigid motions while contacts are open; else `solve()` may end
+  with `FREE_RIGID_MOTION`.
+
+  \param v the vertex; called again for it, the last wall counts
+  \param normal to the outside, of any length but zero
+  \param gap in mm: the displacement in the direction of the normal at which the vertex touches the wall
+  */
+  void touch(Vertex_index v, const Vector& normal, double gap = 0)
+  {
+    CGAL_precondition(norm(normal) > 0);
+    m_model.body().supports().touch(v, normal, gap);
+  }
+
+  /// Lets boundary vertices touch the boundary as it is, or at a gap in mm: as the brain does the skull, from
+  /// which it sinks away when the fluid is drained.
+  /// \param is_touching `bool(Vertex_index)`, asked for the vertices of the boundary
+  /// \param gap in mm, between the boundary and the wall
+  template <class Is_touching>
+  void touch_along_boundary(const Is_touching& is_touching, double gap = 0)
+  {
+    m_model.touch_along_boundary(is_touching, gap);
   }
   /// @}
 
@@ -242,6 +270,8 @@ public:
   far
          from each point; of the point itself if there are fewer than three. The force on a single point makes
          a dent that is the deeper, the finer the mesh
+  \param weights positive, of each point: its compliance is `compliance` divided by its weight, so that weights
+         in proportion to the inverse variances of the measurements are right. Empty: 1
   \return `CONTROL_POINT_OUTSIDE` or `SOLVER_FAILED`: none of them is used; or `SUCCESS`
   \pre `factor()` was successful
   \par Complexity
@@ -249,19 +279,22 @@ public:
   */
   template <class Points>
   Result set_control_points(const Points& points, double largest_distance = 0, double compliance = 0,
-                            double radius = 0)
+                            double radius = 0, std::vector<double> weights = {})
   {
     CGAL_precondition(is_factored() && compliance >= 0);
+    CGAL_precondition(weights.empty() || weights.size() == std::size_t(std::size(points)));
     return m_model.set_control_points(Mixed_meshes_3::internal::vectors(points),
-                                      {largest_distance, compliance, radius});
+                                      {largest_distance, compliance, radius, std::move(weights)});
   }
   /// @}
 
   /*!
-  Solves for the loads.
+  Solves for the loads. If there are contacts, several times, until none of them pulls, and no vertex is beyond
+  its wall; from the contacts that the last solution had.
 
   \param control_displacements in mm, of each control point
-  \return `FREE_RIGID_MOTION`, `CONTRADICTORY_CONTROL_POINTS`, `SOLVER_FAILED` or `SUCCESS`; `displacements()`
+  \return `FREE_RIGID_MOTION`, `CONTRADICTORY_CONTROL_POINTS`, `SOLVER_FAILED`, `NOT_CONVERGED` (contacts), or
+          `SUCCESS`; `displacements()`
   has
           the solution if successful, else it is as before. With finite rotations, see `set_corotational()`
   \par Complexity
@@ -287,7 +320,28 @@ public:
   /// The force that each control point needs for its displacement, in mN.
   std::vector<Vector> control_forces() const { return m_model.control_forces(); }
 
-  /// The elastic energy of the solution, in microjoules (mN mm). \pre `factor()` was successful
+  /// What was given less what came out at each control point, in mm: zero, but for those with a compliance.
+  std::vector<Vector> control_residuals() const { return m_model.control_residuals(); }
+
+  /*!
+  How far each control point would be from what was given if it were not used, in mm: the others predict it.
+  That is the error that is to be expected at targets nearby, without landmarks there. Infinite for a point
+  without which rigid motions would be free.
+
+  Nothing is solved anew: exact for small rotations and the contacts of the solution; with finite rotations, of
+  first order, about the solution.
+
+  \pre `solve()` was successful since control points were set, and `is_iterative()` is false
+  \par Complexity
+  The cube of the number of control points
+  */
+  std::vector<Vector> leave_one_out_errors() const { return m_model.leave_one_out_errors(); }
+
+  /// With which force the wall pushes each vertex, in mN; 0 where contacts are open, or there are none. See
+  /// `touch()`.
+  const std::vector<double>& contact_forces() const { return m_model.contact_forces(); }
+
+  /// The elastic energy of the last solution, in microjoules (mN mm).
   double energy() const { return m_model.energy(); }
 
   /// The mesh given to the constructor.

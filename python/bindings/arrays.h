@@ -29,9 +29,9 @@ using Mesh = CGAL::Mixed_mesh_3<Kernel>;
 using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 using Vector = mm3::Vec3;
 
-// Arrays of other types and orders are converted.
+// Arrays of other types and orders are converted; not numbers with fractions to integers.
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
-using Integers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+using Integers = py::array_t<std::int64_t, py::array::c_style>;
 
 /// (n, 3) numbers. \throw std::invalid_argument for another shape
 std::vector<Vector> vectors_of(const Doubles& array, const std::string& name);

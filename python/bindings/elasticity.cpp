@@ -13,6 +13,7 @@
 
 #include <pybind11/stl.h>
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -96,6 +97,13 @@ public:
     m_solver->slide_along_boundary([&](mm3::Vertex_index v) { return marks[v]; });
   }
 
+  void touch(const Marks& vertices, double gap)
+  {
+    require_supports_open("touch");
+    const std::vector<bool> marks = marks_of(vertices, m_mesh->number_of_vertices(), "touch");
+    m_solver->touch_along_boundary([&](mm3::Vertex_index v) { return marks[v]; }, gap);
+  }
+
   void set_gravity(const std::array<double, 3>& acceleration) { m_solver->set_gravity(Vector(acceleration)); }
 
   void set_corotational(bool is_corotational)
@@ -104,15 +112,22 @@ public:
     m_solver->set_corotational(is_corotational);
   }
 
-  void set_control_points(const Doubles& points, double largest_distance, double compliance, double radius)
+  void set_control_points(const Doubles& points, double largest_distance, double compliance, double radius,
+                          const std::vector<double>& weights)
   {
     const std::vector<Vector> positions = vectors_of(points, "points");
     if(!(largest_distance >= 0 && compliance >= 0 && radius >= 0))
       throw std::invalid_argument("set_control_points(): expected numbers that are not negative");
+    if(!weights.empty() && weights.size() != positions.size())
+      throw std::invalid_argument("weights: expected one for each of " + std::to_string(positions.size())
+                                  + " control points");
+    for(double w : weights)
+      if(!(w > 0 && std::isfinite(w)))
+        throw std::invalid_argument("weights: expected positive numbers");
     const py::gil_scoped_release release;
     const std::lock_guard<std::mutex> lock(m_mutex);
     factor();
-    check(m_solver->set_control_points(positions, largest_distance, compliance, radius));
+    check(m_solver->set_control_points(positions, largest_distance, compliance, radius, weights));
   }
 
   py::array_t<double> solve(const Doubles& displacements)
@@ -151,6 +166,27 @@ public:
 
   double energy() const { return m_solver->energy(); }
   py::array_t<double> control_forces() const { return array_of(m_solver->control_forces()); }
+  py::array_t<double> control_residuals() const { return array_of(m_solver->control_residuals()); }
+
+  py::array_t<double> contact_forces() const
+  {
+    const std::vector<double>& forces = m_solver->contact_forces();
+    return py::array_t<double>(py::ssize_t(forces.size()), forces.data());
+  }
+
+  py::array_t<double> leave_one_out_errors()
+  {
+    std::vector<Vector> errors;
+    {
+      const py::gil_scoped_release release;
+      const std::lock_guard<std::mutex> lock(m_mutex);
+      if(m_solver->is_iterative()
+         || m_solver->control_forces().size() != m_solver->number_of_control_points())
+        throw Elasticity_error("leave_one_out_errors(): solve() comes first, and no removal in between");
+      errors = m_solver->leave_one_out_errors();
+    }
+    return array_of(errors);
+  }
 };
 
 py::array_t<bool> removed_elements(const mm3::Resection_3& r)
@@ -190,12 +226,16 @@ void add_elasticity(py::module_& module)
                   const std::tuple<double, double, double>&>())
     .def("fix", &Elasticity::fix)
     .def("slide", &Elasticity::slide)
+    .def("touch", &Elasticity::touch, py::arg("vertices"), py::arg("gap") = 0.)
     .def("set_gravity", &Elasticity::set_gravity)
     .def("set_corotational", &Elasticity::set_corotational)
     .def("set_control_points", &Elasticity::set_control_points)
     .def("solve", &Elasticity::solve)
     .def("remove", &Elasticity::remove)
     .def("control_forces", &Elasticity::control_forces)
+    .def("control_residuals", &Elasticity::control_residuals)
+    .def("contact_forces", &Elasticity::contact_forces)
+    .def("leave_one_out_errors", &Elasticity::leave_one_out_errors)
     .def_property_readonly("energy", &Elasticity::energy);
   module.def("resect", &resect);
   module.def("resect_elements", &resect_elements);

@@ -258,6 +258,79 @@ void test_control_points(int kind)
   BOOST_TEST(is_success(problem.solve(contradictory)));
 }
 
+// A weight of two is the same point twice. Points left out, beside solving without them.
+void test_weights(int kind)
+{
+  const Mesh mesh = any_grid(3, kind, 0.1);
+  Noise random;
+  std::vector<Vec3> points;
+  Field wanted;
+  const std::size_t step = mesh.number_of_elements() / 8;
+  for(std::size_t e = 0; e < mesh.number_of_elements() && points.size() < 8; e += step) {
+    points.push_back(point_in(mesh, Element_index(std::uint32_t(e)), 0));
+    wanted.push_back(0.05 * random.vector());
+  }
+  const std::vector<double> weights{1, 2, 0.5, 10, 3, 1, 1, 0.1};
+  const std::vector<bool> is_fixed = vertices_where(mesh, [](const Vec3& p) { return p[2] < 0.1; });
+  for(bool is_supported : {true, false}) {
+    Elasticity problem(mesh);
+    if(is_supported)
+      prescribe(problem, is_fixed, [](const Vec3&) { return Vec3{}; });
+    BOOST_TEST(is_success(problem.factor()));
+    if(is_supported)
+      problem.set_body_force({0.01, 0, -0.03});
+    std::vector<Vec3> twice = points;
+    Field wanted_twice = wanted;
+    twice.push_back(points[1]);
+    wanted_twice.push_back(wanted[1]);
+    std::vector<double> ones(twice.size(), 1);
+    BOOST_TEST(is_success(problem.set_control_points(twice, 0, 0.01, 0, ones)));
+    BOOST_TEST(is_success(problem.solve(wanted_twice)));
+    const Field expected = problem.displacements();
+    ones.assign(points.size(), 1);
+    ones[1] = 2;
+    BOOST_TEST(is_success(problem.set_control_points(points, 0, 0.01, 0, ones)));
+    BOOST_TEST(is_success(problem.solve(wanted)));
+    BOOST_TEST_LT(difference(problem.displacements(), expected), 1e-12);
+
+    for(double compliance : {0., 0.01}) {
+      BOOST_TEST(is_success(problem.set_control_points(points, 0, compliance, 0, weights)));
+      BOOST_TEST(is_success(problem.solve(wanted)));
+      const Field errors = problem.leave_one_out_errors(), residuals = problem.control_residuals();
+      for(std::size_t i = 0; i < points.size(); ++i) {
+        BOOST_TEST_LT(norm(residuals[i]
+                           - (wanted[i] - interpolated(mesh, problem.displacements(), points[i]))),
+                      1e-9);
+        BOOST_TEST_LT(norm(residuals[i] - (compliance / weights[i]) * problem.control_forces()[i]), 1e-9);
+      }
+      for(std::size_t i = 0; i < points.size(); ++i) {
+        std::vector<Vec3> others = points;
+        Field wanted_of_others = wanted;
+        std::vector<double> weights_of_others = weights;
+        others.erase(others.begin() + std::ptrdiff_t(i));
+        wanted_of_others.erase(wanted_of_others.begin() + std::ptrdiff_t(i));
+        weights_of_others.erase(weights_of_others.begin() + std::ptrdiff_t(i));
+        BOOST_TEST(is_success(problem.set_control_points(others, 0, compliance, 0, weights_of_others)));
+        BOOST_TEST(is_success(problem.solve(wanted_of_others)));
+        const Vec3 left_out = wanted[i] - interpolated(mesh, problem.displacements(), points[i]);
+        BOOST_TEST_LT(norm(errors[i] - left_out), 1e-4 * largest(wanted));
+        BOOST_TEST_GT(norm(left_out), norm(residuals[i]));
+      }
+    }
+
+    // A point twice says itself what it is without one of them; three points hold a body, two of them do not.
+    std::vector<Vec3> some{points[0], points[3], points[6], points[3]};
+    Field wanted_of_some{wanted[0], wanted[3], wanted[6], wanted[3]};
+    BOOST_TEST(is_success(problem.set_control_points(some)));
+    BOOST_TEST(is_success(problem.solve(wanted_of_some)));
+    const Field errors = problem.leave_one_out_errors();
+    for(std::size_t i : {1u, 3u})
+      BOOST_TEST_LT(norm(errors[i]), 1e-4 * norm(wanted[3]));
+    for(std::size_t i : {0u, 2u})
+      BOOST_TEST_EQ(std::isinf(errors[i][0]), !is_supported);
+  }
+}
+
 // Its solutions fail when told to.
 struct Failing_solver_traits : Simplicial_solver_traits
 {
@@ -297,6 +370,8 @@ int main()
 {
   for(int kind = 0; kind <= number_of_element_kinds; ++kind)
     test_control_points(kind);
+  for(int kind = 0; kind <= number_of_element_kinds; ++kind)
+    test_weights(kind);
   test_failing_solver();
   return boost::report_errors();
 }

@@ -80,6 +80,8 @@ def lattice(size, width, label_of):
     elements = [(5, [points[tuple(np.add(cell, CUBE[k]))] for k in HEXAHEDRON]) for cell in cells]
     return msh([np.multiply(p, width) for p in points], elements, [label_of(*cell) for cell in cells])
 
+WEIGHTED = HEADER.replace("dz", "dz,weight")
+
 # name of the file, contents, words that the error must have
 BAD_POINTS = [
     ("empty.csv", "", "is empty"),
@@ -91,6 +93,9 @@ BAD_POINTS = [
     ("mixed.csv", HEADER + ROWS[0].replace(",", ";") + "\n", "line 2: expected 6 columns, x,y,z,dx,dy,dz, not 1"),
     ("five_columns.csv", HEADER + "\n\n# comment\n1,2,3,4,5\n", "line 5: expected 6 columns, x,y,z,dx,dy,dz, not 5"),
     ("seven_columns.csv", HEADER + ROWS[0] + ",\n", "line 2: expected 6 columns, x,y,z,dx,dy,dz, not 7"),
+    ("no_weight.csv", WEIGHTED + ROWS[0] + "\n", "line 2: expected 7 columns, x,y,z,dx,dy,dz,weight, not 6"),
+    ("weight_0.csv", WEIGHTED + ROWS[0] + ",0\n", 'line 2: the weight "0" is not from 1e-6 to 1e6'),
+    ("weight_negative.csv", WEIGHTED + ROWS[0] + ",-1\n", 'line 2: the weight "-1" is not from 1e-6 to 1e6'),
     ("word.csv", with_value(1, 4, "much"), 'line 3: "much" is not a number'),
     ("two_numbers.csv", with_value(2, 0, "1 2"), 'line 4: "1 2" is not a number'),
     ("hexadecimal.csv", with_value(2, 0, "0x10"), 'line 4: "0x10" is not a number'),
@@ -506,6 +511,54 @@ class BrainShift(unittest.TestCase):
             self.assertIn('"sliding"', (WORK / name).read_text())
         self.assertIn('$NodeData\n1\n"displacement"\n', (WORK / "patches.msh").read_text())
         self.assertEqual(told["parameters"]["openings"], [str(opening)])
+
+    def test_contact(self):
+        """The skull stops the brain, and does not hold it: between free and sliding."""
+        width, middle = 60, VALUES[:, :3].mean(0)
+        opening = self.file("opening_of_contact.off", cube_off(middle, width))
+        common = (self.mesh, "--control-points", self.points, "--control-radius", 8, "--fixed-below", 0.05,
+                  "--opening", opening)
+        free, _ = self.succeeds(*common)
+        sliding, _ = self.succeeds(*common, "--slide", "skull")
+        told, out = self.succeeds(*common, "--contact", "skull", "--output", WORK / "contact.feb")
+        energies = [t["shift"]["energy"] for t in (free, told, sliding)]
+        self.assertEqual(energies, sorted(energies))
+        self.assertLess(energies[0], energies[1])
+        self.assertLess(energies[1], energies[2])
+        shift, supports = told["shift"], told["supports"]
+        self.assertEqual(supports["touching"], sliding["supports"]["sliding"])
+        self.assertTrue(0 < shift["vertices in contact"] < supports["touching"])
+        self.assertGreater(shift["force of contact"], 0)
+        self.assertEqual((free["shift"]["vertices in contact"], free["shift"]["force of contact"]), (0, 0))
+        self.assertIn(f"contact: {shift['vertices in contact']} vertices still at the skull", out.stdout)
+        self.assertEqual(told["parameters"]["touching patches"], ["skull"])
+        surfaces, _, _ = self.surfaces_of(WORK / "contact.feb")
+        self.assertEqual(sorted(surfaces), ["boundary", "fixed", "opening", "touching"])
+        held, _ = self.succeeds(*common, "--contact", "skull", "--slide", "skull")
+        self.assertEqual(held["supports"], sliding["supports"])
+
+    def test_weights(self):
+        """A weight counts a point as often; the error of a point left out is that of a run without it."""
+        compliant = ("--control-compliance", 0.05, "--leave-one-out")
+        rows = [row + f",{weight}" for row, weight in zip(ROWS, (1, 2, 1, 1))]
+        weighted, out = self.succeeds(self.mesh, "--control-points", self.file("weights.csv", WEIGHTED + "\n".join(rows)),
+                                      *compliant)
+        twice, _ = self.succeeds(self.mesh, "--control-points",
+                                 self.file("twice.csv", HEADER + "\n".join([*ROWS, ROWS[1]])), *compliant)
+        self.assertAlmostEqual(weighted["shift"]["energy"], twice["shift"]["energy"], 6)
+        self.assertEqual([p["weight"] for p in weighted["control points"]], [1, 2, 1, 1])
+        controls = weighted["shift"]["control points"]
+        errors = [np.linalg.norm(p["error if left out"]) for p in controls]
+        root = np.sqrt(np.mean(np.square(errors)))
+        self.assertAlmostEqual(weighted["shift"]["root mean square of leave-one-out errors"], root, 9)
+        self.assertIn("is predicted by the others to", out.stdout)
+        # without the first: what the mesh does there
+        light = ",".join(rows[0].split(",")[:6]) + ",1e-6"
+        without, _ = self.succeeds(self.mesh, "--control-points",
+                                   self.file("without.csv", WEIGHTED + "\n".join([light, *rows[1:]])), *compliant)
+        self.assertAlmostEqual(without["shift"]["control points"][0]["missed by"], errors[0], 3)
+        plain, _ = self.succeeds(self.mesh, "--control-points", self.points)
+        self.assertNotIn("error if left out", plain["shift"]["control points"][0])
 
     def test_patches_on_top_of_other_options(self):
         report = lambda *more: self.succeeds(self.mesh, "--control-points", self.points, *more)[0]

@@ -238,6 +238,30 @@ class Test(unittest.TestCase):
             mm3.Elasticity(self.mesh).solve()
         with self.assertRaisesRegex(ValueError, "Poisson"):
             mm3.Elasticity(self.mesh, poisson_ratio=0.5)
+        with self.assertRaisesRegex(ValueError, "positive"):
+            model.set_control_points(self.mesh.points[top], weights=[1, 1, 1, 1, 0])
+
+        # Measurements that give way: what is left, and how well the others predict each.
+        model.set_control_points(self.mesh.points[top], compliance=0.1, weights=[1, 1, 2, 1, 1])
+        with self.assertRaisesRegex(mm3.ElasticityError, "solve"):
+            model.leave_one_out_errors()
+        shift = model.solve(np.tile([0, 0, -3.0], (5, 1)))
+        wanted = np.tile([0, 0, -3.0], (5, 1))
+        np.testing.assert_allclose(model.control_residuals(), wanted - shift[top], atol=1e-9)
+        others = np.arange(5) != 2
+        left_out = model.leave_one_out_errors()[2]
+        model.set_control_points(self.mesh.points[top][others], compliance=0.1)
+        np.testing.assert_allclose(wanted[2] - model.solve(wanted[others])[top[2]], left_out, atol=1e-6)
+
+        # Pulled down, the top leaves the skull; pulled up, it is stopped.
+        model = mm3.Elasticity(self.mesh)
+        model.fix(is_boundary & (z < lowest + 0.2 * (highest - lowest)))
+        model.touch(is_boundary)
+        model.set_control_points(self.mesh.points[top])
+        model.solve(wanted)
+        self.assertTrue((model.contact_forces()[top] == 0).all())
+        self.assertTrue((model.contact_forces() >= 0).all())
+        self.assertTrue((model.contact_forces() > 0).any())
 
     def test_warp(self):
         affine = np.diag([4.0, 4.0, 4.0, 1.0])

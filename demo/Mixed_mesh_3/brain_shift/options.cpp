@@ -64,9 +64,10 @@ CLI::Option* add_inputs(CLI::App& app, Options& o)
 {
   app.add_option("MESH", o.mesh, "Mesh of the brain, in mm: .vtu, .msh, .mesh, .ele or .vol")->required();
   app
-    .add_option("--control-points", o.control_points,
-                "Table of points with given displacements, in mm: a header x,y,z,dx,dy,dz, then a line for "
-                "each; or a list of fiducials before, .fcsv or .mrk.json")
+    .add_option(
+      "--control-points", o.control_points,
+      "Table of points with given displacements, in mm: a header x,y,z,dx,dy,dz, then a line for "
+      "each, with one column more, weight, if you like; or a list of fiducials before, .fcsv or .mrk.json")
     ->required()
     ->type_name("FILE.csv");
   app
@@ -132,6 +133,10 @@ void add_supports(CLI::App& app, Options& o)
     "--slide", o.sliding_patches,
     "Patch that slides, unless fixed: a closed surface, label:N, or skull (all of the boundary); can "
     "be given several times");
+  add_patches(
+    "--contact", o.touching_patches,
+    "Patch that touches the skull without friction, and can leave it, unless fixed or sliding: a closed "
+    "surface, label:N, or skull (all of the boundary); can be given several times");
   add_patches("--opening", o.openings,
               "Patch that is free, whatever other options say: a closed surface or label:N; can be given "
               "several times");
@@ -197,10 +202,14 @@ void add_physics(CLI::App& app, Options& o)
   app
     .add_option("--control-compliance", o.compliance,
                 "How far a control point gives way to a force, for measurements that are noisy, in mm/mN; "
-                "0: they are exact")
+                "0: they are exact. It is divided by the weight of a point that has one")
     ->check(not_negative())
     ->type_name("C")
     ->capture_default_str();
+  app.add_flag(
+    "--leave-one-out", o.leave_one_out,
+    "How well the other control points predict each of them, in mm: the error to be expected where "
+    "there is none, in the report");
 }
 
 void add_method(CLI::App& app, Options& o)
@@ -313,6 +322,7 @@ void check_patches(const CLI::App& app, Options& o)
   };
   check("--fixed", o.fixed_patches, skull_patch);
   check("--slide", o.sliding_patches, base_patch);
+  check("--contact", o.touching_patches, base_patch);
   check("--opening", o.openings, base_patch);
   check("--opening", o.openings, skull_patch);
   const bool has_base = std::count(o.fixed_patches.begin(), o.fixed_patches.end(), base_patch) != 0;
@@ -458,7 +468,7 @@ void check_feasible(const Options& o)
       outputs.push_back(path);
   std::vector<std::string> inputs{o.mesh,  o.control_points, o.control_points_after,
                                   o.tumor, o.image,          o.labels};
-  for(const auto& patches : {o.fixed_patches, o.sliding_patches, o.openings})
+  for(const auto& patches : {o.fixed_patches, o.sliding_patches, o.touching_patches, o.openings})
     inputs.insert(inputs.end(), patches.begin(), patches.end());
   Output_paths paths(inputs);
   for(const std::string& path : outputs) {

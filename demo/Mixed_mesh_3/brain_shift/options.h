@@ -39,11 +39,11 @@ struct Options
   std::vector<std::string> outputs, deformed_outputs, material_texts;
   double fixed_below = 0.3, slide_below = 0, slide_beyond = std::numeric_limits<double>::infinity();
   // Patches of the boundary: closed surfaces, labels, and the names below.
-  std::vector<std::string> fixed_patches, sliding_patches, openings;
+  std::vector<std::string> fixed_patches, sliding_patches, touching_patches, openings;
   double density = 1.04, fluid_density = 1; // g/cm^3
   double fluid_level = std::numeric_limits<double>::infinity();
   double max_distance = 5, compliance = 0, control_radius = 0;
-  bool corotational = false;
+  bool corotational = false, leave_one_out = false;
   CGAL::Mixed_meshes_3::Elastic_material material; // of subdomains without one of their own
   CGAL::Mixed_meshes_3::Displacement_interpolation interpolation =
     CGAL::Mixed_meshes_3::Displacement_interpolation::RECOVERED;
@@ -56,7 +56,11 @@ struct Options
   std::array<double, 3> up_direction{}, acceleration{};
   std::vector<Labeled_material> materials;
 
-  bool has_patches() const { return !fixed_patches.empty() || !sliding_patches.empty() || !openings.empty(); }
+  bool has_patches() const
+  {
+    return !fixed_patches.empty() || !sliding_patches.empty() || !touching_patches.empty()
+           || !openings.empty();
+  }
 
   // Whether a control point itself has just the displacement asked for.
   bool is_exact() const { return compliance == 0 && control_radius == 0; }

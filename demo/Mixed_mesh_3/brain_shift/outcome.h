@@ -44,11 +44,11 @@ struct Image_facts
   std::size_t voxels_of_tissue = 0, voxels_resected = 0, linear_elements = 0; // when it is warped
 };
 
-enum class Support { FREE, SLIDING, FIXED };
+enum class Support { FREE, TOUCHING, SLIDING, FIXED };
 
 struct Supports
 {
-  std::size_t boundary_vertices = 0, fixed = 0, sliding = 0;
+  std::size_t boundary_vertices = 0, fixed = 0, sliding = 0, touching = 0;
   std::vector<Support> of_vertices; // all of the mesh
 };
 
@@ -58,6 +58,7 @@ struct Control
   bool is_used = false;
   Vector displacement{}, force{};
   double miss = 0;
+  std::optional<Vector> left_out; // its error if it is not used; not if the others do not hold the mesh
 };
 
 /// A displacement of the mesh, and what is to be said of it.
@@ -69,7 +70,10 @@ struct Shift
   double energy = 0;
   std::size_t inverted_elements = 0;
   std::vector<Control> controls;
-  double largest_miss = 0;
+  double largest_miss = 0, root_mean_square_miss = 0;
+  std::optional<double> left_out; // the root of the mean square
+  std::size_t closed_contacts = 0;
+  double contact_force = 0; // of all
   // of finite rotations: before each step of Newton's, and at the end; of conjugate gradients, in all
   std::vector<double> residuals;
   int iterations = 0;

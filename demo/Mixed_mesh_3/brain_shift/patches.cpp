@@ -88,9 +88,10 @@ Boundary_patches find_patches(const Mesh& mesh, const Options& o, std::vector<st
   mark(mesh, o.openings, Patch::OPENING, o, warnings, patches);
   mark(mesh, o.fixed_patches, Patch::FIXED, o, warnings, patches);
   mark(mesh, o.sliding_patches, Patch::SLIDING, o, warnings, patches);
+  mark(mesh, o.touching_patches, Patch::TOUCHING, o, warnings, patches);
 
   // What is stronger at a vertex comes later; an opening has to have all of its faces.
-  for(Patch patch : {Patch::OPENING, Patch::NONE, Patch::SLIDING, Patch::FIXED})
+  for(Patch patch : {Patch::OPENING, Patch::NONE, Patch::TOUCHING, Patch::SLIDING, Patch::FIXED})
     for(std::size_t i = 0; i < patches.faces.size(); ++i)
       if(patches.of_faces[i] == patch)
         for(mm3::Vertex_index v : patches.faces[i].vertices())
@@ -108,22 +109,24 @@ std::vector<mm3::IO::Facet_set> facet_sets(const Mesh& mesh,
   std::map<Key, Patch> patch_of;
   for(std::size_t i = 0; i < patches.faces.size(); ++i)
     patch_of.emplace(key_of(patches.faces[i], {}), patches.of_faces[i]);
-  enum { FIXED, SLIDING, OPENING, CAVITY };
-  std::vector<mm3::IO::Facet_set> sets{{"fixed", {}}, {"sliding", {}}, {"opening", {}}, {"cavity", {}}};
+  enum { FIXED, SLIDING, TOUCHING, OPENING, CAVITY };
+  std::vector<mm3::IO::Facet_set> sets{
+    {"fixed", {}}, {"sliding", {}}, {"touching", {}}, {"opening", {}}, {"cavity", {}}};
   for(const mm3::Face& face : mm3::boundary_faces(mesh)) {
     const auto place = patch_of.find(key_of(face, vertices_before));
-    int free = 0, sliding = 0;
+    int free = 0, sliding = 0, touching = 0;
     for(mm3::Vertex_index v : face.vertices()) {
       const Support support = supports.of_vertices[vertices_before.empty() ? v : vertices_before[v]];
       free += support == Support::FREE;
       sliding += support == Support::SLIDING;
+      touching += support == Support::TOUCHING;
     }
     if(place == patch_of.end())
       sets[CAVITY].faces.push_back(face);
     else if(place->second == Patch::OPENING)
       sets[OPENING].faces.push_back(face);
     else if(free == 0)
-      sets[sliding == 0 ? FIXED : SLIDING].faces.push_back(face);
+      sets[touching > 0 ? TOUCHING : sliding > 0 ? SLIDING : FIXED].faces.push_back(face);
   }
   return sets;
 }

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Patches of the boundary by name: those of --fixed, --slide and --opening.
+// Patches of the boundary by name: those of --fixed, --slide, --contact and --opening.
 
 #ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_PATCHES_H
 #define MIXED_MESH_3_DEMO_BRAIN_SHIFT_PATCHES_H
@@ -20,7 +20,7 @@
 #include <vector>
 
 /// What is asked for a face or a vertex of the boundary; nothing says that other options decide.
-enum class Patch { NONE, OPENING, FIXED, SLIDING };
+enum class Patch { NONE, OPENING, FIXED, SLIDING, TOUCHING };
 
 struct Boundary_patches
 {
@@ -29,13 +29,14 @@ struct Boundary_patches
 };
 
 /// Reads the surfaces that patches are given by. Openings come before what is fixed, and that before what
-/// slides. A vertex is fixed if one of its faces is, else it slides if one of them does; it is of an opening
-/// if all are.
+/// slides, and that before what touches a wall. A vertex is fixed if one of its faces is, else it slides if one of
+/// them does, else it touches the wall if one of them does; it is of an opening if all are.
 /// \throw std::runtime_error if a surface cannot be read, or if nothing of the boundary is in a patch
 Boundary_patches find_patches(const Mesh& mesh, const Options& options, std::vector<std::string>& warnings);
 
-/// The facet sets "fixed", "sliding", "opening", and "cavity" after a resection; none if no patches are asked
-/// for. A face is fixed if all its vertices are, and slides if its vertices are fixed or slide.
+/// The facet sets "fixed", "sliding", "touching", "opening", and "cavity" after a resection; none if no patches
+/// are asked for. A face is fixed if all its vertices are, slides if its vertices are fixed or slide, and touches
+/// the wall if its vertices are fixed, slide or touch it.
 /// \param mesh what is left
 /// \param vertices_before the numbers that its vertices have in the mesh of the patches; empty: the same
 std::vector<CGAL::Mixed_meshes_3::IO::Facet_set>

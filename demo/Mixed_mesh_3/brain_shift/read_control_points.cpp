@@ -74,6 +74,7 @@ std::string read_number(std::string_view text, double& x)
 namespace {
 
 constexpr double largest_coordinate = 1e6; // mm: nothing in a body is a kilometer away
+constexpr double least_weight = 1e-6;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& defect)
 {
@@ -101,14 +102,16 @@ static Control_point point_of(const std::vector<std::string_view>& cells, std::s
   using namespace control_points;
   Control_point point;
   point.number = line;
-  for(std::size_t i = 0; i < 6; ++i) {
-    double& x = i < 3 ? point.position[i] : point.displacement[i - 3];
+  for(std::size_t i = 0; i < cells.size(); ++i) {
+    double& x = i < 3 ? point.position[i] : i < 6 ? point.displacement[i - 3] : point.weight;
     const std::string defect = read_number(cells[i], x);
     if(!defect.empty())
       refuse(defect);
-    if(std::abs(x) > largest_coordinate)
+    if(i < 6 && std::abs(x) > largest_coordinate)
       refuse(quoted(cells[i]) + " mm is more than a kilometer");
   }
+  if(!(point.weight >= least_weight && point.weight <= 1 / least_weight))
+    refuse("the weight " + quoted(cells[6]) + " is not from 1e-6 to 1e6");
   return point;
 }
 
@@ -116,7 +119,8 @@ std::vector<Control_point> read_control_points(const std::string& path)
 {
   using namespace control_points;
   std::ifstream file = opened(path);
-  const std::string header = "x,y,z,dx,dy,dz";
+  std::string header = "x,y,z,dx,dy,dz";
+  const std::string weighted = header + ",weight";
   std::vector<Control_point> points;
   bool has_header = false;
   char separator = ',';
@@ -135,13 +139,16 @@ std::vector<Control_point> read_control_points(const std::string& path)
       separator = separator_of(line);
     const std::vector<std::string_view> cells = columns(line, separator);
     if(!has_header) {
-      if(cells != columns(header))
-        refuse_line("expected the header " + header + ", not " + quoted(line));
+      if(cells == columns(weighted))
+        header = weighted;
+      else if(cells != columns(header))
+        refuse_line("expected the header " + header + " or " + weighted + ", not " + quoted(line));
       has_header = true;
       continue;
     }
-    if(cells.size() != 6)
-      refuse_line("expected 6 columns, " + header + ", not " + std::to_string(cells.size()));
+    if(cells.size() != columns(header).size())
+      refuse_line("expected " + std::to_string(columns(header).size()) + " columns, " + header + ", not "
+                  + std::to_string(cells.size()));
     points.push_back(point_of(cells, number, refuse_line));
   }
   if(file.bad())

@@ -20,6 +20,7 @@ struct Control_point
   std::array<double, 3> position, displacement; // mm
   std::size_t number;                           // of the line in the file, or of the point: from 1
   const char* unit = "line";                    // or "point"
+  double weight = 1;
 
   std::string place() const { return unit + (' ' + std::to_string(number)); }
 };
@@ -38,7 +39,8 @@ std::string read_number(std::string_view text, double& x);
 } // namespace control_points
 
 /*!
-Reads control points: a header `x,y,z,dx,dy,dz`, then a point and its displacement in each line, in mm.
+Reads control points: a header `x,y,z,dx,dy,dz`, then a point and its displacement in each line, in mm. With one
+column more, `weight`, a positive number.
 Blank lines, and those that start with #, are skipped. Columns are separated as in the header: by commas,
 semicolons, tabs or blanks.
 

@@ -56,6 +56,7 @@ Json parameters_of(const Options& o)
           {"slide below", quantity(o.slide_below, "height")},
           {"fixed patches", o.fixed_patches},
           {"sliding patches", o.sliding_patches},
+          {"touching patches", o.touching_patches},
           {"openings", o.openings},
           {"slide beyond", quantity(std::isfinite(o.slide_beyond) ? Json(o.slide_beyond) : Json(), "mm")},
           {"largest distance of control points", quantity(o.max_distance, "mm")},
@@ -89,6 +90,7 @@ Json describe_points(const Outcome& outcome)
     controls.push_back({{outcome.points[i].unit, outcome.points[i].number},
                         {"position", outcome.points[i].position},
                         {"displacement", outcome.points[i].displacement},
+                        {"weight", outcome.points[i].weight},
                         {"element", std::uint32_t(outcome.locations[i].element)},
                         {"distance to the mesh", outcome.locations[i].distance}});
   return controls;
@@ -104,6 +106,8 @@ Json describe(const Shift& shift, const std::vector<Control_point>& points)
       control["displacement"] = c.displacement;
       control["missed by"] = c.miss;
       control["force"] = c.force;
+      if(c.left_out)
+        control["error if left out"] = *c.left_out;
     }
     controls.push_back(control);
   }
@@ -112,7 +116,12 @@ Json describe(const Shift& shift, const std::vector<Control_point>& points)
                  {"energy", shift.energy},
                  {"inverted elements", shift.inverted_elements},
                  {"control points", controls},
-                 {"control points missed by at most", shift.largest_miss}};
+                 {"control points missed by at most", shift.largest_miss},
+                 {"root mean square of what control points are missed by", shift.root_mean_square_miss},
+                 {"vertices in contact", shift.closed_contacts},
+                 {"force of contact", shift.contact_force}};
+  if(shift.left_out)
+    result["root mean square of leave-one-out errors"] = *shift.left_out;
   if(!shift.residuals.empty()) {
     result["residuals"] = shift.residuals;
     result["iterations"] = shift.iterations;
@@ -181,7 +190,8 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
   report["subdomains"] = describe_subdomains(outcome.subdomains);
   report["supports"] = {{"boundary vertices", outcome.supports.boundary_vertices},
                         {"fixed", outcome.supports.fixed},
-                        {"sliding", outcome.supports.sliding}};
+                        {"sliding", outcome.supports.sliding},
+                        {"touching", outcome.supports.touching}};
   report["control points"] = describe_points(outcome);
   report["shift"] = describe(outcome.before, outcome.points);
   report["resection"] = outcome.resection ? describe(*outcome.resection) : Json();
@@ -207,8 +217,11 @@ void print_summary(const Options& o, const Outcome& outcome, const Stage_log& lo
     return std::string();
   };
   std::cout << outcome.mesh.vertices << " vertices, " << outcome.mesh.elements << " elements; "
-            << outcome.supports.fixed << " vertices fixed, " << outcome.supports.sliding << " sliding; "
-            << counted(outcome.points.size(), "control point", "control points") << '\n';
+            << outcome.supports.fixed << " vertices fixed, " << outcome.supports.sliding << " sliding"
+            << (outcome.supports.touching > 0 ? ", " : "; ");
+  if(outcome.supports.touching > 0)
+    std::cout << outcome.supports.touching << " touch the skull; ";
+  std::cout << counted(outcome.points.size(), "control point", "control points") << '\n';
   print_subdomains(outcome.subdomains);
   std::cout << "before surgery: factor " << ms("factor") << ", control points " << ms("control points")
             << '\n';
@@ -216,6 +229,13 @@ void print_summary(const Options& o, const Outcome& outcome, const Stage_log& lo
     std::cout << "PETSc: " << counted(std::size_t(outcome.petsc->processes), "process", "processes")
               << ", up to " << outcome.petsc->iterations << " iterations\n";
   std::cout << "shift: up to " << rounded(outcome.before.largest) << " mm; " << ms("solve") << '\n';
+  if(outcome.supports.touching > 0)
+    std::cout << "contact: " << counted(outcome.before.closed_contacts, "vertex", "vertices")
+              << " still at the skull, which pushes with " << rounded(outcome.before.contact_force)
+              << " mN\n";
+  if(outcome.before.left_out)
+    std::cout << "control points: each is predicted by the others to " << rounded(*outcome.before.left_out)
+              << " mm (root mean square)\n";
   if(outcome.resection)
     std::cout << "resection: " << outcome.resection->removed << " elements, "
               << rounded(outcome.resection->volume / 1000) << " ml; shift up to "

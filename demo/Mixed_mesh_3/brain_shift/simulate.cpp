@@ -93,7 +93,7 @@ Supports set_supports(Elasticity& elasticity, const Boundary_patches& patches, c
     const Patch patch = patches.of_vertices[v];
     return patch == Patch::FIXED || (patch != Patch::OPENING && is_below(v, o.fixed_below));
   };
-  Supports supports{boundary.size(), 0, 0, std::vector<Support>(mesh.number_of_vertices(), Support::FREE)};
+  Supports supports{boundary.size(), 0, 0, 0, std::vector<Support>(mesh.number_of_vertices(), Support::FREE)};
   for(mm3::Vertex_index v : boundary)
     if(is_fixed(v)) {
       elasticity.prescribe(v);
@@ -111,6 +111,14 @@ Supports set_supports(Elasticity& elasticity, const Boundary_patches& patches, c
     if(is_sliding)
       supports.of_vertices[v] = Support::SLIDING;
     return is_sliding;
+  });
+  elasticity.touch_along_boundary([&](mm3::Vertex_index v) {
+    const bool is_touching = supports.of_vertices[v] == Support::FREE
+                             && patches.of_vertices[v] == Patch::TOUCHING;
+    supports.touching += is_touching;
+    if(is_touching)
+      supports.of_vertices[v] = Support::TOUCHING;
+    return is_touching;
   });
   return supports;
 }
@@ -146,9 +154,13 @@ void measure(const Mesh& mesh, Shift& shift)
 
 // \param is_used of each control point
 void measure_controls(const Elasticity& elasticity, const Outcome& outcome, const std::vector<bool>& is_used,
-                      Shift& shift)
+                      bool leave_one_out, Shift& shift)
 {
   const std::vector<Vector> forces = elasticity.control_forces();
+  const std::vector<Vector> left_out = leave_one_out ? elasticity.leave_one_out_errors()
+                                                     : std::vector<Vector>();
+  double squares = 0, squares_left_out = 0;
+  std::size_t predicted = 0;
   std::size_t used = 0;
   for(std::size_t i = 0; i < outcome.points.size(); ++i) {
     Control control;
@@ -160,10 +172,20 @@ void measure_controls(const Elasticity& elasticity, const Outcome& outcome, cons
         control.displacement = control.displacement + location.weights[k] * shift.displacements[element[k]];
       control.miss = norm(control.displacement - Vector(outcome.points[i].displacement));
       shift.largest_miss = (std::max)(shift.largest_miss, control.miss);
+      squares += control.miss * control.miss;
+      if(leave_one_out && std::isfinite(left_out[used][0])) {
+        control.left_out = left_out[used];
+        squares_left_out += dot(left_out[used], left_out[used]);
+        ++predicted;
+      }
       control.force = forces[used++];
     }
     shift.controls.push_back(control);
   }
+  if(used > 0)
+    shift.root_mean_square_miss = std::sqrt(squares / double(used));
+  if(predicted > 0)
+    shift.left_out = std::sqrt(squares_left_out / double(predicted));
 }
 
 Shift shift_of(const Elasticity& elasticity, const Options& o, const std::vector<bool>& is_used,
@@ -187,7 +209,11 @@ Shift shift_of(const Elasticity& elasticity, const Options& o, const std::vector
                                + place(mm3::to_vec3(mesh.point(mesh.element(inverted.front())[0])))
                                + ": too much is asked of the elements there; --control-radius, or "
                                  "--control-compliance, would spread it");
-  measure_controls(elasticity, outcome, is_used, shift);
+  for(double force : elasticity.contact_forces()) {
+    shift.closed_contacts += force > 0;
+    shift.contact_force += force;
+  }
+  measure_controls(elasticity, outcome, is_used, o.leave_one_out && !elasticity.is_iterative(), shift);
   if(o.is_exact() && shift.largest_miss > 1e-6 * (1 + shift.largest)) // our fault
     throw std::logic_error(when + ": control points are missed by up to " + rounded(shift.largest_miss)
                            + " mm");
@@ -205,9 +231,13 @@ std::vector<Vector> displacements_of(const std::vector<Control_point>& points)
 void set_control_points(Elasticity& elasticity, const Options& o, const std::vector<Control_point>& points)
 {
   std::vector<Vector> positions;
-  for(const Control_point& point : points)
+  std::vector<double> weights;
+  for(const Control_point& point : points) {
     positions.push_back(point.position);
-  check(elasticity.set_control_points(positions, o.max_distance, o.compliance, o.control_radius), o, points);
+    weights.push_back(point.weight);
+  }
+  check(elasticity.set_control_points(positions, o.max_distance, o.compliance, o.control_radius, weights), o,
+        points);
 }
 
 void tell_of_solver([[maybe_unused]] Elasticity& elasticity, [[maybe_unused]] Outcome& outcome)

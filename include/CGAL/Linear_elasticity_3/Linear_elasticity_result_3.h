@@ -31,7 +31,8 @@ enum class Linear_elasticity_status {
   CONTROL_POINT_OUTSIDE, ///< `control_point` is `distance` outside the mesh
   CONTRADICTORY_CONTROL_POINTS, ///< the displacement of `control_point` cannot be had with the others
   SOLVER_FAILED, ///< the system is not positive definite: elements hang together by hinges only
-  NOT_CONVERGED  ///< no equilibrium of finite rotations was found: the loads are too large, or it is unstable
+  NOT_CONVERGED  ///< no equilibrium of finite rotations was found, or none of contacts: the loads are too
+                 ///< large, or it is unstable
 };
 
 /// \ingroup PkgLinearElasticity3Ref

@@ -209,10 +209,11 @@ class Elasticity(_core.Elasticity):
         of_labels = {label: (*m, density)[:3] for label, m in (materials or {}).items()}
         super().__init__(mesh, of_labels, (young_modulus, poisson_ratio, density))
 
-    def set_control_points(self, points, *, largest_distance=0.0, compliance=0.0, radius=0.0):
+    def set_control_points(self, points, *, largest_distance=0.0, compliance=0.0, radius=0.0, weights=()):
         """Points at which displacements are given. largest_distance: points so far outside stand for the nearest one
-        of the boundary. compliance in mm/mN: displacements give way so much. radius: of which they are a mean."""
-        super().set_control_points(points, largest_distance, compliance, radius)
+        of the boundary. compliance in mm/mN: displacements give way so much, divided by the weight of each point.
+        radius: of which they are a mean."""
+        super().set_control_points(points, largest_distance, compliance, radius, weights)
 
     def solve(self, displacements=None):
         """The displacement of each vertex, (n, 3) in mm, for those of the control points."""

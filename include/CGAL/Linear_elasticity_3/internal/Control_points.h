@@ -111,6 +111,7 @@ private:
 struct Control_options
 {
   double largest_distance = 0, compliance = 0, radius = 0;
+  std::vector<double> weights; // of the points; empty: 1
 };
 
 template <class Mesh>
@@ -192,6 +193,7 @@ public:
 
   /// \pre `place()` or `prepare()` was successful
   const Control_constraints& constraints() const { return *m_constraints; }
+  bool has_constraints() const { return m_constraints.has_value(); }
 
 private:
   static Result failed(Status status)
@@ -204,7 +206,11 @@ private:
   template <class SolverTraits>
   Result constrain(Elastic_body<SolverTraits>& body, std::vector<Control_weights> weights)
   {
-    m_constraints.emplace(std::move(weights), m_options.compliance, body.system().free_motions(),
+    std::vector<double> compliances(weights.size(), m_options.compliance);
+    if(!m_options.weights.empty())
+      for(std::size_t p = 0; p < weights.size(); ++p)
+        compliances[p] /= m_options.weights[p];
+    m_constraints.emplace(std::move(weights), compliances, body.system().free_motions(),
                           body.stiffness().points(), body.supports().of_vertices(),
                           [&](const Eigen::MatrixXd& f, Eigen::MatrixXd& u) { return body.solve(f, u); });
     if(m_constraints->is_solved())

@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What holds the vertices of an elastic body, the connected parts of the body, and which motions of these are
-// free.
+// What holds the vertices of an elastic body, or stops them; the connected parts of the body, and which motions
+// of these are free.
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTIC_SUPPORTS_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTIC_SUPPORTS_H
@@ -23,6 +23,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -37,36 +38,77 @@ struct Elastic_part
   std::vector<Rigid_mode> modes;
 };
 
+/// A vertex that a wall stops, without friction, when its displacement in the direction of the normal is the
+/// gap. The wall holds it then, as long as it pushes.
+struct Contact
+{
+  Vec3 normal; // of length 1, to the outside
+  double gap;  // mm
+  bool is_closed;
+};
+
 class Elastic_supports
 {
-  std::vector<Support> m_supports; // of each vertex
-  std::vector<bool> m_is_kept;     // of each vertex, whether an element is left
+  std::vector<Support> m_permanent; // of each vertex, without contacts
+  std::vector<Support> m_supports;  // with those that are closed
+  std::map<Vertex_index, Contact> m_contacts;
+  std::vector<bool> m_is_kept; // of each vertex, whether an element is left
   std::vector<Elastic_part> m_parts;
 
 public:
-  explicit Elastic_supports(std::size_t number_of_vertices) : m_supports(number_of_vertices) {}
+  explicit Elastic_supports(std::size_t number_of_vertices)
+    : m_permanent(number_of_vertices), m_supports(number_of_vertices)
+  {
+  }
 
   void prescribe(Vertex_index v, const Vec3& displacement)
   {
-    m_supports[v].size = 3;
-    m_supports[v].directions = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    m_supports[v].displacement = displacement;
+    m_permanent[v].size = 3;
+    m_permanent[v].directions = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    m_permanent[v].displacement = displacement;
+    m_supports[v] = m_permanent[v];
   }
 
-  void slide(Vertex_index v, const Vec3& normal) { m_supports[v].add(normal); }
+  void slide(Vertex_index v, const Vec3& normal)
+  {
+    m_permanent[v].add(normal);
+    m_supports[v] = m_permanent[v];
+  }
+
+  void touch(Vertex_index v, const Vec3& normal, double gap)
+  {
+    m_contacts[v] = {(1 / norm(normal)) * normal, gap, gap <= 0};
+  }
 
   /// \pre prescribed
   void set_displacement(Vertex_index v, const Vec3& displacement)
   {
-    CGAL_precondition(m_supports[v].size == 3);
-    m_supports[v].displacement = displacement;
+    CGAL_precondition(m_permanent[v].size == 3);
+    m_permanent[v].displacement = m_supports[v].displacement = displacement;
   }
 
+  /// Contacts that are closed included.
   const std::vector<Support>& of_vertices() const { return m_supports; }
 
-  /// To be called when elements have been removed, or supports changed.
+  const std::map<Vertex_index, Contact>& contacts() const { return m_contacts; }
+
+  /// The direction in which a wall with that normal holds a vertex: orthogonal to those of other supports; zero
+  /// if these hold it anyway.
+  Vec3 direction_of_contact(Vertex_index v, const Vec3& normal) const
+  {
+    Support support = m_permanent[v];
+    const int size = support.size;
+    support.add(normal);
+    return support.size > size ? support.directions[std::size_t(size)] : Vec3{};
+  }
+
+  /// `find_parts()` is to be called afterwards.
+  void set_closed(Vertex_index v, bool is_closed) { m_contacts.at(v).is_closed = is_closed; }
+
+  /// To be called when elements have been removed, or supports or contacts changed.
   void find_parts(const Elastic_stiffness& stiffness)
   {
+    apply_contacts();
     m_parts.clear();
     m_is_kept.assign(m_supports.size(), false);
     for(std::vector<Vertex_index>& vertices :
@@ -92,6 +134,8 @@ public:
 
   const std::vector<bool>& kept_vertices() const { return m_is_kept; }
   bool is_kept(Vertex_index v) const { return m_is_kept[v]; }
+  /// Whether it may move in some direction when its contacts are open.
+  bool may_be_free(Vertex_index v) const { return m_is_kept[v] && m_permanent[v].size < 3; }
   /// Whether a vertex may move in some direction.
   bool is_free(Vertex_index v) const { return m_is_kept[v] && m_supports[v].size < 3; }
   /// Whether it may in all.
@@ -113,6 +157,20 @@ public:
         f[i + k] = x[k];
     }
     return f;
+  }
+
+private:
+  void apply_contacts()
+  {
+    for(const auto& [v, contact] : m_contacts) {
+      Support& support = m_supports[v] = m_permanent[v];
+      const Vec3 d = direction_of_contact(v, contact.normal);
+      if(!contact.is_closed || d == Vec3{})
+        continue;
+      support.add(contact.normal);
+      const double missing = contact.gap - dot(contact.normal, support.displacement);
+      support.displacement = support.displacement + (missing / dot(contact.normal, d)) * d;
+    }
   }
 };
 

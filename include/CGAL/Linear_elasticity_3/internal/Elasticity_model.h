@@ -17,6 +17,7 @@
 #include <CGAL/Linear_elasticity_3/internal/Corotational_elements.h>
 #include <CGAL/Linear_elasticity_3/internal/Elastic_body.h>
 #include <CGAL/Linear_elasticity_3/internal/boundary_measures.h>
+#include <CGAL/Linear_elasticity_3/internal/contact.h>
 #include <CGAL/Linear_elasticity_3/internal/control_constraints.h>
 #include <CGAL/Linear_elasticity_3/internal/corotational_solution.h>
 #include <CGAL/Linear_elasticity_3/internal/removal.h>
@@ -26,8 +27,11 @@
 #include <CGAL/Mixed_mesh_3/certificate.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
+#include <CGAL/assertions.h>
+
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -53,6 +57,8 @@ class Elasticity_model
   using Result = Linear_elasticity_result_3;
   using Status = Linear_elasticity_status;
 
+  static constexpr int largest_number_of_rounds = 60; // of contacts; five to ten are usual
+
   const Mesh* m_mesh;
   Elastic_body<SolverTraits> m_body;
   Control_points<Mesh> m_controls;
@@ -62,8 +68,11 @@ class Elasticity_model
   bool m_is_corotational = false;
   std::optional<Corotational_elements> m_corotational; // of the elements that are left, when needed
   Corotational_state m_state;
-  Eigen::VectorXd m_control_forces;
+  // of the last solution
+  Eigen::VectorXd m_control_forces, m_control_residuals;
   std::vector<Vec3> m_displacements;
+  std::vector<double> m_contact_forces; // of vertices
+  double m_energy = 0;
 
 public:
   Elasticity_model(const Mesh& mesh, std::vector<Elastic_material> materials)
@@ -98,6 +107,15 @@ public:
     for(Vertex_index v = 0; v < normals.size(); ++v)
       if(norm(normals[v]) > 0 && is_sliding(v))
         m_body.supports().slide(v, normals[v]);
+  }
+
+  template <class Is_touching>
+  void touch_along_boundary(const Is_touching& is_touching, double gap)
+  {
+    const std::vector<Vec3> normals = boundary_vertex_normals(*m_mesh, m_body.stiffness().points());
+    for(Vertex_index v = 0; v < normals.size(); ++v)
+      if(norm(normals[v]) > 0 && is_touching(v))
+        m_body.supports().touch(v, normals[v], gap);
   }
 
   Result factor()
@@ -135,6 +153,7 @@ public:
   Result set_control_points(std::vector<Vec3> points, const Control_options& options)
   {
     m_controls.clear(options);
+    m_control_forces = m_control_residuals = Eigen::VectorXd();
     if(m_is_iterative)
       if(const Result result = factor_system(); !result.is_success())
         return result;
@@ -148,48 +167,48 @@ public:
     for(std::size_t i = 0; i < displacements.size(); ++i)
       for(int k = 0; k < 3; ++k)
         wanted[Eigen::Index(3 * i) + k] = displacements[i][k];
-    if(!m_body.solve_loads())
-      return failed(Status::SOLVER_FAILED);
-    if(const Result result = m_controls.prepare(m_body); !result.is_success())
-      return result;
-    if(m_is_corotational)
-      return solve_corotational(wanted);
-    Control_solution solution;
-    Result result = m_controls.constraints().solve(m_body.loaded(), m_body.load(), wanted,
-                                                   m_body.system().free_motions(), solution);
-    if(!result.is_success())
-      return result;
-    if(m_is_iterative
-       && !solve_after_removal(m_body, m_controls.constraints(), wanted, m_iteration_tolerance, solution,
-                               m_number_of_iterations)) {
-      result = factor_system();
-      return result.is_success() ? solve(displacements) : result;
+    bool may_open = true;
+    for(int round = 0; round < largest_number_of_rounds; ++round) {
+      Control_solution solution;
+      Result result = solve_held(wanted, solution);
+      if(result.status == Status::CONTRADICTORY_CONTROL_POINTS && may_open && open_contacts_of_controls()) {
+        may_open = false;
+        m_body.find_parts();
+        if(result = factor_system(); !result.is_success())
+          return result;
+        continue;
+      }
+      if(!result.is_success())
+        return result;
+      const Eigen::VectorXd internal = internal_forces(solution.displacements),
+                            reaction = reaction_of(internal, solution);
+      const bool is_exact = !m_is_corotational && !m_is_iterative;
+      if(!update_contacts(m_body.supports(), solution.displacements, reaction,
+                          internal.lpNorm<Eigen::Infinity>(), is_exact ? 1e-9 : m_iteration_tolerance,
+                          round < largest_number_of_rounds / 2)) {
+        keep(solution, wanted, reaction);
+        m_energy = m_is_corotational ? m_corotational->energy() : solution.displacements.dot(internal) / 2;
+        return m_is_corotational ? inverted_element() : result;
+      }
+      m_body.find_parts();
+      if(result = factor_system(); !result.is_success())
+        return result;
     }
-    keep(solution);
-    return result;
+    return failed(Status::NOT_CONVERGED);
   }
 
   const std::vector<Vec3>& displacements() const { return m_displacements; }
+  std::vector<Vec3> control_forces() const { return vectors_of(m_control_forces); }
+  std::vector<Vec3> control_residuals() const { return vectors_of(m_control_residuals); }
+  const std::vector<double>& contact_forces() const { return m_contact_forces; }
+  double energy() const { return m_energy; }
 
-  std::vector<Vec3> control_forces() const
+  /// \pre solved, not iteratively, since control points and supports were set
+  std::vector<Vec3> leave_one_out_errors() const
   {
-    std::vector<Vec3> forces(std::size_t(m_control_forces.size() / 3));
-    for(std::size_t i = 0; i < forces.size(); ++i)
-      for(int k = 0; k < 3; ++k)
-        forces[i][k] = m_control_forces[Eigen::Index(3 * i) + k];
-    return forces;
-  }
-
-  double energy() const
-  {
-    if(m_is_corotational)
-      return m_state.energy;
-    const std::size_t n = m_body.stiffness().number_of_vertices();
-    Eigen::VectorXd u(3 * Eigen::Index(n));
-    for(std::size_t v = 0; v < n; ++v)
-      for(int k = 0; k < 3; ++k)
-        u[Eigen::Index(3 * v) + k] = m_displacements.empty() ? 0 : m_displacements[v][k];
-    return u.dot(m_body.stiffness().product(u)) / 2;
+    CGAL_precondition(!m_is_iterative && m_controls.has_constraints()
+                      && m_control_forces.size() == 3 * Eigen::Index(number_of_control_points()));
+    return vectors_of(m_controls.constraints().leave_one_out(m_control_forces));
   }
 
 private:
@@ -208,9 +227,23 @@ private:
     return result;
   }
 
-  void keep(const Control_solution& solution)
+  static std::vector<Vec3> vectors_of(const Eigen::VectorXd& x)
+  {
+    std::vector<Vec3> result(std::size_t(x.size() / 3));
+    for(std::size_t i = 0; i < result.size(); ++i)
+      for(int k = 0; k < 3; ++k)
+        result[i][k] = x[Eigen::Index(3 * i) + k];
+    return result;
+  }
+
+  void keep(const Control_solution& solution, const Eigen::VectorXd& wanted, const Eigen::VectorXd& reaction)
   {
     m_control_forces = solution.forces;
+    m_control_residuals = wanted - m_controls.constraints().at_points(solution.displacements);
+    m_contact_forces.assign(m_body.stiffness().number_of_vertices(), 0);
+    for(const auto& [v, contact] : m_body.supports().contacts())
+      if(contact.is_closed && m_body.supports().is_kept(v))
+        m_contact_forces[v] = (std::max)(0., contact_force(m_body.supports(), v, contact, reaction));
     m_displacements.assign(m_body.stiffness().number_of_vertices(), Vec3{});
     for(Vertex_index v = 0; v < m_displacements.size(); ++v)
       if(m_body.supports().is_kept(v))
@@ -218,25 +251,72 @@ private:
           m_displacements[v][k] = solution.displacements[3 * Eigen::Index(v) + k];
   }
 
-  Result solve_corotational(const Eigen::VectorXd& wanted)
+  // Contacts hold what is to be pulled off the wall; if it is to be pushed into it, they close again.
+  bool open_contacts_of_controls()
+  {
+    bool is_changed = false;
+    const auto& contacts = m_body.supports().contacts();
+    for(const Control_weights& weights : m_controls.constraints().weights())
+      for(const auto& weight : weights)
+        if(const auto contact = contacts.find(weight.first);
+           contact != contacts.end() && contact->second.is_closed) {
+          m_body.supports().set_closed(weight.first, false);
+          is_changed = true;
+        }
+    return is_changed;
+  }
+
+  // With the contacts as they are. What goes wrong with the factor of the body before a removal may go well with
+  // its own.
+  Result solve_held(const Eigen::VectorXd& wanted, Control_solution& solution)
+  {
+    if(!m_body.solve_loads())
+      return failed(Status::SOLVER_FAILED);
+    if(const Result result = m_controls.prepare(m_body); !result.is_success())
+      return result;
+    Result result = m_is_corotational
+                      ? solve_corotational(wanted, solution)
+                      : m_controls.constraints().solve(m_body.loaded(), m_body.load(), wanted,
+                                                       m_body.system().free_motions(), solution);
+    if(m_is_iterative && !m_is_corotational && result.is_success()
+       && !solve_after_removal(m_body, m_controls.constraints(), wanted, m_iteration_tolerance, solution,
+                               m_number_of_iterations))
+      result = failed(Status::SOLVER_FAILED);
+    const bool may_do_better = result.status == Status::SOLVER_FAILED
+                               || result.status == Status::NOT_CONVERGED;
+    if(!m_is_iterative || !may_do_better)
+      return result;
+    result = factor_system();
+    return result.is_success() ? solve_held(wanted, solution) : result;
+  }
+
+  Eigen::VectorXd internal_forces(const Eigen::VectorXd& displacements) const
+  {
+    return m_is_corotational ? m_corotational->forces() : m_body.stiffness().product(displacements);
+  }
+
+  // What supports bear.
+  Eigen::VectorXd reaction_of(const Eigen::VectorXd& internal, const Control_solution& solution) const
+  {
+    Eigen::VectorXd loads = m_body.force();
+    m_controls.constraints().add_forces(solution.forces, loads);
+    return internal - loads;
+  }
+
+  Result solve_corotational(const Eigen::VectorXd& wanted, Control_solution& solution)
   {
     if(!m_corotational)
       m_corotational.emplace(m_body.stiffness());
     const Eigen::Index n = 3 * Eigen::Index(m_body.stiffness().number_of_vertices());
     if(m_state.displacements.size() == 0)
       m_state.displacements = m_state.force = Eigen::VectorXd::Zero(n);
-    Control_solution solution;
     Corotational_solution<SolverTraits> corotational(m_body, m_controls.constraints(), *m_corotational,
                                                      m_state);
     const Result result = corotational.solve(wanted, m_iteration_tolerance, solution);
     m_number_of_iterations = m_state.number_of_iterations;
-    if(!result.is_success()) {
+    if(!result.is_success())
       m_state.displacements.resize(0); // the next one starts at rest
-      return result;
-    }
-    m_state.energy = m_corotational->energy();
-    keep(solution);
-    return inverted_element();
+    return result;
   }
 
   // Where the last displacements invert an element, by the certificate.

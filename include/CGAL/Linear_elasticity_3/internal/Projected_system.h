@@ -87,7 +87,7 @@ public:
     if(!matrix) { // else the numbers stay, so that the symbolic factorization does
       m_unknowns.clear();
       for(Vertex_index v = 0; v < stiffness.number_of_vertices(); ++v)
-        if(supports.is_free(v))
+        if(supports.may_be_free(v))
           m_unknowns.push_back(v);
     }
     if(m_unknowns.empty())

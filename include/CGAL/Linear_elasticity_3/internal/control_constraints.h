@@ -21,7 +21,9 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -39,10 +41,10 @@ struct Control_solution
 };
 
 /*!
-With the stiffness K, the weights B of the control points and the free rigid motions R (K R = 0),
-displacements u and the forces s on the control points satisfy
+With the stiffness K, the weights B of the control points, their compliances C (diagonal) and the free rigid
+motions R (K R = 0), displacements u and the forces s on the control points satisfy
 
-    K u = f + B^T s,   B u + compliance s = d,   R^T (f + B^T s) = 0.
+    K u = f + B^T s,   B u + C s = d,   R^T (f + B^T s) = 0.
 
 K is held by as many springs as there are free motions, which bear nothing as loads are in equilibrium: so
 u = K^-1 f + W s + R c with W = K^-1 B^T, and what remains is a dense system for s and c, with S = B W and
@@ -61,7 +63,7 @@ class Control_constraints
   static constexpr Index columns_at_once = 24; // eight points: bounds the memory
 
   std::vector<Control_weights> m_weights;
-  double m_compliance;
+  Vector m_compliances; // three for each control point
   bool m_is_solved = true;
   Matrix m_response, m_motions; // W, R
   Matrix m_g, m_kernel;         // G; combinations of motions that the control points do not hold
@@ -74,13 +76,16 @@ class Control_constraints
   std::optional<Eigen::LDLT<Matrix>> m_schur;
 
 public:
+  /// \param compliances of each control point: all zero, or all positive
   /// \param solve `bool(forces, displacements)`: K^-1, for several columns
   template <class Solve>
-  Control_constraints(std::vector<Control_weights> weights, double compliance,
+  Control_constraints(std::vector<Control_weights> weights, const std::vector<double>& compliances,
                       const std::vector<Free_motion>& motions, const std::vector<Vec3>& points,
                       const std::vector<Support>& supports, const Solve& solve)
-    : m_weights(std::move(weights)), m_compliance(compliance)
+    : m_weights(std::move(weights)), m_compliances(3 * Index(m_weights.size()))
   {
+    for(std::size_t p = 0; p < m_weights.size(); ++p)
+      m_compliances.segment<3>(3 * Index(p)).setConstant(compliances[p]);
     const Index n = 3 * Index(points.size()), rows = 3 * Index(m_weights.size());
     m_motions = Matrix::Zero(n, Index(motions.size()));
     for(std::size_t m = 0; m < motions.size(); ++m)
@@ -105,7 +110,10 @@ public:
   }
 
   bool is_solved() const { return m_is_solved; }
-  double compliance() const { return m_compliance; }
+  /// Whether the points give way to forces.
+  bool is_compliant() const { return m_compliances.size() > 0 && m_compliances[0] > 0; }
+  /// Three for each control point; all zero, or all positive.
+  const Vector& compliances() const { return m_compliances; }
 
   /// B u, for each column.
   Matrix at_points(const Matrix& u) const
@@ -147,7 +155,8 @@ public:
     if(c.size() > 0)
       solution.displacements += m_motions * c;
 
-    const Vector missed = at_points(solution.displacements) + m_compliance * solution.forces - wanted;
+    const Vector missed = at_points(solution.displacements) + m_compliances.cwiseProduct(solution.forces)
+                          - wanted;
     const double bound = tolerance(solution.displacements, wanted);
     for(std::size_t p = 0; p < m_weights.size(); ++p) {
       const double distance = missed.segment<3>(3 * Index(p)).norm();
@@ -159,6 +168,9 @@ public:
     }
     return result;
   }
+
+  /// Vertices whose displacements control points have the weighted means of; of each point.
+  const std::vector<Control_weights>& weights() const { return m_weights; }
 
   /// Whether the control points move vertices of a set only.
   bool is_on(const std::vector<bool>& vertices) const
@@ -184,7 +196,50 @@ public:
         f.segment<3>(3 * Index(v)) += w * s.segment<3>(3 * Index(p));
   }
 
+  /*!
+  What each control point would miss if it were not among them. Forces are affine in what is wanted, s = P d +
+  ..., so that the displacement that point p has without a force of its own is d_p - P_pp^-1 s_p: as for any
+  linear smoother, nothing is solved anew (Craven, Wahba 1979).
+
+  \param forces of the solution
+  \return three for each point; infinite where the others would not hold the body
+  */
+  Vector leave_one_out(const Vector& forces) const
+  {
+    const Index n = forces.size(), motions = m_motions.cols();
+    Vector missed(n);
+    if(n == 0)
+      return missed;
+    Matrix s = flexibility();
+    const Matrix held = m_g.transpose() * m_g;
+    if(motions > 0)
+      s += m_augmentation * m_g * m_g.transpose();
+    // so that points which depend on others share their forces
+    const double smallest = dependence * s.diagonal().maxCoeff();
+    s.diagonal().array() += smallest;
+    Matrix p = Eigen::LLT<Matrix>(s).solve(Matrix::Identity(n, n));
+    if(motions > 0) {
+      const Matrix e = p * m_g;
+      p -= e * Eigen::LDLT<Matrix>(m_g.transpose() * e).solve(e.transpose());
+    }
+    const Vector shared = forces - smallest * (p * forces);
+    for(Index i = 0; i < n; i += 3) {
+      const auto g = m_g.middleRows<3>(i);
+      if(motions > 0 && is_singular(held - g.transpose() * g, held.trace()))
+        missed.segment<3>(i).setConstant(std::numeric_limits<double>::infinity());
+      else
+        missed.segment<3>(i) = p.block<3, 3>(i, i).ldlt().solve(shared.segment<3>(i));
+    }
+    return missed;
+  }
+
 private:
+  static bool is_singular(const Matrix& held, double scale)
+  {
+    return Eigen::SelfAdjointEigenSolver<Matrix>(held, Eigen::EigenvaluesOnly).eigenvalues()[0]
+           <= dependence * scale;
+  }
+
   static double tolerance(const Vector& u, const Vector& wanted)
   {
     const auto largest = [](const Vector& x) { return x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0; };
@@ -199,13 +254,20 @@ private:
     return y;
   }
 
+  // S + C.
+  Matrix flexibility() const
+  {
+    Matrix s = at_points(m_response);
+    s = (0.5 * (s + s.transpose())).eval();
+    s.diagonal() += m_compliances;
+    return s;
+  }
+
   void eliminate()
   {
     const Index motions = m_motions.cols();
     m_g = at_points(m_motions);
-    Matrix s = at_points(m_response);
-    s = (0.5 * (s + s.transpose())).eval();
-    s.diagonal().array() += m_compliance;
+    Matrix s = flexibility();
     if(motions > 0) {
       const Matrix held = m_g.transpose() * m_g;
       const Eigen::SelfAdjointEigenSolver<Matrix> eigen(held);

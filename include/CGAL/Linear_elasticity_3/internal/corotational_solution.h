@@ -35,7 +35,6 @@ struct Corotational_state
   Eigen::VectorXd displacements, force; // of all vertices; body forces on them
   std::vector<double> residuals;        // before each step of Newton's, those that went astray included
   int number_of_iterations = 0;         // of conjugate gradients
-  double energy = 0;                    // of the last solution
 };
 
 /*!
@@ -111,9 +110,8 @@ public:
         return result;
     }
     solution = {m_state.displacements, m_step.forces};
-    if(m_constraints.compliance() > 0)
-      solution.forces = (wanted - m_constraints.at_points(m_state.displacements))
-                        / m_constraints.compliance();
+    if(m_constraints.is_compliant())
+      solution.forces = spring_forces(wanted, m_state.displacements);
     return Result();
   }
 
@@ -145,20 +143,26 @@ private:
     return result;
   }
 
+  // Of control points that give way.
+  Vector spring_forces(const Vector& points, const Vector& u) const
+  {
+    return (points - m_constraints.at_points(u)).cwiseQuotient(m_constraints.compliances());
+  }
+
   // Forces that are not in equilibrium, but for those of exact control points.
   Vector residual(const Vector& force, const Vector& points, const Vector& u) const
   {
     Vector r = force - m_elements.forces();
-    if(m_constraints.compliance() > 0)
-      m_constraints.add_forces((points - m_constraints.at_points(u)) / m_constraints.compliance(), r);
+    if(m_constraints.is_compliant())
+      m_constraints.add_forces(spring_forces(points, u), r);
     return m_body.supports().free_part(std::move(r));
   }
 
   Vector tangent_times(const Vector& p) const
   {
     Vector q = m_elements.product(p);
-    if(m_constraints.compliance() > 0)
-      m_constraints.add_forces(m_constraints.at_points(p) / m_constraints.compliance(), q);
+    if(m_constraints.is_compliant())
+      m_constraints.add_forces(m_constraints.at_points(p).cwiseQuotient(m_constraints.compliances()), q);
     return m_body.supports().free_part(std::move(q));
   }
 
@@ -179,7 +183,7 @@ private:
     // what control points miss is rounding, when nothing but that is left of the residual
     if(!result.is_success() && result.status != Status::CONTRADICTORY_CONTROL_POINTS)
       return false;
-    if(m_constraints.compliance() == 0) {
+    if(!m_constraints.is_compliant()) {
       m_constraints.add_forces(m_step.forces, r);
       r = m_body.supports().free_part(std::move(r));
     }
@@ -294,8 +298,8 @@ private:
   double potential(const Vector& force, const Vector& points, const Vector& u) const
   {
     double result = m_elements.energy() - force.dot(u);
-    if(m_constraints.compliance() > 0)
-      result += (points - m_constraints.at_points(u)).squaredNorm() / (2 * m_constraints.compliance());
+    if(m_constraints.is_compliant())
+      result += spring_forces(points, u).dot(points - m_constraints.at_points(u)) / 2;
     return result;
   }
 
@@ -308,7 +312,7 @@ private:
     if(d.squaredNorm() > 0)
       r -= tangent_times(d);
     m_step.forces = Vector::Zero(points.size());
-    const bool is_exact = m_constraints.compliance() == 0;
+    const bool is_exact = !m_constraints.is_compliant();
     const Result result = solve_linear(r, is_exact ? (points - m_constraints.at_points(u + d)).eval()
                                                    : Vector::Zero(points.size()).eval());
     if(!result.is_success())
