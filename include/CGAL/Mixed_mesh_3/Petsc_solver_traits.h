@@ -352,6 +352,12 @@ public:
     PetscPopSignalHandler();
     PetscPushErrorHandler(number_of_processes() == 1 ? PetscReturnErrorHandler : PetscMPIAbortErrorHandler,
                           nullptr);
+    // PETSc's own 2 take longer on solids.
+    const char* const smoothing_steps = "-mg_levels_ksp_max_it";
+    PetscBool is_set = PETSC_FALSE;
+    PetscOptionsHasName(nullptr, nullptr, smoothing_steps, &is_set);
+    if(!is_set)
+      PetscOptionsSetValue(nullptr, smoothing_steps, "3");
   }
 
   Petsc_session(const Petsc_session&) = delete;
