@@ -224,7 +224,7 @@ double tip_angle(const Mesh& mesh, const Field& u, double length)
 }
 
 // Bent by a force by volume, as far as that the tip turns by 45 and by 90 degrees.
-void test_bar(int n, int kind, double force, double degrees, double bound)
+void test_bar(int n, int kind, double force, double degrees)
 {
   const double length = 20;
   const Mesh mesh = bar(n, kind, {length, 1, 1});
@@ -254,14 +254,15 @@ void test_bar(int n, int kind, double force, double degrees, double bound)
     expected = total_lagrangian_solution(hexahedra, material, vertices_where(hexahedra, is_clamped), load);
   Vec3 a = tip(problem.displacements());
   const Vec3 b = tip(expected);
-  if(kind == TETRAHEDRON) // around one diagonal: they bend a bar sideways, too, with small rotations as well
+  // On one side of a diagonal they are stiffer: they bend a bar sideways, too, with small rotations as well.
+  if(kind == TETRAHEDRON || kind == PRISM)
     a[1] = b[1];
   const double angle = -tip_angle(hexahedra, expected, length) * 180 / pi;
   std::cout << "  bar of " << name_of(kind) << ": tip at " << a[0] << ' ' << a[2] << ", total Lagrangian "
             << b[0] << ' ' << b[2] << ", " << angle << " degrees: " << 100 * norm(a - b) / norm(b)
             << " %; linear " << 100 * norm(tip(linear) - b) / norm(b) << " %; " << problem.residuals().size()
             << " steps, " << problem.number_of_iterations() << " iterations\n";
-  BOOST_TEST_LT(norm(a - b), bound * norm(b));
+  BOOST_TEST_LT(norm(a - b), 0.01 * norm(b));
   BOOST_TEST_GT(norm(tip(linear) - b), 0.1 * norm(b));
   BOOST_TEST_LT(std::abs(angle - degrees), 2);
 }
@@ -370,6 +371,6 @@ int main()
   test_too_much();
   for(const auto& [force, degrees] : {std::pair(0.0051, 45.), std::pair(0.0131, 90.)})
     for(int kind : {HEXAHEDRON, PRISM, PYRAMID, TETRAHEDRON})
-      test_bar(2, kind, force, degrees, kind == HEXAHEDRON ? 0.01 : 0.02);
+      test_bar(2, kind, force, degrees);
   return boost::report_errors();
 }
