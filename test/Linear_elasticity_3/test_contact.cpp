@@ -108,8 +108,8 @@ void test_all_choices(int kind)
   BOOST_TEST_GT(mixed, 0);
 }
 
-// Walls around a body, at a distance: no penetration, no pull, forces only where it is in contact, and these are
-// what keeps the body in equilibrium.
+// Walls around a body, at a distance: no penetration, no pull, forces only where it is in contact, and these
+// are what keeps the body in equilibrium.
 void test_conditions(int kind, bool is_corotational)
 {
   constexpr double gap = 0.004;

@@ -92,8 +92,8 @@ public:
 
   const std::map<Vertex_index, Contact>& contacts() const { return m_contacts; }
 
-  /// The direction in which a wall with that normal holds a vertex: orthogonal to those of other supports; zero
-  /// if these hold it anyway.
+  /// The direction in which a wall with that normal holds a vertex: orthogonal to those of other supports;
+  /// zero if these hold it anyway.
   Vec3 direction_of_contact(Vertex_index v, const Vec3& normal) const
   {
     Support support = m_permanent[v];

@@ -266,8 +266,8 @@ private:
     return is_changed;
   }
 
-  // With the contacts as they are. What goes wrong with the factor of the body before a removal may go well with
-  // its own.
+  // With the contacts as they are. What goes wrong with the factor of the body before a removal may go well
+  // with its own.
   Result solve_held(const Eigen::VectorXd& wanted, Control_solution& solution)
   {
     if(!m_body.solve_loads())
