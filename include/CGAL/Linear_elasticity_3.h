@@ -59,8 +59,8 @@ The mesh must outlive the object and not change. Models can be moved: one that w
 or assigned to. They cannot be copied, as factorizations cannot.
 
 \tparam Mesh a `Mixed_mesh_3`
-\tparam SolverTraits a model of `SparseLinearAlgebraWithFactorTraits_d`, direct, or as exact as one. If it has a
-        member `set_near_kernel(Eigen::MatrixXd, int)`, as `Petsc_solver_traits` has, that gets before each
+\tparam SolverTraits a model of `SparseLinearAlgebraWithFactorTraits_d`, direct, or as exact as one. If it has
+        a member `set_near_kernel(Eigen::MatrixXd, int)`, as `Petsc_solver_traits` has, that gets before each
         factorization the rigid motions of the unknowns, in the directions that are free: six columns, and the
         number of unknowns of a vertex, 3
 */
@@ -122,8 +122,8 @@ public:
   }
 
   /*!
-  Lets a vertex touch a plane wall without friction: it can slide along it and leave it, but not get beyond it.
-  Which vertices do, `solve()` finds out; each change of that is a new factorization. A vertex that is
+  Lets a vertex touch a plane wall without friction: it can slide along it and leave it, but not get beyond
+  it. Which vertices do, `solve()` finds out; each change of that is a new factorization. A vertex that is
   prescribed, or cannot move in that direction, stays as it is.
 
   Other supports, or control points, should hold rigid motions while contacts are open; else `solve()` may end
@@ -270,8 +270,8 @@ public:
   far
          from each point; of the point itself if there are fewer than three. The force on a single point makes
          a dent that is the deeper, the finer the mesh
-  \param weights positive, of each point: its compliance is `compliance` divided by its weight, so that weights
-         in proportion to the inverse variances of the measurements are right. Empty: 1
+  \param weights positive, of each point: its compliance is `compliance` divided by its weight, so that
+         weights in proportion to the inverse variances of the measurements are right. Empty: 1
   \return `CONTROL_POINT_OUTSIDE` or `SOLVER_FAILED`: none of them is used; or `SUCCESS`
   \pre `factor()` was successful
   \par Complexity
@@ -289,8 +289,8 @@ public:
   /// @}
 
   /*!
-  Solves for the loads. If there are contacts, several times, until none of them pulls, and no vertex is beyond
-  its wall; from the contacts that the last solution had.
+  Solves for the loads. If there are contacts, several times, until none of them pulls, and no vertex is
+  beyond its wall; from the contacts that the last solution had.
 
   \param control_displacements in mm, of each control point
   \return `FREE_RIGID_MOTION`, `CONTRADICTORY_CONTROL_POINTS`, `SOLVER_FAILED`, `NOT_CONVERGED` (contacts), or
@@ -328,8 +328,8 @@ public:
   That is the error that is to be expected at targets nearby, without landmarks there. Infinite for a point
   without which rigid motions would be free.
 
-  Nothing is solved anew: exact for small rotations and the contacts of the solution; with finite rotations, of
-  first order, about the solution.
+  Nothing is solved anew: exact for small rotations and the contacts of the solution; with finite rotations,
+  of first order, about the solution.
 
   \pre `solve()` was successful since control points were set, and `is_iterative()` is false
   \par Complexity

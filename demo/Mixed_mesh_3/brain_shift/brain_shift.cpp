@@ -54,7 +54,8 @@ int run_command_line(int argc, char** argv)
 
 } // namespace
 
-// PETSc takes a tenth of a second to load. So it is in a program of its own, brain_shift_petsc, beside this one.
+// PETSc takes a tenth of a second to load. So it is in a program of its own, brain_shift_petsc, beside this
+// one.
 #if MIXED_MESH_3_HAS_PETSC
 
 int main(int argc, char** argv)

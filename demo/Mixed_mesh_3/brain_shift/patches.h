@@ -29,14 +29,14 @@ struct Boundary_patches
 };
 
 /// Reads the surfaces that patches are given by. Openings come before what is fixed, and that before what
-/// slides, and that before what touches a wall. A vertex is fixed if one of its faces is, else it slides if one of
-/// them does, else it touches the wall if one of them does; it is of an opening if all are.
+/// slides, and that before what touches a wall. A vertex is fixed if one of its faces is, else it slides if
+/// one of them does, else it touches the wall if one of them does; it is of an opening if all are.
 /// \throw std::runtime_error if a surface cannot be read, or if nothing of the boundary is in a patch
 Boundary_patches find_patches(const Mesh& mesh, const Options& options, std::vector<std::string>& warnings);
 
-/// The facet sets "fixed", "sliding", "touching", "opening", and "cavity" after a resection; none if no patches
-/// are asked for. A face is fixed if all its vertices are, slides if its vertices are fixed or slide, and touches
-/// the wall if its vertices are fixed, slide or touch it.
+/// The facet sets "fixed", "sliding", "touching", "opening", and "cavity" after a resection; none if no
+/// patches are asked for. A face is fixed if all its vertices are, slides if its vertices are fixed or slide,
+/// and touches the wall if its vertices are fixed, slide or touch it.
 /// \param mesh what is left
 /// \param vertices_before the numbers that its vertices have in the mesh of the patches; empty: the same
 std::vector<CGAL::Mixed_meshes_3::IO::Facet_set>

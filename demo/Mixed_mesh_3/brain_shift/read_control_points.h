@@ -39,8 +39,8 @@ std::string read_number(std::string_view text, double& x);
 } // namespace control_points
 
 /*!
-Reads control points: a header `x,y,z,dx,dy,dz`, then a point and its displacement in each line, in mm. With one
-column more, `weight`, a positive number.
+Reads control points: a header `x,y,z,dx,dy,dz`, then a point and its displacement in each line, in mm. With
+one column more, `weight`, a positive number.
 Blank lines, and those that start with #, are skipped. Columns are separated as in the header: by commas,
 semicolons, tabs or blanks.
 

@@ -361,7 +361,9 @@ public:
       PetscOptionsSetValue(nullptr, smoothing_steps, "3");
   }
 
+  /// There is one at a time.
   Petsc_session(const Petsc_session&) = delete;
+  /// There is one at a time.
   Petsc_session& operator=(const Petsc_session&) = delete;
 
   /// Ends the other processes' `serve()`, too.

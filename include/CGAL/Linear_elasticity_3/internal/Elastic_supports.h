@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What holds the vertices of an elastic body, or stops them; the connected parts of the body, and which motions
-// of these are free.
+// What holds the vertices of an elastic body, or stops them; the connected parts of the body, and which
+// motions of these are free.
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTIC_SUPPORTS_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTIC_SUPPORTS_H
