@@ -557,6 +557,8 @@ class BrainShift(unittest.TestCase):
         without, _ = self.succeeds(self.mesh, "--control-points",
                                    self.file("without.csv", WEIGHTED + "\n".join([light, *rows[1:]])), *compliant)
         self.assertAlmostEqual(without["shift"]["control points"][0]["missed by"], errors[0], 3)
+        exact, _ = self.succeeds(self.mesh, "--control-points", WORK / "weights.csv")
+        self.assertIn("weights", exact["warnings"][0])
         plain, _ = self.succeeds(self.mesh, "--control-points", self.points)
         self.assertNotIn("error if left out", plain["shift"]["control points"][0])
 
