@@ -63,8 +63,9 @@ Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
                                                   : read_fiducials(o.control_points, o.control_points_after);
   if(!o.quiet)
     tell_of_many_points(outcome.points.size());
-  if(o.compliance == 0
-     && std::any_of(outcome.points.begin(), outcome.points.end(), [](const auto& p) { return p.weight != 1; }))
+  if(o.compliance == 0 && std::any_of(outcome.points.begin(), outcome.points.end(), [](const auto& p) {
+       return p.weight != 1;
+     }))
     outcome.warnings.push_back("the weights of control points are not used: without --control-compliance, "
                                "displacements are exact");
   inputs.mesh = log("read mesh", [&] { return read_mesh(o.mesh, inputs.subdomain_names, outcome.warnings); });
