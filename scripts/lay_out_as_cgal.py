@@ -27,7 +27,7 @@ PACKAGES = {"Mixed_mesh_3": "mixed_mesh", "Linear_elasticity_3": "elasticity"}
 IMAGES = "Mixed_mesh_image_3"
 DATA = ("brain.off", "region.off", "tumour.off", "README.md")
 # Of tests, where they are not the folder of the data.
-ARGUMENTS = {"test_io": "output", "test_io_read": "data output", "test_io_surface": "output"}
+ARGUMENTS = {"test_io": "output", "test_io_read": "data output", "test_io_surface": "output", "test_petsc": ""}
 OURS = "// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org)."
 NOTICE = re.compile(
     r"\A// Copyright \(c\) \d{4} [^\n]+\n(?://\n)?// This file is part of CGAL \(www\.cgal\.org\)\.\n//\n"
@@ -63,6 +63,23 @@ if(TARGET CGAL::Eigen3_support)
 endif()
 """
 
+PROGRAM_PETSC = """\
+find_package(PkgConfig QUIET)
+if(PKG_CONFIG_FOUND)
+  pkg_check_modules(PETSC QUIET IMPORTED_TARGET PETSc)
+endif()
+set(MPI_CXX_SKIP_MPICXX ON)
+find_package(MPI QUIET COMPONENTS CXX)
+if(TARGET CGAL::Eigen3_support AND TARGET PkgConfig::PETSC AND TARGET MPI::MPI_CXX)
+  create_single_source_cgal_program("{name}.cpp")
+  target_link_libraries({name} PRIVATE CGAL::Eigen3_support PkgConfig::PETSC MPI::MPI_CXX)
+endif()
+"""
+
+
+def needs_petsc(source):
+    return "Petsc_solver_traits.h" in source.read_text()
+
 
 def needs_eigen(source):
     text = source.read_text()
@@ -74,7 +91,7 @@ def write_cmake(folder, package, kind):
     programs = ""
     for source in sorted(folder.glob("*.cpp")):
         text = PROGRAM_EIGEN if package != "Mixed_mesh_3" or needs_eigen(source) else PROGRAM
-        programs += text.format(name=source.stem)
+        programs += (PROGRAM_PETSC if needs_petsc(source) else text).format(name=source.stem)
     (folder / "CMakeLists.txt").write_text(CMAKE.format(project=f"{package}_{kind}", programs=programs))
 
 
