@@ -22,6 +22,8 @@
 
 #include <CGAL/assertions.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <utility>
@@ -123,8 +125,9 @@ public:
 
   /*!
   Lets a vertex touch a plane wall without friction: it can slide along it and leave it, but not get beyond
-  it. Which vertices do, `solve()` finds out; each change of that is a new factorization. A vertex that is
-  prescribed, or cannot move in that direction, stays as it is.
+  it. Which vertices do, `solve()` finds out; each change of that is a new factorization, and three solutions of
+  the system for each control point. A vertex that is prescribed, or cannot move in that direction, stays as it
+  is.
 
   Other supports, or control points, should hold rigid motions while contacts are open; else `solve()` may end
   with `FREE_RIGID_MOTION`.
@@ -135,7 +138,7 @@ public:
   */
   void touch(Vertex_index v, const Vector& normal, double gap = 0)
   {
-    CGAL_precondition(norm(normal) > 0);
+    CGAL_precondition(norm(normal) > 0 && std::isfinite(gap));
     m_model.body().supports().touch(v, normal, gap);
   }
 
@@ -146,6 +149,7 @@ public:
   template <class Is_touching>
   void touch_along_boundary(const Is_touching& is_touching, double gap = 0)
   {
+    CGAL_precondition(std::isfinite(gap));
     m_model.touch_along_boundary(is_touching, gap);
   }
   /// @}
@@ -283,6 +287,8 @@ public:
   {
     CGAL_precondition(is_factored() && compliance >= 0);
     CGAL_precondition(weights.empty() || weights.size() == std::size_t(std::size(points)));
+    CGAL_precondition(
+      std::all_of(weights.begin(), weights.end(), [](double w) { return w > 0 && std::isfinite(w); }));
     return m_model.set_control_points(Mixed_meshes_3::internal::vectors(points),
                                       {largest_distance, compliance, radius, std::move(weights)});
   }
@@ -324,12 +330,12 @@ public:
   std::vector<Vector> control_residuals() const { return m_model.control_residuals(); }
 
   /*!
-  How far each control point would be from what was given if it were not used, in mm: the others predict it.
+  What was given less where each control point would be if it were not used, in mm: the others predict it.
   That is the error that is to be expected at targets nearby, without landmarks there. Infinite for a point
   without which rigid motions would be free.
 
-  Nothing is solved anew: exact for small rotations and the contacts of the solution; with finite rotations,
-  of first order, about the solution.
+  Nothing is solved anew: exact for small rotations and the contacts of the solution. With finite rotations, it is
+  an estimate with the stiffness at rest, which is as far off as the body has turned.
 
   \pre `solve()` was successful since control points were set, and `is_iterative()` is false
   \par Complexity

@@ -100,6 +100,8 @@ public:
   void touch(const Marks& vertices, double gap)
   {
     require_supports_open("touch");
+    if(!std::isfinite(gap))
+      throw std::invalid_argument("touch(): the gap is not finite");
     const std::vector<bool> marks = marks_of(vertices, m_mesh->number_of_vertices(), "touch");
     m_solver->touch_along_boundary([&](mm3::Vertex_index v) { return marks[v]; }, gap);
   }
@@ -122,8 +124,8 @@ public:
       throw std::invalid_argument("weights: expected one for each of " + std::to_string(positions.size())
                                   + " control points");
     for(double w : weights)
-      if(!(w > 0 && std::isfinite(w)))
-        throw std::invalid_argument("weights: expected positive numbers");
+      if(!(w >= 1e-6 && w <= 1e6))
+        throw std::invalid_argument("weights: expected numbers from 1e-6 to 1e6");
     const py::gil_scoped_release release;
     const std::lock_guard<std::mutex> lock(m_mutex);
     factor();
@@ -180,7 +182,7 @@ public:
     {
       const py::gil_scoped_release release;
       const std::lock_guard<std::mutex> lock(m_mutex);
-      if(m_solver->is_iterative()
+      if(m_solver->is_iterative() || m_solver->number_of_control_points() == 0
          || m_solver->control_forces().size() != m_solver->number_of_control_points())
         throw Elasticity_error("leave_one_out_errors(): solve() comes first, and no removal in between");
       errors = m_solver->leave_one_out_errors();

@@ -114,7 +114,6 @@ void test_conditions(int kind, bool is_corotational)
 {
   constexpr double gap = 0.004;
   const Mesh mesh = any_grid(4, kind, 0.1, Moved::INNER);
-  Noise random;
   Energy energy(mesh);
   Elasticity problem(mesh);
   const std::vector<bool> is_boundary = is_on_boundary(mesh);
@@ -131,7 +130,6 @@ void test_conditions(int kind, bool is_corotational)
   prescribe(problem, is_fixed, [](const Vec3&) { return Vec3{}; });
   BOOST_TEST(is_success(problem.factor()));
   problem.set_corotational(is_corotational);
-  problem.set_iteration_tolerance(1e-9);
   const std::vector<Vec3> points{{0.5, 0.5, 0.6}};
   BOOST_TEST(is_success(problem.set_control_points(points)));
   Field first;
@@ -155,7 +153,7 @@ void test_conditions(int kind, bool is_corotational)
           normal[k] = 2 * p[k] - 1;
         }
       const double way = dot(u[v], normal);
-      BOOST_TEST_LT(way, gap + 1e-8);
+      BOOST_TEST_LT(way, gap + (is_corotational ? 1e-6 : 1e-8));
       if(forces[v] > 0) {
         BOOST_TEST_LT(std::abs(way - gap), 1e-9);
         ++closed;
@@ -180,6 +178,10 @@ void test_conditions(int kind, bool is_corotational)
     else if(wanted == Vec3{0.02, 0.01, 0.03}) // whatever was in between
       BOOST_TEST_LT(difference(u, first), is_corotational ? 1e-6 : 1e-12);
   }
+  // What is tolerated elsewhere does not keep a wall from letting go.
+  problem.set_iteration_tolerance(1e-10);
+  BOOST_TEST(is_success(problem.solve(Field{{0.02, 0.01, 0.03}})));
+  BOOST_TEST_LT(difference(problem.displacements(), first), 1e-6);
 }
 
 void test_limits()
@@ -250,11 +252,19 @@ void test_limits()
   BOOST_TEST_LT(std::abs(table + corner - weight), 1e-9 * weight);
   BOOST_TEST_GT(table, 0.3 * weight);
 
+  // Drawn up, it turns about the points. Let go, it rests again, whatever the contacts were.
+  problem.set_gravity({0, 0, 9810});
+  BOOST_TEST(problem.solve(Field(2, Vec3{})).status == Status::FREE_RIGID_MOTION);
+  problem.set_gravity({0, 0, -9810});
+  const Field rest = problem.displacements();
+  BOOST_TEST(is_success(problem.solve(Field(2, Vec3{}))));
+  BOOST_TEST_LT(difference(rest, problem.displacements()), 1e-12);
+
   // After a removal, contacts change as before.
   std::vector<bool> is_removed(mesh.number_of_elements(), false);
   is_removed.back() = true;
   BOOST_TEST(is_success(problem.remove_elements(is_removed)));
-  BOOST_TEST(is_success(problem.set_control_points(std::vector<Vec3>{{0, 0, 1}, {0, 1, 1}})));
+  BOOST_TEST(problem.is_iterative());
   BOOST_TEST(is_success(problem.solve(Field(2, Vec3{0, 0, 0.1}))));
   for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
     if(is_at_bottom(position(mesh, v)))

@@ -114,7 +114,7 @@ void test_concept()
   }
 }
 
-// A hinge, and no convergence.
+// Two halves that hang together by an edge only; no convergence.
 void test_failures()
 {
   Mesh hinge = any_grid(2, HEXAHEDRON);
@@ -126,11 +126,19 @@ void test_failures()
     if(position(hinge, v)[0] == 0)
       problem.prescribe(v);
   BOOST_TEST(is_success(problem.factor()));
-  const Linear_elasticity_result_3 removed = problem.remove_elements(is_removed);
-  if(removed.is_success()) {
-    problem.set_gravity({0, 0, -9810});
-    BOOST_TEST(!problem.factor().is_success());
-  }
+  BOOST_TEST(!problem.remove_elements(is_removed).is_success() || !problem.factor().is_success());
+
+  const Mesh mesh = any_grid(3, HEXAHEDRON);
+  Iterative impossible(mesh);
+  for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
+    if(position(mesh, v)[2] == 0)
+      impossible.prescribe(v);
+  BOOST_TEST(is_success(impossible.factor()));
+  impossible.solver().set_tolerance(1e-40);
+  impossible.set_gravity({0, 0, -9810});
+  BOOST_TEST(impossible.solve().status == Status::SOLVER_FAILED);
+  impossible.solver().set_tolerance(1e-8);
+  BOOST_TEST(is_success(impossible.solve()));
 }
 
 } // namespace

@@ -553,8 +553,8 @@ private:
     {
       CGAL_precondition(system != nullptr);
       internal::Petsc_message message{internal::Petsc_command::SOLVE, number, 0, 0, 0, tolerance};
+      x.eigen_object().resize(b.size()); // what fails now keeps nobody waiting
       internal::share(message);
-      x.eigen_object().resize(b.size());
       try {
         const bool is_solved = internal::together(
           [&] { return system->solve(tolerance, b.data(), x.eigen_object().data(), iterations); });

@@ -22,6 +22,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <utility>
@@ -100,6 +101,19 @@ public:
     const int size = support.size;
     support.add(normal);
     return support.size > size ? support.directions[std::size_t(size)] : Vec3{};
+  }
+
+  /// Whether other contacts are closed than at first.
+  bool are_contacts_changed() const
+  {
+    return std::any_of(m_contacts.begin(), m_contacts.end(),
+                       [](const auto& c) { return c.second.is_closed != (c.second.gap <= 0); });
+  }
+  /// `find_parts()` is to be called afterwards.
+  void reset_contacts()
+  {
+    for(auto& [v, contact] : m_contacts)
+      contact.is_closed = contact.gap <= 0;
   }
 
   /// `find_parts()` is to be called afterwards.

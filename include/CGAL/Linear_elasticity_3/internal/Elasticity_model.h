@@ -58,6 +58,8 @@ class Elasticity_model
   using Status = Linear_elasticity_status;
 
   static constexpr int largest_number_of_rounds = 60; // of contacts; five to ten are usual
+  // Relative to the largest force; that of a contact may be far smaller.
+  static constexpr double contact_tolerance = 1e-9, corotational_contact_tolerance = 1e-6;
 
   const Mesh* m_mesh;
   Elastic_body<SolverTraits> m_body;
@@ -167,34 +169,26 @@ public:
     for(std::size_t i = 0; i < displacements.size(); ++i)
       for(int k = 0; k < 3; ++k)
         wanted[Eigen::Index(3 * i) + k] = displacements[i][k];
-    bool may_open = true;
-    for(int round = 0; round < largest_number_of_rounds; ++round) {
-      Control_solution solution;
-      Result result = solve_held(wanted, solution);
-      if(result.status == Status::CONTRADICTORY_CONTROL_POINTS && may_open && open_contacts_of_controls()) {
-        may_open = false;
-        m_body.find_parts();
-        if(result = factor_system(); !result.is_success())
-          return result;
-        continue;
-      }
-      if(!result.is_success())
-        return result;
-      const Eigen::VectorXd internal = internal_forces(solution.displacements),
-                            reaction = reaction_of(internal, solution);
-      const bool is_exact = !m_is_corotational && !m_is_iterative;
-      if(!update_contacts(m_body.supports(), solution.displacements, reaction,
-                          internal.lpNorm<Eigen::Infinity>(), is_exact ? 1e-9 : m_iteration_tolerance,
-                          round < largest_number_of_rounds / 2)) {
-        keep(solution, wanted, reaction);
-        m_energy = m_is_corotational ? m_corotational->energy() : solution.displacements.dot(internal) / 2;
-        return m_is_corotational ? inverted_element() : result;
-      }
+    const auto factor_again = [this] {
       m_body.find_parts();
-      if(result = factor_system(); !result.is_success())
+      return factor_system();
+    };
+    // What is too inexact to tell which contacts pull.
+    if(m_is_iterative && has_contacts())
+      if(const Result result = factor_again(); !result.is_success())
         return result;
+    const bool is_at_start = !m_body.supports().are_contacts_changed();
+    Result result = solve_contacts(wanted);
+    if(!is_at_start && may_start_anew(result)) {
+      m_body.supports().reset_contacts();
+      if(result = factor_again(); result.is_success())
+        result = solve_contacts(wanted);
     }
-    return failed(Status::NOT_CONVERGED);
+    if(may_start_anew(result)) { // the next loads should not
+      m_body.supports().reset_contacts();
+      factor_again();
+    }
+    return result;
   }
 
   const std::vector<Vec3>& displacements() const { return m_displacements; }
@@ -212,6 +206,48 @@ public:
   }
 
 private:
+  bool has_contacts() const { return !m_body.supports().contacts().empty(); }
+
+  // Whether it failed with other contacts than at first.
+  bool may_start_anew(const Result& result) const
+  {
+    return !result.is_success() && result.status != Status::INVERTED_ELEMENT
+           && m_body.supports().are_contacts_changed();
+  }
+
+  // From the contacts as they are.
+  Result solve_contacts(const Eigen::VectorXd& wanted)
+  {
+    bool may_open = true;
+    for(int round = 0; round < largest_number_of_rounds; ++round) {
+      Control_solution solution;
+      Result result = solve_held(wanted, solution);
+      if(result.status == Status::CONTRADICTORY_CONTROL_POINTS && may_open && open_contacts_of_controls()) {
+        may_open = false;
+        m_body.find_parts();
+        if(result = factor_system(); !result.is_success())
+          return result;
+        continue;
+      }
+      if(!result.is_success())
+        return result;
+      const Eigen::VectorXd internal = internal_forces(solution.displacements),
+                            reaction = reaction_of(internal, solution);
+      if(!update_contacts(m_body.supports(), solution.displacements, reaction,
+                          internal.lpNorm<Eigen::Infinity>(),
+                          m_is_corotational ? corotational_contact_tolerance : contact_tolerance,
+                          round < largest_number_of_rounds / 2)) {
+        keep(solution, wanted, reaction);
+        m_energy = m_is_corotational ? m_corotational->energy() : solution.displacements.dot(internal) / 2;
+        return m_is_corotational ? inverted_element() : result;
+      }
+      m_body.find_parts();
+      if(result = factor_system(); !result.is_success())
+        return result;
+    }
+    return failed(Status::NOT_CONVERGED);
+  }
+
   static std::vector<Vec3> points_of(const Mesh& mesh)
   {
     std::vector<Vec3> points;
@@ -312,7 +348,10 @@ private:
       m_state.displacements = m_state.force = Eigen::VectorXd::Zero(n);
     Corotational_solution<SolverTraits> corotational(m_body, m_controls.constraints(), *m_corotational,
                                                      m_state);
-    const Result result = corotational.solve(wanted, m_iteration_tolerance, solution);
+    const double tolerance = has_contacts()
+                               ? (std::min)(m_iteration_tolerance, 0.1 * corotational_contact_tolerance)
+                               : m_iteration_tolerance;
+    const Result result = corotational.solve(wanted, tolerance, solution);
     m_number_of_iterations = m_state.number_of_iterations;
     if(!result.is_success())
       m_state.displacements.resize(0); // the next one starts at rest
