@@ -126,8 +126,8 @@ public:
   /*!
   Lets a vertex touch a plane wall without friction: it can slide along it and leave it, but not get beyond
   it. Which vertices do, `solve()` finds out; each change of that is a new factorization, and three solutions of
-  the system for each control point. A vertex that is prescribed, or cannot move in that direction, stays as it
-  is.
+  the system for each control point. A vertex that is prescribed, or cannot move in that direction, stays
+  as it is.
 
   Other supports, or control points, should hold rigid motions while contacts are open; else `solve()` may end
   with `FREE_RIGID_MOTION`.
@@ -334,8 +334,8 @@ public:
   That is the error that is to be expected at targets nearby, without landmarks there. Infinite for a point
   without which rigid motions would be free.
 
-  Nothing is solved anew: exact for small rotations and the contacts of the solution. With finite rotations, it is
-  an estimate with the stiffness at rest, which is as far off as the body has turned.
+  Nothing is solved anew: exact for small rotations and the contacts of the solution. With finite rotations,
+  it is an estimate with the stiffness at rest, which is as far off as the body has turned.
 
   \pre `solve()` was successful since control points were set, and `is_iterative()` is false
   \par Complexity

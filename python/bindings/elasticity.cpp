@@ -125,7 +125,7 @@ public:
                                   + " control points");
     for(double w : weights)
       if(!(w >= 1e-6 && w <= 1e6))
-        throw std::invalid_argument("weights: expected numbers from 1e-6 to 1e6");
+        throw std::invalid_argument("weights: expected positive numbers, from 1e-6 to 1e6");
     const py::gil_scoped_release release;
     const std::lock_guard<std::mutex> lock(m_mutex);
     factor();
