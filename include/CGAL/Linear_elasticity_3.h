@@ -125,8 +125,8 @@ public:
 
   /*!
   Lets a vertex touch a plane wall without friction: it can slide along it and leave it, but not get beyond
-  it. Which vertices do, `solve()` finds out; each change of that is a new factorization, and three solutions of
-  the system for each control point. A vertex that is prescribed, or cannot move in that direction, stays
+  it. Which vertices do, `solve()` finds out; each change of that is a new factorization, and three solutions
+  of the system for each control point. A vertex that is prescribed, or cannot move in that direction, stays
   as it is.
 
   Other supports, or control points, should hold rigid motions while contacts are open; else `solve()` may end
