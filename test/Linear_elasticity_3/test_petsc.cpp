@@ -128,17 +128,17 @@ void test_failures()
   BOOST_TEST(is_success(problem.factor()));
   BOOST_TEST(!problem.remove_elements(is_removed).is_success() || !problem.factor().is_success());
 
+  if(internal::petsc_size() > 1) // which would take the option of this one only
+    return;
   const Mesh mesh = any_grid(3, HEXAHEDRON);
-  Iterative impossible(mesh);
+  Iterative hasty(mesh);
   for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
     if(position(mesh, v)[2] == 0)
-      impossible.prescribe(v);
-  BOOST_TEST(is_success(impossible.factor()));
-  impossible.solver().set_tolerance(1e-40);
-  impossible.set_gravity({0, 0, -9810});
-  BOOST_TEST(impossible.solve().status == Status::SOLVER_FAILED);
-  impossible.solver().set_tolerance(1e-8);
-  BOOST_TEST(is_success(impossible.solve()));
+      hasty.prescribe(v);
+  PetscOptionsSetValue(nullptr, "-ksp_max_it", "2");
+  BOOST_TEST(hasty.factor().status == Status::SOLVER_FAILED);
+  PetscOptionsClearValue(nullptr, "-ksp_max_it");
+  BOOST_TEST(is_success(hasty.factor()));
 }
 
 } // namespace
