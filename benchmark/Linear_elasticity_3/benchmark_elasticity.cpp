@@ -7,6 +7,8 @@
 // work with a new factorization by Eigen's LDLT. Medians, minima and maxima, in milliseconds. One thread, if
 // OMP_NUM_THREADS=1 keeps CHOLMOD to it.
 
+#include "fix_lower_part.h"
+
 #include "common/resources.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -54,25 +56,6 @@ void measure(const std::string& name, const F& f, int repetitions = 1)
   report[name] = {{"median", times[times.size() / 2]}, {"min", times.front()}, {"max", times.back()}};
 }
 
-void check(const CGAL::Linear_elasticity_result_3& result)
-{
-  if(!result.is_success())
-    throw std::runtime_error(result.description());
-}
-
-template <class Elasticity>
-void fix_lower_part(Elasticity& elasticity, const Mesh& mesh)
-{
-  double lowest = mesh.point(0).z(), highest = lowest;
-  for(const auto& p : mesh.points()) {
-    lowest = (std::min)(lowest, p.z());
-    highest = (std::max)(highest, p.z());
-  }
-  for(mm3::Vertex_index v : mm3::boundary_vertices(mesh))
-    if(mesh.point(v).z() < lowest + 0.3 * (highest - lowest))
-      elasticity.prescribe(v);
-}
-
 } // namespace
 
 int main(int argc, char* argv[])
@@ -100,7 +83,7 @@ int main(int argc, char* argv[])
 
     using Elasticity = CGAL::Linear_elasticity_3<Mesh>;
     Elasticity elasticity(mesh);
-    fix_lower_part(elasticity, mesh);
+    fix_lower_part(elasticity);
     measure("factor", [&] { check(elasticity.factor()); });
     measure("control points at new places", [&] {
       check(elasticity.set_control_points(points, largest_distance));
@@ -121,7 +104,7 @@ int main(int argc, char* argv[])
     std::vector<double> times;
     for(int run = 0; run < runs; ++run) {
       Elasticity whole(mesh);
-      fix_lower_part(whole, mesh);
+      fix_lower_part(whole);
       check(whole.factor());
       check(whole.set_control_points(points, largest_distance));
       const std::clock_t start = std::clock();
@@ -142,7 +125,7 @@ int main(int argc, char* argv[])
 
     if(with_ldlt) {
       CGAL::Linear_elasticity_3<Mesh, mm3::Simplicial_solver_traits> simplicial(mesh);
-      fix_lower_part(simplicial, mesh);
+      fix_lower_part(simplicial);
       measure("LDLT: factor, control points, solve", [&] {
         check(simplicial.factor());
         check(simplicial.set_control_points(points, largest_distance));

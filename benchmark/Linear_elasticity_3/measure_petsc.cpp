@@ -7,6 +7,8 @@
 // iterations, the memory of the first process and the difference of the displacements, as a JSON object. Run
 // it by mpirun for several processes.
 
+#include "fix_lower_part.h"
+
 #include "common/Stage_log.h"
 #include "common/resources.h"
 
@@ -23,7 +25,6 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -34,29 +35,11 @@ using Vector = mm3::Vec3;
 
 namespace {
 
-void check(const CGAL::Linear_elasticity_result_3& result)
-{
-  if(!result.is_success())
-    throw std::runtime_error(result.description());
-}
-
 template <class Elasticity>
 std::vector<Vector> displacements(Elasticity& elasticity, const std::string& name, Stage_log& log,
                                   nlohmann::json& report)
 {
-  const Mesh& mesh = elasticity.mesh();
-  double lowest = mesh.point(0).z(), highest = lowest;
-  for(const auto& p : mesh.points()) {
-    lowest = (std::min)(lowest, p.z());
-    highest = (std::max)(highest, p.z());
-  }
-  std::size_t free = mesh.number_of_vertices();
-  for(mm3::Vertex_index v : mm3::boundary_vertices(mesh))
-    if(mesh.point(v).z() < lowest + 0.3 * (highest - lowest)) {
-      elasticity.prescribe(v);
-      --free;
-    }
-  report["unknowns"] = 3 * free;
+  report["unknowns"] = 3 * fix_lower_part(elasticity);
   log(name + ": factor", [&] { check(elasticity.factor()); });
   elasticity.set_gravity({0, 0, -9810});
   log(name + ": solve", [&] { check(elasticity.solve()); });

@@ -169,10 +169,6 @@ public:
     for(std::size_t i = 0; i < displacements.size(); ++i)
       for(int k = 0; k < 3; ++k)
         wanted[Eigen::Index(3 * i) + k] = displacements[i][k];
-    const auto factor_again = [this] {
-      m_body.find_parts();
-      return factor_system();
-    };
     // What is too inexact to tell which contacts pull.
     if(m_is_iterative && has_contacts())
       if(const Result result = factor_again(); !result.is_success())
@@ -206,6 +202,13 @@ public:
   }
 
 private:
+  // For contacts that have changed.
+  Result factor_again()
+  {
+    m_body.find_parts();
+    return factor_system();
+  }
+
   bool has_contacts() const { return !m_body.supports().contacts().empty(); }
 
   // Whether it failed with other contacts than at first.
@@ -224,8 +227,7 @@ private:
       Result result = solve_held(wanted, solution);
       if(result.status == Status::CONTRADICTORY_CONTROL_POINTS && may_open && open_contacts_of_controls()) {
         may_open = false;
-        m_body.find_parts();
-        if(result = factor_system(); !result.is_success())
+        if(result = factor_again(); !result.is_success())
           return result;
         continue;
       }
@@ -241,8 +243,7 @@ private:
         m_energy = m_is_corotational ? m_corotational->energy() : solution.displacements.dot(internal) / 2;
         return m_is_corotational ? inverted_element() : result;
       }
-      m_body.find_parts();
-      if(result = factor_system(); !result.is_success())
+      if(result = factor_again(); !result.is_success())
         return result;
     }
     return failed(Status::NOT_CONVERGED);
