@@ -49,7 +49,8 @@ public:
   /// The value set, or the default.
   double tolerance() const { return m_tolerance; }
 
-  /// How often moves and flips alternate. Default: 4; 12 with a tolerance and at most 20,000 vertices.
+  /// How often moves and flips alternate. Default: 4; 12 with a tolerance and at most 20,000 vertices; 2 with
+  /// more than 100,000.
   /// \pre at least 1
   Mixed_mesh_optimization_criteria_3& number_of_rounds(int rounds)
   {
@@ -61,7 +62,10 @@ public:
   int number_of_rounds_for(std::size_t number_of_vertices) const
   {
     const bool is_patient = m_tolerance > 0 && number_of_vertices <= 20000;
-    return m_number_of_rounds > 0 ? m_number_of_rounds : is_patient ? 12 : 4;
+    return m_number_of_rounds > 0        ? m_number_of_rounds
+           : is_patient                  ? 12
+           : number_of_vertices > 100000 ? 2
+                                         : 4;
   }
 
   /// Boundary vertices slide on the surface only where an element has a larger cost: free sliding would lose

@@ -12,9 +12,13 @@
 
 #include <Eigen/SparseCholesky>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <new>
+#include <random>
+#include <set>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -187,6 +191,38 @@ void test_copied_solver()
   BOOST_TEST(is_solved(moved, arrow, 4));
 }
 
+// Of a graph without small separators the factor is dense, nearly: here it has more entries than an `int`
+// counts.
+#ifdef CGAL_MIXED_MESH_3_USE_CHOLMOD
+void test_large_factor()
+{
+  const int n = 90000;
+  std::mt19937 random(1);
+  std::uniform_int_distribution<int> any(0, n - 1);
+  std::vector<std::set<int>> columns(n);
+  for(int i = 0; i < n; ++i) {
+    columns[std::size_t(i)].insert(i);
+    for(int k = 0; k < 6; ++k) {
+      const int j = any(random);
+      columns[std::size_t((std::min)(i, j))].insert((std::max)(i, j));
+    }
+  }
+  std::vector<int> starts{0}, rows;
+  for(const std::set<int>& column : columns) {
+    rows.insert(rows.end(), column.begin(), column.end());
+    starts.push_back(int(rows.size()));
+  }
+  const Cholmod_solver_traits::Matrix large(starts, rows, std::vector<double>(rows.size(), 1)),
+    small({0, 2, 3}, {0, 1, 1}, {2, 1, 2});
+  Cholmod_solver_traits solver;
+  double denominator = 0;
+  BOOST_TEST(solver.factor(small, denominator));
+  for(int i = 0; i < 2; ++i)
+    BOOST_TEST_THROWS(solver.factor(large, denominator), std::bad_alloc);
+  BOOST_TEST(solver.factor(small, denominator));
+}
+#endif
+
 } // namespace
 
 int main()
@@ -198,6 +234,7 @@ int main()
 #ifdef CGAL_MIXED_MESH_3_USE_CHOLMOD
   test_moved<Cholmod_solver_traits>(mesh);
   test_copied_solver<Cholmod_solver_traits>();
+  test_large_factor();
 #endif
   test_vector(mesh);
   test_copied_solver<Simplicial_solver_traits>();

@@ -14,11 +14,13 @@
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_coloring.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_optimizer.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
 
 #include <boost/core/lightweight_test.hpp>
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -29,7 +31,7 @@ using internal::Vertex_coloring;
 using internal::Working_mesh;
 
 // Cubes whose vertices were moved a little, those of the boundary as well.
-Working_mesh shaken_cubes(int n)
+Mesh shaken_grid(int n)
 {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-0.2, 0.2);
@@ -49,6 +51,12 @@ Working_mesh shaken_cubes(int n)
         mesh.add_element(HEXAHEDRON, {vertex(i, j, k), vertex(i + 1, j, k), vertex(i + 1, j + 1, k),
                                       vertex(i, j + 1, k), vertex(i, j, k + 1), vertex(i + 1, j, k + 1),
                                       vertex(i + 1, j + 1, k + 1), vertex(i, j + 1, k + 1)});
+  return mesh;
+}
+
+Working_mesh shaken_cubes(int n)
+{
+  const Mesh mesh = shaken_grid(n);
   return working_mesh(mesh, boundary_faces(mesh));
 }
 
@@ -123,11 +131,52 @@ void test_threads()
   BOOST_TEST(first != start.points);
 }
 
+// In each direction, the vertices of the layers at the sides of a grid.
+bool is_in_layers(Vertex_index v, int n, int layers)
+{
+  int i = int(v);
+  for(int k = 0; k < 3; ++k, i /= n + 1)
+    if((std::min)(i % (n + 1), n - i % (n + 1)) <= layers)
+      return true;
+  return false;
+}
+
+// Far from the boundary only what is bad moves, or has tetrahedra only.
+void test_inside()
+{
+  constexpr int n = 9, layers = 2;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Aspect_ratio_quality_3 quality;
+  const Test_projection project{[](const Vec3& p, const Vec3&) { return p; }};
+  const auto moved = [&](const Working_mesh& start, double good_enough_inside) {
+    Working_mesh mesh = start;
+    internal::Vertex_optimizer optimizer(mesh, quality, project, 1., 1000.);
+    optimizer.set_good_enough_inside(good_enough_inside, layers);
+    optimizer.activate_all();
+    optimizer.run(4, 1, 3);
+    return mesh.points;
+  };
+  for(const bool is_of_tetrahedra : {false, true}) {
+    const Mesh grid = is_of_tetrahedra ? split_to_tetrahedra(shaken_grid(n)) : shaken_grid(n);
+    const Working_mesh start = working_mesh(grid, boundary_faces(grid));
+    const std::vector<Vec3> all = moved(start, 1), near = moved(start, infinity), bad = moved(start, 2);
+    std::size_t number[2] = {0, 0}; // of vertices that moved: at the boundary, inside
+    for(Vertex_index v = 0; v < start.points.size(); ++v)
+      number[!is_in_layers(v, n, layers)] += near[v] != start.points[v];
+    BOOST_TEST_GT(number[0], 100u);
+    BOOST_TEST_EQ(number[1] > 0, is_of_tetrahedra);
+    BOOST_TEST_EQ(all == near, is_of_tetrahedra);
+    BOOST_TEST_EQ(bad == near, is_of_tetrahedra);
+    BOOST_TEST_EQ(all == bad, is_of_tetrahedra);
+  }
+}
+
 } // namespace
 
 int main()
 {
   test_coloring();
+  test_inside();
   test_threads();
   return boost::report_errors();
 }

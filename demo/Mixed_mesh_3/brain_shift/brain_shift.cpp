@@ -46,7 +46,7 @@ int run_command_line(int argc, char** argv)
     run(options);
     return 0;
   } catch(const std::bad_alloc&) {
-    return fail("out of memory");
+    return fail("out of memory: with fewer vertices, or with --solver petsc, it takes less");
   } catch(const std::exception& e) {
     return fail(e.what());
   }

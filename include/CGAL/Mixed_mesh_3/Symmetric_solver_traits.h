@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -82,6 +83,8 @@ public:
   /// \param matrix must live as long as systems are solved with it
   /// \param denominator set to 1
   /// \return whether the matrix is positive definite
+  /// \throw std::bad_alloc if there is no memory for the factor, or if it has more entries than the solver's
+  /// indices can count
   bool factor(const Matrix& matrix, NT& denominator)
   {
     denominator = 1;
@@ -92,9 +95,10 @@ public:
                                   && std::equal(rows, rows + a.nonZeros(), m_state->rows.begin(),
                                                 m_state->rows.end());
     if(!has_same_pattern) {
+      m_state->starts.clear();
+      solver().analyzePattern(a);
       m_state->starts.assign(starts, starts + a.cols() + 1);
       m_state->rows.assign(rows, rows + a.nonZeros());
-      solver().analyzePattern(a);
     }
     solver().factorize(a);
     return solver().info() == Eigen::Success;
@@ -154,9 +158,32 @@ using Simplicial_solver_traits = Symmetric_solver_traits<Eigen::SimplicialLDLT<E
 namespace internal {
 
 // Says nothing: a matrix that is not positive definite is told by the status.
-struct Quiet_cholmod : Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>
+class Quiet_cholmod : public Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>
 {
+  using Base = Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>;
+
+public:
   Quiet_cholmod() { this->cholmod().print = 0; }
+
+  void analyzePattern(const Eigen::SparseMatrix<double>& a)
+  {
+    Base::analyzePattern(a);
+    check_memory();
+  }
+
+  void factorize(const Eigen::SparseMatrix<double>& a)
+  {
+    Base::factorize(a);
+    check_memory();
+  }
+
+private:
+  // Eigen would go on with a factor that is not there, or has more entries than its indices can count.
+  void check_memory()
+  {
+    if(this->cholmod().status == CHOLMOD_OUT_OF_MEMORY || this->cholmod().status == CHOLMOD_TOO_LARGE)
+      throw std::bad_alloc();
+  }
 };
 
 } // namespace internal

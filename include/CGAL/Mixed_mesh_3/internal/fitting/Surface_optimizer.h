@@ -13,6 +13,7 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Optimization_effort.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/bisect_boundary_edges.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/feature_paths.h>
@@ -69,6 +70,7 @@ class Surface_optimizer
   Project m_project;
   Interface_faces m_boundary; // interfaces, too
   Working_mesh m_working;
+  const Optimization_effort m_effort;
   Moves m_moves;
   const std::map<Subdomain_index, double> m_mean_edge_lengths;
   const Surface_tolerances m_tolerances;
@@ -118,24 +120,13 @@ class Surface_optimizer
   static constexpr int merging_rounds = 24;
   static constexpr double worth_merging = 100;
 
-  // The fourth power serves all elements, the eighth the worst ones: vertices whose elements are all
-  // better than that stay then, and tetrahedra are not flipped.
-  static constexpr double good_enough[2] = {1.02, 1.4}, worth_flipping[2] = {1.2, 1.4};
+  // Of flips, at the fourth power and at the eighth.
+  static constexpr double worth_flipping[2] = {1.2, 1.4};
   static constexpr double share_of_first_power = 0.6;
-  // Of that many vertices most are inside, where much time gains little: with 50,000, the thresholds of
-  // smaller meshes would take a third more, for a mean aspect-ratio coefficient of 1.378 instead of 1.381.
-  // With 100,000, good enough from 1.15 on instead of 1.3 takes 5 % more moves, for a mean of 1.341 instead
-  // of 1.340; a notable gain of 0.02 a fifth fewer, for 1.343. With 200,000: 1.3430 instead of 1.3432.
-  static constexpr std::size_t many_vertices = 20000;
-  static constexpr double good_enough_of_many = 1.3, notable_gain_of_many = 0.01;
-  // Longer steps, and fewer sweeps of each power, make a fifth fewer moves: with 50,000 vertices the mean is
-  // 1.389 instead of 1.390.
-  static constexpr double first_step_of_many = 0.3, growth_of_many = 2;
-  static constexpr int sweeps_of_many[2] = {3, 5};
   // No half of a bisected tetrahedron may cost more. And how many edges are bisected in the region, times the
   // number of vertices to the power of 2/3, like that of all vertices on the surface: 110 of 2,000, 320 of
   // 10,000.
-  static constexpr double worst_half = 3.2, bisections_in_region = 0.7, share_of_late_bisections = 0.3;
+  static constexpr double worst_half = 3.2, bisections_in_region = 0.7;
   // Of the volume of a subdomain within, times the number of vertices to the power of 2/3: 3.5 % with 2,000
   // vertices, 1.2 % with 10,000.
   static constexpr double tolerated_loss = 5.5;
@@ -146,6 +137,7 @@ public:
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality), m_strata(domain),
       m_project(domain, m_strata), m_boundary(m_strata.sorted_faces(mesh)),
       m_working(mesh, m_strata.of_vertices(mesh.number_of_vertices(), m_boundary)),
+      m_effort(m_working.points.size()),
       m_moves(m_working, m_quality, m_project, criteria.sliding_threshold(), bound_for_doubles(criteria)),
       m_mean_edge_lengths(mean_edge_lengths()), m_tolerances(tolerances()), m_samples(surface_samples()),
       m_attraction(m_working, m_project, m_samples, Concurrency::number_of_threads(criteria)),
@@ -153,11 +145,14 @@ public:
       m_simple_is_arrived(m_working.points.size(), 0), m_is_held(m_working.points.size(), 0)
   {
     attract_boundary();
-    if(has_many_vertices()) {
-      m_moves.set_notable_gain(notable_gain_of_many);
-      m_moves.set_steps(first_step_of_many, growth_of_many);
+    m_moves.set_notable_gain(m_effort.notable_gain);
+    m_moves.set_steps(m_effort.first_step, m_effort.step_growth);
+    if(m_effort.samples_coarsely)
+      m_attraction.sample_coarsely();
+    if(m_effort.moves_by_colors)
       m_moves.use_colors(Concurrency::number_of_threads(criteria));
-    }
+    if(m_effort.layers > 0)
+      m_moves.set_good_enough_inside(acceptable_in_the_end, m_effort.layers);
   }
 
   Surface_optimizer(const Surface_optimizer&) = delete; // members refer to each other
@@ -230,13 +225,6 @@ public:
   const std::vector<Vertex_index>& crossing_vertices() const { return m_crossing; }
 
 private:
-  bool has_many_vertices() const { return m_working.points.size() > many_vertices; }
-
-  double good_enough_in(int phase) const
-  {
-    return (std::max)(good_enough[phase], has_many_vertices() ? good_enough_of_many : 1);
-  }
-
   Subdomain_index first_subdomain(Stratum of_face) const { return m_strata.interfaces(of_face)[0].first; }
 
   void attract_boundary()
@@ -417,7 +405,7 @@ private:
       if(!go_on())
         return false;
       advance(acceptable);
-      m_moves.run(4, good_enough_in(0), arrival_sweeps);
+      m_moves.run(4, m_effort.good_enough_to_arrive, arrival_sweeps);
       if(is_careful && (round % rounds_until_check == rounds_until_check - 1 || m_travelers.empty())) {
         const std::vector<Vertex_index> crossing = find_crossing();
         if(!crossing.empty()) {
@@ -645,7 +633,7 @@ private:
           }
         }
       }
-      m_moves.run(8, good_enough_in(1), arrival_sweeps);
+      m_moves.run(8, m_effort.good_enough[1], arrival_sweeps);
       m_crossing = find_crossing();
     }
     m_result.is_boundary_simple = m_crossing.empty();
@@ -834,7 +822,7 @@ private:
   void bisect()
   {
     const std::size_t all = m_criteria.number_of_bisections(),
-                      early = all - std::size_t(share_of_late_bisections * double(all)),
+                      early = all - std::size_t(m_effort.share_of_late_bisections * double(all)),
                       in_region = std::size_t(bisections_in_region
                                               * std::pow(double(m_working.points.size()), 2. / 3));
     bisect_parts(all);
@@ -884,9 +872,8 @@ private:
   bool alternate(const Go_on& go_on)
   {
     const bool has_tolerance = m_criteria.tolerance() > 0 && !m_only_arrives;
-    const int rounds = has_tolerance || m_features
-                         ? m_criteria.number_of_rounds_for(m_working.points.size())
-                         : Criteria(m_criteria).tolerance(0).number_of_rounds_for(0);
+    const int rounds = (has_tolerance || m_features ? m_criteria : Criteria(m_criteria).tolerance(0))
+                         .number_of_rounds_for(m_working.points.size());
     const int first = int(share_of_first_power * rounds + 0.5);
     const int late = rounds / 4;
     // many short rounds, so that boundary vertices can follow what draws them
@@ -901,7 +888,7 @@ private:
         remember_if_simple();
       const int phase = round < first ? 0 : 1;
       const double power = phase == 0 ? 4 : 8;
-      const int sweeps = is_patient ? 3 : has_many_vertices() ? sweeps_of_many[phase] : 8;
+      const int sweeps = is_patient ? 3 : m_effort.sweeps[phase];
       if(m_criteria.flips() && round % rounds_to_flip == 0)
         m_result.number_of_flips += flip(flipper, power, worth_flipping[phase]);
       choose_new_targets();
@@ -912,7 +899,7 @@ private:
         m_attraction.measure();
         m_moves.attract(m_attraction.attractions(phase == 0 ? 1 : 16));
       }
-      m_moves.run(power, good_enough_in(phase), sweeps);
+      m_moves.run(power, m_effort.good_enough[phase], sweeps);
       if(round == (m_only_arrives ? first : 0))
         bisect();
       if(round == (m_only_arrives ? first : late)) // for what is far yet

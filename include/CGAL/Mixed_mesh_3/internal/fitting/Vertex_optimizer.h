@@ -78,13 +78,14 @@ class Vertex_optimizer
   std::vector<Shared_mark> m_is_active; // whether it may have something to gain
   std::vector<std::uint8_t> m_is_fixed;
   std::vector<std::uint8_t> m_is_loose;  // boundary vertices that need not stay on the surface
+  std::vector<std::uint8_t> m_is_inside; // where only bad elements count
   std::vector<Attraction> m_attractions; // one for each vertex, or none
   std::vector<double> m_costs;           // of each element; negative: not known
   std::vector<double> m_trial_costs;     // of those around a vertex that is moved: none moves beside it
   Vertex_coloring m_coloring;
   unsigned m_threads = 0; // 0: without colors
   double m_power = 4;
-  double m_good_enough = 1;
+  double m_good_enough = 1, m_good_enough_inside = 1;
   double m_notable_gain = 3e-3, m_first_step = 0.1, m_growth = 1.5;
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -99,7 +100,7 @@ public:
                    double bound)
     : m_mesh(mesh), m_quality(quality), m_project(project), m_worth_sliding(worth_sliding), m_bound(bound),
       m_radii(mesh.points.size(), 0), m_is_active(mesh.points.size()), m_is_fixed(mesh.points.size(), 0),
-      m_is_loose(mesh.points.size(), 0)
+      m_is_loose(mesh.points.size(), 0), m_is_inside(mesh.points.size(), 0)
   {
     for(Vertex_index v = 0; v < mesh.points.size(); ++v)
       m_is_fixed[v] = mesh.is_on_boundary(v);
@@ -119,6 +120,28 @@ public:
     m_growth = growth;
   }
 
+  /// Vertices that are more than `layers` layers of elements away from the boundary, and not in tetrahedra
+  /// only, stay where no element has a larger cost: they are those of an octree, which is good as it is.
+  void set_good_enough_inside(double cost, int layers)
+  {
+    m_good_enough_inside = cost;
+    std::vector<std::uint8_t> is_near(m_mesh.points.size(), 0);
+    for(Vertex_index v = 0; v < is_near.size(); ++v)
+      is_near[v] = m_mesh.is_on_boundary(v);
+    for(int layer = 0; layer < layers; ++layer) {
+      const std::vector<std::uint8_t> was_near = is_near;
+      for(const Working_mesh::Element& element : m_mesh.elements)
+        if(!element.is_removed
+           && std::any_of(element.begin(), element.end(), [&](Vertex_index v) { return was_near[v] != 0; }))
+          for(Vertex_index v : element)
+            is_near[v] = 1;
+    }
+    for(const Working_mesh::Element& element : m_mesh.elements)
+      if(!element.is_removed && element.kind != TETRAHEDRON)
+        for(Vertex_index v : element)
+          m_is_inside[v] = !is_near[v];
+  }
+
   /// From now on, vertices move by colors.
   void use_colors(unsigned threads) { m_threads = threads; }
 
@@ -129,6 +152,7 @@ public:
     m_is_active.resize(m_mesh.points.size(), true);
     m_is_fixed.resize(m_mesh.points.size(), 0);
     m_is_loose.resize(m_mesh.points.size(), 0);
+    m_is_inside.resize(m_mesh.points.size(), 0);
   }
 
   /// Boundary vertices are fixed until they are on the surface.
@@ -336,7 +360,8 @@ private:
       worst = (std::max)(worst, known_cost(e));
       sum += power(m_costs[e], m_power);
     }
-    if(a.weight == 0 && worst <= (slides ? (std::max)(m_worth_sliding, m_good_enough) : m_good_enough))
+    const double stays = slides ? m_worth_sliding : m_is_inside[v] ? m_good_enough_inside : 1;
+    if(a.weight == 0 && worst <= (std::max)(stays, m_good_enough))
       return false;
 
     const Vec3 old = m_mesh.points[v];

@@ -60,6 +60,7 @@ class Surface_attraction
   std::vector<std::pair<double, Vec3>> m_far_points; // with their distances
   std::vector<double> m_farthest;                    // of each triangle, the distance of its farthest sample
   double m_largest_distance = 0;
+  double m_most_steps = 8; // of samples along the edge of a triangle
   // Most samples are near: they need not be measured again until the boundary next to them has moved so far
   // that they might draw.
   std::vector<Vec3> m_last_points;        // of the vertices
@@ -107,6 +108,9 @@ public:
     m_slack_of_triangles.assign(m_triangles.size(), 0);
     m_steps_of_triangles.assign(m_triangles.size(), 0);
   }
+
+  /// Samples of the boundary at the middles of edges only.
+  void sample_coarsely() { m_most_steps = 2; }
 
   /// An upper bound, at the last measurement.
   double largest_distance() const { return m_largest_distance; }
@@ -269,11 +273,10 @@ private:
   // On a grid, the finer the larger the triangle is.
   int number_of_steps(const Triangle& t, double tolerance) const
   {
-    constexpr double largest = 8;
     double longest = 0;
     for(int i = 0; i < 3; ++i)
       longest = (std::max)(longest, norm(m_mesh.points[t[i]] - m_mesh.points[t[(i + 1) % 3]]));
-    return int((std::min)((std::max)(std::ceil(longest / tolerance), 2.), largest));
+    return int((std::min)((std::max)(std::ceil(longest / tolerance), 2.), m_most_steps));
   }
 
   static int number_of_samples(int steps) { return (steps + 1) * (steps + 2) / 2 - 3; }
