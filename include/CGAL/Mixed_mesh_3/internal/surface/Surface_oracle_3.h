@@ -162,7 +162,9 @@ public:
   /// The closest point of the surface; faster if `part` has facets near `p`, but it need not.
   Point_3 closest_point(const Point_3& p, const Surface_part& part) const
   {
-    Point_3 hint = m_triangles.front()[0];
+    if(part.facets.empty())
+      return closest_point(p);
+    Point_3 hint = p;
     double nearest = std::numeric_limits<double>::infinity();
     for(std::uint32_t f : part.facets)
       for(int i = 0; i < 3; ++i) {
@@ -179,8 +181,8 @@ public:
   /// The closest point of the surface; faster if `hint`, a point of the surface, is near.
   Point_3 closest_point(const Point_3& p, const Point_3& hint) const;
 
-  /// The closest point of the surface, by a search that starts anywhere.
-  Point_3 closest_point(const Point_3& p) const { return closest_point(p, m_triangles.front()[0]); }
+  /// The closest point of the surface, by a search that starts at its closest vertex.
+  Point_3 closest_point(const Point_3& p) const;
 
   /// Points of the surface, such that none of its points is farther than about `spacing` from one of them:
   /// all vertices, and a grid on larger triangles.

@@ -96,7 +96,6 @@ Surface_oracle_3::build(const std::vector<Point_3>& points,
   for(const Triangle_3& t : m_triangles)
     m_trees->triangles.push_back(to_doubles(t));
   m_trees->tree_of_doubles.insert(m_trees->triangles.cbegin(), m_trees->triangles.cend());
-  m_trees->tree_of_doubles.do_not_accelerate_distance_queries(); // hints serve better
   m_trees->tree_of_doubles.build();
 }
 
@@ -167,6 +166,12 @@ CGAL_MIXED_MESH_3_INLINE Surface_oracle_3::Point_3 Surface_oracle_3::closest_poi
 {
   const auto q = m_trees->tree_of_doubles.closest_point({p.x(), p.y(), p.z()},
                                                         {hint.x(), hint.y(), hint.z()});
+  return Point_3(q.x(), q.y(), q.z());
+}
+
+CGAL_MIXED_MESH_3_INLINE Surface_oracle_3::Point_3 Surface_oracle_3::closest_point(const Point_3& p) const
+{
+  const auto q = m_trees->tree_of_doubles.closest_point({p.x(), p.y(), p.z()});
   return Point_3(q.x(), q.y(), q.z());
 }
 
