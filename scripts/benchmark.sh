@@ -7,10 +7,10 @@
 #   scripts/benchmark.sh [PART] [VERTICES...]     all parts, or one
 #
 #   peers     Mesh_3, TetGen, Gmsh, Netgen and ours with as many vertices:
-#             quality, fidelity, times (660 2000 10000); MIXED_OCTREE may name
+#             quality, fidelity, times (660 to 200000); MIXED_OCTREE may name
 #             a build of MixedOcTree
 #   paper     the paper's tables and figures beside ours
-#   scale     time and memory of ours for growing budgets (660 to 2000000)
+#   scale     time and memory of ours for growing budgets (660 to 5000000)
 #   accuracy  the error of brain shift, beside meshes of Mesh_3; takes an hour
 #
 # Writes to out/benchmark/; benchmark/fill_tables.py out/benchmark puts the
@@ -59,6 +59,7 @@ run_paper() {
 run_scale() {
   /usr/bin/python3 "$root/benchmark/Mixed_mesh_3/Performance/run.py" "$programs/benchmark_make_mixed_mesh_3" \
     --runs "${RUNS:-5}" --threads 1 2 --save "$out/scale" "${sizes[@]}"
+  /usr/bin/python3 "$root/benchmark/Mixed_mesh_3/Performance/plot_scale.py" "$out/scale.json" "$out/scale.png"
 }
 
 run_accuracy() {

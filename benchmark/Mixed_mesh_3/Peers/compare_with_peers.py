@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes the same input with as many vertices by all meshers at hand, and measures what they make.
 
-  compare_with_peers.py PROGRAMS WORK [--vertices 660 2000 10000] [--meshers tetgen gmsh ...] [--runs 5]
+  compare_with_peers.py PROGRAMS WORK [--vertices 660 2000 ...] [--meshers tetgen gmsh ...] [--runs 5]
                         [--save BASE] [--mixed-octree PROGRAM]
 
 PROGRAMS holds measure_mesh, benchmark_mesh_3 and coarsen_surface; tetgen must be on the path, and the Python
@@ -285,7 +285,7 @@ def main():
     parser.add_argument("work", type=pathlib.Path)
     parser.add_argument("--surface", default=DATA / "brain.off", type=pathlib.Path)
     parser.add_argument("--region", default=DATA / "region.off", type=pathlib.Path)
-    parser.add_argument("--vertices", type=int, nargs="+", default=[660, 2000, 10000])
+    parser.add_argument("--vertices", type=int, nargs="+", default=[660, 2000, 10000, 50000, 200000])
     parser.add_argument("--meshers", nargs="+", default=[""], help="those whose names contain one of these")
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--mixed-octree", help="a program of MixedOcTree")
