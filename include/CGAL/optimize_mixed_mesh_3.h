@@ -80,7 +80,9 @@ no element is removed.
 
 \return the status and what was done
 \par Complexity
-Proportional to the number of elements whose cost can be improved, times the rounds
+Proportional to the number of elements whose cost can be improved, times the rounds. Of more than 100,000
+vertices, those of hexahedra, prisms and pyramids beyond the third layer of elements at the boundary are taken
+for good unless an element there costs more than 3.
 */
 template <class ConcurrencyTag = Sequential_tag, class GeomTraits, class Surface, class Quality,
           class NamedParameters = parameters::Default_named_parameters>
