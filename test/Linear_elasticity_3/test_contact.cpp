@@ -273,7 +273,7 @@ void test_limits()
 
 } // namespace
 
-int main()
+int test_contact(int, char*[])
 {
   for(int kind = 0; kind < number_of_element_kinds; ++kind)
     test_all_choices(kind);

@@ -366,7 +366,7 @@ void test_failing_solver()
 
 } // namespace
 
-int main()
+int test_control_points(int, char*[])
 {
   for(int kind = 0; kind <= number_of_element_kinds; ++kind)
     test_control_points(kind);

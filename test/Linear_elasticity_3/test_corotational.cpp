@@ -359,7 +359,7 @@ void test_too_much()
 
 } // namespace
 
-int main()
+int test_corotational(int, char*[])
 {
   for(int kind = 0; kind <= number_of_element_kinds; ++kind) {
     test_derivatives(kind);

@@ -307,7 +307,7 @@ void test_locking()
 
 } // namespace
 
-int main(int argc, char** argv)
+int test_exact_solutions(int argc, char* argv[])
 {
   const std::string data = argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR;
   test_patch(data);

@@ -225,7 +225,7 @@ void test_large_factor()
 
 } // namespace
 
-int main()
+int test_moved_models(int, char*[])
 {
   const Mesh mesh = any_grid(4, number_of_element_kinds, 0.1);
   test_moved<Simplicial_solver_traits>(mesh);

@@ -219,7 +219,7 @@ void test_solvers()
 
 } // namespace
 
-int main()
+int test_removal(int, char*[])
 {
   for(int kind = 0; kind <= number_of_element_kinds; ++kind)
     test_removal(kind);

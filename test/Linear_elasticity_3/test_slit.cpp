@@ -138,7 +138,7 @@ void test_half(int kind)
 
 } // namespace
 
-int main()
+int test_slit(int, char*[])
 {
   for(int kind = 0; kind <= number_of_element_kinds; ++kind) {
     test_two_bodies(kind);

@@ -365,7 +365,7 @@ void test_free_motions()
 
 } // namespace
 
-int main()
+int test_supports(int, char*[])
 {
   for(int kind = 0; kind <= number_of_element_kinds; ++kind)
     test_supports(kind);

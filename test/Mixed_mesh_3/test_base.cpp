@@ -134,7 +134,7 @@ void test_index()
 
 } // namespace
 
-int main()
+int test_base(int, char*[])
 {
   test_vectors();
   test_rounding();

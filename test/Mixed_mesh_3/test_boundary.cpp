@@ -376,7 +376,7 @@ void test_lost_cells()
 
 } // namespace
 
-int main()
+int test_boundary(int, char*[])
 {
   test_split_element();
   test_boundary_stage();

@@ -183,7 +183,7 @@ void test_stream(const std::string& path)
   BOOST_TEST(is_near(mm3::volume(back), mm3::volume(mesh)));
 }
 
-int main()
+int test_conversions(int, char*[])
 {
   test_round_trips();
   test_volumes_of_cgal();

@@ -293,7 +293,7 @@ void test_moved()
 
 } // namespace
 
-int main()
+int test_elements(int, char*[])
 {
   test_manifold_defects();
   test_find_defects();

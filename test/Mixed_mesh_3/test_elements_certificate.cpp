@@ -250,7 +250,7 @@ void test_flat_tetrahedra()
   BOOST_TEST(number_of_sides[0] > 100 && number_of_sides[2] > 100);
 }
 
-int main()
+int test_elements_certificate(int, char*[])
 {
   test_random<TETRAHEDRON>(2000);
   test_random<PYRAMID>(1500);

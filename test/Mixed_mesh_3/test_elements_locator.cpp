@@ -238,7 +238,7 @@ void test_moved()
 
 } // namespace
 
-int main()
+int test_elements_locator(int, char*[])
 {
   test_inverse_map<TETRAHEDRON>();
   test_inverse_map<PYRAMID>();

@@ -288,7 +288,7 @@ void test_statistics_and_histogram()
 }
 } // namespace
 
-int main()
+int test_elements_quality(int, char*[])
 {
   test_ideal_elements();
   test_distorted_elements();

@@ -433,7 +433,7 @@ void test_orientation()
 
 } // namespace
 
-int main()
+int test_elements_recovery(int, char*[])
 {
   test_quadratic_on_element<TETRAHEDRON>();
   test_quadratic_on_element<PYRAMID>();

@@ -483,7 +483,7 @@ void test_statistics()
 
 } // namespace
 
-int main()
+int test_elements_traits(int, char*[])
 {
   for(Element_kind kind : element_kinds) {
     test_table(kind);

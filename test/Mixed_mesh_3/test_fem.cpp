@@ -125,7 +125,7 @@ void test_solver()
 
 } // namespace
 
-int main()
+int test_fem(int, char*[])
 {
   test_elasticity();
   test_solver();

@@ -357,7 +357,7 @@ void test_balls()
 
 } // namespace
 
-int main()
+int test_fidelity(int, char*[])
 {
   test_bodies();
   test_cavities();

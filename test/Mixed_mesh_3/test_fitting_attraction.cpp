@@ -229,7 +229,7 @@ void test_samples()
 
 } // namespace
 
-int main()
+int test_fitting_attraction(int, char*[])
 {
   test_remembered();
   test_more_samples();

@@ -301,7 +301,7 @@ void test_nonmanifold_edge()
 
 } // namespace
 
-int main()
+int test_fitting_bisections(int, char*[])
 {
   test_tetrahedra();
   test_projection();

@@ -173,7 +173,7 @@ void test_inside()
 
 } // namespace
 
-int main()
+int test_fitting_colors(int, char*[])
 {
   test_coloring();
   test_inside();

@@ -391,7 +391,7 @@ void test_brain(const Mesh& source, const Test_surface& brain)
 
 } // namespace
 
-int main(int argc, char** argv)
+int test_fitting_fit(int argc, char* argv[])
 {
   const std::string data = argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR;
   Test_surface brain, region;

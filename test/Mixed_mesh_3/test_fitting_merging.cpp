@@ -189,7 +189,7 @@ void test_place()
 
 } // namespace
 
-int main()
+int test_fitting_merging(int, char*[])
 {
   test_cells();
   test_bound();

@@ -381,7 +381,7 @@ void test_brain(const Test_surface& brain, const Test_surface& region_surface)
 
 } // namespace
 
-int main(int argc, char** argv)
+int test_fitting_optimize(int argc, char* argv[])
 {
   const std::string data = argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR;
   Test_surface brain, region;

@@ -313,7 +313,7 @@ void test_removal()
 }
 } // namespace
 
-int main()
+int test_fitting_parts(int, char*[])
 {
   test_qualities();
   test_flips();

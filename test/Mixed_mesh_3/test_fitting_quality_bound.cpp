@@ -597,7 +597,7 @@ void test_bad_start()
 
 } // namespace
 
-int main()
+int test_fitting_quality_bound(int, char*[])
 {
   test_start();
   for(Element_kind kind : element_kinds)

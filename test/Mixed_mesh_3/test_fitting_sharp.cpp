@@ -260,7 +260,7 @@ void test_detection()
       BOOST_TEST(features(ball(40, noise), size).empty());
 }
 
-int main()
+int test_fitting_sharp(int, char*[])
 {
   test_detection();
   test_boxes();

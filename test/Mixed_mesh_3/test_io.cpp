@@ -896,9 +896,9 @@ void test_reader(const fs::path& directory)
   fs::remove(path);
 }
 
-int main(int argc, char** argv)
+int test_io(int argc, char* argv[])
 {
-  const fs::path directory = argc > 1 ? argv[1] : ".";
+  const fs::path directory = argc > 2 ? argv[2] : ".";
   fs::create_directories(directory);
   test_writers(directory);
   test_writers_in_odd_conditions();

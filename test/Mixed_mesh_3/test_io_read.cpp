@@ -589,7 +589,7 @@ void print(const std::string& path)
 
 } // namespace
 
-int main(int argc, char** argv)
+int test_io_read(int argc, char* argv[])
 {
   if(argc > 1 && std::string(argv[1]) == "--files") {
     for(int i = 2; i < argc; ++i) {

@@ -152,7 +152,7 @@ def main():
     gmsh.option.setNumber("General.Terminal", 0)
     files = list(write_vtk(directory)) + list(write_gmsh(directory))
     gmsh.finalize()
-    run = subprocess.run([program, "--files"] + [path for path, _ in files], stdout=subprocess.PIPE,
+    run = subprocess.run([program, "test_io_read", "--files"] + [path for path, _ in files], stdout=subprocess.PIPE,
                          universal_newlines=True, check=False)
     check(run.returncode == 0, "exit status", run.returncode)
     lines = run.stdout.splitlines()

@@ -734,7 +734,7 @@ void test_damage(const fs::path& path)
 
 } // namespace
 
-int main(int argc, char** argv)
+int test_io_surface(int argc, char* argv[])
 {
   if(argc > 1 && std::string(argv[1]) == "--files") {
     for(int i = 2; i < argc; ++i) {
@@ -743,7 +743,7 @@ int main(int argc, char** argv)
     }
     return boost::report_errors();
   }
-  directory = argc > 1 ? argv[1] : ".";
+  directory = argc > 2 ? argv[2] : ".";
   fs::create_directories(directory);
   test_off();
   test_obj();

@@ -199,7 +199,7 @@ def main():
     program, directory = sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else "."
     os.makedirs(directory, exist_ok=True)
     cases = [case for writer in (freesurfer, gifti, xml, legacy, stl_and_ply) for case in writer(directory)]
-    run = subprocess.run([program, "--files", *(path for path, _, _ in cases)], capture_output=True, text=True)
+    run = subprocess.run([program, "test_io_surface", "--files", *(path for path, _, _ in cases)], capture_output=True, text=True)
     lines = run.stdout.splitlines()
     failures = 0 if run.returncode == 0 and run.stderr in ("", "No errors detected.\n") else 1
     if failures:

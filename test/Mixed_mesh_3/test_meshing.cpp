@@ -550,7 +550,7 @@ void test_spikes()
 
 } // namespace
 
-int main(int argc, char** argv)
+int test_meshing(int argc, char* argv[])
 {
   const std::string data = argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR;
   Surface brain, region_surface;

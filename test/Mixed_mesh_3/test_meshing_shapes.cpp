@@ -311,7 +311,7 @@ void test_implicit_domain()
 
 } // namespace
 
-int main()
+int test_meshing_shapes(int, char*[])
 {
   test_precedence();
   test_implicit_domain();

@@ -282,7 +282,7 @@ void test_random()
 
 } // namespace
 
-int main()
+int test_meshing_sheets(int, char*[])
 {
   test_cut_ball();
   test_ends_inside();

@@ -365,7 +365,7 @@ void test_both_sides()
 
 } // namespace
 
-int main()
+int test_meshing_subdomains(int, char*[])
 {
   test_domain();
   test_closest_points();

@@ -125,7 +125,7 @@ void test_shell_counts()
 
 } // namespace
 
-int main()
+int test_meshing_thin(int, char*[])
 {
   test_shell_counts();
   test_untouched();

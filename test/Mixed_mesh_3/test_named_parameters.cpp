@@ -91,7 +91,7 @@ void test_carried(const Carry& carry)
 
 } // namespace
 
-int main()
+int test_named_parameters(int, char*[])
 {
   test_make();
   test_carried([](Mesh& mesh, const Test_surface& surface, const auto& np) {

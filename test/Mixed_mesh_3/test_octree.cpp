@@ -346,7 +346,7 @@ std::size_t test_edge_patterns(const Octree& octree)
 
 } // namespace
 
-int main()
+int test_octree(int, char*[])
 {
   int number_unbalanced = 0;
   std::size_t most_patterns = 0;

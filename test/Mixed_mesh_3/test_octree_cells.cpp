@@ -351,7 +351,7 @@ void test_located_cells()
 
 } // namespace
 
-int main()
+int test_octree_cells(int, char*[])
 {
   test_cell_traits();
   test_is_balanced();

@@ -380,7 +380,7 @@ void test_other_candidates()
 
 } // namespace
 
-int main()
+int test_octree_refinement(int, char*[])
 {
   test_truncate();
   test_sequences();

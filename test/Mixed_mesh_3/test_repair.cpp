@@ -271,7 +271,7 @@ void test_holes()
 
 } // namespace
 
-int main()
+int test_repair(int, char*[])
 {
   test_unions();
   test_cavities();

@@ -614,7 +614,7 @@ void test_brain(const std::string& data)
 
 } // namespace
 
-int main(int argc, char** argv)
+int test_resection(int argc, char* argv[])
 {
   test_two_cubes();
   test_checkerboards();

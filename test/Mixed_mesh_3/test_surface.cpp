@@ -305,7 +305,7 @@ void test_weights_in_unions()
 
 } // namespace
 
-int main()
+int test_surface(int, char*[])
 {
   test_domain_oracle();
   test_surface_samples();

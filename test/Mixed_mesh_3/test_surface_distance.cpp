@@ -344,7 +344,7 @@ void test_brain(const std::string& data)
 }
 } // namespace
 
-int main(int argc, char** argv)
+int test_surface_distance(int argc, char* argv[])
 {
   test_hausdorff_distance();
   test_vertices_off_surface();

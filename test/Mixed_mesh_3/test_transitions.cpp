@@ -192,7 +192,7 @@ void test_inserted_on_rim()
 
 } // namespace
 
-int main()
+int test_transitions(int, char*[])
 {
   test_all_transitions();
   test_inserted_on_rim();

@@ -648,7 +648,7 @@ void test_named_cases()
 
 } // namespace
 
-int main()
+int test_transitions_tables(int, char*[])
 {
   test_face_splits();
   test_templates();

@@ -303,7 +303,7 @@ void test_misfit()
 
 } // namespace
 
-int main()
+int test_image(int, char*[])
 {
   test_affine_maps();
   test_identity();

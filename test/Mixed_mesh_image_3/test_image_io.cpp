@@ -455,9 +455,9 @@ void test_warped_files()
 }
 } // namespace
 
-int main(int argc, char** argv)
+int test_image_io(int argc, char* argv[])
 {
-  directory = argc > 1 ? argv[1] : ".";
+  directory = argc > 2 ? argv[2] : ".";
   fs::create_directories(directory);
   test_round_trips();
   test_orientation();

@@ -213,7 +213,7 @@ void test_smoothing()
 
 } // namespace
 
-int main()
+int test_label_surface(int, char*[])
 {
   test_all_patterns();
   test_random_images();
