@@ -19,7 +19,7 @@ fail() {
 # Prints the packages of one purpose.
 packages_for() {
   case $1 in
-    build) echo g++ cmake ninja-build libcgal-dev libcli11-dev nlohmann-json3-dev \
+    build) echo g++ cmake ninja-build ccache libcgal-dev libcli11-dev nlohmann-json3-dev \
                 libboost-dev libgmp-dev libmpfr-dev libeigen3-dev libsuitesparse-dev libnifti2-dev \
                 zlib1g-dev libtbb-dev \
                 libopenblas0-serial ;; # several times faster than the reference BLAS, for CHOLMOD
