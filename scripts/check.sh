@@ -106,7 +106,7 @@ configure_clang() {
 build() {
   local directory=$1
   shift
-  cmake --build "$directory" --parallel "$(build_jobs 1500)" --target "$@"
+  cmake --build "$directory" --parallel "$(build_jobs "${megabytes:-1500}")" --target "$@"
 }
 
 # Runs tests of a build directory that must have assertions on; the rest is for ctest.
@@ -171,6 +171,7 @@ check_benchmarks() {
 }
 
 check_checked() {
+  local megabytes=2500 # of a compiler with sanitizers
   configure checked --preset checked
   build "$build/checked" examples/all "${short_programs[@]}"
   export UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=detect_stack_use_after_return=1
