@@ -12,14 +12,14 @@
 #   python      programs in Python, by pyflakes
 #   layers      arrows between folders run one way: scripts/check_layers.py
 #   doc         the manual, by doxygen; a warning is an error
-#   headers     every header that the change since BASE (default: origin/main) reaches compiles alone, without a
-#               warning; all with CHECK_ALL=1, and where nothing is known to have changed
+#   headers     each header that the change since BASE (default: origin/main) reaches compiles alone, by clang,
+#               without a warning; all with CHECK_ALL=1, and where nothing is known to have changed
 #   layout      the repository as it would lie in CGAL's tree: scripts/lay_out_as_cgal.py; examples and a test
 #               are compiled there, with -Wpedantic, by LAYOUT_COMPILERS (default: g++ clang++), also with the CGAL of
 #               CGAL_DIR_61
 #   benchmarks  the benchmarks are built
-#   checked     examples and short tests run with CGAL's assertions and preconditions, AddressSanitizer and
-#               UndefinedBehaviorSanitizer
+#   checked     examples and short tests run with CGAL's assertions and preconditions, the tests also with
+#               AddressSanitizer and UndefinedBehaviorSanitizer
 #   fuzz        targets of libFuzzer, one a reader, run for FUZZ_SECONDS each (default: 12), from test/fuzz/corpus;
 #               what makes one fail is kept in the build directory
 #   cgal61      headers, examples and short tests are built with another CGAL, if CGAL_DIR_61 names the folder
@@ -38,8 +38,8 @@ build=$(realpath -m "${BUILD_DIR:-$root/build}")
 quick=(format shell python layers)
 compiled=(doc headers layout benchmarks checked fuzz cgal61)
 
-# The tests that sanitizers run, and their programs. Not those that read a surface or mesh one: with sanitizers, a
-# compiler takes long for CGAL's polygon meshes. `cmake --preset checked` and `ctest --preset checked` run all.
+# The tests that run with sanitizers, and their programs. Not those that read a surface or mesh one: with
+# sanitizers, a compiler takes long for CGAL's polygon meshes. The preset `checked` has all.
 short_tests=(
   test_base test_elements test_elements_traits test_elements_certificate test_elements_locator test_octree
   test_transitions test_boundary test_image_io
@@ -250,7 +250,7 @@ for part in "$@"; do
   result=passed
   SKIP_SETUP=1 bash "${BASH_SOURCE[0]}" "$part" || result=FAILED
   [[ $result == passed ]] || failed=$((failed + 1))
-  summary+=$(printf '  %-22s %s in %d s' "$part" "$result" $((SECONDS - started)))$'\n'
+  summary+=$(printf '  %-22s %s in %s' "$part" "$result" "$(minutes_since "$started")")$'\n'
 done
 printf '\n%s' "$summary" | tee -a "${SUMMARY:-/dev/null}"
 echo "$(($# - failed)) of $# parts passed"

@@ -52,8 +52,10 @@ def main():
         where = directory.name
         built.update({f"{where}: {short(name)}": time for name, time in build_steps(directory).items()})
         tested.update({f"{where}: {name}": time for name, time in tests(directory).items()})
-    show("steps of the build", built)
-    show("tests", tested)
+    if built:
+        show("steps of the build", built)
+    if tested:
+        show("tests", tested)
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ install_packages build python
 cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON \
   -DMIXED_MESH_3_BUILD_PYTHON=ON -DPython_EXECUTABLE=/usr/bin/python3
 NINJA_STATUS=${NINJA_STATUS:-'[%f/%t, %e s] '} cmake --build "$build" --parallel "$(build_jobs 1500)"
-echo "built after $((SECONDS / 60)) min $((SECONDS % 60)) s, packages included"
+echo "built in $(minutes_since 0), packages included"
 
 log=$build/ctest.log
 ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$(nproc)" "$@" | tee "$log"
