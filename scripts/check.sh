@@ -3,7 +3,8 @@
 #
 # Installs what is missing, and checks what a Release build and its tests do not show:
 #
-#   scripts/check.sh [PART...]            all parts, or those named
+#   scripts/check.sh [PART...]            all parts, or those named; `quick` are those that need no compiler,
+#                                         `compiled` the others
 #
 #   format      C++ and JavaScript are as clang-format 14 makes them with .clang-format; no line is longer than
 #               110 columns
@@ -11,20 +12,21 @@
 #   python      programs in Python, by pyflakes
 #   layers      arrows between folders run one way: scripts/check_layers.py
 #   doc         the manual, by doxygen; a warning is an error
-#   headers     every header compiles alone, without a warning
+#   headers     each header that the change since BASE (default: origin/main) reaches compiles alone, by clang,
+#               without a warning; all with CHECK_ALL=1, and where nothing is known to have changed
 #   layout      the repository as it would lie in CGAL's tree: scripts/lay_out_as_cgal.py; examples and a test
 #               are compiled there, with -Wpedantic, by LAYOUT_COMPILERS (default: g++ clang++), also with the CGAL of
 #               CGAL_DIR_61
 #   benchmarks  the benchmarks are built
-#   debug       the examples run with CGAL's assertions and preconditions
-#   sanitize    short tests run with these, AddressSanitizer and UndefinedBehaviorSanitizer
+#   checked     examples and short tests run with CGAL's assertions and preconditions, the tests also with
+#               AddressSanitizer and UndefinedBehaviorSanitizer
 #   fuzz        targets of libFuzzer, one a reader, run for FUZZ_SECONDS each (default: 12), from test/fuzz/corpus;
 #               what makes one fail is kept in the build directory
 #   cgal61      headers, examples and short tests are built with another CGAL, if CGAL_DIR_61 names the folder
 #               that has its include/CGAL/version.h
 #
-# A part that fails does not keep the next ones from running. BUILD_DIR overrides where the build directories
-# are, build/check.
+# A part that fails does not keep the next ones from running. BUILD_DIR overrides the folder of the build
+# directories, build: release and checked, as the presets have them, clang, cgal61 and layout.
 
 set -euo pipefail
 
@@ -32,15 +34,17 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # shellcheck source=scripts/setup.sh
 source "$root/scripts/setup.sh"
 
-build=$(realpath -m "${BUILD_DIR:-$root/build/check}")
-parts=(format shell python layers doc headers layout benchmarks debug sanitize fuzz cgal61)
+build=$(realpath -m "${BUILD_DIR:-$root/build}")
+quick=(format shell python layers)
+compiled=(doc headers layout benchmarks checked fuzz cgal61)
 
-# The tests that sanitizers run. Not those that read a surface or mesh one: with sanitizers, a compiler takes three
-# minutes and 4 GB for CGAL's polygon meshes. `cmake --preset sanitize` and `ctest --preset sanitize` run all.
+# The tests that run with sanitizers, and their programs. Not those that read a surface or mesh one: with
+# sanitizers, a compiler takes long for CGAL's polygon meshes. The preset `checked` has all.
 short_tests=(
   test_base test_elements test_elements_traits test_elements_certificate test_elements_locator test_octree
   test_transitions test_boundary test_image_io
 )
+short_programs=(test_base test_elements test_octree test_transitions test_boundary test_images)
 
 # Prints the files whose names end in one of the ways given, a line each.
 sources() {
@@ -79,26 +83,30 @@ check_layers() {
   /usr/bin/python3 scripts/check_layers.py
 }
 
-# Makes a build directory unless it is there.
+# Makes a build directory in the folder of these, or brings it up to date.
 configure() {
-  local directory=$1
+  local directory=$build/$1
   shift
-  [[ -f $directory/build.ninja ]] ||
-    cmake -S . -B "$directory" -DCGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE=TRUE "$@" > "$directory.log" ||
-    fail "could not configure $directory: see $directory.log"
+  if ! cmake -S . -B "$directory" -G Ninja -DCGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE=TRUE "$@" \
+    > "$directory.log" 2>&1; then
+    fail "could not configure $directory: $(cat "$directory.log")"
+  fi
 }
 
-# The build directory of what is compiled without optimization.
-configure_debug() {
-  configure "$1" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 \
-    -DMIXED_MESH_3_BUILD_BENCHMARKS=ON "${@:2}"
+configure_release() {
+  configure release -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON "$@"
+}
+
+# For what clang compiles: headers alone, fuzz targets.
+configure_clang() {
+  configure clang -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ -DMIXED_MESH_3_BUILD_FUZZERS=ON "$@"
 }
 
 # Builds targets.
 build() {
   local directory=$1
   shift
-  cmake --build "$directory" --parallel "$(build_jobs 1500)" --target "$@"
+  cmake --build "$directory" --parallel "$(build_jobs "${megabytes:-1500}")" --target "$@"
 }
 
 # Runs tests of a build directory that must have assertions on; the rest is for ctest.
@@ -112,13 +120,18 @@ run_tests() {
 }
 
 check_doc() {
-  configure_debug "$build/debug"
-  build "$build/debug" doc
+  configure_release
+  build "$build/release" doc
 }
 
 check_headers() {
-  configure_debug "$build/debug"
-  build "$build/debug" test_headers
+  local -a headers=()
+  if [[ ${CHECK_ALL:-} != 1 ]]; then
+    mapfile -t headers < <(scripts/changed_headers.py "${BASE:-origin/main}")
+    [[ ${#headers[@]} -gt 0 ]] || { echo "the change reaches no header" && return; }
+  fi
+  configure_clang "-DMIXED_MESH_3_HEADERS_ALONE=$(IFS=';' && echo "${headers[*]}")"
+  build "$build/clang" test_headers
 }
 
 # Compiles an example of each package in the layout, and runs a test with the CMakeLists.txt that is written there.
@@ -134,7 +147,7 @@ compile_layout() {
     for source in "$tree"/*/examples/*/{mixed_mesh_of_a_brain,elasticity_of_brain_shift}.cpp; do
       [[ -f $source ]] || continue # a name for each package
       "$compiler" -std=c++17 -fsyntax-only -Wall -Wextra -Wpedantic -Werror -isystem /usr/include/eigen3 \
-        -DMIXED_MESH_3_DATA_DIR='"data"' "${flags[@]}" "$source" || fail "$source does not compile with $compiler"
+        "${flags[@]}" "$source" || fail "$source does not compile with $compiler"
     done
   done
   rm -rf "$tree-build"
@@ -153,43 +166,42 @@ check_layout() {
 }
 
 check_benchmarks() {
-  configure_debug "$build/debug"
-  build "$build/debug" benchmark/all
+  configure_release -DMIXED_MESH_3_BUILD_BENCHMARKS=ON
+  build "$build/release" benchmark/all
 }
 
-check_debug() {
-  configure_debug "$build/debug"
-  build "$build/debug" examples/all
-  run_tests "$build/debug" -R '^example_'
-}
-
-check_sanitize() {
-  configure "$build/sanitize" --preset sanitize
-  build "$build/sanitize" "${short_tests[@]}"
+check_checked() {
+  local megabytes=2500 # of a compiler with sanitizers
+  configure checked --preset checked
+  build "$build/checked" examples/all "${short_programs[@]}"
   export UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=detect_stack_use_after_return=1
-  run_tests "$build/sanitize" -R "^($(IFS='|' && echo "${short_tests[*]}"))\$"
+  run_tests "$build/checked" -R "^(example_.*|$(IFS='|' && echo "${short_tests[*]}"))\$"
+}
+
+# Runs the fuzz target of a reader, and shows what it says if it fails.
+fuzz() {
+  local reader=$1
+  local work=$build/clang/fuzz/$reader # what is found new is put there, and not into the corpus
+  mkdir -p "$work"
+  if "$build/clang/bin/fuzz_$reader" -max_total_time="${FUZZ_SECONDS:-12}" -timeout=10 -rss_limit_mb=2048 \
+    -max_len=4096 -artifact_prefix="$work-" "$work" "test/fuzz/corpus/$reader" > "$work.log" 2>&1; then
+    echo "fuzz_$reader: nothing found"
+  else
+    printf 'fuzz_%s FAILED\n%s\n' "$reader" "$(tail -n 40 "$work.log")" # at once, as others write, too
+    return 1
+  fi
 }
 
 check_fuzz() {
-  local reader work failed=0
-  local -a readers=(VTU MSH MEDIT NETGEN NIFTI control_points surface)
+  local -a readers
+  read -ra readers <<< "${FUZZ_READERS:-VTU MSH MEDIT NETGEN NIFTI control_points surface}"
   [[ ! -w /dev/shm ]] || export TMPDIR=/dev/shm # inputs become files, which takes 20 times as long on a disk
-  configure "$build/fuzz" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ -DBUILD_TESTING=OFF \
-    -DMIXED_MESH_3_BUILD_DEMOS=OFF -DMIXED_MESH_3_BUILD_FUZZERS=ON
-  build "$build/fuzz" "${readers[@]/#/fuzz_}"
-  for reader in "${readers[@]}"; do
-    work=$build/fuzz/$reader # what is found new is put there, and not into the corpus
-    mkdir -p "$work"
-    if "$build/fuzz/bin/fuzz_$reader" -max_total_time="${FUZZ_SECONDS:-12}" -timeout=10 -rss_limit_mb=2048 \
-      -max_len=4096 -artifact_prefix="$work-" "$work" "test/fuzz/corpus/$reader" \
-      > "$work.log" 2>&1; then
-      echo "fuzz_$reader: nothing found"
-    else
-      tail -n 40 "$work.log"
-      failed=1
-    fi
-  done
-  [[ $failed -eq 0 ]] || fail "a reader fails: see the files in $build/fuzz"
+  configure_clang
+  build "$build/clang" "${readers[@]/#/fuzz_}"
+  export build
+  export -f fuzz
+  printf '%s\n' "${readers[@]}" | xargs --max-procs="$(nproc)" -I{} bash -c 'fuzz {}' ||
+    fail "a reader fails: see the files in $build/clang/fuzz"
 }
 
 check_cgal61() {
@@ -200,14 +212,26 @@ check_cgal61() {
   local version=$CGAL_DIR_61/include/CGAL/version.h
   [[ -f $version ]] || fail "there is no $version"
   grep 'define CGAL_VERSION ' "$version"
-  configure_debug "$build/cgal61" "-DCMAKE_CXX_FLAGS=-isystem $CGAL_DIR_61/include"
-  build "$build/cgal61" test_headers examples/all "${short_tests[@]}"
+  configure cgal61 -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 \
+    "-DCMAKE_CXX_FLAGS=-isystem $CGAL_DIR_61/include"
+  build "$build/cgal61" test_headers examples/all "${short_programs[@]}"
 }
 
-[[ $# -gt 0 ]] || set -- "${parts[@]}"
+parts=()
+[[ $# -gt 0 ]] || set -- quick compiled
+parts=()
 for part in "$@"; do
-  [[ " ${parts[*]} " == *" $part "* ]] || fail "unknown part '$part': expected one of ${parts[*]}"
+  case $part in
+    quick) parts+=("${quick[@]}") ;;
+    compiled) parts+=("${compiled[@]}") ;;
+    *)
+      [[ " ${quick[*]} ${compiled[*]} " == *" $part "* ]] ||
+        fail "unknown part '$part': expected one of ${quick[*]} ${compiled[*]}"
+      parts+=("$part")
+      ;;
+  esac
 done
+set -- "${parts[@]}"
 install_packages build checks
 mkdir -p "$build"
 
@@ -226,8 +250,8 @@ for part in "$@"; do
   result=passed
   SKIP_SETUP=1 bash "${BASH_SOURCE[0]}" "$part" || result=FAILED
   [[ $result == passed ]] || failed=$((failed + 1))
-  summary+=$(printf '%-10s %s in %d s' "$part" "$result" $((SECONDS - started)))$'\n'
+  summary+=$(printf '  %-22s %s in %s' "$part" "$result" "$(minutes_since "$started")")$'\n'
 done
-printf '\n%s' "$summary"
+printf '\n%s' "$summary" | tee -a "${SUMMARY:-/dev/null}"
 echo "$(($# - failed)) of $# parts passed"
 [[ $failed -eq 0 ]]

@@ -61,6 +61,11 @@ def folder_of(header):
     return PUBLIC
 
 
+def own_includes(path):
+    """The headers below include/CGAL that a file includes, relative to it, whether they are there or not."""
+    return [name[len("CGAL/"):] for name in INCLUDE.findall(path.read_text()) if name.startswith("CGAL/")]
+
+
 def find_cycle(includes):
     """A list of headers that include each other in a circle, or None."""
     done = set()
@@ -88,7 +93,7 @@ def chains_from(header, includes):
     chains = {header: [header]}
     queue = [header]
     for one in queue:
-        for other in includes[one]:
+        for other in includes.get(one, ()):
             if other not in chains:
                 chains[other] = chains[one] + [other]
                 queue.append(other)
@@ -101,11 +106,9 @@ def find_violations(root):
     includes = {}
     violations = []
     for header in headers:
-        named = INCLUDE.findall((top / header).read_text())
-        own = [name[len("CGAL/"):] for name in named if name.startswith("CGAL/")]
         # A header and that of its definitions, which may be compiled apart, include each other.
         declarations = header.replace("_impl.h", ".h").replace("/internal/read_surface.h", "/read_closed_surface.h")
-        includes[header] = [name for name in own if (top / name).exists()
+        includes[header] = [name for name in own_includes(top / header) if (top / name).exists()
                             and not (header.endswith("_impl.h") and name == declarations)]
         folder = folder_of(header)
         if folder not in MAY_REACH:

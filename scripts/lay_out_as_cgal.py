@@ -41,6 +41,7 @@ CMAKE = """\
 cmake_minimum_required(VERSION 3.12...3.31)
 project({project})
 
+set(CGAL_DATA_DIR "${{CMAKE_CURRENT_SOURCE_DIR}}/data")
 find_package(CGAL REQUIRED)
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.2.0 QUIET CONFIG)
@@ -52,7 +53,7 @@ link_libraries(Threads::Threads)
 if(TARGET CGAL::TBB_support)
   link_libraries(CGAL::TBB_support)
 endif()
-add_definitions(-DMIXED_MESH_3_DATA_DIR="${{CMAKE_CURRENT_SOURCE_DIR}}/data")
+add_definitions(-DMIXED_MESH_3_DATA_DIR="${{CGAL_DATA_DIR}}")
 {programs}
 """
 PROGRAM = 'create_single_source_cgal_program("{name}.cpp")\n'

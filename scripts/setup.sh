@@ -6,7 +6,7 @@
 #   scripts/setup.sh [build] [pictures] [tests] [image] [benchmark] [checks] [cohort] [page] [python] [petsc]
 #
 # When nothing is missing, apt is not called. The other scripts source this
-# file for its two functions, install_packages and build_jobs.
+# file for its functions, install_packages, build_jobs and minutes_since.
 # SKIP_SETUP=1 installs nothing, for a system that got its packages elsewhere.
 
 set -euo pipefail
@@ -19,7 +19,7 @@ fail() {
 # Prints the packages of one purpose.
 packages_for() {
   case $1 in
-    build) echo g++ cmake ninja-build libcgal-dev libcli11-dev nlohmann-json3-dev \
+    build) echo g++ cmake ninja-build ccache libcgal-dev libcli11-dev nlohmann-json3-dev \
                 libboost-dev libgmp-dev libmpfr-dev libeigen3-dev libsuitesparse-dev libnifti2-dev \
                 zlib1g-dev libtbb-dev \
                 libopenblas0-serial ;; # several times faster than the reference BLAS, for CHOLMOD
@@ -88,6 +88,11 @@ build_jobs() {
   jobs=$((memory / (megabytes * 1000)))
   jobs=$((jobs < cores ? jobs : cores))
   echo $((jobs > 1 ? jobs : 1))
+}
+
+# Prints the time since that of $SECONDS given.
+minutes_since() {
+  echo "$(((SECONDS - $1) / 60)) min $(((SECONDS - $1) % 60)) s"
 }
 
 if [[ ${BASH_SOURCE[0]} == "$0" ]]; then

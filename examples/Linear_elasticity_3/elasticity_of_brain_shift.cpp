@@ -39,7 +39,7 @@ Surface read(const std::string& name)
 {
   Surface surface;
   std::string error;
-  if(!mm3::IO::read_closed_surface(MIXED_MESH_3_DATA_DIR "/" + name, surface, &error))
+  if(!mm3::IO::read_closed_surface(CGAL::data_file_path(name), surface, &error))
     throw std::runtime_error(error);
   return surface;
 }

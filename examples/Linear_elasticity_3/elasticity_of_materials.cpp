@@ -51,8 +51,8 @@ int main()
   CGAL::Surface_mesh<Kernel::Point_3> brain, tumor;
   Mesh made, mesh;
   CGAL::Labeled_polyhedral_mixed_mesh_domain_3 domain;
-  if(!mm3::IO::read_closed_surface(MIXED_MESH_3_DATA_DIR "/brain.off", brain)
-     || !mm3::IO::read_closed_surface(MIXED_MESH_3_DATA_DIR "/tumour.off", tumor))
+  if(!mm3::IO::read_closed_surface(CGAL::data_file_path("brain.off"), brain)
+     || !mm3::IO::read_closed_surface(CGAL::data_file_path("tumour.off"), tumor))
     return EXIT_FAILURE;
   domain.add(tumor, 2);
   domain.add(brain, 1);

@@ -48,7 +48,7 @@ int main()
 try {
   Surface brain;
   std::string error;
-  if(!mm3::IO::read_closed_surface(MIXED_MESH_3_DATA_DIR "/brain.off", brain, &error))
+  if(!mm3::IO::read_closed_surface(CGAL::data_file_path("brain.off"), brain, &error))
     throw std::runtime_error(error);
 
   // Sizes are in mm. Neither perturbation nor exudation.

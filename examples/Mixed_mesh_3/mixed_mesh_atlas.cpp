@@ -49,7 +49,7 @@ int main()
 {
   Surface brain;
   Mesh atlas;
-  if(!mm3::IO::read_closed_surface(MIXED_MESH_3_DATA_DIR "/brain.off", brain)
+  if(!mm3::IO::read_closed_surface(CGAL::data_file_path("brain.off"), brain)
      || !CGAL::make_mixed_mesh_3(brain, 660, atlas).has_mesh())
     return EXIT_FAILURE;
 

@@ -68,7 +68,7 @@ int main()
 {
   CGAL::Surface_mesh<Mesh::Point_3> brain;
   Mesh mesh;
-  if(!mm3::IO::read_closed_surface(MIXED_MESH_3_DATA_DIR "/brain.off", brain)
+  if(!mm3::IO::read_closed_surface(CGAL::data_file_path("brain.off"), brain)
      || !CGAL::make_mixed_mesh_3(brain, 660, mesh).has_mesh())
     return EXIT_FAILURE;
   const double before = mm3::quality_statistics(mesh, cost).back().maximum;

@@ -48,9 +48,9 @@ int main(int argc, char** argv)
 try {
   Surface brain_surface, path_surface;
   std::string error;
-  if(!mm3::IO::read_closed_surface(argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR "/brain.off", brain_surface,
+  if(!mm3::IO::read_closed_surface(argc > 1 ? argv[1] : CGAL::data_file_path("brain.off"), brain_surface,
                                    &error)
-     || !mm3::IO::read_closed_surface(argc > 2 ? argv[2] : MIXED_MESH_3_DATA_DIR "/region.off", path_surface,
+     || !mm3::IO::read_closed_surface(argc > 2 ? argv[2] : CGAL::data_file_path("region.off"), path_surface,
                                       &error)) {
     std::cerr << error << '\n';
     return EXIT_FAILURE;

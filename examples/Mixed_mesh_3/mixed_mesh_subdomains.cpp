@@ -29,8 +29,8 @@ int main(int argc, char** argv)
 try {
   Surface brain, tumor;
   std::string error;
-  if(!mm3::IO::read_closed_surface(argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR "/brain.off", brain, &error)
-     || !mm3::IO::read_closed_surface(argc > 2 ? argv[2] : MIXED_MESH_3_DATA_DIR "/tumour.off", tumor,
+  if(!mm3::IO::read_closed_surface(argc > 1 ? argv[1] : CGAL::data_file_path("brain.off"), brain, &error)
+     || !mm3::IO::read_closed_surface(argc > 2 ? argv[2] : CGAL::data_file_path("tumour.off"), tumor,
                                       &error)) {
     std::cerr << error << '\n';
     return EXIT_FAILURE;
