@@ -6,6 +6,7 @@
 // Linear elasticity and resection.
 
 #include "arrays.h"
+#include "common/One_blas_thread.h"
 
 #include <CGAL/Linear_elasticity_3.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
@@ -35,6 +36,17 @@ void check(const CGAL::Linear_elasticity_result_3& result)
   if(!result.is_success())
     throw Elasticity_error(result.description());
 }
+
+// What factors and solves: other threads of Python run meanwhile, none in the same object, and CHOLMOD computes
+// as in brain_shift, so that results are the same, byte for byte.
+struct Computation
+{
+  const py::gil_scoped_release release;
+  const std::lock_guard<std::mutex> lock;
+  const One_blas_thread one_thread;
+
+  explicit Computation(std::mutex& mutex) : lock(mutex) {}
+};
 
 // Keeps the mesh that the solver refers to, and factors when that is first needed.
 class Elasticity
@@ -126,8 +138,7 @@ public:
     for(double w : weights)
       if(!(w >= 1e-6 && w <= 1e6))
         throw std::invalid_argument("weights: expected positive numbers, from 1e-6 to 1e6");
-    const py::gil_scoped_release release;
-    const std::lock_guard<std::mutex> lock(m_mutex);
+    const Computation computation(m_mutex);
     factor();
     check(m_solver->set_control_points(positions, largest_distance, compliance, radius, weights));
   }
@@ -138,8 +149,7 @@ public:
     std::vector<Vector> found;
     CGAL::Linear_elasticity_result_3 result;
     {
-      const py::gil_scoped_release release;
-      const std::lock_guard<std::mutex> lock(m_mutex);
+      const Computation computation(m_mutex);
       factor();
       if(given.size() != m_solver->number_of_control_points())
         throw std::invalid_argument("displacements: expected one for each of "
@@ -160,8 +170,7 @@ public:
   void remove(const Marks& elements)
   {
     const std::vector<bool> marks = marks_of(elements, m_mesh->number_of_elements(), "elements");
-    const py::gil_scoped_release release;
-    const std::lock_guard<std::mutex> lock(m_mutex);
+    const Computation computation(m_mutex);
     factor();
     check(m_solver->remove_elements(marks));
   }
@@ -180,8 +189,7 @@ public:
   {
     std::vector<Vector> errors;
     {
-      const py::gil_scoped_release release;
-      const std::lock_guard<std::mutex> lock(m_mutex);
+      const Computation computation(m_mutex);
       if(m_solver->is_iterative() || m_solver->number_of_control_points() == 0
          || m_solver->control_forces().size() != m_solver->number_of_control_points())
         throw Elasticity_error("leave_one_out_errors(): solve() comes first, and no removal in between");

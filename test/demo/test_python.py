@@ -5,6 +5,7 @@
   test_python.py BUILD SOURCE FOLDER        BUILD holds bin/ and python/
 """
 
+import ctypes
 import json
 import os
 import pathlib
@@ -45,6 +46,15 @@ BRAIN, REGION, TUMOR = (read_off(DATA / f"{name}.off") for name in ("brain", "re
 CUBE = (np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=float),
         np.array([[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4],
                   [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]]))
+
+
+def blas_threads():
+    """The functions of OpenBLAS that tell and set how many threads NumPy has there; None with another BLAS."""
+    for line in pathlib.Path("/proc/self/maps").read_text().splitlines():
+        if "libopenblas" in line:
+            library = ctypes.CDLL(line.split(maxsplit=5)[5])
+            return library.openblas_get_num_threads, library.openblas_set_num_threads
+    return None
 
 
 def read_vtu(path):
@@ -262,6 +272,34 @@ class Test(unittest.TestCase):
         self.assertTrue((model.contact_forces()[top] == 0).all())
         self.assertTrue((model.contact_forces() >= 0).all())
         self.assertTrue((model.contact_forces() > 0).any())
+
+    def test_threads_of_numpy(self):
+        """The solver takes one thread of the BLAS, and gives back those that NumPy had, also if two solve at once."""
+        functions = blas_threads()
+        if functions is None or os.cpu_count() == 1:
+            self.skipTest("no BLAS that tells how many threads it uses, or one processor")
+        threads, set_threads = functions
+        before = threads()
+        self.addCleanup(set_threads, before)
+        set_threads(2)
+        wanted = threads()  # 1 where OpenBLAS was built without threads
+
+        def solve():
+            model = mm3.Elasticity(self.mesh)
+            model.fix(self.mesh.points[:, 2] < np.quantile(self.mesh.points[:, 2], 0.2))
+            model.set_control_points(self.mesh.points[:1])
+            model.solve([[0, 0, -1.0]])
+            with self.assertRaises(mm3.ElasticityError):
+                model.set_control_points([[1e4, 0, 0]])
+
+        solve()
+        self.assertEqual(threads(), wanted)
+        both = [threading.Thread(target=solve) for _ in range(2)]
+        for thread in both:
+            thread.start()
+        for thread in both:
+            thread.join()
+        self.assertEqual(threads(), wanted)
 
     def test_warp(self):
         affine = np.diag([4.0, 4.0, 4.0, 1.0])

@@ -11,7 +11,7 @@
 
 #include "brain_shift/options.h"
 #include "brain_shift/run.h"
-#include "brain_shift/use_one_thread.h"
+#include "common/One_blas_thread.h"
 #include "common/messages.h"
 
 #if MIXED_MESH_3_HAS_PETSC
@@ -60,7 +60,7 @@ int run_command_line(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-  use_one_thread();
+  const One_blas_thread one_thread;
   try {
     CGAL::Mixed_meshes_3::Petsc_session session;
     if(session.is_first())
@@ -100,7 +100,7 @@ int main(int argc, char** argv)
 {
   if(asks_for_petsc(argc, argv))
     become_program_with_petsc(argv);
-  use_one_thread();
+  const One_blas_thread one_thread;
   return run_command_line(argc, argv);
 }
 

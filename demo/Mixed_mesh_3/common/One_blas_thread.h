@@ -1,0 +1,24 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef MIXED_MESH_3_DEMO_COMMON_ONE_BLAS_THREAD_H
+#define MIXED_MESH_3_DEMO_COMMON_ONE_BLAS_THREAD_H
+
+/// As long as it lives, the BLAS that CHOLMOD uses, and OpenMP, use one thread, whatever the environment says:
+/// several may add up in another order, and results differ in their last digits. At its end they use as many as
+/// before, because others in the process share them: NumPy in Python. There may be several at a time, in several
+/// threads; each ends in the thread in which it began.
+class One_blas_thread
+{
+  int m_openmp_threads; // of this thread, or 0 without OpenMP
+
+public:
+  One_blas_thread();
+  ~One_blas_thread();
+  One_blas_thread(const One_blas_thread&) = delete;
+  One_blas_thread& operator=(const One_blas_thread&) = delete;
+};
+
+#endif // MIXED_MESH_3_DEMO_COMMON_ONE_BLAS_THREAD_H

@@ -1,0 +1,113 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Regions, subdomains and sheets on the command line of the mesher.
+
+  test_command_line_regions.py MESHER DATA_DIRECTORY WORK_DIRECTORY
+"""
+
+import json
+import sys
+import unittest
+
+from command_line_case import DATA, WORK, Case
+from cube import CUBE, TRIANGLES, moved, off
+
+
+class Regions(Case):
+    def test_several_regions(self):
+        """A light region gets fewer of the vertices, a heavy one leaves fewer to the other."""
+        low, edge = (-42, -32, 18), 24
+        box = self.file("box.off", off(moved(CUBE, edge, low), TRIANGLES))
+        output = WORK / "regions.mesh"
+        numbers, others = [], []
+        for weight in ("", ":1", ":0.01", ":100"):
+            told, _ = self.brain("--region", f"{box}{weight}", "--output", output, vertices=1500)
+            self.assertEqual([r["weight"] for r in told["inputs"]["regions"]], [1, float(weight[1:] or 1)])
+            lines = output.read_text().split("\n")
+            first = lines.index("Vertices") + 2
+            points = [[float(x) for x in line.split()[:3]] for line in lines[first:first + told["mesh"]["vertices"]]]
+            numbers.append(sum(all(l <= x <= l + edge for l, x in zip(low, p)) for p in points))
+            others.append(told["mesh"]["vertices in region"] - numbers[-1])
+        self.assertEqual((numbers[0], others[0]), (numbers[1], others[1]))
+        self.assertLess(2 * numbers[2], numbers[1])
+        self.assertLess(2 * others[3], others[1])
+
+    def test_subdomains(self):
+        """A tumor with a label and an interface, or as a cavity."""
+        report, mesh = WORK / "subdomains.json", WORK / "subdomains.vtu"
+        tumor = DATA / "tumour.off"
+        run = self.mesher(DATA / "brain.off", "--subdomain", f"tumor={tumor}", "--region", DATA / "region.off",
+                     "--vertices", 1500, "--output", mesh, "--report", report)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        told = json.loads(report.read_text())
+        self.assertTrue(all(told["checks"].values()))
+        self.assertEqual([(s["name"], s["index"]) for s in told["subdomains"]], [("tumor", 2), ("brain", 1)])
+        for s in told["subdomains"]:
+            self.assertAlmostEqual(s["volume"] / s["volume of surface"], 1, delta=0.08)
+            self.assertLessEqual(s["ARC max"], 3.2)
+        self.assertAlmostEqual(sum(s["volume"] for s in told["subdomains"]), told["mesh"]["volume"], delta=1)
+        self.assertEqual([i["between"] for i in told["interfaces"]], [["brain", "outside"], ["brain", "tumor"]])
+        self.assertTrue(all(i["manifold"] for i in told["interfaces"]))
+        self.assertIn("tumor (2): ", run.stdout)
+
+        run = self.mesher(DATA / "brain.off", "--cavity", tumor, "--region", DATA / "region.off", "--vertices", 1500,
+                     "--output", mesh, "--report", report)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        told = json.loads(report.read_text())
+        self.assertEqual(len([s for s in told["subdomains"] if s["elements"] > 0]), 1)
+        self.assertAlmostEqual(told["surface"]["ratio of volumes"], 1, delta=0.04)
+
+    def test_wrong_subdomains(self):
+        tumor = DATA / "tumour.off"
+        for options, words in ((["--subdomain", f"brain={tumor}"], "the name is taken"),
+                               (["--subdomain", f"a={tumor}", "--subdomain", f"a={tumor}"], "the name is taken"),
+                               (["--subdomain", f"outside={tumor}"], "the name is taken"),
+                               (["--subdomain", f"1={tumor}"], "a name has up to 24"),
+                               (["--subdomain", tumor, "--no-optimize"], "knows neither"),
+                               (["--cavity", tumor, "--mode", "paper"], "knows neither")):
+            run = self.mesher(DATA / "brain.off", "--vertices", 1500, *options)
+            self.assertEqual(run.returncode, 2)
+            self.assertIn(words, run.stderr)
+        run = self.mesher(DATA / "brain.off", "--vertices", 1500, "--subdomain", "a=nothing.off")
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("nothing.off", run.stderr)
+
+    def test_sheets(self):
+        """A plane through half of the brain: a facet set, and a slit."""
+        sheet = self.file("falx.off", off([(0, -120, 10), (0, 90, 10), (0, 90, 100), (0, -120, 100)],
+                                          [(0, 1, 2, 3)]))
+        far = self.file("far.off", off([(0, 0, 500), (0, 9, 500), (0, 9, 510)], [(0, 1, 2)]))
+        mesh = WORK / "falx.vtu"
+        told, run = self.brain("--sheet", sheet, "--output", mesh, "--output", WORK / "falx.msh", vertices=1500)
+        self.assertEqual(len(told["sheets"]), 1)
+        falx = told["sheets"][0]
+        self.assertEqual(falx["name"], "falx")
+        self.assertGreater(falx["faces"], 50)
+        self.assertAlmostEqual(falx["area"] / falx["area of surface inside the domain"], 1, delta=0.15)
+        self.assertLessEqual(falx["vertices not on surface"], 0.05 * falx["vertices"])
+        self.assertTrue(all(told["checks"].values()))
+        self.assertIn("falx: ", run.stdout)
+        self.assertIn(b"facets_falx", mesh.read_bytes())
+        self.assertIn(b'"compartment"', mesh.read_bytes())
+        self.assertIn(b'"falx"', (WORK / "falx.msh").read_bytes())
+
+        slit, run = self.brain("--sheet", sheet, "--slit", "--output", mesh, vertices=1500)
+        self.assertEqual(slit["sheets"][0]["faces"], falx["faces"])
+        self.assertGreater(slit["slit"]["vertices doubled"], 20)
+        self.assertEqual(slit["mesh"]["vertices"], told["mesh"]["vertices"] + slit["slit"]["vertices doubled"])
+        self.assertIn(b"facets_falx_front", mesh.read_bytes())
+
+        told, run = self.brain("--sheet", far)
+        self.assertIn("warning: the sheet far has no faces in the mesh", run.stderr)
+        for options, status, words in ((["--sheet", sheet, "--sheet", sheet], 2, "the name is taken"),
+                                       (["--sheet", sheet, "--no-optimize"], 2, "knows no sheets"),
+                                       (["--slit"], 2, "needs --sheet"), (["--sheet", "a=nothing.off"], 1, "nothing.off"),
+                                       (["--sheet", self.file("m.off", off(CUBE, [(0, 1, 2), (0, 1, 4), (0, 1, 6)]))], 1,
+                                        "not a manifold")):
+            run = self.mesher(DATA / "brain.off", "--vertices", 660, *options)
+            self.assertEqual(run.returncode, status)
+            self.assertIn(words, run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
