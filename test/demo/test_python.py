@@ -279,27 +279,33 @@ class Test(unittest.TestCase):
         if functions is None or os.cpu_count() == 1:
             self.skipTest("no BLAS that tells how many threads it uses, or one processor")
         threads, set_threads = functions
-        before = threads()
-        self.addCleanup(set_threads, before)
-        set_threads(2)
-        wanted = threads()  # 1 where OpenBLAS was built without threads
+        self.addCleanup(set_threads, threads())
+        z = self.mesh.points[:, 2]
+        top = self.mesh.points[np.argsort(z)[-5:]]
 
         def solve():
             model = mm3.Elasticity(self.mesh)
-            model.fix(self.mesh.points[:, 2] < np.quantile(self.mesh.points[:, 2], 0.2))
-            model.set_control_points(self.mesh.points[:1])
-            model.solve([[0, 0, -1.0]])
+            model.fix(z < np.quantile(z, 0.2))
+            model.set_control_points(top)
+            shift = model.solve(np.tile([0, 0, -3.0], (5, 1)))
             with self.assertRaises(mm3.ElasticityError):
                 model.set_control_points([[1e4, 0, 0]])
+            return shift
 
-        solve()
+        set_threads(1)
+        expected = solve()
+        set_threads(2)
+        wanted = threads()  # 1 where OpenBLAS was built without threads
+        np.testing.assert_array_equal(solve(), expected)
         self.assertEqual(threads(), wanted)
-        both = [threading.Thread(target=solve) for _ in range(2)]
+        found = []
+        both = [threading.Thread(target=lambda: found.append(solve())) for _ in range(2)]
         for thread in both:
             thread.start()
         for thread in both:
             thread.join()
         self.assertEqual(threads(), wanted)
+        np.testing.assert_array_equal(found, [expected, expected])
 
     def test_warp(self):
         affine = np.diag([4.0, 4.0, 4.0, 1.0])
