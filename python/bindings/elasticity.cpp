@@ -37,8 +37,8 @@ void check(const CGAL::Linear_elasticity_result_3& result)
     throw Elasticity_error(result.description());
 }
 
-// What factors and solves: other threads of Python run meanwhile, none in the same object, and CHOLMOD computes
-// as in brain_shift, so that results are the same, byte for byte.
+// Scope of what factors and solves: other threads of Python run meanwhile, none in the same object, and
+// CHOLMOD computes as in brain_shift, so that results are the same, byte for byte.
 struct Computation
 {
   const py::gil_scoped_release release;

@@ -13,8 +13,8 @@
 
 namespace {
 
-// The functions of a library. Which there is, if any, is known when the program runs: Debian lets the user choose
-// the BLAS.
+// Functions of a library that get and set its number of threads. Which libraries there are is known when the
+// program runs, as Debian lets the user choose the BLAS.
 struct Library
 {
   const char* get;
@@ -38,8 +38,8 @@ constexpr std::array<Library, 3> blas = {{{"openblas_get_num_threads", "openblas
                                           {"MKL_Get_Max_Threads", "MKL_Set_Num_Threads"}}};
 constexpr Library openmp = {"omp_get_max_threads", "omp_set_num_threads"};
 
-// A BLAS has one number for the process: the first object keeps it, and the last restores it. OpenMP has a number
-// for each thread.
+// The number of threads of a BLAS is one for the process: the first object keeps it, and the last restores
+// it. OpenMP has a number for each thread.
 std::mutex mutex;
 std::size_t number_of_objects = 0;
 std::array<int, blas.size()> threads_before;

@@ -6,10 +6,10 @@
 #ifndef MIXED_MESH_3_DEMO_COMMON_ONE_BLAS_THREAD_H
 #define MIXED_MESH_3_DEMO_COMMON_ONE_BLAS_THREAD_H
 
-/// As long as it lives, the BLAS that CHOLMOD uses, and OpenMP, use one thread, whatever the environment says:
-/// several may add up in another order, and results differ in their last digits. At its end they use as many as
-/// before, because others in the process share them: NumPy in Python. There may be several at a time, in several
-/// threads; each ends in the thread in which it began.
+/// Guard under which the BLAS that CHOLMOD uses, and OpenMP, take one thread, whatever the environment says:
+/// several may add up in another order, and results differ in their last digits. At its end they take as many
+/// as before, because others in the process share them: NumPy in Python. Several guards may live at a time,
+/// in several threads; each ends in the thread in which it began.
 class One_blas_thread
 {
   int m_openmp_threads; // of this thread, or 0 without OpenMP
