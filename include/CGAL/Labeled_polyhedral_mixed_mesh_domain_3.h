@@ -11,6 +11,7 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
+#include <CGAL/Mixed_mesh_3/Surface_description.h>
 #include <CGAL/Mixed_mesh_sheet_3.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 
@@ -237,16 +238,23 @@ public:
     return samples;
   }
 
-#ifndef DOXYGEN_RUNNING
-  // Of the whole surface, if that is known.
-  std::optional<Mixed_meshes_3::internal::Shell_counts> shells() const
+  /// The shells of the whole surface; nothing if it is made of several.
+  std::optional<Mixed_meshes_3::Shell_counts> shells() const
   {
     if(m_surfaces.size() != 1)
       return std::nullopt;
     return m_surfaces.front().surface->shells();
   }
-  double volume() const { return m_surfaces.front().surface->volume(); } // of the first one
-#endif
+
+  /// The volume inside the surfaces, less that of cavities. It is that of the domain if no two of them
+  /// overlap, and cavities are inside.
+  double volume() const
+  {
+    double sum = 0;
+    for(const Labeled& s : m_surfaces)
+      sum += s.index == 0 ? -s.surface->volume() : s.surface->volume();
+    return sum;
+  }
 
   /// Four times the volume by the area, of the surfaces of a subdomain: of a convex body, the mean length of
   /// the segments that lines leave in it.
@@ -263,13 +271,13 @@ public:
 
   /// The sharp edges of the surfaces, as those of `Polyhedral_mixed_mesh_domain_3`; none if there are several
   /// subdomains, or sheets.
-  Mixed_meshes_3::internal::Sharp_edges sharp_edges(double angle) const
+  Mixed_meshes_3::Sharp_edges sharp_edges(double angle) const
   {
-    Mixed_meshes_3::internal::Sharp_edges all;
+    Mixed_meshes_3::Sharp_edges all;
     if(m_indices.size() > 1 || !m_sheets.empty())
       return all;
     for(const Labeled& s : m_surfaces) {
-      const Mixed_meshes_3::internal::Sharp_edges more = s.surface->sharp_edges(angle);
+      const Mixed_meshes_3::Sharp_edges more = s.surface->sharp_edges(angle);
       const std::size_t first = all.points.size();
       all.points.insert(all.points.end(), more.points.begin(), more.points.end());
       for(const auto& e : more.edges)
@@ -280,20 +288,15 @@ public:
     return all;
   }
 
-  /// The planes that the surfaces lie in, as those of `Polyhedral_mixed_mesh_domain_3`; nothing, and 0, if
-  /// there are several subdomains.
-  std::array<std::map<double, double>, 3> axis_parallel_planes(double& volume) const
+  /// The planes that the surfaces lie in, as those of `Polyhedral_mixed_mesh_domain_3`; nothing if there are
+  /// several subdomains.
+  Mixed_meshes_3::Axis_parallel_planes axis_parallel_planes() const
   {
-    std::array<std::map<double, double>, 3> planes;
-    volume = 0;
+    Mixed_meshes_3::Axis_parallel_planes planes;
     for(const Labeled& s : m_surfaces) {
-      double of_surface = 0;
-      const auto more = s.surface->axis_parallel_planes(of_surface);
-      if(!(of_surface > 0) || m_indices.size() > 1) {
-        volume = 0;
+      const Mixed_meshes_3::Axis_parallel_planes more = s.surface->axis_parallel_planes();
+      if(more[0].empty() || m_indices.size() > 1)
         return {};
-      }
-      volume += s.index == 0 ? -of_surface : of_surface;
       for(std::size_t k = 0; k < 3; ++k)
         for(const auto& [coordinate, area] : more[k])
           planes[k][coordinate] += area;

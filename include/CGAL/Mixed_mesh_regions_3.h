@@ -12,7 +12,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
-#include <CGAL/Mixed_mesh_3/internal/octree/weight_in_region.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/weight_in_region.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3.h>
 
 #include <CGAL/Bbox_3.h>

@@ -10,18 +10,21 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/Surface_description.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
 
 #include <CGAL/Bbox_3.h>
 
 #include <cstddef>
+#include <optional>
 
 namespace CGAL {
 
 /// \ingroup PkgMixedMesh3Functions
 /// How `make_mixed_mesh_3()` ended. In the order of precedence: if several are true, the last of them is
-/// given. `VOLUME_DIFFERS` and `TOPOLOGY_DIFFERS` are found by `Mixed_meshes_3::compare_with_surface()` only,
-/// which `make_mixed_mesh_3()` does not call: a domain need not have a surface with faces.
+/// given. `VOLUME_DIFFERS` and `TOPOLOGY_DIFFERS` are found by `make_mixed_mesh_3()` as far as the domain
+/// tells what its surface is like (`MixedMeshDomain_3::shells()`, `volume()`), by numbers for the whole;
+/// and by `Mixed_meshes_3::compare_with_surface()` for each body, cavity and handle.
 enum class Mixed_mesh_status {
   SUCCESS,               ///< the budget is filled to at least 97 %, and the boundary is where it should be
   BUDGET_NOT_FILLED,     ///< valid, but below 97 %: each cell tried would exceed the budget
@@ -111,6 +114,12 @@ struct Mixed_mesh_result_3
   /// What the coarse mesh (of the base level, and finer where the tolerance asks for it, without the region)
   /// takes of the budget; 0 without a tolerance.
   std::size_t number_of_vertices_for_tolerance = 0;
+  /// What the domain tells of its surface, `MixedMeshDomain_3::shells()`. Nothing if it does not tell: then
+  /// topology and volume of the mesh have not been compared.
+  std::optional<Mixed_meshes_3::Shell_counts> shells_of_domain;
+  /// What the boundary of the mesh is like, if the domain tells what it should be like: where these numbers
+  /// differ, so do the topologies.
+  std::optional<Mixed_meshes_3::Shell_counts> shells;
   /// What fitting and optimization did; its status is `EMPTY` if they did not run.
   Mixed_mesh_optimization_result_3 optimization;
 

@@ -85,8 +85,11 @@ Mixed_mesh_fit_result_3 fit_mixed_mesh_to_surface(Mixed_mesh_3<GeomTraits>& mesh
   Solver solver = parameters::choose_parameter(
     parameters::get_parameter_reference(np, internal_np::sparse_linear_solver), default_solver);
   const auto& s = mm3::as_surface(surface, np);
+  const mm3::Surface_reference any_surface(s);
   return mm3::with_visitor(np, [&](auto& visitor) {
-    return mm3::fit(mesh, s, quality, criteria, solver, [&] { return visitor.go_on(); });
+    return mm3::with_core_mesh(mesh, [&](mm3::Core_mesh& core) {
+      return mm3::fit(core, any_surface, quality, criteria, solver, [&] { return visitor.go_on(); });
+    });
   });
 }
 

@@ -97,8 +97,8 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
   const auto& d = mm3::as_domain(domain, np);
   const auto& r = mm3::as_region(region, np_region);
   return mm3::with_visitor(np, [&](auto& visitor) {
-    return mm3::mesh_domain_as(d, r, mm3::Concurrency::with<ConcurrencyTag>(criteria), cell_traits, visitor,
-                               mesh);
+    return mm3::mesh_models(d, r, mm3::Concurrency::with<ConcurrencyTag>(criteria), cell_traits, visitor,
+                            mesh);
   });
 }
 

@@ -14,6 +14,7 @@
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Bounded_optimization.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/optimize_bounded.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/arguments.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
@@ -100,9 +101,12 @@ optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface, co
     return result;
   }
   const auto& s = mm3::as_surface(surface, np);
+  const mm3::Surface_reference any_surface(s);
   return mm3::with_visitor(np, [&](auto& visitor) {
-    return mm3::Bounded_optimization(mesh, s, mm3::Concurrency::with<ConcurrencyTag>(criteria),
-                                     quality)([&] { return visitor.go_on(); });
+    return mm3::with_core_mesh(mesh, [&](mm3::Core_mesh& core) {
+      return mm3::optimize_bounded(core, any_surface, mm3::Concurrency::with<ConcurrencyTag>(criteria),
+                                   quality, [&] { return visitor.go_on(); });
+    });
   });
 }
 

@@ -5,6 +5,7 @@
 //
 // The library Mixed_mesh_3_compiled: what has no template parameter, compiled once.
 
+#include <CGAL/Mixed_mesh_3/internal/fitting/optimize_bounded_impl.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/mesh_domain_impl.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Sheet_oracle_3_impl.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3_impl.h>

@@ -106,7 +106,7 @@ std::size_t number_reaching_out = 0, number_with_first_defects = 0, number_of_re
             number_unrepaired = 0;
 
 // Runs the stage and checks all it promises. `margin` tells that the rim can not be reached.
-void test_boundary(const Analytic_octree& located, Transition_templates_choice choice, Boundary_mode mode,
+void test_boundary(const Located_octree& located, Transition_templates_choice choice, Boundary_mode mode,
                    bool has_margin)
 {
   Lattice_mesh mesh = apply_transitions(located, choice);
@@ -247,7 +247,7 @@ void test_boundary_stage()
                        3, 0});
   unsigned seed = 100;
   for(const Case& one : cases) {
-    const Analytic_octree octree = random_octree(one.domain, traits, ++seed, one.base_level, one.rounds);
+    const Located_octree octree = random_octree(one.domain, traits, ++seed, one.base_level, one.rounds);
     for(Boundary_mode mode : {Boundary_mode::VERTEX_ORDER, Boundary_mode::PAPER})
       test_boundary(octree, Transition_templates_choice::FEWEST_VERTICES, mode, true);
     test_boundary(octree, Transition_templates_choice::CENTERED, Boundary_mode::VERTEX_ORDER, true);
@@ -259,9 +259,9 @@ void test_boundary_stage()
     for(int share : {3, 10, 30, 60})
       for(int repeat = 0; repeat < 4; ++repeat) {
         const Analytic_domain domain(noise(++seed, share, margin));
-        const Analytic_octree octree = repeat == 0  ? random_octree(domain, traits, seed, 3, 0)
-                                       : repeat < 3 ? random_octree(domain, traits, seed, 2, repeat)
-                                                    : random_octree(domain, traits, seed, 2, 1, 2);
+        const Located_octree octree = repeat == 0  ? random_octree(domain, traits, seed, 3, 0)
+                                      : repeat < 3 ? random_octree(domain, traits, seed, 2, repeat)
+                                                   : random_octree(domain, traits, seed, 2, 1, 2);
         for(Boundary_mode mode : {Boundary_mode::VERTEX_ORDER, Boundary_mode::PAPER})
           test_boundary(octree, Transition_templates_choice::FEWEST_VERTICES, mode, false);
       }
@@ -288,7 +288,7 @@ void test_unrepaired()
   for(std::uint32_t i = 0; i < 27; ++i)
     for(std::uint32_t j = 0; j < i; ++j) {
       const Analytic_domain domain(united(ball(place(i), 0.01), ball(place(j), 0.01)));
-      Analytic_octree octree(domain, region, traits);
+      Located_octree octree(domain, region, traits);
       octree.refine(octree.leaves_to_refine(0, false));
       Lattice_mesh lattice = apply_transitions(octree, Transition_templates_choice::FEWEST_VERTICES);
       const Boundary_pieces boundary = split_boundary(octree, lattice, Boundary_mode::VERTEX_ORDER);
@@ -317,7 +317,7 @@ void test_unrepaired()
 
 // By all pairs of leaves: those that meet the domain, have no elements, and meet none that has, not even one
 // that is as near as a cell of their size beside them.
-std::vector<Octree::Node_index> expected_lost_cells(const Analytic_octree& located, const Lattice_mesh& mesh,
+std::vector<Octree::Node_index> expected_lost_cells(const Located_octree& located, const Lattice_mesh& mesh,
                                                     const Boundary_pieces& boundary)
 {
   const Octree& octree = located.octree();
@@ -362,7 +362,7 @@ void test_lost_cells()
                                        Analytic_domain(noise(9, 2, 0.1))})
     for(int base_level : {2, 3})
       for(int rounds : {0, 2}) {
-        const Analytic_octree octree = random_octree(domain, traits, ++seed, base_level, rounds);
+        const Located_octree octree = random_octree(domain, traits, ++seed, base_level, rounds);
         Lattice_mesh mesh = apply_transitions(octree, Transition_templates_choice::FEWEST_VERTICES);
         const Boundary_pieces boundary = split_boundary(octree, mesh, Boundary_mode::VERTEX_ORDER);
         const std::vector<Octree::Node_index> lost = lost_cells(octree, mesh, boundary);

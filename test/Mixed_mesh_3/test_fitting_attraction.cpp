@@ -32,7 +32,7 @@ using namespace CGAL::Mixed_meshes_3;
 using CGAL::Polyhedral_mixed_mesh_domain_3;
 using internal::Surface_attraction;
 using internal::Working_mesh;
-using Project = internal::Surface_projection<Polyhedral_mixed_mesh_domain_3>;
+using Project = internal::Surface_projection;
 
 const Vec3 center{0.5, 0.5, 0.5};
 constexpr double radius = 0.8;
@@ -114,8 +114,9 @@ void test_remembered()
 {
   const Test_surface surface = sphere({center[0], center[1], center[2]}, radius, 16);
   const Polyhedral_mixed_mesh_domain_3 domain(surface);
-  const internal::Strata strata(domain);
-  const Project project(domain, strata);
+  const internal::Surface_reference any_surface(domain);
+  const internal::Strata strata(any_surface);
+  const Project project(any_surface, strata);
   std::vector<Vec3> samples;
   for(const auto& p : domain.surface_samples(0.1))
     samples.push_back(to_vec3(p));

@@ -173,10 +173,12 @@ Folded_faces folded_faces(const Mesh& mesh, const Test_surface& surface, double 
 {
   const Polyhedral_mixed_mesh_domain_3 domain(surface);
   const std::vector<Face> boundary = boundary_faces(mesh);
-  const internal::Strata strata(domain);
+  const internal::Surface_reference any_surface(domain);
+  const internal::Strata strata(any_surface);
   const std::vector<internal::Stratum> on_boundary(mesh.number_of_vertices(), internal::boundary_stratum);
   const Surface_targets targets = surface_targets(boundary, positions(mesh),
-                                                  internal::Surface_projection(domain, strata), on_boundary);
+                                                  internal::Surface_projection(any_surface, strata),
+                                                  on_boundary);
   std::vector<Vec3> sources, closest;
   std::vector<Vertex_index> numbers(mesh.number_of_vertices());
   for(std::size_t i = 0; i < targets.vertices.size(); ++i) {

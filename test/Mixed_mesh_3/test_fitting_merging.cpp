@@ -81,7 +81,7 @@ Mesh part(const Mesh& mesh, Subdomain_index index)
   return result;
 }
 
-internal::Shell_counts shells_of(const Mesh& mesh)
+Shell_counts shells_of(const Mesh& mesh)
 {
   std::vector<Face_vertices> polygons;
   for(const Face& face : boundary_faces(mesh))

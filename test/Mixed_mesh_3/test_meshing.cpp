@@ -9,6 +9,12 @@
 
 #include "test_meshing.h"
 
+#include <CGAL/Mixed_mesh_3/internal/boundary/assemble_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/Candidate.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/base_level.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/fill_vertex_budget.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/Any_visitor.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/Mixed_mesh_3/surface_distance.h>
 #include <CGAL/Mixed_mesh_3/validation.h>
@@ -136,8 +142,6 @@ void test_bisections(const Surface& brain, const Polyhedral_mixed_mesh_domain_3&
 // mesh is that of an octree made here, of which that is checked.
 void test_paper(const Polyhedral_mixed_mesh_domain_3& domain, const Polyhedral_mixed_mesh_region_3& region)
 {
-  using Octree_ = internal::Located_octree<Polyhedral_mixed_mesh_domain_3, Polyhedral_mixed_mesh_region_3,
-                                           Axis_aligned_octree_cell_traits_3>;
   const Axis_aligned_octree_cell_traits_3 traits(domain.bbox());
   for(int base_level : {2, 3}) {
     const auto criteria = unfitted(1500).base_level(base_level).grading(0).tolerance(0);
@@ -147,12 +151,15 @@ void test_paper(const Polyhedral_mixed_mesh_domain_3& domain, const Polyhedral_m
     BOOST_TEST_EQ(result.tolerance, 0);
     BOOST_TEST_EQ(result.number_of_vertices_for_tolerance, 0u);
 
-    Octree_ octree(domain, region, traits);
+    internal::Located_octree octree(domain, region, traits);
     BOOST_TEST(internal::refine_to_level(octree, base_level, 1500));
-    Default_visitor visitor;
-    const auto candidate = internal::fill_vertex_budget(octree, 1500, 0, [&](const Octree_& o) {
-      return internal::make_candidate(o, criteria, visitor);
-    });
+    Default_visitor default_visitor;
+    internal::Visitor_reference<Default_visitor> visitor(default_visitor);
+    const auto candidate = internal::fill_vertex_budget(octree, 1500, 0,
+                                                        [&](const internal::Located_octree& o) {
+                                                          return internal::make_candidate(o, criteria,
+                                                                                          visitor);
+                                                        });
     internal::assemble_mesh(octree, candidate.mesh, candidate.boundary, expected);
     BOOST_TEST(content(mesh) == content(expected));
 

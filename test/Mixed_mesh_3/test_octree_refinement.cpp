@@ -34,7 +34,6 @@ using internal::Refinement_sequence;
 using internal::fill_vertex_budget;
 using Node_index = Octree::Node_index;
 using Region = CGAL::Weighted_mixed_mesh_region_3<Ball_mixed_mesh_region_3>;
-using Ball_octree = Located_octree<Analytic_domain, Region, Aligned_traits>;
 using Weight = std::function<double(const Test_point&)>;
 
 Region ball_region(
@@ -107,7 +106,6 @@ void test_truncate()
 // The rule as it is documented, without what the sequence remembers.
 class Rule
 {
-  using Sequence = Refinement_sequence<Ball_octree>;
   const Region& m_region;
   const Aligned_traits& m_traits;
   const double m_radius;
@@ -119,19 +117,19 @@ public:
   }
 
   // Of a cell, or of the smallest one around it that is not small against the radius.
-  double depth(const Ball_octree& octree, Node_index n) const
+  double depth(const Located_octree& octree, Node_index n) const
   {
     while(n > 0 && octree.edge_length(n) < m_radius / 2)
       n = octree.octree().parent(n);
     return m_region.depth(center(octree, n));
   }
 
-  Test_point center(const Ball_octree& octree, Node_index n) const
+  Test_point center(const Located_octree& octree, Node_index n) const
   {
     return m_traits.cell(octree.octree().corner(n), octree.octree().side(n)).center();
   }
 
-  double key(const Ball_octree& octree, Node_index n) const
+  double key(const Located_octree& octree, Node_index n) const
   {
     const double h = octree.edge_length(n);
     if(m_radius == 0 && !octree.is_in_region(n))
@@ -143,12 +141,13 @@ public:
     }
     weight *= m_region.weight(center(octree, n), m_radius);
     if(octree.side(n) == CGAL::ON_BOUNDARY)
-      weight = Sequence::factor_at_surface * weight + Sequence::weight_of_volume * m_radius / h;
+      weight = Refinement_sequence::factor_at_surface * weight
+               + Refinement_sequence::weight_of_volume * m_radius / h;
     return weight * std::pow(h, 5);
   }
 
   // The leaf to be split next; `no_node` if there is none.
-  Node_index next(const Ball_octree& octree) const
+  Node_index next(const Located_octree& octree) const
   {
     std::tuple<double, double, std::uint64_t> best{};
     Node_index chosen = Octree::no_node;
@@ -168,11 +167,11 @@ public:
   }
 };
 
-void test_sequence(const Ball_octree& start, const Rule& rule, double radius, std::size_t number_of_steps)
+void test_sequence(const Located_octree& start, const Rule& rule, double radius, std::size_t number_of_steps)
 {
-  Refinement_sequence<Ball_octree> sequence(start, radius);
+  Refinement_sequence sequence(start, radius);
   BOOST_TEST_EQ(sequence.number_of_steps(), 0u);
-  std::vector<Ball_octree> after{start}; // by refinement, step by step
+  std::vector<Located_octree> after{start}; // by refinement, step by step
   for(std::size_t i = 0; i < number_of_steps && sequence.extend(); ++i) {
     const Node_index n = sequence.cell(i);
     BOOST_TEST_EQ(n, rule.next(after.back()));
@@ -199,7 +198,7 @@ void test_sequences()
                                       std::make_pair(Test_point(0.1, 0.5, 0.4), 0.01)}) {
       const Aligned_traits traits(root, Root_cell::BOX);
       const auto test = [&](const Region& region) {
-        const Ball_octree octree(domain, region, traits);
+        const Located_octree octree(domain, region, traits);
         for(double radius : {0., 0.02, 0.1, 1.})
           for(int level : {0, 3})
             test_sequence(refined(octree, level), Rule(region, traits, radius), radius, 120);
@@ -215,13 +214,13 @@ void test_ends()
   const Analytic_domain domain(ball({0.5, 0.5, 0.5}, 0.3));
   const Aligned_traits traits({0, 0, 0, 1, 1, 1});
   const Region away = ball_region({5, 5, 5}, 0.1);
-  const Ball_octree octree(domain, away, traits);
+  const Located_octree octree(domain, away, traits);
   BOOST_TEST_EQ(mean_radius_of_region(octree), 0.);
-  Refinement_sequence<Ball_octree> sequence(octree, 0);
+  Refinement_sequence sequence(octree, 0);
   BOOST_TEST(!sequence.extend() && sequence.number_of_steps() == 0);
   for(double radius : {0.01, 0.1, 0.25}) {
     const Region region = ball_region({0.5, 0.4, 0.5}, radius);
-    const double mean = mean_radius_of_region(Ball_octree(domain, region, traits));
+    const double mean = mean_radius_of_region(Located_octree(domain, region, traits));
     BOOST_TEST(0.9 * radius < mean && mean < 1.1 * radius);
   }
   // a sheet that no center is in, until cells are as small as it is thick
@@ -243,11 +242,11 @@ void test_only_for_balance()
   const Analytic_domain domain(ball({0.5, 0.5, 0.5}, 0.45));
   const Aligned_traits traits({0, 0, 0, 1, 1, 1});
   const Region region = ball_region({0.4, 0.5, 0.6}, 0.02);
-  const Ball_octree start = refined(Ball_octree(domain, region, traits), 2);
-  Refinement_sequence<Ball_octree> sequence(start, 0);
+  const Located_octree start = refined(Located_octree(domain, region, traits), 2);
+  Refinement_sequence sequence(start, 0);
   while(sequence.number_of_steps() < 300 && sequence.extend()) {
   }
-  const Ball_octree octree = sequence.octree(sequence.number_of_steps());
+  const Located_octree octree = sequence.octree(sequence.number_of_steps());
   const Octree& nodes = octree.octree();
   std::size_t number_for_balance = 0;
   for(Node_index n = 0; n < nodes.size(); ++n) {
@@ -277,10 +276,10 @@ struct Candidate
 using Count = std::function<std::size_t(std::size_t)>;
 
 // Takes the candidate as it should be for the octree, and the largest of all that fit.
-void check_best(const Ball_octree& start, double radius, std::size_t budget, const Count& count,
-                const Ball_octree& octree, const Candidate& best)
+void check_best(const Located_octree& start, double radius, std::size_t budget, const Count& count,
+                const Located_octree& octree, const Candidate& best)
 {
-  const auto vertices = [&](const Ball_octree& o) { return count(o.number_of_cells()); };
+  const auto vertices = [&](const Located_octree& o) { return count(o.number_of_cells()); };
   BOOST_TEST_EQ(best.number_of_vertices, vertices(octree));
   BOOST_TEST_EQ(best.number_of_nodes, octree.octree().size());
   BOOST_TEST(is_balanced(octree.octree(), Adjacency::EDGE));
@@ -289,7 +288,7 @@ void check_best(const Ball_octree& start, double radius, std::size_t budget, con
     return;
   }
   BOOST_TEST_LE(best.number_of_vertices, budget);
-  Refinement_sequence<Ball_octree> sequence(start, radius);
+  Refinement_sequence sequence(start, radius);
   std::size_t steps = 0, largest = vertices(start);
   while(sequence.extend() && count(sequence.number_of_cells(sequence.number_of_steps())) <= budget) {
     steps = sequence.number_of_steps();
@@ -305,7 +304,7 @@ void check_best(const Ball_octree& start, double radius, std::size_t budget, con
     const Node_index n = sequence.cell(i);
     if(n >= sequence.number_of_nodes(steps) || !octree.octree().is_leaf(n))
       continue;
-    Ball_octree trial = octree;
+    Located_octree trial = octree;
     trial.refine(std::vector<Node_index>{n});
     BOOST_TEST_GT(vertices(trial), budget);
   }
@@ -316,7 +315,7 @@ void test_budgets()
   const Analytic_domain domain(ball({0.5, 0.5, 0.5}, 0.45));
   const Aligned_traits traits({0, 0, 0, 1, 1, 1});
   const Region region = ball_region({0.35, 0.55, 0.5}, 0.15);
-  const Ball_octree start = refined(Ball_octree(domain, region, traits), 2);
+  const Located_octree start = refined(Located_octree(domain, region, traits), 2);
   const Count counts[] = {[](std::size_t n) { return n; },
                           [](std::size_t n) { return n + n / 4 + 8; },
                           [](std::size_t n) { return 50 * (n / 40); }, // by steps
@@ -328,11 +327,11 @@ void test_budgets()
     for(double radius : {0., 0.1})
       for(std::size_t budget : {1, 60, 150, 301, 450, 777, 1200}) {
         std::size_t number_of_trials = 0;
-        const auto try_octree = [&](const Ball_octree& o) {
+        const auto try_octree = [&](const Located_octree& o) {
           ++number_of_trials;
           return Candidate{count(o.number_of_cells()), false, true, o.octree().size()};
         };
-        Ball_octree octree = start, again = start;
+        Located_octree octree = start, again = start;
         const Candidate best = fill_vertex_budget(octree, budget, radius, try_octree);
         BOOST_TEST_LE(number_of_trials, 60u);
         check_best(start, radius, budget, count, octree, best);
@@ -349,12 +348,12 @@ void test_other_candidates()
   const Analytic_domain domain(ball({0.5, 0.5, 0.5}, 0.45));
   const Aligned_traits traits({0, 0, 0, 1, 1, 1});
   const Region region = ball_region({0.35, 0.55, 0.5}, 0.15);
-  const Ball_octree start = refined(Ball_octree(domain, region, traits), 2);
+  const Located_octree start = refined(Located_octree(domain, region, traits), 2);
   const std::size_t first = start.number_of_cells();
   for(std::size_t one_in : {2, 3, 5})
     for(std::size_t budget : {200, 400, 900}) {
-      Ball_octree octree = start;
-      const auto try_octree = [&](const Ball_octree& o) {
+      Located_octree octree = start;
+      const auto try_octree = [&](const Located_octree& o) {
         const std::size_t n = o.number_of_cells();
         return Candidate{n, false, n == first || n / 7 % one_in != 0, o.octree().size()};
       };
@@ -366,8 +365,8 @@ void test_other_candidates()
     }
   for(std::size_t stop_at = 1; stop_at < 6; ++stop_at) {
     std::size_t number_of_trials = 0;
-    Ball_octree octree = start;
-    const Candidate best = fill_vertex_budget(octree, 777, 0.1, [&](const Ball_octree& o) {
+    Located_octree octree = start;
+    const Candidate best = fill_vertex_budget(octree, 777, 0.1, [&](const Located_octree& o) {
       ++number_of_trials;
       return number_of_trials == stop_at
                ? Candidate{0, true, true, 0}

@@ -42,7 +42,7 @@ Octree::Node_index leaf_at(const Octree& octree, const std::array<std::int64_t, 
   }
   return n;
 }
-void test_transitions(const Analytic_octree& located, Transition_templates_choice choice)
+void test_transitions(const Located_octree& located, Transition_templates_choice choice)
 {
   const Octree& octree = located.octree();
   BOOST_TEST(is_balanced(octree, Adjacency::EDGE));
@@ -139,7 +139,7 @@ void test_transitions(const Analytic_octree& located, Transition_templates_choic
     BOOST_TEST_EQ(bool(mesh.is_on_rim[v]), is_on_rim);
     if(on_boundary.count(v) != 0)
       BOOST_TEST(is_on_rim);
-    BOOST_TEST_EQ(int(mesh.sides[v]), int(located.domain().bounded_side(located.point(p))));
+    BOOST_TEST_EQ(int(mesh.sides[v]), int(located.domain().bounded_side(located.point(p), nullptr)));
   }
   BOOST_TEST_EQ(n_inserted, mesh.vertices.size() - mesh.first_inserted_vertex);
 
@@ -158,7 +158,7 @@ void test_all_transitions()
   for(const Analytic_domain& domain : domains)
     for(const Aligned_traits& t : {traits, box})
       for(int base_level : {1, 2}) {
-        const Analytic_octree octree = random_octree(domain, t, ++seed, base_level, 3);
+        const Located_octree octree = random_octree(domain, t, ++seed, base_level, 3);
         test_transitions(octree, Transition_templates_choice::FEWEST_VERTICES);
         test_transitions(octree, Transition_templates_choice::CENTERED);
         BOOST_TEST_LT(apply_transitions(octree, Transition_templates_choice::FEWEST_VERTICES).vertices.size(),
@@ -174,7 +174,7 @@ void test_inserted_on_rim()
   const Aligned_traits traits({0, 0, 0, 1, 1, 1});
   for(double f : {9., 0.}) { // all cells inside, or all at the surface
     const Analytic_domain domain([f](const Point_3&) { return f; });
-    Analytic_octree octree(domain, region, traits);
+    Located_octree octree(domain, region, traits);
     octree.refine(octree.leaves_to_refine(0, false));
     octree.refine(octree.leaves_to_refine(1, false));
     const std::uint32_t s = Octree::side_at(2);

@@ -42,14 +42,12 @@ using Aligned_traits = Axis_aligned_octree_cell_traits_3;
 
 // ---- a domain made of labels -------------------------------------------------------------------
 
-using Analytic_octree = Located_octree<Analytic_domain, Everywhere_mixed_mesh_region_3, Aligned_traits>;
-
-inline Analytic_octree random_octree(const Analytic_domain& domain, const Aligned_traits& traits,
-                                     unsigned seed, int base_level, int rounds, unsigned one_in = 12)
+inline Located_octree random_octree(const Analytic_domain& domain, const Aligned_traits& traits,
+                                    unsigned seed, int base_level, int rounds, unsigned one_in = 12)
 {
   static const Everywhere_mixed_mesh_region_3 region;
   std::mt19937 random(seed);
-  Analytic_octree octree(domain, region, traits);
+  Located_octree octree(domain, region, traits);
   for(int level = 0; level < base_level; ++level)
     octree.refine(octree.leaves_to_refine(level, false));
   for(int round = 0; round < rounds; ++round) {

@@ -83,4 +83,26 @@ public:
   /// \param part that of a cell which contains `p`, or a default-constructed one if that cell does not
   ///        meet the surface; a hint, the closest point may lie elsewhere
   Point_3 closest_point(const Point_3& p, const Surface_part& part) const;
+
+  /// \name Optional Functions
+  /// What a domain tells of its surface as a whole. A model without one of these functions is meshed all
+  /// the same.
+  /// @{
+
+  /// How many shells the surface has, and its Euler characteristic. Where the boundary of the mesh is not
+  /// like that, thin walls and narrow gaps are resolved first, and if it still is not, the status is
+  /// `CGAL::Mixed_mesh_status::TOPOLOGY_DIFFERS`. Without this function, topology and volume are not
+  /// compared, and `CGAL::Mixed_mesh_result_3::shells_of_domain` is empty; so it is where the result is.
+  std::optional<CGAL::Mixed_meshes_3::Shell_counts> shells() const;
+
+  /// The volume of the domain. If that of the mesh differs by more than 5 %, thin parts are resolved first,
+  /// and if it still does, the status is `CGAL::Mixed_mesh_status::VOLUME_DIFFERS`. Asked for if `shells()`
+  /// tells.
+  double volume() const;
+
+  /// The planes that the surface lies in, if all of it is perpendicular to the axes; else nothing. Then cells
+  /// are placed such that these planes are between them, as the overload of `CGAL::make_mixed_mesh_3()`
+  /// without cell traits says. Asked for if there is `volume()`, which must be positive then.
+  CGAL::Mixed_meshes_3::Axis_parallel_planes axis_parallel_planes() const;
+  /// @}
 };

@@ -46,4 +46,10 @@ public:
   /// the mesh is measured there. The result is a range of points, in a fixed order; neighbors in that order
   /// should be near to each other.
   std::vector<Point_3> surface_samples(double spacing) const;
+
+  /// The edges where the surface is not smooth, by an angle in degrees or more: paths of edges of the mesh
+  /// will be on them, as far as they are long enough to be followed. Optional: none in a model without this
+  /// function.
+  /// \param angle positive, between the normals on both sides
+  CGAL::Mixed_meshes_3::Sharp_edges sharp_edges(double angle) const;
 };

@@ -44,16 +44,6 @@ struct Is_domain_with_sheets<T, std::void_t<decltype(std::declval<const T&>().sh
 {
 };
 
-/// Whether a domain has a sheet.
-template <class Domain>
-bool has_sheets([[maybe_unused]] const Domain& domain)
-{
-  if constexpr(Is_domain_with_sheets<Domain>::value)
-    return !domain.sheets().empty();
-  else
-    return false;
-}
-
 /// The position of a subdomain in the order of a domain: where there is a choice, the earlier one counts.
 using Subdomain_rank = std::uint16_t;
 

@@ -12,6 +12,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/manifold_defects.h>
 #include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
@@ -58,12 +59,12 @@ struct Boundary_pieces
   Manifold_defects defects; ///< that relabeling could not repair
 };
 
-template <class Octree_, class Sheets>
+template <class Sheets>
 class Boundary_stage : private Boundary_pieces
 {
   using Polygons = std::vector<Face_vertices>;
 
-  const Octree_& m_located;
+  const Located_octree& m_located;
   Lattice_mesh& m_mesh;
   const std::size_t m_number_of_subdomains;
   const Boundary_mode m_mode;
@@ -81,17 +82,16 @@ class Boundary_stage : private Boundary_pieces
   static constexpr std::uint32_t last_rank = std::uint32_t(-1);
 
 public:
-  Boundary_stage(const Octree_& located, Lattice_mesh& mesh, Boundary_mode mode, unsigned threads,
+  Boundary_stage(const Located_octree& located, Lattice_mesh& mesh, Boundary_mode mode, unsigned threads,
                  Sheets sheets)
-    : m_located(located), m_mesh(mesh), m_number_of_subdomains(subdomain_indices(located.domain()).size()),
+    : m_located(located), m_mesh(mesh), m_number_of_subdomains(located.domain().subdomain_indices().size()),
       m_mode(m_number_of_subdomains > 1 || !sheets.is_none() ? Boundary_mode::VERTEX_ORDER : mode),
       m_threads(threads), m_sheets(std::move(sheets))
   {
     m_distances.assign(mesh.vertices.size(), -1);
     const std::size_t first_inserted = mesh.vertices.size();
-    if constexpr(Is_labeled_domain<std::decay_t<decltype(located.domain())>>::value)
-      if(m_number_of_subdomains > 1)
-        balance_interfaces(located, mesh, threads);
+    if(m_number_of_subdomains > 1)
+      balance_interfaces(located, mesh, threads);
     do {
       while(mesh.vertices.size() > first_inserted)
         mesh.remove_last_vertex();
@@ -457,11 +457,11 @@ Elements at sheets are split too, and their pieces get compartments; the vertice
 \par Complexity
 O(n + m log m) for n elements, m of them at the surface, plus m closest-point queries
 */
-template <class Octree_, class Sheets = No_sheets>
-Boundary_pieces split_boundary(const Octree_& octree, Lattice_mesh& mesh, Boundary_mode mode,
+template <class Sheets = No_sheets>
+Boundary_pieces split_boundary(const Located_octree& octree, Lattice_mesh& mesh, Boundary_mode mode,
                                unsigned threads = 1, Sheets sheets = Sheets())
 {
-  return Boundary_stage<Octree_, Sheets>(octree, mesh, mode, threads, std::move(sheets)).result();
+  return Boundary_stage<Sheets>(octree, mesh, mode, threads, std::move(sheets)).result();
 }
 
 } // namespace internal

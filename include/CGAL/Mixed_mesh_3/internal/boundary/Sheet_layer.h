@@ -17,6 +17,7 @@
 #include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/for_each_face.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
 
 #include <CGAL/Bbox_3.h>
@@ -66,9 +67,7 @@ may have four sheet vertices, where cells of two sizes meet or at the boundary: 
 
 Where two sheets meet, each has faces of its own.
 
-\tparam Octree_ with a domain that is a model of `MixedMeshDomainWithSheets_3`
 */
-template <class Octree_>
 class Sheet_layer
 {
   using Edge = std::pair<Vertex_index, Vertex_index>; // the smaller one first
@@ -95,7 +94,7 @@ class Sheet_layer
     std::set<Vertex_index> vertices;
   };
 
-  const Octree_& m_located;
+  const Located_octree& m_located;
   const Lattice_mesh& m_mesh;
   std::vector<Sheet> m_sheets;
   std::vector<Compartment_index> m_compartments;
@@ -108,7 +107,7 @@ class Sheet_layer
   static constexpr int rounds_of_raising = 8;
 
 public:
-  Sheet_layer(const Octree_& located, const Lattice_mesh& mesh) : m_located(located), m_mesh(mesh)
+  Sheet_layer(const Located_octree& located, const Lattice_mesh& mesh) : m_located(located), m_mesh(mesh)
   {
     for(std::size_t i = 0; i < located.domain().sheets().size(); ++i) {
       m_sheets.push_back({i, {}, {}, {}, {}, {}, {}, {}});
@@ -181,7 +180,7 @@ public:
   std::size_t number_of_lost() const { return m_number_of_lost; }
 
 private:
-  const auto& oracle(const Sheet& s) const { return *m_located.domain().sheets()[s.number]; }
+  const Any_sheet& oracle(const Sheet& s) const { return *m_located.domain().sheets()[s.number]; }
   auto point(Vertex_index v) const { return m_located.point(m_mesh.vertices[v]); }
   double edge_length(Vertex_index v) const { return m_located.edge_length(m_mesh.leaves[v]); }
 

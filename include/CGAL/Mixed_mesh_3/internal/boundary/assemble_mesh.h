@@ -14,6 +14,7 @@
 
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/Boundary_stage.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
 
 #include <cstddef>
@@ -26,8 +27,8 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /// Puts kept elements and pieces together, numbers the vertices in the order of their first use.
-template <class Octree_, class Mesh>
-void assemble_mesh(const Octree_& octree, const Lattice_mesh& lattice, const Boundary_pieces& boundary,
+template <class Mesh>
+void assemble_mesh(const Located_octree& octree, const Lattice_mesh& lattice, const Boundary_pieces& boundary,
                    Mesh& mesh)
 {
   using Point_3 = typename Mesh::Point_3;
@@ -39,7 +40,7 @@ void assemble_mesh(const Octree_& octree, const Lattice_mesh& lattice, const Bou
   elements.reserve(lattice.elements.size(), lattice.elements.connectivity().size());
   attributes.reserve(lattice.elements.size());
 
-  const std::vector<Subdomain_index> indices = subdomain_indices(octree.domain());
+  const std::vector<Subdomain_index>& indices = octree.domain().subdomain_indices();
   const auto add = [&](const Element_view& element, Element_index origin, Subdomain_rank subdomain,
                        Compartment_index compartment) {
     Vertex_index v[8];

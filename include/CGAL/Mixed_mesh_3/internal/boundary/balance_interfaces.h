@@ -14,6 +14,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>
 #include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
 
 #include <CGAL/squared_distance_3.h>
@@ -38,13 +39,12 @@ stays: what is thin is not lost.
 \par Complexity
 Linear in the number of elements; a closest-point query for each vertex beside another subdomain
 */
-template <class Octree_>
-void balance_interfaces(const Octree_& located, Lattice_mesh& mesh, unsigned threads)
+inline void balance_interfaces(const Located_octree& located, Lattice_mesh& mesh, unsigned threads)
 {
   // Of the shortest edge. At half of it, vertices would have as far to go as those behind them, but what is
   // narrow would lose more of its volume.
   constexpr double near = 0.3;
-  const std::vector<Subdomain_index> indices = subdomain_indices(located.domain());
+  const std::vector<Subdomain_index>& indices = located.domain().subdomain_indices();
   if(indices.size() < 2)
     return;
   struct Vertex

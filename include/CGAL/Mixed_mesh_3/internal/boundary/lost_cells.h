@@ -13,6 +13,7 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/boundary/Boundary_stage.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/balance.h>
@@ -29,9 +30,8 @@ namespace internal {
 
 /// The leaves that meet the domain while neither they nor their neighbors have elements: the domain is
 /// thinner there than a cell.
-template <class Octree_>
-std::vector<Octree::Node_index> lost_cells(const Octree_& located, const Lattice_mesh& mesh,
-                                           const Boundary_pieces& boundary)
+inline std::vector<Octree::Node_index> lost_cells(const Located_octree& located, const Lattice_mesh& mesh,
+                                                  const Boundary_pieces& boundary)
 {
   const Octree& octree = located.octree();
   std::vector<std::uint8_t> is_meshed(octree.size(), 0);

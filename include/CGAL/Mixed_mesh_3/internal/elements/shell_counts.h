@@ -10,6 +10,8 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/Surface_description.h>
+
 #include <cstddef>
 #include <numeric>
 #include <vector>
@@ -17,19 +19,6 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
-
-/// What a closed surface is like, in two numbers that need no geometry.
-struct Shell_counts
-{
-  std::size_t number_of_shells = 0; ///< connected components
-  std::ptrdiff_t euler_characteristic = 0;
-
-  bool operator==(const Shell_counts& s) const
-  {
-    return number_of_shells == s.number_of_shells && euler_characteristic == s.euler_characteristic;
-  }
-  bool operator!=(const Shell_counts& s) const { return !(*this == s); }
-};
 
 /// \param polygons ranges of vertex indices. \pre each edge belongs to two of them
 /// \par Complexity

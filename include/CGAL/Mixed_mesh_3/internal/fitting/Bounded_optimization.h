@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -50,15 +51,15 @@ start.
 
 \tparam Quality a model of `MixedMeshQuality_3`
 */
-template <class Mesh, class Domain, class Quality>
+template <class Quality>
 class Bounded_optimization
 {
   using Criteria = Mixed_mesh_optimization_criteria_3;
   using Result = Mixed_mesh_optimization_result_3;
   using Status = Mixed_mesh_optimization_status;
 
-  Mesh& m_mesh; // the start, until the end
-  const Domain& m_domain;
+  Core_mesh& m_mesh; // the start, until the end
+  const Any_surface& m_domain;
   const Criteria& m_criteria;
   const Quality& m_quality;
   const bool m_has_subdomains; // or sheets
@@ -74,17 +75,17 @@ class Bounded_optimization
   static constexpr int rings[] = {0, 1, 2, 4, 8};
 
 public:
-  Bounded_optimization(Mesh& mesh, const Domain& domain, const Criteria& criteria, const Quality& quality)
+  Bounded_optimization(Core_mesh& mesh, const Any_surface& domain, const Criteria& criteria,
+                       const Quality& quality)
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality),
-      m_has_subdomains(subdomain_indices(domain).size() > 1 || has_sheets(domain)),
-      m_sharp_edges(sharp_edges(domain, criteria.sharp_angle())),
+      m_has_subdomains(domain.subdomain_indices().size() > 1 || domain.has_sheets()),
+      m_sharp_edges(domain.sharp_edges(criteria.sharp_angle())),
       m_edge_length(m_sharp_edges.edges.empty() ? 1 : mean_edge_length()),
       m_features(m_sharp_edges, m_edge_length), m_is_held(mesh.number_of_vertices(), 0)
   {
   }
 
-  template <class Go_on>
-  Result operator()(const Go_on& go_on)
+  Result operator()(const std::function<bool()>& go_on)
   {
     Result result = optimize(go_on);
     const double bound = bound_for_doubles(m_criteria);
@@ -97,14 +98,13 @@ public:
 private:
   struct Outcome
   {
-    Mesh mesh;
+    Core_mesh mesh;
     Result result;
     bool is_within = false; // the bound, and the boundary does not cut itself
     bool is_drawn = false;  // to places that are too far
   };
 
-  template <class Go_on>
-  Result optimize(const Go_on& go_on)
+  Result optimize(const std::function<bool()>& go_on)
   {
     Outcome best = optimize_freely(false, go_on);
     if(best.result.status == Status::STOPPED)
@@ -141,8 +141,7 @@ private:
   }
 
   // Elements may get worse than the bound on the way.
-  template <class Go_on>
-  Outcome optimize_freely(bool only_arrives, const Go_on& go_on) const
+  Outcome optimize_freely(bool only_arrives, const std::function<bool()>& go_on) const
   {
     Outcome outcome;
     outcome.mesh = m_mesh;
@@ -185,8 +184,7 @@ private:
   }
 
   // Within the bound, and until no faces cut each other.
-  template <class Go_on>
-  Result optimize_within(Mesh& mesh, const Go_on& go_on)
+  Result optimize_within(Core_mesh& mesh, const std::function<bool()>& go_on)
   {
     for(std::size_t i = 0;; ++i) {
       mesh = m_mesh;
@@ -241,13 +239,13 @@ private:
     }
   }
 
-  double cost(const Mesh& mesh, std::size_t e) const
+  double cost(const Core_mesh& mesh, std::size_t e) const
   {
     const Element_view element = mesh.element(e);
     return m_quality(element.kind(), element_points(mesh, element));
   }
 
-  double largest_cost(const Mesh& mesh) const
+  double largest_cost(const Core_mesh& mesh) const
   {
     double largest = 0;
     for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
@@ -255,12 +253,21 @@ private:
     return largest;
   }
 
-  bool is_within_bound(const Mesh& mesh) const
+  bool is_within_bound(const Core_mesh& mesh) const
   {
     const double cost = largest_cost(mesh);
     return cost <= bound_for_doubles(m_criteria) || cost <= largest_cost(m_mesh);
   }
 };
+
+/// Runs it, for any quality.
+template <class Quality>
+Mixed_mesh_optimization_result_3 optimize_bounded(Core_mesh& mesh, const Any_surface& surface,
+                                                  const Mixed_mesh_optimization_criteria_3& criteria,
+                                                  const Quality& quality, const std::function<bool()>& go_on)
+{
+  return Bounded_optimization<Quality>(mesh, surface, criteria, quality)(go_on);
+}
 
 } // namespace internal
 } // namespace Mixed_meshes_3

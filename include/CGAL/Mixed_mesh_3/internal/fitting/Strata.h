@@ -16,6 +16,7 @@
 #include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/for_each_face.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/Any_surface.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -73,11 +74,10 @@ class Strata
   std::vector<std::vector<Subdomain_rank>> m_ranks = {{}, {0, outside_rank}}; // those of each stratum
 
 public:
-  template <class Domain>
-  explicit Strata(const Domain& domain) : m_has_sheets(has_sheets(domain))
+  explicit Strata(const Any_surface& domain) : m_has_sheets(domain.has_sheets())
   {
-    if constexpr(Is_labeled_domain<Domain>::value)
-      m_order = subdomain_indices(domain);
+    if(domain.is_labeled())
+      m_order = domain.subdomain_indices();
   }
 
   /// Those that its vertices are to be on.

@@ -13,6 +13,7 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Optimization_effort.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/bisect_boundary_edges.h>
@@ -50,20 +51,20 @@ inline double bound_for_doubles(const Mixed_mesh_optimization_criteria_3& criter
 }
 
 /*!
-\tparam Domain a model of `MixedMeshSurface_3`, or of `MixedMeshLabeledDomain_3`: then interfaces between
-        subdomains are brought onto their surfaces like the boundary
+Interfaces between subdomains are brought onto their surfaces like the boundary.
+
 \tparam Quality a model of `MixedMeshQuality_3`
 */
-template <class Mesh, class Domain, class Quality>
+template <class Quality>
 class Surface_optimizer
 {
-  using Project = Surface_projection<Domain>;
+  using Project = Surface_projection;
   using Moves = Vertex_optimizer<Quality, Project>;
   using Criteria = Mixed_mesh_optimization_criteria_3;
   using Attraction_ = Surface_attraction<Project>;
 
-  Mesh& m_mesh;
-  const Domain& m_domain;
+  Core_mesh& m_mesh;
+  const Any_surface& m_domain;
   const Mixed_mesh_optimization_criteria_3 m_criteria;
   const Quality m_quality;
   Strata m_strata;
@@ -132,8 +133,8 @@ class Surface_optimizer
   static constexpr double tolerated_loss = 5.5;
 
 public:
-  Surface_optimizer(Mesh& mesh, const Domain& domain, const Mixed_mesh_optimization_criteria_3& criteria,
-                    const Quality& quality)
+  Surface_optimizer(Core_mesh& mesh, const Any_surface& domain,
+                    const Mixed_mesh_optimization_criteria_3& criteria, const Quality& quality)
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality), m_strata(domain),
       m_project(domain, m_strata), m_boundary(m_strata.sorted_faces(mesh)),
       m_working(mesh, m_strata.of_vertices(mesh.number_of_vertices(), m_boundary)),
@@ -181,8 +182,7 @@ public:
   /// boundary vertices leave the surface for it.
   void finish_within(double cost) { m_final_bound = cost; }
 
-  template <class Go_on>
-  Mixed_mesh_optimization_result_3 operator()(const Go_on& go_on)
+  Mixed_mesh_optimization_result_3 operator()(const std::function<bool()>& go_on)
   {
     using Status = Mixed_mesh_optimization_status;
     if(m_features)
@@ -202,7 +202,7 @@ public:
         retreat_from_self_intersections();
       if(m_crossing.empty())
         return_to_surface();
-      if(m_crossing.empty() && m_criteria.flips() && !has_sheets(m_domain))
+      if(m_crossing.empty() && m_criteria.flips() && !m_domain.has_sheets())
         is_stopped = !merge_left_behind(go_on);
     }
     if(m_criteria.tolerance() > 0) {
@@ -236,7 +236,7 @@ private:
   // What is far from a surface does not draw them.
   Interface_faces without_sheets(const Interface_faces& all) const
   {
-    if(!has_sheets(m_domain))
+    if(!m_domain.has_sheets())
       return all;
     Interface_faces rest;
     for(std::size_t f = 0; f < all.faces.size(); ++f)
@@ -379,8 +379,7 @@ private:
 
   // Each boundary vertex goes to its target, all the way or part of it, as far as validity and quality
   // allow; then the inner vertices give way, and the next round follows.
-  template <class Go_on>
-  bool arrive(const Go_on& go_on)
+  bool arrive(const std::function<bool()>& go_on)
   {
     const Surface_targets targets = surface_targets(m_boundary.faces, m_working.points, m_project,
                                                     m_working.strata, m_feature_places);
@@ -512,8 +511,7 @@ private:
 
   // What can not get to the surface at all is merged with what is beside it. If elements are above the bound
   // then, or faces cut each other, all goes back, and others are tried.
-  template <class Go_on>
-  bool merge_left_behind(const Go_on& go_on)
+  bool merge_left_behind(const std::function<bool()>& go_on)
   {
     const double bound = (std::min)(m_final_bound, bound_for_doubles(m_criteria));
     Boundary_vertex_merger merger(m_working, m_quality, worth_merging * bound);
@@ -783,7 +781,7 @@ private:
                                                                   m_working.relative_points(element));
     if(tolerated.size() < 2)
       return;
-    tolerated.erase(subdomain_indices(m_domain).back());
+    tolerated.erase(m_domain.subdomain_indices().back());
     const auto gain = [&](Vertex_index a, Vertex_index b, Vertex_index apex, Stratum stratum) {
       const std::vector<Vec3>& p = m_working.points;
       return dot(way_to_surface(a, b, stratum), cross(p[b] - p[a], p[apex] - p[a])) / 6;
@@ -868,8 +866,7 @@ private:
            });
   }
 
-  template <class Go_on>
-  bool alternate(const Go_on& go_on)
+  bool alternate(const std::function<bool()>& go_on)
   {
     const bool has_tolerance = m_criteria.tolerance() > 0 && !m_only_arrives;
     const int rounds = (has_tolerance || m_features ? m_criteria : Criteria(m_criteria).tolerance(0))

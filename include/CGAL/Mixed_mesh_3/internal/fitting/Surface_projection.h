@@ -12,6 +12,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Strata.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/Any_surface.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Sharp_features.h>
 
 #include <algorithm>
@@ -26,12 +27,11 @@ namespace internal {
 
 /// Points of the surfaces of a domain near given ones: the closest ones, where a stratum is on one interface.
 /// For several threads at once where `is_concurrent()`.
-template <class Domain>
 class Surface_projection
 {
-  using Point_3 = typename Domain::Point_3;
+  using Point_3 = Any_surface::Point_3;
 
-  const Domain* m_domain;
+  const Any_surface* m_domain;
   const Strata* m_strata;
   const Sharp_features* m_features = nullptr;
   int m_maximal_number_of_cycles = 20;
@@ -46,7 +46,9 @@ class Surface_projection
 
 public:
   /// \param strata to be kept by the caller
-  Surface_projection(const Domain& domain, const Strata& strata) : m_domain(&domain), m_strata(&strata) {}
+  Surface_projection(const Any_surface& domain, const Strata& strata) : m_domain(&domain), m_strata(&strata)
+  {
+  }
 
   /// Strata from `first_sharp_stratum` on are on those polylines, or at those corners, then. To be kept by
   /// the caller.
@@ -60,12 +62,10 @@ public:
   {
     if(stratum >= first_sharp_stratum)
       return on_feature(p, stratum);
-    if constexpr(Is_labeled_domain<Domain>::value) {
-      const std::vector<Interface>& interfaces = m_strata->interfaces(stratum);
-      return interfaces.size() == 1 ? closest(p, interfaces[0]) : junction(p, interfaces);
-    } else {
+    if(!m_domain->is_labeled())
       return to_vec3(m_domain->closest_point(point(p)));
-    }
+    const std::vector<Interface>& interfaces = m_strata->interfaces(stratum);
+    return interfaces.size() == 1 ? closest(p, interfaces[0]) : junction(p, interfaces);
   }
 
   /// Faster if `hint`, a point of the same stratum, is near.
@@ -73,12 +73,10 @@ public:
   {
     if(stratum >= first_sharp_stratum)
       return on_feature(p, stratum);
-    if constexpr(Is_labeled_domain<Domain>::value) {
-      const std::vector<Interface>& interfaces = m_strata->interfaces(stratum);
-      return interfaces.size() == 1 ? closest(p, hint, interfaces[0]) : junction(p, interfaces);
-    } else {
+    if(!m_domain->is_labeled())
       return to_vec3(m_domain->closest_point(point(p), point(hint)));
-    }
+    const std::vector<Interface>& interfaces = m_strata->interfaces(stratum);
+    return interfaces.size() == 1 ? closest(p, hint, interfaces[0]) : junction(p, interfaces);
   }
 
   /// Whether several threads may ask for points of that stratum at the same time.
@@ -90,23 +88,19 @@ public:
   /// Whether what the projection gave is on all interfaces: where several meet, it need not be.
   bool is_reached(const Vec3& p, Stratum stratum) const
   {
-    if(stratum >= first_sharp_stratum)
+    if(stratum >= first_sharp_stratum || !m_domain->is_labeled())
       return true;
-    if constexpr(Is_labeled_domain<Domain>::value) {
-      const std::vector<Interface>& interfaces = m_strata->interfaces(stratum);
-      return interfaces.size() == 1
-             || std::all_of(interfaces.begin(), interfaces.end(), [&](const Interface& i) {
-                  return norm(closest(p, i) - p) <= accuracy * diagonal();
-                });
-    } else {
-      return true;
-    }
+    const std::vector<Interface>& interfaces = m_strata->interfaces(stratum);
+    return interfaces.size() == 1
+           || std::all_of(interfaces.begin(), interfaces.end(), [&](const Interface& i) {
+                return norm(closest(p, i) - p) <= accuracy * diagonal();
+              });
   }
 
 private:
   double diagonal() const
   {
-    const auto& box = m_domain->bbox();
+    const Bbox_3 box = m_domain->bbox();
     return norm({box.x_span(), box.y_span(), box.z_span()});
   }
 
@@ -118,9 +112,8 @@ private:
 
   Vec3 closest(const Vec3& p, const Interface& i) const
   {
-    if constexpr(Is_domain_with_sheets<Domain>::value)
-      if(i.is_sheet())
-        return closest_of_sheets([&](const auto& sheet) { return sheet.closest_point(point(p)); }, p);
+    if(i.is_sheet())
+      return closest_of_sheets([&](const Any_sheet& sheet) { return sheet.closest_point(point(p)); }, p);
     if(m_domain->subdomain_indices().size() == 1)
       return to_vec3(m_domain->closest_point(point(p), i.first, i.second));
     const auto [last, is_first] = m_last.try_emplace({i.first, i.second == 0});
@@ -132,11 +125,10 @@ private:
 
   Vec3 closest(const Vec3& p, const Vec3& hint, const Interface& i) const
   {
-    if constexpr(Is_domain_with_sheets<Domain>::value)
-      if(i.is_sheet()) // a hint is on one of them only
-        return m_domain->sheets().size() > 1
-                 ? closest(p, i)
-                 : to_vec3(m_domain->sheets().front()->closest_point(point(p), point(hint)));
+    if(i.is_sheet()) // a hint is on one of them only
+      return m_domain->sheets().size() > 1
+               ? closest(p, i)
+               : to_vec3(m_domain->sheets().front()->closest_point(point(p), point(hint)));
     return to_vec3(m_domain->closest_point(point(p), point(hint), i.first, i.second));
   }
 

@@ -14,6 +14,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/Any_surface.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Spatial_sort_traits_adapter_3.h>
@@ -55,11 +56,10 @@ class Surface_tolerances
   static constexpr std::size_t samples_per_vertex = 20, least_samples = 50000;
 
 public:
-  template <class Domain>
-  Surface_tolerances([[maybe_unused]] const Domain& domain, double tolerance, std::size_t number_of_vertices)
+  Surface_tolerances(const Any_surface& domain, double tolerance, std::size_t number_of_vertices)
     : m_tolerance(tolerance), m_number_of_vertices(number_of_vertices)
   {
-    if constexpr(Is_labeled_domain<Domain>::value)
+    if(domain.is_labeled())
       for(Subdomain_index index : domain.subdomain_indices())
         if(index != domain.subdomain_indices().back())
           m_smaller[index] = (std::min)(tolerance, share_of_chord * domain.mean_chord_length(index)
@@ -86,15 +86,15 @@ public:
 
   /// \param least_spacing `double(Subdomain_index)`: closer samples would not serve; else, they are at a
   ///        distance of twice the tolerance, as closer ones are rarely farther off
-  template <class Domain, class Spacing>
-  std::vector<Surface_sample> samples(const Domain& domain, const Spacing& least_spacing) const
+  template <class Spacing>
+  std::vector<Surface_sample> samples(const Any_surface& domain, const Spacing& least_spacing) const
   {
     std::vector<Surface_sample> result;
     const auto add = [&](const auto& points, double tolerance) {
       for(const auto& p : points)
         result.push_back({to_vec3(p), tolerance});
     };
-    if constexpr(Is_labeled_domain<Domain>::value) {
+    if(domain.is_labeled()) {
       std::vector<Subdomain_index> indices = domain.subdomain_indices();
       indices.push_back(0);
       for(Subdomain_index index : indices)

@@ -17,6 +17,7 @@
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/relax_to_surface.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
 #include <CGAL/Mixed_mesh_fit_criteria_3.h>
 #include <CGAL/Mixed_mesh_fit_result_3.h>
@@ -30,8 +31,8 @@ namespace internal {
 
 /// Targets, and Algorithm 1; vertices that stay behind get new targets, those nearest to where they have
 /// come.
-template <class Domain, class Mesh, class Quality, class Solver, class Go_on>
-Mixed_mesh_fit_result_3 fit(Mesh& mesh, const Domain& domain, const Quality& quality,
+template <class Quality, class Solver, class Go_on>
+Mixed_mesh_fit_result_3 fit(Core_mesh& mesh, const Any_surface& domain, const Quality& quality,
                             const Mixed_mesh_fit_criteria_3& criteria, Solver& solver, const Go_on& go_on)
 {
   constexpr int maximal_number_of_attempts = 3;
@@ -59,7 +60,7 @@ Mixed_mesh_fit_result_3 fit(Mesh& mesh, const Domain& domain, const Quality& qua
   }
   for(std::size_t v = 0; v < points.size(); ++v)
     if(to_vec3(mesh.points()[v]) != points[v])
-      mesh.points()[v] = typename Mesh::Point_3(points[v][0], points[v][1], points[v][2]);
+      mesh.points()[v] = Core_mesh::Point_3(points[v][0], points[v][1], points[v][2]);
   return result;
 }
 

@@ -14,6 +14,8 @@
 #include <CGAL/Mixed_mesh_3/internal/boundary/Boundary_stage.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/thin_cells.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/Any_visitor.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/apply_transitions.h>
 #include <CGAL/Mixed_mesh_criteria_3.h>
@@ -37,25 +39,23 @@ struct Candidate
 
 /// The stages that follow the octree. To be called in the stage `OCTREE`.
 /// \param are_gaps_wider see `widen_gaps()`
-template <class Octree_, class Visitor>
-Candidate make_candidate(const Octree_& octree, const Mixed_mesh_criteria_3& criteria, Visitor& visitor,
-                         bool are_gaps_wider = false)
+inline Candidate make_candidate(const Located_octree& octree, const Mixed_mesh_criteria_3& criteria,
+                                Any_visitor& visitor, bool are_gaps_wider = false)
 {
-  using Scope = Stage_scope<Visitor>;
   Candidate c;
-  const Stage_pause<Visitor> pause(visitor, Stage::OCTREE);
+  const Stage_pause pause(visitor, Stage::OCTREE);
   c.is_stopped = !visitor.go_on();
   if(c.is_stopped)
     return c;
   {
-    const Scope scope(visitor, Stage::TRANSITIONS);
+    const Stage_scope scope(visitor, Stage::TRANSITIONS);
     c.mesh = apply_transitions(octree, criteria.transition_templates(),
                                Concurrency::number_of_threads(criteria));
     if(are_gaps_wider)
       widen_gaps(octree, c.mesh);
   }
   {
-    const Scope scope(visitor, Stage::BOUNDARY);
+    const Stage_scope scope(visitor, Stage::BOUNDARY);
     c.boundary = split_boundary(octree, c.mesh, criteria.boundary_mode(),
                                 Concurrency::number_of_threads(criteria));
   }

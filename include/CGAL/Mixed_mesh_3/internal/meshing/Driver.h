@@ -17,7 +17,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/assemble_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/lost_cells.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Bounded_optimization.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/optimize_bounded.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Candidate.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Misfit.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Tolerance_search.h>
@@ -27,6 +27,7 @@
 #include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/fill_vertex_budget.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/place_lattice.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/Any_visitor.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Sharp_features.h>
 #include <CGAL/Mixed_mesh_criteria_3.h>
 #include <CGAL/Mixed_mesh_result_3.h>
@@ -45,25 +46,20 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /// The stages in their order. The octree is refined, and what follows is tried, until the budget is full.
-template <class Domain, class Region, class CellTraits, class Mesh, class Visitor>
 class Driver
 {
-  using Octree_ = Located_octree<Domain, Region, CellTraits>;
-  using Scope = Stage_scope<Visitor>;
-
   const Mixed_mesh_criteria_3& m_criteria;
-  const CellTraits& m_traits;
-  Visitor& m_visitor;
-  const Octree_ m_root; // nothing but the root
-  Octree_ m_octree;
+  Any_visitor& m_visitor;
+  const Located_octree m_root; // nothing but the root
+  Located_octree m_octree;
   const double m_radius; // of the region
   const Lattice_on_surface m_lattice;
   Candidate m_best;
   std::vector<Octree::Node_index> m_lost;
-  std::optional<Octree_> m_thin_start; // walls and gaps are resolved
+  std::optional<Located_octree> m_thin_start; // walls and gaps are resolved
   bool m_are_gaps_wider = false;
   Mixed_mesh_result_3 m_result;
-  Tolerance_search<Octree_, Mesh, Visitor> m_tolerance_search;
+  Tolerance_search m_tolerance_search;
 
   // Cells for a wall, times what should suffice: lucky ones take less. And where they shall have volume, too:
   // tubes of two cells lose an eighth of it.
@@ -71,10 +67,10 @@ class Driver
     strictnesses_for_volume{2, 1.4, 1, 0.7};
 
 public:
-  Driver(const Domain& domain, const Region& region, const Mixed_mesh_criteria_3& criteria,
-         const CellTraits& traits, Visitor& visitor)
-    : m_criteria(criteria), m_traits(traits), m_visitor(visitor), m_root(domain, region, traits),
-      m_octree(m_root), m_radius(mean_radius_of_region(m_root)), m_lattice(lattice_on_surface(traits)),
+  /// \param root the octree with nothing but its root
+  Driver(const Located_octree& root, const Mixed_mesh_criteria_3& criteria, Any_visitor& visitor)
+    : m_criteria(criteria), m_visitor(visitor), m_root(root), m_octree(m_root),
+      m_radius(mean_radius_of_region(m_root)), m_lattice(root.cell_traits().lattice_on_surface()),
       m_tolerance_search(m_root, criteria, visitor, m_result)
   {
   }
@@ -82,11 +78,11 @@ public:
   Driver(const Driver&) = delete; // the search refers to members
   Driver& operator=(const Driver&) = delete;
 
-  Mixed_mesh_result_3 operator()(Mesh& mesh)
+  Mixed_mesh_result_3 operator()(Core_mesh& mesh)
   {
     m_result.tolerance = tolerance();
     {
-      const Scope scope(m_visitor, Stage::OCTREE);
+      const Stage_scope scope(m_visitor, Stage::OCTREE);
       if(!fill_lattice()) {
         if(m_result.tolerance > 0)
           m_tolerance_search.run();
@@ -95,8 +91,10 @@ public:
       }
     }
     make_mesh(mesh);
+    Misfit misfit = misfit_of(mesh);
     if(m_criteria.thin_parts() == Thin_parts::WHERE_NEEDED)
-      improve_thin_parts(mesh);
+      improve_thin_parts(mesh, misfit);
+    note(misfit);
     return m_result;
   }
 
@@ -109,14 +107,14 @@ private:
   }
 
   // From the octree.
-  void make_mesh(Mesh& mesh)
+  void make_mesh(Core_mesh& mesh)
   {
     mesh.clear();
     describe();
     if(!m_result.has_mesh())
       return;
     {
-      const Scope scope(m_visitor, Stage::ASSEMBLY);
+      const Stage_scope scope(m_visitor, Stage::ASSEMBLY);
       mark_sheets();
       assemble_mesh(m_octree, m_best.mesh, m_best.boundary, mesh);
     }
@@ -126,34 +124,49 @@ private:
       note_share_filled(mesh.number_of_vertices());
   }
 
-  // Once more, if what there is has lost something; the better mesh is taken.
-  void improve_thin_parts(Mesh& mesh)
+  // Once more, if what there is has lost something; the better mesh is taken, with its misfit.
+  void improve_thin_parts(Core_mesh& mesh, Misfit& misfit)
   {
     const bool can_be_better = m_result.status == Mixed_mesh_status::EMPTY
                                || (m_result.has_mesh() && !m_result.is_kept);
-    const Misfit misfit = misfit_of(mesh);
-    if(!can_be_better || misfit.is_none() || subdomain_indices(m_root.domain()).size() > 1)
+    if(!can_be_better || misfit.is_none() || m_root.domain().subdomain_indices().size() > 1)
       return;
     const Mixed_mesh_result_3 result = m_result;
-    Mesh other;
+    Core_mesh other;
     {
-      const Scope scope(m_visitor, Stage::OCTREE);
+      const Stage_scope scope(m_visitor, Stage::OCTREE);
       resolve_thin_parts(misfit.is_of_volume_only());
       if(m_thin_start)
         fill_budget();
     }
     if(m_thin_start)
       make_mesh(other);
-    if(m_result.status == Mixed_mesh_status::STOPPED || !m_thin_start || !(misfit_of(other) < misfit)) {
+    const Misfit other_misfit = misfit_of(other);
+    if(m_result.status == Mixed_mesh_status::STOPPED || !m_thin_start || !(other_misfit < misfit)) {
       const std::size_t needed = m_result.number_of_vertices_for_thin_parts;
       m_result = result;
       m_result.number_of_vertices_for_thin_parts = needed;
     } else {
       mesh = std::move(other);
+      misfit = other_misfit;
     }
   }
 
-  Misfit misfit_of(const Mesh& mesh) const
+  // In the result. The volume of a mesh that is not fitted is larger than that of the domain, and its status
+  // is left to what fits it.
+  void note(const Misfit& misfit)
+  {
+    m_result.shells_of_domain = misfit.shells_of_domain();
+    m_result.shells = misfit.shells();
+    if(m_result.is_kept || !m_result.has_mesh() || !m_criteria.fit_to_surface())
+      return;
+    if(misfit.is_topology_wrong())
+      m_result.status = worse(m_result.status, Mixed_mesh_status::TOPOLOGY_DIFFERS);
+    else if(misfit.is_volume_wrong())
+      m_result.status = worse(m_result.status, Mixed_mesh_status::VOLUME_DIFFERS);
+  }
+
+  Misfit misfit_of(const Core_mesh& mesh) const
   {
     if(mesh.number_of_elements() == 0)
       return Misfit::of_no_mesh();
@@ -166,26 +179,27 @@ private:
   // the volume is, with as many as the budget has room for.
   void resolve_thin_parts(bool is_for_volume)
   {
-    Octree_ start = m_root;
+    Located_octree start = m_root;
     if(!refine_to_level(start, coarsest_level(), budget()))
       return;
     m_tolerance_search.split_far_cells(start);
     m_are_gaps_wider = true;
     Misfit best = Misfit::of_no_mesh();
     for(const double strictness : is_for_volume ? strictnesses_for_volume : strictnesses) {
-      Octree_ octree = start;
+      Located_octree octree = start;
       Candidate candidate;
-      const Thin_cell_splits splits = split_thin_cells(octree, strictness, budget(), [&](const Octree_& o) {
-        Candidate c = try_octree(o);
-        const std::size_t n = c.number_of_vertices;
-        if(!c.is_stopped && n <= budget())
-          candidate = std::move(c);
-        return n;
-      });
+      const Thin_cell_splits splits = split_thin_cells(octree, strictness, budget(),
+                                                       [&](const Located_octree& o) {
+                                                         Candidate c = try_octree(o);
+                                                         const std::size_t n = c.number_of_vertices;
+                                                         if(!c.is_stopped && n <= budget())
+                                                           candidate = std::move(c);
+                                                         return n;
+                                                       });
       m_result.number_of_vertices_for_thin_parts = splits.number_of_vertices;
       if(candidate.number_of_vertices == 0)
         continue; // not even one level fits, or there are no vertices
-      Mesh mesh;
+      Core_mesh mesh;
       assemble_mesh(octree, candidate.mesh, candidate.boundary, mesh);
       const Misfit misfit(mesh, m_root.domain(), false,
                           lost_cells(octree, candidate.mesh, candidate.boundary).size(), 0);
@@ -201,20 +215,19 @@ private:
   // Not before: sheets add no vertex.
   void mark_sheets()
   {
-    if constexpr(Is_domain_with_sheets<Domain>::value)
-      if(has_sheets(m_root.domain())) {
-        m_best.boundary = split_boundary(m_octree, m_best.mesh, m_criteria.boundary_mode(),
-                                         Concurrency::number_of_threads(m_criteria),
-                                         Sheet_layer(m_octree, m_best.mesh));
-        m_result.number_of_lost_sheets = m_best.boundary.number_of_lost_sheets;
-        if(m_result.number_of_lost_sheets > 0)
-          m_result.status = worse(m_result.status, Mixed_mesh_status::PARTS_LOST);
-      }
+    if(m_root.domain().has_sheets()) {
+      m_best.boundary = split_boundary(m_octree, m_best.mesh, m_criteria.boundary_mode(),
+                                       Concurrency::number_of_threads(m_criteria),
+                                       Sheet_layer(m_octree, m_best.mesh));
+      m_result.number_of_lost_sheets = m_best.boundary.number_of_lost_sheets;
+      if(m_result.number_of_lost_sheets > 0)
+        m_result.status = worse(m_result.status, Mixed_mesh_status::PARTS_LOST);
+    }
   }
 
   double share_of_bisections() const
   {
-    return m_criteria.share_of_bisections_for(subdomain_indices(m_root.domain()).size());
+    return m_criteria.share_of_bisections_for(m_root.domain().subdomain_indices().size());
   }
 
   // What the octree may have; the rest is for the optimization.
@@ -235,19 +248,18 @@ private:
            * std::cbrt(volume_of_domain(m_root) / double(m_criteria.maximal_number_of_vertices()));
   }
 
-  void optimize(Mesh& mesh)
+  void optimize(Core_mesh& mesh)
   {
-    const Scope scope(m_visitor, Stage::OPTIMIZATION);
+    const Stage_scope scope(m_visitor, Stage::OPTIMIZATION);
     const std::size_t rest = m_criteria.maximal_number_of_vertices() - m_best.number_of_vertices;
     const auto criteria = Mixed_mesh_optimization_criteria_3()
                             .tolerance(m_result.tolerance)
                             .quality_bound(m_criteria.quality_bound())
                             .sharp_angle(m_criteria.sharp_angle())
                             .number_of_bisections(share_of_bisections() > 0 ? rest : 0);
-    const Aspect_ratio_quality_3 quality;
     const auto with_threads = Concurrency::with_threads(criteria, Concurrency::number_of_threads(m_criteria));
-    Bounded_optimization optimize(mesh, m_root.domain(), with_threads, quality);
-    m_result.optimization = optimize([this] { return m_visitor.go_on(); });
+    m_result.optimization = optimize_bounded(mesh, m_root.domain(), with_threads, Aspect_ratio_quality_3(),
+                                             [this] { return m_visitor.go_on(); });
     const bool is_only_wished = m_criteria.tolerance() == Mixed_mesh_criteria_3::automatic
                                 && m_result.optimization.status
                                      == Mixed_mesh_optimization_status::TOLERANCE_NOT_REACHED;
@@ -262,7 +274,7 @@ private:
   // Uniform cells between planes of the surface need nothing more.
   bool fill_lattice()
   {
-    Octree_ octree = m_root;
+    Located_octree octree = m_root;
     if(!m_lattice.is_uniform || !refine_to_level(octree, m_lattice.level, budget()))
       return false;
     Candidate candidate = try_octree(octree);
@@ -289,14 +301,14 @@ private:
     int level = coarsest_level();
     const auto first_to_split = points_on_sharp_edges();
     for(int step = 0;; level += step) {
-      Octree_ octree = m_thin_start ? *m_thin_start : m_root;
+      Located_octree octree = m_thin_start ? *m_thin_start : m_root;
       Candidate candidate;
       if(m_thin_start || refine_to_level(octree, level, budget())) {
         if(!m_thin_start)
           m_tolerance_search.split_far_cells(octree);
         candidate = fill_vertex_budget(
           octree, budget(), m_criteria.grading() * m_radius,
-          [this](const Octree_& o) { return try_octree(o); }, first_to_split);
+          [this](const Located_octree& o) { return try_octree(o); }, first_to_split);
       } else {
         candidate.number_of_vertices = 8 * octree.number_of_cells_inside();
       }
@@ -331,13 +343,12 @@ private:
   }
 
   // Where there is no region, at a distance of half the edges that the budget allows, or less.
-  auto points_on_sharp_edges() const
+  std::vector<Located_octree::Point_3> points_on_sharp_edges() const
   {
-    using Point = typename Domain::Point_3;
-    std::vector<Point> points;
+    std::vector<Located_octree::Point_3> points;
     if(!m_root.is_region_everywhere())
       return points;
-    const Sharp_edges edges = sharp_edges(m_root.domain(), m_criteria.sharp_angle());
+    const Sharp_edges edges = m_root.domain().sharp_edges(m_criteria.sharp_angle());
     if(edges.edges.empty())
       return points;
     const double size = std::cbrt(volume_of_domain(m_root) / double(m_criteria.maximal_number_of_vertices()));
@@ -352,7 +363,7 @@ private:
     return points;
   }
 
-  Candidate try_octree(const Octree_& octree)
+  Candidate try_octree(const Located_octree& octree)
   {
     Candidate c = make_candidate(octree, m_criteria, m_visitor, m_are_gaps_wider);
     m_result.number_of_trials += !c.is_stopped;
@@ -381,7 +392,7 @@ private:
     m_result.number_of_lost_cells = m_lost.size();
     m_result.number_of_vertices_in_region = count_vertices_in_region();
     for(Octree::Node_index n : m_lost)
-      m_result.lost_cells += m_traits.cell(octree.corner(n), octree.side(n)).bbox();
+      m_result.lost_cells += m_root.domain().cell_box(octree.corner(n), octree.side(n));
     const std::vector<std::uint8_t>& is_used = m_best.boundary.is_used;
     m_result.number_of_transition_vertices = std::size_t(
       std::count(is_used.begin() + std::ptrdiff_t(m_best.mesh.first_inserted_vertex),

@@ -11,7 +11,9 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/shell_counts.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/Any_domain.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 
 #include <algorithm>
@@ -19,23 +21,12 @@
 #include <cstddef>
 #include <optional>
 #include <tuple>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
-
-template <class Domain, class = void>
-struct Has_shells : std::false_type
-{
-};
-/// Domains that know how many shells their surface has.
-template <class Domain>
-struct Has_shells<Domain, std::void_t<decltype(std::declval<const Domain&>().shells())>> : std::true_type
-{
-};
 
 /// How a mesh differs from its domain, in what can be told at once: not by much if numbers are equal, and
 /// surely if they are not. `compare_with_surface()` tells all.
@@ -44,6 +35,7 @@ class Misfit
   bool m_is_mesh = true;
   std::size_t m_topology = 0, m_number_of_lost_cells = 0, m_number_off = 0;
   double m_volume = 0; // beyond what is tolerated, relatively
+  std::optional<Shell_counts> m_shells_of_domain, m_shells;
 
   static constexpr double tolerated_volume = 0.05;
 
@@ -57,31 +49,34 @@ public:
 
   /// \param mesh its boundary is a manifold, except where it is pinched
   /// \param is_fitted whether its volume should be that of the domain
-  template <class Mesh, class Domain>
-  Misfit(const Mesh& mesh, [[maybe_unused]] const Domain& domain, [[maybe_unused]] bool is_fitted,
-         std::size_t number_of_lost_cells, std::size_t number_off)
+  Misfit(const Core_mesh& mesh, const Any_domain& domain, bool is_fitted, std::size_t number_of_lost_cells,
+         std::size_t number_off)
     : m_number_of_lost_cells(number_of_lost_cells), m_number_off(number_off)
   {
-    if constexpr(Has_shells<Domain>::value) {
-      const std::optional<Shell_counts> expected = domain.shells();
-      if(!expected)
-        return;
-      std::vector<Face_vertices> polygons;
-      for(const Face& face : boundary_faces(mesh))
-        polygons.push_back(face.vertices());
-      const Shell_counts counts = shell_counts(polygons, mesh.number_of_vertices());
-      m_topology = difference(counts.number_of_shells, expected->number_of_shells)
-                   + difference(counts.euler_characteristic, expected->euler_characteristic);
-      if(is_fitted)
-        m_volume = (std::max)(0., std::abs(Mixed_meshes_3::volume(mesh) / domain.volume() - 1)
-                                    - tolerated_volume);
-    }
+    m_shells_of_domain = domain.shells();
+    if(!m_shells_of_domain)
+      return;
+    std::vector<Face_vertices> polygons;
+    for(const Face& face : boundary_faces(mesh))
+      polygons.push_back(face.vertices());
+    m_shells = shell_counts(polygons, mesh.number_of_vertices());
+    m_topology = difference(m_shells->number_of_shells, m_shells_of_domain->number_of_shells)
+                 + difference(m_shells->euler_characteristic, m_shells_of_domain->euler_characteristic);
+    if(const std::optional<double> volume = domain.volume(); volume && is_fitted)
+      m_volume = (std::max)(0., std::abs(Mixed_meshes_3::volume(mesh) / *volume - 1) - tolerated_volume);
   }
 
   bool is_none() const
   {
     return m_is_mesh && m_topology == 0 && m_number_of_lost_cells == 0 && m_volume == 0;
   }
+
+  /// What the domain tells of its surface, and what the boundary of the mesh is like then.
+  const std::optional<Shell_counts>& shells_of_domain() const { return m_shells_of_domain; }
+  const std::optional<Shell_counts>& shells() const { return m_shells; }
+
+  bool is_topology_wrong() const { return m_topology > 0; }
+  bool is_volume_wrong() const { return m_volume > 0; }
 
   bool is_of_volume_only() const { return m_is_mesh && m_topology == 0 && m_number_of_lost_cells == 0; }
 

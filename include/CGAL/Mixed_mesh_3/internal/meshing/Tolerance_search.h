@@ -14,12 +14,15 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/assemble_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_attraction.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/Any_visitor.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Candidate.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/base_level.h>
@@ -40,7 +43,6 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /// Splits cells of the base level where the boundary would be too far from the surface, and again.
-template <class Octree_, class Mesh, class Visitor>
 class Tolerance_search
 {
   // Rounds of splitting (six make cells 64 times smaller), the share of the budget they may take (the rest is
@@ -55,9 +57,9 @@ class Tolerance_search
   // boundary vertices are where three or more meet, and all rounds would take nearly all of the time.
   static constexpr int rounds_of_sliding = 100, rounds_between_subdomains = 5;
 
-  const Octree_& m_root;
+  const Located_octree& m_root;
   const Mixed_mesh_criteria_3& m_criteria;
-  Visitor& m_visitor;
+  Any_visitor& m_visitor;
   Mixed_mesh_result_3& m_result;
   const bool m_has_subdomains;
   std::vector<Surface_sample> m_samples;
@@ -68,10 +70,10 @@ class Tolerance_search
 
 public:
   /// \param root the octree with nothing but its root
-  Tolerance_search(const Octree_& root, const Mixed_mesh_criteria_3& criteria, Visitor& visitor,
+  Tolerance_search(const Located_octree& root, const Mixed_mesh_criteria_3& criteria, Any_visitor& visitor,
                    Mixed_mesh_result_3& result)
     : m_root(root), m_criteria(criteria), m_visitor(visitor), m_result(result),
-      m_has_subdomains(subdomain_indices(root.domain()).size() > 1)
+      m_has_subdomains(root.domain().subdomain_indices().size() > 1)
   {
   }
 
@@ -90,7 +92,7 @@ public:
   }
 
   /// One level more around each far point, round by round.
-  void split_far_cells(Octree_& octree) const
+  void split_far_cells(Located_octree& octree) const
   {
     for(const std::vector<Vec3>& points : m_far_points) {
       std::vector<Octree::Node_index> leaves;
@@ -118,7 +120,7 @@ private:
       return spares_region && m_root.region().depth({s.point[0], s.point[1], s.point[2]}) >= 0;
     };
     m_samples.erase(std::remove_if(m_samples.begin(), m_samples.end(), is_in_region), m_samples.end());
-    Octree_ octree = m_root;
+    Located_octree octree = m_root;
     Candidate candidate = try_base_octree(octree);
     // after how many rounds
     std::size_t best = m_far_points.size(), least_defects = std::size_t(-1);
@@ -143,10 +145,10 @@ private:
             m_criteria.maximal_number_of_vertices()};
   }
 
-  Candidate try_base_octree(Octree_& octree)
+  Candidate try_base_octree(Located_octree& octree)
   {
     const int level = (std::max)(first_base_level(m_criteria),
-                                 lattice_on_surface(octree.cell_traits()).level);
+                                 octree.cell_traits().lattice_on_surface().level);
     if(!refine_to_level(octree, level, m_criteria.maximal_number_of_vertices()))
       return {};
     split_far_cells(octree);
@@ -173,9 +175,9 @@ private:
 
   // From the boundary with its vertices on the surface, where the optimization will bring them nearly. Where
   // its faces are folded or cut each other, it would have to leave vertices behind.
-  Estimate estimate_boundary(const Octree_& octree, const Candidate& candidate) const
+  Estimate estimate_boundary(const Located_octree& octree, const Candidate& candidate) const
   {
-    Mesh mesh;
+    Core_mesh mesh;
     assemble_mesh(octree, candidate.mesh, candidate.boundary, mesh);
     Strata strata(m_root.domain());
     const Interface_faces boundary = strata.sorted_faces(mesh);
@@ -209,7 +211,7 @@ private:
 
   // Splits cells at all defects, and at as many far points as fit into the limit, the farthest ones.
   // \return whether more might be split
-  bool split(const Estimate& estimate, double limit, Octree_& octree, Candidate& candidate)
+  bool split(const Estimate& estimate, double limit, Located_octree& octree, Candidate& candidate)
   {
     const auto try_beyond = [&](double multiple) {
       std::vector<Vec3> points = estimate.defects;
@@ -242,7 +244,7 @@ private:
   // The tolerances of small subdomains are so small that all of their surface may be far: how far is too far
   // is searched for, by bisection.
   template <class Try>
-  bool split_subdomains(const Estimate& estimate, const Try& try_beyond, Octree_& octree,
+  bool split_subdomains(const Estimate& estimate, const Try& try_beyond, Located_octree& octree,
                         Candidate& candidate)
   {
     if(estimate.far_points.empty())

@@ -10,6 +10,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 #include <CGAL/Mixed_mesh_criteria_3.h>
 
 #include <algorithm>
@@ -34,8 +35,7 @@ inline int first_base_level(const Mixed_mesh_criteria_3& criteria)
 
 /// Refines what meets the domain to a level, unless there would be far more cells than vertices are allowed.
 /// \return whether it did so
-template <class Octree_>
-bool refine_to_level(Octree_& octree, int base_level, std::size_t budget)
+inline bool refine_to_level(Located_octree& octree, int base_level, std::size_t budget)
 {
   constexpr std::size_t far_above_budget = 1000000;
   for(int level = 0; level < base_level; ++level) {

@@ -13,20 +13,20 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Default_visitor.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/Any_visitor.h>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
 /// A stage, as long as the object lives.
-template <class Visitor>
 class Stage_scope
 {
-  Visitor& m_visitor;
+  Any_visitor& m_visitor;
   const Stage m_stage;
 
 public:
-  Stage_scope(Visitor& visitor, Stage stage) : m_visitor(visitor), m_stage(stage)
+  Stage_scope(Any_visitor& visitor, Stage stage) : m_visitor(visitor), m_stage(stage)
   {
     visitor.begin_stage(stage);
   }
@@ -36,14 +36,13 @@ public:
 };
 
 /// A pause of a stage, for others in between: stages are not nested.
-template <class Visitor>
 class Stage_pause
 {
-  Visitor& m_visitor;
+  Any_visitor& m_visitor;
   const Stage m_stage;
 
 public:
-  Stage_pause(Visitor& visitor, Stage stage) : m_visitor(visitor), m_stage(stage)
+  Stage_pause(Any_visitor& visitor, Stage stage) : m_visitor(visitor), m_stage(stage)
   {
     visitor.end_stage(stage);
   }

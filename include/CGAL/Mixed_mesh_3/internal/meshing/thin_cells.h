@@ -13,6 +13,7 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
 
@@ -38,14 +39,12 @@ are at a distance of the side of a cell, and so thick it has to be. A gap needs 
 are not inside, one for each of its sheets, but may take them from the solid: vertices that are not deep are
 not labeled inside there. Boundary vertices begin a little inside then, and are carried outwards.
 */
-template <class Octree_>
 class Thin_cell_finder
 {
-  using Domain = typename Octree_::Domain_3;
-  using Point_3 = typename Domain::Point_3;
+  using Point_3 = Located_octree::Point_3;
   using Node_index = Octree::Node_index;
 
-  const Octree_& m_octree;
+  const Located_octree& m_octree;
   const double m_strictness;
 
   static constexpr double cells_in_wall = 1, cells_in_gap = 1;
@@ -56,7 +55,10 @@ class Thin_cell_finder
 
 public:
   /// \param strictness how many times as many cells as should suffice are asked for
-  Thin_cell_finder(const Octree_& octree, double strictness) : m_octree(octree), m_strictness(strictness) {}
+  Thin_cell_finder(const Located_octree& octree, double strictness)
+    : m_octree(octree), m_strictness(strictness)
+  {
+  }
 
   /// Whether a leaf that meets the surface is too large, seen from its corners and its center.
   bool operator()(Node_index n) const
@@ -123,7 +125,7 @@ private:
 
   Bounded_side side_of(const Vec3& p) const
   {
-    const auto& box = m_octree.domain().bbox();
+    const Bbox_3 box = m_octree.domain().bbox();
     for(int k = 0; k < 3; ++k)
       if(!(box.min(k) <= p[k] && p[k] <= box.max(k)))
         return ON_UNBOUNDED_SIDE;
@@ -135,10 +137,9 @@ private:
 };
 
 /// The leaves of a level that meet the surface and are too large for a wall or a gap.
-template <class Octree_>
-std::vector<Octree::Node_index> thin_cells(const Octree_& octree, int level, double strictness)
+inline std::vector<Octree::Node_index> thin_cells(const Located_octree& octree, int level, double strictness)
 {
-  const Thin_cell_finder<Octree_> is_thin(octree, strictness);
+  const Thin_cell_finder is_thin(octree, strictness);
   std::vector<Octree::Node_index> leaves;
   for(const Octree::Node_index n : octree.leaves_to_refine(level, false))
     if(octree.side(n) == ON_BOUNDARY && is_thin(n))
@@ -147,10 +148,9 @@ std::vector<Octree::Node_index> thin_cells(const Octree_& octree, int level, dou
 }
 
 /// Takes the label of vertices inside that are next to narrow gaps away.
-template <class Octree_>
-void widen_gaps(const Octree_& octree, Lattice_mesh& mesh)
+inline void widen_gaps(const Located_octree& octree, Lattice_mesh& mesh)
 {
-  const Thin_cell_finder<Octree_> finder(octree, 1);
+  const Thin_cell_finder finder(octree, 1);
   auto hint = octree.domain().closest_point(octree.point({0, 0, 0}));
   for(Vertex_index v = 0; v < mesh.vertices.size(); ++v)
     if(mesh.is_inside(v) && finder.is_beside_gap(mesh.vertices[v], mesh.leaves[v], hint))
@@ -172,15 +172,15 @@ the budget.
 \par Complexity
 A dozen queries for closest points and more for each leaf at the surface
 */
-template <class Octree_, class Count>
-Thin_cell_splits split_thin_cells(Octree_& octree, double strictness, std::size_t budget,
+template <class Count>
+Thin_cell_splits split_thin_cells(Located_octree& octree, double strictness, std::size_t budget,
                                   const Count& number_of_vertices)
 {
   constexpr double cells_for_a_vertex = 4;   // at most, nearly: more are not meshed in vain
   constexpr double cells_of_estimate = 16;   // times the budget
   constexpr double vertices_of_a_cell = 1.4; // at the surface
   Thin_cell_splits result;
-  Octree_ trial = octree;
+  Located_octree trial = octree;
   for(int level = 0; level < Octree::max_level; ++level) {
     const std::vector<Octree::Node_index> leaves = thin_cells(trial, level, strictness);
     if(leaves.empty())

@@ -15,7 +15,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/balance.h>
-#include <CGAL/Mixed_mesh_3/internal/octree/weight_in_region.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/Oracles.h>
 
 #include <CGAL/enum.h>
 #include <CGAL/squared_distance_3.h>
@@ -39,33 +39,36 @@ A balanced octree whose nodes are located in the domain and in the region of int
 node that is off a surface inherit its side; those of a node that meets it look at the parent's part
 of the surface only.
 
-Copies share the domain, the region and the cell traits, which must outlive them.
+Copies share the domain, the region and the cell traits.
 */
-template <class Domain, class Region, class CellTraits>
 class Located_octree
 {
 public:
   using Node_index = Octree::Node_index;
-  using Cell_traits = CellTraits;
-  using Domain_3 = Domain;
-  using Surface_part = typename Domain::Surface_part;
+  using Point_3 = Any_cell_traits::Point_3;
 
-  Located_octree(const Domain& domain, const Region& region, const CellTraits& traits)
-    : m_domain(&domain), m_region(&region), m_traits(&traits)
+  explicit Located_octree(Oracles oracles) : m_oracles(std::move(oracles))
   {
-    add_part(m_domain_parts, domain.surface_part());
-    add_part(m_region_parts, region.surface_part());
+    m_domain_parts.push_back(m_oracles.domain->surface_part());
+    m_region_parts.push_back(m_oracles.region->surface_part());
     m_locations.push_back({ON_BOUNDARY, ON_BOUNDARY, 0, 0});
-    const auto p = traits.point({0, 0, 0}),
-               q = traits.point({Octree::root_side, Octree::root_side, Octree::root_side});
+    const Point_3 p = m_oracles.cell_traits->point({0, 0, 0}),
+                  q = m_oracles.cell_traits->point({Octree::root_side, Octree::root_side, Octree::root_side});
     m_diagonal = std::hypot(q.x() - p.x(), q.y() - p.y(), q.z() - p.z());
     locate(Octree::root(), m_locations[0]);
   }
 
+  /// Of models of the concepts, which the caller keeps.
+  template <class Domain, class Region, class CellTraits>
+  Located_octree(const Domain& domain, const Region& region, const CellTraits& traits)
+    : Located_octree(oracles_of(domain, region, traits))
+  {
+  }
+
   const Octree& octree() const { return m_octree; }
-  const Domain& domain() const { return *m_domain; }
-  const Region& region() const { return *m_region; }
-  const CellTraits& cell_traits() const { return *m_traits; }
+  const Any_domain& domain() const { return *m_oracles.domain; }
+  const Any_region& region() const { return *m_oracles.region; }
+  const Any_cell_traits& cell_traits() const { return *m_oracles.cell_traits; }
 
   /// `ON_BOUNDARY`: the cell meets the surface of the domain; else the side of all its points.
   Bounded_side side(Node_index n) const { return Bounded_side(m_locations[n].domain); }
@@ -78,26 +81,27 @@ public:
   bool is_in_region(const Lattice_point& p, Node_index leaf) const
   {
     return m_locations[leaf].region == ON_BOUNDED_SIDE
-           || (m_locations[leaf].region == ON_BOUNDARY && m_region->depth(m_traits->point(p)) >= 0);
+           || (m_locations[leaf].region == ON_BOUNDARY
+               && m_oracles.region->depth(m_oracles.cell_traits->point(p)) >= 0);
   }
-  /// The part of the domain's surface that meets the cell; a default one if none does, but for cells inside
-  /// labeled domains.
+  /// The part of the domain's surface that meets the cell; none if none does, but for cells inside labeled
+  /// domains.
   const Surface_part& surface_part(Node_index n) const
   {
-    return *(has_part<Domain>(side(n)) ? m_domain_parts[m_locations[n].domain_part] : m_no_part);
+    const std::uint32_t part = m_locations[n].domain_part;
+    return part != 0 ? m_domain_parts[part] : m_no_part;
   }
 
   /// The rank of the subdomain of a lattice point of a leaf, inside the domain.
   Subdomain_rank subdomain_rank(const Lattice_point& p, Node_index leaf) const
   {
-    if constexpr(Is_labeled_domain<Domain>::value)
-      return rank_of(m_domain->subdomain_indices(),
-                     m_domain->subdomain_index(m_traits->point(p), surface_part(leaf)));
-    else
-      return 0;
+    return m_oracles.domain->is_labeled()
+             ? rank_of(m_oracles.domain->subdomain_indices(),
+                       m_oracles.domain->subdomain_index(m_oracles.cell_traits->point(p), surface_part(leaf)))
+             : Subdomain_rank(0);
   }
 
-  typename Domain::Point_3 point(const Lattice_point& p) const { return m_traits->point(p); }
+  Point_3 point(const Lattice_point& p) const { return m_oracles.cell_traits->point(p); }
 
   /// The number of leaves that meet the domain.
   std::size_t number_of_cells() const
@@ -128,8 +132,7 @@ public:
   double rounded(double length) const { return quantized(length) * std::ldexp(m_diagonal, -24); }
 
   /// The leaf around a point of the root.
-  template <class Point>
-  Node_index leaf_at(const Point& q) const
+  Node_index leaf_at(const Point_3& q) const
   {
     Node_index n = Octree::root();
     while(!m_octree.is_leaf(n))
@@ -138,8 +141,7 @@ public:
   }
 
   /// Of eight siblings that with the nearest center: the one around a point, whatever the frame of the cells.
-  template <class Point>
-  Node_index nearest_of(Node_index first, const Point& q) const
+  Node_index nearest_of(Node_index first, const Point_3& q) const
   {
     Node_index nearest = first;
     double least = std::numeric_limits<double>::infinity();
@@ -182,19 +184,19 @@ public:
   }
 
   /// Depth of the center of a cell in the region; negative outside.
-  double depth_in_region(Node_index n) const { return m_region->depth(center(n)); }
+  double depth_in_region(Node_index n) const { return m_oracles.region->depth(center(n)); }
 
   /// The weight of an error at the center of a cell, not counting how far it is from the region.
   double weight_in_region(Node_index n, double reach) const
   {
-    return internal::weight_in_region(*m_region, center(n), reach);
+    return m_oracles.region->weight(center(n), reach);
   }
 
   /// The volume of a cell of a level.
   double cell_volume(int level) const
   {
     const auto at = [this](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-      return m_traits->point({x, y, z});
+      return m_oracles.cell_traits->point({x, y, z});
     };
     constexpr std::uint32_t side = Octree::root_side;
     const auto o = at(0, 0, 0);
@@ -212,10 +214,15 @@ private:
   struct Location
   {
     std::int8_t domain, region;             // Bounded_side
-    std::uint32_t domain_part, region_part; // 0: none (or, for the root, the whole)
+    std::uint32_t domain_part, region_part; // 0: none
   };
 
-  auto center(Node_index n) const { return m_traits->cell(m_octree.corner(n), m_octree.side(n)).center(); }
+  Point_3 center(Node_index n) const
+  {
+    const Lattice_point& corner = m_octree.corner(n);
+    const std::uint32_t half = m_octree.side(n) / 2;
+    return m_oracles.cell_traits->point({corner[0] + half, corner[1] + half, corner[2] + half});
+  }
 
   void split(Node_index n)
   {
@@ -229,62 +236,42 @@ private:
   // Replaces the location of the parent by that of the cell.
   void locate(Node_index n, Location& l)
   {
-    const auto cell = m_traits->cell(m_octree.corner(n), m_octree.side(n));
-    l.domain = locate(*m_domain, cell, l.domain, l.domain_part, m_domain_parts);
-    l.region = locate(*m_region, cell, l.region, l.region_part, m_region_parts);
+    l.domain = locate(*m_oracles.domain, n, l.domain, l.domain_part, m_domain_parts);
+    l.region = locate(*m_oracles.region, n, l.region, l.region_part, m_region_parts);
   }
 
-  // Parts never change, so that copies of the octree share them.
-  template <class Part>
-  using Parts = std::vector<std::shared_ptr<const Part>>;
+  using Parts = std::vector<Surface_part>;
 
-  template <class Part>
-  static void add_part(Parts<Part>& parts, Part part)
-  {
-    parts.push_back(std::make_shared<const Part>(std::move(part)));
-  }
-
-  // Inside, it tells the subdomain.
   template <class Oracle>
-  static bool has_part(Bounded_side side)
-  {
-    return side == ON_BOUNDARY || (Is_labeled_domain<Oracle>::value && side == ON_BOUNDED_SIDE);
-  }
-
-  template <class Oracle, class Cell, class Part>
-  static std::int8_t locate(const Oracle& oracle, const Cell& cell, std::int8_t parent_side,
-                            std::uint32_t& part, Parts<Part>& parts)
+  std::int8_t locate(const Oracle& oracle, Node_index n, std::int8_t parent_side, std::uint32_t& part,
+                     Parts& parts) const
   {
     if(parent_side != ON_BOUNDARY)
       return parent_side;
-    Part mine;
-    const Bounded_side side = oracle.locate(cell, *parts[part], mine);
+    Surface_part mine;
+    const Bounded_side side = oracle.locate(m_octree.corner(n), m_octree.side(n), parts[part], mine);
     part = 0;
-    if(has_part<Oracle>(side)) {
+    if(mine) {
       part = std::uint32_t(parts.size());
-      add_part(parts, std::move(mine));
+      parts.push_back(std::move(mine));
     }
     return std::int8_t(side);
   }
 
-  const Domain* m_domain;
-  const Region* m_region;
-  const CellTraits* m_traits;
+  Oracles m_oracles;
   Octree m_octree;
   double m_diagonal; // of the root
   std::vector<Location> m_locations;
-  Parts<Surface_part> m_domain_parts;
-  Parts<typename Region::Surface_part> m_region_parts;
-  std::shared_ptr<const Surface_part> m_no_part = std::make_shared<const Surface_part>();
+  Parts m_domain_parts, m_region_parts;
+  Surface_part m_no_part;
 };
 
 /// The volume of the domain, about: of the cells inside, and half of those that meet its surface.
 /// \param root the octree with nothing but its root
-template <class Octree_>
-double volume_of_domain(const Octree_& root)
+inline double volume_of_domain(const Located_octree& root)
 {
   constexpr std::size_t enough = 500;
-  Octree_ octree = root;
+  Located_octree octree = root;
   for(int level = 0;; ++level) {
     const std::size_t inside = octree.number_of_cells_inside(), all = octree.number_of_cells();
     if(all >= enough || level == Octree::max_level)

@@ -12,8 +12,9 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
-#include <CGAL/Mixed_mesh_3/internal/octree/weight_in_region.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/weight_in_region.h>
 
 #include <CGAL/enum.h>
 
@@ -33,13 +34,12 @@ namespace internal {
 /// The radius of a ball with the volume that the region has in common with the domain, by the centers of some
 /// hundred cells; 0 if they do not meet. Of a region too thin for that, at most that of the cells it meets.
 /// \param root the octree with nothing but its root
-template <class Octree_>
-double mean_radius_of_region(const Octree_& root)
+inline double mean_radius_of_region(const Located_octree& root)
 {
   constexpr std::size_t enough = 100, too_many = 20000;
   const auto radius_of = [](double number, double edge) { return std::cbrt(0.75 / M_PI * number) * edge; };
   double radius = 0;
-  Octree_ octree = root;
+  Located_octree octree = root;
   for(int level = 0; level < Octree::max_level; ++level) {
     const std::vector<Octree::Node_index> leaves = octree.leaves_to_refine(level, true);
     const auto count = std::count_if(leaves.begin(), leaves.end(),
@@ -74,7 +74,6 @@ of equal keys are split here and there, so that the last level is not at one end
 As nodes of an octree are numbered in the order of the splits, the octree after any number of steps is a
 prefix of that after all.
 */
-template <class Octree_>
 class Refinement_sequence
 {
   using Node_index = Octree::Node_index;
@@ -89,10 +88,10 @@ public:
   // A level of the cells between those at the surface and those inside, of 32^(1/2) each.
   static constexpr double factor_at_sharp_edges = 16;
 
-  using Point = decltype(std::declval<const Octree_&>().point(Lattice_point()));
+  using Point = Located_octree::Point_3;
 
 private:
-  Octree_ m_octree; // after all steps
+  Located_octree m_octree; // after all steps
   const double m_radius;
   std::vector<double> m_depths;     // of each node in the region
   std::vector<std::size_t> m_sizes; // numbers of nodes, and of leaves that meet the domain, after each step
@@ -106,7 +105,7 @@ public:
   /// \param start what is refined already
   /// \param radius the distance from the region at which the weight has fallen to 2^-6; 0: the region only
   /// \param points on sharp edges, closer to each other than cells are; they count without a region
-  Refinement_sequence(Octree_ start, double radius, std::vector<Point> points = {})
+  Refinement_sequence(Located_octree start, double radius, std::vector<Point> points = {})
     : m_octree(std::move(start)), m_radius(radius), m_is_everywhere(m_octree.is_region_everywhere())
   {
     if(m_is_everywhere && !points.empty())
@@ -122,9 +121,9 @@ public:
   /// The cell that a step splits.
   Node_index cell(std::size_t step) const { return m_split[step]; }
 
-  Octree_ octree(std::size_t steps) const
+  Located_octree octree(std::size_t steps) const
   {
-    Octree_ result = m_octree;
+    Located_octree result = m_octree;
     result.truncate(m_sizes[steps]);
     return result;
   }

@@ -24,11 +24,10 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-template <class Octree_, class Try>
+template <class Try>
 class Budget_search
 {
-  using Sequence = Refinement_sequence<Octree_>;
-  using Candidate = decltype(std::declval<const Try&>()(std::declval<const Octree_&>()));
+  using Candidate = decltype(std::declval<const Try&>()(std::declval<const Located_octree&>()));
 
   // A budget filled to 99.8 % is full enough while large steps are tried: with millions of vertices a
   // further trial costs more than it brings. Below 99 % single cells are tried.
@@ -41,14 +40,14 @@ class Budget_search
 
   const std::size_t m_budget;
   const Try& m_try;
-  Sequence m_sequence;
-  Octree_ m_octree;
+  Refinement_sequence m_sequence;
+  Located_octree m_octree;
   Candidate m_best;
   std::size_t m_steps = 0; // of the best
 
 public:
-  Budget_search(const Octree_& start, std::size_t budget, double radius, const Try& try_octree,
-                std::vector<typename Sequence::Point> points)
+  Budget_search(const Located_octree& start, std::size_t budget, double radius, const Try& try_octree,
+                std::vector<Refinement_sequence::Point> points)
     : m_budget(budget), m_try(try_octree), m_sequence(start, radius, std::move(points)), m_octree(start),
       m_best(m_try(start))
   {
@@ -56,14 +55,14 @@ public:
     add_single_cells();
   }
 
-  std::pair<Octree_, Candidate> best() && { return {std::move(m_octree), std::move(m_best)}; }
+  std::pair<Located_octree, Candidate> best() && { return {std::move(m_octree), std::move(m_best)}; }
 
 private:
   std::size_t size() const { return m_best.number_of_vertices; }
   bool is_done() const { return m_best.is_stopped || size() >= m_budget; }
 
   // Tries an octree; takes it over if it fits.
-  std::size_t attempt(Octree_ trial)
+  std::size_t attempt(Located_octree trial)
   {
     Candidate candidate = m_try(trial);
     const std::size_t n = candidate.number_of_vertices;
@@ -152,7 +151,7 @@ private:
       const Octree::Node_index n = m_sequence.cell(i);
       if(n >= m_sequence.number_of_nodes(m_steps) || !m_octree.octree().is_leaf(n))
         continue;
-      Octree_ trial = m_octree;
+      Located_octree trial = m_octree;
       trial.refine(std::vector<Octree::Node_index>{n});
       attempt(std::move(trial));
     }
@@ -173,11 +172,11 @@ so, too.
 \par Complexity
 O(log n) trials of at most a little more than n vertices; two for large n
 */
-template <class Octree_, class Try>
-auto fill_vertex_budget(Octree_& octree, std::size_t budget, double radius, const Try& try_octree,
-                        std::vector<typename Refinement_sequence<Octree_>::Point> points = {})
+template <class Try>
+auto fill_vertex_budget(Located_octree& octree, std::size_t budget, double radius, const Try& try_octree,
+                        std::vector<Refinement_sequence::Point> points = {})
 {
-  auto best = Budget_search<Octree_, Try>(octree, budget, radius, try_octree, std::move(points)).best();
+  auto best = Budget_search<Try>(octree, budget, radius, try_octree, std::move(points)).best();
   octree = std::move(best.first);
   return std::move(best.second);
 }

@@ -14,13 +14,14 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
+#include <CGAL/Mixed_mesh_3/Surface_description.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/optional_members.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -29,9 +30,6 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
-
-/// The planes perpendicular to each axis that a surface lies in: their coordinates, with the areas in them.
-using Axis_parallel_planes = std::array<std::map<double, double>, 3>;
 
 /// Finds cells for a domain whose surface lies in planes perpendicular to the axes.
 class Lattice_placement
@@ -160,30 +158,18 @@ private:
   }
 };
 
-template <class Domain, class = void>
-struct Has_axis_parallel_planes : std::false_type
-{
-};
-template <class Domain>
-struct Has_axis_parallel_planes<
-  Domain, std::void_t<decltype(std::declval<const Domain&>().axis_parallel_planes(std::declval<double&>()))>>
-  : std::true_type
-{
-};
-
 /// Cells whose planes lie on the surface if they can, else around the domain as the criteria say.
 template <class Domain, class Region, class Criteria>
 Axis_aligned_octree_cell_traits_3 cell_traits_of(const Domain& domain, const Region& region,
                                                  const Criteria& criteria)
 {
   const Axis_aligned_octree_cell_traits_3 around(domain.bbox(), criteria.root_cell());
-  if constexpr(Has_axis_parallel_planes<Domain>::value) {
+  if constexpr(Has_axis_parallel_planes<Domain>::value && Has_volume<Domain>::value) {
     const bool is_wanted = criteria.sharp_angle() > 0 && criteria.root_cell() == Root_cell::CUBE
                            && criteria.boundary_mode() == Boundary_mode::VERTEX_ORDER;
-    double volume = 0;
-    const Axis_parallel_planes planes = is_wanted ? domain.axis_parallel_planes(volume)
-                                                  : Axis_parallel_planes();
-    if(volume > 0) {
+    const Axis_parallel_planes planes = is_wanted ? domain.axis_parallel_planes() : Axis_parallel_planes();
+    const bool has_planes = planes[0].size() > 1 && planes[1].size() > 1 && planes[2].size() > 1;
+    if(const double volume = has_planes ? domain.volume() : 0; volume > 0) {
       constexpr std::uint32_t side = lattice_root_side;
       auto part = region.surface_part();
       const bool is_everywhere = region.locate(around.cell({0, 0, 0}, side), region.surface_part(), part)
@@ -195,23 +181,6 @@ Axis_aligned_octree_cell_traits_3 cell_traits_of(const Domain& domain, const Reg
     }
   }
   return around;
-}
-
-/// The coarsest level whose cells have all lattice planes that lie on the surface, and whether it shall be
-/// that of all cells.
-struct Lattice_on_surface
-{
-  int level = 0;
-  bool is_uniform = false;
-};
-
-template <class CellTraits>
-Lattice_on_surface lattice_on_surface([[maybe_unused]] const CellTraits& traits)
-{
-  if constexpr(std::is_same_v<CellTraits, Axis_aligned_octree_cell_traits_3>)
-    return {traits.level_on_surface(), traits.is_uniform()};
-  else
-    return {};
 }
 
 } // namespace internal

@@ -12,6 +12,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/Surface_description.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <algorithm>
@@ -27,14 +28,6 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
-
-/// Edges of a surface that are sharp, each once, between positions of points.
-struct Sharp_edges
-{
-  std::vector<Vec3> points;
-  std::vector<std::array<std::size_t, 2>> edges;
-  double diagonal = 0, area = 0; ///< of the whole surface
-};
 
 /// A chain of sharp edges between two corners.
 class Feature_polyline
@@ -140,7 +133,7 @@ public:
     leave_out_short_ones(least_length * size);
     trace();
     const double sum = length();
-    if(sum < least_total * sharp.diagonal || sum * size > largest_density * sharp.area
+    if(sum < least_total * sharp.diagonal || (sharp.area > 0 && sum * size > largest_density * sharp.area)
        || m_length_of_free > largest_share_of_free * sum) {
       m_polylines.clear();
       m_corners.clear();
@@ -275,26 +268,6 @@ private:
     }
   }
 };
-
-template <class Domain, class = void>
-struct Has_sharp_edges : std::false_type
-{
-};
-template <class Domain>
-struct Has_sharp_edges<Domain, std::void_t<decltype(std::declval<const Domain&>().sharp_edges(0.))>>
-  : std::true_type
-{
-};
-
-/// Those of a domain that has such, for an angle in degrees.
-template <class Domain>
-Sharp_edges sharp_edges([[maybe_unused]] const Domain& domain, [[maybe_unused]] double angle)
-{
-  if constexpr(Has_sharp_edges<Domain>::value)
-    if(angle > 0)
-      return domain.sharp_edges(angle);
-  return {};
-}
 
 } // namespace internal
 } // namespace Mixed_meshes_3

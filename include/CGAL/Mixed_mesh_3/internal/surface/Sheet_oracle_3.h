@@ -12,6 +12,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/Surface_description.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
@@ -30,15 +31,6 @@
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
-
-/// Where a point is relative to a sheet.
-struct Sheet_location
-{
-  Vec3 closest;   ///< the closest point of the sheet
-  double height;  ///< above the plane tangent there; positive in front, where the sheet is seen
-                  ///< counter-clockwise
-  bool is_at_rim; ///< whether the closest point is on the border of the sheet
-};
 
 namespace internal {
 

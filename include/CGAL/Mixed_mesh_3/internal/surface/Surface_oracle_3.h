@@ -14,10 +14,9 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/Surface_description.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
-#include <CGAL/Mixed_mesh_3/internal/elements/shell_counts.h>
-#include <CGAL/Mixed_mesh_3/internal/surface/Sharp_features.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/assertions.h>
@@ -30,7 +29,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <memory>
 #include <numeric>
 #include <unordered_map>
@@ -92,8 +90,8 @@ public:
   Sharp_edges sharp_edges(double angle) const;
 
   /// If each facet is perpendicular to an axis, the coordinates of their planes, with the area in each, for
-  /// each axis, and the volume; else nothing, and 0.
-  std::array<std::map<double, double>, 3> axis_parallel_planes(double& volume) const;
+  /// each axis; else nothing.
+  Axis_parallel_planes axis_parallel_planes() const;
 
   /// The whole surface, with a point outside as reference: the paper's P_out.
   Surface_part surface_part() const

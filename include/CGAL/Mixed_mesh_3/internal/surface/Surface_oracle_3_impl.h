@@ -12,6 +12,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/base/compatibility.h>
 #include <CGAL/Mixed_mesh_3/internal/base/compiled.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/shell_counts.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3.h>
 
 #include <CGAL/AABB_tree.h>
@@ -139,11 +140,9 @@ CGAL_MIXED_MESH_3_INLINE Sharp_edges Surface_oracle_3::sharp_edges(double angle)
   return result;
 }
 
-CGAL_MIXED_MESH_3_INLINE std::array<std::map<double, double>, 3>
-Surface_oracle_3::axis_parallel_planes(double& volume) const
+CGAL_MIXED_MESH_3_INLINE Axis_parallel_planes Surface_oracle_3::axis_parallel_planes() const
 {
-  volume = 0;
-  std::array<std::map<double, double>, 3> planes;
+  Axis_parallel_planes planes;
   for(const Trees::Doubles::Triangle_3& t : m_trees->triangles) {
     int k = 0;
     while(k < 3 && !(t[0][k] == t[1][k] && t[0][k] == t[2][k]))
@@ -152,7 +151,6 @@ Surface_oracle_3::axis_parallel_planes(double& volume) const
       return {};
     planes[std::size_t(k)][t[0][k]] += std::sqrt(t.squared_area());
   }
-  volume = this->volume();
   return planes;
 }
 

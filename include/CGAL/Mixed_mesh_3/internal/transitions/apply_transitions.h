@@ -30,14 +30,13 @@ namespace Mixed_meshes_3 {
 
 namespace internal {
 
-template <class Octree_>
 class Apply_transitions
 {
   using Node_index = Octree::Node_index;
   // The vertices of a leaf on its 3x3x3 lattice; corners at even positions.
   using Leaf_vertices = std::array<Vertex_index, 27>;
 
-  const Octree_& m_located;
+  const Located_octree& m_located;
   const Octree& m_octree;
   const std::vector<std::uint16_t> m_patterns;
   // A leaf without hanging vertices becomes one hexahedron, whose number is its slot; of the others,
@@ -53,7 +52,7 @@ class Apply_transitions
   bool is_used(Node_index n) const { return m_slots[n] != no_slot; }
 
 public:
-  explicit Apply_transitions(const Octree_& octree)
+  explicit Apply_transitions(const Located_octree& octree)
     : m_located(octree), m_octree(octree.octree()), m_patterns(edge_patterns(m_octree))
   {
   }
@@ -190,7 +189,7 @@ private:
         m_located.domain().bounded_side(m_located.point(m_mesh.vertices[v]),
                                         m_located.surface_part(m_mesh.leaves[v])));
     });
-    if(Is_labeled_domain<typename Octree_::Domain_3>::value)
+    if(m_located.domain().is_labeled())
       parallel_for(m_mesh.vertices.size(), threads, [&](std::size_t i) {
         const Vertex_index v = Vertex_index(i);
         if(m_mesh.is_inside(v))
@@ -208,11 +207,10 @@ only. Vertices get the side of the surface they are on; one exactly on it has `O
 \par Complexity
 Linear in the number of nodes, times the depth
 */
-template <class Octree_>
-Lattice_mesh apply_transitions(const Octree_& octree, Transition_templates_choice choice,
-                               unsigned threads = 1)
+inline Lattice_mesh apply_transitions(const Located_octree& octree, Transition_templates_choice choice,
+                                      unsigned threads = 1)
 {
-  return Apply_transitions<Octree_>(octree)(choice, threads);
+  return Apply_transitions(octree)(choice, threads);
 }
 
 } // namespace internal

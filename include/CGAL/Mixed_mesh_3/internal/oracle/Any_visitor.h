@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_ANY_VISITOR_H
-#define CGAL_MIXED_MESH_3_INTERNAL_MESHING_ANY_VISITOR_H
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_ORACLE_ANY_VISITOR_H
+#define CGAL_MIXED_MESH_3_INTERNAL_ORACLE_ANY_VISITOR_H
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
@@ -49,4 +49,4 @@ public:
 } // namespace Mixed_meshes_3
 } // namespace CGAL
 
-#endif // CGAL_MIXED_MESH_3_INTERNAL_MESHING_ANY_VISITOR_H
+#endif // CGAL_MIXED_MESH_3_INTERNAL_ORACLE_ANY_VISITOR_H

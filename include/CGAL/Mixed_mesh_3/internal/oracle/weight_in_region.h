@@ -7,8 +7,8 @@
 //
 // How much an error counts: how it falls with the distance from a region, and what several regions add.
 
-#ifndef CGAL_MIXED_MESH_3_INTERNAL_OCTREE_WEIGHT_IN_REGION_H
-#define CGAL_MIXED_MESH_3_INTERNAL_OCTREE_WEIGHT_IN_REGION_H
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_ORACLE_WEIGHT_IN_REGION_H
+#define CGAL_MIXED_MESH_3_INTERNAL_ORACLE_WEIGHT_IN_REGION_H
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
@@ -75,4 +75,4 @@ double weight_in_union(const Range& regions, double reach)
 } // namespace Mixed_meshes_3
 } // namespace CGAL
 
-#endif // CGAL_MIXED_MESH_3_INTERNAL_OCTREE_WEIGHT_IN_REGION_H
+#endif // CGAL_MIXED_MESH_3_INTERNAL_ORACLE_WEIGHT_IN_REGION_H

@@ -1,0 +1,63 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_BASE_CORE_MESH_H
+#define CGAL_MIXED_MESH_3_INTERNAL_BASE_CORE_MESH_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// The mesh that the method works on, whatever the kernel of the user's is: its coordinates are doubles.
+using Core_mesh = Mixed_mesh_3<Predicates_kernel>;
+
+/// Returns `f(core_mesh)` for a mesh of any kernel, which becomes what `f` has made of it. Coordinates are
+/// rounded to doubles; those that do not change stay as they are.
+template <class Mesh, class Function>
+auto with_core_mesh(Mesh& mesh, const Function& f)
+{
+  if constexpr(std::is_same_v<Mesh, Core_mesh>) {
+    return f(mesh);
+  } else {
+    using Point_3 = typename Mesh::Point_3;
+    std::vector<Core_mesh::Point_3> core_points;
+    core_points.reserve(mesh.number_of_vertices());
+    for(const Point_3& p : mesh.points())
+      core_points.emplace_back(rounded(p.x()), rounded(p.y()), rounded(p.z()));
+    Core_mesh core;
+    core.assign(core_points, mesh.elements(), mesh.attributes());
+    const auto result = f(core);
+    std::vector<Point_3> points;
+    points.reserve(core.number_of_vertices());
+    for(std::size_t v = 0; v < core.number_of_vertices(); ++v) {
+      const Core_mesh::Point_3& p = core.points()[v];
+      if(v < core_points.size() && p == core_points[v])
+        points.push_back(mesh.points()[v]);
+      else
+        points.emplace_back(p.x(), p.y(), p.z());
+    }
+    mesh.assign(std::move(points), core.elements(), core.attributes());
+    return result;
+  }
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_BASE_CORE_MESH_H
