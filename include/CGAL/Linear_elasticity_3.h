@@ -16,9 +16,11 @@
 #include <CGAL/Linear_elasticity_3/Linear_elasticity_result_3.h>
 #include <CGAL/Linear_elasticity_3/buoyant_forces.h>
 #include <CGAL/Linear_elasticity_3/internal/Elasticity_model.h>
+#include <CGAL/Linear_elasticity_3/internal/Elasticity_solver.h>
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
 #include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <CGAL/assertions.h>
 
@@ -26,10 +28,38 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
+
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// Of whatever has components `[0]`, `[1]`, `[2]`.
+template <class Range>
+std::vector<Vec3> vectors(const Range& range)
+{
+  std::vector<Vec3> result;
+  for(const auto& x : range)
+    result.push_back(components(x));
+  return result;
+}
+
+/// The positions of a mesh's vertices.
+template <class Mesh>
+std::vector<Vec3> points_of(const Mesh& mesh)
+{
+  std::vector<Vec3> points;
+  points.reserve(mesh.number_of_vertices());
+  for(const auto& p : mesh.points())
+    points.push_back(to_vec3(p));
+  return points;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
 
 /*!
 \ingroup PkgLinearElasticity3Ref
@@ -69,7 +99,10 @@ or assigned to. They cannot be copied, as factorizations cannot.
 template <class Mesh, class SolverTraits = Mixed_meshes_3::Direct_solver_traits>
 class Linear_elasticity_3
 {
-  Mixed_meshes_3::internal::Elasticity_model<Mesh, SolverTraits> m_model;
+  using Solver = Mixed_meshes_3::internal::Elasticity_solver_adaptor<SolverTraits>;
+
+  const Mesh* m_mesh;
+  Mixed_meshes_3::internal::Elasticity_model m_model;
 
 public:
   /// The number of a vertex.
@@ -95,7 +128,8 @@ public:
 
   /// A material for each element; `Mixed_meshes_3::materials_of_elements()` tells them by subdomain.
   Linear_elasticity_3(const Mesh& mesh, std::vector<Elastic_material> materials)
-    : m_model(mesh, std::move(materials))
+    : m_mesh(&mesh), m_model(mesh.elements(), Mixed_meshes_3::internal::points_of(mesh), std::move(materials),
+                             std::make_unique<Solver>())
   {
   }
 
@@ -106,21 +140,21 @@ public:
   /// Gives a vertex a displacement, in mm. The default fixes it.
   void prescribe(Vertex_index v, const Vector& displacement = Vector{})
   {
-    m_model.body().supports().prescribe(v, displacement);
+    m_model.prescribe(v, displacement);
   }
 
   /// Lets a vertex slide without friction, orthogonally to a direction; on an edge or in a corner of such
   /// planes when called again. A vertex that is prescribed stays so.
   /// \param v the vertex
   /// \param normal of any length but zero
-  void slide(Vertex_index v, const Vector& normal) { m_model.body().supports().slide(v, normal); }
+  void slide(Vertex_index v, const Vector& normal) { m_model.slide(v, normal); }
 
   /// Lets boundary vertices slide without friction along the boundary, as on the inside of the skull.
   /// \param is_sliding `bool(Vertex_index)`, asked for the vertices of the boundary
   template <class Is_sliding>
   void slide_along_boundary(const Is_sliding& is_sliding)
   {
-    m_model.slide_along_boundary(is_sliding);
+    m_model.slide_along_boundary([&](Vertex_index v) { return bool(is_sliding(v)); });
   }
 
   /*!
@@ -139,7 +173,7 @@ public:
   void touch(Vertex_index v, const Vector& normal, double gap = 0)
   {
     CGAL_precondition(norm(normal) > 0 && std::isfinite(gap));
-    m_model.body().supports().touch(v, normal, gap);
+    m_model.touch(v, normal, gap);
   }
 
   /// Lets boundary vertices touch the boundary as it is, or at a gap in mm: as the brain does the skull, from
@@ -150,7 +184,7 @@ public:
   void touch_along_boundary(const Is_touching& is_touching, double gap = 0)
   {
     CGAL_precondition(std::isfinite(gap));
-    m_model.touch_along_boundary(is_touching, gap);
+    m_model.touch_along_boundary([&](Vertex_index v) { return bool(is_touching(v)); }, gap);
   }
   /// @}
 
@@ -231,13 +265,13 @@ public:
   bool is_iterative() const { return m_model.is_iterative(); }
 
   /// Whether `factor()` has been called with success, so that `solve()` can be.
-  bool is_factored() const { return m_model.body().is_assembled(); }
+  bool is_factored() const { return m_model.is_factored(); }
 
   /// \name Loads
   /// @{
 
   /// A force by volume, in mN/mm^3, the same everywhere.
-  void set_body_force(const Vector& force) { m_model.body().set_body_forces({force}); }
+  void set_body_force(const Vector& force) { m_model.set_body_forces({force}); }
 
   /// As above, one for each element, such as the `Mixed_meshes_3::buoyant_forces()` of a fluid.
   /// \pre as many as elements
@@ -246,18 +280,18 @@ public:
     CGAL_precondition(forces.size() == mesh().number_of_elements());
     if(forces.empty())
       forces.push_back(Vector{});
-    m_model.body().set_body_forces(std::move(forces));
+    m_model.set_body_forces(std::move(forces));
   }
 
   /// Gravity: an acceleration in mm/s^2, times the density of each element; (0, 0, -9810) on the Earth,
   /// upright. It is added to the body forces; in a fluid, set those as well.
-  void set_gravity(const Vector& acceleration) { m_model.body().set_gravity(acceleration); }
+  void set_gravity(const Vector& acceleration) { m_model.set_gravity(acceleration); }
 
   /// Another displacement of a vertex that was prescribed, in mm. No new factorization.
   /// \pre `prescribe()` was called for the vertex
   void set_support_displacement(Vertex_index v, const Vector& displacement)
   {
-    m_model.body().set_support_displacement(v, displacement);
+    m_model.set_support_displacement(v, displacement);
   }
 
   /*!
@@ -351,15 +385,15 @@ public:
   double energy() const { return m_model.energy(); }
 
   /// The mesh given to the constructor.
-  const Mesh& mesh() const { return m_model.mesh(); }
+  const Mesh& mesh() const { return *m_mesh; }
   /// True for each element that is removed.
-  const std::vector<bool>& removed_elements() const { return m_model.body().stiffness().removed_elements(); }
+  const std::vector<bool>& removed_elements() const { return m_model.removed_elements(); }
   /// Of conjugate gradients in the last `solve()`; 0 if it was direct.
   int number_of_iterations() const { return m_model.number_of_iterations(); }
   /// How many control points there are.
   std::size_t number_of_control_points() const { return m_model.number_of_control_points(); }
   /// The solver, to set its parameters before `factor()`.
-  SolverTraits& solver() { return m_model.body().solver(); }
+  SolverTraits& solver() { return static_cast<Solver&>(m_model.solver()).traits(); }
 };
 
 } // namespace CGAL

@@ -13,6 +13,8 @@
 #include "test_surfaces.h"
 
 #include <CGAL/Linear_elasticity_3.h>
+#include <CGAL/Mixed_mesh_3/Element_locator_3.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/Mixed_mesh_3/validation.h>

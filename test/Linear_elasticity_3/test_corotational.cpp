@@ -10,6 +10,10 @@
 #include "Total_lagrangian_reference.h"
 #include "elasticity_test.h"
 
+#include <CGAL/Linear_elasticity_3/internal/Corotational_elements.h>
+#include <CGAL/Linear_elasticity_3/internal/Elastic_stiffness.h>
+#include <CGAL/Mixed_mesh_3/Elastic_material.h>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 

@@ -33,12 +33,6 @@ namespace Mixed_meshes_3 {
 
 namespace internal {
 
-template <class Triple>
-Vec3 components(const Triple& p)
-{
-  return {rounded(p[0]), rounded(p[1]), rounded(p[2])};
-}
-
 /// Positions of a mesh's vertices, displaced. \pre a displacement for each vertex
 template <class Mesh, class Displacements>
 std::vector<Vec3> displaced_points(const Mesh& mesh, const Displacements& displacements)

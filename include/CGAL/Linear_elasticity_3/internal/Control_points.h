@@ -14,13 +14,16 @@
 #include <CGAL/license/Linear_elasticity_3.h>
 
 #include <CGAL/Linear_elasticity_3/Linear_elasticity_result_3.h>
+#include <CGAL/Linear_elasticity_3/internal/Control_options.h>
 #include <CGAL/Linear_elasticity_3/internal/Elastic_body.h>
 #include <CGAL/Linear_elasticity_3/internal/boundary_measures.h>
 #include <CGAL/Linear_elasticity_3/internal/control_constraints.h>
+#include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Element_locator_3.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
+#include <CGAL/Simple_cartesian.h>
 #include <CGAL/assertions.h>
 
 #include <Eigen/Core>
@@ -37,18 +40,21 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Those elements of a mesh that are left, and which of them contains a point.
-template <class Mesh>
+/// Those elements that are left, and which of them contains a point.
 class Located_elements
 {
+  using Kernel = CGAL::Simple_cartesian<double>; // points are in doubles
+  using Mesh = Mixed_mesh_3<Kernel>;
+
   std::vector<Element_index> m_elements; // their numbers in the whole mesh
   Mesh m_mesh;                           // of them, with all vertices
   Element_locator_3<Mesh> m_locator;     // refers to m_mesh
   std::vector<double> m_areas;           // of the vertices of its boundary, when needed
 
 public:
-  Located_elements(const Mesh& mesh, const std::vector<bool>& is_removed)
-    : m_mesh(remaining(mesh, is_removed, m_elements)), m_locator(m_mesh)
+  Located_elements(const Element_list& elements, const std::vector<Vec3>& points,
+                   const std::vector<bool>& is_removed)
+    : m_mesh(remaining(elements, points, is_removed, m_elements)), m_locator(m_mesh)
   {
   }
 
@@ -92,36 +98,28 @@ public:
   }
 
 private:
-  static Mesh remaining(const Mesh& mesh, const std::vector<bool>& is_removed,
-                        std::vector<Element_index>& elements)
+  static Mesh remaining(const Element_list& elements, const std::vector<Vec3>& points,
+                        const std::vector<bool>& is_removed, std::vector<Element_index>& numbers)
   {
     Mesh rest;
-    for(const auto& p : mesh.points())
-      rest.add_vertex(p);
-    for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
+    for(const Vec3& p : points)
+      rest.add_vertex(Kernel::Point_3(p[0], p[1], p[2]));
+    for(Element_index e = 0; e < elements.size(); ++e)
       if(!is_removed[e]) {
-        rest.add_element(mesh.element(e).kind(), mesh.element(e).begin());
-        elements.push_back(e);
+        rest.add_element(elements[e].kind(), elements[e].begin());
+        numbers.push_back(e);
       }
     return rest;
   }
 };
 
-/// How control points act; see `Linear_elasticity_3::set_control_points()`.
-struct Control_options
-{
-  double largest_distance = 0, compliance = 0, radius = 0;
-  std::vector<double> weights; // of the points; empty: 1
-};
-
-template <class Mesh>
 class Control_points
 {
   using Result = Linear_elasticity_result_3;
   using Status = Linear_elasticity_status;
 
   // On the heap: it cannot be moved.
-  std::unique_ptr<Located_elements<Mesh>> m_located; // when needed
+  std::unique_ptr<Located_elements> m_located; // when needed
   Control_options m_options;
   std::vector<Vec3> m_positions;
   std::vector<Element_index> m_elements; // that contain them
@@ -145,8 +143,7 @@ public:
   }
 
   /// Whether they act on what is left of the body only.
-  template <class SolverTraits>
-  bool are_on(const Elastic_body<SolverTraits>& body) const
+  bool are_on(const Elastic_body& body) const
   {
     return (!m_constraints || m_constraints->is_on(body.supports().kept_vertices()))
            && std::none_of(m_elements.begin(), m_elements.end(),
@@ -155,12 +152,12 @@ public:
 
   /// Places control points where there are none. There are none either if that fails.
   /// \pre the body is factored
-  template <class SolverTraits>
-  Result place(const Mesh& mesh, Elastic_body<SolverTraits>& body, std::vector<Vec3> positions)
+  Result place(Elastic_body& body, std::vector<Vec3> positions)
   {
     CGAL_precondition(m_positions.empty());
     if(!m_located && !positions.empty())
-      m_located = std::make_unique<Located_elements<Mesh>>(mesh, body.stiffness().removed_elements());
+      m_located = std::make_unique<Located_elements>(body.stiffness().elements(), body.stiffness().points(),
+                                                     body.stiffness().removed_elements());
     std::vector<Element_index> elements;
     std::vector<Control_weights> weights;
     for(const Vec3& p : positions) {
@@ -185,11 +182,7 @@ public:
   }
 
   /// The constraints, also if there is no control point. \pre the body is factored
-  template <class SolverTraits>
-  Result prepare(Elastic_body<SolverTraits>& body)
-  {
-    return m_constraints ? Result() : constrain(body, {});
-  }
+  Result prepare(Elastic_body& body) { return m_constraints ? Result() : constrain(body, {}); }
 
   /// \pre `place()` or `prepare()` was successful
   const Control_constraints& constraints() const { return *m_constraints; }
@@ -203,8 +196,7 @@ private:
     return result;
   }
 
-  template <class SolverTraits>
-  Result constrain(Elastic_body<SolverTraits>& body, std::vector<Control_weights> weights)
+  Result constrain(Elastic_body& body, std::vector<Control_weights> weights)
   {
     std::vector<double> compliances(weights.size(), m_options.compliance);
     if(!m_options.weights.empty())

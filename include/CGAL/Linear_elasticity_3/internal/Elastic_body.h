@@ -15,6 +15,7 @@
 
 #include <CGAL/Linear_elasticity_3/internal/Elastic_stiffness.h>
 #include <CGAL/Linear_elasticity_3/internal/Elastic_supports.h>
+#include <CGAL/Linear_elasticity_3/internal/Elasticity_solver.h>
 #include <CGAL/Linear_elasticity_3/internal/Projected_system.h>
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
@@ -23,6 +24,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -30,12 +32,11 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-template <class SolverTraits>
 class Elastic_body
 {
   Elastic_stiffness m_stiffness;
   Elastic_supports m_supports;
-  Projected_system<SolverTraits> m_system;
+  Projected_system m_system;
   std::vector<Vec3> m_body_forces{Vec3{}}; // one for all elements, or one for each
   Vec3 m_gravity{};
   bool m_is_loaded = false; // whether the vectors below are up to date
@@ -44,9 +45,9 @@ class Elastic_body
 public:
   /// \param elements kept by reference: must outlive the object
   Elastic_body(const Element_list& elements, std::vector<Vec3> points,
-               std::vector<Elastic_material> materials)
+               std::vector<Elastic_material> materials, std::unique_ptr<Elasticity_solver> solver)
     : m_stiffness(elements, std::move(points), std::move(materials)),
-      m_supports(m_stiffness.number_of_vertices())
+      m_supports(m_stiffness.number_of_vertices()), m_system(std::move(solver))
   {
   }
 
@@ -54,8 +55,8 @@ public:
   const Elastic_supports& supports() const { return m_supports; }
   /// To be changed before `assemble()`.
   Elastic_supports& supports() { return m_supports; }
-  const Projected_system<SolverTraits>& system() const { return m_system; }
-  SolverTraits& solver() { return m_system.solver(); }
+  const Projected_system& system() const { return m_system; }
+  Elasticity_solver& solver() { return m_system.solver(); }
 
   /// \param forces one for all elements, or one for each
   void set_body_forces(std::vector<Vec3> forces)

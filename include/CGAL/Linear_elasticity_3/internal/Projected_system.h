@@ -15,9 +15,9 @@
 
 #include <CGAL/Linear_elasticity_3/internal/Elastic_stiffness.h>
 #include <CGAL/Linear_elasticity_3/internal/Elastic_supports.h>
+#include <CGAL/Linear_elasticity_3/internal/Elasticity_solver.h>
 #include <CGAL/Linear_elasticity_3/internal/rigid_modes.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
-#include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
 #include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/fem/Elasticity_system.h>
@@ -29,8 +29,6 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
-#include <optional>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -38,42 +36,22 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// For solvers that have such a function: those that iterate.
-struct Set_near_kernel
-{
-  template <class Solver>
-  auto operator()(Solver& solver, Eigen::MatrixXd vectors) const
-    -> decltype(solver.set_near_kernel(std::move(vectors), 3))
-  {
-    return solver.set_near_kernel(std::move(vectors), 3);
-  }
-};
-
-/// \tparam SolverTraits a model of `SparseLinearAlgebraWithFactorTraits_d`; it need not be movable
-template <class SolverTraits>
 class Projected_system
 {
-  using Matrix = typename SolverTraits::Matrix;
-
-  // On the heap, as the solver refers to the matrix: neither moves when the system is moved.
-  struct Factorization
-  {
-    std::optional<Matrix> matrix;
-    SolverTraits solver;
-  };
-
-  std::unique_ptr<Factorization> m_factorization = std::make_unique<Factorization>();
+  std::unique_ptr<Elasticity_solver> m_solver;
   std::vector<Vertex_index> m_unknowns; // the vertices of the system that is factored
   std::vector<Free_motion> m_motions;   // of the parts when it was factored
 
 public:
-  SolverTraits& solver() { return m_factorization->solver; }
+  explicit Projected_system(std::unique_ptr<Elasticity_solver> solver) : m_solver(std::move(solver)) {}
+
+  Elasticity_solver& solver() { return *m_solver; }
 
   /// The rigid motions that supports left free when the system was factored.
   const std::vector<Free_motion>& free_motions() const { return m_motions; }
 
   /// Forgets the matrix, and with it which vertices are the unknowns.
-  void clear() { m_factorization->matrix.reset(); }
+  void clear() { m_solver->clear_matrix(); }
 
   /// K on the directions that are free, P K P, with something positive on those that are not. As springs hold
   /// just as many unknowns as there are motions free, they bear nothing if the loads are in equilibrium.
@@ -83,8 +61,7 @@ public:
     const Elasticity_system& all = stiffness.system();
     const double largest = *std::max_element(all.values().begin(), all.values().end());
     const std::vector<double> springs = find_springs(stiffness, supports);
-    std::optional<Matrix>& matrix = m_factorization->matrix;
-    if(!matrix) { // else the numbers stay, so that the symbolic factorization does
+    if(!m_solver->has_matrix()) { // else the numbers stay, so that the symbolic factorization does
       m_unknowns.clear();
       for(Vertex_index v = 0; v < stiffness.number_of_vertices(); ++v)
         if(supports.may_be_free(v))
@@ -92,11 +69,10 @@ public:
     }
     if(m_unknowns.empty())
       return true; // CGAL's matrices are not
-    matrix.emplace(projected_matrix(stiffness, supports, springs, largest));
-    if constexpr(std::is_invocable_v<Set_near_kernel, SolverTraits&, Eigen::MatrixXd>)
-      Set_near_kernel()(solver(), rigid_motions(stiffness.points(), supports));
-    typename SolverTraits::NT denominator = 1;
-    if(solver().factor(*matrix, denominator) && !is_nearly_singular(largest))
+    set_matrix(stiffness, supports, springs, largest);
+    if(m_solver->wants_near_kernel())
+      m_solver->set_near_kernel(rigid_motions(stiffness.points(), supports));
+    if(m_solver->factor() && !is_nearly_singular(largest))
       return true;
     clear();
     return false;
@@ -114,7 +90,7 @@ public:
         for(int k = 0; k < 3; ++k)
           b(Eigen::Index(3 * i) + k, c) = f[k];
       }
-    if(n > 0 && !solve_columns(solver(), b, x))
+    if(n > 0 && !m_solver->solve(b, x))
       return false;
     solutions = Eigen::MatrixXd::Zero(forces.rows(), forces.cols());
     for(Eigen::Index c = 0; c < forces.cols(); ++c)
@@ -201,15 +177,15 @@ private:
     return chosen;
   }
 
-  // Its parts are gone when it is factored, which takes the most memory.
-  Matrix projected_matrix(const Elastic_stiffness& stiffness, const Elastic_supports& supports,
-                          const std::vector<double>& springs, double largest) const
+  // Parts of the matrix are gone when it is factored, which takes the most memory.
+  void set_matrix(const Elastic_stiffness& stiffness, const Elastic_supports& supports,
+                  const std::vector<double>& springs, double largest)
   {
     std::vector<int> starts{0}, rows;
     std::vector<double> values;
     reduce(stiffness.system(), stiffness.number_of_vertices(), springs, starts, rows, values);
     project(supports, starts, rows, values, largest);
-    return make_matrix<Matrix>(starts, rows, values);
+    m_solver->set_matrix(starts, rows, values);
   }
 
   // The rows and columns of the unknowns, with springs: the lower triangle in compressed columns.
@@ -287,7 +263,7 @@ private:
     Eigen::MatrixXd b(3 * Eigen::Index(m_unknowns.size()), 1), x;
     for(Eigen::Index i = 0; i < b.rows(); ++i)
       b(i, 0) = std::fmod(0.618033988749895 * double(i), 1) - 0.5;
-    return !solve_columns(solver(), b, x) || !(scale * x.norm() < largest_condition * b.norm());
+    return !m_solver->solve(b, x) || !(scale * x.norm() < largest_condition * b.norm());
   }
 };
 

@@ -16,19 +16,35 @@
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
+#include <cstddef>
 #include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
+/// Elements and the number of their vertices: what `boundary_faces()` asks of a mesh.
+class Elements_of_vertices
+{
+  const Element_list& m_elements;
+  std::size_t m_number_of_vertices;
+
+public:
+  Elements_of_vertices(const Element_list& elements, std::size_t number_of_vertices)
+    : m_elements(elements), m_number_of_vertices(number_of_vertices)
+  {
+  }
+  const Element_list& elements() const { return m_elements; }
+  std::size_t number_of_vertices() const { return m_number_of_vertices; }
+};
+
 /// The integral of the normal times the vertex's shape function, zero inside: a flow orthogonal to these
 /// keeps the volume.
-template <class Mesh>
-std::vector<Vec3> boundary_vertex_normals(const Mesh& mesh, const std::vector<Vec3>& points)
+inline std::vector<Vec3> boundary_vertex_normals(const Element_list& elements,
+                                                 const std::vector<Vec3>& points)
 {
   std::vector<Vec3> normals(points.size(), Vec3{});
-  for(const Face& face : boundary_faces(mesh)) {
+  for(const Face& face : boundary_faces(Elements_of_vertices(elements, points.size()))) {
     const Face_vertices& v = face.vertices();
     const int n = v.size();
     const auto corner = [&](int i) {

@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -78,10 +79,10 @@ class Control_constraints
 public:
   /// \param compliances of each control point: all zero, or all positive
   /// \param solve `bool(forces, displacements)`: K^-1, for several columns
-  template <class Solve>
   Control_constraints(std::vector<Control_weights> weights, const std::vector<double>& compliances,
                       const std::vector<Free_motion>& motions, const std::vector<Vec3>& points,
-                      const std::vector<Support>& supports, const Solve& solve)
+                      const std::vector<Support>& supports,
+                      const std::function<bool(const Matrix&, Matrix&)>& solve)
     : m_weights(std::move(weights)), m_compliances(3 * Index(m_weights.size()))
   {
     for(std::size_t p = 0; p < m_weights.size(); ++p)

@@ -48,7 +48,6 @@ Large strains are another matter: an element that is pressed has negative curvat
 astray, steps are made with the positive part of the tangent, as in Gauss and Newton's method, as far as the
 potential falls; near the solution, with all of it. Loads come at once if that converges, else in parts.
 */
-template <class SolverTraits>
 class Corotational_solution
 {
   using Vector = Eigen::VectorXd;
@@ -66,7 +65,7 @@ class Corotational_solution
   // The residual that is enough before all of the loads are there, and what rounding leaves of it; relative.
   static constexpr double rough = 0.03, rounding = 1e-9;
 
-  Elastic_body<SolverTraits>& m_body;
+  Elastic_body& m_body;
   const Control_constraints& m_constraints;
   Corotational_elements& m_elements;
   Corotational_state& m_state;
@@ -74,7 +73,7 @@ class Corotational_solution
 
 public:
   /// \param body factored, and `solve_loads()` called since
-  Corotational_solution(Elastic_body<SolverTraits>& body, const Control_constraints& constraints,
+  Corotational_solution(Elastic_body& body, const Control_constraints& constraints,
                         Corotational_elements& elements, Corotational_state& state)
     : m_body(body), m_constraints(constraints), m_elements(elements), m_state(state)
   {

@@ -38,10 +38,9 @@ optimization", SIAM J. Sci. Comput. 23, 2001).
 \param number_of_iterations done
 \return whether they converge. If not, the system should be factored
 */
-template <class SolverTraits>
-bool solve_after_removal(Elastic_body<SolverTraits>& body, const Control_constraints& constraints,
-                         const Eigen::VectorXd& wanted, double tolerance, Control_solution& solution,
-                         int& number_of_iterations)
+inline bool solve_after_removal(Elastic_body& body, const Control_constraints& constraints,
+                                const Eigen::VectorXd& wanted, double tolerance, Control_solution& solution,
+                                int& number_of_iterations)
 {
   // When to factor instead, which takes as long as some hundreds of iterations. Ten to fifteen are usual; if
   // the residual rises so often in a row, nothing but rounding errors may be left of it.

@@ -65,6 +65,17 @@ Vec3 to_vec3(const Point& p)
   return {rounded(p.x()), rounded(p.y()), rounded(p.z())};
 }
 
+namespace internal {
+
+/// As above, of whatever has components `[0]`, `[1]`, `[2]`.
+template <class Triple>
+Vec3 components(const Triple& p)
+{
+  return {rounded(p[0]), rounded(p[1]), rounded(p[2])};
+}
+
+} // namespace internal
+
 /// \ingroup PkgMixedMesh3Elements
 /// The sum.
 inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }

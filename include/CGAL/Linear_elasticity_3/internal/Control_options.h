@@ -1,0 +1,30 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_CONTROL_OPTIONS_H
+#define CGAL_LINEAR_ELASTICITY_3_INTERNAL_CONTROL_OPTIONS_H
+
+#include <CGAL/license/Linear_elasticity_3.h>
+
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// How control points act; see `Linear_elasticity_3::set_control_points()`.
+struct Control_options
+{
+  double largest_distance = 0, compliance = 0, radius = 0;
+  std::vector<double> weights; // of the points; empty: 1
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_LINEAR_ELASTICITY_3_INTERNAL_CONTROL_OPTIONS_H
