@@ -108,7 +108,9 @@ def find_violations(root):
     violations = []
     for header in headers:
         # A header and that of its definitions, which may be compiled apart, include each other.
-        declarations = header.replace("_impl.h", ".h").replace("/internal/read_surface.h", "/read_closed_surface.h")
+        declarations = header.replace("_impl.h", ".h")
+        for inside, outside in (("read_surface", "read_closed_surface"), ("write_mixed_mesh", "write_mixed_mesh")):
+            declarations = declarations.replace(f"/IO/internal/{inside}.h", f"/IO/{outside}.h")
         includes[header] = [name for name in own_includes(top / header) if (top / name).exists()
                             and not (header.endswith("_impl.h") and name == declarations)]
         folder = folder_of(header)

@@ -14,6 +14,7 @@
 #include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/fit.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/arguments.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/usual_models.h>
 #include <CGAL/Mixed_mesh_fit_criteria_3.h>
 #include <CGAL/Mixed_mesh_fit_result_3.h>
 

@@ -15,6 +15,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/arguments.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/mesh_domain.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/usual_models.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/place_lattice.h>
 #include <CGAL/Mixed_mesh_criteria_3.h>
 #include <CGAL/Mixed_mesh_regions_3.h>

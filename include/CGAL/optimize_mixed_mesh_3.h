@@ -17,6 +17,7 @@
 #include <CGAL/Mixed_mesh_3/internal/fitting/optimize_bounded.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/arguments.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/usual_models.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
 
 #include <CGAL/Named_function_parameters.h>

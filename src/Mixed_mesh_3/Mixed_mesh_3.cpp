@@ -3,12 +3,10 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The library Mixed_mesh_3_compiled: what has no template parameter, compiled once.
+// The library Mixed_mesh_3_compiled: the method.
 
 #include <CGAL/Mixed_mesh_3/internal/fitting/optimize_bounded_impl.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/mesh_domain_impl.h>
-#include <CGAL/Mixed_mesh_3/internal/surface/Sheet_oracle_3_impl.h>
-#include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3_impl.h>
 
 #ifndef CGAL_MIXED_MESH_3_COMPILED
 #error "build this file with CGAL_MIXED_MESH_3_COMPILED defined"

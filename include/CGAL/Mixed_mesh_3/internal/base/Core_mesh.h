@@ -26,6 +26,23 @@ namespace internal {
 /// The mesh that the method works on, whatever the kernel of the user's is: its coordinates are doubles.
 using Core_mesh = Mixed_mesh_3<Predicates_kernel>;
 
+/// A mesh of any kernel as one in doubles: itself, or a copy.
+template <class Mesh>
+decltype(auto) as_core_mesh(const Mesh& mesh)
+{
+  if constexpr(std::is_same_v<Mesh, Core_mesh>) {
+    return (mesh);
+  } else {
+    std::vector<Core_mesh::Point_3> points;
+    points.reserve(mesh.number_of_vertices());
+    for(const auto& p : mesh.points())
+      points.emplace_back(rounded(p.x()), rounded(p.y()), rounded(p.z()));
+    Core_mesh core;
+    core.assign(std::move(points), mesh.elements(), mesh.attributes());
+    return core;
+  }
+}
+
 /// Returns `f(core_mesh)` for a mesh of any kernel, which becomes what `f` has made of it. Coordinates are
 /// rounded to doubles; those that do not change stay as they are.
 template <class Mesh, class Function>
@@ -35,12 +52,8 @@ auto with_core_mesh(Mesh& mesh, const Function& f)
     return f(mesh);
   } else {
     using Point_3 = typename Mesh::Point_3;
-    std::vector<Core_mesh::Point_3> core_points;
-    core_points.reserve(mesh.number_of_vertices());
-    for(const Point_3& p : mesh.points())
-      core_points.emplace_back(rounded(p.x()), rounded(p.y()), rounded(p.z()));
-    Core_mesh core;
-    core.assign(core_points, mesh.elements(), mesh.attributes());
+    Core_mesh core = as_core_mesh(mesh);
+    const std::vector<Core_mesh::Point_3> core_points = core.points();
     const auto result = f(core);
     std::vector<Point_3> points;
     points.reserve(core.number_of_vertices());

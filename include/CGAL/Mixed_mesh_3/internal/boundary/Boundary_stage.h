@@ -207,6 +207,20 @@ private:
     for(std::size_t i = 0; i < order.size(); ++i)
       m_ranks[std::get<2>(order[i])] = std::uint32_t(i);
     rank_sheet_vertices(std::uint32_t(order.size()));
+    CGAL_assertion(is_order_total());
+  }
+
+  // Whether no two vertices at which elements are split have the same rank: each diagonal then is that of one
+  // of them only.
+  bool is_order_total() const
+  {
+    std::vector<std::uint32_t> ranks;
+    for(Vertex_index v = 0; v < m_ranks.size(); ++v)
+      if(is_on_interface_or_sheet(v) && !is_on_surface(v))
+        ranks.push_back(m_ranks[v]);
+    std::sort(ranks.begin(), ranks.end());
+    return std::adjacent_find(ranks.begin(), ranks.end()) == ranks.end()
+           && (ranks.empty() || ranks.back() != last_rank);
   }
 
   void rank_sheet_vertices(std::uint32_t first)

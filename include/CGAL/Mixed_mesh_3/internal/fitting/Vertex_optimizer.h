@@ -16,6 +16,8 @@
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_coloring.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
 
+#include <CGAL/assertions.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -313,6 +315,7 @@ private:
   // The trial position is the new one.
   void accept(Vertex_index v)
   {
+    CGAL_assertion(is_valid(v));
     for(Element_index e : m_mesh.incident[v])
       m_costs[e] = m_trial_costs[e];
   }

@@ -20,6 +20,8 @@
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Strata.h>
 
+#include <CGAL/assertions.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -128,6 +130,9 @@ struct Working_mesh
 
   Element_index add(const Element& element)
   {
+    CGAL_assertion(!element.is_removed && std::all_of(element.begin(), element.end(), [&](Vertex_index v) {
+      return v < points.size() && std::count(element.begin(), element.end(), v) == 1;
+    }));
     const Element_index e = Element_index(elements.size());
     elements.push_back(element);
     for(Vertex_index v : element)
@@ -137,9 +142,13 @@ struct Working_mesh
 
   void remove(Element_index e)
   {
+    CGAL_assertion(!elements[e].is_removed);
     elements[e].is_removed = true;
-    for(Vertex_index v : elements[e])
-      incident[v].erase(std::find(incident[v].begin(), incident[v].end(), e));
+    for(Vertex_index v : elements[e]) {
+      const auto position = std::find(incident[v].begin(), incident[v].end(), e);
+      CGAL_assertion(position != incident[v].end());
+      incident[v].erase(position);
+    }
   }
 
   bool is_sharp(Vertex_index a, Vertex_index b) const { return sharp_edges.count(std::minmax(a, b)) > 0; }

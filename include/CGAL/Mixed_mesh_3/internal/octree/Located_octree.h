@@ -17,6 +17,7 @@
 #include <CGAL/Mixed_mesh_3/internal/octree/balance.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Oracles.h>
 
+#include <CGAL/assertions.h>
 #include <CGAL/enum.h>
 #include <CGAL/squared_distance_3.h>
 
@@ -163,6 +164,7 @@ public:
     for(Node_index n : refined)
       split(n);
     balance(m_octree, refined, Adjacency::EDGE, [this](Node_index n) { split(n); });
+    CGAL_assertion(are_balanced(m_octree, refined, Adjacency::EDGE));
   }
 
   /// Takes back all splits but those that made the nodes below `size`.

@@ -16,6 +16,7 @@
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
 #include <CGAL/Mixed_mesh_3/options.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
@@ -70,6 +71,19 @@ void balance(const Octree& octree, const std::vector<Octree::Node_index>& refine
           split(m);
           queue[octree.level(m)].push_back(m);
         }
+}
+
+/// Whether all neighbors of nodes that have been split are as small as these, as `balance()` leaves them.
+inline bool are_balanced(const Octree& octree, const std::vector<Octree::Node_index>& refined,
+                         Adjacency adjacency)
+{
+  const auto directions = neighbor_directions(adjacency);
+  return std::all_of(refined.begin(), refined.end(), [&](Octree::Node_index n) {
+    return std::all_of(directions.begin(), directions.end(), [&](const std::array<int, 3>& d) {
+      const Octree::Node_index m = octree.neighbor(n, d);
+      return m == Octree::no_node || octree.level(m) == octree.level(n);
+    });
+  });
 }
 
 /// Edge patterns: for each node that is a leaf, bit `e` tells that edge `e` has a vertex in its
