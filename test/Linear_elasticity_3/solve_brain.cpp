@@ -14,6 +14,7 @@
 
 #include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
 #include <CGAL/Linear_elasticity_3.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
 #include <CGAL/make_mixed_mesh_3.h>
 
