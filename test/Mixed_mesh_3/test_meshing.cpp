@@ -118,7 +118,9 @@ void test_bisections(const Surface& brain, const Polyhedral_mixed_mesh_domain_3&
       const double used = criteria.share_of_bisections();
       BOOST_TEST(share >= 0 ? used == share : used > 0);
       const auto result = run(domain, region, criteria, mesh);
-      BOOST_TEST(result.status == (n == 300 ? Status::VOLUME_DIFFERS : Status::SUCCESS));
+      const bool is_volume_right = std::abs(volume(mesh) / domain.volume() - 1) <= 0.05;
+      BOOST_TEST(result.status == (is_volume_right ? Status::SUCCESS : Status::VOLUME_DIFFERS));
+      BOOST_TEST(is_volume_right || n == 300);
       BOOST_TEST_GE(double(mesh.number_of_vertices()), 0.97 * double(n));
       BOOST_TEST_LE(double(result.number_of_vertices_needed), (1 - used) * double(n) + 1);
       BOOST_TEST_EQ(result.number_of_vertices_needed + result.optimization.number_of_bisections,
