@@ -51,7 +51,7 @@ measure_program() {
 measure_driver() {
   local count=0 object
   while read -r object; do
-    if nm --demangle "$object" | grep -q ' [TW] .*internal::mesh_domain('; then
+    if nm --demangle "$object" | grep ' [TW] .*internal::mesh_domain(' > /dev/null; then
       count=$((count + 1))
     fi
   done < <(find "$build" -name '*.o')
