@@ -130,7 +130,7 @@ public:
 
 private:
   friend Mixed_meshes_3::internal::Concurrency;
-  unsigned m_number_of_threads = 1;
+  [[maybe_unused]] unsigned m_number_of_threads = 1;
   std::size_t m_number_of_bisections = 0;
   double m_sharp_angle = default_sharp_angle;
   double m_tolerance = 0;

@@ -118,6 +118,7 @@ protected:
 
 public:
   using Point_3 = Any_surface::Point_3;
+  using Base::closest_point;
 
   explicit Surface_reference(const Surface& surface) : m_surface(surface)
   {
