@@ -126,7 +126,9 @@ def copy_programs(target, package):
     for source in sorted((ROOT / "test" / package).glob("*.cpp")):
         if source.name.startswith("test_"):
             stem = "test_" + PACKAGES[package] + source.stem[len("test"):]
-            shutil.copy(source, tests / (stem + ".cpp"))
+            # Here, a test is a function of the program of its folder; there, a program.
+            text = re.sub(rf"^int {source.stem}\(int", "int main(int", source.read_text(), flags=re.MULTILINE)
+            (tests / (stem + ".cpp")).write_text(text)
             (tests / (stem + ".cmd")).write_text(ARGUMENTS.get(source.stem, "data") + "\n") # for CGAL's ctest
     for header in [*(ROOT / "test" / "common").glob("*.h"), *(ROOT / "test" / package).glob("*.h")]:
         if header.name != "test_images.h":
