@@ -81,14 +81,6 @@ Mesh part(const Mesh& mesh, Subdomain_index index)
   return result;
 }
 
-Shell_counts shells_of(const Mesh& mesh)
-{
-  std::vector<Face_vertices> polygons;
-  for(const Face& face : boundary_faces(mesh))
-    polygons.push_back(face.vertices());
-  return internal::shell_counts(polygons, mesh.number_of_vertices());
-}
-
 // \return the number of vertices that were merged
 std::size_t test_merging(const Mesh& start, unsigned seed, double worst = infinity)
 {
@@ -119,10 +111,13 @@ std::size_t test_merging(const Mesh& start, unsigned seed, double worst = infini
     for(Subdomain_index index : indices) {
       const Mesh before_part = part(start, index), after_part = part(mesh, index);
       BOOST_TEST(find_defects(after_part).none());
-      BOOST_TEST_EQ(shells_of(after_part).number_of_shells, shells_of(before_part).number_of_shells);
-      BOOST_TEST_EQ(shells_of(after_part).euler_characteristic, shells_of(before_part).euler_characteristic);
+      BOOST_TEST_EQ(internal::shells_of_boundary(after_part).number_of_shells,
+                    internal::shells_of_boundary(before_part).number_of_shells);
+      BOOST_TEST_EQ(internal::shells_of_boundary(after_part).euler_characteristic,
+                    internal::shells_of_boundary(before_part).euler_characteristic);
     }
-    BOOST_TEST_EQ(shells_of(mesh).euler_characteristic, shells_of(start).euler_characteristic);
+    BOOST_TEST_EQ(internal::shells_of_boundary(mesh).euler_characteristic,
+                  internal::shells_of_boundary(start).euler_characteristic);
     for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
       BOOST_TEST(quality(mesh.element(e).kind(), internal::element_points(mesh, mesh.element(e))) <= worst);
   }

@@ -189,14 +189,6 @@ struct Box_with_planes : Box_domain
   }
 };
 
-Shell_counts shells_of(const Mesh& mesh)
-{
-  std::vector<Face_vertices> polygons;
-  for(const Face& face : boundary_faces(mesh))
-    polygons.push_back(face.vertices());
-  return internal::shell_counts(polygons, mesh.number_of_vertices());
-}
-
 // A narrow gap, which is bridged if nobody tells that it is there; and a blend, which needs no such help.
 void test_thin_parts()
 {
@@ -214,7 +206,7 @@ void test_thin_parts()
                                          everywhere, Mixed_mesh_criteria_3(one.budget), informed);
     BOOST_TEST(!without.shells_of_domain && !without.shells);
     const bool is_gap = one.shells.number_of_shells == 2;
-    BOOST_TEST_EQ(shells_of(plain) != one.shells, is_gap);
+    BOOST_TEST_EQ(internal::shells_of_boundary(plain) != one.shells, is_gap);
     BOOST_TEST_EQ(with.number_of_vertices_for_thin_parts > 0, is_gap);
     BOOST_TEST(with.shells_of_domain == one.shells);
     BOOST_TEST(with.shells == one.shells);

@@ -10,7 +10,9 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/Surface_description.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
 #include <cstddef>
 #include <numeric>
@@ -53,6 +55,16 @@ Shell_counts shell_counts(const Polygons& polygons, std::size_t number_of_vertic
   }
   counts.euler_characteristic += std::ptrdiff_t(number_of_faces) - std::ptrdiff_t(number_of_halfedges / 2);
   return counts;
+}
+
+/// The shells of the boundary of a mesh. \pre it is a manifold, except where it is pinched
+template <class Mesh>
+Shell_counts shells_of_boundary(const Mesh& mesh)
+{
+  std::vector<Face_vertices> polygons;
+  for(const Face& face : boundary_faces(mesh))
+    polygons.push_back(face.vertices());
+  return shell_counts(polygons, mesh.number_of_vertices());
 }
 
 } // namespace internal

@@ -22,7 +22,7 @@ CGAL_MIXED_MESH_3_INLINE Mixed_mesh_optimization_result_3 optimize_bounded(
   Core_mesh& mesh, const Any_surface& surface, const Mixed_mesh_optimization_criteria_3& criteria,
   const Aspect_ratio_quality_3& quality, const std::function<bool()>& go_on)
 {
-  return Bounded_optimization<Aspect_ratio_quality_3>(mesh, surface, criteria, quality)(go_on);
+  return optimize_bounded<Aspect_ratio_quality_3>(mesh, surface, criteria, quality, go_on);
 }
 
 } // namespace internal

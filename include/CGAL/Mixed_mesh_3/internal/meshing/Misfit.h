@@ -10,7 +10,6 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
-#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/shell_counts.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Any_domain.h>
@@ -21,8 +20,6 @@
 #include <cstddef>
 #include <optional>
 #include <tuple>
-#include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -56,10 +53,7 @@ public:
     m_shells_of_domain = domain.shells();
     if(!m_shells_of_domain)
       return;
-    std::vector<Face_vertices> polygons;
-    for(const Face& face : boundary_faces(mesh))
-      polygons.push_back(face.vertices());
-    m_shells = shell_counts(polygons, mesh.number_of_vertices());
+    m_shells = shells_of_boundary(mesh);
     m_topology = difference(m_shells->number_of_shells, m_shells_of_domain->number_of_shells)
                  + difference(m_shells->euler_characteristic, m_shells_of_domain->euler_characteristic);
     if(const std::optional<double> volume = domain.volume(); volume && is_fitted)
