@@ -59,7 +59,7 @@ measure_driver() {
 }
 
 measure_fitting() {
-  touch include/CGAL/Mixed_mesh_3/internal/fitting/flips.h
+  touch include/CGAL/Mixed_mesh_3/internal/moves/flips.h
   row "flips.h touched: test_fitting built and run" "%e s, %U CPU s" env CCACHE_DISABLE=1 bash -c "
     cmake --build '$build' --target test_fitting && ctest --test-dir '$build' -R '^test_fitting' -j $(nproc)"
 }

@@ -135,6 +135,16 @@ public:
   /// The value set, or the default.
   bool fit_to_surface() const { return m_fit_to_surface; }
 
+  /// Whether all elements are split into tetrahedra before the boundary is fitted, without further vertices.
+  /// Default: no.
+  Mixed_mesh_criteria_3& only_tetrahedra(bool only)
+  {
+    m_only_tetrahedra = only;
+    return *this;
+  }
+  /// The value set, or the default.
+  bool only_tetrahedra() const { return m_only_tetrahedra; }
+
   /// How far boundary and surface may be from each other, in the surface's unit. If positive, part of the
   /// budget, at most half of it, is spent on cells outside the region where the boundary would be much
   /// farther, and boundary vertices slide towards places that are; the status tells if that was not enough.
@@ -205,7 +215,7 @@ private:
     Mixed_meshes_3::Transition_templates_choice::FEWEST_VERTICES;
   Mixed_meshes_3::Boundary_mode m_boundary_mode = Mixed_meshes_3::Boundary_mode::VERTEX_ORDER;
   Mixed_meshes_3::Thin_parts m_thin_parts = Mixed_meshes_3::Thin_parts::WHERE_NEEDED;
-  bool m_fit_to_surface = true, m_keep_mesh_if_stopped = false;
+  bool m_fit_to_surface = true, m_only_tetrahedra = false, m_keep_mesh_if_stopped = false;
   double m_grading = 0.35;
   double m_share_of_bisections = automatic;
   double m_tolerance = automatic;

@@ -93,8 +93,8 @@ struct Mixed_mesh_result_3
   /// The level of the smallest cells.
   int deepest_level = 0;
   std::size_t number_of_cells = 0; ///< leaves that meet the domain
-  /// Those of the octree's mesh, before bisections; without a mesh, those (at least) of the coarsest one at
-  /// `base_level`.
+  /// Those of the octree's mesh, or of what is left of it, before bisections; without a mesh, those (at
+  /// least) of the coarsest one at `base_level`.
   std::size_t number_of_vertices_needed = 0;
   std::size_t number_of_transition_vertices = 0;        ///< inserted by the transition templates
   std::size_t number_of_boundary_vertices_inserted = 0; ///< inserted by the boundary stage
@@ -108,6 +108,10 @@ struct Mixed_mesh_result_3
   std::size_t number_of_vertices_in_region = 0; ///< before bisections
   /// About how many vertices thin walls and narrow gaps take, if they were resolved first; else 0.
   std::size_t number_of_vertices_for_thin_parts = 0;
+  /// Where the topology takes more vertices than the budget, the mesh is made of a finer one, all of
+  /// tetrahedra, by edge collapses: how many vertices were removed then. What is said of cells and octree is
+  /// said of the finer mesh.
+  std::size_t number_of_collapsed_vertices = 0;
   /// How far boundary and surface may be from each other: what the criteria say, or, if they leave it open,
   /// the default for this domain and budget.
   double tolerance = 0;

@@ -10,7 +10,7 @@
 #include "test_strata.h"
 
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_attraction.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>

@@ -9,7 +9,7 @@
 #include "test_strata.h"
 
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/bisect_boundary_edges.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/Mixed_mesh_3/validation.h>

@@ -13,7 +13,7 @@
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_coloring.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_optimizer.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
 
 #include <boost/core/lightweight_test.hpp>

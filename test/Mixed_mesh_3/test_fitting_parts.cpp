@@ -10,8 +10,8 @@
 
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
 #include <CGAL/Mixed_mesh_3/Scaled_jacobian_quality_3.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/flips.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/flips.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/Mixed_mesh_3/validation.h>

@@ -134,7 +134,8 @@ void test_bisections(const Surface& brain, const Polyhedral_mixed_mesh_domain_3&
       const auto rest = make_mixed_mesh_3(domain, region, unfitted(n).share_of_bisections(used), before);
       check(before, rest, n - std::size_t(used * double(n)));
       BOOST_TEST(rest.status == Status::SUCCESS);
-      BOOST_TEST_EQ(before.number_of_vertices(), result.number_of_vertices_needed);
+      if(result.number_of_collapsed_vertices == 0)
+        BOOST_TEST_EQ(before.number_of_vertices(), result.number_of_vertices_needed);
     }
   BOOST_TEST_EQ(unfitted(660).share_of_bisections(), 0);
   BOOST_TEST_EQ(Mixed_mesh_criteria_3(660).share_of_bisections(0).share_of_bisections(), 0);

@@ -9,7 +9,7 @@
 #define MIXED_MESH_3_TEST_STRATA_H
 
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_tolerances.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 
 #include <cstddef>
 #include <utility>

@@ -56,6 +56,7 @@ public:
   void begin_stage(CGAL::Mixed_meshes_3::Stage stage)
   {
     m_number_of_meshes += stage == CGAL::Mixed_meshes_3::Stage::ASSEMBLY;
+    m_is_fitting = m_is_fitting || stage == CGAL::Mixed_meshes_3::Stage::OPTIMIZATION;
     begin(CGAL::Mixed_meshes_3::stage_names[int(stage)]);
   }
   void end_stage(CGAL::Mixed_meshes_3::Stage) { end(); }

@@ -21,10 +21,7 @@
 #include "mixed_mesh_3/verdict.h"
 #include "page/page.h"
 
-#include <CGAL/Mixed_mesh_3/fidelity.h>
-#include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
 #include <CGAL/make_mixed_mesh_3.h>
-#include <CGAL/optimize_mixed_mesh_3.h>
 
 #include <boost/algorithm/string/predicate.hpp>
 
@@ -38,7 +35,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -234,36 +230,51 @@ CGAL::Polyhedral_mixed_mesh_regions_3 make_regions(const std::vector<Surface>& s
   return regions;
 }
 
-Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3& regions, const Options& o,
-               mm3::Thin_parts thin_parts, Stage_log& log, CGAL::Mixed_mesh_result_3& result)
+// Sees what the mesh is like before its boundary is fitted.
+struct Observer
 {
-  // The boundary is fitted later, so that the mesh before is seen.
+  Stage_log& log;
+  std::optional<Aspect_ratios>& before;
+
+  void begin_stage(mm3::Stage stage) { log.begin_stage(stage); }
+  void end_stage(mm3::Stage stage) { log.end_stage(stage); }
+  void progress(std::size_t number_of_vertices, std::size_t budget)
+  {
+    log.progress(number_of_vertices, budget);
+  }
+  bool go_on() { return log.go_on(); }
+  void before_fitting(const Mesh& mesh) { before = aspect_ratios_of(mesh); }
+};
+
+// On the surface, if the library fits it.
+Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3& regions, const Options& o,
+               Stage_log& log, Outcome& outcome)
+{
   auto criteria = CGAL::Mixed_mesh_criteria_3(o.vertices)
+                    .fit_to_surface(o.fit() == Fit::OPTIMIZATION)
                     .base_level(o.base_level)
                     .grading(o.grading)
                     .boundary_mode(o.mode)
                     .root_cell(o.root)
                     .transition_templates(o.templates)
-                    .fit_to_surface(o.fit() == Fit::OPTIMIZATION)
+                    .quality_bound(o.largest_arc)
                     .sharp_angle(o.sharp_angle)
-                    .thin_parts(thin_parts)
+                    .only_tetrahedra(o.tetrahedra) // what is fitted, checked and reported is what is written
                     .keep_mesh_if_stopped(true);
-  criteria.share_of_bisections(criteria.share_of_bisections_for(domain.subdomain_indices().size()))
-    .fit_to_surface(false);
   if(o.tolerance > 0)
     criteria.tolerance(o.tolerance);
   Mesh mesh;
-  result = CGAL::make_mixed_mesh_3<CGAL::Parallel_if_available_tag>(domain, regions, criteria, mesh,
-                                                                    CGAL::parameters::visitor(std::ref(log)));
-  refuse(result, o);
-  if(o.tetrahedra) // now, so that what is fitted, checked and reported is what is written
-    return log("split to tetrahedra", [&] { return mm3::split_to_tetrahedra(mesh); });
+  Observer observer{log, outcome.before};
+  outcome.result = CGAL::make_mixed_mesh_3<CGAL::Parallel_if_available_tag>(domain, regions, criteria, mesh,
+                                                                            CGAL::parameters::visitor(
+                                                                              std::ref(observer)));
+  refuse(outcome.result, o);
   return mesh;
 }
 
-// Both ways onto the surface return whether all of the boundary is there.
-bool fit_by_algorithm_1(Mesh& mesh, const Domain& domain, const Options& o, Stage_log& log, Outcome& outcome,
-                        bool& is_valid)
+// Whether all of the boundary is on the surface then.
+bool run_algorithm_1(Mesh& mesh, const Domain& domain, const Options& o, Stage_log& log, Outcome& outcome,
+                     bool& is_valid)
 {
   using Status = CGAL::Mixed_mesh_fit_status;
   const auto r = log.fit("Algorithm 1", [&] { return run_algorithm_1(mesh, domain, o, log); });
@@ -280,33 +291,13 @@ bool fit_by_algorithm_1(Mesh& mesh, const Domain& domain, const Options& o, Stag
   return r.is_on_surface();
 }
 
-bool fit_by_optimization(Mesh& mesh, const Domain& domain, const Options& o, Stage_log& log, Outcome& outcome,
-                         bool& is_valid)
+// Carries the boundary onto the surface as the paper does; the status becomes what the library would make of
+// it.
+void fit_by_algorithm_1(Mesh& mesh, const Domain& domain, const Options& o, Stage_log& log, Outcome& outcome)
 {
-  using Status = CGAL::Mixed_mesh_optimization_status;
-  const auto criteria = CGAL::Mixed_mesh_optimization_criteria_3()
-                          .tolerance(outcome.result.tolerance)
-                          .quality_bound(o.largest_arc)
-                          .sharp_angle(o.sharp_angle)
-                          .number_of_bisections(o.vertices - mesh.number_of_vertices());
-  const auto r = log.fit(mm3::stage_names[int(mm3::Stage::OPTIMIZATION)], [&] {
-    return CGAL::optimize_mixed_mesh_3<CGAL::Parallel_if_available_tag>(mesh, domain, criteria,
-                                                                        CGAL::parameters::visitor(
-                                                                          std::ref(log)));
-  });
-  outcome.result.optimization = r;
-  outcome.is_stopped = r.status == Status::STOPPED;
-  is_valid = r.status != Status::INVALID_MESH;
-  return r.status == Status::SUCCESS || r.status == Status::TOLERANCE_NOT_REACHED;
-}
-
-// Carries the boundary onto the surface; the status becomes what the library would make of it.
-void fit(Mesh& mesh, const Domain& domain, const Options& o, Stage_log& log, Outcome& outcome)
-{
+  outcome.before = log("quality", [&] { return aspect_ratios_of(mesh); });
   bool is_valid = false;
-  const bool is_on_surface = o.fit() == Fit::ALGORITHM_1
-                               ? fit_by_algorithm_1(mesh, domain, o, log, outcome, is_valid)
-                               : fit_by_optimization(mesh, domain, o, log, outcome, is_valid);
+  const bool is_on_surface = run_algorithm_1(mesh, domain, o, log, outcome, is_valid);
   if(!is_valid)
     throw Invalid_mesh("an element of the mesh is inverted before its boundary is fitted");
   if(outcome.is_stopped)
@@ -323,67 +314,17 @@ Work_plan plan_for(const Options& o)
   return {0.2, 0.9, 10, o.vertices <= 20000 ? 17u : 12u};
 }
 
-// The mesh in `outcome.result`, and on the surface, if nothing stops that.
-Mesh make_fitted_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3& regions,
-                      const Options& o, mm3::Thin_parts thin_parts, Stage_log& log, Outcome& outcome)
-{
-  Mesh mesh = make_mesh(domain, regions, o, thin_parts, log, outcome.result);
-  outcome.is_stopped = outcome.result.status == CGAL::Mixed_mesh_status::STOPPED;
-  if(o.fit() != Fit::NONE && !outcome.is_stopped) {
-    outcome.before = log("quality", [&] { return aspect_ratios_of(mesh); });
-    fit(mesh, domain, o, log, outcome);
-  }
-  return mesh;
-}
-
-// Differences of topology, volume beyond what is tolerated, vertices off the surface: the fewer the better.
-using Misfit = std::tuple<std::size_t, double, std::size_t>;
-
-Misfit misfit_of(const Mesh& mesh, const Surface& surface, const Outcome& outcome)
-{
-  const mm3::Solid_comparison c = mm3::compare_with_surface(mesh, surface, volume_tolerance);
-  const auto topology = std::count_if(c.differences.begin(), c.differences.end(), [](const auto& d) {
-    return d.kind != mm3::Solid_difference_kind::VOLUME;
-  });
-  const auto& fitting = outcome.result.optimization;
-  return {std::size_t(topology), (std::max)(0., std::abs(c.ratio_of_volumes() - 1) - volume_tolerance),
-          fitting.number_of_boundary_vertices - fitting.number_of_arrived_vertices};
-}
-
-// If topology or volume of the mesh are not those of the surface, another one with thin parts first; the
-// better one is taken. The library does so by itself where it can tell before the boundary is fitted.
-void improve_thin_parts(Mesh& mesh, const Domain& domain, const Inputs& inputs,
-                        const CGAL::Polyhedral_mixed_mesh_regions_3& regions, const Options& o,
-                        const Outcome& before, Stage_log& log, Outcome& outcome)
-{
-  const bool is_hopeless = outcome.result.number_of_vertices_for_thin_parts > o.vertices;
-  if(outcome.is_stopped || o.fit() != Fit::OPTIMIZATION || inputs.subdomains.size() > 1 || is_hopeless)
-    return;
-  const Misfit misfit = misfit_of(mesh, inputs.boundary, outcome);
-  if(std::get<0>(misfit) == 0 && std::get<1>(misfit) == 0)
-    return;
-  Outcome other = before;
-  Mesh better = make_fitted_mesh(domain, regions, o, mm3::Thin_parts::FIRST, log, other);
-  if(other.is_stopped)
-    return;
-  const std::size_t needed = other.result.number_of_vertices_for_thin_parts;
-  if(misfit_of(better, inputs.boundary, other) < misfit) {
-    mesh = std::move(better);
-    outcome = std::move(other);
-  }
-  outcome.result.number_of_vertices_for_thin_parts = needed;
-}
-
-// As above, or as far as it goes until a signal or the limit of time.
+// On the surface, or as far as it goes until a signal or the limit of time.
 Mesh make_mesh_until_stopped(const Domain& domain, const Inputs& inputs, const Options& o, Stage_log& log,
                              Outcome& outcome)
 {
   const Deferred_signals deferred({SIGINT}, Deferred_signals::Second::ENDS);
   log.stop_when([&] { return Deferred_signals::has_come() || log.seconds() > o.time_limit; });
   const auto regions = make_regions(inputs.regions, o, log);
-  const Outcome before = outcome;
-  Mesh mesh = make_fitted_mesh(domain, regions, o, mm3::Thin_parts::WHERE_NEEDED, log, outcome);
-  improve_thin_parts(mesh, domain, inputs, regions, o, before, log, outcome);
+  Mesh mesh = make_mesh(domain, regions, o, log, outcome);
+  outcome.is_stopped = outcome.result.status == CGAL::Mixed_mesh_status::STOPPED;
+  if(o.fit() == Fit::ALGORITHM_1 && !outcome.is_stopped)
+    fit_by_algorithm_1(mesh, domain, o, log, outcome);
   if(outcome.is_stopped) {
     const std::string by = Deferred_signals::has_come() ? "a signal" : "--time-limit";
     outcome.warnings.push_back("stopped by " + by + " after " + rounded(log.seconds())

@@ -54,4 +54,12 @@ public:
   /// has the status `STOPPED`. The mesh of `CGAL::make_mixed_mesh_3()` is empty then, unless the criteria say
   /// `keep_mesh_if_stopped(true)`; that of other functions is valid, as far as it went.
   bool go_on();
+
+  /// \name Optional
+  /// @{
+
+  /// Called with each mesh whose boundary is to be fitted next, in the stage `OPTIMIZATION`: the last one is
+  /// what the result is made from. A model need not have this function.
+  void before_fitting(const CGAL::Mixed_mesh_3<CGAL::Mixed_meshes_3::Predicates_kernel>& mesh);
+  /// @}
 };

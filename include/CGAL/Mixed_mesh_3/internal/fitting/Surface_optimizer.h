@@ -15,13 +15,13 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Optimization_effort.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/bisect_boundary_edges.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/feature_paths.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/flips.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/flips.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/merge_boundary_vertices.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Strata.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Strata.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_attraction.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>

@@ -11,7 +11,7 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Strata.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Strata.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Any_surface.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Sharp_features.h>
 

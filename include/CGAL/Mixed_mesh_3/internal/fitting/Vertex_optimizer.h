@@ -14,7 +14,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_coloring.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 
 #include <CGAL/assertions.h>
 

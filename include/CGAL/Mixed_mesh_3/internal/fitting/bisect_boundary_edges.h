@@ -12,7 +12,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
-#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 
 #include <algorithm>
 #include <array>

@@ -14,7 +14,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/base/compatibility.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_tolerances.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_optimizer.h>

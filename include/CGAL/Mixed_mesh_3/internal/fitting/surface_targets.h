@@ -16,7 +16,7 @@
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Strata.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Strata.h>
 
 #include <algorithm>
 #include <array>

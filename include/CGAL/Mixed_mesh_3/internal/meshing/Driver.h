@@ -17,6 +17,8 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/assemble_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/lost_cells.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/element_points.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/coarsen.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/optimize_bounded.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Candidate.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Misfit.h>
@@ -29,6 +31,7 @@
 #include <CGAL/Mixed_mesh_3/internal/octree/place_lattice.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Any_visitor.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Sharp_features.h>
+#include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
 #include <CGAL/Mixed_mesh_criteria_3.h>
 #include <CGAL/Mixed_mesh_result_3.h>
 
@@ -65,6 +68,8 @@ class Driver
   // tubes of two cells lose an eighth of it.
   static constexpr std::array<double, 4> strictnesses{0.7, 1, 1.4, 2},
     strictnesses_for_volume{2, 1.4, 1, 0.7};
+  // Of the budget: how many vertices a mesh may have that is coarsened to it.
+  static constexpr double finer_multiple = 16;
 
 public:
   /// \param root the octree with nothing but its root
@@ -90,10 +95,13 @@ public:
           fill_budget_at_first();
       }
     }
-    make_mesh(mesh);
-    Misfit misfit = misfit_of(mesh);
-    if(m_criteria.thin_parts() == Thin_parts::WHERE_NEEDED)
-      improve_thin_parts(mesh, misfit);
+    Misfit misfit = Misfit::of_no_mesh();
+    if(!may_resolve_thin_parts() || !resolve_topology(mesh, misfit)) {
+      make_mesh(mesh);
+      misfit = misfit_of(mesh);
+      if(may_resolve_thin_parts())
+        improve_thin_parts(mesh, misfit);
+    }
     note(misfit);
     return m_result;
   }
@@ -102,7 +110,7 @@ private:
   void fill_budget_at_first()
   {
     if(m_criteria.thin_parts() == Thin_parts::FIRST)
-      resolve_thin_parts(true);
+      resolve_thin_parts(true, budget());
     fill_budget();
   }
 
@@ -117,32 +125,130 @@ private:
       const Stage_scope scope(m_visitor, Stage::ASSEMBLY);
       mark_sheets();
       assemble_mesh(m_octree, m_best.mesh, m_best.boundary, mesh);
+      if(m_criteria.only_tetrahedra())
+        mesh = split_to_tetrahedra(mesh);
     }
-    if(m_criteria.fit_to_surface() && !m_result.is_kept)
-      optimize(mesh);
+    if(m_criteria.fit_to_surface() && !m_result.is_kept) {
+      const Stage_scope scope(m_visitor, Stage::OPTIMIZATION);
+      optimize(mesh, m_criteria.quality_bound());
+    }
     if(!m_result.is_lattice_on_surface)
       note_share_filled(mesh.number_of_vertices());
   }
 
-  // Once more, if what there is has lost something; the better mesh is taken, with its misfit.
+  bool may_resolve_thin_parts() const
+  {
+    return m_criteria.thin_parts() == Thin_parts::WHERE_NEEDED
+           && m_root.domain().subdomain_indices().size() == 1;
+  }
+  bool may_coarsen() const { return m_criteria.fit_to_surface() && !m_root.domain().has_sheets(); }
+
+  // What the octree is like; the boundary is not fitted yet.
+  struct State
+  {
+    Located_octree octree;
+    Candidate best;
+    std::vector<Octree::Node_index> lost;
+    Mixed_mesh_result_3 result;
+    bool are_gaps_wider;
+  };
+
+  State state() const { return {m_octree, m_best, m_lost, m_result, m_are_gaps_wider}; }
+
+  void restore(State s)
+  {
+    m_octree = std::move(s.octree);
+    m_best = std::move(s.best);
+    m_lost = std::move(s.lost);
+    m_result = s.result;
+    m_are_gaps_wider = s.are_gaps_wider;
+  }
+
+  Misfit misfit_on_lattice() const
+  {
+    return m_best.number_of_vertices == 0 ? Misfit::of_no_mesh()
+                                          : misfit_on_lattice(m_octree, m_best, m_lost.size());
+  }
+
+  Misfit misfit_on_lattice(const Located_octree& octree, const Candidate& candidate, std::size_t lost) const
+  {
+    Core_mesh mesh;
+    assemble_mesh(octree, candidate.mesh, candidate.boundary, mesh);
+    return Misfit(mesh, m_root.domain(), false, lost, 0);
+  }
+
+  // Fitting does not change the topology. Where that is wrong on the lattice, the budget is spent on thin
+  // parts first; if it does not suffice, a finer mesh is coarsened to it.
+  // \return whether the mesh is made
+  bool resolve_topology(Core_mesh& mesh, Misfit& misfit)
+  {
+    if(m_result.is_lattice_on_surface || m_best.is_stopped || m_tolerance_search.is_stopped())
+      return false;
+    const Misfit before = misfit_on_lattice();
+    if(before.is_mesh() && !before.is_topology_wrong())
+      return false;
+    State best = state();
+    {
+      const Stage_scope scope(m_visitor, Stage::OCTREE);
+      resolve_thin_parts(false, budget());
+      if(m_thin_start)
+        fill_budget();
+    }
+    if(m_best.is_stopped) {
+      restore(std::move(best));
+      return false;
+    }
+    const Misfit within_budget = misfit_on_lattice();
+    const std::size_t needed = m_result.number_of_vertices_for_thin_parts;
+    if(within_budget.is_mesh() && !within_budget.is_topology_wrong())
+      best = state();
+    else {
+      if(within_budget < before)
+        best = state();
+      if(may_coarsen() && make_from_finer_octree(mesh, misfit))
+        return true;
+    }
+    restore(std::move(best));
+    m_result.number_of_vertices_for_thin_parts = needed;
+    make_mesh(mesh);
+    misfit = misfit_of(mesh);
+    return true;
+  }
+
+  // Once more, if what there is has lost something, or too much of its volume; then from a finer mesh.
   void improve_thin_parts(Core_mesh& mesh, Misfit& misfit)
   {
     const bool can_be_better = m_result.status == Mixed_mesh_status::EMPTY
                                || (m_result.has_mesh() && !m_result.is_kept);
-    if(!can_be_better || misfit.is_none() || m_root.domain().subdomain_indices().size() > 1)
+    if(!can_be_better)
       return;
+    if(!misfit.is_none())
+      take_if_better(mesh, misfit, [&](Core_mesh& other) {
+        {
+          const Stage_scope scope(m_visitor, Stage::OCTREE);
+          resolve_thin_parts(misfit.is_of_volume_only(), budget());
+          if(m_thin_start)
+            fill_budget();
+        }
+        if(m_thin_start)
+          make_mesh(other);
+      });
+    if(!misfit.is_right() && may_coarsen() && m_result.status != Mixed_mesh_status::STOPPED)
+      take_if_better(mesh, misfit, [&](Core_mesh& other) {
+        Misfit of_other = Misfit::of_no_mesh();
+        make_from_finer_octree(other, of_other);
+      });
+  }
+
+  // What `make(other)` makes, with its misfit and its result, or what there is.
+  template <class Make>
+  void take_if_better(Core_mesh& mesh, Misfit& misfit, const Make& make)
+  {
     const Mixed_mesh_result_3 result = m_result;
     Core_mesh other;
-    {
-      const Stage_scope scope(m_visitor, Stage::OCTREE);
-      resolve_thin_parts(misfit.is_of_volume_only());
-      if(m_thin_start)
-        fill_budget();
-    }
-    if(m_thin_start)
-      make_mesh(other);
+    make(other);
     const Misfit other_misfit = misfit_of(other);
-    if(m_result.status == Mixed_mesh_status::STOPPED || !m_thin_start || !(other_misfit < misfit)) {
+    if(m_result.status == Mixed_mesh_status::STOPPED || !(other_misfit < misfit)) {
       const std::size_t needed = m_result.number_of_vertices_for_thin_parts;
       m_result = result;
       m_result.number_of_vertices_for_thin_parts = needed;
@@ -150,6 +256,119 @@ private:
       mesh = std::move(other);
       misfit = other_misfit;
     }
+  }
+
+  // With more and more vertices, until nothing is wrong.
+  // \return whether topology and volume are right
+  bool make_from_finer_octree(Core_mesh& mesh, Misfit& misfit)
+  {
+    const std::size_t most = std::size_t(finer_multiple * double(m_criteria.maximal_number_of_vertices()));
+    for(std::size_t least = budget() + budget() / 4;
+        find_finer_octree(least, most, true) || find_finer_octree(least, most, false);
+        least = 2 * m_best.number_of_vertices) {
+      make_coarsened_mesh(mesh);
+      misfit = misfit_of(mesh);
+      if(m_result.status == Mixed_mesh_status::STOPPED)
+        return false;
+      if(misfit.is_mesh() && !misfit.is_topology_wrong() && !misfit.is_volume_wrong())
+        return true;
+    }
+    return false;
+  }
+
+  // An octree with which the topology is right: with cells as small as walls and gaps ask for, or with all
+  // cells at the surface smaller. It becomes the best.
+  bool find_finer_octree(std::size_t least, std::size_t most, bool only_thin)
+  {
+    const Stage_scope scope(m_visitor, Stage::OCTREE);
+    constexpr double cells_for_a_vertex = 2; // at most, nearly
+    Located_octree octree = m_root;
+    m_are_gaps_wider = only_thin;
+    if(!refine_to_level(octree, coarsest_level(), most))
+      return false;
+    for(int level = coarsest_level(); level < Octree::max_level; ++level) {
+      std::vector<Octree::Node_index> leaves;
+      if(only_thin)
+        leaves = thin_cells(octree, level, 1);
+      else
+        for(Octree::Node_index n : octree.leaves_to_refine(level, false))
+          if(octree.side(n) == ON_BOUNDARY)
+            leaves.push_back(n);
+      if(leaves.empty())
+        continue;
+      octree.refine(leaves);
+      if(double(octree.number_of_cells()) > cells_for_a_vertex * double(most))
+        return false;
+      Candidate candidate = try_octree(octree);
+      if(candidate.is_stopped || candidate.number_of_vertices > most)
+        return false;
+      if(candidate.number_of_vertices < least || !candidate.is_manifold()
+         || misfit_on_lattice(octree, candidate, 0).is_topology_wrong())
+        continue;
+      m_octree = std::move(octree);
+      m_best = std::move(candidate);
+      m_lost = lost_cells(m_octree, m_best.mesh, m_best.boundary);
+      m_result.number_of_cells = m_octree.number_of_cells();
+      return true;
+    }
+    return false;
+  }
+
+  // From the octree that is finer than the budget: on the surface, vertices are removed until the budget is
+  // met, where it does not keep the quality bound with worse elements.
+  void make_coarsened_mesh(Core_mesh& mesh)
+  {
+    const auto go_on = [this] { return m_visitor.go_on(); };
+    mesh.clear();
+    describe();
+    if(!m_result.has_mesh())
+      return;
+    Core_mesh fine;
+    {
+      const Stage_scope scope(m_visitor, Stage::ASSEMBLY);
+      Core_mesh mixed;
+      assemble_mesh(m_octree, m_best.mesh, m_best.boundary, mixed);
+      fine = split_to_tetrahedra(mixed);
+    }
+    const Stage_scope scope(m_visitor, Stage::OPTIMIZATION);
+    const auto rough = Mixed_mesh_optimization_criteria_3()
+                         .quality_bound(m_criteria.quality_bound())
+                         .sharp_angle(m_criteria.sharp_angle())
+                         .number_of_rounds(1);
+    optimize_bounded(fine, m_root.domain(),
+                     Concurrency::with_threads(rough, Concurrency::number_of_threads(m_criteria)),
+                     Aspect_ratio_quality_3(), go_on);
+    const std::size_t n = fine.number_of_vertices();
+    const double radius = m_root.is_region_everywhere() ? 0 : m_criteria.grading() * m_radius;
+    if(!coarsen(fine, m_root.domain(), budget(), m_criteria.quality_bound(), radius, go_on))
+      return;
+    m_result.number_of_collapsed_vertices = n - fine.number_of_vertices();
+    m_result.number_of_vertices_needed = fine.number_of_vertices();
+    m_result.number_of_transition_vertices = m_result.number_of_boundary_vertices_inserted = 0;
+    m_result.number_of_vertices_in_region = vertices_in_region(fine);
+    mesh = std::move(fine);
+    optimize(mesh, (std::max)(m_criteria.quality_bound(), (1 + 1e-9) * largest_cost(mesh)));
+    note_share_filled(mesh.number_of_vertices());
+  }
+
+  static std::size_t vertices_in_region(const Core_mesh& mesh)
+  {
+    std::vector<std::uint8_t> is_in_region(mesh.number_of_vertices(), 0);
+    for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
+      if(mesh.attributes(e).is_in_region)
+        for(Vertex_index v : mesh.element(e))
+          is_in_region[v] = 1;
+    return std::size_t(std::count(is_in_region.begin(), is_in_region.end(), 1));
+  }
+
+  static double largest_cost(const Core_mesh& mesh)
+  {
+    double largest = 0;
+    for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
+      const Element_view element = mesh.element(Element_index(e));
+      largest = (std::max)(largest, Aspect_ratio_quality_3()(element.kind(), element_points(mesh, element)));
+    }
+    return largest;
   }
 
   // In the result. The volume of a mesh that is not fitted is larger than that of the domain, and its status
@@ -177,10 +396,11 @@ private:
 
   // Where the topology is wrong, with more and more cells for a wall or a gap, until it is right. Where only
   // the volume is, with as many as the budget has room for.
-  void resolve_thin_parts(bool is_for_volume)
+  void resolve_thin_parts(bool is_for_volume, std::size_t budget)
   {
     Located_octree start = m_root;
-    if(!refine_to_level(start, coarsest_level(), budget()))
+    m_thin_start.reset();
+    if(!refine_to_level(start, coarsest_level(), budget))
       return;
     m_tolerance_search.split_far_cells(start);
     m_are_gaps_wider = true;
@@ -188,11 +408,11 @@ private:
     for(const double strictness : is_for_volume ? strictnesses_for_volume : strictnesses) {
       Located_octree octree = start;
       Candidate candidate;
-      const Thin_cell_splits splits = split_thin_cells(octree, strictness, budget(),
+      const Thin_cell_splits splits = split_thin_cells(octree, strictness, budget,
                                                        [&](const Located_octree& o) {
                                                          Candidate c = try_octree(o);
                                                          const std::size_t n = c.number_of_vertices;
-                                                         if(!c.is_stopped && n <= budget())
+                                                         if(!c.is_stopped && n <= budget)
                                                            candidate = std::move(c);
                                                          return n;
                                                        });
@@ -248,13 +468,13 @@ private:
            * std::cbrt(volume_of_domain(m_root) / double(m_criteria.maximal_number_of_vertices()));
   }
 
-  void optimize(Core_mesh& mesh)
+  void optimize(Core_mesh& mesh, double quality_bound)
   {
-    const Stage_scope scope(m_visitor, Stage::OPTIMIZATION);
-    const std::size_t rest = m_criteria.maximal_number_of_vertices() - m_best.number_of_vertices;
+    m_visitor.before_fitting(mesh);
+    const std::size_t rest = m_criteria.maximal_number_of_vertices() - mesh.number_of_vertices();
     const auto criteria = Mixed_mesh_optimization_criteria_3()
                             .tolerance(m_result.tolerance)
-                            .quality_bound(m_criteria.quality_bound())
+                            .quality_bound(quality_bound)
                             .sharp_angle(m_criteria.sharp_angle())
                             .number_of_bisections(share_of_bisections() > 0 ? rest : 0);
     const auto with_threads = Concurrency::with_threads(criteria, Concurrency::number_of_threads(m_criteria));

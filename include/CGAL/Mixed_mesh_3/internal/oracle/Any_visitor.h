@@ -11,6 +11,8 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Default_visitor.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/optional_members.h>
 
 #include <cstddef>
 
@@ -27,6 +29,7 @@ public:
   virtual void end_stage(Stage stage) = 0;
   virtual void progress(std::size_t number_of_vertices, std::size_t budget) = 0;
   virtual bool go_on() = 0;
+  virtual void before_fitting(const Core_mesh& mesh) = 0;
 };
 
 template <class Visitor>
@@ -43,6 +46,11 @@ public:
     m_visitor.progress(number_of_vertices, budget);
   }
   bool go_on() override { return m_visitor.go_on(); }
+  void before_fitting(const Core_mesh& mesh) override
+  {
+    if constexpr(Has_before_fitting<Visitor, Core_mesh>::value)
+      m_visitor.before_fitting(mesh);
+  }
 };
 
 } // namespace internal

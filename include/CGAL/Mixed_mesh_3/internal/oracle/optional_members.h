@@ -72,6 +72,18 @@ struct Has_axis_parallel_planes<Domain,
 {
 };
 
+template <class Visitor, class Mesh, class = void>
+struct Has_before_fitting : std::false_type
+{
+};
+/// Visitors that want to see the mesh before its boundary is fitted.
+template <class Visitor, class Mesh>
+struct Has_before_fitting<
+  Visitor, Mesh, std::void_t<decltype(std::declval<Visitor&>().before_fitting(std::declval<const Mesh&>()))>>
+  : std::true_type
+{
+};
+
 } // namespace internal
 } // namespace Mixed_meshes_3
 } // namespace CGAL

@@ -8,12 +8,12 @@
 // Replaces tetrahedra by others between the same vertices, where these are better: 2-3 flips, the removal of
 // an edge with its ring of tetrahedra, and the removal of flat tetrahedra that lie on the boundary.
 
-#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_FLIPS_H
-#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_FLIPS_H
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_MOVES_FLIPS_H
+#define CGAL_MIXED_MESH_3_INTERNAL_MOVES_FLIPS_H
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
-#include <CGAL/Mixed_mesh_3/internal/fitting/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 
 #include <algorithm>
 #include <array>
@@ -424,4 +424,4 @@ private:
 } // namespace Mixed_meshes_3
 } // namespace CGAL
 
-#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_FLIPS_H
+#endif // CGAL_MIXED_MESH_3_INTERNAL_MOVES_FLIPS_H

@@ -7,8 +7,8 @@
 //
 // Which surfaces a vertex is to be on: that of the domain, or, between several subdomains, one or more.
 
-#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_STRATA_H
-#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_STRATA_H
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_MOVES_STRATA_H
+#define CGAL_MIXED_MESH_3_INTERNAL_MOVES_STRATA_H
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
@@ -192,4 +192,4 @@ private:
 } // namespace Mixed_meshes_3
 } // namespace CGAL
 
-#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_STRATA_H
+#endif // CGAL_MIXED_MESH_3_INTERNAL_MOVES_STRATA_H

@@ -8,8 +8,8 @@
 // A mixed mesh while vertices move and tetrahedra are flipped: with the elements around each vertex, and
 // elements that can be removed.
 
-#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_WORKING_MESH_H
-#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_WORKING_MESH_H
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_MOVES_WORKING_MESH_H
+#define CGAL_MIXED_MESH_3_INTERNAL_MOVES_WORKING_MESH_H
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
@@ -18,7 +18,7 @@
 #include <CGAL/Mixed_mesh_3/certificate.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/element_measures.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Strata.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Strata.h>
 
 #include <CGAL/assertions.h>
 
@@ -249,4 +249,4 @@ private:
 } // namespace Mixed_meshes_3
 } // namespace CGAL
 
-#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_WORKING_MESH_H
+#endif // CGAL_MIXED_MESH_3_INTERNAL_MOVES_WORKING_MESH_H

@@ -1,0 +1,279 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A vertex less: all of its elements get the other end of one of its edges instead.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_MOVES_EDGE_COLLAPSER_H
+#define CGAL_MIXED_MESH_3_INTERNAL_MOVES_EDGE_COLLAPSER_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/*!
+Collapses edges, where that keeps the topology and all elements stay positive and good enough: what may be
+done is asked first, so that nothing has to be undone.
+
+The tetrahedra at an edge vw vanish, and all other elements of v get w instead. The topology stays if the
+links of both vertices have in common what is the link of the edge, and nothing else (Dey, Edelsbrunner, Guha,
+Nekhayev: Topology preserving edge contraction, 1999), in the mesh as on the boundary of the subdomain of v,
+of which all of its elements have to be. The elements at the edge must be tetrahedra. There must be no sheets.
+
+\tparam Quality a model of `MixedMeshQuality_3`
+*/
+template <class Quality>
+class Edge_collapser
+{
+  Working_mesh& m_mesh;
+  const Quality& m_quality;
+  // Kept for their memory.
+  std::vector<Vertex_index> m_around_v, m_around_w, m_around_edge;
+  std::vector<std::array<Vertex_index, 4>> m_at_edge;
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+public:
+  /// The vertices of a face, sorted, `no_vertex` for what a triangle lacks.
+  using Face_key = std::array<Vertex_index, 4>;
+
+  Edge_collapser(Working_mesh& mesh, const Quality& quality) : m_mesh(mesh), m_quality(quality) {}
+
+  bool is_in_one_subdomain(Vertex_index v) const
+  {
+    const std::vector<Element_index>& around = m_mesh.incident[v];
+    return std::all_of(around.begin(), around.end(),
+                       [&](Element_index e) { return subdomain(e) == subdomain(around.front()); });
+  }
+
+  /// The faces at a vertex that one element of a subdomain has alone, sorted.
+  std::vector<Face_key> boundary_faces_at(Vertex_index v, Subdomain_index index) const
+  {
+    std::vector<Face_key> all, alone;
+    for(Element_index e : m_mesh.incident[v]) {
+      if(subdomain(e) != index)
+        continue;
+      const Working_mesh::Element& element = m_mesh.elements[e];
+      const Reference_element& reference = element.reference();
+      for(int f = 0; f < reference.number_of_faces; ++f) {
+        Face_key key;
+        key.fill(no_vertex);
+        for(int i = 0; i < reference.faces[f].size; ++i)
+          key[std::size_t(i)] = element.vertices[std::size_t(reference.faces[f].vertices[i])];
+        std::sort(key.begin(), key.end());
+        if(std::find(key.begin(), key.end(), v) != key.end())
+          all.push_back(key);
+      }
+    }
+    std::sort(all.begin(), all.end());
+    for(std::size_t i = 0; i < all.size(); ++i)
+      if((i == 0 || all[i - 1] != all[i]) && (i + 1 == all.size() || all[i + 1] != all[i]))
+        alone.push_back(all[i]);
+    return alone;
+  }
+
+  /// Those of the subdomain of the vertex.
+  /// \pre `is_in_one_subdomain(v)`
+  std::vector<Face_key> boundary_faces_at(Vertex_index v) const
+  {
+    return boundary_faces_at(v, subdomain(m_mesh.incident[v].front()));
+  }
+
+  /// The vertices that share a boundary edge with a vertex of these faces, if it is between two triangles.
+  static std::vector<Vertex_index> ends_of_edges(Vertex_index v, const std::vector<Face_key>& faces)
+  {
+    std::vector<Vertex_index> ends = neighbors(v, faces);
+    ends.erase(std::remove_if(ends.begin(), ends.end(),
+                              [&](Vertex_index w) {
+                                int triangles = 0;
+                                for(const Face_key& face : faces)
+                                  if(std::find(face.begin(), face.end(), w) != face.end())
+                                    triangles += face[3] == no_vertex ? 1 : 3;
+                                return triangles != 2;
+                              }),
+               ends.end());
+    return ends;
+  }
+
+  /// Whether the types of the mesh and of its boundary stay.
+  /// \pre `is_in_one_subdomain(v)`
+  /// \param faces_at_v `boundary_faces_at(v)`; if there are any, w is one of `ends_of_edges()`
+  bool keeps_topology(Vertex_index v, Vertex_index w, const std::vector<Face_key>& faces_at_v)
+  {
+    return is_link_of_edge(v, w)
+           && (faces_at_v.empty()
+               || is_link_of_boundary_edge(v, w, faces_at_v,
+                                           boundary_faces_at(w, subdomain(m_mesh.incident[v].front()))));
+  }
+
+  /// The largest cost of the new elements, infinity if it is above `most` or one is not positive.
+  double worst_after(Vertex_index v, Vertex_index w, double most) const
+  {
+    double worst = 0;
+    for(Element_index e : m_mesh.incident[v])
+      if(!has(e, w)) {
+        const Working_mesh::Element element = with_other_vertex(e, v, w);
+        worst = (std::max)(worst, m_quality(element.kind, m_mesh.relative_points(element)));
+        if(!(worst <= most) || !m_mesh.is_positive(element))
+          return infinity;
+      }
+    return worst;
+  }
+
+  /// Removes v.
+  void operator()(Vertex_index v, Vertex_index w)
+  {
+    const std::vector<Element_index> around = m_mesh.incident[v];
+    for(Element_index e : around) {
+      const Working_mesh::Element element = has(e, w) ? m_mesh.elements[e] : with_other_vertex(e, v, w);
+      const bool stays = !has(e, w);
+      m_mesh.remove(e);
+      if(stays)
+        m_mesh.add(element);
+    }
+    m_mesh.strata[v] = free_stratum;
+    m_mesh.merged.push_back(v);
+  }
+
+private:
+  bool has(Element_index e, Vertex_index v) const
+  {
+    const Working_mesh::Element& element = m_mesh.elements[e];
+    return element.position(v) < element.size();
+  }
+
+  Subdomain_index subdomain(Element_index e) const { return m_mesh.elements[e].attributes.subdomain_index; }
+
+  // The other vertices of boundary faces.
+  static std::vector<Vertex_index> neighbors(Vertex_index v, const std::vector<Face_key>& faces)
+  {
+    std::vector<Vertex_index> all;
+    for(const Face_key& face : faces)
+      for(Vertex_index u : face)
+        if(u != v && u != no_vertex)
+          all.push_back(u);
+    sort_uniquely(all);
+    return all;
+  }
+
+  static void sort_uniquely(std::vector<Vertex_index>& vertices)
+  {
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  }
+
+  bool is_link_of_edge(Vertex_index v, Vertex_index w)
+  {
+    m_at_edge.clear();
+    m_around_v.clear();
+    m_around_w.clear();
+    m_around_edge.clear();
+    const auto add = [](std::vector<Vertex_index>& vertices, const Working_mesh::Element& element) {
+      vertices.insert(vertices.end(), element.begin(), element.end());
+    };
+    for(Element_index e : m_mesh.incident[v]) {
+      const Working_mesh::Element& element = m_mesh.elements[e];
+      add(m_around_v, element);
+      if(!has(e, w))
+        continue;
+      if(element.kind != TETRAHEDRON)
+        return false;
+      add(m_around_edge, element);
+      m_at_edge.push_back(
+        {element.vertices[0], element.vertices[1], element.vertices[2], element.vertices[3]});
+      std::sort(m_at_edge.back().begin(), m_at_edge.back().end());
+    }
+    for(Element_index e : m_mesh.incident[w])
+      add(m_around_w, m_mesh.elements[e]);
+    for(std::vector<Vertex_index>* vertices : {&m_around_v, &m_around_w, &m_around_edge})
+      sort_uniquely(*vertices);
+    if(common(m_around_v, m_around_w) != m_around_edge)
+      return false;
+    // What elements have in common is around the edge then: two vertices at least, if it counts.
+    const std::vector<std::vector<Vertex_index>> of_v = shares_around_edge(v, w),
+                                                 of_w = shares_around_edge(w, v);
+    for(const std::vector<Vertex_index>& a : of_v)
+      for(const std::vector<Vertex_index>& b : of_w) {
+        const std::vector<Vertex_index> both = common(a, b);
+        if(both.size() > 2)
+          return false;
+        if(both.size() == 2) {
+          std::array<Vertex_index, 4> tetrahedron{v, w, both[0], both[1]};
+          std::sort(tetrahedron.begin(), tetrahedron.end());
+          if(std::find(m_at_edge.begin(), m_at_edge.end(), tetrahedron) == m_at_edge.end())
+            return false;
+        }
+      }
+    return true;
+  }
+
+  // For each element of v without w that has two vertices around the edge or more: these, sorted.
+  std::vector<std::vector<Vertex_index>> shares_around_edge(Vertex_index v, Vertex_index w) const
+  {
+    std::vector<std::vector<Vertex_index>> shares;
+    std::vector<Vertex_index> share;
+    for(Element_index e : m_mesh.incident[v]) {
+      if(has(e, w))
+        continue;
+      share.clear();
+      for(Vertex_index u : m_mesh.elements[e])
+        if(u != v && std::binary_search(m_around_edge.begin(), m_around_edge.end(), u))
+          share.push_back(u);
+      if(share.size() < 2)
+        continue;
+      std::sort(share.begin(), share.end());
+      shares.push_back(share);
+    }
+    return shares;
+  }
+
+  static bool is_link_of_boundary_edge(Vertex_index v, Vertex_index w,
+                                       const std::vector<Face_key>& faces_at_v,
+                                       const std::vector<Face_key>& faces_at_w)
+  {
+    if(common(neighbors(v, faces_at_v), neighbors(w, faces_at_w)).size() != 2)
+      return false;
+    return std::none_of(faces_at_v.begin(), faces_at_v.end(), [&](Face_key face) {
+      if(std::find(face.begin(), face.end(), w) != face.end())
+        return false;
+      std::replace(face.begin(), face.end(), v, w);
+      std::sort(face.begin(), face.end());
+      return std::binary_search(faces_at_w.begin(), faces_at_w.end(), face);
+    });
+  }
+
+  static std::vector<Vertex_index> common(const std::vector<Vertex_index>& a,
+                                          const std::vector<Vertex_index>& b)
+  {
+    std::vector<Vertex_index> c;
+    std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(c));
+    return c;
+  }
+
+  Working_mesh::Element with_other_vertex(Element_index e, Vertex_index v, Vertex_index w) const
+  {
+    Working_mesh::Element element = m_mesh.elements[e];
+    element.vertices[std::size_t(element.position(v))] = w;
+    return element;
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_MOVES_EDGE_COLLAPSER_H
