@@ -18,8 +18,8 @@
 #               are compiled there, with -Wpedantic, by LAYOUT_COMPILERS (default: g++ clang++), also with the CGAL of
 #               CGAL_DIR_61
 #   benchmarks  the benchmarks are built
-#   checked     examples and short tests run with CGAL's assertions and preconditions, the tests also with
-#               AddressSanitizer and UndefinedBehaviorSanitizer
+#   checked     some examples, one for each way through the stages, and short tests run with CGAL's assertions and
+#               preconditions, the tests also with AddressSanitizer and UndefinedBehaviorSanitizer
 #   fuzz        targets of libFuzzer, one a reader, run for FUZZ_SECONDS each (default: 12), from test/fuzz/corpus;
 #               what makes one fail is kept in the build directory
 #   cgal61      headers, examples and short tests are built with another CGAL, if CGAL_DIR_61 names the folder
@@ -43,6 +43,10 @@ compiled=(doc headers layout benchmarks checked fuzz cgal61)
 short_tests=(
   test_base test_elements test_elements_traits test_elements_certificate test_elements_locator test_octree
   test_transitions test_boundary test_image_io
+)
+checked_examples=(
+  mixed_mesh_of_a_brain mixed_mesh_subdomains mixed_mesh_custom_domain mixed_mesh_of_a_segmentation
+  elasticity_of_brain_shift
 )
 short_programs=(test_base test_elements test_octree test_transitions test_boundary test_images)
 
@@ -173,9 +177,9 @@ check_benchmarks() {
 check_checked() {
   local megabytes=2500 # of a compiler with sanitizers
   configure checked --preset checked
-  build "$build/checked" examples/all "${short_programs[@]}"
+  build "$build/checked" "${checked_examples[@]}" "${short_programs[@]}"
   export UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=detect_stack_use_after_return=1
-  run_tests "$build/checked" -R "^(example_.*|$(IFS='|' && echo "${short_tests[*]}"))\$"
+  run_tests "$build/checked" -R "^($(IFS='|' && echo "${short_tests[*]}|${checked_examples[*]/#/example_}"))\$"
 }
 
 # Runs the fuzz target of a reader, and shows what it says if it fails.

@@ -6,6 +6,7 @@
 // Merging of boundary vertices, one after the other until nothing is left to merge: after each, the mesh and
 // each of its subdomains are without defects, with the topology of the start.
 
+#include "test_cells.h"
 #include "test_fitting.h"
 #include "test_strata.h"
 
@@ -20,7 +21,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -32,36 +32,10 @@ using namespace CGAL::Mixed_meshes_3;
 using internal::Boundary_vertex_merger;
 using internal::Working_mesh;
 using internal::no_vertex;
+using cells::Cell;
+using cells::cells_of_grid;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-using Cell = std::array<int, 3>;
-
-// Of the cells of a grid of tetrahedra those that belong to a subdomain, not 0.
-Mesh cells_of_grid(int n, unsigned seed, const std::function<Subdomain_index(const Cell&)>& subdomain)
-{
-  Mesh all = grid(n, TETRAHEDRON);
-  distort(all, 0.1 / n, seed);
-  Mesh mesh;
-  std::vector<Vertex_index> numbers(all.number_of_vertices(), no_vertex);
-  for(Element_index e = 0; e < all.number_of_elements(); ++e) {
-    const int cell = int(e) / 6;
-    const Subdomain_index index = subdomain({cell % n, cell / n % n, cell / n / n});
-    if(index == 0)
-      continue;
-    std::array<Vertex_index, 4> v{};
-    for(int i = 0; i < 4; ++i) {
-      Vertex_index& number = numbers[all.element(e)[i]];
-      if(number == no_vertex)
-        number = mesh.add_vertex(all.point(all.element(e)[i]));
-      v[std::size_t(i)] = number;
-    }
-    Element_attributes attributes;
-    attributes.subdomain_index = index;
-    mesh.add_element(TETRAHEDRON, v, attributes);
-  }
-  return mesh;
-}
 
 Mesh part(const Mesh& mesh, Subdomain_index index)
 {

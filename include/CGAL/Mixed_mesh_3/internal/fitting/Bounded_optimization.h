@@ -62,23 +62,27 @@ class Bounded_optimization
   const Any_surface& m_domain;
   const Criteria& m_criteria;
   const Quality& m_quality;
-  const bool m_has_subdomains; // or sheets
+  const bool m_has_subdomains;  // or sheets
+  const double m_tolerated_off; // share of the boundary vertices
   const Sharp_edges m_sharp_edges;
   const double m_edge_length; // mean, of the boundary; any if there are no sharp edges
   const Sharp_features m_features;
   std::vector<std::uint8_t> m_is_held; // for each vertex
 
-  // Of the boundary vertices between subdomains; of the length of sharp edges.
-  static constexpr double share_tolerated_off = 0.01, tolerated_loss = 0.02;
+  // Between subdomains; of the length of sharp edges.
+  static constexpr double tolerated_off_interfaces = 0.01, tolerated_loss = 0.02;
 
   // How many rings of faces around those that cut each other are held in addition, time after time.
   static constexpr int rings[] = {0, 1, 2, 4, 8};
 
 public:
+  /// \param tolerated_off a share of the boundary vertices: if no more are off the surface, no other run is
+  ///        needed
   Bounded_optimization(Core_mesh& mesh, const Any_surface& domain, const Criteria& criteria,
-                       const Quality& quality)
+                       const Quality& quality, double tolerated_off)
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality),
       m_has_subdomains(domain.subdomain_indices().size() > 1 || domain.has_sheets()),
+      m_tolerated_off((std::max)(tolerated_off, m_has_subdomains ? tolerated_off_interfaces : 0)),
       m_sharp_edges(domain.sharp_edges(criteria.sharp_angle())),
       m_edge_length(m_sharp_edges.edges.empty() ? 1 : mean_edge_length()),
       m_features(m_sharp_edges, m_edge_length), m_is_held(mesh.number_of_vertices(), 0)
@@ -177,8 +181,7 @@ private:
   // rarely help.
   bool is_fitted(const Result& r) const
   {
-    const double tolerated = m_has_subdomains ? share_tolerated_off * double(r.number_of_boundary_vertices)
-                                              : 0;
+    const double tolerated = m_tolerated_off * double(r.number_of_boundary_vertices);
     return r.is_boundary_simple
            && number_off(r) <= tolerated + tolerated_loss * r.length_of_sharp_edges / m_edge_length;
   }
@@ -264,9 +267,10 @@ private:
 template <class Quality>
 Mixed_mesh_optimization_result_3 optimize_bounded(Core_mesh& mesh, const Any_surface& surface,
                                                   const Mixed_mesh_optimization_criteria_3& criteria,
-                                                  const Quality& quality, const std::function<bool()>& go_on)
+                                                  const Quality& quality, const std::function<bool()>& go_on,
+                                                  double tolerated_off = 0)
 {
-  return Bounded_optimization<Quality>(mesh, surface, criteria, quality)(go_on);
+  return Bounded_optimization<Quality>(mesh, surface, criteria, quality, tolerated_off)(go_on);
 }
 
 } // namespace internal

@@ -34,7 +34,10 @@ struct Candidate
   Lattice_mesh mesh;
   Boundary_pieces boundary;
 
+  bool is_topology_wrong = false; // only if that was looked at
+
   bool is_manifold() const { return boundary.defects.empty(); }
+  bool is_good() const { return is_manifold() && !is_topology_wrong; }
 };
 
 /// The stages that follow the octree. To be called in the stage `OCTREE`.

@@ -61,6 +61,8 @@ class Driver
   std::vector<Octree::Node_index> m_lost;
   std::optional<Located_octree> m_thin_start; // walls and gaps are resolved
   bool m_are_gaps_wider = false;
+  bool m_keeps_topology = false; // while the budget is filled
+  bool m_has_coarsened = false;
   Mixed_mesh_result_3 m_result;
   Tolerance_search m_tolerance_search;
 
@@ -69,7 +71,9 @@ class Driver
   static constexpr std::array<double, 4> strictnesses{0.7, 1, 1.4, 2},
     strictnesses_for_volume{2, 1.4, 1, 0.7};
   // Of the budget: how many vertices a mesh may have that is coarsened to it.
-  static constexpr double finer_multiple = 16;
+  static constexpr double finer_multiple = 20;
+  // Of its boundary vertices, before it is: those off the surface go first.
+  static constexpr double tolerated_off = 0.2;
 
 public:
   /// \param root the octree with nothing but its root
@@ -96,7 +100,10 @@ public:
       }
     }
     Misfit misfit = Misfit::of_no_mesh();
-    if(!may_resolve_thin_parts() || !resolve_topology(mesh, misfit)) {
+    if(may_resolve_thin_parts() && resolve_topology(mesh, misfit)) {
+      if(!misfit.is_right())
+        take_coarsened_if_better(mesh, misfit);
+    } else {
       make_mesh(mesh);
       misfit = misfit_of(mesh);
       if(may_resolve_thin_parts())
@@ -191,8 +198,10 @@ private:
     {
       const Stage_scope scope(m_visitor, Stage::OCTREE);
       resolve_thin_parts(false, budget());
+      m_keeps_topology = true;
       if(m_thin_start)
         fill_budget();
+      m_keeps_topology = false;
     }
     if(m_best.is_stopped) {
       restore(std::move(best));
@@ -205,7 +214,9 @@ private:
     else {
       if(within_budget < before)
         best = state();
-      if(may_coarsen() && make_from_finer_octree(mesh, misfit))
+      if(may_coarsen())
+        make_from_finer_octree(mesh, misfit);
+      if(misfit.is_mesh() && !misfit.is_topology_wrong())
         return true;
     }
     restore(std::move(best));
@@ -233,7 +244,13 @@ private:
         if(m_thin_start)
           make_mesh(other);
       });
-    if(!misfit.is_right() && may_coarsen() && m_result.status != Mixed_mesh_status::STOPPED)
+    if(!misfit.is_right())
+      take_coarsened_if_better(mesh, misfit);
+  }
+
+  void take_coarsened_if_better(Core_mesh& mesh, Misfit& misfit)
+  {
+    if(may_coarsen() && !m_has_coarsened && m_result.status != Mixed_mesh_status::STOPPED)
       take_if_better(mesh, misfit, [&](Core_mesh& other) {
         Misfit of_other = Misfit::of_no_mesh();
         make_from_finer_octree(other, of_other);
@@ -258,22 +275,30 @@ private:
     }
   }
 
-  // With more and more vertices, until nothing is wrong.
-  // \return whether topology and volume are right
-  bool make_from_finer_octree(Core_mesh& mesh, Misfit& misfit)
+  // With more and more vertices, until nothing is wrong; the best one is taken.
+  void make_from_finer_octree(Core_mesh& mesh, Misfit& misfit)
   {
+    constexpr int most_trials = 3;
+    m_has_coarsened = true;
     const std::size_t most = std::size_t(finer_multiple * double(m_criteria.maximal_number_of_vertices()));
-    for(std::size_t least = budget() + budget() / 4;
-        find_finer_octree(least, most, true) || find_finer_octree(least, most, false);
-        least = 2 * m_best.number_of_vertices) {
-      make_coarsened_mesh(mesh);
-      misfit = misfit_of(mesh);
+    std::size_t least = budget() + budget() / 4;
+    Mixed_mesh_result_3 result = m_result;
+    for(int trial = 0; trial < most_trials && !misfit.is_right(); ++trial) {
+      if(!find_finer_octree(least, most, true) && !find_finer_octree(least, most, false))
+        break;
+      least = 2 * m_best.number_of_vertices;
+      Core_mesh other;
+      make_coarsened_mesh(other);
       if(m_result.status == Mixed_mesh_status::STOPPED)
-        return false;
-      if(misfit.is_mesh() && !misfit.is_topology_wrong() && !misfit.is_volume_wrong())
-        return true;
+        return;
+      const Misfit other_misfit = misfit_of(other);
+      if(other_misfit < misfit) {
+        mesh = std::move(other);
+        misfit = other_misfit;
+        result = m_result;
+      }
     }
-    return false;
+    m_result = result;
   }
 
   // An octree with which the topology is right: with cells as small as walls and gaps ask for, or with all
@@ -337,7 +362,7 @@ private:
                          .number_of_rounds(1);
     optimize_bounded(fine, m_root.domain(),
                      Concurrency::with_threads(rough, Concurrency::number_of_threads(m_criteria)),
-                     Aspect_ratio_quality_3(), go_on);
+                     Aspect_ratio_quality_3(), go_on, tolerated_off);
     const std::size_t n = fine.number_of_vertices();
     const double radius = m_root.is_region_everywhere() ? 0 : m_criteria.grading() * m_radius;
     if(!coarsen(fine, m_root.domain(), budget(), m_criteria.quality_bound(), radius, go_on))
@@ -407,27 +432,27 @@ private:
     Misfit best = Misfit::of_no_mesh();
     for(const double strictness : is_for_volume ? strictnesses_for_volume : strictnesses) {
       Located_octree octree = start;
-      Candidate candidate;
-      const Thin_cell_splits splits = split_thin_cells(octree, strictness, budget,
-                                                       [&](const Located_octree& o) {
-                                                         Candidate c = try_octree(o);
-                                                         const std::size_t n = c.number_of_vertices;
-                                                         if(!c.is_stopped && n <= budget)
-                                                           candidate = std::move(c);
-                                                         return n;
-                                                       });
+      std::optional<std::pair<Misfit, Located_octree>> found; // the best one, and the finest of these
+      std::optional<Misfit> last;
+      const auto count_vertices = [&](const Located_octree& o) {
+        const Candidate c = try_octree(o);
+        const std::size_t n = c.number_of_vertices;
+        if(!c.is_stopped && 0 < n && n <= budget) {
+          last = misfit_on_lattice(o, c, lost_cells(o, c.mesh, c.boundary).size());
+          if(!found || !(found->first < *last))
+            found.emplace(*last, o);
+        }
+        return n;
+      };
+      const Thin_cell_splits splits = split_thin_cells(octree, strictness, budget, count_vertices);
       m_result.number_of_vertices_for_thin_parts = splits.number_of_vertices;
-      if(candidate.number_of_vertices == 0)
+      if(!found)
         continue; // not even one level fits, or there are no vertices
-      Core_mesh mesh;
-      assemble_mesh(octree, candidate.mesh, candidate.boundary, mesh);
-      const Misfit misfit(mesh, m_root.domain(), false,
-                          lost_cells(octree, candidate.mesh, candidate.boundary).size(), 0);
-      if(misfit < best || !m_thin_start) {
-        best = misfit;
-        m_thin_start = std::move(octree);
+      if(found->first < best || !m_thin_start) {
+        best = found->first;
+        m_thin_start = std::move(found->second);
       }
-      if(is_for_volume ? splits.is_complete : !splits.is_complete || misfit.is_none())
+      if(is_for_volume ? splits.is_complete : !splits.is_complete || last->is_none())
         return;
     }
   }
@@ -586,6 +611,8 @@ private:
   Candidate try_octree(const Located_octree& octree)
   {
     Candidate c = make_candidate(octree, m_criteria, m_visitor, m_are_gaps_wider);
+    if(m_keeps_topology && c.number_of_vertices > 0)
+      c.is_topology_wrong = misfit_on_lattice(octree, c, 0).is_topology_wrong();
     m_result.number_of_trials += !c.is_stopped;
     return c;
   }

@@ -70,7 +70,7 @@ private:
       m_best.is_stopped = true;
       return m_budget + 1;
     }
-    if(!candidate.is_manifold() && m_best.is_manifold())
+    if(!candidate.is_good() && m_best.is_good())
       return m_budget + 1; // rare: another number of cells will do
     if(n <= m_budget) {
       m_octree = std::move(trial);

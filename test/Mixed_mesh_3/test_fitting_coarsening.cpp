@@ -1,0 +1,280 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Edge collapses, thousands of them on meshes of any topology: after each, Betti numbers of the mesh and of
+// its boundary are those of the start, by brute force, and no element is inverted, by rationals. What would
+// cut itself is what all pairs of faces say. And coarsening of a whole mesh.
+
+#include "test_cells.h"
+#include "test_fitting.h"
+#include "test_strata.h"
+#include "test_surfaces.h"
+
+#include <CGAL/Exact_rational.h>
+#include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/coarsen.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Boundary_triangles.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Edge_collapser.h>
+#include <CGAL/Mixed_mesh_3/quality.h>
+#include <CGAL/Mixed_mesh_3/validation.h>
+#include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
+
+#include <boost/core/lightweight_test.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <random>
+#include <set>
+#include <vector>
+
+namespace {
+
+using namespace CGAL::Mixed_meshes_3;
+using cells::Cell;
+using cells::cells_of_grid;
+using internal::Boundary_triangles;
+using internal::Edge_collapser;
+using internal::Working_mesh;
+
+using Simplex = std::vector<Vertex_index>; // sorted
+using Betti_numbers = std::array<int, 4>;
+
+// Of the simplices and their faces, over Z/2: the numbers of simplices, less the ranks of the boundary maps.
+Betti_numbers betti_numbers(const std::vector<Simplex>& simplices)
+{
+  std::array<std::set<Simplex>, 4> all;
+  for(const Simplex& s : simplices)
+    for(unsigned subset = 1; subset < 1u << s.size(); ++subset) {
+      Simplex face;
+      for(std::size_t i = 0; i < s.size(); ++i)
+        if(subset >> i & 1)
+          face.push_back(s[i]);
+      all[face.size() - 1].insert(face);
+    }
+  std::array<int, 5> ranks{};
+  for(std::size_t d = 1; d < 4; ++d) {
+    std::map<Simplex, int> numbers;
+    for(const Simplex& s : all[d - 1])
+      numbers.emplace(s, int(numbers.size()));
+    std::map<int, std::vector<int>> reduced; // by the last row, rows descending
+    for(const Simplex& s : all[d]) {
+      std::vector<int> column;
+      for(std::size_t i = 0; i <= d; ++i) {
+        Simplex face = s;
+        face.erase(face.begin() + std::ptrdiff_t(i));
+        column.push_back(numbers.at(face));
+      }
+      std::sort(column.rbegin(), column.rend());
+      while(!column.empty() && reduced.count(column.front()) > 0) {
+        std::vector<int> sum;
+        const std::vector<int>& other = reduced.at(column.front());
+        std::set_symmetric_difference(column.begin(), column.end(), other.begin(), other.end(),
+                                      std::back_inserter(sum), std::greater<int>());
+        column = sum;
+      }
+      if(!column.empty()) {
+        ++ranks[d];
+        reduced.emplace(column.front(), column);
+      }
+    }
+  }
+  Betti_numbers betti{};
+  for(std::size_t d = 0; d < 4; ++d)
+    betti[d] = int(all[d].size()) - ranks[d] - ranks[d + 1];
+  return betti;
+}
+
+Simplex sorted(Simplex s)
+{
+  std::sort(s.begin(), s.end());
+  return s;
+}
+
+// Of a mesh, and of its boundary.
+std::array<Betti_numbers, 2> topology(const Mesh& mesh)
+{
+  std::vector<Simplex> elements, faces;
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
+    elements.push_back(sorted({mesh.element(e).begin(), mesh.element(e).end()}));
+  for(const Face& face : boundary_faces(mesh))
+    faces.push_back(sorted({face.vertices().begin(), face.vertices().end()}));
+  return {betti_numbers(elements), betti_numbers(faces)};
+}
+
+bool is_positive(const Mesh& mesh)
+{
+  using Q = CGAL::Exact_rational;
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
+    std::array<std::array<Q, 3>, 4> p;
+    for(int i = 0; i < 4; ++i)
+      for(int k = 0; k < 3; ++k)
+        p[std::size_t(i)][std::size_t(k)] = Q(mesh.point(mesh.element(e)[i])[k]);
+    const auto d = [&](std::size_t i, std::size_t k) { return Q(p[i][k] - p[0][k]); };
+    const Q volume = d(1, 0) * (d(2, 1) * d(3, 2) - d(2, 2) * d(3, 1))
+                     - d(1, 1) * (d(2, 0) * d(3, 2) - d(2, 2) * d(3, 0))
+                     + d(1, 2) * (d(2, 0) * d(3, 1) - d(2, 1) * d(3, 0));
+    if(!(volume > 0))
+      return false;
+  }
+  return true;
+}
+
+struct Counts
+{
+  std::size_t collapsed = 0, refused_and_harmful = 0, cuts = 0, cuts_found = 0;
+};
+
+// Random edges, until `most` are collapsed or none is left to try. Those of the boundary may cut it.
+void collapse_at_random(const Mesh& start, unsigned seed, std::size_t most, Counts& counts)
+{
+  const auto before = topology(start);
+  const Aspect_ratio_quality_3 quality;
+  Working_mesh working = working_mesh(start, boundary_faces(start));
+  Edge_collapser<Aspect_ratio_quality_3> collapser(working, quality);
+  Boundary_triangles triangles(working.points, boundary_faces(start), 50);
+  std::mt19937 random(seed);
+  for(std::size_t trial = 0, collapsed = 0; trial < 30 * most && collapsed < most; ++trial) {
+    const Vertex_index v = random() % working.points.size();
+    if(working.incident[v].empty())
+      continue;
+    const auto& element = working.elements[working.incident[v][random() % working.incident[v].size()]];
+    const Vertex_index w = element.vertices[random() % 4];
+    if(w == v || collapser.worst_after(v, w, 1e6) > 1e6)
+      continue;
+    const auto faces = collapser.boundary_faces_at(v);
+    const auto ends = collapser.ends_of_edges(v, faces);
+    const bool is_allowed = (faces.empty() || std::binary_search(ends.begin(), ends.end(), w))
+                            && collapser.keeps_topology(v, w, faces);
+    Working_mesh changed = working;
+    Edge_collapser<Aspect_ratio_quality_3>(changed, quality)(v, w);
+    Mesh mesh = start;
+    changed.store(mesh);
+    if(!is_allowed) { // what would it do?
+      counts.refused_and_harmful += topology(mesh) != before || !find_defects(mesh).none();
+      continue;
+    }
+    const bool would_cut = !faces.empty() && triangles.would_cross(v, w);
+    std::vector<Vec3> points;
+    for(const auto& p : mesh.points())
+      points.push_back(to_vec3(p));
+    const bool cuts = !internal::vertices_of_self_intersections(points, boundary_faces(mesh)).empty();
+    BOOST_TEST_EQ(would_cut, cuts);
+    counts.cuts += cuts;
+    BOOST_TEST(topology(mesh) == before);
+    BOOST_TEST(find_defects(mesh).none());
+    BOOST_TEST(is_positive(mesh));
+    if(would_cut)
+      continue;
+    collapser(v, w);
+    if(!faces.empty())
+      triangles.collapse(v, w);
+    ++collapsed;
+    ++counts.collapsed;
+  }
+}
+
+void test_collapses()
+{
+  Counts counts;
+  std::mt19937 random(1);
+  for(unsigned seed = 1; seed <= 40; ++seed) {
+    // cells at random, so that there are bodies, handles and cavities, if the boundary is a manifold
+    std::array<bool, 27> is_there{};
+    for(bool& b : is_there)
+      b = random() % 8 != 0;
+    const Mesh start = cells_of_grid(3, seed, [&](const Cell& c) {
+      return is_there[std::size_t(c[0] + 3 * c[1] + 9 * c[2])] ? 1 : 0;
+    });
+    if(find_defects(start).none())
+      collapse_at_random(start, seed, 60, counts);
+  }
+  // with a hole, and with a cavity
+  for(unsigned seed = 1; seed <= 5; ++seed) {
+    collapse_at_random(cells_of_grid(3, seed, [](const Cell& c) { return c[0] == 1 && c[1] == 1 ? 0 : 1; }),
+                       seed, 60, counts);
+    collapse_at_random(
+      cells_of_grid(3, seed, [](const Cell& c) { return c[0] == 1 && c[1] == 1 && c[2] == 1 ? 0 : 1; }), seed,
+      60, counts);
+  }
+  std::cout << counts.collapsed << " edges collapsed, " << counts.refused_and_harmful
+            << " refused that would have changed the topology, " << counts.cuts
+            << " that would have cut the boundary" << std::endl;
+  BOOST_TEST_GT(counts.collapsed, 1000u);
+  BOOST_TEST_GT(counts.refused_and_harmful, 100u);
+}
+
+// A cube loses nothing of its volume, nor its corners: its faces are flat.
+void test_coarsen()
+{
+  const Test_surface cube = box(Test_point(0, 0, 0), Test_point(1, 1, 1));
+  const CGAL::Polyhedral_mixed_mesh_domain_3 domain(cube);
+  const internal::Surface_reference<CGAL::Polyhedral_mixed_mesh_domain_3> surface(domain);
+  const Mesh straight = grid(10, TETRAHEDRON);
+  Mesh start = straight;
+  distort(start, 0.01, 1);
+  for(Vertex_index v : boundary_vertices(straight))
+    start.points()[v] = straight.point(v);
+  std::size_t last = start.number_of_vertices();
+  for(std::size_t n : {600, 200, 60}) {
+    internal::Core_mesh mesh = internal::as_core_mesh(start), again = mesh;
+    BOOST_TEST(internal::coarsen(mesh, surface, n, 3.2, 0, [] { return true; }));
+    BOOST_TEST_EQ(mesh.number_of_vertices(), n);
+    BOOST_TEST_LT(mesh.number_of_vertices(), last);
+    last = mesh.number_of_vertices();
+    BOOST_TEST(find_defects(mesh).none());
+    BOOST_TEST_LE(std::abs(volume(mesh) - 1), 1e-12);
+    std::size_t corners = 0;
+    for(const auto& p : mesh.points())
+      corners += (p.x() == 0 || p.x() == 1) && (p.y() == 0 || p.y() == 1) && (p.z() == 0 || p.z() == 1);
+    BOOST_TEST_EQ(corners, 8u);
+    BOOST_TEST(internal::coarsen(again, surface, n, 3.2, 0, [] { return true; }));
+    BOOST_TEST(again.points() == mesh.points());
+  }
+  // a mesh of a cube has eight vertices
+  internal::Core_mesh mesh = internal::as_core_mesh(start);
+  BOOST_TEST(!internal::coarsen(mesh, surface, 7, 3.2, 0, [] { return true; }));
+  BOOST_TEST(find_defects(mesh).none());
+  BOOST_TEST_LE(std::abs(volume(mesh) - 1), 1e-12);
+}
+
+// Where elements are in a region, vertices near it are more.
+void test_weights()
+{
+  const Mesh all = grid(10, TETRAHEDRON);
+  Mesh start;
+  start.points() = all.points();
+  for(Element_index e = 0; e < all.number_of_elements(); ++e) {
+    Element_attributes attributes;
+    attributes.is_in_region = all.point(all.element(e)[0]).x() < 0.3;
+    start.add_element(TETRAHEDRON, std::vector<Vertex_index>(all.element(e).begin(), all.element(e).end()),
+                      attributes);
+  }
+  const Test_surface cube = box(Test_point(0, 0, 0), Test_point(1, 1, 1));
+  const CGAL::Polyhedral_mixed_mesh_domain_3 domain(cube);
+  const internal::Surface_reference<CGAL::Polyhedral_mixed_mesh_domain_3> surface(domain);
+  std::array<std::size_t, 2> near_region{};
+  for(int i = 0; i < 2; ++i) {
+    internal::Core_mesh mesh = internal::as_core_mesh(start);
+    BOOST_TEST(internal::coarsen(mesh, surface, 300, 3.2, i == 0 ? 0 : 0.2, [] { return true; }));
+    for(const auto& p : mesh.points())
+      near_region[std::size_t(i)] += p.x() < 0.45;
+  }
+  BOOST_TEST_GT(double(near_region[1]), 1.3 * double(near_region[0]));
+}
+
+} // namespace
+
+int test_fitting_coarsening(int, char*[])
+{
+  test_collapses();
+  test_coarsen();
+  test_weights();
+  return boost::report_errors();
+}
