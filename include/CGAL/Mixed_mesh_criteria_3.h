@@ -186,8 +186,9 @@ public:
 
   /// Whether thin walls and narrow gaps are resolved before the region, as far as the budget goes. Default:
   /// if a mesh without that turns out to have other bodies, handles or cavities than the surface, to have
-  /// lost parts of it, or, fitted, to have a volume more than 5 % off. That takes a second run; the better
-  /// mesh is taken.
+  /// lost parts of it, or, fitted, to have a volume more than 5 % off or vertices off the surface. That takes
+  /// a second run; the better mesh is taken. Where the budget does not suffice, and the boundary is fitted, a
+  /// finer mesh, of tetrahedra, is coarsened to it: `Mixed_mesh_result_3::number_of_collapsed_vertices`.
   Mixed_mesh_criteria_3& thin_parts(Mixed_meshes_3::Thin_parts choice)
   {
     m_thin_parts = choice;

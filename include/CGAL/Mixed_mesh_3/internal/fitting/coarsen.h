@@ -70,9 +70,10 @@ inline std::vector<double> weights_of_vertices(const Working_mesh& mesh, double 
 
 /*!
 Collapses edges of a mesh of tetrahedra whose boundary is on the surface, until it has the given number of
-vertices: at first where the quality bound is kept and the boundary stays near, then where elements get worse
-and distances larger, as little as it takes.
+vertices: at first where the boundary stays near to where it was, then where it does not, as little as it
+takes.
 
+\param quality_bound no new element costs more
 \param radius of the region, for `weights_of_vertices()`
 \return whether it has so few vertices then
 \par Complexity
@@ -81,8 +82,7 @@ Some 100 microseconds for each vertex that is removed
 inline bool coarsen(Core_mesh& mesh, const Any_surface& surface, std::size_t number_of_vertices,
                     double quality_bound, double radius, const std::function<bool()>& go_on)
 {
-  // Costs in quality bounds, and distances in edges of the boundary as they will be.
-  constexpr double steps[][2] = {{1, 0.08}, {1, 0.15}, {1, 0.3}, {1.5, 0.3}, {2.5, 0.3}, {4, 0.4}, {8, 0.5}};
+  constexpr double distances[] = {0.08, 0.15, 0.3, 0.5}; // in edges of the boundary as they will be
   Strata strata(surface);
   const Interface_faces faces = strata.sorted_faces(mesh);
   const Aspect_ratio_quality_3 quality;
@@ -112,9 +112,9 @@ inline bool coarsen(Core_mesh& mesh, const Any_surface& surface, std::size_t num
                                               weights_of_vertices(working, radius),
                                               std::size_t(share * double(boundary.size())));
   std::size_t n = mesh.number_of_vertices();
-  for(const auto& [cost, distance] : steps)
+  for(const double distance : distances)
     if(n > number_of_vertices && go_on())
-      n -= coarsener(cost * quality_bound, distance * edge, n - number_of_vertices, go_on);
+      n -= coarsener(quality_bound, distance * edge, n - number_of_vertices, go_on);
   working.store(mesh);
   return n <= number_of_vertices;
 }

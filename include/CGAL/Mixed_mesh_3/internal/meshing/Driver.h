@@ -17,7 +17,6 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/assemble_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/lost_cells.h>
-#include <CGAL/Mixed_mesh_3/internal/elements/element_points.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/coarsen.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/optimize_bounded.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Candidate.h>
@@ -138,7 +137,7 @@ private:
     }
     if(m_criteria.fit_to_surface() && !m_result.is_kept) {
       const Stage_scope scope(m_visitor, Stage::OPTIMIZATION);
-      optimize(mesh, m_criteria.quality_bound());
+      optimize(mesh);
     }
     if(!m_result.is_lattice_on_surface)
       note_share_filled(mesh.number_of_vertices());
@@ -344,8 +343,8 @@ private:
     return false;
   }
 
-  // From the octree that is finer than the budget: on the surface, vertices are removed until the budget is
-  // met, where it does not keep the quality bound with worse elements.
+  // From the octree that is finer than the budget: once its boundary is on the surface, vertices are removed
+  // until the budget is met.
   void make_coarsened_mesh(Core_mesh& mesh)
   {
     const auto go_on = [this] { return m_visitor.go_on(); };
@@ -377,7 +376,7 @@ private:
     m_result.number_of_transition_vertices = m_result.number_of_boundary_vertices_inserted = 0;
     m_result.number_of_vertices_in_region = vertices_in_region(fine);
     mesh = std::move(fine);
-    optimize(mesh, (std::max)(m_criteria.quality_bound(), (1 + 1e-9) * largest_cost(mesh)));
+    optimize(mesh);
     note_share_filled(mesh.number_of_vertices());
   }
 
@@ -389,16 +388,6 @@ private:
         for(Vertex_index v : mesh.element(e))
           is_in_region[v] = 1;
     return std::size_t(std::count(is_in_region.begin(), is_in_region.end(), 1));
-  }
-
-  static double largest_cost(const Core_mesh& mesh)
-  {
-    double largest = 0;
-    for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
-      const Element_view element = mesh.element(Element_index(e));
-      largest = (std::max)(largest, Aspect_ratio_quality_3()(element.kind(), element_points(mesh, element)));
-    }
-    return largest;
   }
 
   // In the result. The volume of a mesh that is not fitted is larger than that of the domain, and its status
@@ -498,13 +487,13 @@ private:
            * std::cbrt(volume_of_domain(m_root) / double(m_criteria.maximal_number_of_vertices()));
   }
 
-  void optimize(Core_mesh& mesh, double quality_bound)
+  void optimize(Core_mesh& mesh)
   {
     m_visitor.before_fitting(mesh);
     const std::size_t rest = m_criteria.maximal_number_of_vertices() - mesh.number_of_vertices();
     const auto criteria = Mixed_mesh_optimization_criteria_3()
                             .tolerance(m_result.tolerance)
-                            .quality_bound(quality_bound)
+                            .quality_bound(m_criteria.quality_bound())
                             .sharp_angle(m_criteria.sharp_angle())
                             .number_of_bisections(share_of_bisections() > 0 ? rest : 0);
     const auto with_threads = Concurrency::with_threads(criteria, Concurrency::number_of_threads(m_criteria));
