@@ -59,7 +59,11 @@ public:
     m_is_fitting = m_is_fitting || stage == CGAL::Mixed_meshes_3::Stage::OPTIMIZATION;
     begin(CGAL::Mixed_meshes_3::stage_names[int(stage)]);
   }
-  void end_stage(CGAL::Mixed_meshes_3::Stage) { end(); }
+  void end_stage(CGAL::Mixed_meshes_3::Stage stage)
+  {
+    m_is_fitted = m_is_fitted || stage == CGAL::Mixed_meshes_3::Stage::OPTIMIZATION;
+    end();
+  }
 
   void progress(std::size_t number_of_vertices, std::size_t budget)
   {

@@ -23,6 +23,7 @@
 
 #include <CGAL/Bbox_3.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -82,6 +83,7 @@ Some 100 microseconds for each vertex that is removed
 inline bool coarsen(Core_mesh& mesh, const Any_surface& surface, std::size_t number_of_vertices,
                     double quality_bound, double radius, const std::function<bool()>& go_on)
 {
+  constexpr double largest_bound = 10;                   // if there is none
   constexpr double distances[] = {0.08, 0.15, 0.3, 0.5}; // in edges of the boundary as they will be
   Strata strata(surface);
   const Interface_faces faces = strata.sorted_faces(mesh);
@@ -114,7 +116,8 @@ inline bool coarsen(Core_mesh& mesh, const Any_surface& surface, std::size_t num
   std::size_t n = mesh.number_of_vertices();
   for(const double distance : distances)
     if(n > number_of_vertices && go_on())
-      n -= coarsener(quality_bound, distance * edge, n - number_of_vertices, go_on);
+      n -= coarsener((std::min)(quality_bound, largest_bound), distance * edge, n - number_of_vertices,
+                     go_on);
   working.store(mesh);
   return n <= number_of_vertices;
 }
