@@ -18,6 +18,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -112,6 +113,35 @@ void test_pane()
   BOOST_TEST_GT(result.number_of_vertices_for_thin_parts, 10000u);
 }
 
+// A visitor that stops the run is not asked again, at whatever trial or round.
+void test_stopped()
+{
+  struct Stopping : Default_visitor
+  {
+    std::size_t stop_at = std::size_t(-1), questions = 0;
+    bool go_on() { return questions++ != stop_at; }
+  };
+  const Polyhedral_mixed_mesh_domain_3 domain(turned(box(Point_3(0, 0, 0), Point_3(1, 1, 0.04))));
+  const auto criteria = Mixed_mesh_criteria_3(600).keep_mesh_if_stopped(true);
+  const auto run = [&](Stopping& visitor, Mesh& mesh) {
+    return make_mixed_mesh_3(domain, criteria, mesh, CGAL::parameters::visitor(std::ref(visitor)));
+  };
+  Mesh mesh;
+  Stopping all;
+  run(all, mesh);
+  for(std::size_t i = 0; i < all.questions; i += all.questions / 6) {
+    Stopping visitor;
+    visitor.stop_at = i;
+    const Mixed_mesh_result_3 result = run(visitor, mesh);
+    BOOST_TEST(result.status == Status::STOPPED);
+    BOOST_TEST_EQ(visitor.questions, i + 1);
+    BOOST_TEST_EQ(result.has_mesh(), !mesh.is_empty());
+    BOOST_TEST_LE(mesh.number_of_vertices(), 600u);
+    if(result.has_mesh())
+      BOOST_TEST(find_defects(mesh).none());
+  }
+}
+
 void test_shell_counts()
 {
   using CGAL::Mixed_meshes_3::internal::shell_counts;
@@ -145,5 +175,6 @@ int test_meshing_thin(int, char*[])
   hollow += cavity;
   test_becomes_right("ball with a void", hollow, 1000);
   test_pane();
+  test_stopped();
   return boost::report_errors();
 }

@@ -63,6 +63,7 @@ class Driver
   bool m_are_gaps_wider = false;
   bool m_keeps_topology = false; // while the budget is filled
   bool m_has_coarsened = false;
+  bool m_is_stopped = false; // by the visitor, which is not asked again then
   Mixed_mesh_result_3 m_result;
   Tolerance_search m_tolerance_search;
 
@@ -207,10 +208,8 @@ private:
         m_keeps_topology = false;
       }
     }
-    if(m_best.is_stopped) {
-      restore(std::move(best));
-      return false;
-    }
+    if(m_is_stopped)
+      return stop_at(std::move(best));
     const Misfit within_budget = misfit_on_lattice();
     const std::size_t needed = m_result.number_of_vertices_for_thin_parts;
     if(within_budget.is_mesh() && !within_budget.is_topology_wrong())
@@ -220,6 +219,8 @@ private:
         best = state();
       if(may_coarsen())
         make_from_finer_octree(mesh, misfit);
+      if(m_is_stopped)
+        return stop_at(std::move(best));
       if(misfit.is_mesh() && !misfit.is_topology_wrong())
         return true;
     }
@@ -228,6 +229,14 @@ private:
     make_mesh(mesh);
     misfit = misfit_of(mesh);
     return true;
+  }
+
+  // The mesh is not made: what is kept of it is on the lattice.
+  bool stop_at(State s)
+  {
+    restore(std::move(s));
+    m_best.is_stopped = true;
+    return false;
   }
 
   // Once more, if what there is has lost something, or too much of its volume; then from a finer mesh.
@@ -254,7 +263,7 @@ private:
 
   void take_coarsened_if_better(Core_mesh& mesh, Misfit& misfit)
   {
-    if(may_coarsen() && !m_has_coarsened && m_result.status != Mixed_mesh_status::STOPPED)
+    if(may_coarsen() && !m_has_coarsened && !m_is_stopped)
       take_if_better(mesh, misfit, [&](Core_mesh& other) {
         Misfit of_other = Misfit::of_no_mesh();
         make_from_finer_octree(other, of_other);
@@ -269,7 +278,7 @@ private:
     Core_mesh other;
     make(other);
     const Misfit other_misfit = misfit_of(other);
-    if(m_result.status == Mixed_mesh_status::STOPPED || !(other_misfit < misfit)) {
+    if(m_is_stopped || !(other_misfit < misfit)) {
       const std::size_t needed = m_result.number_of_vertices_for_thin_parts;
       m_result = result;
       m_result.number_of_vertices_for_thin_parts = needed;
@@ -293,7 +302,7 @@ private:
       least = 2 * m_best.number_of_vertices;
       Core_mesh other;
       make_coarsened_mesh(other);
-      if(m_result.status == Mixed_mesh_status::STOPPED)
+      if(m_is_stopped)
         return;
       const Misfit other_misfit = misfit_of(other);
       if(other_misfit < misfit) {
@@ -347,7 +356,6 @@ private:
   // until the budget is met.
   void make_coarsened_mesh(Core_mesh& mesh)
   {
-    const auto go_on = [this] { return m_visitor.go_on(); };
     mesh.clear();
     describe();
     if(!m_result.has_mesh())
@@ -364,12 +372,15 @@ private:
                          .quality_bound(m_criteria.quality_bound())
                          .sharp_angle(m_criteria.sharp_angle())
                          .number_of_rounds(1);
-    optimize_bounded(fine, m_root.domain(),
-                     Concurrency::with_threads(rough, Concurrency::number_of_threads(m_criteria)),
-                     Aspect_ratio_quality_3(), go_on, tolerated_off);
+    optimize_bounded(
+      fine, m_root.domain(), Concurrency::with_threads(rough, Concurrency::number_of_threads(m_criteria)),
+      Aspect_ratio_quality_3(), [this] { return go_on(); }, tolerated_off);
     const std::size_t n = fine.number_of_vertices();
     const double radius = m_root.is_region_everywhere() ? 0 : m_criteria.grading() * m_radius;
-    if(!coarsen(fine, m_root.domain(), budget(), m_criteria.quality_bound(), radius, go_on))
+    if(m_is_stopped
+       || !coarsen(fine, m_root.domain(), budget(), m_criteria.quality_bound(), radius,
+                   [this] { return go_on(); })
+       || m_is_stopped)
       return;
     m_result.number_of_collapsed_vertices = n - fine.number_of_vertices();
     m_result.number_of_vertices_needed = fine.number_of_vertices();
@@ -498,7 +509,7 @@ private:
                             .number_of_bisections(share_of_bisections() > 0 ? rest : 0);
     const auto with_threads = Concurrency::with_threads(criteria, Concurrency::number_of_threads(m_criteria));
     m_result.optimization = optimize_bounded(mesh, m_root.domain(), with_threads, Aspect_ratio_quality_3(),
-                                             [this] { return m_visitor.go_on(); });
+                                             [this] { return go_on(); });
     const bool is_only_wished = m_criteria.tolerance() == Mixed_mesh_criteria_3::automatic
                                 && m_result.optimization.status
                                      == Mixed_mesh_optimization_status::TOLERANCE_NOT_REACHED;
@@ -602,9 +613,20 @@ private:
     return points;
   }
 
+  bool go_on()
+  {
+    m_is_stopped = m_is_stopped || !m_visitor.go_on();
+    return !m_is_stopped;
+  }
+
   Candidate try_octree(const Located_octree& octree)
   {
-    Candidate c = make_candidate(octree, m_criteria, m_visitor, m_are_gaps_wider);
+    Candidate c;
+    c.is_stopped = m_is_stopped;
+    if(m_is_stopped)
+      return c;
+    c = make_candidate(octree, m_criteria, m_visitor, m_are_gaps_wider);
+    m_is_stopped = c.is_stopped;
     if(m_keeps_topology && c.number_of_vertices > 0)
       c.is_topology_wrong = misfit_on_lattice(octree, c, 0).is_topology_wrong();
     m_result.number_of_trials += !c.is_stopped;
