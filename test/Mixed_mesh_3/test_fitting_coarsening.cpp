@@ -222,7 +222,7 @@ void test_coarsen()
   for(Vertex_index v : boundary_vertices(straight))
     start.points()[v] = straight.point(v);
   std::size_t last = start.number_of_vertices();
-  for(std::size_t n : {600, 200, 60}) {
+  for(std::size_t n : {600, 300, 200}) {
     internal::Core_mesh mesh = internal::as_core_mesh(start), again = mesh;
     BOOST_TEST(internal::coarsen(mesh, surface, n, 3.2, 0, [] { return true; }));
     BOOST_TEST_EQ(mesh.number_of_vertices(), n);

@@ -459,13 +459,13 @@ void test_hard_surfaces()
   } cases[] = {{"spikes", spiky_ball(2.5, 7, 16), 600}, {"thin plates", thin_plates(), 2000}};
   for(const auto& c : cases) {
     Mesh free, mesh;
-    const auto without = make_mixed_mesh_3(c.surface, Mixed_mesh_criteria_3(c.vertices).quality_bound(0),
-                                           free);
+    const auto criteria = Mixed_mesh_criteria_3(c.vertices).thin_parts(Thin_parts::LIKE_OTHERS);
+    const auto without = make_mixed_mesh_3(c.surface, Mixed_mesh_criteria_3(criteria).quality_bound(0), free);
     BOOST_TEST_GT(largest_arc(free), 3.5);
     BOOST_TEST_GT(number_of_elements_above(free, bound), 10u);
     BOOST_TEST_EQ(without.optimization.number_of_elements_above_bound, 0u); // of infinity
     for(double q : {bound, 5.}) {
-      const auto result = make_mixed_mesh_3(c.surface, Mixed_mesh_criteria_3(c.vertices).quality_bound(q),
+      const auto result = make_mixed_mesh_3(c.surface, Mixed_mesh_criteria_3(criteria).quality_bound(q),
                                             mesh);
       const auto& optimization = result.optimization;
       BOOST_TEST_EQ(number_of_elements_above(mesh, q), 0u);
@@ -486,6 +486,11 @@ void test_hard_surfaces()
       std::cout << c.name << ": ARC at most " << largest_arc(free) << " without a bound; with " << q << ", "
                 << off << " vertices off the surface" << std::endl;
     }
+    // a finer mesh that is coarsened has it easier
+    const auto coarsened = make_mixed_mesh_3(c.surface, c.vertices, mesh).optimization;
+    BOOST_TEST_EQ(coarsened.number_of_arrived_vertices, coarsened.number_of_boundary_vertices);
+    BOOST_TEST_EQ(coarsened.quality_bound, bound);
+    BOOST_TEST_EQ(number_of_elements_above(mesh, bound), 0u);
   }
 }
 
