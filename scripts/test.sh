@@ -17,7 +17,7 @@ source "$root/scripts/setup.sh"
 
 build=${BUILD_DIR:-$root/build/release}
 
-echo "The first time this takes about 12 minutes on two cores, and what it installs."
+echo "The first time this takes about 25 minutes on two cores, and what it installs."
 install_packages build python
 
 cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON \
