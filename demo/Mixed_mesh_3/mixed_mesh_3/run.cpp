@@ -272,12 +272,15 @@ Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3
   return mesh;
 }
 
-// Whether all of the boundary is on the surface then.
-bool run_algorithm_1(Mesh& mesh, const Domain& domain, const Options& o, Stage_log& log, Outcome& outcome,
-                     bool& is_valid)
+// Carries the boundary onto the surface as the paper does; the status becomes what the library would make of
+// it.
+void fit_by_algorithm_1(Mesh& mesh, const Domain& domain, const Options& o, Stage_log& log, Outcome& outcome)
 {
   using Status = CGAL::Mixed_mesh_fit_status;
+  outcome.before = log("quality", [&] { return aspect_ratios_of(mesh); });
   const auto r = log.fit("Algorithm 1", [&] { return run_algorithm_1(mesh, domain, o, log); });
+  if(r.status == Status::INVALID_MESH)
+    throw Invalid_mesh("an element of the mesh is inverted before its boundary is fitted");
   outcome.algorithm_1 = r;
   outcome.is_stopped = r.status == Status::STOPPED;
   if(r.status == Status::SOLVER_FAILED)
@@ -287,22 +290,9 @@ bool run_algorithm_1(Mesh& mesh, const Domain& domain, const Options& o, Stage_l
                                + " elements have an aspect-ratio coefficient above "
                                + rounded(o.acceptable_quality)
                                + ": stiffening does not help them, see --max-stiffness; optimization would");
-  is_valid = r.status != Status::INVALID_MESH;
-  return r.is_on_surface();
-}
-
-// Carries the boundary onto the surface as the paper does; the status becomes what the library would make of
-// it.
-void fit_by_algorithm_1(Mesh& mesh, const Domain& domain, const Options& o, Stage_log& log, Outcome& outcome)
-{
-  outcome.before = log("quality", [&] { return aspect_ratios_of(mesh); });
-  bool is_valid = false;
-  const bool is_on_surface = run_algorithm_1(mesh, domain, o, log, outcome, is_valid);
-  if(!is_valid)
-    throw Invalid_mesh("an element of the mesh is inverted before its boundary is fitted");
   if(outcome.is_stopped)
     outcome.result.status = CGAL::Mixed_mesh_status::STOPPED;
-  else if(!is_on_surface)
+  else if(!r.is_on_surface())
     outcome.result.status = CGAL::Mixed_mesh_status::NOT_ALL_ARRIVED;
 }
 

@@ -62,8 +62,7 @@ class Driver
   std::optional<Located_octree> m_right_start; // on the way there, the topology was right
   bool m_are_gaps_wider = false;
   bool m_keeps_topology = false; // while the budget is filled
-  bool m_has_coarsened = false;
-  bool m_is_stopped = false; // by the visitor, which is not asked again then
+  bool m_is_stopped = false;     // by the visitor, which is not asked again then
   Mixed_mesh_result_3 m_result;
   Tolerance_search m_tolerance_search;
 
@@ -101,10 +100,7 @@ public:
       }
     }
     Misfit misfit = Misfit::of_no_mesh();
-    if(may_resolve_thin_parts() && resolve_topology(mesh, misfit)) {
-      if(!misfit.is_right())
-        take_coarsened_if_better(mesh, misfit);
-    } else {
+    if(!may_resolve_thin_parts() || !resolve_topology(mesh, misfit)) {
       make_mesh(mesh);
       misfit = misfit_of(mesh);
       if(may_resolve_thin_parts())
@@ -118,7 +114,7 @@ private:
   void fill_budget_at_first()
   {
     if(m_criteria.thin_parts() == Thin_parts::FIRST)
-      resolve_thin_parts(true, budget());
+      resolve_thin_parts(true);
     fill_budget();
   }
 
@@ -149,7 +145,6 @@ private:
     return m_criteria.thin_parts() == Thin_parts::WHERE_NEEDED
            && m_root.domain().subdomain_indices().size() == 1;
   }
-  bool may_coarsen() const { return m_criteria.fit_to_surface() && !m_root.domain().has_sheets(); }
 
   // What the octree is like; the boundary is not fitted yet.
   struct State
@@ -193,12 +188,12 @@ private:
     if(m_result.is_lattice_on_surface || m_best.is_stopped || m_tolerance_search.is_stopped())
       return false;
     const Misfit before = misfit_on_lattice();
-    if(before.is_mesh() && !before.is_topology_wrong())
+    if(before.is_topology_right())
       return false;
     State best = state();
     {
       const Stage_scope scope(m_visitor, Stage::OCTREE);
-      resolve_thin_parts(false, budget());
+      resolve_thin_parts(false);
       if(m_thin_start)
         fill_budget();
       if(m_right_start && !m_best.is_stopped && misfit_on_lattice().is_topology_wrong()) {
@@ -212,22 +207,21 @@ private:
       return stop_at(std::move(best));
     const Misfit within_budget = misfit_on_lattice();
     const std::size_t needed = m_result.number_of_vertices_for_thin_parts;
-    if(within_budget.is_mesh() && !within_budget.is_topology_wrong())
+    if(within_budget < before)
       best = state();
-    else {
-      if(within_budget < before)
-        best = state();
-      if(may_coarsen())
-        make_from_finer_octree(mesh, misfit);
+    if(!within_budget.is_topology_right()) {
+      improve_by_finer_octree(mesh, misfit);
       if(m_is_stopped)
         return stop_at(std::move(best));
-      if(misfit.is_mesh() && !misfit.is_topology_wrong())
+      if(misfit.is_topology_right())
         return true;
     }
     restore(std::move(best));
     m_result.number_of_vertices_for_thin_parts = needed;
     make_mesh(mesh);
     misfit = misfit_of(mesh);
+    if(within_budget.is_topology_right())
+      improve_by_finer_octree(mesh, misfit);
     return true;
   }
 
@@ -246,72 +240,63 @@ private:
                                || (m_result.has_mesh() && !m_result.is_kept);
     if(!can_be_better)
       return;
-    if(!misfit.is_none())
-      take_if_better(mesh, misfit, [&](Core_mesh& other) {
-        {
-          const Stage_scope scope(m_visitor, Stage::OCTREE);
-          resolve_thin_parts(misfit.is_of_volume_only(), budget());
-          if(m_thin_start)
-            fill_budget();
-        }
+    if(!misfit.is_none()) {
+      const Mixed_mesh_result_3 result = m_result;
+      Core_mesh other;
+      {
+        const Stage_scope scope(m_visitor, Stage::OCTREE);
+        resolve_thin_parts(misfit.is_of_volume_only());
         if(m_thin_start)
-          make_mesh(other);
-      });
-    if(!misfit.is_right())
-      take_coarsened_if_better(mesh, misfit);
-  }
-
-  void take_coarsened_if_better(Core_mesh& mesh, Misfit& misfit)
-  {
-    if(may_coarsen() && !m_has_coarsened && !m_is_stopped)
-      take_if_better(mesh, misfit, [&](Core_mesh& other) {
-        Misfit of_other = Misfit::of_no_mesh();
-        make_from_finer_octree(other, of_other);
-      });
-  }
-
-  // What `make(other)` makes, with its misfit and its result, or what there is.
-  template <class Make>
-  void take_if_better(Core_mesh& mesh, Misfit& misfit, const Make& make)
-  {
-    const Mixed_mesh_result_3 result = m_result;
-    Core_mesh other;
-    make(other);
-    const Misfit other_misfit = misfit_of(other);
-    if(m_is_stopped || !(other_misfit < misfit)) {
-      const std::size_t needed = m_result.number_of_vertices_for_thin_parts;
-      m_result = result;
-      m_result.number_of_vertices_for_thin_parts = needed;
-    } else {
-      mesh = std::move(other);
-      misfit = other_misfit;
+          fill_budget();
+      }
+      if(m_thin_start)
+        make_mesh(other);
+      const Misfit other_misfit = misfit_of(other);
+      if(m_is_stopped || !(other_misfit < misfit)) {
+        const std::size_t needed = m_result.number_of_vertices_for_thin_parts;
+        m_result = result;
+        m_result.number_of_vertices_for_thin_parts = needed;
+      } else {
+        mesh = std::move(other);
+        misfit = other_misfit;
+      }
     }
+    improve_by_finer_octree(mesh, misfit);
   }
 
-  // With more and more vertices, until nothing is wrong; the best one is taken.
-  void make_from_finer_octree(Core_mesh& mesh, Misfit& misfit)
+  // With more and more vertices, until nothing is wrong; the best mesh is taken, or, if the run is stopped,
+  // what there was.
+  void improve_by_finer_octree(Core_mesh& mesh, Misfit& misfit)
   {
     constexpr int most_trials = 3;
-    m_has_coarsened = true;
+    if(m_is_stopped || !m_criteria.fit_to_surface() || m_root.domain().has_sheets())
+      return;
     const std::size_t most = std::size_t(finer_multiple * double(m_criteria.maximal_number_of_vertices()));
     std::size_t least = budget() + budget() / 4;
+    const Mixed_mesh_result_3 result_before = m_result;
     Mixed_mesh_result_3 result = m_result;
-    for(int trial = 0; trial < most_trials && !misfit.is_right(); ++trial) {
+    std::optional<Core_mesh> better;
+    Misfit best = misfit;
+    for(int trial = 0; trial < most_trials && !best.is_right(); ++trial) {
       if(!find_finer_octree(least, most, true) && !find_finer_octree(least, most, false))
         break;
       least = 2 * m_best.number_of_vertices;
       Core_mesh other;
       make_coarsened_mesh(other);
       if(m_is_stopped)
-        return;
+        break;
       const Misfit other_misfit = misfit_of(other);
-      if(other_misfit < misfit) {
-        mesh = std::move(other);
-        misfit = other_misfit;
+      if(other_misfit < best) {
+        better = std::move(other);
+        best = other_misfit;
         result = m_result;
       }
     }
-    m_result = result;
+    m_result = m_is_stopped ? result_before : result;
+    if(better && !m_is_stopped) {
+      mesh = std::move(*better);
+      misfit = best;
+    }
   }
 
   // An octree with which the topology is right: with cells as small as walls and gaps ask for, or with all
@@ -343,10 +328,7 @@ private:
       if(candidate.number_of_vertices < least || !candidate.is_manifold()
          || misfit_on_lattice(octree, candidate, 0).is_topology_wrong())
         continue;
-      m_octree = std::move(octree);
-      m_best = std::move(candidate);
-      m_lost = lost_cells(m_octree, m_best.mesh, m_best.boundary);
-      m_result.number_of_cells = m_octree.number_of_cells();
+      take(std::move(octree), std::move(candidate));
       return true;
     }
     return false;
@@ -426,12 +408,12 @@ private:
 
   // Where the topology is wrong, with more and more cells for a wall or a gap, until it is right. Where only
   // the volume is, with as many as the budget has room for.
-  void resolve_thin_parts(bool is_for_volume, std::size_t budget)
+  void resolve_thin_parts(bool is_for_volume)
   {
     Located_octree start = m_root;
     m_thin_start.reset();
     m_right_start.reset();
-    if(!refine_to_level(start, coarsest_level(), budget))
+    if(!refine_to_level(start, coarsest_level(), budget()))
       return;
     m_tolerance_search.split_far_cells(start);
     m_are_gaps_wider = true;
@@ -442,14 +424,14 @@ private:
       const auto count_vertices = [&](const Located_octree& o) {
         const Candidate c = try_octree(o);
         const std::size_t n = c.number_of_vertices;
-        if(!c.is_stopped && 0 < n && n <= budget) {
+        if(!c.is_stopped && 0 < n && n <= budget()) {
           misfit = misfit_on_lattice(o, c, lost_cells(o, c.mesh, c.boundary).size());
           if(!misfit->is_topology_wrong())
             m_right_start = o;
         }
         return n;
       };
-      const Thin_cell_splits splits = split_thin_cells(octree, strictness, budget, count_vertices);
+      const Thin_cell_splits splits = split_thin_cells(octree, strictness, budget(), count_vertices);
       m_result.number_of_vertices_for_thin_parts = splits.number_of_vertices;
       if(!misfit)
         continue; // not even one level fits, or there are no vertices
@@ -531,13 +513,18 @@ private:
     const std::size_t n = candidate.number_of_vertices;
     if(n == 0 || n > m_criteria.maximal_number_of_vertices() || !candidate.is_manifold())
       return false;
+    take(std::move(octree), std::move(candidate));
+    m_result.base_level = m_lattice.level;
+    m_result.number_of_vertices_needed = n;
+    return m_result.is_lattice_on_surface = true;
+  }
+
+  void take(Located_octree octree, Candidate candidate)
+  {
     m_octree = std::move(octree);
     m_best = std::move(candidate);
     m_lost = lost_cells(m_octree, m_best.mesh, m_best.boundary);
-    m_result.base_level = m_lattice.level;
-    m_result.number_of_vertices_needed = n;
     m_result.number_of_cells = m_octree.number_of_cells();
-    return m_result.is_lattice_on_surface = true;
   }
 
   int coarsest_level() const { return (std::max)(first_base_level(m_criteria), m_lattice.level); }
@@ -569,15 +556,12 @@ private:
         m_best.is_stopped = true; // so does that one, if there is one
         return;
       }
-      m_octree = std::move(octree);
-      m_best = std::move(candidate);
+      take(std::move(octree), std::move(candidate));
       // without vertices, the last level that had too many tells more
       if(m_best.number_of_vertices != 0 || m_result.number_of_vertices_needed == 0) {
         m_result.base_level = level;
         m_result.number_of_vertices_needed = m_best.number_of_vertices;
       }
-      m_lost = lost_cells(m_octree, m_best.mesh, m_best.boundary);
-      m_result.number_of_cells = m_octree.number_of_cells();
       const bool is_too_coarse = m_best.number_of_vertices == 0
                                  || double(m_lost.size())
                                       > tolerated_share_of_lost_cells * double(m_result.number_of_cells);

@@ -72,7 +72,7 @@ public:
   /// Whether all is as it should be, but for parts that are lost.
   bool is_right() const { return m_is_mesh && m_topology == 0 && m_volume == 0 && m_number_off == 0; }
 
-  bool is_mesh() const { return m_is_mesh; }
+  bool is_topology_right() const { return m_is_mesh && m_topology == 0; }
   bool is_topology_wrong() const { return m_topology > 0; }
   bool is_volume_wrong() const { return m_volume > 0; }
 
