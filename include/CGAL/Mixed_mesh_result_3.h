@@ -100,8 +100,9 @@ struct Mixed_mesh_result_3
   std::size_t number_of_boundary_vertices_inserted = 0; ///< inserted by the boundary stage
   std::size_t number_of_relabeled_vertices = 0;         ///< to make the boundary a manifold
   std::size_t number_of_trials = 0;                     ///< octrees tried in search of the budget
-  /// Cells that meet the domain, but are more than a cell away from the mesh: parts of the domain
-  /// thinner than a cell that no octree vertex is inside of.
+  /// Cells that meet the domain, but are more than a cell away from the mesh: parts of the domain thinner
+  /// than a cell that no octree vertex is inside of. Those that the boundary has come near to, once it is on
+  /// the surface, do not count.
   std::size_t number_of_lost_cells = 0;
   Bbox_3 lost_cells;                     ///< what contains those cells
   std::size_t number_of_lost_sheets = 0; ///< without faces: outside the domain, or too small for the cells

@@ -242,6 +242,27 @@ void test_tolerance(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& 
   }
 }
 
+// What is wished for takes no level of the surface in the region; what is asked for may.
+void test_region_before_wish(const Polyhedral_mixed_mesh_domain_3& domain)
+{
+  const Ball_mixed_mesh_region_3 opening({-25, -20, 66}, 24);
+  const auto number_in_opening = [&](const Mixed_mesh_criteria_3& criteria) {
+    Mesh mesh;
+    const auto result = run(domain, opening, criteria, mesh);
+    check(mesh, result, 2000);
+    std::size_t n = 0;
+    for(Vertex_index v : CGAL::Mixed_meshes_3::boundary_vertices(mesh))
+      n += opening.depth(mesh.point(v)) > 0;
+    std::cout << "tolerance " << result.tolerance << ": " << n << " boundary vertices in the opening\n";
+    return double(n);
+  };
+  const double without = number_in_opening(Mixed_mesh_criteria_3(2000).tolerance(0)),
+               wished = number_in_opening(Mixed_mesh_criteria_3(2000)),
+               asked = number_in_opening(Mixed_mesh_criteria_3(2000).tolerance(4.12445));
+  BOOST_TEST_GT(wished, 0.7 * without);
+  BOOST_TEST_GT(wished, 1.1 * asked);
+}
+
 void test_repeatability(const Polyhedral_mixed_mesh_domain_3& domain,
                         const Polyhedral_mixed_mesh_region_3& region)
 {
@@ -583,6 +604,7 @@ int test_meshing(int argc, char* argv[])
   timed("bisections", [&] { test_bisections(brain, domain, region); });
   timed("paper", [&] { test_paper(domain, region); });
   timed("tolerance", [&] { test_tolerance(brain, domain, region); });
+  timed("region before wish", [&] { test_region_before_wish(domain); });
   timed("repeatability", [&] { test_repeatability(domain, region); });
   timed("kernels", [&] { test_kernels(brain, region_surface); });
   timed("criteria", [&] { test_criteria(brain, domain, region); });

@@ -66,7 +66,8 @@ double mesh_shape(const std::string& name, const Surface& surface, std::size_t b
       continue;
     const auto with = run(domain, everywhere, plain, fitted);
     BOOST_TEST_EQ(int(with.status), int(fitted_status[root == Root_cell::BOX]));
-    BOOST_TEST(with.status == result.status || with.status >= Status::NOT_ALL_ARRIVED);
+    BOOST_TEST(with.status == result.status || with.status >= Status::NOT_ALL_ARRIVED
+               || result.status == Status::PARTS_LOST);
     BOOST_TEST_LE(fitted.number_of_vertices(), budget);
     if(with.number_of_collapsed_vertices == 0)
       BOOST_TEST_EQ(fitted.number_of_vertices(), mesh.number_of_vertices());
@@ -111,7 +112,8 @@ void test_shapes()
   using V = Surface::Vertex_index;
   for(const auto& f : {std::array<int, 3>{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}})
     tetrahedron.add_face(V(f[0]), V(f[1]), V(f[2]));
-  volume_of_mesh = mesh_shape("tetrahedron", tetrahedron, 2000, {Status::SUCCESS, Status::PARTS_LOST});
+  volume_of_mesh = mesh_shape("tetrahedron", tetrahedron, 2000, {Status::SUCCESS, Status::PARTS_LOST},
+                              {Status::SUCCESS, Status::SUCCESS}); // a vertex arrives at its tip
   BOOST_TEST(is_near(volume_of_mesh, 4.5));
 
   Surface plate;

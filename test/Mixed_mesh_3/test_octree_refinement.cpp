@@ -16,6 +16,7 @@
 #include <boost/core/lightweight_test.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -98,6 +99,54 @@ void test_truncate()
     for(std::size_t i = (expected.size() - 1) / 8; i < split.size(); ++i)
       octree.split(split[i]);
     BOOST_TEST(is_same(octree, after.back()));
+  }
+}
+
+// Of two octrees, the leaves around each point are as small as in either, and no smaller ones are needed: the
+// order does not matter.
+void test_refine_like()
+{
+  const Analytic_domain domain(ball({0.4, 0.5, 0.45}, 0.35));
+  const Region region = ball_region({0.7, 0.5, 0.4}, 0.15);
+  const Aligned_traits traits(Bbox_3(0, 0, 0, 1, 1, 1));
+  const auto leaves_of = [](const Located_octree& octree) {
+    std::vector<std::pair<std::uint64_t, int>> leaves;
+    for(Node_index n = 0; n < octree.octree().size(); ++n)
+      if(octree.octree().is_leaf(n))
+        leaves.emplace_back(internal::lattice_key(octree.octree().corner(n)), octree.octree().level(n));
+    std::sort(leaves.begin(), leaves.end());
+    return leaves;
+  };
+  std::mt19937 random(7);
+  for(int run = 0; run < 20; ++run) {
+    const Located_octree start = refined(Located_octree(domain, region, traits), run % 3);
+    std::array<Located_octree, 2> octrees{start, start};
+    for(Located_octree& octree : octrees)
+      for(int i = 0; i < 12; ++i) {
+        const auto n = Node_index(random() % octree.octree().size());
+        if(octree.octree().is_leaf(n) && octree.is_alive(n))
+          octree.refine(std::vector<Node_index>{n});
+      }
+    Located_octree both = octrees[0], other = octrees[1];
+    both.refine_like(octrees[1]);
+    other.refine_like(octrees[0]);
+    BOOST_TEST(leaves_of(both) == leaves_of(other));
+    for(const Located_octree& octree : octrees)
+      for(Node_index n = 0; n < octree.octree().size(); ++n)
+        if(octree.octree().is_leaf(n))
+          BOOST_TEST_GE(both.octree().level(both.leaf_at(
+                          traits.cell(octree.octree().corner(n), octree.octree().side(n)).center())),
+                        octree.octree().level(n));
+    const auto leaves = leaves_of(both);
+    both.refine_like(octrees[0]);
+    both.refine_like(start);
+    BOOST_TEST(leaves_of(both) == leaves);
+
+    int level = Octree::max_level;
+    for(Node_index n = 0; n < both.octree().size(); ++n)
+      if(both.octree().is_leaf(n) && both.is_in_region(n) && both.side(n) == CGAL::ON_BOUNDARY)
+        level = (std::min)(level, int(both.octree().level(n)));
+    BOOST_TEST_EQ(both.level_of_surface_in_region(), level);
   }
 }
 
@@ -382,6 +431,7 @@ void test_other_candidates()
 int test_octree_refinement(int, char*[])
 {
   test_truncate();
+  test_refine_like();
   test_sequences();
   test_ends();
   test_only_for_balance();

@@ -25,7 +25,9 @@
 #include <CGAL/Mixed_mesh_3/internal/meshing/base_level.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/thin_cells.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/unreached_cells.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/Refinement_sequence.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/fill_vertex_budget.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/place_lattice.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Any_visitor.h>
@@ -136,6 +138,7 @@ private:
       const Stage_scope scope(m_visitor, Stage::OPTIMIZATION);
       optimize(mesh);
     }
+    note_lost_cells(mesh);
     if(!m_result.is_lattice_on_surface)
       note_share_filled(mesh.number_of_vertices());
   }
@@ -370,6 +373,7 @@ private:
     m_result.number_of_vertices_in_region = vertices_in_region(fine);
     mesh = std::move(fine);
     optimize(mesh);
+    note_lost_cells(mesh);
     note_share_filled(mesh.number_of_vertices());
   }
 
@@ -402,7 +406,7 @@ private:
     if(mesh.number_of_elements() == 0)
       return Misfit::of_no_mesh();
     const Mixed_mesh_optimization_result_3& fit = m_result.optimization;
-    return Misfit(mesh, m_root.domain(), m_criteria.fit_to_surface(), m_lost.size(),
+    return Misfit(mesh, m_root.domain(), m_criteria.fit_to_surface(), m_result.number_of_lost_cells,
                   fit.number_of_boundary_vertices - fit.number_of_arrived_vertices);
   }
 
@@ -476,8 +480,13 @@ private:
     constexpr double share_of_edge = 0.42;
     if(m_criteria.tolerance() != Mixed_mesh_criteria_3::automatic)
       return m_criteria.tolerance();
-    return share_of_edge
-           * std::cbrt(volume_of_domain(m_root) / double(m_criteria.maximal_number_of_vertices()));
+    return share_of_edge * mean_edge();
+  }
+
+  // Of the cubes that the vertices of the budget have to serve.
+  double mean_edge() const
+  {
+    return std::cbrt(volume_of_domain(m_root) / double(m_criteria.maximal_number_of_vertices()));
   }
 
   void optimize(Core_mesh& mesh)
@@ -540,12 +549,25 @@ private:
     for(int step = 0;; level += step) {
       Located_octree octree = m_thin_start ? *m_thin_start : m_root;
       Candidate candidate;
-      if(m_thin_start || refine_to_level(octree, level, budget())) {
-        if(!m_thin_start)
-          m_tolerance_search.split_far_cells(octree);
-        candidate = fill_vertex_budget(
-          octree, budget(), m_criteria.grading() * m_radius,
-          [this](const Located_octree& o) { return try_octree(o); }, first_to_split);
+      const auto fill = [&](Located_octree& o) {
+        return fill_vertex_budget(
+          o, budget(), m_criteria.grading() * m_radius,
+          [this](const Located_octree& tried) { return try_octree(tried); }, first_to_split);
+      };
+      if(m_thin_start) {
+        candidate = fill(octree);
+      } else if(refine_to_level(octree, level, budget())) {
+        const Located_octree base = octree;
+        m_tolerance_search.split_far_cells(octree);
+        candidate = fill(octree);
+        if(std::optional<Located_octree> other = octree_for_region_first(base, octree)) {
+          Candidate other_candidate = fill(*other);
+          if(!other_candidate.is_stopped && other_candidate.is_good()
+             && other_candidate.number_of_vertices <= budget()) {
+            octree = std::move(*other);
+            candidate = std::move(other_candidate);
+          }
+        }
       } else {
         candidate.number_of_vertices = 8 * octree.number_of_cells_inside();
       }
@@ -576,6 +598,47 @@ private:
     }
   }
 
+  // Cells that are split for fidelity that nobody asked for may take vertices from the region, but not a
+  // level of its surface, where displacements are prescribed: at 2,000 vertices, that can cost half of the
+  // accuracy.
+  // \return the start with that level, and as many of those cells as there is room for, if it is needed
+  std::optional<Located_octree> octree_for_region_first(const Located_octree& base,
+                                                        const Located_octree& filled) const
+  {
+    constexpr double shares[] = {1, 0.5, 0.25, 0.125};
+    constexpr double room = 0.97; // in cells, whose vertices are not counted yet
+    if(m_criteria.tolerance() != Mixed_mesh_criteria_3::automatic || !m_tolerance_search.has_far_points()
+       || m_root.is_region_everywhere() || m_root.domain().subdomain_indices().size() > 1)
+      return std::nullopt;
+    const std::size_t number_of_cells = filled.number_of_cells();
+    Refinement_sequence sequence(base, m_criteria.grading() * m_radius);
+    while(sequence.number_of_cells(sequence.number_of_steps()) < number_of_cells && sequence.extend()) {
+    }
+    std::size_t low = 0, high = sequence.number_of_steps();
+    const auto level_after = [&](std::size_t steps) {
+      return sequence.octree(steps).level_of_surface_in_region();
+    };
+    const int level = level_after(high);
+    if(level <= filled.level_of_surface_in_region())
+      return std::nullopt;
+    while(low < high) {
+      const std::size_t middle = low + (high - low) / 2;
+      if(level_after(middle) < level)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+    const Located_octree start = sequence.octree(low);
+    for(const double share : shares) {
+      Located_octree far = base, octree = start;
+      m_tolerance_search.split_far_cells(far, share);
+      octree.refine_like(far);
+      if(double(octree.number_of_cells()) < room * double(number_of_cells))
+        return octree;
+    }
+    return start;
+  }
+
   // Where there is no region, at a distance of half the edges that the budget allows, or less.
   std::vector<Located_octree::Point_3> points_on_sharp_edges() const
   {
@@ -585,7 +648,7 @@ private:
     const Sharp_edges edges = m_root.domain().sharp_edges(m_criteria.sharp_angle());
     if(edges.edges.empty())
       return points;
-    const double size = std::cbrt(volume_of_domain(m_root) / double(m_criteria.maximal_number_of_vertices()));
+    const double size = mean_edge();
     const Sharp_features features(edges, size);
     for(const Feature_polyline& p : features.polylines()) {
       const int n = int(std::ceil(2 * p.length() / size));
@@ -636,10 +699,7 @@ private:
         m_result.deepest_level = (std::max)(m_result.deepest_level, octree.level(n));
         meets_region = meets_region || m_octree.is_in_region(n);
       }
-    m_result.number_of_lost_cells = m_lost.size();
     m_result.number_of_vertices_in_region = count_vertices_in_region();
-    for(Octree::Node_index n : m_lost)
-      m_result.lost_cells += m_root.domain().cell_box(octree.corner(n), octree.side(n));
     const std::vector<std::uint8_t>& is_used = m_best.boundary.is_used;
     m_result.number_of_transition_vertices = std::size_t(
       std::count(is_used.begin() + std::ptrdiff_t(m_best.mesh.first_inserted_vertex),
@@ -659,11 +719,24 @@ private:
     note(n == 0, Status::EMPTY);
     note(!meets_region, Status::REGION_NOT_MET);
     note(!m_best.is_manifold(), Status::BOUNDARY_NOT_MANIFOLD);
-    note(!m_lost.empty(), Status::PARTS_LOST);
     if(m_tolerance_search.is_stopped() || m_best.is_stopped) {
       m_result.is_kept = m_result.status < Status::BOUNDARY_NOT_MANIFOLD && m_criteria.keep_mesh_if_stopped();
       m_result.status = Status::STOPPED;
     }
+  }
+
+  // Cells without elements are lost, but for those that the boundary has come near to.
+  void note_lost_cells(const Core_mesh& mesh)
+  {
+    const std::vector<Octree::Node_index> lost = m_criteria.fit_to_surface()
+                                                   ? unreached_cells(m_octree, m_lost, mesh, mean_edge())
+                                                   : m_lost;
+    m_result.number_of_lost_cells = lost.size();
+    m_result.lost_cells = Bbox_3();
+    for(Octree::Node_index n : lost)
+      m_result.lost_cells += m_root.domain().cell_box(m_octree.octree().corner(n), m_octree.octree().side(n));
+    if(!lost.empty())
+      m_result.status = worse(m_result.status, Mixed_mesh_status::PARTS_LOST);
   }
 
   // Of the whole budget, or of what is not left over for a later optimization.

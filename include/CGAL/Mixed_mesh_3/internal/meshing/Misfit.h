@@ -69,8 +69,8 @@ public:
   const std::optional<Shell_counts>& shells_of_domain() const { return m_shells_of_domain; }
   const std::optional<Shell_counts>& shells() const { return m_shells; }
 
-  /// Whether all is as it should be, but for parts that are lost.
-  bool is_right() const { return m_is_mesh && m_topology == 0 && m_volume == 0 && m_number_off == 0; }
+  /// Whether, besides, all boundary vertices are on the surface.
+  bool is_right() const { return is_none() && m_number_off == 0; }
 
   bool is_topology_right() const { return m_is_mesh && m_topology == 0; }
   bool is_topology_wrong() const { return m_topology > 0; }

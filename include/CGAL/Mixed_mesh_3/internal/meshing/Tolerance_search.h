@@ -32,6 +32,7 @@
 #include <CGAL/Mixed_mesh_result_3.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <limits>
@@ -63,7 +64,7 @@ class Tolerance_search
   Mixed_mesh_result_3& m_result;
   const bool m_has_subdomains;
   std::vector<Surface_sample> m_samples;
-  std::vector<std::vector<Vec3>> m_far_points; // of the surface, where cells are split
+  std::vector<std::vector<Vec3>> m_far_points; // of the surface, where cells are split: the farthest first
   bool m_is_stopped = false;                   // by the visitor
   bool m_only_parts = false;                   // not the surface around all
   bool m_is_full = false;                      // there is no room for more splits
@@ -91,12 +92,17 @@ public:
       run(m_has_subdomains ? largest_share_of_subdomains : largest_share);
   }
 
+  bool has_far_points() const { return !m_far_points.empty(); }
+
   /// One level more around each far point, round by round.
-  void split_far_cells(Located_octree& octree) const
+  /// \param share of each round's points, the farthest
+  void split_far_cells(Located_octree& octree, double share = 1) const
   {
     for(const std::vector<Vec3>& points : m_far_points) {
       std::vector<Octree::Node_index> leaves;
-      for(const Vec3& p : points) {
+      const auto number = std::size_t(std::ceil(share * double(points.size())));
+      for(std::size_t i = 0; i < number; ++i) {
+        const Vec3& p = points[i];
         const Octree::Node_index n = octree.leaf_at(Predicates_kernel::Point_3(p[0], p[1], p[2]));
         if(octree.is_alive(n) && (m_has_subdomains || !octree.is_in_region(n))
            && octree.octree().level(n) < Octree::max_level)
@@ -213,9 +219,12 @@ private:
   // \return whether more might be split
   bool split(const Estimate& estimate, double limit, Located_octree& octree, Candidate& candidate)
   {
+    std::vector<std::pair<double, Vec3>> far_points = estimate.far_points;
+    std::stable_sort(far_points.begin(), far_points.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
     const auto try_beyond = [&](double multiple) {
       std::vector<Vec3> points = estimate.defects;
-      for(const auto& [distance, point] : estimate.far_points)
+      for(const auto& [distance, point] : far_points)
         if(distance > multiple)
           points.push_back(point);
       if(points.empty())

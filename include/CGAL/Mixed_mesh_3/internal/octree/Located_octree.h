@@ -167,6 +167,28 @@ public:
     CGAL_assertion(are_balanced(m_octree, refined, Adjacency::EDGE));
   }
 
+  /// Splits what is split in another octree with the same root.
+  void refine_like(const Located_octree& other)
+  {
+    for(Node_index n = 0; n < other.m_octree.size(); ++n)
+      if(!other.m_octree.is_leaf(n)) {
+        const Node_index leaf = leaf_at(other.center(n));
+        if(m_octree.level(leaf) <= other.m_octree.level(n))
+          refine(std::vector<Node_index>{leaf});
+      }
+  }
+
+  /// The level of the largest cells that meet both the region and the surface of the domain; the largest
+  /// level if there are none.
+  int level_of_surface_in_region() const
+  {
+    int level = Octree::max_level;
+    for(Node_index n = 0; n < m_octree.size(); ++n)
+      if(m_octree.is_leaf(n) && side(n) == ON_BOUNDARY && is_in_region(n))
+        level = (std::min)(level, int(m_octree.level(n)));
+    return level;
+  }
+
   /// Takes back all splits but those that made the nodes below `size`.
   void truncate(std::size_t size)
   {
