@@ -361,20 +361,46 @@ private:
       fine, m_root.domain(), Concurrency::with_threads(rough, Concurrency::number_of_threads(m_criteria)),
       Aspect_ratio_quality_3(), [this] { return go_on(); }, tolerated_off);
     const std::size_t n = fine.number_of_vertices();
-    const double radius = m_root.is_region_everywhere() ? 0 : m_criteria.grading() * m_radius;
-    if(m_is_stopped
-       || !coarsen(fine, m_root.domain(), budget(), m_criteria.quality_bound(), radius,
-                   [this] { return go_on(); })
-       || m_is_stopped)
+    if(m_is_stopped || !coarsen_to(fine, budget()))
       return;
-    m_result.number_of_collapsed_vertices = n - fine.number_of_vertices();
     m_result.number_of_vertices_needed = fine.number_of_vertices();
     m_result.number_of_transition_vertices = m_result.number_of_boundary_vertices_inserted = 0;
     m_result.number_of_vertices_in_region = vertices_in_region(fine);
     mesh = std::move(fine);
+    m_result.number_of_collapsed_vertices = n - mesh.number_of_vertices();
+    const Mixed_mesh_status status = m_result.status;
     optimize(mesh);
+    remove_vertices_off(mesh, status);
     note_lost_cells(mesh);
     note_share_filled(mesh.number_of_vertices());
+  }
+
+  // \return whether it has so few vertices then
+  bool coarsen_to(Core_mesh& mesh, std::size_t number_of_vertices)
+  {
+    const double radius = m_root.is_region_everywhere() ? 0 : m_criteria.grading() * m_radius;
+    return coarsen(mesh, m_root.domain(), number_of_vertices, m_criteria.quality_bound(), radius,
+                   [this] { return go_on(); })
+           && !m_is_stopped;
+  }
+
+  // A mesh of tetrahedra with a few boundary vertices off the surface may do without these.
+  // \param status before the optimization
+  void remove_vertices_off(Core_mesh& mesh, Mixed_mesh_status status)
+  {
+    const std::size_t off = number_off();
+    if(off == 0 || m_is_stopped || !m_result.has_mesh())
+      return;
+    Core_mesh other = mesh;
+    const Mixed_mesh_result_3 result = m_result;
+    m_result.status = status;
+    m_result.number_of_collapsed_vertices += off;
+    if(coarsen_to(other, mesh.number_of_vertices() - off))
+      optimize(other);
+    if(!m_is_stopped && other.number_of_vertices() > 0 && number_off() < off)
+      mesh = std::move(other);
+    else
+      m_result = result;
   }
 
   static std::size_t vertices_in_region(const Core_mesh& mesh)
@@ -405,9 +431,15 @@ private:
   {
     if(mesh.number_of_elements() == 0)
       return Misfit::of_no_mesh();
-    const Mixed_mesh_optimization_result_3& fit = m_result.optimization;
     return Misfit(mesh, m_root.domain(), m_criteria.fit_to_surface(), m_result.number_of_lost_cells,
-                  fit.number_of_boundary_vertices - fit.number_of_arrived_vertices);
+                  number_off());
+  }
+
+  // Of the boundary vertices of the mesh that was optimized last.
+  std::size_t number_off() const
+  {
+    const Mixed_mesh_optimization_result_3& fit = m_result.optimization;
+    return fit.number_of_boundary_vertices - fit.number_of_arrived_vertices;
   }
 
   // Where the topology is wrong, with more and more cells for a wall or a gap, until it is right. Where only
