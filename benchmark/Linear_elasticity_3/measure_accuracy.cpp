@@ -13,6 +13,7 @@
 #include "test_cases.h"
 
 #include <CGAL/Linear_elasticity_3.h>
+#include <CGAL/Linear_elasticity_3/adapt_mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/IO/read_mixed_mesh.h>
 
 #include <CLI/CLI.hpp>
@@ -21,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <exception>
 #include <fstream>
 #include <iostream>
@@ -67,22 +69,44 @@ std::vector<Vector> at_points(const Mesh& mesh, const std::vector<Vector>& displ
   return values;
 }
 
+mm3::Prescribed_displacements prescribed_displacements(const Mesh& mesh,
+                                                       const Boundary_displacement& boundary)
+{
+  mm3::Prescribed_displacements displacements;
+  for(mm3::Vertex_index v : mm3::boundary_vertices(mesh))
+    if(const auto u = boundary(mm3::to_vec3(mesh.point(v))))
+      displacements[v] = *u;
+  return displacements;
+}
+
+// To one load, as brain_shift does: with a Poisson's ratio at which standard elements do not lock.
+nlohmann::ordered_json adapt(Mesh& mesh, const Boundary_displacement& load, mm3::Elastic_material material)
+{
+  material.poisson_ratio = (std::min)(material.poisson_ratio, 0.3);
+  const std::clock_t start = std::clock();
+  const CGAL::Mixed_mesh_adaptation_result_3 result = CGAL::adapt_mixed_mesh_3(
+    mesh, {material}, {prescribed_displacements(mesh, load)});
+  return {{"status", description(result.status)},
+          {"steps", result.number_of_steps},
+          {"solves", result.number_of_solves},
+          {"energy after / before", result.functional},
+          {"worst ARC before", result.worst_aspect_ratio_before},
+          {"worst ARC after", result.worst_aspect_ratio_after},
+          {"CPU seconds", double(std::clock() - start) / CLOCKS_PER_SEC}};
+}
+
 // By Linear_elasticity_3, and by standard elements.
 std::pair<std::vector<Vector>, std::vector<Vector>>
 solve(const Mesh& mesh, const Boundary_displacement& boundary, const mm3::Elastic_material& material)
 {
   CGAL::Linear_elasticity_3<Mesh> elasticity(mesh, material);
-  std::vector<bool> is_prescribed = boundary_vertices(mesh);
+  std::vector<bool> is_prescribed(mesh.number_of_vertices(), false);
   std::vector<Vector> displacements(mesh.number_of_vertices(), Vector{});
-  for(mm3::Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
-    if(is_prescribed[v]) {
-      const auto u = boundary(mm3::to_vec3(mesh.point(v)));
-      is_prescribed[v] = u.has_value();
-      if(u) {
-        elasticity.prescribe(v, *u);
-        displacements[v] = *u;
-      }
-    }
+  for(const auto& [v, u] : prescribed_displacements(mesh, boundary)) {
+    elasticity.prescribe(v, u);
+    is_prescribed[v] = true;
+    displacements[v] = u;
+  }
   auto result = elasticity.factor();
   if(result.is_success())
     result = elasticity.solve();
@@ -169,10 +193,12 @@ double share_of_vertices_in_region(const Mesh& mesh, const Test_case& c)
 }
 
 nlohmann::ordered_json measure(const std::string& file, const std::string& work, const Test_case& c,
-                               const mm3::Elastic_material& material)
+                               const mm3::Elastic_material& material, bool is_adapted)
 {
   Mesh mesh;
   require([&](std::string* error) { return mm3::IO::read_mixed_mesh(file, mesh, error); });
+  const nlohmann::ordered_json adaptation = is_adapted ? adapt(mesh, c.loads.front().second, material)
+                                                       : nlohmann::ordered_json();
   const std::vector<mm3::Vertex_index> boundary = mm3::boundary_vertices(mesh);
   nlohmann::ordered_json line{{"mesh", file},
                               {"region", c.opening.name},
@@ -183,6 +209,8 @@ nlohmann::ordered_json measure(const std::string& file, const std::string& work,
                                std::count_if(boundary.begin(), boundary.end(), [&](mm3::Vertex_index v) {
                                  return is_in_patch(mm3::to_vec3(mesh.point(v)), c.opening);
                                })}};
+  if(is_adapted)
+    line["adaptation"] = adaptation;
   const std::vector<bool> everywhere(c.points.size(), true);
   for(const auto& [name, load] : c.loads) {
     const std::vector<Vector> exact = read_reference(reference_file(work, c, name));
@@ -213,6 +241,8 @@ int main(int argc, char* argv[])
   app.add_option("--regions", names, "names of openings (default: all)");
   app.add_option("--poisson-ratio", material.poisson_ratio, "")->capture_default_str();
   app.add_option("--reference-mesh", reference_mesh, "tetrahedra to make the references from");
+  bool is_adapted = false;
+  app.add_flag("--adapt", is_adapted, "adapts each mesh to the bump first");
   CLI11_PARSE(app, argc, argv);
   try {
     const Brain brain(surface);
@@ -225,7 +255,7 @@ int main(int argc, char* argv[])
       make_references(reference_mesh, work, cases, material);
     for(const Test_case& c : cases)
       for(const std::string& file : files)
-        std::cout << measure(file, work, c, material) << std::endl;
+        std::cout << measure(file, work, c, material, is_adapted) << std::endl;
   } catch(const std::exception& e) {
     std::cerr << "measure_accuracy: error: " << e.what() << '\n';
     return EXIT_FAILURE;

@@ -218,6 +218,10 @@ void add_method(CLI::App& app, Options& o)
     "--corotational", o.corotational,
     "Finite rotations: elements that turn with the tissue, by Newton's method; strains should still be "
     "small (default: small rotations)");
+  app.add_flag(
+    "--adapt", o.adapt,
+    "Moves inner vertices of the mesh first, so that elements have less energy, and less error, where the "
+    "boundary around the control points is displaced; what is written is on that mesh");
   const std::vector<std::pair<std::string, bool>> solvers{{"direct", false}, {"petsc", true}};
   app
     .add_option(

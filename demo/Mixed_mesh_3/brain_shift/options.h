@@ -43,7 +43,7 @@ struct Options
   double density = 1.04, fluid_density = 1; // g/cm^3
   double fluid_level = std::numeric_limits<double>::infinity();
   double max_distance = 5, compliance = 0, control_radius = 0;
-  bool corotational = false, leave_one_out = false;
+  bool corotational = false, leave_one_out = false, adapt = false;
   CGAL::Mixed_meshes_3::Elastic_material material; // of subdomains without one of their own
   CGAL::Mixed_meshes_3::Displacement_interpolation interpolation =
     CGAL::Mixed_meshes_3::Displacement_interpolation::RECOVERED;

@@ -11,6 +11,7 @@
 #include "brain_shift/read_control_points.h"
 #include "common/facts.h"
 
+#include <CGAL/Linear_elasticity_3/Mixed_mesh_adaptation_result_3.h>
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Element_locator_3.h>
@@ -109,6 +110,7 @@ struct Outcome
   Locations locations;
   std::optional<Surface_facts> tumor;
   std::optional<Image_facts> image;
+  std::optional<CGAL::Mixed_mesh_adaptation_result_3> adaptation;
   Supports supports;
   std::optional<Petsc_facts> petsc;
   Shift before; // the resection

@@ -129,6 +129,19 @@ Json describe(const Shift& shift, const std::vector<Control_point>& points)
   return result;
 }
 
+Json describe(const CGAL::Mixed_mesh_adaptation_result_3& adaptation)
+{
+  return {{"status", description(adaptation.status)},
+          {"steps", adaptation.number_of_steps},
+          {"solves", adaptation.number_of_solves},
+          {"vertices that may move", adaptation.number_of_inner_vertices},
+          {"energies of unit bumps before", adaptation.energies_before},
+          {"energies of unit bumps after", adaptation.energies_after},
+          {"mean energy, after / before", adaptation.functional},
+          {"worst ARC before", adaptation.worst_aspect_ratio_before},
+          {"worst ARC after", adaptation.worst_aspect_ratio_after}};
+}
+
 Json describe(const Resection_facts& resection)
 {
   Json floating = Json::array();
@@ -192,6 +205,7 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
                         {"fixed", outcome.supports.fixed},
                         {"sliding", outcome.supports.sliding},
                         {"touching", outcome.supports.touching}};
+  report["adaptation"] = outcome.adaptation ? describe(*outcome.adaptation) : Json();
   report["control points"] = describe_points(outcome);
   report["shift"] = describe(outcome.before, outcome.points);
   report["resection"] = outcome.resection ? describe(*outcome.resection) : Json();
@@ -223,6 +237,16 @@ void print_summary(const Options& o, const Outcome& outcome, const Stage_log& lo
     std::cout << outcome.supports.touching << " touch the skull; ";
   std::cout << counted(outcome.points.size(), "control point", "control points") << '\n';
   print_subdomains(outcome.subdomains);
+  if(outcome.adaptation) {
+    const CGAL::Mixed_mesh_adaptation_result_3& a = *outcome.adaptation;
+    std::cout << "adaptation: energies of unit bumps, normal and tangential, in microjoules";
+    for(std::size_t i = 0; i < a.energies_before.size(); ++i)
+      std::cout << (i == 0 ? ": " : ", ") << rounded(a.energies_before[i]) << " -> "
+                << rounded(a.energies_after[i]);
+    std::cout << "; worst ARC " << rounded(a.worst_aspect_ratio_before) << " -> "
+              << rounded(a.worst_aspect_ratio_after) << "; " << a.number_of_steps << " steps, "
+              << ms("adapt mesh") << '\n';
+  }
   std::cout << "before surgery: factor " << ms("factor") << ", control points " << ms("control points")
             << '\n';
   if(outcome.petsc)

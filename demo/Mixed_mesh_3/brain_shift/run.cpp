@@ -5,6 +5,7 @@
 
 #include "brain_shift/run.h"
 
+#include "brain_shift/adapt.h"
 #include "brain_shift/images.h"
 #include "brain_shift/outcome.h"
 #include "brain_shift/patches.h"
@@ -86,6 +87,12 @@ Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
   if(!o.tumor_label.empty())
     inputs.tumor.subdomain = find_subdomain(outcome.subdomains, o.tumor_label, o).index;
   inputs.patches = find_patches(inputs.mesh, o, outcome.warnings);
+  if(o.adapt) {
+    log("adapt mesh", [&] { adapt(inputs.mesh, inputs.patches, o, outcome); });
+    outcome.volume = mm3::volume(inputs.mesh);
+    std::vector<std::string> known_warnings;
+    outcome.locations = locate(inputs.mesh, o, outcome.points, known_warnings);
+  }
   if(!o.image.empty())
     inputs.image = log("read image", [&] { return read_image(o, inputs.mesh, outcome); });
   if(!o.labels.empty())

@@ -6,6 +6,7 @@
 #include "brain_shift/simulate.h"
 
 #include "brain_shift/subdomains.h"
+#include "brain_shift/supports.h"
 #include "common/messages.h"
 #include "common/misfit.h"
 
@@ -13,7 +14,6 @@
 #if MIXED_MESH_3_HAS_PETSC
 #include <CGAL/Mixed_mesh_3/Petsc_solver_traits.h>
 #endif
-#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
 
 #include <algorithm>
@@ -73,54 +73,14 @@ void solve(Elasticity& elasticity, const std::vector<Vector>& displacements, con
     check(result, o, points);
 }
 
-// Says which vertices of the boundary are fixed, and which slide.
-Supports set_supports(Elasticity& elasticity, const Boundary_patches& patches, const Options& o,
-                      const std::vector<Control_point>& points)
+void set_supports(Elasticity& elasticity, const Supports& supports)
 {
-  const Mesh& mesh = elasticity.mesh();
-  const std::vector<mm3::Vertex_index> boundary = mm3::boundary_vertices(mesh);
-  const auto position = [&mesh](mm3::Vertex_index v) { return mm3::to_vec3(mesh.point(v)); };
-  const auto height = [&](mm3::Vertex_index v) { return dot(position(v), Vector(o.up_direction)); };
-  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-  for(mm3::Vertex_index v : boundary) {
-    lowest = (std::min)(lowest, height(v));
-    highest = (std::max)(highest, height(v));
-  }
-  const auto is_below = [&](mm3::Vertex_index v, double part) {
-    return height(v) < lowest + part * (highest - lowest);
-  };
-  const auto is_fixed = [&](mm3::Vertex_index v) {
-    const Patch patch = patches.of_vertices[v];
-    return patch == Patch::FIXED || (patch != Patch::OPENING && is_below(v, o.fixed_below));
-  };
-  Supports supports{boundary.size(), 0, 0, 0, std::vector<Support>(mesh.number_of_vertices(), Support::FREE)};
-  for(mm3::Vertex_index v : boundary)
-    if(is_fixed(v)) {
+  const auto has = [&supports](mm3::Vertex_index v, Support s) { return supports.of_vertices[v] == s; };
+  for(mm3::Vertex_index v = 0; v < supports.of_vertices.size(); ++v)
+    if(has(v, Support::FIXED))
       elasticity.prescribe(v);
-      ++supports.fixed;
-      supports.of_vertices[v] = Support::FIXED;
-    }
-  elasticity.slide_along_boundary([&](mm3::Vertex_index v) {
-    double distance = std::numeric_limits<double>::infinity();
-    for(const Control_point& point : points)
-      distance = (std::min)(distance, norm(Vector(point.position) - position(v)));
-    const Patch patch = patches.of_vertices[v];
-    const bool is_held = is_below(v, o.slide_below) || distance > o.slide_beyond;
-    const bool is_sliding = !is_fixed(v) && (patch == Patch::SLIDING || (patch != Patch::OPENING && is_held));
-    supports.sliding += is_sliding;
-    if(is_sliding)
-      supports.of_vertices[v] = Support::SLIDING;
-    return is_sliding;
-  });
-  elasticity.touch_along_boundary([&](mm3::Vertex_index v) {
-    const bool is_touching = supports.of_vertices[v] == Support::FREE
-                             && patches.of_vertices[v] == Patch::TOUCHING;
-    supports.touching += is_touching;
-    if(is_touching)
-      supports.of_vertices[v] = Support::TOUCHING;
-    return is_touching;
-  });
-  return supports;
+  elasticity.slide_along_boundary([&](mm3::Vertex_index v) { return has(v, Support::SLIDING); });
+  elasticity.touch_along_boundary([&](mm3::Vertex_index v) { return has(v, Support::TOUCHING); });
 }
 
 // Elements that the displacement inverts; their Jacobian is zero or negative somewhere.
@@ -310,7 +270,8 @@ std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_
 {
   const std::vector<Control_point>& points = outcome.points;
   Elasticity elasticity(mesh, materials_of_elements(mesh, outcome.subdomains));
-  outcome.supports = set_supports(elasticity, patches, o, points);
+  outcome.supports = find_supports(mesh, patches, o, points);
+  set_supports(elasticity, outcome.supports);
 
   // Before surgery the mesh is factored; then each measurement is a matter of milliseconds.
   log("factor", [&] { check(elasticity.factor(), o, points); });

@@ -1,0 +1,21 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The mesh adapted to what the opening of the skull may bring, by --adapt.
+
+#ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_ADAPT_H
+#define MIXED_MESH_3_DEMO_BRAIN_SHIFT_ADAPT_H
+
+#include "brain_shift/options.h"
+#include "brain_shift/outcome.h"
+#include "brain_shift/patches.h"
+#include "common/types.h"
+
+/// Moves inner vertices of the mesh. The loads are unit bumps of the boundary around the control points, in
+/// the direction of its normal and in two tangential ones; what the run supports in any way is fixed.
+/// \throw std::runtime_error if there is nothing to adapt to
+void adapt(Mesh& mesh, const Boundary_patches& patches, const Options& options, Outcome& outcome);
+
+#endif // MIXED_MESH_3_DEMO_BRAIN_SHIFT_ADAPT_H

@@ -1,0 +1,79 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_LINEAR_ELASTICITY_3_MIXED_MESH_ADAPTATION_CRITERIA_3_H
+#define CGAL_LINEAR_ELASTICITY_3_MIXED_MESH_ADAPTATION_CRITERIA_3_H
+
+#include <CGAL/license/Linear_elasticity_3.h>
+
+#include <CGAL/Mixed_mesh_3/Index.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+
+#include <CGAL/assertions.h>
+
+#include <limits>
+#include <map>
+
+namespace CGAL {
+
+namespace Mixed_meshes_3 {
+
+/// \ingroup PkgLinearElasticity3Ref
+/// A load case of `adapt_mixed_mesh_3()`: the displacements of some vertices, in mm. The others are free.
+using Prescribed_displacements = std::map<Vertex_index, Vec3>;
+
+} // namespace Mixed_meshes_3
+
+/*!
+\ingroup PkgLinearElasticity3Ref
+
+\brief How far a mesh is adapted to load cases. Each setter returns the object, so that calls can be chained.
+*/
+class Mixed_mesh_adaptation_criteria_3
+{
+  double m_quality_bound = 3.2, m_least_gain = 0.01;
+  int m_maximal_number_of_solves = 20;
+
+public:
+  /// The largest aspect-ratio coefficient (ARC) that an element may get; that of an element above the bound
+  /// does not grow above what it was at first. 0, or infinity: no bound. Default: 3.2, as in the
+  /// optimization of the mesher. \pre 0, or at least 1
+  Mixed_mesh_adaptation_criteria_3& quality_bound(double bound)
+  {
+    CGAL_precondition(bound == 0 || bound >= 1);
+    m_quality_bound = bound == 0 ? std::numeric_limits<double>::infinity() : bound;
+    return *this;
+  }
+  /// Infinity if there is none.
+  double quality_bound() const { return m_quality_bound; }
+
+  /// The adaptation ends after three steps in a row each of which gains less than this share of what all
+  /// steps have gained. Default: 0.01. \pre in [0, 1]
+  Mixed_mesh_adaptation_criteria_3& least_gain(double share)
+  {
+    CGAL_precondition(share >= 0 && share <= 1);
+    m_least_gain = share;
+    return *this;
+  }
+  /// The value set, or the default.
+  double least_gain() const { return m_least_gain; }
+
+  /// How often the load cases are solved at most, the first time on the mesh as it is. Default: 20.
+  /// \pre at least 1
+  Mixed_mesh_adaptation_criteria_3& maximal_number_of_solves(int number)
+  {
+    CGAL_precondition(number >= 1);
+    m_maximal_number_of_solves = number;
+    return *this;
+  }
+  /// The value set, or the default.
+  int maximal_number_of_solves() const { return m_maximal_number_of_solves; }
+};
+
+} // namespace CGAL
+
+#endif // CGAL_LINEAR_ELASTICITY_3_MIXED_MESH_ADAPTATION_CRITERIA_3_H

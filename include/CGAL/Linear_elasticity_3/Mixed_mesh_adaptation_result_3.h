@@ -1,0 +1,72 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_LINEAR_ELASTICITY_3_MIXED_MESH_ADAPTATION_RESULT_3_H
+#define CGAL_LINEAR_ELASTICITY_3_MIXED_MESH_ADAPTATION_RESULT_3_H
+
+#include <CGAL/license/Linear_elasticity_3.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+
+/// \ingroup PkgLinearElasticity3Ref
+/// How `adapt_mixed_mesh_3()` ended.
+enum class Mixed_mesh_adaptation_status {
+  CONVERGED,        ///< steps gain next to nothing any more, or no vertex can move where it should
+  SOLVES_EXHAUSTED, ///< steps still gain, but the maximal number of solves was reached
+  STOPPED,          ///< as far as it went: the visitor said so
+  NO_INNER_VERTEX,  ///< unchanged: no vertex may move
+  NO_LOAD,          ///< unchanged: no load case strains the mesh
+  SOLVER_FAILED,    ///< unchanged: a load case leaves rigid motions free, or elements hang together by hinges
+  INVALID_MESH,     ///< unchanged: an element is inverted
+  EMPTY             ///< unchanged: there is no element
+};
+
+/// \ingroup PkgLinearElasticity3Ref
+/// The status in a few words.
+inline const char* description(Mixed_mesh_adaptation_status status)
+{
+  switch(status) {
+  case Mixed_mesh_adaptation_status::CONVERGED: return "converged";
+  case Mixed_mesh_adaptation_status::SOLVES_EXHAUSTED: return "maximal number of solves reached";
+  case Mixed_mesh_adaptation_status::STOPPED: return "stopped";
+  case Mixed_mesh_adaptation_status::NO_INNER_VERTEX: return "no inner vertex";
+  case Mixed_mesh_adaptation_status::NO_LOAD: return "no load";
+  case Mixed_mesh_adaptation_status::SOLVER_FAILED: return "solver failed";
+  case Mixed_mesh_adaptation_status::INVALID_MESH: return "invalid mesh";
+  case Mixed_mesh_adaptation_status::EMPTY: return "empty";
+  }
+  return "";
+}
+
+/// \ingroup PkgLinearElasticity3Ref
+/// What `adapt_mixed_mesh_3()` did.
+struct Mixed_mesh_adaptation_result_3
+{
+  /// How it ended.
+  Mixed_mesh_adaptation_status status = Mixed_mesh_adaptation_status::EMPTY;
+  int number_of_steps = 0;                  ///< that were taken: each has lowered the functional
+  int number_of_solves = 0;                 ///< of all load cases: of steps tried, and of the mesh at first
+  std::size_t number_of_inner_vertices = 0; ///< that may move
+  /// Of standard elements, of each load case, in microjoules (mN mm).
+  std::vector<double> energies_before;
+  /// As above. Each may have grown if there are several; the sum of their ratios has not.
+  std::vector<double> energies_after;
+  /// The largest aspect-ratio coefficient (ARC).
+  double worst_aspect_ratio_before = 0;
+  double worst_aspect_ratio_after = 0; ///< as above
+
+  /// The mean ratio of energies after and before, over the load cases that strain the mesh: what was
+  /// minimized.
+  double functional = 1;
+};
+
+} // namespace CGAL
+
+#endif // CGAL_LINEAR_ELASTICITY_3_MIXED_MESH_ADAPTATION_RESULT_3_H
