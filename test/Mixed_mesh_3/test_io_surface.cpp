@@ -208,7 +208,10 @@ void test_off()
   refuses("large_face.off", off(cube_points, "2000000000 0 1 2\n"), "too short for so many");
   refuses("no_number.off", off("0 0 \x01\x1b[0m\n" + cube_points),
           "line 3: expected a number, not \"??[0m\"");
-  refuses("nan.off", off("0 nan 0\n" + cube_points), "vertex 0 has a coordinate that is not a finite number");
+  const std::string not_finite = " has a coordinate that is not a finite number";
+  refuses("nan.off", off("0 nan 0\n" + cube_points), "line 3: vertex 0" + not_finite);
+  refuses("last_nan.off", off(cube_points + "0 0 -inf # comment\n"), "line 11: vertex 8" + not_finite);
+  refuses("short_nan.off", off("0 nan\n" + cube_points), "line 3: vertex 0" + not_finite);
   refuses("overflow.off", off("0 1e999 0\n" + cube_points), "line 3: the number \"1e999\" is too large");
   refuses("negative.off", off(cube_points, "3 0 1 -1\n"), "face 0 has a vertex that does not exist");
   refuses("no_off.off", "PLY\n", "does not start with OFF");
@@ -233,6 +236,8 @@ void test_obj()
   is_cube(read("cube.obj", "# comment\nmtllib x.mtl\nvn 0 0 1\n" + points + "usemtl a\ns 1\n" + faces));
   is_cube(read("cube_relative.obj", points + relative));
   refuses("large_index.obj", points + "f 1e45 2 6\n" + faces, "line 9: expected an integer, not \"1e45\"");
+  refuses("nan.obj", "# comment\n\n" + points + "v 0 nan 0\n" + faces,
+          "line 11: vertex 8 has a coordinate that is not a finite number");
   refuses("zero_index.obj", points + "f 0 1 2\n", "face 0 has a vertex that does not exist");
   refuses("empty.obj", "", "is empty");
   refuses("nothing.obj", "hello\n", "has no faces");
@@ -267,6 +272,9 @@ void test_stl()
       refuses("cut.stl", all.substr(0, all.size() - part), "is truncated");
     }
   }
+  std::string not_finite = stl(false, "cube");
+  not_finite.replace(not_finite.find("\nvertex ") + 8, 8, "inf");
+  refuses("nan.stl", not_finite, "line 4: vertex 0 has a coordinate that is not a finite number");
   refuses("short.stl", "STL", "not a complete STL file");
 }
 
@@ -334,6 +342,10 @@ void test_ply()
   refuses("format.ply", "ply\nformat morse 1.0\nend_header\n", "unknown format \"morse\"");
   const std::string all = ply<double, std::uint8_t, std::int32_t>("ascii", "double", "uchar", "int");
   refuses("cut.ply", all.substr(0, all.size() - 30), "is truncated");
+  const std::string four = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float nx\nproperty float x\n"
+                           "property float y\nproperty float z\nend_header\nnan 0 0 0\n";
+  refuses("nan.ply", four + "nan 0 nan 0\n",
+          "line 10: vertex 1 has a coordinate that is not a finite number");
 }
 
 std::string polydata(bool is_binary, const std::string& title = "cube")
@@ -370,6 +382,9 @@ void test_vtk()
           "too short for so many");
   refuses("cut.vtk", text.substr(0, text.find("POLYGONS") + 20), "too short for so many");
   refuses("no_vtk.vtk", "OFF\n", "does not start with # vtk DataFile");
+  std::string not_finite = text;
+  not_finite.replace(not_finite.find("POINTS 8 float\n") + 15, 8, "0 nan\n0 ");
+  refuses("nan.vtk", not_finite, "line 9: vertex 0 has a coordinate that is not a finite number");
   // sizes that do not fit
   std::string wrong = text;
   wrong.replace(wrong.find("POLYGONS 4 20\n4"), 15, "POLYGONS 4 20\n9");

@@ -137,6 +137,52 @@ void test_unions()
   encloses(row, 1 + 11 * (1 - 0.25 * 0.9375));
 }
 
+// Each face by either of its diagonals; bit k of `diagonals` is for face k.
+Soup box_by_diagonals(const Vec3& low, const Vec3& high, int diagonals)
+{
+  Soup soup = box(low, high);
+  for(std::size_t k = 0; k < 6; ++k)
+    if(diagonals >> k & 1) {
+      const Triangle s = soup.triangles[2 * k], t = soup.triangles[2 * k + 1];
+      soup.triangles[2 * k] = {s[0], s[1], t[2]};
+      soup.triangles[2 * k + 1] = {s[1], s[2], t[2]};
+    }
+  return soup;
+}
+
+// The point (x, y, z) becomes (y, z, x), so often.
+Soup cycled(Soup soup, int times)
+{
+  for(; times > 0; --times)
+    for(Point& p : soup.points)
+      p = Point(p.y(), p.z(), p.x());
+  return soup;
+}
+
+// Where faces in one plane overlap, both are cut in the same way, even into pieces with corners on a circle.
+void test_overlapping_faces()
+{
+  const int none = 0, all = 63;
+  for(int axis = 0; axis < 3; ++axis)
+    for(int of_a : {none, all})
+      for(int of_b : {none, all}) {
+        const auto touching = [&](const Vec3& low, const Vec3& high, bool is_reversed) {
+          const Soup a = box_by_diagonals({0, 0, 0}, {1, 1, 1}, of_a), b = box_by_diagonals(low, high, of_b);
+          return cycled(is_reversed ? Soup(b).add(a) : Soup(a).add(b), axis);
+        };
+        for(bool is_reversed : {false, true}) {
+          // 0.3 and 0.7 are not 1 together: a sliver of 1e-17, an isosceles trapezoid
+          encloses(touching({1, 0.3, 0.3}, {2, 0.7, 0.7}, is_reversed), 1.16);
+          encloses(touching({-1, 0.3, 0.3}, {0, 0.7, 0.7}, is_reversed), 1.16);
+          // rectangles
+          encloses(touching({1, -0.5, -0.5}, {2, 0.25, 0.25}, is_reversed), 1 + 0.75 * 0.75);
+          encloses(touching({1, 0.5, 0.25}, {2, 1.5, 1.25}, is_reversed), 2);
+          encloses(touching({0.5, 0.5, 0}, {2, 1.5, 1}, is_reversed), 1 + 1.5 - 0.25);
+          encloses(turned(touching({1, 0.5, 0.25}, {2, 1.5, 1.25}, is_reversed)), 2);
+        }
+      }
+}
+
 void test_cavities()
 {
   // inwards: a cavity; outwards: solid in solid
@@ -274,6 +320,7 @@ void test_holes()
 int test_repair(int, char*[])
 {
   test_unions();
+  test_overlapping_faces();
   test_cavities();
   test_nonmanifold();
   test_fold();

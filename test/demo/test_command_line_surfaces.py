@@ -8,6 +8,7 @@
 import json
 import sys
 import unittest
+from math import cos, pi, sin
 
 from command_line_case import CUBE_OFF, WORK, Case
 from cube import CUBE, QUADS, TRIANGLES, moved, off, shifted
@@ -200,6 +201,20 @@ class Surfaces(Case):
         run = self.mesher(path, "--vertices", 100, "--no-fit", "--output", self.output)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("times the surface's volume", run.stderr)
+
+    def test_units_of_length(self):
+        """No length is too large or too small for the comparison of topology."""
+        points = [(sin(pi * i / 8) * cos(pi * j / 8), sin(pi * i / 8) * sin(pi * j / 8), cos(pi * i / 8))
+                  for i in range(1, 8) for j in range(16)] + [(0, 0, 1), (0, 0, -1)]
+        faces = [f for j in range(16) for k in ((j + 1) % 16,)
+                 for f in ((112, j, k), (113, 96 + k, 96 + j),
+                           *((16 * i + j, 16 * i + 16 + j, 16 * i + 16 + k, 16 * i + k) for i in range(6)))]
+        for scale in (1e-30, 1e-9, 1, 1e16, 1e30):
+            with self.subTest(scale):
+                run = self.mesher(self.file("ball.off", off(moved(points, scale), faces)), "--vertices", 300,
+                                  "--output", self.output)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertEqual([line for line in run.stderr.splitlines() if "piece" in line], [])
 
     def test_space_and_unit(self):
         long = [(10 * x + 2, 20 * y + 3, 30 * z) for x, y, z in CUBE]  # beside the axis

@@ -38,6 +38,18 @@ class Use(Case):
         self.fails("--vertices", 100, names="SURFACE", status=2)
         self.fails(self.good, names="--vertices", status=2)
 
+    def test_blanks_around_numbers(self):
+        reports = []
+        for blank in ("", " ", "\t", "\n"):
+            run = self.mesher(self.good, "--vertices", f"{blank}500{blank}", f"--grading={blank}0.5{blank}",
+                              "--base-level", f"{blank}2{blank}", "--output", self.output)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            reports.append(self.output.read_bytes())
+        self.assertEqual(1, len(set(reports)))
+        for n in (" ", "5 00", " 1.5 ", " many "):
+            with self.subTest(n):
+                self.fails(self.good, "--vertices", n, names="--vertices", status=2)
+
     def test_region_off_the_domain(self):
         region = self.file("off_the_domain.off", off(moved(CUBE, 1, (5, 5, 5)), TRIANGLES))
         self.fails(self.good, "--region", region, "--vertices", 500, "--output", self.output,

@@ -9,8 +9,29 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <iostream>
+#include <string>
 #include <system_error>
+#include <vector>
+
+namespace {
+
+// Without blanks around a number, the value of an option or one by itself.
+std::string with_numbers_trimmed(const std::string& word)
+{
+  const char* const blanks = " \t\n\r";
+  const std::size_t equal = word.substr(0, 2) == "--" ? word.find('=') : std::string::npos;
+  const std::size_t start = equal == std::string::npos ? 0 : equal + 1;
+  const std::size_t first = word.find_first_not_of(blanks, start);
+  if(first == std::string::npos)
+    return word;
+  const std::string trimmed = word.substr(first, word.find_last_not_of(blanks) + 1 - first);
+  double x;
+  return CLI::detail::lexical_cast(trimmed, x) ? word.substr(0, start) + trimmed : word;
+}
+
+} // namespace
 
 CLI::Validator number(const std::string& wanted, const std::function<bool(double)>& is_valid)
 {
@@ -88,8 +109,14 @@ std::string command_of(const char* name, int argc, const char* const* argv)
 std::optional<int> parse(const char* name, CLI::App& app, int argc, char** argv,
                          const std::function<void()>& check)
 {
+  std::vector<std::string> words;
+  for(int i = 0; i < argc; ++i)
+    words.push_back(i == 0 ? argv[i] : with_numbers_trimmed(argv[i]));
+  std::vector<const char*> pointers;
+  for(const std::string& word : words)
+    pointers.push_back(word.c_str());
   try {
-    app.parse(argc, argv);
+    app.parse(argc, pointers.data());
     check();
     return std::nullopt;
   } catch(const CLI::ParseError& e) {

@@ -7,6 +7,8 @@
 
 #include "common/messages.h"
 
+#include <CGAL/Mixed_mesh_criteria_3.h>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -129,7 +131,9 @@ void add_warnings(const Options& o, Outcome& outcome)
 {
   std::vector<std::string>& warnings = outcome.warnings;
   const Fidelity& f = outcome.fidelity;
-  if(double(outcome.mesh.vertices) < 0.97 * double(o.vertices) && !outcome.result.is_lattice_on_surface)
+  const double full = CGAL::Mixed_mesh_criteria_3::full_share * double(o.vertices);
+  if((double(outcome.mesh.vertices) < full && !outcome.result.is_lattice_on_surface)
+     || outcome.result.status == CGAL::Mixed_mesh_status::BUDGET_NOT_FILLED)
     warnings.push_back("only " + std::to_string(outcome.mesh.vertices) + " of " + std::to_string(o.vertices)
                        + " vertices used: the region cannot be refined "
                          "further, or each further cell tried would exceed the budget");

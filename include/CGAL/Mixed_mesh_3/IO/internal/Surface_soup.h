@@ -50,6 +50,11 @@ struct Surface_soup
 
 constexpr std::size_t no_vertex = (std::numeric_limits<std::size_t>::max)();
 
+inline std::string not_finite(std::size_t vertex)
+{
+  return "vertex " + std::to_string(vertex) + " has a coordinate that is not a finite number";
+}
+
 /// An index of any type; one that cannot be becomes `no_vertex`.
 template <class Number>
 std::size_t vertex_index(Number index)
@@ -163,11 +168,19 @@ public:
 
   double coordinate() { return parse_coordinate(word("a coordinate")); }
 
-  Vec3 point()
+  /// What was just read: while its line is known.
+  double finite_coordinate(double x, std::size_t vertex) const
+  {
+    if(!std::isfinite(x))
+      refuse(not_finite(vertex));
+    return x;
+  }
+
+  Vec3 point(std::size_t vertex)
   {
     Vec3 p;
     for(double& x : p)
-      x = coordinate();
+      x = finite_coordinate(coordinate(), vertex);
     return p;
   }
 

@@ -56,7 +56,7 @@ inline Surface_soup read_OBJ(const std::string& path, const std::string& bytes)
     if(key == "v") {
       Vec3 p;
       for(double& x : p)
-        x = at.parse_coordinate(words.word());
+        x = at.finite_coordinate(at.parse_coordinate(words.word()), soup.points.size());
       soup.points.push_back(p);
     } else if(key == "f") {
       std::vector<std::size_t> polygon;

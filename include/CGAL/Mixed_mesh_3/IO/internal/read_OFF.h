@@ -106,7 +106,7 @@ inline Surface_soup read_OFF(const std::string& path, const std::string& bytes)
   in.rest_of_line(); // edges
   soup.points.reserve(points);
   for(std::size_t i = 0; i < points; ++i) {
-    const Vec3 p = in.point();
+    const Vec3 p = in.point(i);
     soup.points.push_back(header.is_homogeneous ? divided(p, in.coordinate()) : p);
     in.rest_of_line(); // normals, colors, texture
   }

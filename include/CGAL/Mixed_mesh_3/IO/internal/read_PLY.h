@@ -72,6 +72,7 @@ class PLY_text_input
 public:
   explicit PLY_text_input(Surface_text& in) : m_in(in) {}
   double value(PLY_type) { return m_in.parse_coordinate(m_in.word("a value")); }
+  double coordinate(PLY_type type, std::size_t vertex) { return m_in.finite_coordinate(value(type), vertex); }
   std::size_t largest_count(PLY_type) const { return m_in.rest().size() / 2 + 1; }
 };
 
@@ -97,6 +98,7 @@ public:
     return 0;
   }
 
+  double coordinate(PLY_type type, std::size_t) { return value(type); } // there are no lines to name
   std::size_t largest_count(PLY_type type) const { return m_in.rest().size() / size_of(type); }
 };
 
@@ -187,7 +189,7 @@ class PLY_reader
         if(k >= 3 || property.count_type) {
           skip(in, property);
         } else {
-          p[k] = in.value(property.type);
+          p[k] = in.coordinate(property.type, i);
           has[k] = true;
         }
       }

@@ -66,7 +66,7 @@ inline void read_text_STL(const std::string& path, std::string_view bytes, Surfa
     } else if(is_word(word, "vertex")) {
       if(!is_in_facet)
         in.refuse("a vertex is in no facet");
-      soup.points.push_back(in.point());
+      soup.points.push_back(in.point(soup.points.size()));
       ++vertices;
     } else if(is_word(word, "endfacet")) {
       if(!is_in_facet)

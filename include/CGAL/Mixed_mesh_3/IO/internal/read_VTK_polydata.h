@@ -105,7 +105,15 @@ class VTK_polydata_reader
   void read_points()
   {
     const std::size_t n = m_in.count("the number of points", 6);
-    const std::vector<double> x = values<double>(m_in.word("the type of points"), 3 * n);
+    const std::string_view type = m_in.word("the type of points");
+    if(!m_is_binary) { // for messages that name the line
+      with_type(type, [](auto) {});
+      m_in.rest_of_line();
+      for(std::size_t v = 0; v < n; ++v)
+        m_soup.points.push_back(m_in.point(v));
+      return;
+    }
+    const std::vector<double> x = values<double>(type, 3 * n);
     for(std::size_t v = 0; v < n; ++v)
       m_soup.points.push_back({x[3 * v], x[3 * v + 1], x[3 * v + 2]});
   }

@@ -87,7 +87,7 @@ inline void check_coordinates(const std::string& path, Surface_soup& soup)
     for(std::size_t i = 0; i < soup.points.size(); ++i) {
       const double x = soup.points[i][k];
       if(!std::isfinite(x))
-        refuse(path, "vertex " + std::to_string(i) + " has a coordinate that is not a finite number");
+        refuse(path, not_finite(i));
       largest = (std::max)(largest, std::abs(x));
       lower = (std::min)(lower, x);
       upper = (std::max)(upper, x);

@@ -31,7 +31,9 @@ struct Solid_reading
   std::vector<Point> points;
   std::vector<std::array<std::size_t, 3>> triangles;
   Solid_rule rule = Solid_rule::WINDING;
-  bool is_complete = true; ///< false: there are more than `most` pairs of triangles that meet, and no result
+  bool is_complete =
+    true; ///< false: more than `most` pairs of triangles meet, or no ray tells what is solid;
+          ///< no result then
   double inverted_volume = 0; ///< of places that triangles wind around inwards: they are not solid
 };
 

@@ -136,6 +136,9 @@ CGAL_MIXED_MESH_3_INLINE Solid_reading read_solid(const std::vector<Solid_readin
   if(!reading.is_complete)
     return reading;
   const Space_partition space(arrangement);
+  reading.is_complete = space.is_complete();
+  if(!reading.is_complete)
+    return reading;
   reading.rule = space.rule();
   const auto& facets = arrangement.facets();
   std::vector<std::size_t> triangle_of(facets.size(), std::size_t(-1));

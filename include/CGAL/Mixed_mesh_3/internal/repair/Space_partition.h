@@ -65,6 +65,7 @@ class Space_partition
   std::vector<std::size_t> m_cell;                 // by side, as in a forest of sets
   std::vector<int> m_winding;                      // by side
   Solid_rule m_rule = Solid_rule::WINDING;
+  bool m_is_complete = true;
 
 public:
   explicit Space_partition(const Triangle_arrangement& arrangement)
@@ -93,6 +94,9 @@ public:
   static std::size_t back(std::size_t facet) { return 2 * facet + 1; }
 
   Solid_rule rule() const { return m_rule; }
+
+  /// Whether all cells are known: no ray tells if facets overlap, as those of an arrangement do not.
+  bool is_complete() const { return m_is_complete; }
 
   /// Calls back with each edge, and the facets around it, turning to the right seen along it.
   template <class Use>
@@ -220,6 +224,7 @@ private:
 
   void find_windings()
   {
+    m_winding.resize(m_cell.size());
     const std::size_t unknown = std::size_t(-1);
     std::vector<std::size_t> cell(m_cell.size());
     for(std::size_t s = 0; s < cell.size(); ++s)
@@ -232,7 +237,12 @@ private:
         facets_of[cell[s]].push_back(f);
     std::vector<std::size_t> component(m_facets.size());
     for(std::size_t first : find_components(component)) {
-      const auto [side, outside, w] = look_out(first, component);
+      const std::optional<Outlook> outlook = look_out(first, component);
+      if(!outlook) {
+        m_is_complete = false;
+        return;
+      }
+      const auto [side, outside, w] = *outlook;
       std::vector<std::size_t> queue{m_rule == Solid_rule::ENCLOSED ? cell[outside] : cell[side]};
       winding[queue[0]] = m_rule == Solid_rule::ENCLOSED ? 0 : w;
       is_known[queue[0]] = 1;
@@ -248,7 +258,6 @@ private:
           queue.push_back(other);
         }
     }
-    m_winding.resize(cell.size());
     for(std::size_t s = 0; s < cell.size(); ++s)
       m_winding[s] = winding[cell[s]];
   }
@@ -260,21 +269,23 @@ private:
     int winding;         // around `side`
   };
 
-  // Along a segment from the middle of a facet to far away.
-  Outlook look_out(std::size_t start, const std::vector<std::size_t>& component) const
+  // Along a segment from the middle of a facet to far away; nothing if none of some forty passes edges by.
+  std::optional<Outlook> look_out(std::size_t start, const std::vector<std::size_t>& component) const
   {
     const auto& v = m_facets[start].vertices;
     const Point p = CGAL::centroid(m_points[v[0]], m_points[v[1]], m_points[v[2]]);
     // nearly along an axis, that few boxes are met
     const double length = 2 * ((std::max)({m_bbox.x_span(), m_bbox.y_span(), m_bbox.z_span()}) + 1e-30);
+    constexpr int most_trials = 40; // the last one is of slope 200
     double slope = 1e-3;
-    for(int trial = 0;; ++trial) {
+    for(int trial = 0; trial < most_trials; ++trial) {
       slope = trial == 0 ? slope : 1.37 * slope;
       const Kernel::Vector_3 out(length, slope * length, 0.618 * slope * (trial + 1) * length);
       const std::optional<Outlook> outlook = look_out(start, p, p + out, component);
       if(outlook)
-        return *outlook;
+        return outlook;
     }
+    return std::nullopt;
   }
 
   // Nothing if the segment touches an edge, or is parallel to a facet that it touches.

@@ -22,10 +22,10 @@
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/enum.h>
 #include <CGAL/intersections.h>
+#include <CGAL/number_utils.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <map>
 #include <utility>
@@ -208,16 +208,15 @@ private:
     const Triangle t = triangles[number];
     const std::array<Point, 3> p{m_points[t[0]], m_points[t[1]], m_points[t[2]]};
     const Kernel::Vector_3 normal = CGAL::cross_product(p[1] - p[0], p[2] - p[0]);
-    // seen along the axis that is most upright, counterclockwise
+    // Seen along the axis that is most upright: exactly, and from the same end of it, for all triangles of a
+    // plane. The Delaunay triangulation of points on a circle depends on it; where triangles overlap, it must
+    // be the same.
     int axis = 0;
     for(int k = 1; k < 3; ++k)
-      if(std::abs(CGAL::to_double(normal[k])) > std::abs(CGAL::to_double(normal[axis])))
+      if(CGAL::abs(normal[k]) > CGAL::abs(normal[axis]))
         axis = k;
-    if(CGAL::is_zero(normal[axis]))
-      axis = !CGAL::is_zero(normal[0]) ? 0 : !CGAL::is_zero(normal[1]) ? 1 : 2;
-    int first = (axis + 1) % 3, second = (axis + 2) % 3;
-    if(CGAL::is_negative(normal[axis]))
-      std::swap(first, second);
+    const int first = (axis + 1) % 3, second = (axis + 2) % 3;
+    const bool is_seen_from_behind = CGAL::is_negative(normal[axis]);
     const auto flat = [&](const Point& q) { return Point_2(q[first], q[second]); };
 
     Constrained_triangulation cdt;
@@ -273,7 +272,8 @@ private:
     for(auto v = cdt.finite_vertices_begin(); v != cdt.finite_vertices_end(); ++v)
       indices[v] = index(v->point());
     for(auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f)
-      add({indices[f->vertex(0)], indices[f->vertex(1)], indices[f->vertex(2)]});
+      add({indices[f->vertex(0)], indices[f->vertex(is_seen_from_behind ? 2 : 1)],
+           indices[f->vertex(is_seen_from_behind ? 1 : 2)]});
   }
 };
 

@@ -162,6 +162,7 @@ private:
   std::unique_ptr<Tree> m_tree; // of all faces
   std::vector<Shell> m_shells;
   double m_area = 0;
+  double m_size = 0; // the largest extent of a shell
 
   template <class Faces>
   std::unique_ptr<Tree> tree_of(const Faces& faces) const
@@ -218,6 +219,7 @@ private:
           s.bbox += Point_3(p[0], p[1], p[2]).bbox();
       }
       m_area += s.area;
+      m_size = (std::max)({m_size, s.bbox.x_span(), s.bbox.y_span(), s.bbox.z_span()});
       // three half edges a triangle, and two an edge
       const auto euler = std::ptrdiff_t(number_of_vertices[r]) - std::ptrdiff_t(s.faces.size() / 2);
       s.genus = int(1 - euler / 2);
@@ -274,7 +276,9 @@ private:
     const Vec3 normal = normal_of(triangle(face));
     const double sign = m_shells[region].signed_volume < 0 ? 1 : -1;
     const Vec3 inwards = (sign / norm(normal)) * normal;
-    const Kernel::Ray_3 ray({p[0], p[1], p[2]}, Kernel::Vector_3(inwards[0], inwards[1], inwards[2]));
+    // as long as the surface is large: where coordinates are 1e30, a second point at distance 1 is the first
+    const Vec3 along = m_size * inwards;
+    const Kernel::Ray_3 ray({p[0], p[1], p[2]}, Kernel::Vector_3(along[0], along[1], along[2]));
     const auto hit = m_tree->first_intersected_primitive(ray, [&](const auto& f) { return f == face; });
     if(!hit)
       return;
