@@ -89,6 +89,31 @@ class Tissue(Case):
         self.assertTrue(np.allclose(np.sum([p["force"] for p in told["shift"]["control points"]], axis=0),
                                     [0, 0, 9810e-6 * (2 * 5 + 2 * 2)], atol=1e-9))
 
+    def test_adapt(self):
+        """Inner vertices move, where they have less energy; those of the boundary and between labels stay."""
+        n = 5
+        mesh = self.file("block.msh", lattice((n, n, n), 2, lambda x, y, z: 3 if z < 2 else 5))
+        indent = HEADER + "".join(f"{x},{y},{2 * n},0,0,-0.2\n" for x in (4, 6) for y in (4, 6))
+        points = self.file("indent.csv", indent)
+        run = lambda name, *more: self.succeeds(mesh, "--control-points", points, "--fixed-below", 0.1,
+                                                "--output", WORK / name, *more)
+        before, adapted = run("before.vtu")[0], run("adapted.vtu", "--adapt")
+        self.assertIsNone(before["adaptation"])
+        told = adapted[0]["adaptation"]
+        self.assertGreater(told["steps"], 0)
+        self.assertLess(told["mean energy, after / before"], 0.999)
+        self.assertLessEqual(told["worst ARC after"], 3.2)
+        self.assertIn("adaptation: energies of unit bumps", adapted[1].stdout)
+        p, q = (vtk_to_numpy(self.read(WORK / name).GetPoints().GetData()) for name in ("before.vtu", "adapted.vtu"))
+        moved = np.any(p != q, axis=1)
+        stays = np.any((p == 0) | (p == 2 * n), axis=1) | (p[:, 2] == 4)
+        self.assertTrue(moved.any())
+        self.assertFalse(moved[stays].any())
+        self.assertEqual(told["vertices that may move"], int((~stays).sum()))
+        alone = self.file("alone.csv", HEADER + f"4,4,{2 * n},0,0,-0.2\n")
+        self.fails(mesh, "--control-points", alone, "--fixed-below", 0.1, "--adapt", names="--adapt",
+                   words="nothing to adapt to")
+
     def test_bad_materials(self):
         mesh, move = self.column()
         arguments = [mesh, "--control-points", self.file("top.csv", move(0.3))]

@@ -26,6 +26,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace CGAL {
@@ -58,8 +59,8 @@ class Elasticity_model
   // of the last solution
   Eigen::VectorXd m_control_forces, m_control_residuals;
   std::vector<Vec3> m_displacements;
-  std::vector<double> m_contact_forces; // of vertices
-  double m_energy = 0;
+  std::vector<double> m_contact_forces;       // of vertices
+  mutable std::optional<double> m_energy = 0; // of the last displacements; computed when asked for
 
 public:
   /// \param elements kept by reference: must outlive the object
@@ -107,7 +108,7 @@ public:
   std::vector<Vec3> control_forces() const;
   std::vector<Vec3> control_residuals() const;
   const std::vector<double>& contact_forces() const { return m_contact_forces; }
-  double energy() const { return m_energy; }
+  double energy() const;
 
   /// \pre solved, not iteratively, since control points and supports were set
   std::vector<Vec3> leave_one_out_errors() const;
@@ -121,6 +122,7 @@ private:
   // From the contacts as they are.
   Result solve_contacts(const Eigen::VectorXd& wanted);
   static Result failed(Status status, Result result = Result());
+  // \param reaction needed if there are contacts
   void keep(const Control_solution& solution, const Eigen::VectorXd& wanted, const Eigen::VectorXd& reaction);
   // Contacts hold what is to be pulled off the wall; if it is to be pushed into it, they close again.
   bool open_contacts_of_controls();

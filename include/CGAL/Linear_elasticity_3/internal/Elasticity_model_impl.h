@@ -163,6 +163,7 @@ CGAL_LINEAR_ELASTICITY_3_INLINE Linear_elasticity_result_3 Elasticity_model::fac
 CGAL_LINEAR_ELASTICITY_3_INLINE Linear_elasticity_result_3
 Elasticity_model::remove_elements(const std::vector<bool>& is_removed)
 {
+  energy(); // of the last displacements, in the body as it was
   m_body->subtract(is_removed);
   m_corotational.reset();
   m_controls->forget_elements();
@@ -262,6 +263,10 @@ Elasticity_model::solve_contacts(const Eigen::VectorXd& wanted)
     }
     if(!result.is_success())
       return result;
+    if(!has_contacts()) {
+      keep(solution, wanted, Eigen::VectorXd());
+      return m_is_corotational ? inverted_element() : result;
+    }
     const Eigen::VectorXd internal = internal_forces(solution.displacements),
                           reaction = reaction_of(internal, solution);
     if(!update_contacts(m_body->supports(), solution.displacements, reaction,
@@ -269,7 +274,6 @@ Elasticity_model::solve_contacts(const Eigen::VectorXd& wanted)
                         m_is_corotational ? corotational_contact_tolerance : contact_tolerance,
                         round < largest_number_of_rounds / 2)) {
       keep(solution, wanted, reaction);
-      m_energy = m_is_corotational ? m_corotational->energy() : solution.displacements.dot(internal) / 2;
       return m_is_corotational ? inverted_element() : result;
     }
     if(result = factor_again(); !result.is_success())
@@ -300,6 +304,22 @@ CGAL_LINEAR_ELASTICITY_3_INLINE void Elasticity_model::keep(const Control_soluti
     if(m_body->supports().is_kept(v))
       for(int k = 0; k < 3; ++k)
         m_displacements[v][k] = solution.displacements[3 * Eigen::Index(v) + k];
+  m_energy.reset();
+  if(m_is_corotational)
+    m_energy = m_corotational->energy();
+}
+
+// A product with the stiffness takes longer than a solution with its factor.
+CGAL_LINEAR_ELASTICITY_3_INLINE double Elasticity_model::energy() const
+{
+  if(!m_energy) {
+    Eigen::VectorXd u(3 * Eigen::Index(m_displacements.size()));
+    for(Vertex_index v = 0; v < m_displacements.size(); ++v)
+      for(int k = 0; k < 3; ++k)
+        u[3 * Eigen::Index(v) + k] = m_displacements[v][k];
+    m_energy = u.dot(m_body->stiffness().product(u)) / 2;
+  }
+  return *m_energy;
 }
 
 CGAL_LINEAR_ELASTICITY_3_INLINE bool Elasticity_model::open_contacts_of_controls()

@@ -363,6 +363,7 @@ private:
     const std::size_t n = fine.number_of_vertices();
     if(m_is_stopped || !coarsen_to(fine, budget()))
       return;
+    m_result.is_lattice_on_surface = false;
     m_result.number_of_vertices_needed = fine.number_of_vertices();
     m_result.number_of_transition_vertices = m_result.number_of_boundary_vertices_inserted = 0;
     m_result.number_of_vertices_in_region = vertices_in_region(fine);
