@@ -12,7 +12,6 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
-#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
@@ -40,15 +39,7 @@ inline std::vector<Octree::Node_index> unreached_cells(const Located_octree& oct
   using Point_3 = Predicates_kernel::Point_3;
   if(lost.empty() || mesh.number_of_elements() == 0)
     return lost;
-  Triangle_soup soup;
-  for(const Core_mesh::Point_3& p : mesh.points())
-    soup.points.emplace_back(p.x(), p.y(), p.z());
-  for(const Face& face : boundary_faces(mesh)) {
-    const Face_vertices& v = face.vertices();
-    for(int i = 2; i < v.size(); ++i)
-      soup.triangles.push_back({v[0], v[i - 1], v[i]});
-  }
-  const Nearest_triangle boundary(soup);
+  const Nearest_triangle boundary(boundary_triangles(mesh));
 
   std::vector<Octree::Node_index> unreached;
   for(Octree::Node_index n : lost) {

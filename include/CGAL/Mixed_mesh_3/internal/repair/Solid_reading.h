@@ -31,9 +31,8 @@ struct Solid_reading
   std::vector<Point> points;
   std::vector<std::array<std::size_t, 3>> triangles;
   Solid_rule rule = Solid_rule::WINDING;
-  bool is_complete =
-    true; ///< false: more than `most` pairs of triangles meet, or no ray tells what is solid;
-          ///< no result then
+  /// If not, more than `most` pairs of triangles meet, or no ray tells what is solid, and there is no result.
+  bool is_complete = true;
   double inverted_volume = 0; ///< of places that triangles wind around inwards: they are not solid
 };
 

@@ -14,10 +14,13 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/assertions.h>
 #include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
@@ -39,6 +42,32 @@ struct Triangle_soup
   std::vector<Predicates_kernel::Point_3> points;
   std::vector<std::array<std::size_t, 3>> triangles;
 };
+
+inline Predicates_kernel::Point_3 rounded_point(const Vec3& p) { return {p[0], p[1], p[2]}; }
+
+/// The boundary of a mesh. Quadrilaterals are split through their vertex of smallest index, as
+/// `split_to_tetrahedra()` does. Only the vertices of the boundary are in the soup.
+template <class Mesh>
+Triangle_soup boundary_triangles(const Mesh& mesh)
+{
+  CGAL_precondition(!mesh.is_empty());
+  Triangle_soup soup;
+  constexpr std::size_t none = std::size_t(-1);
+  std::vector<std::size_t> index(mesh.number_of_vertices(), none);
+  for(const Face& face : boundary_faces(mesh)) {
+    std::array<Vertex_index, 4> v = face.vertices().padded();
+    const int size = face.vertices().size();
+    std::rotate(v.begin(), std::min_element(v.begin(), v.begin() + size), v.begin() + size);
+    for(int i = 0; i < size; ++i)
+      if(index[v[i]] == none) {
+        index[v[i]] = soup.points.size();
+        soup.points.push_back(rounded_point(to_vec3(mesh.point(v[i]))));
+      }
+    for(int i = 1; i + 1 < size; ++i)
+      soup.triangles.push_back({index[v[0]], index[v[i]], index[v[i + 1]]});
+  }
+  return soup;
+}
 
 /// Nearest points on the triangles of a soup.
 class Nearest_triangle
