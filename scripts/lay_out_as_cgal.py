@@ -127,7 +127,9 @@ def copy_programs(target, package):
         if source.name.startswith("test_"):
             stem = "test_" + PACKAGES[package] + source.stem[len("test"):]
             # Here, a test is a function of the program of its folder; there, a program.
-            text = re.sub(rf"^int {source.stem}\(int", "int main(int", source.read_text(), flags=re.MULTILINE)
+            text = source.read_text()
+            if f"namespace {source.stem} {{" in text:
+                text += f"\nint main(int argc, char* argv[]) {{ return {source.stem}::run(argc, argv); }}\n"
             (tests / (stem + ".cpp")).write_text(text)
             (tests / (stem + ".cmd")).write_text(ARGUMENTS.get(source.stem, "data") + "\n") # for CGAL's ctest
     for header in [*(ROOT / "test" / "common").glob("*.h"), *(ROOT / "test" / package).glob("*.h")]:

@@ -43,7 +43,7 @@ mm3::Voxel_image_3 image_of(const Voxels& values, const Doubles& affine)
   return image;
 }
 
-py::array_t<float, py::array::f_style> array_of(const mm3::Voxel_image_3& image)
+py::array_t<float, py::array::f_style> values_of(const mm3::Voxel_image_3& image)
 {
   const auto& n = image.grid.size;
   py::array_t<float, py::array::f_style> array({n[0], n[1], n[2]});
@@ -52,7 +52,7 @@ py::array_t<float, py::array::f_style> array_of(const mm3::Voxel_image_3& image)
 }
 
 // (i, j, k, 3)
-py::array_t<float> array_of(const mm3::Displacement_field_3& field)
+py::array_t<float> values_of(const mm3::Displacement_field_3& field)
 {
   const auto& n = field.grid.size;
   py::array_t<float> array({n[0], n[1], n[2], std::size_t(3)});
@@ -115,8 +115,8 @@ py::tuple warp(const Voxels& values, const Doubles& affine, const Mesh& mesh, co
     const py::gil_scoped_release release;
     warped = mm3::warp_image(image, mesh, vectors, options);
   }
-  return py::make_tuple(array_of(warped.image), array_of(warped.forward), array_of(warped.backward),
-                        array_of(warped.mask));
+  return py::make_tuple(values_of(warped.image), values_of(warped.forward), values_of(warped.backward),
+                        values_of(warped.mask));
 }
 
 } // namespace

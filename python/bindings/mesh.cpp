@@ -20,8 +20,8 @@ namespace {
 
 using Kinds = py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast>;
 
-std::shared_ptr<Mesh> make_mesh(const Doubles& points, const Kinds& kinds, const Integers& connectivity,
-                                const std::optional<Integers>& labels)
+std::shared_ptr<Mesh> mesh_of_arrays(const Doubles& points, const Kinds& kinds, const Integers& connectivity,
+                                     const std::optional<Integers>& labels)
 {
   auto mesh = std::make_shared<Mesh>();
   for(const Vector& p : vectors_of(points, "points"))
@@ -128,7 +128,7 @@ void add_mesh(py::module_& module)
   static_assert(sizeof(mm3::Element_kind) == 1 && sizeof(mm3::Vertex_index) == sizeof(std::uint32_t)
                 && sizeof(std::size_t) == sizeof(std::int64_t));
   py::class_<Mesh, std::shared_ptr<Mesh>>(module, "Mesh")
-    .def(py::init(&make_mesh), py::arg("points"), py::arg("kinds"), py::arg("connectivity"),
+    .def(py::init(&mesh_of_arrays), py::arg("points"), py::arg("kinds"), py::arg("connectivity"),
          py::arg("labels") = py::none())
     .def_property_readonly(
       "points",

@@ -19,7 +19,7 @@
 #include <iostream>
 #include <vector>
 
-namespace {
+namespace test_adapt {
 
 using namespace elasticity_test;
 using Criteria = CGAL::Mixed_mesh_adaptation_criteria_3;
@@ -275,9 +275,7 @@ void test_statuses()
   BOOST_TEST(status(inverted, {on_boundary(mesh, steep_field)}) == Adaptation_status::INVALID_MESH);
 }
 
-} // namespace
-
-int test_adapt(int, char*[])
+int run(int, char*[])
 {
   for(Element_kind kind : element_kinds)
     for(double nu : {0., 0.3, 0.45})
@@ -291,3 +289,5 @@ int test_adapt(int, char*[])
   test_statuses();
   return boost::report_errors();
 }
+
+} // namespace test_adapt

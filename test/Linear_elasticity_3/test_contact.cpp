@@ -12,7 +12,7 @@
 #include <functional>
 #include <vector>
 
-namespace {
+namespace test_contact {
 
 using namespace elasticity_test;
 
@@ -271,9 +271,7 @@ void test_limits()
       BOOST_TEST_GT(problem.displacements()[v][2], -1e-9);
 }
 
-} // namespace
-
-int test_contact(int, char*[])
+int run(int, char*[])
 {
   for(int kind = 0; kind < number_of_element_kinds; ++kind)
     test_all_choices(kind);
@@ -283,3 +281,5 @@ int test_contact(int, char*[])
   test_limits();
   return boost::report_errors();
 }
+
+} // namespace test_contact

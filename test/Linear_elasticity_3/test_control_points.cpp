@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_control_points {
 
 using namespace elasticity_test;
 
@@ -364,9 +364,7 @@ void test_failing_solver()
   BOOST_TEST(is_success(problem.solve(Field{{0, 0, 0.1}})));
 }
 
-} // namespace
-
-int test_control_points(int, char*[])
+int run(int, char*[])
 {
   for(int kind = 0; kind <= number_of_element_kinds; ++kind)
     test_control_points(kind);
@@ -375,3 +373,5 @@ int test_control_points(int, char*[])
   test_failing_solver();
   return boost::report_errors();
 }
+
+} // namespace test_control_points

@@ -23,7 +23,7 @@
 #include <iostream>
 #include <vector>
 
-namespace {
+namespace test_corotational {
 
 using namespace elasticity_test;
 
@@ -361,9 +361,7 @@ void test_too_much()
   BOOST_TEST(is_success(problem.solve()));
 }
 
-} // namespace
-
-int test_corotational(int, char*[])
+int run(int, char*[])
 {
   for(int kind = 0; kind <= number_of_element_kinds; ++kind) {
     test_derivatives(kind);
@@ -378,3 +376,5 @@ int test_corotational(int, char*[])
       test_bar(2, kind, force, degrees);
   return boost::report_errors();
 }
+
+} // namespace test_corotational

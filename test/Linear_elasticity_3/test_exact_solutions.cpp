@@ -30,7 +30,7 @@
 #define MIXED_MESH_3_DATA_DIR "data"
 #endif
 
-namespace {
+namespace test_exact_solutions {
 
 using namespace elasticity_test;
 
@@ -305,9 +305,7 @@ void test_locking()
   }
 }
 
-} // namespace
-
-int test_exact_solutions(int argc, char* argv[])
+int run(int argc, char* argv[])
 {
   const std::string data = argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR;
   test_patch(data);
@@ -316,3 +314,5 @@ int test_exact_solutions(int argc, char* argv[])
   test_locking();
   return boost::report_errors();
 }
+
+} // namespace test_exact_solutions

@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_moved_models {
 
 using namespace elasticity_test;
 
@@ -223,9 +223,7 @@ void test_large_factor()
 }
 #endif
 
-} // namespace
-
-int test_moved_models(int, char*[])
+int run(int, char*[])
 {
   const Mesh mesh = any_grid(4, number_of_element_kinds, 0.1);
   test_moved<Simplicial_solver_traits>(mesh);
@@ -240,3 +238,5 @@ int test_moved_models(int, char*[])
   test_copied_solver<Simplicial_solver_traits>();
   return boost::report_errors();
 }
+
+} // namespace test_moved_models

@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_removal {
 
 using namespace elasticity_test;
 
@@ -217,9 +217,7 @@ void test_solvers()
 #endif
 }
 
-} // namespace
-
-int test_removal(int, char*[])
+int run(int, char*[])
 {
   for(int kind = 0; kind <= number_of_element_kinds; ++kind)
     test_removal(kind);
@@ -227,3 +225,5 @@ int test_removal(int, char*[])
   test_solvers();
   return boost::report_errors();
 }
+
+} // namespace test_removal

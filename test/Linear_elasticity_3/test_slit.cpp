@@ -15,7 +15,7 @@
 #include <set>
 #include <vector>
 
-namespace {
+namespace test_slit {
 
 using namespace elasticity_test;
 
@@ -136,9 +136,7 @@ void test_half(int kind)
   BOOST_TEST_GT(at_top, at_half);
 }
 
-} // namespace
-
-int test_slit(int, char*[])
+int run(int, char*[])
 {
   for(int kind = 0; kind <= number_of_element_kinds; ++kind) {
     test_two_bodies(kind);
@@ -146,3 +144,5 @@ int test_slit(int, char*[])
   }
   return boost::report_errors();
 }
+
+} // namespace test_slit

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_supports {
 
 using namespace elasticity_test;
 
@@ -363,9 +363,7 @@ void test_free_motions()
   BOOST_TEST_LT(std::abs(volumes[1] - volumes[0]), 1e-12); // of third order in the step
 }
 
-} // namespace
-
-int test_supports(int, char*[])
+int run(int, char*[])
 {
   for(int kind = 0; kind <= number_of_element_kinds; ++kind)
     test_supports(kind);
@@ -375,3 +373,5 @@ int test_supports(int, char*[])
   test_free_motions();
   return boost::report_errors();
 }
+
+} // namespace test_supports

@@ -23,7 +23,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace {
+namespace test_base {
 
 using CGAL::Mixed_meshes_3::Element_index;
 using CGAL::Mixed_meshes_3::Vertex_index;
@@ -132,9 +132,7 @@ void test_index()
   BOOST_TEST_EQ(Vertex_index{}, 0u);
 }
 
-} // namespace
-
-int test_base(int, char*[])
+int run(int, char*[])
 {
   test_vectors();
   test_rounding();
@@ -144,3 +142,5 @@ int test_base(int, char*[])
   test_index();
   return boost::report_errors();
 }
+
+} // namespace test_base

@@ -30,7 +30,7 @@
 #include <set>
 #include <vector>
 
-namespace {
+namespace test_boundary {
 
 using namespace CGAL::Mixed_meshes_3;
 using CGAL::Mixed_meshes_3::internal::Boundary_pieces;
@@ -374,9 +374,7 @@ void test_lost_cells()
   BOOST_TEST_GT(number_with_none, 2u);
 }
 
-} // namespace
-
-int test_boundary(int, char*[])
+int run(int, char*[])
 {
   test_split_element();
   test_boundary_stage();
@@ -384,3 +382,5 @@ int test_boundary(int, char*[])
   test_lost_cells();
   return boost::report_errors();
 }
+
+} // namespace test_boundary

@@ -28,6 +28,8 @@
 #include <fstream>
 #include <string>
 
+namespace test_conversions {
+
 namespace mm3 = CGAL::Mixed_meshes_3;
 namespace PMP = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -183,7 +185,7 @@ void test_stream(const std::string& path)
   BOOST_TEST(is_near(mm3::volume(back), mm3::volume(mesh)));
 }
 
-int test_conversions(int, char*[])
+int run(int, char*[])
 {
   test_round_trips();
   test_volumes_of_cgal();
@@ -192,3 +194,5 @@ int test_conversions(int, char*[])
   test_stream("test_conversions.mesh");
   return boost::report_errors();
 }
+
+} // namespace test_conversions

@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_elements {
 
 using namespace CGAL::Mixed_meshes_3;
 using CGAL::Mixed_meshes_3::internal::Manifold_defects;
@@ -291,9 +291,7 @@ void test_moved()
   expect_it(first);
 }
 
-} // namespace
-
-int test_elements(int, char*[])
+int run(int, char*[])
 {
   test_manifold_defects();
   test_find_defects();
@@ -301,3 +299,5 @@ int test_elements(int, char*[])
   test_moved();
   return boost::report_errors();
 }
+
+} // namespace test_elements

@@ -18,6 +18,8 @@
 #include <cstddef>
 #include <random>
 
+namespace test_elements_certificate {
+
 using namespace CGAL::Mixed_meshes_3;
 using Points = std::array<std::array<double, 3>, 8>;
 
@@ -250,7 +252,7 @@ void test_flat_tetrahedra()
   BOOST_TEST(number_of_sides[0] > 100 && number_of_sides[2] > 100);
 }
 
-int test_elements_certificate(int, char*[])
+int run(int, char*[])
 {
   test_random<TETRAHEDRON>(2000);
   test_random<PYRAMID>(1500);
@@ -262,3 +264,5 @@ int test_elements_certificate(int, char*[])
   test_flat_tetrahedra();
   return boost::report_errors();
 }
+
+} // namespace test_elements_certificate

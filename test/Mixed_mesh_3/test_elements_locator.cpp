@@ -26,7 +26,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_elements_locator {
 
 using namespace CGAL::Mixed_meshes_3;
 
@@ -236,9 +236,7 @@ void test_moved()
   }
 }
 
-} // namespace
-
-int test_elements_locator(int, char*[])
+int run(int, char*[])
 {
   test_inverse_map<TETRAHEDRON>();
   test_inverse_map<PYRAMID>();
@@ -248,3 +246,5 @@ int test_elements_locator(int, char*[])
   test_moved();
   return boost::report_errors();
 }
+
+} // namespace test_elements_locator

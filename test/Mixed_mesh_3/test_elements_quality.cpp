@@ -20,7 +20,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_elements_quality {
 
 using namespace CGAL::Mixed_meshes_3;
 
@@ -286,9 +286,8 @@ void test_statistics_and_histogram()
     (histogram(mesh, aspect_ratio_coefficient, {1, 2, 3, 7}) == std::vector<std::size_t>{0, 1, 1, 0, 3}));
   BOOST_TEST((histogram(mesh, aspect_ratio_coefficient, {}) == std::vector<std::size_t>{5}));
 }
-} // namespace
 
-int test_elements_quality(int, char*[])
+int run(int, char*[])
 {
   test_ideal_elements();
   test_distorted_elements();
@@ -298,3 +297,5 @@ int test_elements_quality(int, char*[])
   test_statistics_and_histogram();
   return boost::report_errors();
 }
+
+} // namespace test_elements_quality

@@ -21,7 +21,7 @@
 #include <limits>
 #include <vector>
 
-namespace {
+namespace test_elements_recovery {
 
 using namespace CGAL::Mixed_meshes_3;
 using internal::Gradient;
@@ -431,9 +431,7 @@ void test_orientation()
   BOOST_TEST_LT(0u, number);
 }
 
-} // namespace
-
-int test_elements_recovery(int, char*[])
+int run(int, char*[])
 {
   test_quadratic_on_element<TETRAHEDRON>();
   test_quadratic_on_element<PYRAMID>();
@@ -448,3 +446,5 @@ int test_elements_recovery(int, char*[])
   test_orientation();
   return boost::report_errors();
 }
+
+} // namespace test_elements_recovery

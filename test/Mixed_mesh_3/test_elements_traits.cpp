@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_elements_traits {
 
 using namespace CGAL::Mixed_meshes_3;
 using CGAL::Mixed_meshes_3::Vec3;
@@ -481,9 +481,7 @@ void test_statistics()
   BOOST_TEST(is_close(volume(mesh), 1 + 2 + 9 + 7. / 3, 1e-14));
 }
 
-} // namespace
-
-int test_elements_traits(int, char*[])
+int run(int, char*[])
 {
   for(Element_kind kind : element_kinds) {
     test_table(kind);
@@ -502,3 +500,5 @@ int test_elements_traits(int, char*[])
   test_statistics();
   return boost::report_errors();
 }
+
+} // namespace test_elements_traits

@@ -21,7 +21,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace {
+namespace test_fem {
 
 using namespace CGAL::Mixed_meshes_3;
 using namespace CGAL::Mixed_meshes_3::internal;
@@ -126,11 +126,11 @@ void test_solver()
   }
 }
 
-} // namespace
-
-int test_fem(int, char*[])
+int run(int, char*[])
 {
   test_elasticity();
   test_solver();
   return boost::report_errors();
 }
+
+} // namespace test_fem

@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_fidelity {
 
 using Kind = Solid_difference_kind;
 
@@ -355,9 +355,7 @@ void test_balls()
   }
 }
 
-} // namespace
-
-int test_fidelity(int, char*[])
+int run(int, char*[])
 {
   test_bodies();
   test_cavities();
@@ -367,3 +365,5 @@ int test_fidelity(int, char*[])
   test_balls();
   return boost::report_errors();
 }
+
+} // namespace test_fidelity

@@ -26,7 +26,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_fitting_attraction {
 
 using namespace CGAL::Mixed_meshes_3;
 using CGAL::Polyhedral_mixed_mesh_domain_3;
@@ -228,12 +228,12 @@ void test_samples()
   }
 }
 
-} // namespace
-
-int test_fitting_attraction(int, char*[])
+int run(int, char*[])
 {
   test_remembered();
   test_more_samples();
   test_samples();
   return boost::report_errors();
 }
+
+} // namespace test_fitting_attraction

@@ -26,7 +26,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_fitting_bisections {
 
 using namespace CGAL::Mixed_meshes_3;
 using internal::Boundary_bisector;
@@ -299,9 +299,7 @@ void test_nonmanifold_edge()
   }
 }
 
-} // namespace
-
-int test_fitting_bisections(int, char*[])
+int run(int, char*[])
 {
   test_tetrahedra();
   test_projection();
@@ -309,3 +307,5 @@ int test_fitting_bisections(int, char*[])
   test_nonmanifold_edge();
   return boost::report_errors();
 }
+
+} // namespace test_fitting_bisections

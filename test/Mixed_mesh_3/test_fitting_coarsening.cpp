@@ -34,7 +34,7 @@
 #include <set>
 #include <vector>
 
-namespace {
+namespace test_fitting_coarsening {
 
 using namespace CGAL::Mixed_meshes_3;
 using cells::Cell;
@@ -268,12 +268,12 @@ void test_weights()
   BOOST_TEST_GT(double(near_region[1]), 1.3 * double(near_region[0]));
 }
 
-} // namespace
-
-int test_fitting_coarsening(int, char*[])
+int run(int, char*[])
 {
   test_collapses();
   test_coarsen();
   test_weights();
   return boost::report_errors();
 }
+
+} // namespace test_fitting_coarsening

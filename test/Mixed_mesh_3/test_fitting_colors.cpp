@@ -24,7 +24,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_fitting_colors {
 
 using namespace CGAL::Mixed_meshes_3;
 using internal::Vertex_coloring;
@@ -171,12 +171,12 @@ void test_inside()
   }
 }
 
-} // namespace
-
-int test_fitting_colors(int, char*[])
+int run(int, char*[])
 {
   test_coloring();
   test_inside();
   test_threads();
   return boost::report_errors();
 }
+
+} // namespace test_fitting_colors

@@ -35,7 +35,7 @@
 #define MIXED_MESH_3_DATA_DIR "data"
 #endif
 
-namespace {
+namespace test_fitting_fit {
 
 using namespace CGAL::Mixed_meshes_3;
 using namespace CGAL::Mixed_meshes_3::internal;
@@ -391,9 +391,7 @@ void test_brain(const Mesh& source, const Test_surface& brain)
   BOOST_TEST(find_defects(mesh).none());
 }
 
-} // namespace
-
-int test_fitting_fit(int argc, char* argv[])
+int run(int argc, char* argv[])
 {
   const std::string data = argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR;
   Test_surface brain, region;
@@ -410,3 +408,5 @@ int test_fitting_fit(int argc, char* argv[])
   test_criteria();
   return boost::report_errors();
 }
+
+} // namespace test_fitting_fit

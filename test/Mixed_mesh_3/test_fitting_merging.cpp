@@ -26,7 +26,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_fitting_merging {
 
 using namespace CGAL::Mixed_meshes_3;
 using internal::Boundary_vertex_merger;
@@ -156,9 +156,7 @@ void test_place()
   BOOST_TEST_EQ(number_of_corners, 8);
 }
 
-} // namespace
-
-int test_fitting_merging(int, char*[])
+int run(int, char*[])
 {
   test_cells();
   test_bound();
@@ -166,3 +164,5 @@ int test_fitting_merging(int, char*[])
   test_place();
   return boost::report_errors();
 }
+
+} // namespace test_fitting_merging

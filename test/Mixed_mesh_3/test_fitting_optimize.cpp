@@ -42,7 +42,7 @@
 #define MIXED_MESH_3_DATA_DIR "data"
 #endif
 
-namespace {
+namespace test_fitting_optimize {
 
 using namespace CGAL::Mixed_meshes_3;
 using CGAL::Everywhere_mixed_mesh_region_3;
@@ -379,9 +379,7 @@ void test_brain(const Test_surface& brain, const Test_surface& region_surface)
   BOOST_TEST_LE(refined.optimization.largest_distance, 1.01 * nearer_off);
 }
 
-} // namespace
-
-int test_fitting_optimize(int argc, char* argv[])
+int run(int argc, char* argv[])
 {
   const std::string data = argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR;
   Test_surface brain, region;
@@ -398,3 +396,5 @@ int test_fitting_optimize(int argc, char* argv[])
   test_brain(brain, region);
   return boost::report_errors();
 }
+
+} // namespace test_fitting_optimize

@@ -30,7 +30,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_fitting_parts {
 
 using namespace CGAL::Mixed_meshes_3;
 using CGAL::Mixed_meshes_3::internal::Element_points;
@@ -311,12 +311,13 @@ void test_removal()
     BOOST_TEST_LE(std::abs(whole - volume(mesh) - double(flips) * depth / 3), 1e-14);
   }
 }
-} // namespace
 
-int test_fitting_parts(int, char*[])
+int run(int, char*[])
 {
   test_qualities();
   test_flips();
   test_removal();
   return boost::report_errors();
 }
+
+} // namespace test_fitting_parts

@@ -38,7 +38,7 @@
 #include <set>
 #include <vector>
 
-namespace {
+namespace test_fitting_quality_bound {
 
 using namespace CGAL::Mixed_meshes_3;
 using CGAL::Mixed_mesh_criteria_3;
@@ -601,9 +601,7 @@ void test_bad_start()
     }
 }
 
-} // namespace
-
-int test_fitting_quality_bound(int, char*[])
+int run(int, char*[])
 {
   test_start();
   for(Element_kind kind : element_kinds)
@@ -617,3 +615,5 @@ int test_fitting_quality_bound(int, char*[])
   test_bad_start();
   return boost::report_errors();
 }
+
+} // namespace test_fitting_quality_bound

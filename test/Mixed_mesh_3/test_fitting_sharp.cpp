@@ -24,6 +24,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_fitting_sharp {
+
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Surface = CGAL::Surface_mesh<Point>;
@@ -260,7 +262,7 @@ void test_detection()
       BOOST_TEST(features(ball(40, noise), size).empty());
 }
 
-int test_fitting_sharp(int, char*[])
+int run(int, char*[])
 {
   test_detection();
   test_boxes();
@@ -269,3 +271,5 @@ int test_fitting_sharp(int, char*[])
   test_cylinder();
   return boost::report_errors();
 }
+
+} // namespace test_fitting_sharp

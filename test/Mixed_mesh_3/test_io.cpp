@@ -48,6 +48,8 @@
 #include <sys/resource.h>
 #endif
 
+namespace test_io {
+
 using namespace CGAL::Mixed_meshes_3;
 namespace IO = CGAL::Mixed_meshes_3::IO;
 namespace fs = std::filesystem;
@@ -897,7 +899,7 @@ void test_reader(const fs::path& directory)
   fs::remove(path);
 }
 
-int test_io(int argc, char* argv[])
+int run(int argc, char* argv[])
 {
   const fs::path directory = argc > 2 ? argv[2] : ".";
   fs::create_directories(directory);
@@ -909,3 +911,5 @@ int test_io(int argc, char* argv[])
   test_reader<CGAL::Polyhedron_3<Kernel>>(directory);
   return boost::report_errors();
 }
+
+} // namespace test_io

@@ -36,7 +36,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_io_read {
 
 using namespace CGAL::Mixed_meshes_3;
 namespace IO = CGAL::Mixed_meshes_3::IO;
@@ -587,9 +587,7 @@ void print(const std::string& path)
   std::cout << "]}\n";
 }
 
-} // namespace
-
-int test_io_read(int argc, char* argv[])
+int run(int argc, char* argv[])
 {
   if(argc > 1 && std::string(argv[1]) == "--files") {
     for(int i = 2; i < argc; ++i) {
@@ -614,3 +612,5 @@ int test_io_read(int argc, char* argv[])
   test_subdomain_names(directory);
   return boost::report_errors();
 }
+
+} // namespace test_io_read

@@ -34,7 +34,7 @@
 namespace fs = std::filesystem;
 namespace IO = CGAL::Mixed_meshes_3::IO;
 
-namespace {
+namespace test_io_surface {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
@@ -747,9 +747,7 @@ void test_damage(const fs::path& path)
   fs::remove(damaged);
 }
 
-} // namespace
-
-int test_io_surface(int argc, char* argv[])
+int run(int argc, char* argv[])
 {
   if(argc > 1 && std::string(argv[1]) == "--files") {
     for(int i = 2; i < argc; ++i) {
@@ -777,3 +775,5 @@ int test_io_surface(int argc, char* argv[])
     test_damage(directory / name);
   return boost::report_errors();
 }
+
+} // namespace test_io_surface

@@ -43,7 +43,7 @@
 #define MIXED_MESH_3_DATA_DIR "data"
 #endif
 
-namespace {
+namespace test_meshing {
 
 using CGAL::Ball_mixed_mesh_region_3;
 using CGAL::Everywhere_mixed_mesh_region_3;
@@ -579,9 +579,7 @@ void test_spikes()
     }
 }
 
-} // namespace
-
-int test_meshing(int argc, char* argv[])
+int run(int argc, char* argv[])
 {
   const std::string data = argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR;
   Surface brain, region_surface;
@@ -615,3 +613,5 @@ int test_meshing(int argc, char* argv[])
   timed("visitor", [&] { test_visitor(brain, region_surface); });
   return boost::report_errors();
 }
+
+} // namespace test_meshing

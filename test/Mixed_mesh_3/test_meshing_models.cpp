@@ -24,7 +24,7 @@
 #include <optional>
 #include <vector>
 
-namespace {
+namespace test_meshing_models {
 
 const CGAL::Everywhere_mixed_mesh_region_3 everywhere;
 
@@ -282,9 +282,7 @@ void test_labels()
   BOOST_TEST(content(a) == content(b));
 }
 
-} // namespace
-
-int test_meshing_models(int, char*[])
+int run(int, char*[])
 {
   test_thin_parts();
   test_topology_that_differs();
@@ -294,3 +292,5 @@ int test_meshing_models(int, char*[])
   test_labels();
   return boost::report_errors();
 }
+
+} // namespace test_meshing_models

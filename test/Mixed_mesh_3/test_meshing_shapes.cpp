@@ -25,7 +25,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_meshing_shapes {
 
 using CGAL::Ball_mixed_mesh_region_3;
 using CGAL::Everywhere_mixed_mesh_region_3;
@@ -321,9 +321,7 @@ void test_implicit_domain()
   BOOST_TEST_LT(std::abs(volume(of_surface) - volume(mesh)), 0.05 * volume(mesh));
 }
 
-} // namespace
-
-int test_meshing_shapes(int, char*[])
+int run(int, char*[])
 {
   test_precedence();
   test_implicit_domain();
@@ -331,3 +329,5 @@ int test_meshing_shapes(int, char*[])
   test_shapes();
   return boost::report_errors();
 }
+
+} // namespace test_meshing_shapes

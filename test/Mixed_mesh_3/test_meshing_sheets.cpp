@@ -26,7 +26,7 @@
 
 using Domain = CGAL::Labeled_polyhedral_mixed_mesh_domain_3;
 
-namespace {
+namespace test_meshing_sheets {
 
 // A grid of n x n squares, moved from the unit square by a function.
 Surface grid(int n, const std::function<Point_3(double, double)>& place)
@@ -280,9 +280,7 @@ void test_random()
   }
 }
 
-} // namespace
-
-int test_meshing_sheets(int, char*[])
+int run(int, char*[])
 {
   test_cut_ball();
   test_ends_inside();
@@ -292,3 +290,5 @@ int test_meshing_sheets(int, char*[])
   test_random();
   return boost::report_errors();
 }
+
+} // namespace test_meshing_sheets

@@ -28,7 +28,7 @@ using CGAL::ON_BOUNDARY;
 using CGAL::ON_BOUNDED_SIDE;
 using CGAL::ON_UNBOUNDED_SIDE;
 
-namespace {
+namespace test_meshing_subdomains {
 
 struct Box
 {
@@ -363,9 +363,7 @@ void test_both_sides()
   }
 }
 
-} // namespace
-
-int test_meshing_subdomains(int, char*[])
+int run(int, char*[])
 {
   test_domain();
   test_closest_points();
@@ -376,3 +374,5 @@ int test_meshing_subdomains(int, char*[])
   test_both_sides();
   return boost::report_errors();
 }
+
+} // namespace test_meshing_subdomains

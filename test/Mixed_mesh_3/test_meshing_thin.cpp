@@ -23,7 +23,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_meshing_thin {
 
 Surface torus(double radius, double small_radius, int n, int m)
 {
@@ -159,9 +159,7 @@ void test_shell_counts()
   BOOST_TEST_EQ(ring.shells().euler_characteristic, 0);
 }
 
-} // namespace
-
-int test_meshing_thin(int, char*[])
+int run(int, char*[])
 {
   test_shell_counts();
   test_untouched();
@@ -178,3 +176,5 @@ int test_meshing_thin(int, char*[])
   test_stopped();
   return boost::report_errors();
 }
+
+} // namespace test_meshing_thin

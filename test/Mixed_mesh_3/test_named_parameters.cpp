@@ -18,7 +18,7 @@
 
 #include <cstddef>
 
-namespace {
+namespace test_named_parameters {
 
 using Mesh = CGAL::Mixed_mesh_3<Test_kernel>;
 using CGAL::parameters::vertex_point_map;
@@ -89,9 +89,7 @@ void test_carried(const Carry& carry)
   BOOST_TEST(is_same(mesh, expected));
 }
 
-} // namespace
-
-int test_named_parameters(int, char*[])
+int run(int, char*[])
 {
   test_make();
   test_carried([](Mesh& mesh, const Test_surface& surface, const auto& np) {
@@ -103,3 +101,5 @@ int test_named_parameters(int, char*[])
   });
   return boost::report_errors();
 }
+
+} // namespace test_named_parameters

@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_octree {
 
 using CGAL::Mixed_meshes_3::Adjacency;
 using CGAL::Mixed_meshes_3::Lattice_point;
@@ -344,9 +344,7 @@ std::size_t test_edge_patterns(const Octree& octree)
   return seen.size();
 }
 
-} // namespace
-
-int test_octree(int, char*[])
+int run(int, char*[])
 {
   int number_unbalanced = 0;
   std::size_t most_patterns = 0;
@@ -371,3 +369,5 @@ int test_octree(int, char*[])
   BOOST_TEST_GE(most_patterns, 50u);
   return boost::report_errors();
 }
+
+} // namespace test_octree

@@ -24,7 +24,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_octree_cells {
 
 using namespace CGAL::Mixed_meshes_3;
 using CGAL::Bbox_3;
@@ -349,12 +349,12 @@ void test_located_cells()
   }
 }
 
-} // namespace
-
-int test_octree_cells(int, char*[])
+int run(int, char*[])
 {
   test_cell_traits();
   test_is_balanced();
   test_located_cells();
   return boost::report_errors();
 }
+
+} // namespace test_octree_cells

@@ -26,7 +26,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_octree_refinement {
 
 using namespace CGAL::Mixed_meshes_3;
 using CGAL::Ball_mixed_mesh_region_3;
@@ -426,9 +426,7 @@ void test_other_candidates()
   }
 }
 
-} // namespace
-
-int test_octree_refinement(int, char*[])
+int run(int, char*[])
 {
   test_truncate();
   test_refine_like();
@@ -439,3 +437,5 @@ int test_octree_refinement(int, char*[])
   test_other_candidates();
   return boost::report_errors();
 }
+
+} // namespace test_octree_refinement

@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_repair {
 
 using namespace CGAL::Mixed_meshes_3::internal;
 using CGAL::Mixed_meshes_3::Vec3;
@@ -315,9 +315,7 @@ void test_holes()
   encloses(soup, 1);
 }
 
-} // namespace
-
-int test_repair(int, char*[])
+int run(int, char*[])
 {
   test_unions();
   test_overlapping_faces();
@@ -330,3 +328,5 @@ int test_repair(int, char*[])
   test_holes();
   return boost::report_errors();
 }
+
+} // namespace test_repair

@@ -34,7 +34,7 @@
 #define MIXED_MESH_3_DATA_DIR "data"
 #endif
 
-namespace {
+namespace test_resection {
 
 using namespace CGAL::Mixed_meshes_3;
 using Mesh = CGAL::Mixed_mesh_3<Test_kernel>;
@@ -612,9 +612,7 @@ void test_brain(const std::string& data)
   }
 }
 
-} // namespace
-
-int test_resection(int argc, char* argv[])
+int run(int argc, char* argv[])
 {
   test_two_cubes();
   test_checkerboards();
@@ -630,3 +628,5 @@ int test_resection(int argc, char* argv[])
   BOOST_TEST_GT(tally.floating, 0u);
   return boost::report_errors();
 }
+
+} // namespace test_resection

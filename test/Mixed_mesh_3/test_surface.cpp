@@ -28,7 +28,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_surface {
 
 using namespace CGAL::Mixed_meshes_3;
 using CGAL::Bbox_3;
@@ -303,9 +303,7 @@ void test_weights_in_unions()
   BOOST_TEST_EQ(CGAL::Polyhedral_mixed_mesh_regions_3().weight({1, 2, 3}, 1), 1.);
 }
 
-} // namespace
-
-int test_surface(int, char*[])
+int run(int, char*[])
 {
   test_domain_oracle();
   test_surface_samples();
@@ -315,3 +313,5 @@ int test_surface(int, char*[])
   test_weights_in_unions();
   return boost::report_errors();
 }
+
+} // namespace test_surface

@@ -37,7 +37,7 @@
 #define MIXED_MESH_3_DATA_DIR "data"
 #endif
 
-namespace {
+namespace test_surface_distance {
 
 using namespace CGAL::Mixed_meshes_3;
 
@@ -342,9 +342,8 @@ void test_brain(const std::string& data)
   BOOST_TEST(is_close(d.from_mesh.distance, peer(boundary, brain), 0.04));
   BOOST_TEST(is_close(d.from_surface.distance, peer(brain, boundary), 0.04));
 }
-} // namespace
 
-int test_surface_distance(int argc, char* argv[])
+int run(int argc, char* argv[])
 {
   test_hausdorff_distance();
   test_vertices_off_surface();
@@ -352,3 +351,5 @@ int test_surface_distance(int argc, char* argv[])
   test_brain(argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR);
   return boost::report_errors();
 }
+
+} // namespace test_surface_distance

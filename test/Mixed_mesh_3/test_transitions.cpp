@@ -19,7 +19,7 @@
 #include <set>
 #include <vector>
 
-namespace {
+namespace test_transitions {
 
 using namespace CGAL::Mixed_meshes_3;
 using CGAL::Mixed_meshes_3::internal::Lattice_mesh;
@@ -190,11 +190,11 @@ void test_inserted_on_rim()
   }
 }
 
-} // namespace
-
-int test_transitions(int, char*[])
+int run(int, char*[])
 {
   test_all_transitions();
   test_inserted_on_rim();
   return boost::report_errors();
 }
+
+} // namespace test_transitions

@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_transitions_tables {
 
 using CGAL::Mixed_meshes_3::internal::Face_piece;
 using CGAL::Mixed_meshes_3::internal::Template_element;
@@ -646,9 +646,7 @@ void test_named_cases()
   }
 }
 
-} // namespace
-
-int test_transitions_tables(int, char*[])
+int run(int, char*[])
 {
   test_face_splits();
   test_templates();
@@ -658,3 +656,5 @@ int test_transitions_tables(int, char*[])
   test_named_cases();
   return boost::report_errors();
 }
+
+} // namespace test_transitions_tables

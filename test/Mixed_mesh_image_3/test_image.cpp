@@ -25,7 +25,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_image {
 
 using namespace CGAL::Mixed_meshes_3;
 
@@ -301,9 +301,7 @@ void test_misfit()
   BOOST_TEST_EQ(message(near, u), "none");
 }
 
-} // namespace
-
-int test_image(int, char*[])
+int run(int, char*[])
 {
   test_affine_maps();
   test_identity();
@@ -319,3 +317,5 @@ int test_image(int, char*[])
   test_misfit();
   return boost::report_errors();
 }
+
+} // namespace test_image

@@ -37,7 +37,7 @@ using namespace CGAL::Mixed_meshes_3;
 namespace IO = CGAL::Mixed_meshes_3::IO;
 namespace fs = std::filesystem;
 
-namespace {
+namespace test_image_io {
 
 fs::path directory;
 
@@ -453,9 +453,8 @@ void test_warped_files()
     BOOST_TEST_EQ(defect(file(name)),
                   "is a 5-D image of 61 x 57 x 49 x 1 x 3 values; expected three dimensions");
 }
-} // namespace
 
-int test_image_io(int argc, char* argv[])
+int run(int argc, char* argv[])
 {
   directory = argc > 2 ? argv[2] : ".";
   fs::create_directories(directory);
@@ -466,3 +465,5 @@ int test_image_io(int argc, char* argv[])
   test_warped_files();
   return boost::report_errors();
 }
+
+} // namespace test_image_io

@@ -25,7 +25,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_label_surface {
 
 using namespace CGAL::Mixed_meshes_3;
 using Point_3 = Predicates_kernel::Point_3;
@@ -211,9 +211,7 @@ void test_smoothing()
   BOOST_TEST(std::abs(sum(raw.values) - sum(smooth.values)) < 1e-3 * sum(raw.values));
 }
 
-} // namespace
-
-int test_label_surface(int, char*[])
+int run(int, char*[])
 {
   test_all_patterns();
   test_random_images();
@@ -223,3 +221,5 @@ int test_label_surface(int, char*[])
   test_smoothing();
   return boost::report_errors();
 }
+
+} // namespace test_label_surface

@@ -8,7 +8,7 @@
 #ifndef MIXED_MESH_3_TEST_FITTING_H
 #define MIXED_MESH_3_TEST_FITTING_H
 
-#include "test_meshes.h"
+#include "test_grids.h"
 #include "test_surfaces.h"
 
 #include <CGAL/Mixed_mesh_3.h>
@@ -21,11 +21,7 @@
 #include <set>
 #include <vector>
 
-using CGAL::Mixed_meshes_3::Element_kind;
 using CGAL::Mixed_meshes_3::Jacobian_sign;
-using CGAL::Mixed_meshes_3::Vertex_index;
-
-using Mesh = CGAL::Mixed_mesh_3<Test_kernel>;
 
 inline bool is_positive(const Mesh& mesh)
 {
@@ -53,22 +49,6 @@ inline std::set<Polygon> boundary_of(const Mesh& mesh)
     result.insert(v);
   }
   return result;
-}
-
-inline std::vector<bool> is_on_boundary(const Mesh& mesh)
-{
-  std::vector<bool> result(mesh.number_of_vertices());
-  for(const Polygon& p : boundary_of(mesh))
-    for(Vertex_index v : p)
-      result[v] = true;
-  return result;
-}
-
-// n^3 cells in [0,1]^3, of elements of one kind.
-inline Mesh grid(int n, Element_kind kind)
-{
-  return grid_of_cells<Mesh>(n, kind,
-                             [&](double x, double y, double z) { return Test_point(x / n, y / n, z / n); });
 }
 
 // Moves inner vertices as far as all elements stay valid.

@@ -60,7 +60,7 @@ mm3::Resection_3 resect_subdomain(const Mesh& mesh, mm3::Subdomain_index index)
   return mm3::resect(mesh, is_asked);
 }
 
-Resection_facts facts_of(const mm3::Resection_3& r)
+Resection_facts resection_facts(const mm3::Resection_3& r)
 {
   Resection_facts facts;
   facts.status = mm3::description(r.status);
@@ -94,7 +94,7 @@ std::vector<bool> resect(const Mesh& mesh, const Tumor& tumor, const Options& o,
       name + ": what is left would touch itself at an edge or a vertex; so "
       + counted(r.number_of_restored_elements, "element stays", "elements stay") + ", and "
       + counted(r.number_of_pinch_elements, "other one is removed", "others are removed"));
-  outcome.resection = facts_of(r);
+  outcome.resection = resection_facts(r);
   return r.is_removed;
 }
 

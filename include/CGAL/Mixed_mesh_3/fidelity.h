@@ -146,10 +146,10 @@ public:
 
   std::vector<Solid_difference> operator()()
   {
-    const auto in_surface = inverse(m_in_surface, m_surface.size());
+    const auto in_surface = indices_at(m_in_surface, m_surface.size());
     for(std::size_t r = 0; r < m_surface.size(); ++r)
       compare_region_of_surface(r, in_surface[r]);
-    const auto in_mesh = inverse(m_in_mesh, m_mesh.size());
+    const auto in_mesh = indices_at(m_in_mesh, m_mesh.size());
     for(std::size_t r = 0; r < m_mesh.size(); ++r)
       compare_region_of_mesh(r, in_mesh[r]);
     std::size_t number_of_pairs = 0;

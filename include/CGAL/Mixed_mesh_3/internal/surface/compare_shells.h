@@ -88,8 +88,8 @@ inline std::vector<Region_location> locate_regions(const Nested_shells& a, const
 }
 
 /// For each region of the other solid, those that are in it.
-inline std::vector<std::vector<std::size_t>> inverse(const std::vector<Region_location>& locations,
-                                                     std::size_t number_of_others)
+inline std::vector<std::vector<std::size_t>> indices_at(const std::vector<Region_location>& locations,
+                                                        std::size_t number_of_others)
 {
   std::vector<std::vector<std::size_t>> regions(number_of_others);
   for(std::size_t r = 0; r < locations.size(); ++r)
