@@ -11,4 +11,8 @@ mark_as_advanced(CCACHE)
 if(MIXED_MESH_3_USE_CCACHE AND CCACHE AND NOT "$ENV{NO_CCACHE}" AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}
                                   CCACHE_NOHASHDIR=1 ${CCACHE})
+  # Sources that are compiled as one include each other by whole paths, which assertions must not print, then.
+  if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+    add_compile_options(-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)
+  endif()
 endif()

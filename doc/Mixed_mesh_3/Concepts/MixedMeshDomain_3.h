@@ -89,10 +89,11 @@ public:
   /// the same.
   /// @{
 
-  /// How many shells the surface has, and its Euler characteristic. Where the boundary of the mesh is not
-  /// like that, thin walls and narrow gaps are resolved first, and if it still is not, the status is
-  /// `CGAL::Mixed_mesh_status::TOPOLOGY_DIFFERS`. Without this function, topology and volume are not
-  /// compared, and `CGAL::Mixed_mesh_result_3::shells_of_domain` is empty; so it is where the result is.
+  /// How many shells the surface has, its Euler characteristic and, if that is known, how many of the shells
+  /// are around cavities. Where the boundary of the mesh is not like that, thin walls and narrow gaps are
+  /// resolved first, and if it still is not, the status is `CGAL::Mixed_mesh_status::TOPOLOGY_DIFFERS`.
+  /// Without this function, topology and volume are not compared, and
+  /// `CGAL::Mixed_mesh_result_3::shells_of_domain` is empty; so it is where the result is.
   std::optional<CGAL::Mixed_meshes_3::Shell_counts> shells() const;
 
   /// The volume of the domain. If that of the mesh differs by more than 5 %, thin parts are resolved first,

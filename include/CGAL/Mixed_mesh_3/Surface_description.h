@@ -15,22 +15,26 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /// \ingroup PkgMixedMesh3Domains
-/// What a closed surface is like, in two numbers that need no geometry. A domain may tell them by
-/// `MixedMeshDomain_3::shells()`.
+/// What a closed surface is like, in numbers. A domain may tell them by `MixedMeshDomain_3::shells()`.
 struct Shell_counts
 {
   std::size_t number_of_shells = 0;        ///< connected components: bodies and cavities
   std::ptrdiff_t euler_characteristic = 0; ///< two a shell, less two a handle
-  /// Whether both numbers are equal.
+  /// Of the shells, those around cavities, if that is known: in nothing else, two bodies differ from a body
+  /// with a cavity.
+  std::optional<std::size_t> number_of_cavities = std::nullopt;
+  /// Whether all numbers are equal that both have.
   bool operator==(const Shell_counts& s) const
   {
-    return number_of_shells == s.number_of_shells && euler_characteristic == s.euler_characteristic;
+    return number_of_shells == s.number_of_shells && euler_characteristic == s.euler_characteristic
+           && (!number_of_cavities || !s.number_of_cavities || number_of_cavities == s.number_of_cavities);
   }
   bool operator!=(const Shell_counts& s) const { return !(*this == s); } ///< or not
 };

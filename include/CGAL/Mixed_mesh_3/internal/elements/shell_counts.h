@@ -13,48 +13,87 @@
 #include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/Surface_description.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
+#include <algorithm>
 #include <cstddef>
-#include <numeric>
+#include <cstdint>
 #include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
+/// The shells of a closed surface: for each vertex, the number of its shell.
+struct Shells_of_vertices
+{
+  static constexpr std::size_t unused = std::size_t(-1);
+
+  Shell_counts counts;               ///< without cavities
+  std::vector<std::size_t> shell_of; ///< for each vertex, or unused
+};
+
 /// \param polygons ranges of vertex indices. \pre each edge belongs to two of them
 /// \par Complexity
 /// Linear, nearly
 template <class Polygons>
-Shell_counts shell_counts(const Polygons& polygons, std::size_t number_of_vertices)
+Shells_of_vertices find_shells(const Polygons& polygons, std::size_t number_of_vertices)
 {
-  constexpr std::size_t unused = std::size_t(-1);
+  constexpr std::size_t unused = Shells_of_vertices::unused;
   std::vector<std::size_t> leader(number_of_vertices, unused);
   const auto find = [&](std::size_t v) {
     while(leader[v] != v)
       v = leader[v] = leader[leader[v]];
     return v;
   };
-  Shell_counts counts;
+  Shells_of_vertices shells;
+  Shell_counts& counts = shells.counts;
   std::size_t number_of_halfedges = 0, number_of_faces = 0;
   for(const auto& polygon : polygons) {
     for(const std::size_t v : polygon)
       if(leader[v] == unused) {
         leader[v] = v;
-        ++counts.number_of_shells; // until it is joined
         ++counts.euler_characteristic;
       }
     const std::size_t first = find(*polygon.begin());
     for(const std::size_t v : polygon)
-      if(const std::size_t other = find(v); other != first) {
+      if(const std::size_t other = find(v); other != first)
         leader[other] = first;
-        --counts.number_of_shells;
-      }
     number_of_halfedges += polygon.size();
     ++number_of_faces;
   }
   counts.euler_characteristic += std::ptrdiff_t(number_of_faces) - std::ptrdiff_t(number_of_halfedges / 2);
-  return counts;
+  shells.shell_of.assign(number_of_vertices, unused);
+  for(std::size_t v = 0; v < number_of_vertices; ++v)
+    if(leader[v] != unused && find(v) == v)
+      shells.shell_of[v] = counts.number_of_shells++;
+  for(std::size_t v = 0; v < number_of_vertices; ++v)
+    if(leader[v] != unused)
+      shells.shell_of[v] = shells.shell_of[find(v)];
+  return shells;
+}
+
+/// Signed volumes of shells, positive where polygons are seen counterclockwise from outside.
+/// \param point of a vertex, `Vec3`
+template <class Polygons, class Point>
+std::vector<double> volumes_of_shells(const Shells_of_vertices& shells, const Polygons& polygons,
+                                      const Point& point)
+{
+  std::vector<double> volumes(shells.counts.number_of_shells, 0);
+  std::vector<Vec3> origins(volumes.size()); // on the shell: rounding is relative to its size
+  std::vector<std::uint8_t> has_origin(volumes.size(), 0);
+  for(const auto& polygon : polygons) {
+    const auto v = polygon.begin();
+    const std::size_t shell = shells.shell_of[*v];
+    if(!has_origin[shell]) {
+      has_origin[shell] = 1;
+      origins[shell] = point(*v);
+    }
+    const Vec3 a = point(*v) - origins[shell];
+    for(std::size_t i = 2; i < polygon.size(); ++i)
+      volumes[shell] += dot(a, cross(point(v[i - 1]) - origins[shell], point(v[i]) - origins[shell])) / 6;
+  }
+  return volumes;
 }
 
 /// The shells of the boundary of a mesh. \pre it is a manifold, except where it is pinched
@@ -64,7 +103,14 @@ Shell_counts shells_of_boundary(const Mesh& mesh)
   std::vector<Face_vertices> polygons;
   for(const Face& face : boundary_faces(mesh))
     polygons.push_back(face.vertices());
-  return shell_counts(polygons, mesh.number_of_vertices());
+  const Shells_of_vertices shells = find_shells(polygons, mesh.number_of_vertices());
+  const std::vector<double> volumes = volumes_of_shells(shells, polygons, [&](std::size_t v) {
+    return to_vec3(mesh.point(Vertex_index(v)));
+  });
+  Shell_counts counts = shells.counts;
+  counts.number_of_cavities = std::size_t(
+    std::count_if(volumes.begin(), volumes.end(), [](double v) { return v < 0; }));
+  return counts;
 }
 
 } // namespace internal

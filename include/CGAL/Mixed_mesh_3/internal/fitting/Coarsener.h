@@ -76,12 +76,10 @@ class Coarsener
   std::vector<std::vector<Vec3>> m_places; // of what was removed, at the vertices it went into
   std::vector<std::uint8_t> m_stays, m_is_queued;
   std::priority_queue<Entry> m_queue;
+  const double m_weight_of_surface;   // of the volume between new faces and what they replace
   double m_bound = 0, m_distance = 0; // of costs; from removed vertices to the new faces
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  // Of the volume beside it: with 8, tubes of 2,000 vertices lose 2.5 % more of theirs, with 40 half a
-  // percent.
-  static constexpr double weight_of_surface = 400;
   static constexpr double least_cosine = 0.2; // between a face and the one that takes its place
   static constexpr double weight_of_cost = 0.05;
 
@@ -89,11 +87,14 @@ public:
   /// \param boundary triangles, all of it
   /// \param targets where the vertices should be, to be kept by the caller
   /// \param weights of the vertices
+  /// \param weight_of_surface of the volume between new faces and surface, beside the cubes of edges
   Coarsener(Working_mesh& mesh, const Quality& quality, const std::vector<Face>& boundary,
-            const std::vector<Vec3>& targets, std::vector<double> weights, std::size_t number_of_vertices)
+            const std::vector<Vec3>& targets, std::vector<double> weights, double weight_of_surface,
+            std::size_t number_of_vertices)
     : m_mesh(mesh), m_collapser(mesh, quality), m_boundary(mesh.points, boundary, number_of_vertices),
       m_targets(targets), m_weights(std::move(weights)), m_places(mesh.points.size()),
-      m_stays(mesh.points.size(), 0), m_is_queued(mesh.points.size(), 0)
+      m_stays(mesh.points.size(), 0), m_is_queued(mesh.points.size(), 0),
+      m_weight_of_surface(weight_of_surface)
   {
     for(Vertex_index v = 0; v < mesh.points.size(); ++v)
       m_stays[v] = mesh.incident[v].empty() || !m_collapser.is_in_one_subdomain(v);
@@ -260,7 +261,7 @@ private:
     };
     if(!is_near(m_targets[v]) || !std::all_of(m_places[v].begin(), m_places[v].end(), is_near))
       return infinity;
-    return weight_of_surface * std::sqrt(farthest) * doubled_area / 2;
+    return m_weight_of_surface * std::sqrt(farthest) * doubled_area / 2;
   }
 };
 

@@ -26,6 +26,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <queue>
@@ -69,21 +70,32 @@ inline std::vector<double> weights_of_vertices(const Working_mesh& mesh, double 
   return weights;
 }
 
+/// What comes first while edges are collapsed.
+enum class Coarsening_goal : std::uint8_t {
+  SHAPE, ///< of elements: none becomes worse than the bound
+  VOLUME ///< elements may become some times as bad, as in thin tubes they have to: to be optimized
+};
+
 /*!
 Collapses edges of a mesh of tetrahedra whose boundary is on the surface, until it has the given number of
 vertices: at first where the boundary stays near to where it was, then where it does not, as little as it
 takes.
 
-\param quality_bound no new element costs more
+\param quality_bound no new element costs more, or some times as much: see `goal`
 \param radius of the region, for `weights_of_vertices()`
 \return whether it has so few vertices then
 \par Complexity
 Some 100 microseconds for each vertex that is removed
 */
 inline bool coarsen(Core_mesh& mesh, const Any_surface& surface, std::size_t number_of_vertices,
-                    double quality_bound, double radius, const std::function<bool()>& go_on)
+                    double quality_bound, double radius, const std::function<bool()>& go_on,
+                    Coarsening_goal goal = Coarsening_goal::SHAPE)
 {
-  constexpr double largest_bound = 10;                   // if there is none
+  constexpr double largest_bound = 10; // if there is none
+  // With 8, tubes of 2,000 vertices lose 2.5 % more of their volume, with 40 half a percent. With 2.2 times
+  // the bound, and 4,000, a knot of 2,000 vertices keeps 95.1 % of its volume instead of 91.0, and is within
+  // the bound again after an optimization.
+  constexpr double weight_of_surface[] = {400, 4000}, share_of_bound[] = {1, 2.2};
   constexpr double distances[] = {0.08, 0.15, 0.3, 0.5}; // in edges of the boundary as they will be
   Strata strata(surface);
   const Interface_faces faces = strata.sorted_faces(mesh);
@@ -112,12 +124,13 @@ inline bool coarsen(Core_mesh& mesh, const Any_surface& surface, std::size_t num
     }
   Coarsener<Aspect_ratio_quality_3> coarsener(working, quality, boundary, targets,
                                               weights_of_vertices(working, radius),
+                                              weight_of_surface[int(goal)],
                                               std::size_t(share * double(boundary.size())));
   std::size_t n = mesh.number_of_vertices();
   for(const double distance : distances)
     if(n > number_of_vertices && go_on())
-      n -= coarsener((std::min)(quality_bound, largest_bound), distance * edge, n - number_of_vertices,
-                     go_on);
+      n -= coarsener(share_of_bound[int(goal)] * (std::min)(quality_bound, largest_bound), distance * edge,
+                     n - number_of_vertices, go_on);
   working.store(mesh);
   return n <= number_of_vertices;
 }

@@ -12,6 +12,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/Boundary_stage.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/Gap_widener.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/thin_cells.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
@@ -21,10 +22,18 @@
 #include <CGAL/Mixed_mesh_criteria_3.h>
 
 #include <cstddef>
+#include <cstdint>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
+
+/// What is done about gaps that are narrower than the cells beside them.
+enum class Gap_rule : std::uint8_t {
+  NONE,
+  NORMALS, ///< `widen_gaps()`
+  LINES    ///< `widen_gaps_by_lines()`
+};
 
 /// The mesh of one octree on the way to the budget, on the lattice.
 struct Candidate
@@ -41,9 +50,8 @@ struct Candidate
 };
 
 /// The stages that follow the octree. To be called in the stage `OCTREE`.
-/// \param are_gaps_wider see `widen_gaps()`
 inline Candidate make_candidate(const Located_octree& octree, const Mixed_mesh_criteria_3& criteria,
-                                Any_visitor& visitor, bool are_gaps_wider = false)
+                                Any_visitor& visitor, Gap_rule gap_rule = Gap_rule::NONE)
 {
   Candidate c;
   const Stage_pause pause(visitor, Stage::OCTREE);
@@ -54,8 +62,10 @@ inline Candidate make_candidate(const Located_octree& octree, const Mixed_mesh_c
     const Stage_scope scope(visitor, Stage::TRANSITIONS);
     c.mesh = apply_transitions(octree, criteria.transition_templates(),
                                Concurrency::number_of_threads(criteria));
-    if(are_gaps_wider)
+    if(gap_rule == Gap_rule::NORMALS)
       widen_gaps(octree, c.mesh);
+    else if(gap_rule == Gap_rule::LINES)
+      widen_gaps_by_lines(octree, c.mesh);
   }
   {
     const Stage_scope scope(visitor, Stage::BOUNDARY);

@@ -345,6 +345,24 @@ private:
     describe();
     if(!m_result.has_mesh())
       return;
+    const Core_mesh fine = roughly_fitted_mesh();
+    const Mixed_mesh_result_3 result = m_result;
+    coarsen_and_optimize(fine, Coarsening_goal::SHAPE, mesh);
+    if(m_is_stopped || !m_result.has_mesh() || !misfit_of(mesh).is_volume_wrong())
+      return;
+    const Mixed_mesh_result_3 first_result = m_result;
+    const Misfit first = misfit_of(mesh);
+    m_result = result;
+    Core_mesh other;
+    coarsen_and_optimize(fine, Coarsening_goal::VOLUME, other);
+    if(!m_is_stopped && m_result.optimization.number_of_elements_above_bound == 0 && misfit_of(other) < first)
+      mesh = std::move(other);
+    else
+      m_result = first_result;
+  }
+
+  Core_mesh roughly_fitted_mesh()
+  {
     Core_mesh fine;
     {
       const Stage_scope scope(m_visitor, Stage::ASSEMBLY);
@@ -360,15 +378,22 @@ private:
     optimize_bounded(
       fine, m_root.domain(), Concurrency::with_threads(rough, Concurrency::number_of_threads(m_criteria)),
       Aspect_ratio_quality_3(), [this] { return go_on(); }, tolerated_off);
-    const std::size_t n = fine.number_of_vertices();
-    if(m_is_stopped || !coarsen_to(fine, budget()))
+    return fine;
+  }
+
+  // \param mesh empty; stays so if edges that may be collapsed do not suffice
+  void coarsen_and_optimize(const Core_mesh& fine, Coarsening_goal goal, Core_mesh& mesh)
+  {
+    const Stage_scope scope(m_visitor, Stage::OPTIMIZATION);
+    Core_mesh coarse = fine;
+    if(m_is_stopped || !coarsen_to(coarse, budget(), goal))
       return;
     m_result.is_lattice_on_surface = false;
-    m_result.number_of_vertices_needed = fine.number_of_vertices();
+    m_result.number_of_vertices_needed = coarse.number_of_vertices();
     m_result.number_of_transition_vertices = m_result.number_of_boundary_vertices_inserted = 0;
-    m_result.number_of_vertices_in_region = vertices_in_region(fine);
-    mesh = std::move(fine);
-    m_result.number_of_collapsed_vertices = n - mesh.number_of_vertices();
+    m_result.number_of_vertices_in_region = vertices_in_region(coarse);
+    mesh = std::move(coarse);
+    m_result.number_of_collapsed_vertices = fine.number_of_vertices() - mesh.number_of_vertices();
     const Mixed_mesh_status status = m_result.status;
     optimize(mesh);
     remove_vertices_off(mesh, status);
@@ -377,11 +402,13 @@ private:
   }
 
   // \return whether it has so few vertices then
-  bool coarsen_to(Core_mesh& mesh, std::size_t number_of_vertices)
+  bool coarsen_to(Core_mesh& mesh, std::size_t number_of_vertices,
+                  Coarsening_goal goal = Coarsening_goal::SHAPE)
   {
     const double radius = m_root.is_region_everywhere() ? 0 : m_criteria.grading() * m_radius;
-    return coarsen(mesh, m_root.domain(), number_of_vertices, m_criteria.quality_bound(), radius,
-                   [this] { return go_on(); })
+    return coarsen(
+             mesh, m_root.domain(), number_of_vertices, m_criteria.quality_bound(), radius,
+             [this] { return go_on(); }, goal)
            && !m_is_stopped;
   }
 
@@ -705,8 +732,17 @@ private:
     c.is_stopped = m_is_stopped;
     if(m_is_stopped)
       return c;
-    c = make_candidate(octree, m_criteria, m_visitor, m_are_gaps_wider);
+    c = make_candidate(octree, m_criteria, m_visitor, m_are_gaps_wider ? Gap_rule::NORMALS : Gap_rule::NONE);
     m_is_stopped = c.is_stopped;
+    if(m_are_gaps_wider && !m_is_stopped && c.number_of_vertices > 0
+       && misfit_on_lattice(octree, c, 0).is_topology_wrong()) {
+      Candidate other = make_candidate(octree, m_criteria, m_visitor, Gap_rule::LINES);
+      m_is_stopped = other.is_stopped;
+      m_result.number_of_trials += !other.is_stopped;
+      if(!m_is_stopped && other.number_of_vertices > 0 && other.is_manifold()
+         && !misfit_on_lattice(octree, other, 0).is_topology_wrong())
+        c = std::move(other);
+    }
     if(m_keeps_topology && c.number_of_vertices > 0)
       c.is_topology_wrong = misfit_on_lattice(octree, c, 0).is_topology_wrong();
     m_result.number_of_trials += !c.is_stopped;

@@ -56,6 +56,8 @@ public:
     m_shells = shells_of_boundary(mesh);
     m_topology = difference(m_shells->number_of_shells, m_shells_of_domain->number_of_shells)
                  + difference(m_shells->euler_characteristic, m_shells_of_domain->euler_characteristic);
+    if(m_shells->number_of_cavities && m_shells_of_domain->number_of_cavities)
+      m_topology += difference(*m_shells->number_of_cavities, *m_shells_of_domain->number_of_cavities);
     if(const std::optional<double> volume = domain.volume(); volume && is_fitted)
       m_volume = (std::max)(0., std::abs(Mixed_meshes_3::volume(mesh) / *volume - 1) - tolerated_volume);
   }

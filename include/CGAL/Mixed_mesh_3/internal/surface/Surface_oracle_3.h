@@ -196,6 +196,8 @@ private:
   static Bounded_side opposite(Bounded_side side) { return Bounded_side(-int(side)); }
 
   void build(const std::vector<Point_3>& points, const std::vector<std::array<std::size_t, 3>>& triangles);
+  void count_shells(const std::vector<Point_3>& points,
+                    const std::vector<std::array<std::size_t, 3>>& triangles);
 
   std::vector<Triangle_3> m_triangles;
   std::vector<Bbox_3> m_boxes;

@@ -78,7 +78,6 @@ Surface_oracle_3::build(const std::vector<Point_3>& points,
                         const std::vector<std::array<std::size_t, 3>>& triangles)
 {
   m_trees.reset(new Trees());
-  m_shells = shell_counts(triangles, points.size());
   Trees::Surface& s = m_trees->surface;
   for(const Point_3& p : points)
     s.add_vertex(p);
@@ -98,6 +97,44 @@ Surface_oracle_3::build(const std::vector<Point_3>& points,
     m_trees->triangles.push_back(to_doubles(t));
   m_trees->tree_of_doubles.insert(m_trees->triangles.cbegin(), m_trees->triangles.cend());
   m_trees->tree_of_doubles.build();
+  count_shells(points, triangles);
+}
+
+// Around a cavity, what is inside of a shell, but near to it, is outside; whichever way the triangles are
+// oriented.
+CGAL_MIXED_MESH_3_INLINE void
+Surface_oracle_3::count_shells(const std::vector<Point_3>& points,
+                               const std::vector<std::array<std::size_t, 3>>& triangles)
+{
+  constexpr double near = 1e-6; // in sides of a triangle
+  const Shells_of_vertices shells = find_shells(triangles, points.size());
+  m_shells = shells.counts;
+  m_shells.number_of_cavities = 0;
+  if(m_shells.number_of_shells < 2)
+    return;
+  const auto point = [&](std::size_t v) { return to_vec3(points[v]); };
+  const std::vector<double> volumes = volumes_of_shells(shells, triangles, point);
+  std::vector<const std::array<std::size_t, 3>*> largest(volumes.size(), nullptr);
+  std::vector<double> areas(volumes.size(), -1); // doubled
+  const auto normal = [&](const std::array<std::size_t, 3>& t) {
+    return cross(point(t[1]) - point(t[0]), point(t[2]) - point(t[0]));
+  };
+  for(const auto& t : triangles) {
+    const std::size_t shell = shells.shell_of[t[0]];
+    if(const double area = norm(normal(t)); area > areas[shell]) {
+      areas[shell] = area;
+      largest[shell] = &t;
+    }
+  }
+  for(std::size_t s = 0; s < volumes.size(); ++s) {
+    if(!(areas[s] > 0))
+      continue;
+    const auto& t = *largest[s];
+    const Vec3 inwards = (volumes[s] < 0 ? 1 : -1) / areas[s] * normal(t);
+    const Vec3 p = (1. / 3) * (point(t[0]) + point(t[1]) + point(t[2]))
+                   + near * std::sqrt(areas[s]) * inwards;
+    *m_shells.number_of_cavities += bounded_side(Point_3(p[0], p[1], p[2])) == ON_UNBOUNDED_SIDE;
+  }
 }
 
 CGAL_MIXED_MESH_3_INLINE double Surface_oracle_3::area() const
