@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 namespace CGAL {
@@ -90,8 +91,8 @@ std::vector<double> volumes_of_shells(const Shells_of_vertices& shells, const Po
       origins[shell] = point(*v);
     }
     const Vec3 a = point(*v) - origins[shell];
-    for(std::size_t i = 2; i < polygon.size(); ++i)
-      volumes[shell] += dot(a, cross(point(v[i - 1]) - origins[shell], point(v[i]) - origins[shell])) / 6;
+    for(auto w = std::next(v, 2); w != polygon.end(); ++w)
+      volumes[shell] += dot(a, cross(point(*std::prev(w)) - origins[shell], point(*w) - origins[shell])) / 6;
   }
   return volumes;
 }
