@@ -34,7 +34,9 @@ struct Shells_of_vertices
   std::vector<std::size_t> shell_of; ///< for each vertex, or unused
 };
 
-/// \param polygons ranges of vertex indices. \pre each edge belongs to two of them
+/// \param polygons ranges of vertex indices; each edge belongs to two of them, or the Euler characteristic
+/// means
+///        nothing
 /// \par Complexity
 /// Linear, nearly
 template <class Polygons>

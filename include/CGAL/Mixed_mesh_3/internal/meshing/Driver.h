@@ -348,10 +348,12 @@ private:
     const Core_mesh fine = roughly_fitted_mesh();
     const Mixed_mesh_result_3 result = m_result;
     coarsen_and_optimize(fine, Coarsening_goal::SHAPE, mesh);
-    if(m_is_stopped || !m_result.has_mesh() || !misfit_of(mesh).is_volume_wrong())
+    if(m_is_stopped || !m_result.has_mesh())
+      return;
+    const Misfit first = misfit_of(mesh);
+    if(!first.is_volume_wrong())
       return;
     const Mixed_mesh_result_3 first_result = m_result;
-    const Misfit first = misfit_of(mesh);
     m_result = result;
     Core_mesh other;
     coarsen_and_optimize(fine, Coarsening_goal::VOLUME, other);
@@ -734,17 +736,19 @@ private:
       return c;
     c = make_candidate(octree, m_criteria, m_visitor, m_are_gaps_wider ? Gap_rule::NORMALS : Gap_rule::NONE);
     m_is_stopped = c.is_stopped;
-    if(m_are_gaps_wider && !m_is_stopped && c.number_of_vertices > 0
-       && misfit_on_lattice(octree, c, 0).is_topology_wrong()) {
+    bool is_wrong = (m_are_gaps_wider || m_keeps_topology) && c.number_of_vertices > 0
+                    && misfit_on_lattice(octree, c, 0).is_topology_wrong();
+    if(m_are_gaps_wider && is_wrong) {
       Candidate other = make_candidate(octree, m_criteria, m_visitor, Gap_rule::LINES);
       m_is_stopped = other.is_stopped;
       m_result.number_of_trials += !other.is_stopped;
       if(!m_is_stopped && other.number_of_vertices > 0 && other.is_manifold()
-         && !misfit_on_lattice(octree, other, 0).is_topology_wrong())
+         && !misfit_on_lattice(octree, other, 0).is_topology_wrong()) {
         c = std::move(other);
+        is_wrong = false;
+      }
     }
-    if(m_keeps_topology && c.number_of_vertices > 0)
-      c.is_topology_wrong = misfit_on_lattice(octree, c, 0).is_topology_wrong();
+    c.is_topology_wrong = m_keeps_topology && is_wrong;
     m_result.number_of_trials += !c.is_stopped;
     return c;
   }

@@ -17,7 +17,6 @@
 #include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
 
-#include <CGAL/Bbox_3.h>
 #include <CGAL/enum.h>
 
 #include <algorithm>
@@ -50,10 +49,9 @@ class Gap_widener
 
   const Located_octree& m_octree;
   Lattice_mesh& m_mesh;
-  std::vector<Vec3> m_points, m_closest;           // of vertices of cells that meet the surface
-  std::vector<double> m_distances;                 // negative elsewhere
-  std::vector<std::vector<Vertex_index>> m_around; // vertices of the same elements, of vertices not inside
-  std::vector<Vertex_index> m_taken;               // whose labels were taken away
+  std::vector<Vec3> m_points, m_closest; // of vertices of cells that meet the surface
+  std::vector<double> m_distances;       // negative elsewhere
+  std::vector<Vertex_index> m_taken;     // whose labels were taken away
   Point_3 m_hint;
 
   static constexpr double smallest_step = 1. / 64; // of a line: narrower gaps may hide in it
@@ -84,7 +82,6 @@ private:
     m_points.resize(n);
     m_closest.resize(n);
     m_distances.assign(n, -1);
-    m_around.resize(n);
     for(Element_index e = 0; e < m_mesh.elements.size(); ++e)
       if(meets_surface(e))
         for(Vertex_index v : m_mesh.elements[e])
@@ -127,17 +124,17 @@ private:
   // \return whether labels were taken away
   bool part_vertices()
   {
-    for(std::vector<Vertex_index>& around : m_around)
-      around.clear();
+    // Vertices inside of the elements around vertices that are not.
+    std::vector<std::vector<Vertex_index>> all_around(m_mesh.vertices.size());
     for(Element_index e = 0; e < m_mesh.elements.size(); ++e)
       for(Vertex_index v : m_mesh.elements[e])
         if(is_near(v) && !m_mesh.is_inside(v))
           for(Vertex_index w : m_mesh.elements[e])
             if(is_near(w) && m_mesh.is_inside(w))
-              m_around[v].push_back(w);
-    std::size_t count = 0;
-    for(Vertex_index v = 0; v < m_around.size(); ++v) {
-      std::vector<Vertex_index>& around = m_around[v];
+              all_around[v].push_back(w);
+    const std::size_t taken_before = m_taken.size();
+    for(Vertex_index v = 0; v < all_around.size(); ++v) {
+      std::vector<Vertex_index>& around = all_around[v];
       std::sort(around.begin(), around.end());
       around.erase(std::unique(around.begin(), around.end()), around.end());
       for(std::size_t i = 0; i < around.size(); ++i)
@@ -149,10 +146,9 @@ private:
           const double to_a = cosine(to_sheet, m_points[a] - m_points[v]),
                        to_b = cosine(to_sheet, m_points[b] - m_points[v]);
           take_label(to_a < to_b ? a : b);
-          ++count;
         }
     }
-    return count > 0;
+    return m_taken.size() > taken_before;
   }
 
   void take_label(Vertex_index v)
@@ -207,25 +203,11 @@ private:
     for(double t = (std::max)(m_distances[a], step); t < length - m_distances[b];) {
       const Vec3 p = m_points[a] + (t / length) * line;
       const double distance = norm(p - closest(p));
-      if(distance < length / 2 && is_outside(p))
+      if(distance < length / 2 && m_octree.bounded_side(p) == ON_UNBOUNDED_SIDE)
         return true;
       t += (std::max)(distance, step);
     }
     return false;
-  }
-
-  bool is_outside(const Vec3& p) const
-  {
-    const Bbox_3 box = m_octree.domain().bbox();
-    for(int k = 0; k < 3; ++k)
-      if(!(box.min(k) <= p[k] && p[k] <= box.max(k)))
-        return true;
-    const Point_3 point(p[0], p[1], p[2]);
-    const Octree::Node_index n = m_octree.leaf_at(point);
-    const Bounded_side side = m_octree.side(n) != ON_BOUNDARY
-                                ? m_octree.side(n)
-                                : m_octree.domain().bounded_side(point, m_octree.surface_part(n));
-    return side == ON_UNBOUNDED_SIDE;
   }
 };
 

@@ -119,20 +119,9 @@ private:
   // Whether a line of some length leads to a side.
   bool is_reached(const Vec3& q, const Vec3& direction, double length, Bounded_side side) const
   {
-    return std::any_of(std::begin(shares_of_line), std::end(shares_of_line),
-                       [&](double share) { return side_of(q + share * length * direction) == side; });
-  }
-
-  Bounded_side side_of(const Vec3& p) const
-  {
-    const Bbox_3 box = m_octree.domain().bbox();
-    for(int k = 0; k < 3; ++k)
-      if(!(box.min(k) <= p[k] && p[k] <= box.max(k)))
-        return ON_UNBOUNDED_SIDE;
-    const Point_3 point(p[0], p[1], p[2]);
-    const Node_index n = m_octree.leaf_at(point);
-    return m_octree.side(n) != ON_BOUNDARY ? m_octree.side(n)
-                                           : m_octree.domain().bounded_side(point, m_octree.surface_part(n));
+    return std::any_of(std::begin(shares_of_line), std::end(shares_of_line), [&](double share) {
+      return m_octree.bounded_side(q + share * length * direction) == side;
+    });
   }
 };
 

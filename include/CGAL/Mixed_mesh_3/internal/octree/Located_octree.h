@@ -13,10 +13,12 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/balance.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Oracles.h>
 
+#include <CGAL/Bbox_3.h>
 #include <CGAL/assertions.h>
 #include <CGAL/enum.h>
 #include <CGAL/squared_distance_3.h>
@@ -139,6 +141,18 @@ public:
     while(!m_octree.is_leaf(n))
       n = nearest_of(m_octree.child(n, 0), q);
     return n;
+  }
+
+  /// The side of any point, by its leaf; by a query only if that meets the surface.
+  Bounded_side bounded_side(const Vec3& p) const
+  {
+    const Bbox_3 box = domain().bbox();
+    for(int k = 0; k < 3; ++k)
+      if(!(box.min(k) <= p[k] && p[k] <= box.max(k)))
+        return ON_UNBOUNDED_SIDE;
+    const Point_3 point(p[0], p[1], p[2]);
+    const Node_index n = leaf_at(point);
+    return side(n) != ON_BOUNDARY ? side(n) : domain().bounded_side(point, surface_part(n));
   }
 
   /// Of eight siblings that with the nearest center: the one around a point, whatever the frame of the cells.
