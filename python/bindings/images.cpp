@@ -7,6 +7,7 @@
 
 #include "arrays.h"
 
+#include <CGAL/Mixed_mesh_image_3/complete_label.h>
 #include <CGAL/Mixed_mesh_image_3/make_label_surface.h>
 #include <CGAL/Mixed_mesh_image_3/simplify_closed_surface.h>
 #include <CGAL/Mixed_mesh_image_3/warp_image.h>
@@ -14,6 +15,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -64,6 +66,25 @@ py::array_t<float> values_of(const mm3::Displacement_field_3& field)
           values(py::ssize_t(i), py::ssize_t(j), py::ssize_t(k),
                  py::ssize_t(c)) = field.vectors[field.grid.offset(i, j, k)][c];
   return array;
+}
+
+// Voxels with one of some values, completed.
+py::array complete_label(const Voxels& values, const Doubles& affine, const std::set<float>& labels,
+                         double closing_radius, bool fill_holes, bool keep_largest, double least_volume)
+{
+  const mm3::Voxel_image_3 image = image_of(values, affine);
+  const auto spacing = mm3::voxel_spacing(image.grid);
+  if(!(closing_radius >= 0 && closing_radius <= 100 * *std::min_element(spacing.begin(), spacing.end())))
+    throw std::invalid_argument("close: expected at most the width of 100 voxels, in mm");
+  if(!(least_volume >= 0 && std::isfinite(least_volume)))
+    throw std::invalid_argument("drop_below: expected a volume in ml");
+  mm3::Voxel_image_3 mask;
+  {
+    const py::gil_scoped_release release;
+    mask = mm3::complete_label(image, [&](float value) { return labels.count(value) > 0; },
+                               {closing_radius, fill_holes, keep_largest, 1000 * least_volume});
+  }
+  return values_of(mask);
 }
 
 // The surface of voxels with one of some values, simplified; without points if smoothing leaves nothing.
@@ -123,6 +144,7 @@ py::tuple warp(const Voxels& values, const Doubles& affine, const Mesh& mesh, co
 
 void add_images(py::module_& module)
 {
+  module.def("complete_label", &complete_label);
   module.def("label_surface", &label_surface);
   module.def("warp", &warp);
 }

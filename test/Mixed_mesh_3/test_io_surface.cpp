@@ -632,9 +632,11 @@ void test_holes_and_wraps()
   BOOST_TEST(wrapped.is_read && has_warning(wrapped, "wrapped it"));
   BOOST_TEST_GT(wrapped.input.volume, 0.2);
   BOOST_TEST_EQ(wrapped.input.repairs.size(), 1u);
-  // what is closed is not wrapped
-  is_cube(read("cube.off", off(), options));
-  BOOST_TEST(read("cube.off", off(), options).input.repairs.empty());
+  // what is closed is wrapped, too
+  options.wrap_diameter = 0.5;
+  const Result cube = read("cube.off", off(), options);
+  BOOST_TEST(cube.is_read && has_warning(cube, "wrapped it, closing what is narrower than 0.5"));
+  BOOST_TEST(cube.input.volume > 1 && cube.input.volume < 1.2);
 
   // the same after scaling and shifting: no length is absolute
   for(double scale : {1e-6, 1e6, 1e12})

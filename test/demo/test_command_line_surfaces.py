@@ -160,9 +160,10 @@ class Surfaces(Case):
         self.assertIn("wrapped it", told["inputs"]["surface"]["repairs"][0])
         self.assertGreater(told["inputs"]["surface"]["volume"], 0.2)
         self.assertEqual(told["options"]["wrap"], float(width))
-        # what is a solid stays what it is
-        self.assertEqual(self.mesher(self.good, "--vertices", 500, "--wrap", 0.1, "--report", report).returncode, 0)
-        self.assertEqual(json.loads(report.read_text())["inputs"]["surface"]["repairs"], [])
+        # what is a solid is wrapped, too
+        self.assertEqual(self.mesher(self.good, "--vertices", 500, "--wrap", 0.5, "--report", report).returncode, 0)
+        self.assertEqual(json.loads(report.read_text())["inputs"]["surface"]["repairs"],
+                         ["wrapped it, closing what is narrower than 0.5"])
         self.fails(path, "--vertices", 500, "--wrap", 1e-5, names=path, words="more than a million triangles")
         self.fails(path, "--vertices", 500, "--wrap", 0, names="--wrap", words="greater than 0", status=2)
         self.fails(path, "--vertices", 500, "--wrap", 1, "--strict", names="--wrap", words="--strict", status=2)

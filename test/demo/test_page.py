@@ -224,7 +224,7 @@ def test_panel(page, data, report):
     for height, n in zip(heights, bins):
         assert abs(height / sum(heights) - n / sum(bins)) < 1e-3
     checks = page.run("return [...document.querySelectorAll('#checks li')].map(item => item.className)")
-    assert checks == ["holds"] * len(report["checks"])
+    assert checks == ["holds"] * (len(report["checks"]) + len(report["checks of fidelity"]))
     assert page.text("#command") == data["command"]
     assert page.run("return performance.getEntriesByType('resource').length") == 0
 

@@ -197,6 +197,40 @@ class Test(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "no inverse"):
             mm3.label_surface(image, np.zeros((4, 4)), 1)
 
+    def test_complete_label(self):
+        """Beside scipy: a closing by distances, holes filled, components by Kuhn's neighbors."""
+        try:
+            from scipy import ndimage
+        except ImportError as missing:
+            self.skipTest(missing)
+        random = np.random.default_rng(5)
+        spacing = np.array((1.0, 2.0, 1.5))
+        affine = np.diag((*spacing, 1.0))
+        edges = np.zeros((3, 3, 3), bool)
+        for step in np.ndindex(2, 2, 2):
+            edges[tuple(1 + np.array(step))] = edges[tuple(1 - np.array(step))] = True
+        for share in (0.05, 0.3, 0.7):
+            image = np.where(random.random((17, 12, 14)) < share, 5, 3)
+            mask = np.pad(image == 5, 8)
+            near = ndimage.distance_transform_edt(~mask, sampling=spacing) <= 3
+            closed = ndimage.distance_transform_edt(near, sampling=spacing) > 3
+            filled = ndimage.binary_fill_holes(closed, edges)
+            names, number = ndimage.label(filled, edges)
+            sizes = np.bincount(names.ravel())[1:]
+            inner = (slice(8, -8),) * 3
+            largest = names == 1 + sizes.argmax()
+            for expected, options in ((mask, {}), (closed, {"close": 3}), (filled, {"close": 3, "fill_holes": True}),
+                                      (largest, {"close": 3, "hull": True}),
+                                      (np.isin(names, 1 + np.flatnonzero(sizes >= 20)),
+                                       {"close": 3, "fill_holes": True, "drop_below": 20 * 3e-3 - 1e-9})):
+                found = mm3.complete_label(image, affine, 5, **options)
+                np.testing.assert_array_equal(found, expected[inner], str((share, options)))
+        hull = mm3.complete_label(np.pad(np.ones((20, 20, 20)), 1), affine, hull=True)
+        self.assertEqual(hull.sum(), 8000)
+        for bad in ({"close": -1}, {"close": 1e6}, {"close": np.nan}, {"drop_below": -1}):
+            with self.assertRaisesRegex(ValueError, next(iter(bad))):
+                mm3.complete_label(image, affine, 5, **bad)
+
     def test_optimize_and_fit(self):
         wider = (BRAIN[0] * [1.05, 1, 1], BRAIN[1])
         optimized, report = mm3.optimize(self.mesh, *wider)

@@ -191,6 +191,79 @@ class Test_segmentation(unittest.TestCase):
         self.mesh(path, "--labels", f"head=1-9,lesion={LESION}", "--vertices", 3000, "--threads", 4)
         self.assertEqual(first, self.output.read_bytes())
 
+    def atlas(self):
+        """Regions with gaps between them and nothing in the middle, open to one side, and a speck; and the whole."""
+        whole = labels() != 0
+        i, j, k = np.meshgrid(*(np.arange(n) for n in SIZE), indexing="ij")
+        x, y, z = 2 * (i - 30), 2.4 * (j - 25), 3 * (k - 20)
+        values = np.where(whole, 1 + i // 8 + 10 * (j // 8), 0)
+        values[(i % 8 == 0) | (j % 8 == 0)] = 0
+        values[(x**2 + y**2 + z**2 < 15**2) | ((np.hypot(x, y) < 5) & (z > 0))] = 0
+        values[0, 0, 0] = 99
+        return values.astype(np.int16), whole
+
+    def test_hull(self):
+        """Of an atlas with gaps, the solid organ; without, it is named what would help."""
+        values, whole = self.atlas()
+        to_world = AFFINES["oblique"]
+        path = self.image("atlas.nii.gz", values, to_world)
+        told, run = self.mesh(path, "--vertices", 1000, "--hull", "--close", 9)
+        self.assertEqual((run.stderr, told["status"]), ("", "success"))
+        self.assertRegex(run.stdout, "image: closed by 9 mm, [0-9]+ voxels added; [0-9]+ voxels filled in; "
+                                     "1 component of 1 voxel dropped\n")
+        self.assertEqual(told["topology"]["surface"]["bodies"], 1)
+        self.assertEqual(told["topology"]["surface"]["handles"] + told["topology"]["surface"]["cavities"], 0)
+        self.assertTrue(all(told["checks of fidelity"].values()))
+        self.assertGreater(self.dice(whole, to_world), 0.97)
+        done = told["inputs"]["surface"]["completion"]
+        self.assertEqual((done["closing radius"], done["voxels"], done["components dropped"]),
+                         (9, np.count_nonzero(values), 1))
+        # each step alone; by default, the radius follows from the volume
+        steps, run = self.mesh(path, "--vertices", 1000, "--close", 9, "--fill-holes", "--drop-below", 1)
+        self.assertEqual(steps["inputs"]["surface"], told["inputs"]["surface"])
+        default, run = self.mesh(path, "--vertices", 1000, "--hull")
+        volume = np.count_nonzero(values) * 2 * 2.4 * 3
+        self.assertAlmostEqual(default["inputs"]["surface"]["completion"]["closing radius"], 0.13 * volume**(1 / 3),
+                               delta=0.051)
+        # what is added to labels with names is of that with most voxels
+        named, run = self.mesh(path, "--labels", "left=1-40,right=41-98", "--vertices", 800, "--hull", "--close", 9)
+        volumes = {s["name"]: s["volume"] / 14.4 for s in named["subdomains"]}
+        self.assertAlmostEqual(sum(volumes.values()) / np.count_nonzero(whole), 1, delta=0.07)
+        counts = {"left": np.count_nonzero((0 < values) & (values <= 40)),
+                  "right": np.count_nonzero((40 < values) & (values < 99))}
+        larger, smaller = sorted(counts, key=counts.get, reverse=True)
+        self.assertGreater(volumes[larger] - counts[larger], np.count_nonzero(whole) - sum(counts.values()) - 2000)
+        # without: the first warning names the option, and the differences are counted only
+        told, run = self.mesh(path, "--vertices", 1000, "--no-fit")
+        first, *rest = run.stderr.splitlines()
+        self.assertRegex(first, f"^warning: {path}: its voxels have gaps .* --hull closes them")
+        self.assertFalse(all(told["checks of fidelity"].values()))
+        self.assertNotIn("all checks hold", run.stdout)
+        self.assertIn("valid, but not: same topology as the surface", run.stdout)
+        self.assertLess(len(rest), 8)
+
+    def test_bad_completions(self):
+        path = self.image("labels.nii", labels(), AFFINES["oblique"])
+        for option in ("--close", "--drop-below"):
+            for text in ("-1", "0", "nan", "much"):
+                self.fails(path, option, text, "--vertices", 500, words=option, status=2)
+        self.fails(path, "--close", 1e6, "--vertices", 500, words="is more than 100 voxels wide, see --close")
+        self.fails(path, "--drop-below", 1e6, "--vertices", 500,
+                   words=f"{path}: no component of the voxels that are not 0 has 1e+06 ml, see --drop-below")
+        self.fails(path, "--labels", 4, "--hull", "--vertices", 500, words="there are no voxels with the labels 4")
+        surface = WORK / "surface.off"
+        surface.write_text("OFF\n")
+        self.fails(surface, "--hull", "--vertices", 500, words="need an image", status=2)
+
+    def test_wrap(self):
+        """An image is wrapped, too."""
+        values, whole = self.atlas()
+        path = self.image("atlas.nii.gz", values, AFFINES["oblique"])
+        told, run = self.mesh(path, "--labels", "1-98", "--vertices", 500, "--wrap", 12)
+        self.assertIn("wrapped it, closing what is narrower than 12", told["inputs"]["surface"]["repairs"][0])
+        self.assertEqual(told["topology"]["surface"]["bodies"], 1)
+        self.assertGreater(self.dice(whole, AFFINES["oblique"]), 0.9)
+
     def test_lost_label(self):
         values = labels()
         values[30, 25, 12] = 11

@@ -81,8 +81,8 @@ void add_surface_options(CLI::App& app, CGAL::Mixed_meshes_3::IO::Read_surface_o
   app
     .add_option(
       "--wrap", options.wrap_diameter,
-      "Wrap such surfaces instead, as in foil: openings narrower than D are closed, details smaller "
-      "than D / 30 are lost")
+      "Wrap surfaces, with defects or without, as in foil: openings narrower than D are closed, details "
+      "smaller than D / 30 are lost")
     ->check(number("greater than 0", [](double x) { return x > 0; }))
     ->type_name("D")
     ->excludes(strict);

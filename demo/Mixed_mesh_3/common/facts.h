@@ -24,6 +24,13 @@ struct Surface_facts
   std::vector<std::string> repairs = {}; // lines
 };
 
+/// What the completion of a label did, in voxels.
+struct Completion_facts
+{
+  double closing_radius = 0; // in mm
+  std::size_t voxels = 0, closed = 0, filled = 0, removed = 0, components_removed = 0;
+};
+
 struct Mesh_facts
 {
   std::size_t vertices = 0, elements = 0;

@@ -9,13 +9,18 @@
 #include "common/resources.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
 
 #if MIXED_MESH_3_HAS_NIFTI
+#include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
 #include <CGAL/Mixed_mesh_image_3/IO/NIFTI.h>
+#include <CGAL/Mixed_mesh_image_3/complete_label.h>
 #include <CGAL/Mixed_mesh_image_3/make_label_surface.h>
 #include <CGAL/Mixed_mesh_image_3/simplify_closed_surface.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
@@ -51,11 +56,118 @@ mm3::Voxel_image_3 read(const std::string& path)
   return image;
 }
 
+constexpr double most_voxels = 100; // of a length: the box around the label grows by several times as many
+
+// Components of less than a voxel, which smoothing leaves of specks and of thin gaps.
+// \return their number
+std::size_t remove_specks(Surface& surface, double volume_of_voxel)
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  auto component = surface.add_property_map<Surface::Face_index, std::size_t>("f:component", 0).first;
+  std::vector<double> volumes(PMP::connected_components(surface, component), 0);
+  const Kernel::Point_3 origin = surface.is_empty() ? Kernel::Point_3(0, 0, 0)
+                                                    : surface.point(*surface.vertices().begin());
+  for(const auto f : surface.faces()) {
+    const auto h = surface.halfedge(f);
+    volumes[component[f]] += CGAL::volume(origin, surface.point(surface.source(h)),
+                                          surface.point(surface.target(h)),
+                                          surface.point(surface.target(surface.next(h))));
+  }
+  std::vector<std::size_t> specks;
+  for(std::size_t c = 0; c < volumes.size(); ++c)
+    if(std::abs(volumes[c]) < volume_of_voxel)
+      specks.push_back(c);
+  if(specks.size() < volumes.size())
+    PMP::remove_connected_components(surface, specks, component);
+  surface.remove_property_map(component);
+  surface.collect_garbage();
+  return specks.size() < volumes.size() ? specks.size() : 0;
+}
+
+// In foil: what the mesh generator takes for the surface.
+Surface wrapped(const Surface& surface, double diameter, const std::string& path,
+                std::vector<std::string>& repairs)
+{
+  namespace IO = mm3::IO;
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::vector<std::int64_t>> triangles;
+  for(const auto& p : surface.points())
+    points.push_back({p.x(), p.y(), p.z()});
+  for(const auto f : surface.faces()) {
+    triangles.emplace_back();
+    for(const auto v : surface.vertices_around_face(surface.halfedge(f)))
+      triangles.back().push_back(std::int64_t(std::size_t(v)));
+  }
+  IO::Read_surface_options options;
+  options.wrap_diameter = diameter;
+  Surface result;
+  IO::Surface_input input;
+  require([&](std::string* error) {
+    return IO::make_closed_surface(points, triangles, path, options, result, error, &input);
+  });
+  repairs = input.repairs;
+  return result;
+}
+
 } // namespace
 
 Label_image::Label_image(const std::string& path)
-  : m_path(path), m_data(std::make_unique<const Data>(read(path)))
+  : Label_image(path, std::make_unique<const Data>(read(path)))
 {
+}
+
+// Balls of this share of the edge of a cube of the label's volume, 15 mm for a brain, close the gaps of
+// atlases, also where the ventricles of a cortex are open below; the volume grows by 1 % beyond that of 10
+// mm.
+constexpr double closing_share_of_hull = 0.13;
+
+Label_image Label_image::completed(const Voxel_selection& selection, const Voxel_selection& filling,
+                                   const Label_completion& completion, Completion_facts& facts) const
+{
+  const mm3::Voxel_image_3& image = m_data->image;
+  const auto spacing = mm3::voxel_spacing(image.grid);
+  const double finest = *std::min_element(spacing.begin(), spacing.end());
+  const double volume = double(number_of_voxels(selection)) * volume_of_voxel();
+  mm3::Label_completion_options options;
+  options.closing_radius = completion.closing_radius.value_or(
+    completion.is_hull ? std::round(10 * closing_share_of_hull * std::cbrt(volume)) / 10 : 0);
+  options.fill_holes = completion.fill_holes || completion.is_hull;
+  options.keep_largest = completion.keep_largest || completion.is_hull;
+  options.least_volume = 1000 * completion.least_volume; // ml
+  if(options.closing_radius > most_voxels * finest)
+    throw std::runtime_error(m_path + ": closing by " + rounded(options.closing_radius) + " mm is more than "
+                             + rounded(most_voxels) + " voxels wide, see --close");
+  double voxels_of_box = 1;
+  for(int i = 0; i < 3; ++i)
+    voxels_of_box *= double(image.grid.size[i]) + 2 * options.closing_radius / spacing[i];
+  constexpr double bytes_per_voxel = 20; // two of distances, or components and their numbers
+  check_memory(m_path + ": closing it", bytes_per_voxel * voxels_of_box);
+  mm3::Label_completion_result done;
+  const mm3::Voxel_image_3 mask = mm3::complete_label(image, selection, options, &done);
+  facts = {options.closing_radius,       done.number_of_voxels,         done.number_of_closed_voxels,
+           done.number_of_filled_voxels, done.number_of_removed_voxels, done.number_of_removed_components};
+
+  // Of the values that are selected for what is filled in, the commonest one; for the rest, none that is.
+  const std::pair<const float, std::size_t>* commonest = nullptr;
+  for(const auto& value : m_data->numbers)
+    if(filling(value.first) && (commonest == nullptr || value.second > commonest->second))
+      commonest = &value;
+  if(commonest == nullptr)
+    throw std::runtime_error(m_path + ": there are no voxels " + filling.text);
+  const float nothing = selection(0) ? -std::numeric_limits<float>::infinity() : 0;
+  mm3::Voxel_image_3 result = image;
+  bool is_empty = true;
+  for(std::size_t v = 0; v < result.values.size(); ++v) {
+    float& value = result.values[v];
+    const bool is_in = mask.values[v] != 0;
+    is_empty = is_empty && !is_in;
+    if(is_in != selection(value))
+      value = is_in ? commonest->first : nothing;
+  }
+  if(is_empty)
+    throw std::runtime_error(m_path + ": no component of the voxels " + selection.text + " has "
+                             + rounded(completion.least_volume) + " ml, see --drop-below");
+  return {m_path, std::make_unique<const Data>(std::move(result))};
 }
 
 std::size_t Label_image::number_of_voxels(const Voxel_selection& selection) const
@@ -99,7 +211,6 @@ Surface Label_image::surface_of(const Voxel_selection& selection, const Label_su
   const mm3::Voxel_image_3& image = m_data->image;
   const auto spacing = mm3::voxel_spacing(image.grid);
   const double smoothing = options.smoothing.value_or(*std::max_element(spacing.begin(), spacing.end()));
-  constexpr double most_voxels = 100; // the box around the label grows by three times as many
   if(smoothing > most_voxels * *std::min_element(spacing.begin(), spacing.end()))
     throw std::runtime_error(m_path + ": smoothing by " + rounded(smoothing) + " mm is more than "
                              + rounded(most_voxels) + " voxels wide, see --smoothing");
@@ -110,7 +221,15 @@ Surface Label_image::surface_of(const Voxel_selection& selection, const Label_su
   if(surface.is_empty())
     return surface;
   const std::size_t vertices = surface.number_of_vertices(), triangles = surface.number_of_faces();
+  const std::size_t specks = remove_specks(surface, volume_of_voxel());
+  if(specks > 0)
+    warnings.push_back(m_path + ": " + counted(specks, "component", "components")
+                       + " of the surface of the voxels " + selection.text + " of less than a voxel "
+                       + (specks == 1 ? "is" : "are") + " left out");
   mm3::simplify_closed_surface(surface, options.vertices);
+  std::vector<std::string> repairs;
+  if(options.wrap_diameter > 0)
+    surface = wrapped(surface, options.wrap_diameter, m_path, repairs);
   auto component = surface.add_property_map<Surface::Face_index, std::size_t>("f:component", 0).first;
   const std::size_t components = PMP::connected_components(surface, component);
   surface.remove_property_map(component);
@@ -123,7 +242,8 @@ Surface Label_image::surface_of(const Voxel_selection& selection, const Label_su
            surface.number_of_vertices(),
            surface.number_of_faces(),
            components,
-           PMP::volume(surface)};
+           PMP::volume(surface),
+           repairs};
   return surface;
 }
 
@@ -138,6 +258,12 @@ Label_image::Label_image(const std::string& path)
   throw std::runtime_error(path + ": this program was built without nifti_clib");
 }
 
+Label_image Label_image::completed(const Voxel_selection&, const Voxel_selection&, const Label_completion&,
+                                   Completion_facts&) const
+{
+  return {m_path, nullptr};
+}
+
 std::size_t Label_image::number_of_voxels(const Voxel_selection&) const { return 0; }
 double Label_image::volume_of_voxel() const { return 0; }
 std::vector<int> Label_image::labels() const { return {}; }
@@ -150,4 +276,10 @@ Surface Label_image::surface_of(const Voxel_selection&, const Label_surface_opti
 
 #endif
 
+Label_image::Label_image(const std::string& path, std::unique_ptr<const Data> data)
+  : m_path(path), m_data(std::move(data))
+{
+}
+
+Label_image::Label_image(Label_image&&) = default;
 Label_image::~Label_image() = default;

@@ -22,6 +22,21 @@ struct Label_surface_options
 {
   std::optional<double> smoothing; // deviation in mm; default: the largest spacing of voxels
   std::size_t vertices = 0;        // about how many the surface gets
+  double wrap_diameter = 0;        // in mm; 0: it is not wrapped
+};
+
+/// How the voxels of a label are completed, in mm and ml.
+struct Label_completion
+{
+  std::optional<double> closing_radius; // by default none, or that of a hull
+  double least_volume = 0;
+  bool fill_holes = false, keep_largest = false;
+  bool is_hull = false; // closed, filled, and the largest component
+
+  bool is_needed() const
+  {
+    return closing_radius || least_volume > 0 || fill_holes || keep_largest || is_hull;
+  }
 };
 
 /// A label image, read once for all its labels.
@@ -30,7 +45,14 @@ class Label_image
 public:
   /// \throw std::runtime_error a line naming the file and the defect
   explicit Label_image(const std::string& path);
+  Label_image(Label_image&&);
   ~Label_image();
+
+  /// The same image with the selected voxels completed: what they get has the commonest of the values that
+  /// `filling` selects, which are selected, too.
+  /// \throw std::runtime_error if nothing is left, or it takes too much memory
+  Label_image completed(const Voxel_selection& selection, const Voxel_selection& filling,
+                        const Label_completion& completion, Completion_facts& facts) const;
 
   std::size_t number_of_voxels(const Voxel_selection& selection) const;
   double volume_of_voxel() const;
@@ -47,8 +69,10 @@ public:
 
 private:
   struct Data;
+  Label_image(const std::string& path, std::unique_ptr<const Data> data);
+
   const std::string m_path;
-  const std::unique_ptr<const Data> m_data;
+  std::unique_ptr<const Data> m_data;
 };
 
 #endif // MIXED_MESH_3_DEMO_COMMON_READ_LABEL_SURFACE_H

@@ -80,6 +80,18 @@ std::vector<Check> checks_of(const mm3::Mesh_defects& d, const Fidelity& fidelit
           {"no duplicate vertex", d.duplicate_vertices == 0}};
 }
 
+std::vector<Check> checks_of_fidelity(const Outcome& outcome, bool is_fitted)
+{
+  std::vector<Check> checks{{"same topology as the surface", outcome.topology.is_same},
+                            {"no part of the domain lost", outcome.result.number_of_lost_cells == 0}};
+  if(is_fitted) {
+    checks.push_back({"volume within 5 % of the surface's",
+                      std::abs(outcome.fidelity.ratio_of_volumes() - 1) <= volume_tolerance});
+    checks.push_back({"boundary vertices on the surface", outcome.fidelity.vertices_off == 0});
+  }
+  return checks;
+}
+
 } // namespace
 
 Aspect_ratios aspect_ratios_of(const Mesh& mesh)
@@ -101,6 +113,7 @@ void examine(const Mesh& mesh, const Surface& surface, const Options& options, S
   outcome.topology = log("topology", [&] {
     return topology_of(mesh, surface, options.fit() != Fit::NONE, outcome.result.status);
   });
+  outcome.checks_of_fidelity = checks_of_fidelity(outcome, options.fit() != Fit::NONE);
 
   outcome.mesh = facts_of(mesh);
   outcome.boundary_faces = mm3::boundary_faces(mesh).size();

@@ -164,6 +164,27 @@ void add_labels(CLI::App& app, Options& o)
     ->check(number("of at least 0", [](double x) { return x >= 0; }))
     ->type_name("MM")
     ->group(group);
+  app
+    .add_option(
+      "--close", o.completion.closing_radius,
+      "Close gaps, grooves and openings of the domain that a ball of this radius does not fit into; "
+      "what that adds to several labels is of the one with most voxels")
+    ->check(number("greater than 0", [](double x) { return x > 0; }))
+    ->type_name("MM")
+    ->group(group);
+  app.add_flag("--fill-holes", o.completion.fill_holes, "Add to the domain what it encloses")->group(group);
+  app.add_flag("--largest", o.completion.keep_largest, "Keep only the largest component of the domain")
+    ->group(group);
+  app.add_option("--drop-below", o.completion.least_volume, "Drop components of the domain with less volume")
+    ->check(number("greater than 0", [](double x) { return x > 0; }))
+    ->type_name("ML")
+    ->group(group);
+  app
+    .add_flag(
+      "--hull", o.completion.is_hull,
+      "The solid organ out of an atlas or a parcellation: --close (by 13 % of the edge of a cube of its "
+      "volume, 15 mm for a brain, if no other radius is given), --fill-holes and --largest")
+    ->group(group);
 }
 
 void add_files(CLI::App& app, Options& o)
@@ -424,6 +445,9 @@ void check_options(Options& o)
   for(Region_option& r : o.regions)
     if(r.file.empty())
       r.file = o.surface;
+  if(!has_image && o.completion.is_needed())
+    throw CLI::ValidationError(o.surface, "--close, --fill-holes, --largest, --drop-below and --hull need an "
+                                          "image: .nii or .nii.gz; --wrap closes a surface");
   if(!has_image
      && (!o.voxels.ranges.empty() || !o.labels.empty() || o.has_each_label
          || std::any_of(o.regions.begin(), o.regions.end(),

@@ -8,6 +8,7 @@
 #ifndef MIXED_MESH_3_DEMO_MIXED_MESH_3_OPTIONS_H
 #define MIXED_MESH_3_DEMO_MIXED_MESH_3_OPTIONS_H
 
+#include "common/read_label_surface.h"
 #include "common/voxel_selection.h"
 
 #include <CGAL/Mixed_mesh_3/IO/Read_surface_options.h>
@@ -54,6 +55,7 @@ struct Options
   std::vector<std::string> cavities;
   std::vector<Subdomain_option> sheets; // surfaces inside that need not enclose anything
   Voxel_selection voxels;               // of an image, the domain
+  Label_completion completion;          // of the domain
   std::optional<double> smoothing;
   std::vector<std::string> outputs;
   std::size_t vertices = 0;

@@ -92,7 +92,7 @@ struct Topology
 constexpr double volume_tolerance = 0.05;
 constexpr double on_surface = 1e-9; // of the diagonal of the surface's box
 
-/// A property of a valid mesh, in words.
+/// A property of a valid mesh, or of a faithful one, in words.
 struct Check
 {
   const char* name;
@@ -139,6 +139,7 @@ struct Slit_outcome
 struct Outcome
 {
   Surface_facts surface;
+  std::optional<Completion_facts> completion; // of the image's label
   std::vector<Surface_facts> regions;
   std::vector<Subdomain_outcome> subdomains; // if there are several
   std::vector<Interface_outcome> interfaces;
@@ -156,7 +157,8 @@ struct Outcome
   Shapes shapes;
   Fidelity fidelity;
   Topology topology;
-  std::vector<Check> checks;
+  std::vector<Check> checks;             // of validity: what does not hold is not written
+  std::vector<Check> checks_of_fidelity; // that the mesh is one of this surface
   std::vector<std::string> warnings;
   double seconds = 0;
   std::size_t peak_bytes = 0;

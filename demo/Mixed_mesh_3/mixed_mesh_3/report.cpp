@@ -15,6 +15,8 @@
 #include <iomanip>
 #include <iostream>
 #include <sstream>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
@@ -307,6 +309,32 @@ std::string parts_in_words(const Outcome& outcome)
   return text.str();
 }
 
+// Those of validity hold, or there is no mesh.
+std::string checks_in_words(const Outcome& outcome)
+{
+  std::string failed;
+  for(const Check& check : outcome.checks_of_fidelity)
+    if(!check.holds)
+      failed += (failed.empty() ? "" : ", ") + std::string(check.name);
+  return failed.empty() ? "all checks hold" : "valid, but not: " + failed;
+}
+
+std::string completion_in_words(const Completion_facts& c)
+{
+  std::ostringstream text;
+  const char* separator = "image: ";
+  const auto add = [&](bool is_so, const std::string& what) {
+    if(is_so)
+      text << std::exchange(separator, "; ") << what;
+  };
+  const auto number = [](std::size_t n) { return counted(n, "voxel", "voxels"); };
+  add(c.closing_radius > 0, "closed by " + rounded(c.closing_radius) + " mm, " + number(c.closed) + " added");
+  add(c.filled > 0, number(c.filled) + " filled in");
+  add(c.components_removed > 0,
+      counted(c.components_removed, "component", "components") + " of " + number(c.removed) + " dropped");
+  return text.str().empty() ? "" : text.str() + '\n';
+}
+
 } // namespace
 
 Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
@@ -316,6 +344,13 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
   report["inputs"] = {{"surface", describe(outcome.surface)}, {"regions", Json::array()}};
   if(is_image(o.surface))
     report["inputs"]["surface"]["voxels"] = o.voxels.text;
+  if(const auto& c = outcome.completion)
+    report["inputs"]["surface"]["completion"] = {{"closing radius", c->closing_radius},
+                                                 {"voxels", c->voxels},
+                                                 {"voxels added by closing", c->closed},
+                                                 {"voxels filled in", c->filled},
+                                                 {"voxels dropped", c->removed},
+                                                 {"components dropped", c->components_removed}};
   for(std::size_t i = 0; i < o.regions.size(); ++i) {
     report["inputs"]["regions"].push_back(describe(outcome.regions[i]));
     report["inputs"]["regions"].back()["weight"] = o.regions[i].weight;
@@ -337,6 +372,8 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
   report["quality"] = describe_quality(o, outcome);
   for(const Check& check : outcome.checks)
     report["checks"][check.name] = check.holds;
+  for(const Check& check : outcome.checks_of_fidelity)
+    report["checks of fidelity"][check.name] = check.holds;
   report["outputs"] = o.outputs;
   report["warnings"] = outcome.warnings;
   report["stages"] = describe_stages(log, "seconds", 1);
@@ -348,6 +385,8 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
 void print_summary(const Options& o, const Outcome& outcome)
 {
   const Mesh_facts& mesh = outcome.mesh;
+  if(outcome.completion)
+    std::cout << completion_in_words(*outcome.completion);
   std::cout << mesh.vertices << " vertices of " << o.vertices << ", " << mesh.elements << " elements (";
   for(int k = mm3::number_of_element_kinds - 1; k >= 0; --k)
     std::cout << mesh.elements_of_kind[std::size_t(k)] << ' ' << mm3::reference_elements[k].plural
@@ -356,7 +395,7 @@ void print_summary(const Options& o, const Outcome& outcome)
   std::cout << std::setprecision(3) << "ARC mean " << all.mean << ", max " << all.maximum
             << "; Hausdorff distance " << outcome.fidelity.distance() << "; "
             << outcome.fidelity.ratio_of_volumes() << " times the surface's volume\n"
-            << parts_in_words(outcome) << "all checks hold; " << outcome.seconds << " s\n";
+            << parts_in_words(outcome) << checks_in_words(outcome) << "; " << outcome.seconds << " s\n";
   for(const std::string& path : o.outputs)
     std::cout << "wrote " << printable(path) << '\n';
   for(const std::string& path : {o.report, o.page})

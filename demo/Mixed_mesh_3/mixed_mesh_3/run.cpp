@@ -77,41 +77,44 @@ class Surface_reader
   const Options& m_options;
   std::vector<std::string>& m_warnings;
   std::map<std::string, Label_image> m_images;
+  std::optional<Label_image> m_domain; // completed
 
 public:
   Surface_reader(const Options& o, std::vector<std::string>& warnings) : m_options(o), m_warnings(warnings) {}
 
   const Label_image& image(const std::string& file) { return m_images.try_emplace(file, file).first->second; }
 
-  // \param share of the domain
-  // \param number_of_parts of the domain that have surfaces
-  Surface operator()(const std::string& file, const Voxel_selection& voxels, Surface_facts& facts,
-                     double share = 1, std::size_t number_of_parts = 1)
+  Surface operator()(const std::string& file, const Voxel_selection& voxels, Surface_facts& facts)
   {
-    if(!is_image(file))
-      return read_surface(file, m_options.surface_options, facts, m_warnings);
-    // several times as many as the mesh has at its boundary; of parts more, as they are finer
-    const double finer = share < 1 ? 3 : 1, least = share < 1 ? 1000 : 2000;
-    double vertices = (std::max)(finer * 20 * std::pow(share * double(m_options.vertices), 2. / 3), least);
-    // of many parts, those together: what is much finer than the mesh costs time only
-    constexpr double many = 2e4, times_budget = 2, least_of_one = 100;
-    if(share < 1)
-      vertices = (std::min)(vertices, (std::max)((std::max)(many, times_budget * double(m_options.vertices))
-                                                   / double(number_of_parts),
-                                                 least_of_one));
-    Surface surface = image(file).surface_of(voxels, {m_options.smoothing, std::size_t(vertices)}, facts,
-                                             m_warnings);
-    if(surface.is_empty() && share == 1)
-      throw std::runtime_error(file + ": nothing is left of the voxels " + voxels.text
-                               + " after smoothing, see --smoothing");
-    return surface;
+    return is_image(file) ? surface_of(image(file), file, voxels, facts, 1, 1)
+                          : read_surface(file, m_options.surface_options, facts, m_warnings);
   }
 
-  Subdomain operator()(const Subdomain_option& s, mm3::Subdomain_index index, double share = 1,
-                       std::size_t number_of_parts = 1)
+  // The image of the domain, completed as the options say.
+  // \param filling labels that get what is filled in
+  const Label_image& domain(const Voxel_selection& voxels, const Voxel_selection& filling, Outcome& outcome)
+  {
+    const Label_image& whole = image(m_options.surface);
+    if(!m_options.completion.is_needed())
+      return whole;
+    m_domain.emplace(whole.completed(voxels, filling, m_options.completion, outcome.completion.emplace()));
+    return *m_domain;
+  }
+
+  // A part of the domain out of its image.
+  Subdomain part(const Subdomain_option& s, const Label_image& image, mm3::Subdomain_index index,
+                 double share = 1, std::size_t number_of_parts = 1)
   {
     Surface_facts facts;
-    auto surface = std::make_shared<const Surface>((*this)(s.file, s.voxels, facts, share, number_of_parts));
+    auto surface = std::make_shared<const Surface>(
+      surface_of(image, s.file, s.voxels, facts, share, number_of_parts));
+    return {s.name, index, std::move(surface), facts, std::nullopt};
+  }
+
+  Subdomain operator()(const Subdomain_option& s, mm3::Subdomain_index index)
+  {
+    Surface_facts facts;
+    auto surface = std::make_shared<const Surface>((*this)(s.file, s.voxels, facts));
     return {s.name, index, std::move(surface), facts, std::nullopt};
   }
 
@@ -122,6 +125,31 @@ public:
     for(int label : image(file).labels())
       labels.push_back({"label_" + std::to_string(label), file, *labels_selection(std::to_string(label))});
     return labels;
+  }
+
+private:
+  // \param share of the domain
+  // \param number_of_parts of the domain that have surfaces
+  Surface surface_of(const Label_image& image, const std::string& file, const Voxel_selection& voxels,
+                     Surface_facts& facts, double share, std::size_t number_of_parts)
+  {
+    // several times as many as the mesh has at its boundary; of parts more, as they are finer
+    const double finer = share < 1 ? 3 : 1, least = share < 1 ? 1000 : 2000;
+    double vertices = (std::max)(finer * 20 * std::pow(share * double(m_options.vertices), 2. / 3), least);
+    // of many parts, those together: what is much finer than the mesh costs time only
+    constexpr double many = 2e4, times_budget = 2, least_of_one = 100;
+    if(share < 1)
+      vertices = (std::min)(vertices, (std::max)((std::max)(many, times_budget * double(m_options.vertices))
+                                                   / double(number_of_parts),
+                                                 least_of_one));
+    Surface surface = image.surface_of(voxels,
+                                       {m_options.smoothing, std::size_t(vertices),
+                                        m_options.surface_options.wrap_diameter},
+                                       facts, m_warnings);
+    if(surface.is_empty() && share == 1)
+      throw std::runtime_error(file + ": nothing is left of the voxels " + voxels.text
+                               + " after smoothing, see --smoothing");
+    return surface;
   }
 };
 
@@ -140,15 +168,24 @@ std::vector<Subdomain> read_labels(const Options& o, Surface_reader& read, Outco
     sizes.emplace_back(read.image(o.surface).number_of_voxels(label.voxels), all.size());
     all.push_back(label.voxels);
   }
-  const double number_of_all = double(read.image(o.surface).number_of_voxels(united(all)));
   const std::size_t largest = std::max_element(sizes.begin(), sizes.end())->second;
+  const Label_image& image = read.domain(united(all), all[largest], outcome);
+  const auto number_of = [&image](const Voxel_selection& v) { return double(image.number_of_voxels(v)); };
+  const double number_of_all = number_of(united(all));
   std::vector<Subdomain> subdomains;
   for(std::size_t i = 0; i < all.size(); ++i) {
     if(i == largest)
       continue;
-    Subdomain s = read({labels[i].name, o.surface, all[i]}, index_of(i),
-                       double(sizes[i].first) / number_of_all, all.size() - 1);
-    s.volume = double(sizes[i].first) * read.image(o.surface).volume_of_voxel();
+    const double number = number_of(all[i]);
+    if(number == 0 && sizes[i].first > 0) {
+      outcome.has_lost_labels = true;
+      outcome.warnings.push_back("the subdomain " + labels[i].name
+                                 + " is lost: its component of the domain is dropped");
+      continue;
+    }
+    Subdomain s = read.part({labels[i].name, o.surface, all[i]}, image, index_of(i), number / number_of_all,
+                            all.size() - 1);
+    s.volume = number * image.volume_of_voxel();
     if(s.surface->is_empty()) {
       outcome.has_lost_labels = true;
       outcome.warnings.push_back("the subdomain " + s.name + ", of volume " + rounded(*s.volume)
@@ -157,8 +194,8 @@ std::vector<Subdomain> read_labels(const Options& o, Surface_reader& read, Outco
       subdomains.push_back(std::move(s));
     }
   }
-  subdomains.push_back(read({labels[largest].name, o.surface, united(all)}, index_of(largest)));
-  subdomains.back().volume = double(sizes[largest].first) * read.image(o.surface).volume_of_voxel();
+  subdomains.push_back(read.part({labels[largest].name, o.surface, united(all)}, image, index_of(largest)));
+  subdomains.back().volume = number_of(all[largest]) * image.volume_of_voxel();
   return subdomains;
 }
 
@@ -174,8 +211,10 @@ std::vector<Subdomain> read_subdomains(const Options& o, Surface_reader& read, O
     index = (std::max)(index, label.index);
   for(const Subdomain_option& s : o.subdomains)
     subdomains.push_back(read(s, ++index));
+  const Subdomain_option whole{surrounding_name(o), o.surface, o.voxels};
   if(!has_labels)
-    subdomains.push_back(read({surrounding_name(o), o.surface, o.voxels}, 1));
+    subdomains.push_back(is_image(o.surface) ? read.part(whole, read.domain(o.voxels, o.voxels, outcome), 1)
+                                             : read(whole, 1));
   subdomains.insert(subdomains.end(), labels.begin(), labels.end());
   return subdomains;
 }

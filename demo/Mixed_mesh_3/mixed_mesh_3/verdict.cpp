@@ -57,16 +57,32 @@ std::string needed_for_thin_parts(const CGAL::Mixed_mesh_result_3& result, const
 
 std::string after_semicolon(const std::string& text) { return text.empty() ? text : "; " + text; }
 
+// The surface of an atlas, say, and not of an organ.
+bool is_full_of_gaps(const Topology& topology, const Options& o)
+{
+  constexpr std::size_t many = 5;
+  const Solid& s = topology.surface;
+  return is_image(o.surface) && !o.completion.is_needed() && s.bodies + s.handles + s.cavities > many
+         && !topology.differences.empty();
+}
+
 // The largest ones: a surface may have thousands of specks.
 void add_differences(const Topology& topology, const Options& o, std::vector<std::string>& warnings)
 {
-  constexpr std::size_t most = 8;
+  const bool has_gaps = is_full_of_gaps(topology, o);
+  if(has_gaps)
+    warnings.insert(warnings.begin(), o.surface + ": its voxels have gaps ("
+                                        + counted(topology.surface.bodies, "body", "bodies") + ", "
+                                        + counted(topology.surface.handles, "handle", "handles") + ", "
+                                        + counted(topology.surface.cavities, "cavity", "cavities")
+                                        + "): --hull closes them, if the solid organ is wanted");
+  const std::size_t most = has_gaps ? 0 : 8;
   const std::size_t n = topology.differences.size(), shown = (std::min)(n, most);
   for(std::size_t i = 0; i < shown; ++i)
     warnings.push_back(o.surface + ": " + topology.differences[i].sentence);
   if(n > shown)
     warnings.push_back(o.surface + ": " + counted(n - shown, "difference", "differences")
-                       + " more in topology or volume, see the report");
+                       + (shown == 0 ? "" : " more") + " in topology or volume, see the report");
 }
 
 } // namespace

@@ -393,7 +393,7 @@ function showPlaces() {
 }
 
 function showChecks() {
-  const checks = Object.entries(report.checks ?? {});
+  const checks = Object.entries({...report.checks, ...report["checks of fidelity"]});
   for (const [key, text] of [
          ["shift", "by the shift"], ["shift after resection", "by the shift after resection"]])
     if (report[key]) checks.push([`no element inverted ${text}`, report[key]["inverted elements"] === 0]);

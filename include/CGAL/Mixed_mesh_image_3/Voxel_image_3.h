@@ -85,6 +85,18 @@ struct Voxel_grid_3
 };
 
 /// \ingroup PkgMixedMeshImage3Ref
+/// The distance between the centers of neighboring voxels, in millimeters, along each index.
+inline std::array<double, 3> voxel_spacing(const Voxel_grid_3& grid)
+{
+  std::array<double, 3> spacing;
+  for(int i = 0; i < 3; ++i) {
+    const auto& m = grid.index_to_world;
+    spacing[i] = std::hypot(m[0][i], m[1][i], m[2][i]);
+  }
+  return spacing;
+}
+
+/// \ingroup PkgMixedMeshImage3Ref
 /// Types of numbers in image files; the values are NIfTI's.
 enum class Voxel_type : std::int16_t {
   UINT8 = 2,    ///< unsigned integer of 8 bits

@@ -18,24 +18,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
-
-/// \ingroup PkgMixedMeshImage3Ref
-/// The distance between the centers of neighboring voxels, in millimeters, along each index.
-inline std::array<double, 3> voxel_spacing(const Voxel_grid_3& grid)
-{
-  std::array<double, 3> spacing;
-  for(int i = 0; i < 3; ++i) {
-    const auto& m = grid.index_to_world;
-    spacing[i] = std::hypot(m[0][i], m[1][i], m[2][i]);
-  }
-  return spacing;
-}
 
 /*!
 \ingroup PkgMixedMeshImage3Ref

@@ -15,8 +15,8 @@ import numpy as _np
 from . import _core
 from ._core import ElasticityError, Mesh, MeshingError, boundary_vertices
 
-__all__ = ["Elasticity", "ElasticityError", "KINDS", "Mesh", "MeshingError", "boundary_vertices", "certify", "defects",
-           "fit", "label_surface", "mesh", "mesh_labels", "optimize", "quality", "resect", "warp"]
+__all__ = ["Elasticity", "ElasticityError", "KINDS", "Mesh", "MeshingError", "boundary_vertices", "certify", "complete_label",
+           "defects", "fit", "label_surface", "mesh", "mesh_labels", "optimize", "quality", "resect", "warp"]
 
 #: The kinds of elements, as meshio calls them: the values of Mesh.kinds are their places.
 KINDS = ("tetra", "pyramid", "wedge", "hexahedron")
@@ -97,6 +97,25 @@ def mesh(points, triangles, *, region=None, subdomains=None, vertices=660, toler
     return _core.mesh((points, triangles), _regions(region), [(*s, label) for label, s in (subdomains or {}).items()],
                       vertices, tolerance, grading, base_level, quality_bound,
                       sharp_angle, progress)
+
+
+def complete_label(image, affine, labels=None, *, close=None, fill_holes=False, largest=False, drop_below=0, hull=False):
+    """The voxels of an image that have one of some labels, completed: an image of 1 and 0, for label_surface().
+
+    labels: None: all values that are not 0. The steps, in their order: close: gaps, grooves and openings that a ball of
+    this radius in mm does not fit into; fill_holes: what the label encloses; largest: only the largest component stays;
+    drop_below: only components of at least that volume, in ml. hull: close, fill_holes and largest, by 13 % of the edge
+    of a cube of the label's volume, 15 mm for a brain, if close is not given: the solid organ out of an atlas.
+    """
+    image = _np.asarray(image)
+    values = _np.unique(image[image != 0]) if labels is None else _np.atleast_1d(labels)
+    if close is None:
+        close = 0.0
+        if hull:
+            volume = _np.count_nonzero(_np.isin(image, values)) * abs(_np.linalg.det(_np.asarray(affine)[:3, :3]))
+            close = round(0.13 * volume ** (1 / 3), 1)
+    return _core.complete_label(image, affine, {float(value) for value in values}, float(close), fill_holes or hull,
+                                largest or hull, float(drop_below)).astype(_np.uint8)
 
 
 def label_surface(image, affine, labels, *, smoothing=None, vertices=20000):

@@ -38,6 +38,9 @@ def mesh(points: ArrayLike, triangles: ArrayLike, *, region: Union[None, Region,
          subdomains: Optional[Mapping[int, Surface]] = None, vertices: int = 660, tolerance: float = 0.0,
          grading: float = 0.35, base_level: Optional[int] = None, quality_bound: float = 3.2,
          sharp_angle: float = 50.0, progress: Progress = None) -> tuple[Mesh, Report]: ...
+def complete_label(image: ArrayLike, affine: ArrayLike, labels: Union[None, int, Sequence[int]] = None, *,
+                   close: Optional[float] = None, fill_holes: bool = False, largest: bool = False,
+                   drop_below: float = 0, hull: bool = False) -> NDArray[np.uint8]: ...
 def label_surface(image: ArrayLike, affine: ArrayLike, labels: Union[int, Sequence[int]], *,
                   smoothing: Optional[float] = None,
                   vertices: int = 20000) -> tuple[NDArray[np.float64], NDArray[np.int64]]: ...

@@ -36,8 +36,8 @@ struct Read_surface_options
   /// default, it is repaired.
   bool is_strict = false;
 
-  /// If not 0, such a surface is wrapped instead: openings narrower than this are closed, and details smaller
-  /// than a thirtieth of it are lost.
+  /// If not 0, the surface is wrapped, with defects or without, and not repaired: openings narrower than this
+  /// are closed, and details smaller than a thirtieth of it are lost.
   double wrap_diameter = 0;
 };
 

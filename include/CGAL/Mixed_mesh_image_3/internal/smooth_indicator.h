@@ -9,6 +9,7 @@
 #define CGAL_MIXED_MESH_IMAGE_3_INTERNAL_SMOOTH_INDICATOR_H
 
 #include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>
+#include <CGAL/Mixed_mesh_image_3/internal/Voxel_box.h>
 
 #include <algorithm>
 #include <array>
@@ -117,41 +118,17 @@ template <class HasLabel>
 Indicator smooth_indicator(const Voxel_image_3& image, const HasLabel& has_label,
                            const std::array<double, 3>& deviations)
 {
-  Indicator indicator;
-  const Voxel_grid_3& grid = image.grid;
-  std::array<std::size_t, 3> low = grid.size, high{};
-  const auto for_each_voxel = [&](const auto& f) {
-    for(std::size_t k = 0; k < grid.size[2]; ++k)
-      for(std::size_t j = 0; j < grid.size[1]; ++j)
-        for(std::size_t i = 0; i < grid.size[0]; ++i)
-          if(has_label(image.values[grid.offset(i, j, k)]))
-            f(std::array<std::size_t, 3>{i, j, k});
-  };
-  for_each_voxel([&](const std::array<std::size_t, 3>& voxel) {
-    for(int i = 0; i < 3; ++i) {
-      low[i] = (std::min)(low[i], voxel[i]);
-      high[i] = (std::max)(high[i], voxel[i] + 1);
-    }
-  });
-  if(high[0] == 0)
-    return indicator;
   std::array<std::vector<float>, 3> kernels;
-  std::size_t number_of_values = 1, number_with_label = 0;
+  std::array<std::size_t, 3> margin;
   for(int i = 0; i < 3; ++i) {
     kernels[i] = gaussian_kernel(deviations[i]);
-    const std::size_t margin = kernels[i].size(); // one more than what is reached
-    indicator.first[i] = std::int64_t(low[i]) - std::int64_t(margin);
-    indicator.size[i] = high[i] - low[i] + 2 * margin;
-    number_of_values *= indicator.size[i];
+    margin[i] = kernels[i].size(); // one more than what is reached
   }
-  indicator.values.assign(number_of_values, 0.f);
-  for_each_voxel([&](const std::array<std::size_t, 3>& voxel) {
-    std::array<std::size_t, 3> p;
-    for(int i = 0; i < 3; ++i)
-      p[i] = std::size_t(std::int64_t(voxel[i]) - indicator.first[i]);
-    indicator.values[p[0] + indicator.size[0] * (p[1] + indicator.size[1] * p[2])] = 1;
-    ++number_with_label;
-  });
+  const Voxel_box box = box_of_label(image, has_label, margin);
+  Indicator indicator{box.first, box.size, {box.has_label.begin(), box.has_label.end()}};
+  if(indicator.values.empty())
+    return indicator;
+  const auto number_with_label = std::size_t(std::count(box.has_label.begin(), box.has_label.end(), 1));
   for(int axis = 0; axis < 3; ++axis)
     convolve(indicator, axis, kernels[axis]);
   indicator.level = level_above(indicator.values, number_with_label);

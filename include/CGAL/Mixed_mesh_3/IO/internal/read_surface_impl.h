@@ -686,19 +686,18 @@ CGAL_MIXED_MESH_3_INLINE void make_surface(const std::string& path, const Read_s
   const Bbox_3 b = CGAL::bbox_3(points.begin(), points.end());
   const double box = b.x_span() * b.y_span() * b.z_span();
   Component_counts components;
-  try {
-    components = make_solid(options, points, polygons, mesh, input);
-  } catch(const Surface_defect& defect) {
-    if(options.wrap_diameter == 0) {
-      input.wrap_diameter = defect.wrap_diameter;
-      refuse(path, defect.text);
-    }
+  if(options.wrap_diameter > 0) {
     wrap_faces(path, options.wrap_diameter, points, polygons);
     make_mesh(points, polygons, true, mesh, input);
     components = orient_components(mesh);
-    note_repair(defect.text + ": wrapped it, closing what is narrower than "
-                  + number_text(options.wrap_diameter),
-                input);
+    note_repair("wrapped it, closing what is narrower than " + number_text(options.wrap_diameter), input);
+  } else {
+    try {
+      components = make_solid(options, points, polygons, mesh, input);
+    } catch(const Surface_defect& defect) {
+      input.wrap_diameter = defect.wrap_diameter;
+      refuse(path, defect.text);
+    }
   }
   input.number_of_components = components.all;
   if(components.all > 1)

@@ -103,7 +103,7 @@ inline std::string place_text(const Predicates_kernel::Point_3& point)
   return "(" + number_text(p[0]) + ", " + number_text(p[1]) + ", " + number_text(p[2]) + ")";
 }
 
-/// Ends a reading, unless the surface is to be wrapped.
+/// Ends a reading.
 struct Surface_defect
 {
   std::string text;
@@ -113,7 +113,7 @@ struct Surface_defect
 // A defect that is to be repaired ends the reading if that is not wanted.
 inline void check_repair(const Read_surface_options& options, const Surface_defect& defect)
 {
-  if(options.is_strict || options.wrap_diameter > 0)
+  if(options.is_strict)
     throw defect;
 }
 

@@ -1,0 +1,78 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_IMAGE_3_INTERNAL_VOXEL_BOX_H
+#define CGAL_MIXED_MESH_IMAGE_3_INTERNAL_VOXEL_BOX_H
+
+#include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// Voxels of a label in the box around them, which may reach beyond the image.
+struct Voxel_box
+{
+  std::array<std::int64_t, 3> first{}; // index in the image of the box's first voxel
+  std::array<std::size_t, 3> size{};   // 0 if no voxel has the label
+  std::vector<std::uint8_t> has_label; // the first index runs fastest
+
+  std::array<std::size_t, 3> strides() const { return {1, size[0], size[0] * size[1]}; }
+  std::size_t offset(const std::array<std::size_t, 3>& p) const
+  {
+    return p[0] + size[0] * (p[1] + size[1] * p[2]);
+  }
+};
+
+/// \param margin voxels without label on each side of those that have it, along each axis
+template <class HasLabel>
+Voxel_box box_of_label(const Voxel_image_3& image, const HasLabel& has_label,
+                       const std::array<std::size_t, 3>& margin)
+{
+  const Voxel_grid_3& grid = image.grid;
+  std::array<std::size_t, 3> low = grid.size, high{};
+  const auto for_each_voxel = [&](const auto& f) {
+    for(std::size_t k = 0; k < grid.size[2]; ++k)
+      for(std::size_t j = 0; j < grid.size[1]; ++j)
+        for(std::size_t i = 0; i < grid.size[0]; ++i)
+          if(has_label(image.values[grid.offset(i, j, k)]))
+            f(std::array<std::size_t, 3>{i, j, k});
+  };
+  for_each_voxel([&](const std::array<std::size_t, 3>& voxel) {
+    for(int i = 0; i < 3; ++i) {
+      low[i] = (std::min)(low[i], voxel[i]);
+      high[i] = (std::max)(high[i], voxel[i] + 1);
+    }
+  });
+  Voxel_box box;
+  if(high[0] == 0)
+    return box;
+  for(int i = 0; i < 3; ++i) {
+    box.first[i] = std::int64_t(low[i]) - std::int64_t(margin[i]);
+    box.size[i] = high[i] - low[i] + 2 * margin[i];
+  }
+  box.has_label.assign(box.size[0] * box.size[1] * box.size[2], 0);
+  for_each_voxel([&](const std::array<std::size_t, 3>& voxel) {
+    std::array<std::size_t, 3> p;
+    for(int i = 0; i < 3; ++i)
+      p[i] = std::size_t(std::int64_t(voxel[i]) - box.first[i]);
+    box.has_label[box.offset(p)] = 1;
+  });
+  return box;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_IMAGE_3_INTERNAL_VOXEL_BOX_H

@@ -1,0 +1,105 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The Euclidean distance transform of Felzenszwalb and Huttenlocher (2012): one axis after the other, in
+// linear time, the lower envelope of parabolas.
+
+#ifndef CGAL_MIXED_MESH_IMAGE_3_INTERNAL_DISTANCE_TRANSFORM_H
+#define CGAL_MIXED_MESH_IMAGE_3_INTERNAL_DISTANCE_TRANSFORM_H
+
+#include <CGAL/Mixed_mesh_image_3/internal/Voxel_box.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// The lower envelope of parabolas of one shape, with their apices on a line of voxels.
+class Parabola_envelope
+{
+  struct Parabola
+  {
+    double apex, height; // the place, and the value there
+    double begin;        // the place from which on it is the lowest one
+  };
+
+  std::vector<Parabola> m_parabolas;
+
+public:
+  void clear() { m_parabolas.clear(); }
+  bool is_empty() const { return m_parabolas.empty(); }
+
+  /// \pre the apex is behind those before
+  void add(double apex, double height)
+  {
+    double begin = -std::numeric_limits<double>::infinity();
+    while(!m_parabolas.empty()) {
+      const Parabola& last = m_parabolas.back();
+      begin = (height - last.height + apex * apex - last.apex * last.apex) / (2 * (apex - last.apex));
+      if(begin > last.begin)
+        break;
+      m_parabolas.pop_back();
+      begin = -std::numeric_limits<double>::infinity();
+    }
+    m_parabolas.push_back({apex, height, begin});
+  }
+
+  /// Writes the envelope at places 0, spacing, 2 spacing, ...
+  template <class Write>
+  void evaluate(std::size_t number, double spacing, const Write& write) const
+  {
+    std::size_t lowest = 0;
+    for(std::size_t i = 0; i < number; ++i) {
+      const double x = double(i) * spacing;
+      while(lowest + 1 < m_parabolas.size() && m_parabolas[lowest + 1].begin < x)
+        ++lowest;
+      const Parabola& p = m_parabolas[lowest];
+      write(i, (x - p.apex) * (x - p.apex) + p.height);
+    }
+  }
+};
+
+/// The squared distance of each voxel of a box to the nearest one of a value, between centers; infinite if no
+/// voxel has it.
+inline std::vector<float> squared_distances(const Voxel_box& box, std::uint8_t value,
+                                            const std::array<double, 3>& spacing)
+{
+  constexpr float none = std::numeric_limits<float>::infinity();
+  std::vector<float> distances;
+  distances.reserve(box.has_label.size());
+  for(std::uint8_t has_label : box.has_label)
+    distances.push_back(has_label == value ? 0 : none);
+  const std::array<std::size_t, 3> strides = box.strides();
+  Parabola_envelope envelope;
+  for(int axis = 0; axis < 3; ++axis) {
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+    for(std::size_t j = 0; j < box.size[b]; ++j)
+      for(std::size_t k = 0; k < box.size[c]; ++k) {
+        float* const line = distances.data() + j * strides[b] + k * strides[c];
+        const std::size_t stride = strides[axis];
+        envelope.clear();
+        for(std::size_t i = 0; i < box.size[axis]; ++i)
+          if(line[i * stride] < none)
+            envelope.add(double(i) * spacing[axis], line[i * stride]);
+        if(!envelope.is_empty())
+          envelope.evaluate(box.size[axis], spacing[axis],
+                            [line, stride](std::size_t i, double d) { line[i * stride] = float(d); });
+      }
+  }
+  return distances;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_IMAGE_3_INTERNAL_DISTANCE_TRANSFORM_H
