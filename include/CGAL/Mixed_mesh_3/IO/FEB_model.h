@@ -12,6 +12,7 @@
 
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
+#include <CGAL/Mixed_mesh_3/IO/Data_array.h>
 #include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
 #include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
@@ -238,7 +239,7 @@ bool write_FEB_model(std::ostream& stream, const Mesh& mesh, const FEB_model& mo
     sets.push_back(s.set);
   for(const FEB_prescribed& c : controlled) {
     sets.push_back(c.set);
-    data.push_back({{c.set.name, &c.values}, c.set.name});
+    data.emplace_back(Data_array{c.set.name, &c.values}, c.set.name);
   }
 
   Buffered_output out(stream);

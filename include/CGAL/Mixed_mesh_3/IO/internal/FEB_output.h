@@ -45,6 +45,8 @@ struct FEB_node_data
 {
   Data_array data;
   std::string node_set;
+
+  FEB_node_data(Data_array d, std::string set) : data(std::move(d)), node_set(std::move(set)) {}
 };
 
 /// The sections that a mesh makes, in the order in which FEBio wants them.
