@@ -363,6 +363,17 @@ public:
   /// What was given less what came out at each control point, in mm: zero, but for those with a compliance.
   std::vector<Vector> control_residuals() const { return m_model.control_residuals(); }
 
+  /// Vertices whose displacements each control point has the weighted mean of, and their weights, which add
+  /// up to 1.
+  std::vector<std::vector<std::pair<Vertex_index, double>>> control_weights() const
+  {
+    return m_model.control_weights();
+  }
+
+  /// The directions in which supports hold a vertex, orthogonal to each other and of length 1: none if it is
+  /// free, three if it is prescribed. Those of contacts that are closed are among them.
+  std::vector<Vector> held_directions(Vertex_index v) const { return m_model.held_directions(v); }
+
   /*!
   What was given less where each control point would be if it were not used, in mm: the others predict it.
   That is the error that is to be expected at targets nearby, without landmarks there. Infinite for a point

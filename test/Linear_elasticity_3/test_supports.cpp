@@ -363,8 +363,45 @@ void test_free_motions()
   BOOST_TEST_LT(std::abs(volumes[1] - volumes[0]), 1e-12); // of third order in the step
 }
 
+// What supports and control points are, as others can ask for it.
+void test_constraints()
+{
+  const Mesh mesh = any_grid(3, 0, 0, Moved::INNER);
+  Elasticity problem(mesh);
+  problem.prescribe(0);
+  problem.slide(1, {0, 0, -2});
+  problem.slide(2, {3, 4, 0});
+  problem.slide(2, {0, 1, 0});
+  BOOST_TEST_EQ(problem.held_directions(0).size(), 3u);
+  BOOST_TEST(problem.held_directions(1) == std::vector<Vec3>({{0, 0, -1}}));
+  BOOST_TEST_EQ(problem.held_directions(2).size(), 2u);
+  for(const Vec3& d : problem.held_directions(2))
+    BOOST_TEST_LT(std::abs(norm(d) - 1) + std::abs(d[2]), 1e-12);
+  BOOST_TEST(problem.held_directions(3).empty());
+  BOOST_TEST(is_success(problem.factor()));
+  BOOST_TEST(problem.control_weights().empty());
+  const Vec3 places[] = {{0.4, 0.3, 0.7}, {0.5, 0.5, 1}};
+  for(double radius : {0., 0.6}) { // the latter has the mean of the boundary's vertices for both
+    BOOST_TEST(is_success(problem.set_control_points(places, 0, 0, radius)));
+    const auto weights = problem.control_weights();
+    BOOST_TEST_EQ(weights.size(), 2u);
+    for(std::size_t i = 0; i < weights.size(); ++i) {
+      double sum = 0;
+      Vec3 mean{};
+      for(const auto& [v, weight] : weights[i]) {
+        sum += weight;
+        mean = mean + weight * position(mesh, v);
+        BOOST_TEST(radius == 0 || norm(position(mesh, v) - places[i]) <= radius);
+      }
+      BOOST_TEST_LT(std::abs(sum - 1), 1e-12);
+      BOOST_TEST(radius > 0 || norm(mean - places[i]) < 1e-12);
+    }
+  }
+}
+
 int run(int, char*[])
 {
+  test_constraints();
   for(int kind = 0; kind <= number_of_element_kinds; ++kind)
     test_supports(kind);
   test_share_below();

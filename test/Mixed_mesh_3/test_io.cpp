@@ -9,6 +9,7 @@
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
+#include <CGAL/Mixed_mesh_3/IO/FEB_model.h>
 #include <CGAL/Mixed_mesh_3/IO/VTU.h>
 #include <CGAL/Mixed_mesh_3/IO/read_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
@@ -587,6 +588,34 @@ void test_writers_in_odd_conditions()
   }
 }
 
+// A model of FEBio is also read back, and solved, in test_brain_shift_febio.py.
+void test_FEB_model()
+{
+  std::ostringstream empty, stream;
+  BOOST_TEST(IO::write_FEB_model(empty, Mesh(), IO::FEB_model()));
+  BOOST_TEST(empty.str().find("<Boundary>") == std::string::npos);
+
+  IO::FEB_model model;
+  model.materials[1] = {2, 0.25, 3e-6};
+  model.fixed_vertices = {Vertex_index(0), Vertex_index(2)};
+  model.supports = {{Vertex_index(3), 1, {}, 0}};
+  model.controls = {{Vertex_index(5), 2, {}, -0.5}, {Vertex_index(4), 2, {{Vertex_index(6), 0, 0.25}}, 7}};
+  model.accelerations[1] = {0, 0, -9810};
+  model.subdomain_names[1] = "brain";
+  model.displacements_file = "a&b.csv";
+  model.comments = {"two words"};
+  BOOST_TEST(IO::write_FEB_model(stream, one_of_each_kind(), model));
+  for(const char* text :
+      {"<!-- two words -->", "name=\"brain\" type=\"isotropic elastic\">", "<density>3e-06</density>",
+       "name=\"brain.rest_tet4\"", "<NodeSet name=\"fixed\">1,3</NodeSet>",
+       "<NodeSet name=\"sliding_y\">4</NodeSet>", "<NodeSet name=\"controlled_z\">6</NodeSet>",
+       "<node lid=\"1\">-0.5</node>", "<y_dof>1</y_dof>\n      <z_dof>0</z_dof>",
+       "<offset lc=\"1\">7</offset>", "<child_dof><node>7</node><dof>x</dof><value>0.25</value></child_dof>",
+       "<force lc=\"1\">0,0,9810</force>", "file=\"a&amp;b.csv\""})
+    if(!BOOST_TEST(stream.str().find(text) != std::string::npos))
+      std::cerr << text << '\n';
+}
+
 void test_split(const Mesh& mesh, bool is_planar)
 {
   std::vector<Element_index> origins;
@@ -905,6 +934,7 @@ int run(int argc, char* argv[])
   fs::create_directories(directory);
   test_writers(directory);
   test_writers_in_odd_conditions();
+  test_FEB_model();
   test_split();
   test_errors(directory);
   test_reader<CGAL::Surface_mesh<Point>>(directory);

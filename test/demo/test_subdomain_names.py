@@ -97,14 +97,18 @@ class Test(unittest.TestCase):
 
     def test_febio(self):
         import xml.etree.ElementTree as ElementTree
-        mesh = ElementTree.parse(self.files["feb"]).getroot().find("Mesh")
+        root = ElementTree.parse(self.files["feb"]).getroot()
+        mesh = root.find("Mesh")
+        materials = {d.get("name"): d.get("mat") for d in root.find("MeshDomains")}
+        self.assertEqual({m.get("name") for m in root.find("Material")}, set(NAMES.values()))
         elements = {e.get("id"): block.get("name") for block in mesh.iter("Elements") for e in block.iter("elem")}
         sets = {s.get("name"): s.text.split(",") for s in mesh.iter("ElementSet")}
         self.assertEqual(set(sets), set(NAMES.values()))
         for index, name in NAMES.items():
             self.assertEqual(len(set(sets[name])), self.elements[index])
-            prefix = "re" if index == 1 else f"subdomain_{index}_"
-            self.assertTrue(all(elements[e].startswith(prefix) for e in sets[name]))
+            for part in {elements[e] for e in sets[name]}:
+                self.assertRegex(part, f"^{name}.(region|rest)_(tet4|pyra5|penta6|hex8)$")
+                self.assertEqual(materials[part], name)
 
     def shift(self, file, *more):
         command = [SHIFT, file, "--control-points", WORK / "points.csv", "--report", WORK / "shift.json", *more]

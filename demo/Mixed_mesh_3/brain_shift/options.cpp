@@ -246,6 +246,12 @@ void add_outputs(CLI::App& app, Options& o, CLI::Option* image)
                 "Mesh that is left, deformed: .vtu, .msh, .mesh, .inp, .feb; can be given several times")
     ->type_name("FILE")
     ->allow_extra_args(false);
+  app
+    .add_option(
+      "--febio", o.febio,
+      "The simulation as a model that FEBio 4 runs as it is, .feb: mesh (after a resection what is left), "
+      "materials, supports, control points and weight; not with --contact or --fluid-level")
+    ->type_name("FILE.feb");
   CLI::Option* output_image =
     app
       .add_option("--output-image", o.output_image,
@@ -360,6 +366,27 @@ Labeled_material material_of(const std::string& text, const mm3::Elastic_materia
   return result;
 }
 
+// What FEBio's model could not say: contact is with a rigid body there, and a force by mass does not act on
+// what has none, nor from a height upwards.
+void check_febio(const Options& o)
+{
+  const auto refuse = [](const char* option, const std::string& why) {
+    throw CLI::ValidationError(option, "cannot be written to a model of FEBio (--febio): " + why);
+  };
+  if(mm3::IO::format_of(o.febio) != mm3::IO::Format::FEB)
+    throw CLI::ValidationError("--febio", control_points::quoted(o.febio) + " does not end in .feb");
+  if(!o.touching_patches.empty())
+    refuse("--contact", "contact is with another body there, not with the boundary as it was");
+  const bool has_weight = o.acceleration != std::array<double, 3>{};
+  if(has_weight && std::isfinite(o.fluid_level))
+    refuse("--fluid-level", "forces of FEBio are by mass, the same in all of a subdomain");
+  const bool is_massless = o.density == 0
+                           || std::any_of(o.materials.begin(), o.materials.end(),
+                                          [](const auto& m) { return m.material.density == 0; });
+  if(has_weight && o.fluid_density > 0 && is_massless)
+    refuse("--density", "forces of FEBio are by mass, and tissue without mass would float");
+}
+
 // What the parser does not check.
 void check_use(const CLI::App& app, Options& o)
 {
@@ -385,6 +412,8 @@ void check_use(const CLI::App& app, Options& o)
   for(const std::string& text : o.material_texts)
     o.materials.push_back(material_of(text, o.material));
   check_patches(app, o);
+  if(!o.febio.empty())
+    check_febio(o);
   if(o.uses_petsc != has_petsc)
     throw CLI::ValidationError("--solver", has_petsc ? "this program is for petsc only"
                                                      : "this program was built without PETSc");
@@ -447,7 +476,7 @@ std::vector<std::string> outputs_of(const Options& o)
   std::vector<std::string> outputs;
   for(const auto& paths : {o.outputs, o.deformed_outputs, image_outputs(o)})
     outputs.insert(outputs.end(), paths.begin(), paths.end());
-  for(const std::string& path : {o.report, o.page})
+  for(const std::string& path : {o.report, o.page, o.febio})
     if(!path.empty())
       outputs.push_back(path);
   return outputs;
@@ -467,7 +496,7 @@ void check_feasible(const Options& o)
   }
   for(const std::string& path : image_outputs(o))
     outputs.push_back(path);
-  for(const std::string& path : {o.report, o.page})
+  for(const std::string& path : {o.report, o.page, o.febio})
     if(!path.empty())
       outputs.push_back(path);
   std::vector<std::string> inputs{o.mesh,  o.control_points, o.control_points_after,

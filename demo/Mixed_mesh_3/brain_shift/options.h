@@ -35,7 +35,7 @@ struct Labeled_material
 struct Options
 {
   std::string mesh, control_points, control_points_after, tumor, tumor_label, image, labels, output_image,
-    report, page, command, up = "z", gravity = "0,0,0";
+    report, page, febio, command, up = "z", gravity = "0,0,0";
   std::vector<std::string> outputs, deformed_outputs, material_texts;
   double fixed_below = 0.3, slide_below = 0, slide_beyond = std::numeric_limits<double>::infinity();
   // Patches of the boundary: closed surfaces, labels, and the names below.

@@ -15,11 +15,13 @@
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Element_locator_3.h>
+#include <CGAL/Mixed_mesh_3/Index.h>
 
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 using Vector = CGAL::Mixed_meshes_3::Vec3;
@@ -80,6 +82,15 @@ struct Shift
   int iterations = 0;
 };
 
+/// What holds and moves the vertices: the equations of supports and control points.
+struct Motion_constraints
+{
+  using Weights = std::vector<std::pair<CGAL::Mixed_meshes_3::Vertex_index, double>>;
+  std::vector<std::vector<Vector>> held_directions; // of each vertex, orthonormal: no displacement in these
+  std::vector<Weights> weights;                     // of the vertices that each control point has the mean of
+  std::vector<Vector> means;                        // of displacements, at each control point
+};
+
 /// What is removed, and what is left.
 struct Resection_facts
 {
@@ -116,6 +127,7 @@ struct Outcome
   Shift before; // the resection
   std::optional<Resection_facts> resection;
   std::optional<Shift> after;
+  Motion_constraints constraints; // of the last shift; if it is written as a model
   std::vector<std::string> warnings;
   double seconds = 0;
   std::size_t peak_bytes = 0;

@@ -6,6 +6,7 @@
 #include "brain_shift/run.h"
 
 #include "brain_shift/adapt.h"
+#include "brain_shift/febio.h"
 #include "brain_shift/images.h"
 #include "brain_shift/outcome.h"
 #include "brain_shift/patches.h"
@@ -163,6 +164,10 @@ void write_files(const Inputs& inputs, const std::vector<bool>& is_removed, cons
   log("write meshes", [&] {
     write_meshes(files, inputs, is_removed, o, outcome);
     write_deformed_meshes(files, remaining, inputs, o, outcome);
+    if(!o.febio.empty())
+      write_febio(files, remaining,
+                  facet_sets(remaining.mesh, remaining.vertices, inputs.patches, outcome.supports, o),
+                  inputs.subdomain_names, o, outcome);
   });
   if(!o.page.empty())
     log("write page", [&] {
@@ -183,7 +188,7 @@ void run(const Options& o)
   check_feasible(o);
   if(!o.quiet && outputs_of(o).empty())
     std::cerr << "note: nothing will be written, without --output, --output-deformed, --output-image, "
-                 "--report and --page\n";
+                 "--febio, --report and --page\n";
   Stage_log log(!o.quiet && isatty(STDERR_FILENO));
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);

@@ -22,6 +22,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 #if MIXED_MESH_3_HAS_PETSC
@@ -208,6 +209,21 @@ void tell_of_solver([[maybe_unused]] Elasticity& elasticity, [[maybe_unused]] Ou
 #endif
 }
 
+// With a compliance, means are those that come out: they give the same displacements, without the springs.
+Motion_constraints constraints_of(const Elasticity& elasticity, std::vector<Vector> displacements,
+                                  const Options& o)
+{
+  Motion_constraints constraints{{}, elasticity.control_weights(), std::move(displacements)};
+  for(mm3::Vertex_index v = 0; v < elasticity.mesh().number_of_vertices(); ++v)
+    constraints.held_directions.push_back(elasticity.held_directions(v));
+  if(o.compliance > 0) {
+    const std::vector<Vector> residuals = elasticity.control_residuals();
+    for(std::size_t i = 0; i < residuals.size(); ++i)
+      constraints.means[i] = constraints.means[i] - residuals[i];
+  }
+  return constraints;
+}
+
 // How the rest moves when elements are removed.
 void remove(Elasticity& elasticity, const std::vector<bool>& is_removed, const Options& o, Stage_log& log,
             Outcome& outcome)
@@ -229,6 +245,8 @@ void remove(Elasticity& elasticity, const std::vector<bool>& is_removed, const O
     log("control points", [&] { set_control_points(elasticity, o, left); });
   log("remove elements", [&] { check(elasticity.remove_elements(is_removed), o, left); });
   log("solve after resection", [&] { solve(elasticity, displacements_of(left), o, left); });
+  if(!o.febio.empty())
+    outcome.constraints = constraints_of(elasticity, displacements_of(left), o);
   outcome.after = log("checks",
                       [&] { return shift_of(elasticity, o, is_used, "shift after resection", outcome); });
 }
@@ -282,6 +300,8 @@ std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_
       mm3::buoyant_forces(mesh, o.acceleration, o.fluid_density * 1e-6 /* kg/mm^3 */, o.fluid_level));
   log("control points", [&] { set_control_points(elasticity, o, points); });
   log("solve", [&] { solve(elasticity, displacements_of(points), o, points); });
+  if(!o.febio.empty())
+    outcome.constraints = constraints_of(elasticity, displacements_of(points), o);
   outcome.before = log("checks", [&] {
     return shift_of(elasticity, o, std::vector<bool>(points.size(), true), "shift", outcome);
   });

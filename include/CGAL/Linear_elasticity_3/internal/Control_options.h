@@ -10,11 +10,17 @@
 
 #include <CGAL/license/Linear_elasticity_3.h>
 
+#include <CGAL/Mixed_mesh_3/Index.h>
+
+#include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
+
+/// The vertices whose displacements a control point has the weighted mean of.
+using Control_weights = std::vector<std::pair<Vertex_index, double>>;
 
 /// How control points act; see `Linear_elasticity_3::set_control_points()`.
 struct Control_options

@@ -107,6 +107,8 @@ public:
   const std::vector<Vec3>& displacements() const { return m_displacements; }
   std::vector<Vec3> control_forces() const;
   std::vector<Vec3> control_residuals() const;
+  std::vector<Control_weights> control_weights() const;
+  std::vector<Vec3> held_directions(Vertex_index v) const;
   const std::vector<double>& contact_forces() const { return m_contact_forces; }
   double energy() const;
 

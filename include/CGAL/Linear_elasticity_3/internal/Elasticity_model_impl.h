@@ -224,6 +224,17 @@ CGAL_LINEAR_ELASTICITY_3_INLINE std::vector<Vec3> Elasticity_model::control_resi
   return vectors_of(m_control_residuals);
 }
 
+CGAL_LINEAR_ELASTICITY_3_INLINE std::vector<Control_weights> Elasticity_model::control_weights() const
+{
+  return m_controls->has_constraints() ? m_controls->constraints().weights() : std::vector<Control_weights>();
+}
+
+CGAL_LINEAR_ELASTICITY_3_INLINE std::vector<Vec3> Elasticity_model::held_directions(Vertex_index v) const
+{
+  const Support& support = m_body->supports().of_vertices()[v];
+  return {support.directions.begin(), support.directions.begin() + support.size};
+}
+
 CGAL_LINEAR_ELASTICITY_3_INLINE std::vector<Vec3> Elasticity_model::leave_one_out_errors() const
 {
   CGAL_precondition(!m_is_iterative && m_controls->has_constraints()

@@ -13,6 +13,7 @@
 #include <CGAL/license/Linear_elasticity_3.h>
 
 #include <CGAL/Linear_elasticity_3/Linear_elasticity_result_3.h>
+#include <CGAL/Linear_elasticity_3/internal/Control_options.h>
 #include <CGAL/Linear_elasticity_3/internal/rigid_modes.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 
@@ -32,9 +33,6 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
-
-/// The vertices whose displacements a control point has the weighted mean of.
-using Control_weights = std::vector<std::pair<Vertex_index, double>>;
 
 struct Control_solution
 {

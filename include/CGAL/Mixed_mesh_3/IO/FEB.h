@@ -12,65 +12,30 @@
 
 #include <CGAL/Mixed_mesh_3/IO/Data_array.h>
 #include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
+#include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
-#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/FEB_output.h>
 
-#include <algorithm>
-#include <cstddef>
 #include <ostream>
-#include <string>
 #include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace IO {
 
-namespace internal {
-
-// FEBio does not accept empty sections.
-inline void write_FEB_surface(Buffered_output& out, const std::string& name, const std::vector<Face>& faces)
-{
-  if(faces.empty())
-    return;
-  out << "    <Surface name=\"" << name << "\">\n";
-  std::size_t number = 0;
-  for(const Face& face : faces) {
-    const char* const type = face.vertices().size() == 3 ? "tri3" : "quad4";
-    out << "      <" << type << " id=\"" << ++number << "\">";
-    write_vertices(out, face.vertices(), ',');
-    out << "</" << type << ">\n";
-  }
-  out << "    </Surface>\n";
-}
-
-inline void write_FEB_node_data(Buffered_output& out, const Data_array& data, std::size_t n)
-{
-  const std::size_t components = std::size_t(data.number_of_components);
-  out << "    <NodeData name=\"" << escaped_for_XML(data.name) << "\" node_set=\"all\" data_type=\""
-      << (components == 3 ? "vec3" : "scalar") << "\">\n";
-  for(std::size_t v = 0; v < n; ++v) {
-    out << "      <node lid=\"" << v + 1 << "\">";
-    for(std::size_t i = 0; i < components; ++i)
-      out << (i == 0 ? "" : ",") << (*data.values)[v * components + i];
-    out << "</node>\n";
-  }
-  out << "    </NodeData>\n";
-}
-
-} // namespace internal
-
 /*!
 \ingroup PkgMixedMesh3IO
 
 \brief Writes a mesh as model of FEBio (`.feb`), version 4.0.
 
-The mesh: node set `all`, element sets such as `region_hex8` and `rest_tet4` (of other subdomains than 1
+The mesh: node set `all`, parts such as `region_hex8` and `rest_tet4` (of other subdomains than 1
 `subdomain_2_rest_tet4` and so on), surface `boundary` (counter-clockwise seen from outside) and a surface for
-each facet set, and an element set for each subdomain with a name, with these names. FEBio takes no
-mesh without materials: there are `region` and `rest`, and those of other subdomains, with numbers to be
-replaced (neo-Hookean, Young's modulus 1, Poisson's ratio 0.45). There are no boundary conditions, loads or
-steps. The numbers of nodes and elements are the indices plus 1.
+each facet set. Where a subdomain has a name, say tumor, its parts are `tumor.region_hex8`, `tumor.rest_tet4`
+and so on, and all of its elements are the element set `tumor`. FEBio takes no mesh without materials: there
+is one for each subdomain with a name, which is also its own, and `region` and `rest`, or
+`subdomain_2_region` and so on, for the others. Their numbers are to be replaced (neo-Hookean, Young's modulus
+1, Poisson's ratio 0.45). There are no boundary conditions, loads or steps; `write_FEB_model()` writes them.
+The numbers of nodes and elements are the indices plus 1.
 
 Values at the vertices become mesh data, `NodeData` on the set `all`, which a prescribed displacement of the
 model can refer to, for example.
@@ -88,73 +53,19 @@ bool write_FEB(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_s
                const std::vector<Data_array>& vertex_data = {}, const Subdomain_names& subdomain_names = {})
 {
   using namespace internal;
-  const Element_blocks blocks(mesh);
+  const FEB_output<Mesh> output(mesh, subdomain_names);
   Buffered_output out(stream);
-  const auto name = [&blocks](const Element_block& block) {
-    return blocks.parts()[block.part].name() + '_' + block.names().febio_type;
-  };
-
-  out << "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n"
-      << "<febio_spec version=\"4.0\">\n"
-      << "  <Module type=\"solid\"/>\n"
-      << "  <Material>\n";
-  int material = 0;
-  std::vector<std::string> materials{"region", "rest"};
-  for(const Part& part : blocks.parts())
-    if(part.attributes.subdomain_index != 1)
-      materials.push_back(part.name());
-  for(const std::string& name : materials)
-    out << "    <material id=\"" << ++material << "\" name=\"" << name << "\" type=\"neo-Hookean\">\n"
-        << "      <density>1</density>\n      <E>1</E>\n      <v>0.45</v>\n    </material>\n";
-  out << "  </Material>\n"
-      << "  <Mesh>\n"
-      << "    <Nodes name=\"all\">\n";
-  for(std::size_t v = 0; v < mesh.number_of_vertices(); ++v) {
-    out << "      <node id=\"" << v + 1 << "\">";
-    write_point(out, Mixed_meshes_3::to_vec3(mesh.points()[v]), ",");
-    out << "</node>\n";
-  }
-  out << "    </Nodes>\n";
-
-  for(const Element_block& block : blocks) {
-    out << "    <Elements type=\"" << block.names().febio_type << "\" name=\"" << name(block) << "\">\n";
-    for(Element_index e : block) {
-      out << "      <elem id=\"" << e + 1 << "\">";
-      write_vertices(out, mesh.element(e), ',');
-      out << "</elem>\n";
-    }
-    out << "    </Elements>\n";
-  }
-
-  for(const auto& [name, parts] : blocks.named_parts(subdomain_names)) {
-    out << "    <ElementSet name=\"" << name << "\">";
-    bool is_first = true;
-    for(const Element_block& block : blocks)
-      if(std::count(parts.begin(), parts.end(), block.part) != 0)
-        for(Element_index e : block) {
-          out << (is_first ? "" : ",") << e + 1;
-          is_first = false;
-        }
-    out << "</ElementSet>\n";
-  }
-  write_FEB_surface(out, "boundary", boundary_faces(mesh));
-  for(const Facet_set& set : facet_sets)
-    write_FEB_surface(out, set.name, set.faces);
-
-  out << "  </Mesh>\n"
-      << "  <MeshDomains>\n";
-  for(const Element_block& block : blocks) {
-    out << "    <SolidDomain name=\"" << name(block) << "\" mat=\"" << blocks.parts()[block.part].name()
-        << "\"/>\n";
-  }
-  out << "  </MeshDomains>\n";
-  if(!mesh.is_empty() && !vertex_data.empty()) {
-    out << "  <MeshData>\n";
-    for(const Data_array& data : vertex_data)
-      write_FEB_node_data(out, data, mesh.number_of_vertices());
-    out << "  </MeshData>\n";
-  }
-  out << "</febio_spec>\n";
+  output.write_head(out);
+  output.write_materials(out, [&out](Subdomain_index) {
+    out << "type=\"neo-Hookean\">\n      <density>1</density>\n      <E>1</E>\n      <v>0.45</v>\n";
+  });
+  output.write_mesh(out, {}, facet_sets);
+  std::vector<FEB_node_data> data;
+  if(!mesh.is_empty())
+    for(const Data_array& array : vertex_data)
+      data.emplace_back(array, "all");
+  output.write_node_data(out, data);
+  output.write_foot(out);
   return out.finish();
 }
 

@@ -1,0 +1,151 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "brain_shift/constraints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace mm3 = CGAL::Mixed_meshes_3;
+
+namespace {
+
+// A vertex and an axis.
+using Component = std::pair<mm3::Vertex_index, int>;
+using Terms = std::map<Component, double>;
+
+// A component of a displacement that others tell: the sum of `terms` and `value`.
+struct Told_component
+{
+  Terms terms;
+  double value;
+  bool is_control;
+};
+
+class Elimination
+{
+  // Relative to the largest factor of an equation: what is rounding, and below what an equation follows from
+  // others.
+  static constexpr double rounding = 1e-12, dependence = 1e-10;
+
+  const std::vector<std::vector<Vector>>& m_held_directions;
+  std::map<Component, Told_component> m_told;
+  std::map<Component, std::set<Component>> m_users; // which told components have one in their terms
+
+public:
+  explicit Elimination(const std::vector<std::vector<Vector>>& held_directions)
+    : m_held_directions(held_directions)
+  {
+  }
+
+  const std::map<Component, Told_component>& told() const { return m_told; }
+
+  bool is_fixed(mm3::Vertex_index v) const { return m_held_directions[v].size() == 3; }
+
+  // The sum of terms is to be the value.
+  void add(const Terms& equation, double value, bool is_control)
+  {
+    double scale = 0;
+    Terms free;
+    for(const auto& [component, factor] : equation) {
+      scale = (std::max)(scale, std::abs(factor));
+      value -= add_told(component, factor, free);
+    }
+    const auto largest = std::max_element(free.begin(), free.end(), [](const auto& a, const auto& b) {
+      return std::abs(a.second) < std::abs(b.second);
+    });
+    if(largest == free.end() || !(std::abs(largest->second) > dependence * scale))
+      return;
+    const auto [component, pivot] = *largest;
+    Told_component told{{}, value / pivot, is_control};
+    for(const auto& [other, factor] : free)
+      if(other != component && std::abs(factor) > rounding * std::abs(pivot)) {
+        told.terms.emplace(other, -factor / pivot);
+        m_users[other].insert(component);
+      }
+    substitute(component, told);
+    m_told.emplace(component, std::move(told));
+  }
+
+private:
+  // Adds a component times a factor to a sum of those that are not told; returns what is known of it.
+  double add_told(const Component& component, double factor, Terms& sum) const
+  {
+    if(is_fixed(component.first))
+      return 0;
+    const auto place = m_told.find(component);
+    if(place == m_told.end()) {
+      sum[component] += factor;
+      return 0;
+    }
+    for(const auto& [other, f] : place->second.terms)
+      sum[other] += factor * f;
+    return factor * place->second.value;
+  }
+
+  // Puts what tells a component in its place.
+  void substitute(const Component& component, const Told_component& by)
+  {
+    const auto users = m_users.find(component);
+    if(users == m_users.end())
+      return;
+    const std::set<Component> all = std::move(users->second);
+    m_users.erase(users);
+    for(const Component& user : all) {
+      Told_component& told = m_told.at(user);
+      const double factor = told.terms.at(component);
+      told.terms.erase(component);
+      told.value += factor * by.value;
+      for(const auto& [other, f] : by.terms) {
+        double& sum = told.terms[other];
+        const double larger = (std::max)(std::abs(sum), std::abs(factor * f));
+        sum += factor * f;
+        if(std::abs(sum) > rounding * larger) {
+          m_users[other].insert(user);
+        } else { // they cancel each other
+          told.terms.erase(other);
+          m_users[other].erase(user);
+        }
+      }
+    }
+  }
+};
+
+mm3::IO::FEB_constraint constraint_of(const Component& component, const Told_component& told)
+{
+  mm3::IO::FEB_constraint c{component.first, component.second, {}, told.value};
+  for(const auto& [other, factor] : told.terms)
+    c.terms.push_back({other.first, other.second, factor});
+  return c;
+}
+
+} // namespace
+
+Explicit_constraints solve_for_displacements(const Motion_constraints& constraints)
+{
+  Elimination elimination(constraints.held_directions);
+  Explicit_constraints result;
+  for(mm3::Vertex_index v = 0; v < constraints.held_directions.size(); ++v)
+    if(elimination.is_fixed(v)) {
+      result.fixed_vertices.push_back(v);
+    } else {
+      for(const Vector& d : constraints.held_directions[v])
+        elimination.add({{{v, 0}, d[0]}, {{v, 1}, d[1]}, {{v, 2}, d[2]}}, 0, false);
+    }
+  for(std::size_t i = 0; i < constraints.means.size(); ++i)
+    for(int axis = 0; axis < 3; ++axis) {
+      Terms mean;
+      for(const auto& [v, weight] : constraints.weights[i])
+        mean[{v, axis}] += weight;
+      elimination.add(mean, constraints.means[i][axis], true);
+    }
+  for(const auto& [component, told] : elimination.told())
+    (told.is_control ? result.controls : result.supports).push_back(constraint_of(component, told));
+  return result;
+}
