@@ -2,29 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A tour of the Python package: from two surfaces to a brain that has shifted, and its tumor removed.
 
-  tutorial.py DATA        the folder data of the repository
-
 Each part can be pasted into a notebook."""
 
-# %% Surfaces are arrays. Any reader will do (meshio, nibabel, trimesh); for the files here, a few lines.
-import pathlib
-import sys
-
+# %% Surfaces are arrays: those of the bundled brain here, else of read_surface() or of any other reader
 import numpy as np
 
 import mixed_mesh_3 as mm3
 
-data = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "data")
-
-
-def read_off(path):
-    words = path.read_text().split()
-    n, m = int(words[1]), int(words[2])
-    points = np.array(words[4:4 + 3 * n], dtype=float).reshape(n, 3)
-    return points, np.array(words[4 + 3 * n:4 + 3 * n + 4 * m], dtype=int).reshape(m, 4)[:, 1:]
-
-
-brain, region, tumor = (read_off(data / f"{name}.off") for name in ("brain", "region", "tumour"))
+brain, region, tumor = mm3.example_data().values()
 
 # %% A mesh of 660 vertices, fine between the tumor and the opening of the skull
 mesh, report = mm3.mesh(*brain, region=region, vertices=660)

@@ -67,3 +67,18 @@ Surface surface_of(const Doubles& points, const Integers& triangles, const std::
     warnings.push_back(name + ": " + warning);
   return surface;
 }
+
+py::tuple arrays_of(const Surface& surface)
+{
+  py::array_t<double> points({py::ssize_t(surface.number_of_vertices()), py::ssize_t(3)});
+  py::array_t<std::int64_t> triangles({py::ssize_t(surface.number_of_faces()), py::ssize_t(3)});
+  double* p = points.mutable_data();
+  for(const auto v : surface.vertices())
+    for(int i = 0; i < 3; ++i)
+      *p++ = surface.point(v)[i];
+  std::int64_t* t = triangles.mutable_data();
+  for(const auto f : surface.faces())
+    for(const auto v : surface.vertices_around_face(surface.halfedge(f)))
+      *t++ = std::int64_t(std::size_t(v));
+  return py::make_tuple(points, triangles);
+}

@@ -50,6 +50,9 @@ py::array_t<bool> array_of(const std::vector<bool>& marks);
 Surface surface_of(const Doubles& points, const Integers& triangles, const std::string& name,
                    std::vector<std::string>& warnings);
 
+/// (n, 3) points and (m, 3) triangles of a surface without garbage.
+py::tuple arrays_of(const Surface& surface);
+
 // What the parts of the module add to it.
 void add_mesh(py::module_& module);
 void add_meshing(py::module_& module);

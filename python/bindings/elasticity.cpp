@@ -37,15 +37,16 @@ void check(const CGAL::Linear_elasticity_result_3& result)
     throw Elasticity_error(result.description());
 }
 
-// Scope of what factors and solves: other threads of Python run meanwhile, none in the same object, and
-// CHOLMOD computes as in brain_shift, so that results are the same, byte for byte.
+// Scope of what factors and solves: other threads of Python run meanwhile, but only one computes, as OpenBLAS
+// without threads is wrong in two; and CHOLMOD computes as in brain_shift, so that results are the same, byte
+// for byte.
 struct Computation
 {
-  const py::gil_scoped_release release;
-  const std::lock_guard<std::mutex> lock;
-  const One_blas_thread one_thread;
+  inline static std::mutex mutex;
 
-  explicit Computation(std::mutex& mutex) : lock(mutex) {}
+  const py::gil_scoped_release release;
+  const std::lock_guard<std::mutex> lock{mutex};
+  const One_blas_thread one_thread;
 };
 
 // Keeps the mesh that the solver refers to, and factors when that is first needed.
@@ -56,7 +57,6 @@ class Elasticity
   std::shared_ptr<const Mesh> m_mesh;
   std::unique_ptr<Solver> m_solver;
   bool m_is_corotational = false;
-  std::mutex m_mutex; // other threads of Python may call while it computes
 
   void factor()
   {
@@ -138,7 +138,7 @@ public:
     for(double w : weights)
       if(!(w >= 1e-6 && w <= 1e6))
         throw std::invalid_argument("weights: expected positive numbers, from 1e-6 to 1e6");
-    const Computation computation(m_mutex);
+    const Computation computation;
     factor();
     check(m_solver->set_control_points(positions, largest_distance, compliance, radius, weights));
   }
@@ -149,7 +149,7 @@ public:
     std::vector<Vector> found;
     CGAL::Linear_elasticity_result_3 result;
     {
-      const Computation computation(m_mutex);
+      const Computation computation;
       factor();
       if(given.size() != m_solver->number_of_control_points())
         throw std::invalid_argument("displacements: expected one for each of "
@@ -170,7 +170,7 @@ public:
   void remove(const Marks& elements)
   {
     const std::vector<bool> marks = marks_of(elements, m_mesh->number_of_elements(), "elements");
-    const Computation computation(m_mutex);
+    const Computation computation;
     factor();
     check(m_solver->remove_elements(marks));
   }
@@ -189,7 +189,7 @@ public:
   {
     std::vector<Vector> errors;
     {
-      const Computation computation(m_mutex);
+      const Computation computation;
       if(m_solver->is_iterative() || m_solver->number_of_control_points() == 0
          || m_solver->control_forces().size() != m_solver->number_of_control_points())
         throw Elasticity_error("leave_one_out_errors(): solve() comes first, and no removal in between");

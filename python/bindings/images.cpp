@@ -7,6 +7,7 @@
 
 #include "arrays.h"
 
+#include <CGAL/Mixed_mesh_image_3/IO/NIFTI.h>
 #include <CGAL/Mixed_mesh_image_3/complete_label.h>
 #include <CGAL/Mixed_mesh_image_3/make_label_surface.h>
 #include <CGAL/Mixed_mesh_image_3/simplify_closed_surface.h>
@@ -105,17 +106,7 @@ py::tuple label_surface(const Voxels& values, const Doubles& affine, const std::
       mm3::simplify_closed_surface(surface, vertices);
     surface.collect_garbage();
   }
-  py::array_t<double> points({py::ssize_t(surface.number_of_vertices()), py::ssize_t(3)});
-  py::array_t<std::int64_t> triangles({py::ssize_t(surface.number_of_faces()), py::ssize_t(3)});
-  double* p = points.mutable_data();
-  for(const auto v : surface.vertices())
-    for(int i = 0; i < 3; ++i)
-      *p++ = surface.point(v)[i];
-  std::int64_t* t = triangles.mutable_data();
-  for(const auto f : surface.faces())
-    for(const auto v : surface.vertices_around_face(surface.halfedge(f)))
-      *t++ = std::int64_t(std::size_t(v));
-  return py::make_tuple(points, triangles);
+  return arrays_of(surface);
 }
 
 py::tuple warp(const Voxels& values, const Doubles& affine, const Mesh& mesh, const Doubles& displacements,
@@ -140,11 +131,31 @@ py::tuple warp(const Voxels& values, const Doubles& affine, const Mesh& mesh, co
                         values_of(warped.mask));
 }
 
+// The values of an image, and its affine map.
+py::tuple read_image(const std::string& path)
+{
+  mm3::Voxel_image_3 image;
+  std::string error;
+  bool is_read;
+  {
+    const py::gil_scoped_release release;
+    is_read = mm3::IO::read_NIFTI(path, image, &error);
+  }
+  if(!is_read)
+    throw std::invalid_argument(error);
+  py::array_t<double> affine({4, 4});
+  for(int i = 0; i < 4; ++i)
+    for(int j = 0; j < 4; ++j)
+      affine.mutable_at(i, j) = i < 3 ? image.grid.index_to_world[i][j] : double(j == 3);
+  return py::make_tuple(values_of(image), affine);
+}
+
 } // namespace
 
 void add_images(py::module_& module)
 {
   module.def("complete_label", &complete_label);
   module.def("label_surface", &label_surface);
+  module.def("read_image", &read_image);
   module.def("warp", &warp);
 }

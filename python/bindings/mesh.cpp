@@ -19,9 +19,11 @@
 namespace {
 
 using Kinds = py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast>;
+using Marks = py::array_t<bool, py::array::c_style | py::array::forcecast>;
 
 std::shared_ptr<Mesh> mesh_of_arrays(const Doubles& points, const Kinds& kinds, const Integers& connectivity,
-                                     const std::optional<Integers>& labels)
+                                     const std::optional<Integers>& labels,
+                                     const std::optional<Marks>& in_region)
 {
   auto mesh = std::make_shared<Mesh>();
   for(const Vector& p : vectors_of(points, "points"))
@@ -30,6 +32,8 @@ std::shared_ptr<Mesh> mesh_of_arrays(const Doubles& points, const Kinds& kinds, 
     throw std::invalid_argument("kinds, connectivity: expected arrays of one dimension");
   if(labels && (labels->ndim() != 1 || labels->shape(0) != kinds.shape(0)))
     throw std::invalid_argument("labels: expected one for each element");
+  if(in_region && (in_region->ndim() != 1 || in_region->shape(0) != kinds.shape(0)))
+    throw std::invalid_argument("in_region: expected one for each element");
   py::ssize_t next = 0;
   for(py::ssize_t e = 0; e < kinds.shape(0); ++e) {
     const std::string name = "element " + std::to_string(e);
@@ -47,6 +51,7 @@ std::shared_ptr<Mesh> mesh_of_arrays(const Doubles& points, const Kinds& kinds, 
       vertices.push_back(mm3::Vertex_index(v));
     }
     mm3::Element_attributes attributes;
+    attributes.is_in_region = in_region && in_region->at(e);
     if(labels) {
       if(labels->at(e) < 1 || labels->at(e) > 2000000000)
         throw std::invalid_argument(name + " has the label " + std::to_string(labels->at(e))
@@ -127,43 +132,66 @@ void add_mesh(py::module_& module)
   static_assert(sizeof(Kernel::Point_3) == 3 * sizeof(double), "points are viewed as doubles");
   static_assert(sizeof(mm3::Element_kind) == 1 && sizeof(mm3::Vertex_index) == sizeof(std::uint32_t)
                 && sizeof(std::size_t) == sizeof(std::int64_t));
-  py::class_<Mesh, std::shared_ptr<Mesh>>(module, "Mesh")
+  const auto labels = [](const Mesh& mesh) {
+    return of_elements<std::int32_t>(mesh, [&](mm3::Element_index e) {
+      return std::int32_t(mesh.subdomain_index(e));
+    });
+  };
+  const auto in_region = [](const Mesh& mesh) {
+    return of_elements<bool>(mesh, [&](mm3::Element_index e) { return mesh.attributes(e).is_in_region; });
+  };
+  const auto copy = [](const Mesh& mesh) { return std::make_shared<Mesh>(mesh); };
+  py::class_<Mesh, std::shared_ptr<Mesh>>(
+    module, "Mesh",
+    "A mesh of tetrahedra, pyramids, prisms and hexahedra. Its arrays look into it, and cannot be written.")
     .def(py::init(&mesh_of_arrays), py::arg("points"), py::arg("kinds"), py::arg("connectivity"),
-         py::arg("labels") = py::none())
+         py::arg("labels") = py::none(), py::arg("in_region") = py::none(),
+         "Of arrays as those below; labels are 1 and nothing is in the region if that is not told.")
     .def_property_readonly(
       "points",
       [](const py::object& self) {
         const Mesh& mesh = self.cast<const Mesh&>();
         const auto n = py::ssize_t(mesh.number_of_vertices());
         return view_of(reinterpret_cast<const double*>(mesh.points().data()), {n, 3}, self);
-      })
-    .def_property_readonly("kinds",
-                           [](const py::object& self) {
-                             const auto& kinds = self.cast<const Mesh&>().elements().kinds();
-                             return view_of(reinterpret_cast<const std::uint8_t*>(kinds.data()),
-                                            {py::ssize_t(kinds.size())}, self);
-                           })
-    .def_property_readonly("connectivity",
-                           [](const py::object& self) {
-                             const auto& v = self.cast<const Mesh&>().elements().connectivity();
-                             return view_of(reinterpret_cast<const std::uint32_t*>(v.data()),
-                                            {py::ssize_t(v.size())}, self);
-                           })
-    .def_property_readonly("offsets",
-                           [](const py::object& self) {
-                             const auto& v = self.cast<const Mesh&>().elements().offsets();
-                             return view_of(reinterpret_cast<const std::int64_t*>(v.data()),
-                                            {py::ssize_t(v.size())}, self);
-                           })
-    .def_property_readonly("labels",
-                           [](const Mesh& mesh) {
-                             return of_elements<std::int32_t>(mesh, [&](mm3::Element_index e) {
-                               return std::int32_t(mesh.subdomain_index(e));
-                             });
-                           })
-    .def_property_readonly("in_region", [](const Mesh& mesh) {
-      return of_elements<bool>(mesh, [&](mm3::Element_index e) { return mesh.attributes(e).is_in_region; });
-    });
+      },
+      "The vertices, (n, 3), in the unit of the surface.")
+    .def_property_readonly(
+      "kinds",
+      [](const py::object& self) {
+        const auto& kinds = self.cast<const Mesh&>().elements().kinds();
+        return view_of(reinterpret_cast<const std::uint8_t*>(kinds.data()), {py::ssize_t(kinds.size())},
+                       self);
+      },
+      "The kind of each element: its place in KINDS.")
+    .def_property_readonly(
+      "connectivity",
+      [](const py::object& self) {
+        const auto& v = self.cast<const Mesh&>().elements().connectivity();
+        return view_of(reinterpret_cast<const std::uint32_t*>(v.data()), {py::ssize_t(v.size())}, self);
+      },
+      "The vertices of all elements, one element after the other.")
+    .def_property_readonly(
+      "offsets",
+      [](const py::object& self) {
+        const auto& v = self.cast<const Mesh&>().elements().offsets();
+        return view_of(reinterpret_cast<const std::int64_t*>(v.data()), {py::ssize_t(v.size())}, self);
+      },
+      "Where each element begins in the connectivity, and its end: one more than elements.")
+    .def_property_readonly("labels", labels, "The subdomain of each element.")
+    .def_property_readonly("in_region", in_region, "Whether each element meets the region of interest.")
+    .def("__copy__", copy)
+    .def("__deepcopy__", [copy](const Mesh& mesh, const py::dict&) { return copy(mesh); })
+    .def(py::pickle(
+      [labels, in_region](const py::object& self) {
+        const auto& mesh = self.cast<const Mesh&>();
+        return py::make_tuple(self.attr("points"), self.attr("kinds"),
+                              self.attr("connectivity").attr("astype")("int64"),
+                              labels(mesh).attr("astype")("int64"), in_region(mesh));
+      },
+      [](const py::tuple& state) {
+        return mesh_of_arrays(state[0].cast<Doubles>(), state[1].cast<Kinds>(), state[2].cast<Integers>(),
+                              state[3].cast<Integers>(), state[4].cast<Marks>());
+      }));
   module.def("certify", &certify);
   module.def("defects", &defects);
   module.def("quality", &quality);

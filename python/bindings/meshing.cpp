@@ -10,8 +10,11 @@
 #include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
 #include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
 #include <CGAL/Mixed_mesh_3/fidelity.h>
+#include <CGAL/Mixed_mesh_3/surface_distance.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
 #include <CGAL/fit_mixed_mesh_to_surface.h>
 #include <CGAL/make_mixed_mesh_3.h>
 #include <CGAL/optimize_mixed_mesh_3.h>
@@ -132,21 +135,25 @@ Mesh sorted_by_kind(const Mesh& mesh)
   return sorted;
 }
 
-// What the report says beside the status.
+// What the report says of a mesh beside its surface.
 void compare(const Mesh& mesh, const Surface& surface, const CGAL::Mixed_mesh_result_3& result,
              py::dict& report, std::vector<std::string>& warnings)
 {
   mm3::Solid_comparison comparison;
+  double distance;
   {
     const py::gil_scoped_release release;
     comparison = mm3::compare_with_surface(mesh, surface);
+    distance = mm3::hausdorff_distance(mesh, surface).distance();
   }
   for(const mm3::Solid_difference& difference : comparison.differences)
     warnings.push_back("surface: " + difference.sentence);
+  report["status"] = std::string(CGAL::description(CGAL::worse(result.status, mm3::status_of(comparison))));
   const auto& o = result.optimization;
   report["volume"] = comparison.mesh.volume;
   report["volume of surface"] = comparison.surface.volume;
   report["same topology"] = comparison.has_same_topology();
+  report["Hausdorff distance"] = distance;
   report["boundary vertices"] = o.number_of_boundary_vertices;
   report["boundary vertices not on surface"] = o.number_of_boundary_vertices - o.number_of_arrived_vertices;
   report["number of vertices needed"] = result.number_of_vertices_for_thin_parts;
@@ -159,14 +166,18 @@ make_mesh(const Soup& soup, const std::vector<Weighted_soup>& regions,
 {
   std::vector<std::string> warnings;
   Domain domain;
+  Surface boundary; // also of cavities
   for(const auto& [points, triangles, label] : subdomains) {
     if(label < 0)
       throw std::invalid_argument("subdomains: expected labels from 2 on, or 0 for a cavity");
-    domain.add(surface_of(points, triangles, "subdomain " + std::to_string(label), warnings),
-               mm3::Subdomain_index(label));
+    const Surface part = surface_of(points, triangles, "subdomain " + std::to_string(label), warnings);
+    domain.add(part, mm3::Subdomain_index(label));
+    if(label == 0)
+      CGAL::copy_face_graph(part, boundary);
   }
   const Surface surface = surface_of(std::get<0>(soup), std::get<1>(soup), "surface", warnings);
   domain.add(surface, 1);
+  CGAL::copy_face_graph(surface, boundary);
   CGAL::Polyhedral_mixed_mesh_regions_3 all_regions;
   for(std::size_t i = 0; i < regions.size(); ++i) {
     const auto& [points, triangles, weight] = regions[i];
@@ -199,8 +210,7 @@ make_mesh(const Soup& soup, const std::vector<Weighted_soup>& regions,
   if(!result.has_mesh() || result.status == Status::BOUNDARY_NOT_MANIFOLD)
     refuse(result, vertices, regions.size());
   py::dict report;
-  report["status"] = std::string(CGAL::description(result.status));
-  compare(*mesh, surface, result, report, warnings);
+  compare(*mesh, boundary, result, report, warnings);
   *mesh = sorted_by_kind(*mesh);
   report["warnings"] = warnings;
   return {mesh, report};
@@ -256,6 +266,27 @@ py::dict fit(Mesh& mesh, const Soup& soup, const Progress& progress)
   return report;
 }
 
+// A closed surface out of a file: points, triangles, and what was mended.
+py::tuple read_surface(const std::string& path, bool is_strict, double wrap_diameter)
+{
+  mm3::IO::Read_surface_options options;
+  options.is_strict = is_strict;
+  options.wrap_diameter = wrap_diameter;
+  Surface surface;
+  std::string error;
+  mm3::IO::Surface_input input;
+  bool is_read;
+  {
+    const py::gil_scoped_release release;
+    is_read = mm3::IO::read_closed_surface(path, options, surface, &error, &input);
+    surface.collect_garbage();
+  }
+  if(!is_read)
+    throw std::invalid_argument(error);
+  const py::tuple arrays = arrays_of(surface);
+  return py::make_tuple(arrays[0], arrays[1], input.warnings);
+}
+
 std::shared_ptr<Mesh> copy(const Mesh& mesh) { return std::make_shared<Mesh>(mesh); }
 
 } // namespace
@@ -267,4 +298,5 @@ void add_meshing(py::module_& module)
   module.def("optimize", &optimize);
   module.def("fit", &fit);
   module.def("copy", &copy);
+  module.def("read_surface", &read_surface);
 }

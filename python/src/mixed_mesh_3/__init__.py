@@ -5,18 +5,27 @@ Points are (n, 3) arrays in mm, triangles (m, 3) arrays of their numbers. The me
 C++, and of the program mixed_mesh_3 where that does not mesh a surface with thin parts a second time; what they
 guarantee, and what parameters do, is in the manual. Elements are sorted by kind, as in files.
 
-    import mixed_mesh_3
-    mesh, report = mixed_mesh_3.mesh(points, triangles, region=(points, triangles), vertices=660)
-    mixed_mesh_3.certify(mesh).all()
+    import mixed_mesh_3 as mm3
+    data = mm3.example_data()
+    mesh, report = mm3.mesh(*data["brain"], region=data["region"], vertices=660)
+    mm3.certify(mesh).all()
 """
+
+import numbers as _numbers
+import operator as _operator
+import os as _os
+import pathlib as _pathlib
+import time as _time
 
 import numpy as _np
 
 from . import _core
 from ._core import ElasticityError, Mesh, MeshingError, boundary_vertices
 
+__version__ = "0.1.0"
 __all__ = ["Elasticity", "ElasticityError", "KINDS", "Mesh", "MeshingError", "boundary_vertices", "certify", "complete_label",
-           "defects", "fit", "label_surface", "mesh", "mesh_labels", "optimize", "quality", "resect", "warp"]
+           "defects", "example_data", "fit", "label_surface", "mesh", "mesh_labels", "optimize", "quality", "read_image",
+           "read_surface", "resect", "warp"]
 
 #: The kinds of elements, as meshio calls them: the values of Mesh.kinds are their places.
 KINDS = ("tetra", "pyramid", "wedge", "hexahedron")
@@ -71,11 +80,79 @@ Mesh.to_pyvista = _to_pyvista
 Mesh.__repr__ = _show
 
 
+def _count(name, value):
+    try:
+        count = _operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name}: expected a whole number, not {value!r}") from None
+    if count < 1:
+        raise ValueError(f"{name}: expected at least 1, not {count}")
+    return count
+
+
+def _number(name, value, is_right, what):
+    if not isinstance(value, _numbers.Real) or isinstance(value, bool):
+        raise TypeError(f"{name}: expected a number, not {value!r}")
+    if not is_right(value):
+        raise ValueError(f"{name}: expected a number {what}, not {value}")
+    return float(value)
+
+
+def _not_negative(name, value):
+    return _number(name, value, lambda x: 0 <= x < _np.inf, "of at least 0")
+
+
+def _soup(name, soup):
+    """Points and triangles of a surface, as arrays that the module takes."""
+    try:
+        points, triangles = soup
+    except (TypeError, ValueError):
+        raise ValueError(f"{name}: expected points and triangles, (points, triangles)") from None
+    try:
+        points, triangles = _np.asarray(points, dtype=float), _np.asarray(triangles)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name}: expected arrays of numbers, points of shape (n, 3) and triangles (m, 3)") from None
+    if triangles.dtype.kind not in "iu":
+        raise ValueError(f"{name}: triangles are numbers of points: expected integers, not {triangles.dtype}")
+    return points, triangles
+
+
 def _regions(region):
     if region is None:
         return []
     regions = region if isinstance(region, list) else [region]
-    return [tuple(r) if len(r) == 3 else (*r, 1.0) for r in regions]
+    result = []
+    for r in regions:
+        soup, weight = (r[:2], r[2]) if isinstance(r, tuple) and len(r) == 3 else (r, 1.0)
+        result.append((*_soup("region", soup), _number("region: weight", weight, lambda x: True, "")))
+    return result
+
+
+def example_data():
+    """The bundled brain: a dictionary of (points, triangles), in mm, for "brain", "region", a region of interest between a
+    tumor and the opening of the skull, and "tumor"."""
+    folder = _pathlib.Path(__file__).parent
+    return {name: read_surface(folder / f"{file}.off")
+            for name, file in (("brain", "brain"), ("region", "region"), ("tumor", "tumour"))}
+
+
+def read_surface(path, *, strict=False, wrap=0.0):
+    """A closed surface out of a file: (points, triangles), in the unit of the file.
+
+    Files: .off, .obj, .stl, .ply, .vtp, .vtk, .gii, or binary surfaces of FreeSurfer. What can be mended is, with a
+    UserWarning; strict: that is refused. wrap: the surface is wrapped, as in foil; openings narrower than that are closed.
+    Raises ValueError with the file and its defect.
+    """
+    import warnings
+    *surface, mended = _core.read_surface(_os.fspath(path), bool(strict), _not_negative("wrap", wrap))
+    for text in mended:
+        warnings.warn(f"{path}: {text}", stacklevel=2)
+    return tuple(surface)
+
+
+def read_image(path):
+    """A NIfTI image (.nii, .nii.gz): its values, and its affine map from indices to mm, (4, 4), as nibabel has them."""
+    return _core.read_image(_os.fspath(path))
 
 
 def mesh(points, triangles, *, region=None, subdomains=None, vertices=660, tolerance=0.0, grading=0.35, base_level=None,
@@ -91,12 +168,18 @@ def mesh(points, triangles, *, region=None, subdomains=None, vertices=660, toler
     quality_bound: no element has a larger aspect-ratio coefficient.
     progress: called as progress(stage, vertices, budget); what it raises ends the run, as Ctrl-C does.
 
-    Returns the mesh and a report: a dictionary with "status", "warnings" and measures. Raises ValueError if a surface
-    is not one of a solid and cannot be mended, MeshingError if there is no mesh.
+    Returns the mesh and a report: a dictionary with "status", "warnings", "Hausdorff distance", "seconds" and other
+    measures. Raises ValueError if a surface is not one of a solid and cannot be mended, MeshingError if there is no mesh.
     """
-    return _core.mesh((points, triangles), _regions(region), [(*s, label) for label, s in (subdomains or {}).items()],
-                      vertices, tolerance, grading, base_level, quality_bound,
-                      sharp_angle, progress)
+    start = _time.perf_counter()
+    result, report = _core.mesh(
+        _soup("surface", (points, triangles)), _regions(region),
+        [(*_soup(f"subdomain {label}", s), label) for label, s in (subdomains or {}).items()],
+        _count("vertices", vertices), _not_negative("tolerance", tolerance), _not_negative("grading", grading), base_level,
+        _number("quality_bound", quality_bound, lambda x: x == 0 or x >= 1, "of at least 1, or 0 for none"),
+        _number("sharp_angle", sharp_angle, lambda x: 0 <= x <= 180, "from 0 to 180"), progress)
+    report["seconds"] = _time.perf_counter() - start
+    return result, report
 
 
 def complete_label(image, affine, labels=None, *, close=None, fill_holes=False, largest=False, drop_below=0, hull=False):
@@ -124,7 +207,8 @@ def label_surface(image, affine, labels, *, smoothing=None, vertices=20000):
     affine: (4, 4), from indices to mm, as nibabel has it. smoothing: standard deviation of the Gaussian in mm; None: a
     voxel. vertices: how many it is simplified to.
     """
-    return _core.label_surface(image, affine, {float(label) for label in _np.atleast_1d(labels)}, smoothing, vertices)
+    return _core.label_surface(image, affine, {float(label) for label in _np.atleast_1d(labels)}, smoothing,
+                               _count("vertices", vertices))
 
 
 def mesh_labels(image, affine, labels=None, *, smoothing=None, vertices=660, **options):
@@ -169,14 +253,15 @@ def optimize(mesh, points, triangles, *, tolerance=0.0, quality_bound=3.2, bisec
     """A mesh with its boundary on the surface and better elements, and a report; the given one stays as it is. Without
     flips, vertices and elements stay the same ones, as for an atlas after fit()."""
     result = _core.copy(mesh)
-    return result, _core.optimize(result, (points, triangles), tolerance, quality_bound, bisections, flips, progress)
+    return result, _core.optimize(result, _soup("surface", (points, triangles)), _not_negative("tolerance", tolerance),
+                                  quality_bound, bisections, flips, progress)
 
 
 def fit(mesh, points, triangles, *, progress=None):
     """A mesh with its boundary carried onto another surface by elastic relaxation (an atlas to a subject), and a
     report; the given one stays as it is."""
     result = _core.copy(mesh)
-    return result, _core.fit(result, (points, triangles), progress)
+    return result, _core.fit(result, _soup("surface", (points, triangles)), progress)
 
 
 def certify(mesh):

@@ -23,6 +23,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -49,9 +50,10 @@ class Gap_widener
 
   const Located_octree& m_octree;
   Lattice_mesh& m_mesh;
-  std::vector<Vec3> m_points, m_closest; // of vertices of cells that meet the surface
-  std::vector<double> m_distances;       // negative elsewhere
-  std::vector<Vertex_index> m_taken;     // whose labels were taken away
+  std::vector<Vec3> m_points, m_closest;          // of vertices of cells that meet the surface
+  std::vector<double> m_distances;                // negative elsewhere
+  std::vector<Vertex_index> m_taken;              // whose labels were taken away
+  std::unordered_map<std::uint64_t, bool> m_gaps; // found between pairs of vertices, or not
   Point_3 m_hint;
 
   static constexpr double smallest_step = 1. / 64; // of a line: narrower gaps may hide in it
@@ -112,7 +114,7 @@ private:
       for(int i = 0; i < element.size(); ++i)
         for(int j = 0; j < i; ++j)
           if(m_mesh.is_inside(element[i]) && m_mesh.is_inside(element[j])
-             && is_gap_between(element[i], element[j])) {
+             && has_gap_between(element[i], element[j])) {
             parted.push_back(element[i]);
             parted.push_back(element[j]);
           }
@@ -140,7 +142,7 @@ private:
       for(std::size_t i = 0; i < around.size(); ++i)
         for(std::size_t j = 0; j < i; ++j) {
           const Vertex_index a = around[i], b = around[j];
-          if(!m_mesh.is_inside(a) || !m_mesh.is_inside(b) || !is_gap_between(a, b))
+          if(!m_mesh.is_inside(a) || !m_mesh.is_inside(b) || !has_gap_between(a, b))
             continue;
           const Vec3 to_sheet = m_closest[v] - m_points[v];
           const double to_a = cosine(to_sheet, m_points[a] - m_points[v]),
@@ -191,7 +193,17 @@ private:
 
   static double cosine(const Vec3& a, const Vec3& b) { return dot(a, b) / norm(b); }
 
-  // Of two vertices inside.
+  // Of two vertices inside; many have several elements or vertices in common.
+  bool has_gap_between(Vertex_index a, Vertex_index b)
+  {
+    if(a < b)
+      std::swap(a, b);
+    const auto [found, is_new] = m_gaps.try_emplace(std::uint64_t(a) << 32 | b, false);
+    if(is_new)
+      found->second = is_gap_between(a, b);
+    return found->second;
+  }
+
   bool is_gap_between(Vertex_index a, Vertex_index b)
   {
     if(!is_near(a) || !is_near(b))
