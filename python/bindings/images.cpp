@@ -71,9 +71,14 @@ py::array_t<float> values_of(const mm3::Displacement_field_3& field)
 
 // Voxels with one of some values, completed.
 py::array complete_label(const Voxels& values, const Doubles& affine, const std::set<float>& labels,
-                         double closing_radius, bool fill_holes, bool keep_largest, double least_volume)
+                         std::optional<double> radius, bool fill_holes, bool keep_largest,
+                         double least_volume, bool is_hull)
 {
   const mm3::Voxel_image_3 image = image_of(values, affine);
+  const auto has_label = [&](float value) { return labels.count(value) > 0; };
+  const double volume = double(std::count_if(image.values.begin(), image.values.end(), has_label))
+                        * std::abs(mm3::determinant(image.grid.index_to_world));
+  const double closing_radius = radius.value_or(is_hull ? mm3::closing_radius_of_hull(volume) : 0);
   const auto spacing = mm3::voxel_spacing(image.grid);
   if(!(closing_radius >= 0 && closing_radius <= 100 * *std::min_element(spacing.begin(), spacing.end())))
     throw std::invalid_argument("close: expected at most the width of 100 voxels, in mm");
@@ -82,8 +87,9 @@ py::array complete_label(const Voxels& values, const Doubles& affine, const std:
   mm3::Voxel_image_3 mask;
   {
     const py::gil_scoped_release release;
-    mask = mm3::complete_label(image, [&](float value) { return labels.count(value) > 0; },
-                               {closing_radius, fill_holes, keep_largest, 1000 * least_volume});
+    mask = mm3::complete_label(image, has_label,
+                               {closing_radius, fill_holes || is_hull, keep_largest || is_hull,
+                                1000 * least_volume});
   }
   return values_of(mask);
 }

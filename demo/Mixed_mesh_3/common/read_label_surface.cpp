@@ -116,11 +116,6 @@ Label_image::Label_image(const std::string& path)
 {
 }
 
-// Balls of this share of the edge of a cube of the label's volume, 15 mm for a brain, close the gaps of
-// atlases, also where the ventricles of a cortex are open below; the volume grows by 1 % beyond that of 10
-// mm.
-constexpr double closing_share_of_hull = 0.13;
-
 Label_image Label_image::completed(const Voxel_selection& selection, const Voxel_selection& filling,
                                    const Label_completion& completion, Completion_facts& facts) const
 {
@@ -130,7 +125,7 @@ Label_image Label_image::completed(const Voxel_selection& selection, const Voxel
   const double volume = double(number_of_voxels(selection)) * volume_of_voxel();
   mm3::Label_completion_options options;
   options.closing_radius = completion.closing_radius.value_or(
-    completion.is_hull ? std::round(10 * closing_share_of_hull * std::cbrt(volume)) / 10 : 0);
+    completion.is_hull ? mm3::closing_radius_of_hull(volume) : 0);
   options.fill_holes = completion.fill_holes || completion.is_hull;
   options.keep_largest = completion.keep_largest || completion.is_hull;
   options.least_volume = 1000 * completion.least_volume; // ml

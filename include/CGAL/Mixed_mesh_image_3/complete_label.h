@@ -43,6 +43,14 @@ struct Label_completion_options
 };
 
 /// \ingroup PkgMixedMeshImage3Ref
+/// The radius, in millimeters, of the closing that makes a solid organ out of an atlas or a parcellation of
+/// it: 13 % of the edge of a cube of the label's volume, 15 mm for a brain. Gaps between regions are closed
+/// then, also where the ventricles of a cortex are open below; the volume of a brain is 1 % more than with 10
+/// mm.
+/// \param volume that of the label, in cubic millimeters
+inline double closing_radius_of_hull(double volume) { return std::round(1.3 * std::cbrt(volume)) / 10; }
+
+/// \ingroup PkgMixedMeshImage3Ref
 /// What `complete_label()` did, in voxels.
 struct Label_completion_result
 {

@@ -192,13 +192,8 @@ def complete_label(image, affine, labels=None, *, close=None, fill_holes=False, 
     """
     image = _np.asarray(image)
     values = _np.unique(image[image != 0]) if labels is None else _np.atleast_1d(labels)
-    if close is None:
-        close = 0.0
-        if hull:
-            volume = _np.count_nonzero(_np.isin(image, values)) * abs(_np.linalg.det(_np.asarray(affine)[:3, :3]))
-            close = round(0.13 * volume ** (1 / 3), 1)
-    return _core.complete_label(image, affine, {float(value) for value in values}, float(close), fill_holes or hull,
-                                largest or hull, float(drop_below)).astype(_np.uint8)
+    return _core.complete_label(image, affine, {float(value) for value in values}, close, fill_holes, largest, drop_below,
+                                hull).astype(_np.uint8)
 
 
 def label_surface(image, affine, labels, *, smoothing=None, vertices=20000):
