@@ -6,8 +6,23 @@
 #include "arrays.h"
 
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
+#include <CGAL/Polygon_mesh_processing/polygon_mesh_to_polygon_soup.h>
 
+#include <algorithm>
 #include <stdexcept>
+
+namespace {
+
+template <class T, class Triple>
+py::array_t<T> array_of_triples(const std::vector<Triple>& triples)
+{
+  py::array_t<T> array({py::ssize_t(triples.size()), py::ssize_t(3)});
+  if(!triples.empty())
+    std::copy_n(triples.front().data(), 3 * triples.size(), array.mutable_data());
+  return array;
+}
+
+} // namespace
 
 std::vector<Vector> vectors_of(const Doubles& array, const std::string& name)
 {
@@ -20,16 +35,9 @@ std::vector<Vector> vectors_of(const Doubles& array, const std::string& name)
   return vectors;
 }
 
-py::array_t<double> array_of(const std::vector<Vector>& vectors)
-{
-  py::array_t<double> array({py::ssize_t(vectors.size()), py::ssize_t(3)});
-  if(!vectors.empty())
-    std::copy_n(vectors.front().data(), 3 * vectors.size(), array.mutable_data());
-  return array;
-}
+py::array_t<double> array_of(const std::vector<Vector>& vectors) { return array_of_triples<double>(vectors); }
 
-std::vector<bool> marks_of(const py::array_t<bool, py::array::c_style | py::array::forcecast>& array,
-                           std::size_t n, const std::string& name)
+std::vector<bool> marks_of(const Marks& array, std::size_t n, const std::string& name)
 {
   if(array.ndim() != 1 || std::size_t(array.shape(0)) != n)
     throw std::invalid_argument(name + ": expected " + std::to_string(n) + " truth values");
@@ -70,15 +78,8 @@ Surface surface_of(const Doubles& points, const Integers& triangles, const std::
 
 py::tuple arrays_of(const Surface& surface)
 {
-  py::array_t<double> points({py::ssize_t(surface.number_of_vertices()), py::ssize_t(3)});
-  py::array_t<std::int64_t> triangles({py::ssize_t(surface.number_of_faces()), py::ssize_t(3)});
-  double* p = points.mutable_data();
-  for(const auto v : surface.vertices())
-    for(int i = 0; i < 3; ++i)
-      *p++ = surface.point(v)[i];
-  std::int64_t* t = triangles.mutable_data();
-  for(const auto f : surface.faces())
-    for(const auto v : surface.vertices_around_face(surface.halfedge(f)))
-      *t++ = std::int64_t(std::size_t(v));
-  return py::make_tuple(points, triangles);
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::array<std::int64_t, 3>> triangles;
+  CGAL::Polygon_mesh_processing::polygon_mesh_to_polygon_soup(surface, points, triangles);
+  return py::make_tuple(array_of_triples<double>(points), array_of_triples<std::int64_t>(triangles));
 }

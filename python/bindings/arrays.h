@@ -32,6 +32,7 @@ using Vector = mm3::Vec3;
 // Arrays of other types and orders are converted; not numbers with fractions to integers.
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Integers = py::array_t<std::int64_t, py::array::c_style>;
+using Marks = py::array_t<bool, py::array::c_style | py::array::forcecast>;
 
 /// (n, 3) numbers. \throw std::invalid_argument for another shape
 std::vector<Vector> vectors_of(const Doubles& array, const std::string& name);
@@ -40,8 +41,7 @@ std::vector<Vector> vectors_of(const Doubles& array, const std::string& name);
 py::array_t<double> array_of(const std::vector<Vector>& vectors);
 
 /// Of an array of truth values, one for each of n things.
-std::vector<bool> marks_of(const py::array_t<bool, py::array::c_style | py::array::forcecast>& array,
-                           std::size_t n, const std::string& name);
+std::vector<bool> marks_of(const Marks& array, std::size_t n, const std::string& name);
 
 py::array_t<bool> array_of(const std::vector<bool>& marks);
 

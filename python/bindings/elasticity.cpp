@@ -24,8 +24,6 @@
 
 namespace {
 
-using Marks = py::array_t<bool, py::array::c_style | py::array::forcecast>;
-
 struct Elasticity_error : std::runtime_error
 {
   using runtime_error::runtime_error;

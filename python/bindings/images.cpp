@@ -78,18 +78,23 @@ py::array complete_label(const Voxels& values, const Doubles& affine, const std:
   const auto has_label = [&](float value) { return labels.count(value) > 0; };
   const double volume = double(std::count_if(image.values.begin(), image.values.end(), has_label))
                         * std::abs(mm3::determinant(image.grid.index_to_world));
-  const double closing_radius = radius.value_or(is_hull ? mm3::closing_radius_of_hull(volume) : 0);
+  mm3::Label_completion_options options;
+  if(is_hull)
+    options = mm3::hull_completion(volume);
+  options.closing_radius = radius.value_or(options.closing_radius);
+  options.fill_holes |= fill_holes;
+  options.keep_largest |= keep_largest;
+  options.least_volume = 1000 * least_volume; // ml
   const auto spacing = mm3::voxel_spacing(image.grid);
-  if(!(closing_radius >= 0 && closing_radius <= 100 * *std::min_element(spacing.begin(), spacing.end())))
+  const double most = 100 * *std::min_element(spacing.begin(), spacing.end());
+  if(!(options.closing_radius >= 0 && options.closing_radius <= most))
     throw std::invalid_argument("close: expected at most the width of 100 voxels, in mm");
   if(!(least_volume >= 0 && std::isfinite(least_volume)))
     throw std::invalid_argument("drop_below: expected a volume in ml");
   mm3::Voxel_image_3 mask;
   {
     const py::gil_scoped_release release;
-    mask = mm3::complete_label(image, has_label,
-                               {closing_radius, fill_holes || is_hull, keep_largest || is_hull,
-                                1000 * least_volume});
+    mask = mm3::complete_label(image, has_label, options);
   }
   return values_of(mask);
 }
@@ -116,8 +121,7 @@ py::tuple label_surface(const Voxels& values, const Doubles& affine, const std::
 }
 
 py::tuple warp(const Voxels& values, const Doubles& affine, const Mesh& mesh, const Doubles& displacements,
-               const std::optional<py::array_t<bool, py::array::c_style | py::array::forcecast>>& removed,
-               bool is_of_labels)
+               const std::optional<Marks>& removed, bool is_of_labels)
 {
   const mm3::Voxel_image_3 image = image_of(values, affine);
   const std::vector<Vector> vectors = vectors_of(displacements, "displacements");

@@ -19,7 +19,6 @@
 namespace {
 
 using Kinds = py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast>;
-using Marks = py::array_t<bool, py::array::c_style | py::array::forcecast>;
 
 std::shared_ptr<Mesh> mesh_of_arrays(const Doubles& points, const Kinds& kinds, const Integers& connectivity,
                                      const std::optional<Integers>& labels,
@@ -32,8 +31,8 @@ std::shared_ptr<Mesh> mesh_of_arrays(const Doubles& points, const Kinds& kinds, 
     throw std::invalid_argument("kinds, connectivity: expected arrays of one dimension");
   if(labels && (labels->ndim() != 1 || labels->shape(0) != kinds.shape(0)))
     throw std::invalid_argument("labels: expected one for each element");
-  if(in_region && (in_region->ndim() != 1 || in_region->shape(0) != kinds.shape(0)))
-    throw std::invalid_argument("in_region: expected one for each element");
+  const auto is_in_region = in_region ? marks_of(*in_region, std::size_t(kinds.shape(0)), "in_region")
+                                      : std::vector<bool>(std::size_t(kinds.shape(0)), false);
   py::ssize_t next = 0;
   for(py::ssize_t e = 0; e < kinds.shape(0); ++e) {
     const std::string name = "element " + std::to_string(e);
@@ -51,7 +50,7 @@ std::shared_ptr<Mesh> mesh_of_arrays(const Doubles& points, const Kinds& kinds, 
       vertices.push_back(mm3::Vertex_index(v));
     }
     mm3::Element_attributes attributes;
-    attributes.is_in_region = in_region && in_region->at(e);
+    attributes.is_in_region = is_in_region[std::size_t(e)];
     if(labels) {
       if(labels->at(e) < 1 || labels->at(e) > 2000000000)
         throw std::invalid_argument(name + " has the label " + std::to_string(labels->at(e))
@@ -72,6 +71,16 @@ py::array view_of(const T* data, std::vector<py::ssize_t> shape, const py::objec
   py::array_t<T> array(std::move(shape), data, owner);
   array.attr("flags").attr("writeable") = false;
   return std::move(array);
+}
+
+// A getter of a property: an array of the elements, as one of T. `get` takes an Element_list.
+template <class T, class Get>
+auto view_of_elements(const Get& get)
+{
+  return [get](const py::object& self) {
+    const auto& values = get(self.cast<const Mesh&>().elements());
+    return view_of(reinterpret_cast<const T*>(values.data()), {py::ssize_t(values.size())}, self);
+  };
 }
 
 template <class T, class Of_element>
@@ -155,27 +164,15 @@ void add_mesh(py::module_& module)
         return view_of(reinterpret_cast<const double*>(mesh.points().data()), {n, 3}, self);
       },
       "The vertices, (n, 3), in the unit of the surface.")
-    .def_property_readonly(
-      "kinds",
-      [](const py::object& self) {
-        const auto& kinds = self.cast<const Mesh&>().elements().kinds();
-        return view_of(reinterpret_cast<const std::uint8_t*>(kinds.data()), {py::ssize_t(kinds.size())},
-                       self);
-      },
-      "The kind of each element: its place in KINDS.")
-    .def_property_readonly(
-      "connectivity",
-      [](const py::object& self) {
-        const auto& v = self.cast<const Mesh&>().elements().connectivity();
-        return view_of(reinterpret_cast<const std::uint32_t*>(v.data()), {py::ssize_t(v.size())}, self);
-      },
-      "The vertices of all elements, one element after the other.")
+    .def_property_readonly("kinds", view_of_elements<std::uint8_t>([
+                           ](const mm3::Element_list& e) -> const auto& { return e.kinds(); }),
+                           "The kind of each element: its place in KINDS.")
+    .def_property_readonly("connectivity", view_of_elements<std::uint32_t>([
+                           ](const mm3::Element_list& e) -> const auto& { return e.connectivity(); }),
+                           "The vertices of all elements, one element after the other.")
     .def_property_readonly(
       "offsets",
-      [](const py::object& self) {
-        const auto& v = self.cast<const Mesh&>().elements().offsets();
-        return view_of(reinterpret_cast<const std::int64_t*>(v.data()), {py::ssize_t(v.size())}, self);
-      },
+      view_of_elements<std::int64_t>([](const mm3::Element_list& e) -> const auto& { return e.offsets(); }),
       "Where each element begins in the connectivity, and its end: one more than elements.")
     .def_property_readonly("labels", labels, "The subdomain of each element.")
     .def_property_readonly("in_region", in_region, "Whether each element meets the region of interest.")

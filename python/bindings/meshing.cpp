@@ -287,8 +287,6 @@ py::tuple read_surface(const std::string& path, bool is_strict, double wrap_diam
   return py::make_tuple(arrays[0], arrays[1], input.warnings);
 }
 
-std::shared_ptr<Mesh> copy(const Mesh& mesh) { return std::make_shared<Mesh>(mesh); }
-
 } // namespace
 
 void add_meshing(py::module_& module)
@@ -297,6 +295,5 @@ void add_meshing(py::module_& module)
   module.def("mesh", &make_mesh);
   module.def("optimize", &optimize);
   module.def("fit", &fit);
-  module.def("copy", &copy);
   module.def("read_surface", &read_surface);
 }

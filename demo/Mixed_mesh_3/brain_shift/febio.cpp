@@ -52,7 +52,6 @@ Motion_constraints constraints_left(const Remaining_mesh& remaining, const Motio
 // The tissue's, less what the fluid takes; check_febio() has seen to it that there is mass.
 Vector acceleration_in_fluid(double density, const Options& o)
 {
-  constexpr double kg_per_mm3 = 1e-6; // of 1 g/cm^3
   const double weight = o.fluid_density == 0 ? 1 : 1 - o.fluid_density * kg_per_mm3 / density;
   return weight * Vector(o.acceleration);
 }

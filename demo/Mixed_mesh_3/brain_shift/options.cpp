@@ -44,7 +44,6 @@ constexpr bool has_petsc = false;
 #endif
 
 constexpr const char* label_prefix = "label:";
-constexpr double kg_per_mm3 = 1e-6; // of 1 g/cm^3
 
 CLI::Validator fraction()
 {

@@ -22,6 +22,9 @@
 /// Patches with a name: the lower part of the height, and all of the boundary.
 inline constexpr const char *base_patch = "base", *skull_patch = "skull";
 
+/// The density of 1 g/cm^3, the unit of the options.
+inline constexpr double kg_per_mm3 = 1e-6;
+
 /// The label of a patch such as "label:3"; nothing if it is none.
 std::optional<int> label_of(const std::string& patch);
 

@@ -297,7 +297,7 @@ std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_
   elasticity.set_gravity(o.acceleration);
   if(norm(Vector(o.acceleration)) > 0)
     elasticity.set_body_forces(
-      mm3::buoyant_forces(mesh, o.acceleration, o.fluid_density * 1e-6 /* kg/mm^3 */, o.fluid_level));
+      mm3::buoyant_forces(mesh, o.acceleration, o.fluid_density * kg_per_mm3, o.fluid_level));
   log("control points", [&] { set_control_points(elasticity, o, points); });
   log("solve", [&] { solve(elasticity, displacements_of(points), o, points); });
   if(!o.febio.empty())

@@ -25,6 +25,8 @@
 #include <CGAL/Mixed_mesh_image_3/simplify_closed_surface.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/polygon_mesh_to_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/repair.h>
 #endif
 
 namespace mm3 = CGAL::Mixed_meshes_3;
@@ -58,30 +60,19 @@ mm3::Voxel_image_3 read(const std::string& path)
 
 constexpr double most_voxels = 100; // of a length: the box around the label grows by several times as many
 
-// Components of less than a voxel, which smoothing leaves of specks and of thin gaps.
+// Removes components of less than a voxel, which smoothing leaves of specks and of thin gaps, unless there
+// are no others.
 // \return their number
 std::size_t remove_specks(Surface& surface, double volume_of_voxel)
 {
-  namespace PMP = CGAL::Polygon_mesh_processing;
-  auto component = surface.add_property_map<Surface::Face_index, std::size_t>("f:component", 0).first;
-  std::vector<double> volumes(PMP::connected_components(surface, component), 0);
-  const Kernel::Point_3 origin = surface.is_empty() ? Kernel::Point_3(0, 0, 0)
-                                                    : surface.point(*surface.vertices().begin());
-  for(const auto f : surface.faces()) {
-    const auto h = surface.halfedge(f);
-    volumes[component[f]] += CGAL::volume(origin, surface.point(surface.source(h)),
-                                          surface.point(surface.target(h)),
-                                          surface.point(surface.target(surface.next(h))));
-  }
-  std::vector<std::size_t> specks;
-  for(std::size_t c = 0; c < volumes.size(); ++c)
-    if(std::abs(volumes[c]) < volume_of_voxel)
-      specks.push_back(c);
-  if(specks.size() < volumes.size())
-    PMP::remove_connected_components(surface, specks, component);
-  surface.remove_property_map(component);
+  Surface rest = surface;
+  const std::size_t number = CGAL::Polygon_mesh_processing::remove_connected_components_of_negligible_size(
+    rest, CGAL::parameters::area_threshold(0).volume_threshold(volume_of_voxel));
+  if(number == 0 || rest.number_of_faces() == 0)
+    return 0;
+  surface = std::move(rest);
   surface.collect_garbage();
-  return specks.size() < volumes.size() ? specks.size() : 0;
+  return number;
 }
 
 // In foil: what the mesh generator takes for the surface.
@@ -91,13 +82,7 @@ Surface wrapped(const Surface& surface, double diameter, const std::string& path
   namespace IO = mm3::IO;
   std::vector<std::array<double, 3>> points;
   std::vector<std::vector<std::int64_t>> triangles;
-  for(const auto& p : surface.points())
-    points.push_back({p.x(), p.y(), p.z()});
-  for(const auto f : surface.faces()) {
-    triangles.emplace_back();
-    for(const auto v : surface.vertices_around_face(surface.halfedge(f)))
-      triangles.back().push_back(std::int64_t(std::size_t(v)));
-  }
+  CGAL::Polygon_mesh_processing::polygon_mesh_to_polygon_soup(surface, points, triangles);
   IO::Read_surface_options options;
   options.wrap_diameter = diameter;
   Surface result;
@@ -124,10 +109,11 @@ Label_image Label_image::completed(const Voxel_selection& selection, const Voxel
   const double finest = *std::min_element(spacing.begin(), spacing.end());
   const double volume = double(number_of_voxels(selection)) * volume_of_voxel();
   mm3::Label_completion_options options;
-  options.closing_radius = completion.closing_radius.value_or(
-    completion.is_hull ? mm3::closing_radius_of_hull(volume) : 0);
-  options.fill_holes = completion.fill_holes || completion.is_hull;
-  options.keep_largest = completion.keep_largest || completion.is_hull;
+  if(completion.is_hull)
+    options = mm3::hull_completion(volume);
+  options.closing_radius = completion.closing_radius.value_or(options.closing_radius);
+  options.fill_holes |= completion.fill_holes;
+  options.keep_largest |= completion.keep_largest;
   options.least_volume = 1000 * completion.least_volume; // ml
   if(options.closing_radius > most_voxels * finest)
     throw std::runtime_error(m_path + ": closing by " + rounded(options.closing_radius) + " mm is more than "

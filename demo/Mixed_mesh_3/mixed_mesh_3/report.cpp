@@ -33,6 +33,13 @@ Json describe(const Surface_facts& s)
           {"volume", s.volume},     {"repairs", s.repairs}};
 }
 
+Json describe(const Completion_facts& c)
+{
+  return {{"closing radius", c.closing_radius},  {"voxels", c.voxels},
+          {"voxels added by closing", c.closed}, {"voxels filled in", c.filled},
+          {"voxels dropped", c.removed},         {"components dropped", c.components_removed}};
+}
+
 Json describe(const Options& o)
 {
   Json report = {{"vertices", o.vertices},
@@ -344,13 +351,8 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
   report["inputs"] = {{"surface", describe(outcome.surface)}, {"regions", Json::array()}};
   if(is_image(o.surface))
     report["inputs"]["surface"]["voxels"] = o.voxels.text;
-  if(const auto& c = outcome.completion)
-    report["inputs"]["surface"]["completion"] = {{"closing radius", c->closing_radius},
-                                                 {"voxels", c->voxels},
-                                                 {"voxels added by closing", c->closed},
-                                                 {"voxels filled in", c->filled},
-                                                 {"voxels dropped", c->removed},
-                                                 {"components dropped", c->components_removed}};
+  if(outcome.completion)
+    report["inputs"]["surface"]["completion"] = describe(*outcome.completion);
   for(std::size_t i = 0; i < o.regions.size(); ++i) {
     report["inputs"]["regions"].push_back(describe(outcome.regions[i]));
     report["inputs"]["regions"].back()["weight"] = o.regions[i].weight;

@@ -105,17 +105,14 @@ public:
   Subdomain part(const Subdomain_option& s, const Label_image& image, mm3::Subdomain_index index,
                  double share = 1, std::size_t number_of_parts = 1)
   {
-    Surface_facts facts;
-    auto surface = std::make_shared<const Surface>(
-      surface_of(image, s.file, s.voxels, facts, share, number_of_parts));
-    return {s.name, index, std::move(surface), facts, std::nullopt};
+    return subdomain(s, index, [&](Surface_facts& facts) {
+      return surface_of(image, s.file, s.voxels, facts, share, number_of_parts);
+    });
   }
 
   Subdomain operator()(const Subdomain_option& s, mm3::Subdomain_index index)
   {
-    Surface_facts facts;
-    auto surface = std::make_shared<const Surface>((*this)(s.file, s.voxels, facts));
-    return {s.name, index, std::move(surface), facts, std::nullopt};
+    return subdomain(s, index, [&](Surface_facts& facts) { return (*this)(s.file, s.voxels, facts); });
   }
 
   // Those of all labels of an image.
@@ -128,6 +125,14 @@ public:
   }
 
 private:
+  template <class Read>
+  static Subdomain subdomain(const Subdomain_option& s, mm3::Subdomain_index index, const Read& read)
+  {
+    Surface_facts facts;
+    auto surface = std::make_shared<const Surface>(read(facts));
+    return {s.name, index, std::move(surface), facts, std::nullopt};
+  }
+
   // \param share of the domain
   // \param number_of_parts of the domain that have surfaces
   Surface surface_of(const Label_image& image, const std::string& file, const Voxel_selection& voxels,
@@ -169,32 +174,33 @@ std::vector<Subdomain> read_labels(const Options& o, Surface_reader& read, Outco
     all.push_back(label.voxels);
   }
   const std::size_t largest = std::max_element(sizes.begin(), sizes.end())->second;
-  const Label_image& image = read.domain(united(all), all[largest], outcome);
+  const Voxel_selection whole = united(all);
+  const Label_image& image = read.domain(whole, all[largest], outcome);
   const auto number_of = [&image](const Voxel_selection& v) { return double(image.number_of_voxels(v)); };
-  const double number_of_all = number_of(united(all));
+  const double number_of_all = number_of(whole);
+  const auto lose = [&outcome](const std::string& what) {
+    outcome.has_lost_labels = true;
+    outcome.warnings.push_back("the subdomain " + what);
+  };
   std::vector<Subdomain> subdomains;
   for(std::size_t i = 0; i < all.size(); ++i) {
     if(i == largest)
       continue;
     const double number = number_of(all[i]);
     if(number == 0 && sizes[i].first > 0) {
-      outcome.has_lost_labels = true;
-      outcome.warnings.push_back("the subdomain " + labels[i].name
-                                 + " is lost: its component of the domain is dropped");
+      lose(labels[i].name + " is lost: its component of the domain is dropped");
       continue;
     }
     Subdomain s = read.part({labels[i].name, o.surface, all[i]}, image, index_of(i), number / number_of_all,
                             all.size() - 1);
     s.volume = number * image.volume_of_voxel();
-    if(s.surface->is_empty()) {
-      outcome.has_lost_labels = true;
-      outcome.warnings.push_back("the subdomain " + s.name + ", of volume " + rounded(*s.volume)
-                                 + ", is lost: smoothing leaves nothing of it, see --smoothing");
-    } else {
+    if(s.surface->is_empty())
+      lose(s.name + ", of volume " + rounded(*s.volume)
+           + ", is lost: smoothing leaves nothing of it, see --smoothing");
+    else
       subdomains.push_back(std::move(s));
-    }
   }
-  subdomains.push_back(read.part({labels[largest].name, o.surface, united(all)}, image, index_of(largest)));
+  subdomains.push_back(read.part({labels[largest].name, o.surface, whole}, image, index_of(largest)));
   subdomains.back().volume = number_of(all[largest]) * image.volume_of_voxel();
   return subdomains;
 }

@@ -43,12 +43,15 @@ struct Label_completion_options
 };
 
 /// \ingroup PkgMixedMeshImage3Ref
-/// The radius, in millimeters, of the closing that makes a solid organ out of an atlas or a parcellation of
-/// it: 13 % of the edge of a cube of the label's volume, 15 mm for a brain. Gaps between regions are closed
-/// then, also where the ventricles of a cortex are open below; the volume of a brain is 1 % more than with 10
-/// mm.
+/// The steps that make a solid organ out of an atlas or a parcellation of it: a closing by 13 % of the edge
+/// of a cube of the label's volume, 15 mm for a brain; holes filled; the largest component. Gaps between
+/// regions are closed then, also where the ventricles of a cortex are open below; the volume of a brain is 1
+/// % more than with 10 mm.
 /// \param volume that of the label, in cubic millimeters
-inline double closing_radius_of_hull(double volume) { return std::round(1.3 * std::cbrt(volume)) / 10; }
+inline Label_completion_options hull_completion(double volume)
+{
+  return {std::round(1.3 * std::cbrt(volume)) / 10, true, true, 0};
+}
 
 /// \ingroup PkgMixedMeshImage3Ref
 /// What `complete_label()` did, in voxels.
@@ -63,20 +66,20 @@ struct Label_completion_result
 
 namespace internal {
 
-inline std::size_t number_with_label(const Voxel_box& box)
+inline std::size_t number_with_label(const Labeled_box& box)
 {
   return std::size_t(std::count(box.has_label.begin(), box.has_label.end(), 1));
 }
 
 /// Gives the label to the voxels that no ball covers which avoids it. Distances are those between centers.
 /// \param margin of the box, which is larger than the radius: closing adds nothing there
-inline void close_label(Voxel_box& box, double radius, const std::array<double, 3>& spacing,
+inline void close_label(Labeled_box& box, double radius, const std::array<double, 3>& spacing,
                         const std::array<std::size_t, 3>& margin)
 {
   constexpr double rounding = 1e-6; // relative, of an affine map in single precision
   const double most = radius * radius * (1 + rounding);
   const std::vector<float> to_label = squared_distances(box, 1, spacing);
-  Voxel_box dilated = box;
+  Labeled_box dilated = box;
   for(std::size_t v = 0; v < to_label.size(); ++v)
     dilated.has_label[v] = to_label[v] <= most;
   const std::vector<float> to_rest = squared_distances(dilated, 0, spacing);
@@ -88,7 +91,7 @@ inline void close_label(Voxel_box& box, double radius, const std::array<double, 
 }
 
 /// Gives the label to the voxels that it encloses.
-inline void fill_holes(Voxel_box& box)
+inline void fill_holes(Labeled_box& box)
 {
   const Voxel_components components = voxel_components(box);
   for(std::size_t v = 0; v < box.has_label.size(); ++v)
@@ -97,7 +100,7 @@ inline void fill_holes(Voxel_box& box)
 
 /// Takes the label from all components but the largest one, or from those with fewer voxels.
 /// \return the number of these components
-inline std::size_t remove_components(Voxel_box& box, bool keep_largest, double least_number_of_voxels)
+inline std::size_t remove_components(Labeled_box& box, bool keep_largest, double least_number_of_voxels)
 {
   const Voxel_components components = voxel_components(box);
   const std::size_t n = components.sizes.size();
@@ -157,7 +160,7 @@ Voxel_image_3 complete_label(const Voxel_image_3& image, const HasLabel& has_lab
   std::array<std::size_t, 3> margin;
   for(int i = 0; i < 3; ++i) // balls beyond the label, and a voxel at the border
     margin[i] = std::size_t(std::ceil(options.closing_radius / spacing[i])) + 2;
-  Voxel_box box = box_of_label(image, has_label, margin);
+  Labeled_box box = box_of_label(image, has_label, margin);
   Label_completion_result done;
   std::size_t number = done.number_of_voxels = number_with_label(box);
   // By how many more voxels have the label than before.

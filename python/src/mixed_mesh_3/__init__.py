@@ -11,11 +11,13 @@ guarantee, and what parameters do, is in the manual. Elements are sorted by kind
     mm3.certify(mesh).all()
 """
 
+import copy as _copy
 import numbers as _numbers
 import operator as _operator
 import os as _os
 import pathlib as _pathlib
 import time as _time
+import warnings as _warnings
 
 import numpy as _np
 
@@ -90,7 +92,7 @@ def _count(name, value):
     return count
 
 
-def _number(name, value, is_right, what):
+def _number(name, value, is_right=lambda x: True, what=""):
     if not isinstance(value, _numbers.Real) or isinstance(value, bool):
         raise TypeError(f"{name}: expected a number, not {value!r}")
     if not is_right(value):
@@ -124,7 +126,7 @@ def _regions(region):
     result = []
     for r in regions:
         soup, weight = (r[:2], r[2]) if isinstance(r, tuple) and len(r) == 3 else (r, 1.0)
-        result.append((*_soup("region", soup), _number("region: weight", weight, lambda x: True, "")))
+        result.append((*_soup("region", soup), _number("region: weight", weight)))
     return result
 
 
@@ -143,10 +145,9 @@ def read_surface(path, *, strict=False, wrap=0.0):
     UserWarning; strict: that is refused. wrap: the surface is wrapped, as in foil; openings narrower than that are closed.
     Raises ValueError with the file and its defect.
     """
-    import warnings
     *surface, mended = _core.read_surface(_os.fspath(path), bool(strict), _not_negative("wrap", wrap))
     for text in mended:
-        warnings.warn(f"{path}: {text}", stacklevel=2)
+        _warnings.warn(f"{path}: {text}", stacklevel=2)
     return tuple(surface)
 
 
@@ -247,7 +248,7 @@ def optimize(mesh, points, triangles, *, tolerance=0.0, quality_bound=3.2, bisec
              progress=None):
     """A mesh with its boundary on the surface and better elements, and a report; the given one stays as it is. Without
     flips, vertices and elements stay the same ones, as for an atlas after fit()."""
-    result = _core.copy(mesh)
+    result = _copy.copy(mesh)
     return result, _core.optimize(result, _soup("surface", (points, triangles)), _not_negative("tolerance", tolerance),
                                   quality_bound, bisections, flips, progress)
 
@@ -255,7 +256,7 @@ def optimize(mesh, points, triangles, *, tolerance=0.0, quality_bound=3.2, bisec
 def fit(mesh, points, triangles, *, progress=None):
     """A mesh with its boundary carried onto another surface by elastic relaxation (an atlas to a subject), and a
     report; the given one stays as it is."""
-    result = _core.copy(mesh)
+    result = _copy.copy(mesh)
     return result, _core.fit(result, _soup("surface", (points, triangles)), progress)
 
 

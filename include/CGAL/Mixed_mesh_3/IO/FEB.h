@@ -63,7 +63,7 @@ bool write_FEB(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_s
   std::vector<FEB_node_data> data;
   if(!mesh.is_empty())
     for(const Data_array& array : vertex_data)
-      data.emplace_back(array, "all");
+      data.push_back({array, "all"});
   output.write_node_data(out, data);
   output.write_foot(out);
   return out.finish();

@@ -239,7 +239,7 @@ bool write_FEB_model(std::ostream& stream, const Mesh& mesh, const FEB_model& mo
     sets.push_back(s.set);
   for(const FEB_prescribed& c : controlled) {
     sets.push_back(c.set);
-    data.emplace_back(Data_array{c.set.name, &c.values}, c.set.name);
+    data.push_back({{c.set.name, &c.values}, c.set.name});
   }
 
   Buffered_output out(stream);

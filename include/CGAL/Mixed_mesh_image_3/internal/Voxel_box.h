@@ -20,12 +20,11 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Voxels of a label in the box around them, which may reach beyond the image.
+/// A box of voxels, which may reach beyond the image. The first index runs fastest.
 struct Voxel_box
 {
   std::array<std::int64_t, 3> first{}; // index in the image of the box's first voxel
-  std::array<std::size_t, 3> size{};   // 0 if no voxel has the label
-  std::vector<std::uint8_t> has_label; // the first index runs fastest
+  std::array<std::size_t, 3> size{};
 
   std::array<std::size_t, 3> strides() const { return {1, size[0], size[0] * size[1]}; }
   std::size_t offset(const std::array<std::size_t, 3>& p) const
@@ -34,10 +33,16 @@ struct Voxel_box
   }
 };
 
+/// Voxels of a label in the box around them; empty if no voxel has it.
+struct Labeled_box : Voxel_box
+{
+  std::vector<std::uint8_t> has_label;
+};
+
 /// \param margin voxels without label on each side of those that have it, along each axis
 template <class HasLabel>
-Voxel_box box_of_label(const Voxel_image_3& image, const HasLabel& has_label,
-                       const std::array<std::size_t, 3>& margin)
+Labeled_box box_of_label(const Voxel_image_3& image, const HasLabel& has_label,
+                         const std::array<std::size_t, 3>& margin)
 {
   const Voxel_grid_3& grid = image.grid;
   std::array<std::size_t, 3> low = grid.size, high{};
@@ -54,7 +59,7 @@ Voxel_box box_of_label(const Voxel_image_3& image, const HasLabel& has_label,
       high[i] = (std::max)(high[i], voxel[i] + 1);
     }
   });
-  Voxel_box box;
+  Labeled_box box;
   if(high[0] == 0)
     return box;
   for(int i = 0; i < 3; ++i) {

@@ -70,7 +70,7 @@ public:
 
 /// The squared distance of each voxel of a box to the nearest one of a value, between centers; infinite if no
 /// voxel has it.
-inline std::vector<float> squared_distances(const Voxel_box& box, std::uint8_t value,
+inline std::vector<float> squared_distances(const Labeled_box& box, std::uint8_t value,
                                             const std::array<double, 3>& spacing)
 {
   constexpr float none = std::numeric_limits<float>::infinity();

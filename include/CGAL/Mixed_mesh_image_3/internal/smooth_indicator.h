@@ -23,12 +23,10 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Values on a box of voxels, which may reach beyond the image: 0 at its border.
-struct Indicator
+/// Values on a box of voxels: 0 at its border.
+struct Indicator : Voxel_box
 {
-  std::array<std::int64_t, 3> first{}; // index in the image of the box's first voxel
-  std::array<std::size_t, 3> size{};
-  std::vector<float> values; // the first index runs fastest; none if no voxel has the label
+  std::vector<float> values; // none if no voxel has the label
   float level = 0.5f;        // as many values are above it as voxels have the label, but for equal ones
   std::size_t step = 1;      // of the box, in voxels of the image
 };
@@ -36,7 +34,7 @@ struct Indicator
 /// How many edges of the grid cross the level.
 inline std::size_t number_of_crossings(const Indicator& indicator)
 {
-  const std::size_t strides[] = {1, indicator.size[0], indicator.size[0] * indicator.size[1]};
+  const std::array<std::size_t, 3> strides = indicator.strides();
   std::size_t sum = 0;
   for(std::size_t i = 0; i < indicator.values.size(); ++i)
     for(int axis = 0; axis < 3; ++axis) // beyond a border, there are zeros as on it
@@ -49,7 +47,7 @@ inline std::size_t number_of_crossings(const Indicator& indicator)
 /// Every second value along each axis.
 inline Indicator every_second(const Indicator& fine)
 {
-  Indicator coarse{fine.first, {}, {}, fine.level, 2 * fine.step};
+  Indicator coarse{{fine.first, {}}, {}, fine.level, 2 * fine.step};
   std::size_t number = 1;
   for(int i = 0; i < 3; ++i) {
     coarse.size[i] = (fine.size[i] + 1) / 2 + 1; // the last one is beyond
@@ -59,8 +57,7 @@ inline Indicator every_second(const Indicator& fine)
   for(std::size_t k = 0; 2 * k < fine.size[2]; ++k)
     for(std::size_t j = 0; 2 * j < fine.size[1]; ++j)
       for(std::size_t i = 0; 2 * i < fine.size[0]; ++i)
-        coarse.values[i + coarse.size[0] * (j + coarse.size[1] * k)] =
-          fine.values[2 * i + fine.size[0] * (2 * j + fine.size[1] * 2 * k)];
+        coarse.values[coarse.offset({i, j, k})] = fine.values[fine.offset({2 * i, 2 * j, 2 * k})];
   return coarse;
 }
 
@@ -84,9 +81,7 @@ inline std::vector<float> gaussian_kernel(double deviation)
 inline void convolve(Indicator& indicator, int axis, const std::vector<float>& kernel)
 {
   const std::size_t n = indicator.size[axis], last = kernel.size() - 1;
-  const std::size_t stride = axis == 0   ? 1
-                             : axis == 1 ? indicator.size[0]
-                                         : indicator.size[0] * indicator.size[1];
+  const std::size_t stride = indicator.strides()[axis];
   std::vector<float> line(n + 2 * last, 0.f);
   for(std::size_t start = 0; start < indicator.values.size(); ++start) {
     if(start / stride % n != 0)
@@ -124,8 +119,8 @@ Indicator smooth_indicator(const Voxel_image_3& image, const HasLabel& has_label
     kernels[i] = gaussian_kernel(deviations[i]);
     margin[i] = kernels[i].size(); // one more than what is reached
   }
-  const Voxel_box box = box_of_label(image, has_label, margin);
-  Indicator indicator{box.first, box.size, {box.has_label.begin(), box.has_label.end()}};
+  const Labeled_box box = box_of_label(image, has_label, margin);
+  Indicator indicator{box, {box.has_label.begin(), box.has_label.end()}};
   if(indicator.values.empty())
     return indicator;
   const auto number_with_label = std::size_t(std::count(box.has_label.begin(), box.has_label.end(), 1));

@@ -30,7 +30,7 @@ struct Voxel_components
 /// Voxels are neighbors if an edge of Kuhn's tetrahedra connects their centers, as in the surface that
 /// marching tetrahedra make: without smoothing, its components are the borders of these.
 /// \pre no voxel at the border of the box has the label
-inline Voxel_components voxel_components(const Voxel_box& box)
+inline Voxel_components voxel_components(const Labeled_box& box)
 {
   constexpr std::uint32_t none = std::uint32_t(-1);
   const std::array<std::size_t, 3> strides = box.strides();

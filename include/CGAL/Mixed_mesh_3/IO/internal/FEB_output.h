@@ -45,8 +45,6 @@ struct FEB_node_data
 {
   Data_array data;
   std::string node_set;
-
-  FEB_node_data(Data_array d, std::string set) : data(std::move(d)), node_set(std::move(set)) {}
 };
 
 /// The sections that a mesh makes, in the order in which FEBio wants them.
@@ -73,10 +71,10 @@ public:
   std::string name(const Element_block& block) const
   {
     const Part& part = m_blocks.parts()[block.part];
-    const auto named = m_names.find(part.attributes.subdomain_index);
-    return (named == m_names.end() ? part.name()
-                                   : named->second + (part.attributes.is_in_region ? ".region" : ".rest"))
-           + '_' + block.names().febio_type;
+    const char* const side = m_names.count(part.attributes.subdomain_index) == 0 ? ""
+                             : part.attributes.is_in_region                      ? ".region"
+                                                                                 : ".rest";
+    return material_name(part) + side + '_' + block.names().febio_type;
   }
 
   void write_head(Buffered_output& out) const
