@@ -38,14 +38,32 @@ public:
   /// \param maximal_number_of_vertices the vertex budget: the mesh has at most that many vertices,
   ///        those of transitions and of the boundary included. \pre at least 1, at most 2^32 - 2
   Mixed_mesh_criteria_3(std::size_t maximal_number_of_vertices)
-    : m_maximal_number_of_vertices(maximal_number_of_vertices)
   {
-    CGAL_precondition(maximal_number_of_vertices > 0
-                      && maximal_number_of_vertices < Mixed_meshes_3::Vertex_index(-1));
+    this->maximal_number_of_vertices(maximal_number_of_vertices);
   }
 
+  /// The vertex budget. \pre at least 1, at most 2^32 - 2
+  Mixed_mesh_criteria_3& maximal_number_of_vertices(std::size_t number)
+  {
+    CGAL_precondition(number > 0 && number < Mixed_meshes_3::Vertex_index(-1));
+    m_maximal_number_of_vertices = number;
+    return *this;
+  }
   /// The vertex budget.
   std::size_t maximal_number_of_vertices() const { return m_maximal_number_of_vertices; }
+
+  /// Whether the mesh shall have as few vertices as its tolerance, and the topology and the volume of the
+  /// domain allow, to about a tenth, and at most those of the budget. Meshes with six to ten budgets are made
+  /// for it (`Mixed_mesh_result_3::number_of_budgets`). If the whole budget does not suffice, the mesh is
+  /// that of the whole budget, and the status tells. Default: no, the budget is filled. \pre a tolerance is
+  /// given, and the boundary is fitted, when the mesh is made
+  Mixed_mesh_criteria_3& fewest_vertices(bool fewest)
+  {
+    m_fewest_vertices = fewest;
+    return *this;
+  }
+  /// The value set, or the default.
+  bool fewest_vertices() const { return m_fewest_vertices; }
 
   /// The octree level to which the whole domain is refined at least, in the region or not; cells of level `l`
   /// are 2^l times smaller than the root. Default: 3; coarser, down to 1, if the budget is too small for it;
@@ -161,9 +179,10 @@ public:
   double tolerance() const { return m_tolerance; }
 
   /// The largest aspect-ratio coefficient (ARC) of an element, if the boundary is fitted. From the default on
-  /// it is guaranteed for cubic cells and the default boundary mode; what would need worse elements stays off
-  /// the surface. A smaller one is not reached by all elements, but none gets worse than it is at the start.
-  /// 0, or infinity: no bound. Default: 3.2. \pre 0, or at least 1
+  /// it is guaranteed for cubic cells and the default boundary mode, unless only flatter elements fit into a
+  /// thin wall: see `strict_quality_bound()`; what would need worse elements stays off the surface. A smaller
+  /// one is not reached by all elements, but none gets worse than it is at the start. 0, or infinity: no
+  /// bound. Default: 3.2. \pre 0, or at least 1
   Mixed_mesh_criteria_3& quality_bound(double arc)
   {
     m_quality_bound = Mixed_mesh_optimization_criteria_3().quality_bound(arc).quality_bound();
@@ -171,6 +190,19 @@ public:
   }
   /// Infinity if there is none.
   double quality_bound() const { return m_quality_bound; }
+
+  /// Whether the quality bound is kept even where topology, volume and arrival of the boundary cannot be
+  /// right with it. If not, larger bounds are tried then, up to five times as large, and the first one that
+  /// suffices is taken; `Mixed_mesh_optimization_result_3::number_of_elements_above_bound` counts the
+  /// elements that exceed the bound that was asked for. Domains that can be meshed within the bound, as
+  /// organs are, are not concerned. Default: no
+  Mixed_mesh_criteria_3& strict_quality_bound(bool is_strict)
+  {
+    m_is_quality_bound_strict = is_strict;
+    return *this;
+  }
+  /// The value set, or the default.
+  bool is_quality_bound_strict() const { return m_is_quality_bound_strict; }
 
   /// The angle between the normals of two facets, in degrees, from which on their edge is sharp: the mesh has
   /// edges along it, and vertices at its corners. Where there are no long lines of such edges, as on organs,
@@ -209,14 +241,15 @@ public:
   bool keep_mesh_if_stopped() const { return m_keep_mesh_if_stopped; }
 
 private:
-  std::size_t m_maximal_number_of_vertices;
+  std::size_t m_maximal_number_of_vertices = 1;
   int m_base_level = automatic;
   Mixed_meshes_3::Root_cell m_root_cell = Mixed_meshes_3::Root_cell::CUBE;
   Mixed_meshes_3::Transition_templates_choice m_transition_templates =
     Mixed_meshes_3::Transition_templates_choice::FEWEST_VERTICES;
   Mixed_meshes_3::Boundary_mode m_boundary_mode = Mixed_meshes_3::Boundary_mode::VERTEX_ORDER;
   Mixed_meshes_3::Thin_parts m_thin_parts = Mixed_meshes_3::Thin_parts::WHERE_NEEDED;
-  bool m_fit_to_surface = true, m_only_tetrahedra = false, m_keep_mesh_if_stopped = false;
+  bool m_fit_to_surface = true, m_only_tetrahedra = false, m_keep_mesh_if_stopped = false,
+       m_fewest_vertices = false, m_is_quality_bound_strict = false;
   double m_grading = 0.35;
   double m_share_of_bisections = automatic;
   double m_tolerance = automatic;

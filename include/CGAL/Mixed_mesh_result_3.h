@@ -100,6 +100,12 @@ struct Mixed_mesh_result_3
   std::size_t number_of_boundary_vertices_inserted = 0; ///< inserted by the boundary stage
   std::size_t number_of_relabeled_vertices = 0;         ///< to make the boundary a manifold
   std::size_t number_of_trials = 0;                     ///< octrees tried in search of the budget
+  /// Budgets with which a mesh was made: more than one only with `Mixed_mesh_criteria_3::fewest_vertices()`.
+  std::size_t number_of_budgets = 1;
+  /// The quality bound in force in the end: that of the criteria, or a larger one, see
+  /// `Mixed_mesh_criteria_3::strict_quality_bound()`.
+  double quality_bound = 0;
+  std::size_t vertex_budget = 0; ///< that of the criteria, or the smallest one that was found to suffice
   /// Cells that meet the domain, but are more than a cell away from the mesh: parts of the domain thinner
   /// than a cell that no octree vertex is inside of. Those that the boundary has come near to, once it is on
   /// the surface, do not count.

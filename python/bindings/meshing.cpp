@@ -161,8 +161,9 @@ void compare(const Mesh& mesh, const Surface& surface, const CGAL::Mixed_mesh_re
 
 std::pair<std::shared_ptr<Mesh>, py::dict>
 make_mesh(const Soup& soup, const std::vector<Weighted_soup>& regions,
-          const std::vector<Labeled_soup>& subdomains, std::size_t vertices, double tolerance, double grading,
-          std::optional<int> base_level, double quality_bound, double sharp_angle, const Progress& progress)
+          const std::vector<Labeled_soup>& subdomains, std::size_t vertices, bool fewest_vertices,
+          double tolerance, double grading, std::optional<int> base_level, double quality_bound,
+          double sharp_angle, const Progress& progress)
 {
   std::vector<std::string> warnings;
   Domain domain;
@@ -189,6 +190,7 @@ make_mesh(const Soup& soup, const std::vector<Weighted_soup>& regions,
                     weight);
   }
   auto criteria = CGAL::Mixed_mesh_criteria_3(vertices)
+                    .fewest_vertices(fewest_vertices)
                     .grading(grading)
                     .quality_bound(quality_bound)
                     .sharp_angle(sharp_angle);
@@ -209,7 +211,11 @@ make_mesh(const Soup& soup, const std::vector<Weighted_soup>& regions,
   visitor.rethrow();
   if(!result.has_mesh() || result.status == Status::BOUNDARY_NOT_MANIFOLD)
     refuse(result, vertices, regions.size());
+  if(fewest_vertices && result.status > Status::BUDGET_NOT_FILLED)
+    throw Meshing_error("vertices: not even " + std::to_string(result.vertex_budget)
+                        + " are within the tolerance: " + CGAL::description(result.status));
   py::dict report;
+  report["vertex budget"] = result.vertex_budget;
   compare(*mesh, boundary, result, report, warnings);
   *mesh = sorted_by_kind(*mesh);
   report["warnings"] = warnings;

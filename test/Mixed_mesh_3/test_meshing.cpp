@@ -197,6 +197,42 @@ void test_paper(const Polyhedral_mixed_mesh_domain_3& domain, const Polyhedral_m
   }
 }
 
+// The smallest budget that suffices: it does, half of it does not, and too small a limit is told.
+void test_fewest_vertices(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& domain,
+                          const Polyhedral_mixed_mesh_region_3& region)
+{
+  for(double tolerance : {5., 8.}) {
+    const auto criteria = Mixed_mesh_criteria_3(5000).tolerance(tolerance);
+    Mesh mesh, same, coarse;
+    const auto result = make_mixed_mesh_3(domain, region,
+                                          Mixed_mesh_criteria_3(criteria).fewest_vertices(true), mesh);
+    BOOST_TEST(result.status == Status::SUCCESS || result.status == Status::BUDGET_NOT_FILLED);
+    BOOST_TEST_LE(hausdorff_distance(mesh, brain, 1e-3).distance(), tolerance);
+    BOOST_TEST(result.vertex_budget > 60 && result.vertex_budget < 5000);
+    BOOST_TEST(result.number_of_budgets > 2 && result.number_of_budgets <= 10);
+    BOOST_TEST_LE(mesh.number_of_vertices(), result.vertex_budget);
+    check(mesh, result, result.vertex_budget);
+    BOOST_TEST_EQ(number_of_vertices_off_surface(mesh, brain), 0u);
+    run(domain, region, Mixed_mesh_criteria_3(criteria).maximal_number_of_vertices(result.vertex_budget),
+        same);
+    BOOST_TEST(content(same) == content(mesh));
+    const auto half = run(domain, region,
+                          Mixed_mesh_criteria_3(criteria).maximal_number_of_vertices(result.vertex_budget
+                                                                                     / 2),
+                          coarse);
+    BOOST_TEST(half.status >= Status::TOLERANCE_NOT_REACHED
+               || half.optimization.largest_distance > 0.9 * tolerance);
+    const auto limited = run(
+      domain, region,
+      Mixed_mesh_criteria_3(result.vertex_budget / 2).tolerance(tolerance).fewest_vertices(true), same);
+    BOOST_TEST(limited.status == half.status && limited.vertex_budget == result.vertex_budget / 2);
+    BOOST_TEST(content(same) == content(coarse));
+    std::cout << "tolerance " << tolerance << ": " << result.vertex_budget << " vertices, "
+              << result.number_of_budgets << " budgets, " << mesh.number_of_vertices() << " vertices"
+              << std::endl;
+  }
+}
+
 // The search for a tolerance, with the root given. One that is not given is a wish.
 void test_tolerance(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& domain,
                     const Polyhedral_mixed_mesh_region_3& region)
@@ -602,6 +638,7 @@ int run(int argc, char* argv[])
   timed("bisections", [&] { test_bisections(brain, domain, region); });
   timed("paper", [&] { test_paper(domain, region); });
   timed("tolerance", [&] { test_tolerance(brain, domain, region); });
+  timed("fewest vertices", [&] { test_fewest_vertices(brain, domain, region); });
   timed("region before wish", [&] { test_region_before_wish(domain); });
   timed("repeatability", [&] { test_repeatability(domain, region); });
   timed("kernels", [&] { test_kernels(brain, region_surface); });

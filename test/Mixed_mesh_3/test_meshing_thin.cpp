@@ -90,6 +90,34 @@ void test_becomes_right(const std::string& name, const Surface& surface, std::si
 }
 
 // Nothing changes where all is right already, and it costs nothing: no octree more.
+// A wall with room for flatter elements only: they are taken, and counted, unless the bound is strict.
+void test_flatter_elements()
+{
+  Surface shell;
+  add_sphere(shell, {0, 0, 0}, 1, 24);
+  Surface inner;
+  add_sphere(inner, {0, 0, 0}, 0.94, 24);
+  CGAL::Polygon_mesh_processing::reverse_face_orientations(inner);
+  CGAL::copy_face_graph(inner, shell);
+  const Mixed_mesh_criteria_3 criteria(400);
+  Mesh mesh;
+  const auto result = make_mixed_mesh_3(shell, criteria, mesh);
+  const auto& fit = result.optimization;
+  BOOST_TEST(result.status == Status::SUCCESS);
+  BOOST_TEST(find_defects(mesh).none());
+  BOOST_TEST_GT(result.quality_bound, criteria.quality_bound());
+  BOOST_TEST_LE(result.quality_bound, 5 * criteria.quality_bound());
+  BOOST_TEST_EQ(fit.quality_bound, criteria.quality_bound());
+  BOOST_TEST_EQ(fit.number_of_elements_above_bound, number_of_elements_above(mesh, criteria.quality_bound()));
+  BOOST_TEST_GT(fit.number_of_elements_above_bound, 0u);
+  BOOST_TEST_EQ(number_of_elements_above(mesh, result.quality_bound), 0u);
+  const auto strict = make_mixed_mesh_3(shell, Mixed_mesh_criteria_3(criteria).strict_quality_bound(true),
+                                        mesh);
+  BOOST_TEST(strict.status >= Status::NOT_ALL_ARRIVED);
+  BOOST_TEST_EQ(strict.quality_bound, criteria.quality_bound());
+  BOOST_TEST_EQ(number_of_elements_above(mesh, criteria.quality_bound()), 0u);
+}
+
 void test_untouched()
 {
   const Surface ball = sphere(Point_3(0, 0, 0), 1, 16);

@@ -9,14 +9,18 @@
 
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Triangle_tree.h>
 #include <CGAL/Mixed_mesh_regions_3.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 
+#include <CGAL/Exact_rational.h>
 #include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/Simple_cartesian.h>
 
 #include <boost/core/lightweight_test.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -49,6 +53,64 @@ void add_box(Surface& s, const Bbox_3& b)
 }
 
 Bbox_3 bbox_of(const Surface& s) { return CGAL::bbox_3(s.points().begin(), s.points().end()); }
+
+// ---- closest points of triangles ----------------------------------------------------------------
+
+// The exact distance from a triangle that may have no area, rounded.
+double distance_of(const Vec3& p, const std::array<Vec3, 3>& t)
+{
+  using Exact = CGAL::Simple_cartesian<CGAL::Exact_rational>;
+  const auto exact = [](const Vec3& v) { return Exact::Point_3(v[0], v[1], v[2]); };
+  const Exact::Point_3 x = exact(p), q[3] = {exact(t[0]), exact(t[1]), exact(t[2])};
+  if(!CGAL::collinear(q[0], q[1], q[2]))
+    return std::sqrt(CGAL::to_double(CGAL::squared_distance(x, Exact::Triangle_3(q[0], q[1], q[2]))));
+  CGAL::Exact_rational least = CGAL::squared_distance(x, q[0]);
+  for(std::size_t i = 0; i < 3; ++i)
+    if(q[i] != q[(i + 1) % 3])
+      least = (std::min)(least, CGAL::Exact_rational(
+                                  CGAL::squared_distance(x, Exact::Segment_3(q[i], q[(i + 1) % 3]))));
+  return std::sqrt(CGAL::to_double(least));
+}
+
+// Random triangles of all sizes, some without area, near the origin and far from it: the closest point of all
+// is on the triangle named, and at the least distance, from anywhere, with any hint.
+void test_triangle_tree()
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto vector = [&](double scale) {
+    return scale * Vec3(uniform(random), uniform(random), uniform(random));
+  };
+  for(std::size_t number : {1, 3, 4, 5, 16, 17, 70})
+    for(double offset : {0., 1000.}) {
+      std::vector<std::array<Vec3, 3>> triangles;
+      for(std::size_t i = 0; i < number; ++i) {
+        const Vec3 center = Vec3(offset, -offset, offset) + vector(1);
+        const double size = std::pow(10, -2 * (1 + uniform(random)));
+        triangles.push_back({center, center + vector(size), center + vector(size)});
+        if(i % 7 == 5)
+          triangles.back()[2] = triangles.back()[i % 2];
+        if(i % 7 == 6)
+          triangles.back()[2] = 0.5 * (triangles.back()[0] + triangles.back()[1]);
+      }
+      const internal::Triangle_tree tree(triangles);
+      const double accuracy = 1e-14 * (1 + offset);
+      internal::Triangle_tree::Closest hint{triangles[0][0], 0};
+      for(int i = 0; i < 60; ++i) {
+        const Vec3 p = Vec3(offset, -offset, offset) + vector(i % 2 == 0 ? 1 : 4);
+        double least = std::numeric_limits<double>::infinity();
+        for(const auto& t : triangles)
+          least = (std::min)(least, distance_of(p, t));
+        for(const auto& found : {tree.closest(p), tree.closest(p, hint)}) {
+          BOOST_TEST_LE(std::abs(norm(found.point - p) - least), accuracy);
+          BOOST_TEST_LE(distance_of(found.point, triangles[found.triangle]), accuracy);
+          BOOST_TEST(tree.closest(p, found.triangle).point == found.point
+                     || norm(found.point - p) <= norm(tree.closest(p, found.triangle).point - p));
+          hint = found;
+        }
+      }
+    }
+}
 
 // ---- domain oracle -----------------------------------------------------------------------------
 
@@ -305,6 +367,7 @@ void test_weights_in_unions()
 
 int run(int, char*[])
 {
+  test_triangle_tree();
   test_domain_oracle();
   test_surface_samples();
   test_moved<Polyhedral_mixed_mesh_domain_3>();

@@ -102,13 +102,29 @@ class Meshes(Case):
             smallest_angle, largest_angle = proof["dihedral angles of tetrahedra within it"]
             self.assertGreaterEqual(quality["smallest dihedral angle"]["tetrahedra"]["min"], smallest_angle)
             self.assertLessEqual(quality["largest dihedral angle"]["tetrahedra"]["max"], largest_angle)
-        for bad in "0.5", "-1", "nan", "much":
+        for bad in "0.5", "-1", "nan", "much", "3.2,lax", ",strict":
             self.assertEqual(self.mesher(plates, "--vertices", 2000, "--max-arc", bad).returncode, 2)
         self.assertEqual(self.mesher(plates, "--vertices", 2000, "--max-arc", 4, "--no-fit").returncode, 2)
+        run = self.mesher(plates, "--vertices", 600, "--max-arc", "4,strict", "--report", report)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        told = json.loads(report.read_text())
+        self.assertEqual((told["options"]["max ARC"], told["options"]["max ARC is strict"]), (4, True))
+        self.assertEqual(told["quality"]["quality bound"]["ARC in force"], 4)
         # with a bound that no mesh can have, what is above it is told
         told, run = self.brain("--max-arc", 1.1)
         self.assertGreater(told["quality"]["quality bound"]["elements above"], 100)
         self.assertIn("elements are above it", run.stderr)
+
+    def test_fewest_vertices(self):
+        cube = self.file("cube.off", off(CUBE, TRIANGLES))
+        self.fails(cube, "--vertices", "auto", "--output", self.output, code=2, words="--vertices auto: needs a --tolerance")
+        told, run = self.brain("--vertices", "auto", "--tolerance", 8)
+        self.assertEqual(told["status"], "success")
+        self.assertTrue(told["options"]["fewest vertices"])
+        self.assertLess(told["options"]["vertices"], 660)
+        self.assertLessEqual(told["mesh"]["vertices"], told["options"]["vertices"])
+        self.assertLessEqual(told["surface"]["Hausdorff distance"], 8)
+        self.assertIn("the smallest budget found that suffices", run.stdout)
 
     def test_quality(self):
         told, _ = self.brain()

@@ -33,12 +33,29 @@ constexpr bool has_eigen = true;
 constexpr bool has_eigen = false;
 #endif
 
+constexpr const char* automatic_vertices = "auto"; // of --vertices
+constexpr std::size_t most_automatic_vertices = 200000;
+
 double weight_option(const std::string& option, const std::string& text)
 {
   double weight = 0;
   if(!CLI::detail::lexical_cast(text, weight) || !(weight >= 1e-6 && weight <= 1e6))
     throw CLI::ValidationError(option, "the weight '" + text + "' is not a number from 0.000001 to 1000000");
   return weight;
+}
+
+void set_largest_arc(const std::string& text, Options& o)
+{
+  const std::string strict = ",strict";
+  o.is_arc_strict = boost::algorithm::ends_with(text, strict);
+  const std::string arc = text.substr(0, text.size() - (o.is_arc_strict ? strict.size() : 0));
+  const bool is_number = arc == "none" || CLI::detail::lexical_cast(arc, o.largest_arc);
+  if(arc == "none")
+    o.largest_arc = 0;
+  if(!is_number || !std::isfinite(o.largest_arc) || !(o.largest_arc == 0 || o.largest_arc >= 1))
+    throw CLI::ValidationError("--max-arc",
+                               "expected a number of at least 1, 0 or none, with ,strict or not, not "
+                                 + text);
 }
 
 // A file whose name ends like a weight is that file.
@@ -221,10 +238,18 @@ void add_files(CLI::App& app, Options& o)
   app.add_flag("--slit", o.slit,
                "Double the vertices on sheets, so that both sides can come apart; the copies are not counted "
                "in the budget");
-  app.add_option("--vertices", o.vertices, "Vertex budget: the mesh has at most that many vertices")
+  app
+    .add_option_function<std::string>(
+      "--vertices",
+      [&o](const std::string& text) {
+        o.fewest_vertices = text == automatic_vertices;
+        o.vertices = o.fewest_vertices ? most_automatic_vertices : std::stoul(text);
+      },
+      "Vertex budget: the mesh has at most that many vertices; auto: as few as --tolerance allows, found by "
+      "meshes with six to ten budgets of up to 200,000")
     ->required()
-    ->check(count(1000000000)) // of 32-bit indices in files
-    ->type_name("N");
+    ->check(count(1000000000) | CLI::IsMember({automatic_vertices})) // of 32-bit indices in files
+    ->type_name("N|auto");
   app
     .add_option("--output", o.outputs,
                 "Mesh files: .vtu (VTK, ParaView), .msh (Gmsh), .mesh (Medit), .inp (Abaqus), .feb "
@@ -274,19 +299,12 @@ CLI::Option* add_fit(CLI::App& app, Options& o)
     ->excludes(no_fit)
     ->excludes(no_optimize);
   app
-    .add_option(
-      "--max-arc", o.largest_arc,
+    .add_option_function<std::string>(
+      "--max-arc", [&o](const std::string& text) { set_largest_arc(text, o); },
       "Largest aspect-ratio coefficient of an element: boundary vertices that would need a larger one "
-      "stay off the surface (default: 3.2; 0 or none: no bound)")
-    ->transform(CLI::Validator(
-      [](std::string& text) {
-        if(text == "none")
-          text = "0";
-        return std::string();
-      },
-      ""))
-    ->check(number("of at least 1, 0 or none", [](double x) { return x == 0 || x >= 1; }))
-    ->type_name("ARC")
+      "stay off the surface, unless a thin wall has room for flatter elements only; strict: even then "
+      "(default: 3.2; 0 or none: no bound)")
+    ->type_name("ARC[,strict]")
     ->excludes(no_fit)
     ->excludes(no_optimize);
   app
@@ -441,6 +459,8 @@ void check_options(Options& o)
     throw CLI::ValidationError("--threads", "this program was built without TBB");
   if(o.no_optimize && !has_eigen)
     throw CLI::ValidationError("--no-optimize", "this program was built without Eigen");
+  if(o.fewest_vertices && o.tolerance == 0)
+    throw CLI::ValidationError("--vertices auto", "needs a --tolerance");
   const bool has_image = is_image(o.surface);
   for(Region_option& r : o.regions)
     if(r.file.empty())

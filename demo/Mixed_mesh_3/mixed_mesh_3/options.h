@@ -59,6 +59,7 @@ struct Options
   std::optional<double> smoothing;
   std::vector<std::string> outputs;
   std::size_t vertices = 0;
+  bool fewest_vertices = false; // at most so many
   int base_level = CGAL::Mixed_mesh_criteria_3::automatic;
   CGAL::Mixed_meshes_3::Boundary_mode mode = CGAL::Mixed_meshes_3::Boundary_mode::VERTEX_ORDER;
   CGAL::Mixed_meshes_3::Root_cell root = CGAL::Mixed_meshes_3::Root_cell::CUBE;
@@ -69,7 +70,8 @@ struct Options
   double grading = 0.35;
   double time_limit = std::numeric_limits<double>::infinity();                          // seconds
   double largest_arc = CGAL::Mixed_mesh_optimization_criteria_3::default_quality_bound; // 0: any
-  double sharp_angle = CGAL::Mixed_mesh_optimization_criteria_3::default_sharp_angle;   // degrees; 0: none
+  bool is_arc_strict = false;
+  double sharp_angle = CGAL::Mixed_mesh_optimization_criteria_3::default_sharp_angle; // degrees; 0: none
   unsigned threads = 1;
 
   // of Algorithm 1

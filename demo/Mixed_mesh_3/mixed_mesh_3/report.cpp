@@ -43,6 +43,7 @@ Json describe(const Completion_facts& c)
 Json describe(const Options& o)
 {
   Json report = {{"vertices", o.vertices},
+                 {"fewest vertices", o.fewest_vertices},
                  {"base level", o.base_level == CGAL::Mixed_mesh_criteria_3::automatic ? Json("automatic")
                                                                                        : Json(o.base_level)},
                  {"mode", o.mode == mm3::Boundary_mode::PAPER ? "paper" : "default"},
@@ -54,6 +55,7 @@ Json describe(const Options& o)
                  {"time limit", std::isfinite(o.time_limit) ? Json(o.time_limit) : Json()},
                  {"tolerance", o.tolerance > 0 ? Json(o.tolerance) : Json("automatic")},
                  {"max ARC", o.has_quality_bound() ? Json(o.largest_arc) : Json()},
+                 {"max ARC is strict", o.is_arc_strict},
                  {"sharp angle", o.sharp_angle},
                  {"tetrahedra", o.tetrahedra},
                  {"slit", o.slit},
@@ -123,6 +125,7 @@ Json describe_quality(const Options& o, const Outcome& outcome)
   if(o.has_quality_bound())
     quality["quality bound"] = {{"ARC", o.largest_arc},
                                 {"elements above", outcome.elements_above_bound},
+                                {"ARC in force", outcome.result.quality_bound},
                                 {"dihedral angles of tetrahedra within it",
                                  mm3::dihedral_angle_bounds(o.largest_arc)},
                                 {"method", "proved for each element, exact on the coordinates written"}};
@@ -389,7 +392,9 @@ void print_summary(const Options& o, const Outcome& outcome)
   const Mesh_facts& mesh = outcome.mesh;
   if(outcome.completion)
     std::cout << completion_in_words(*outcome.completion);
-  std::cout << mesh.vertices << " vertices of " << o.vertices << ", " << mesh.elements << " elements (";
+  std::cout << mesh.vertices << " vertices of " << o.vertices
+            << (o.fewest_vertices ? ", the smallest budget found that suffices, " : ", ") << mesh.elements
+            << " elements (";
   for(int k = mm3::number_of_element_kinds - 1; k >= 0; --k)
     std::cout << mesh.elements_of_kind[std::size_t(k)] << ' ' << mm3::reference_elements[k].plural
               << (k > 0 ? ", " : ")\n");

@@ -303,9 +303,11 @@ Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3
                     .root_cell(o.root)
                     .transition_templates(o.templates)
                     .quality_bound(o.largest_arc)
+                    .strict_quality_bound(o.is_arc_strict)
                     .sharp_angle(o.sharp_angle)
                     .only_tetrahedra(o.tetrahedra) // what is fitted, checked and reported is what is written
-                    .keep_mesh_if_stopped(true);
+                    .keep_mesh_if_stopped(true)
+                    .fewest_vertices(o.fewest_vertices);
   if(o.tolerance > 0)
     criteria.tolerance(o.tolerance);
   Mesh mesh;
@@ -408,7 +410,7 @@ void write_files(const Mesh& mesh, const std::vector<mm3::IO::Facet_set>& facet_
 
 } // namespace
 
-bool run(const Options& o)
+bool run(Options o)
 {
   const Thread_limit limit(o.threads);
   check_feasible(o);
@@ -422,6 +424,7 @@ bool run(const Options& o)
   check_regions(domain, inputs, o, outcome);
   log.expect(plan_for(o));
   Mesh mesh = make_mesh_until_stopped(domain, inputs, o, log, outcome);
+  o.vertices = outcome.result.vertex_budget; // which --vertices auto has found
   examine(mesh, inputs.boundary, o, log, outcome);
   examine_subdomains(mesh, domain, inputs.subdomains, o, outcome);
   std::vector<mm3::IO::Facet_set> facet_sets = examine_sheets(mesh, domain, sheets, o, outcome);

@@ -13,6 +13,6 @@
 /// \throw Invalid_mesh if the mesh failed a check; nothing is written then
 /// \throw std::runtime_error in a line, what is wrong with the input, or with a file
 /// \return whether it went to its end, without being stopped
-bool run(const Options& options);
+bool run(Options options);
 
 #endif // MIXED_MESH_3_DEMO_MIXED_MESH_3_RUN_H

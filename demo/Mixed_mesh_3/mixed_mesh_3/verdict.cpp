@@ -90,6 +90,11 @@ void add_differences(const Topology& topology, const Options& o, std::vector<std
 void refuse(const CGAL::Mixed_mesh_result_3& result, const Options& o)
 {
   using Status = CGAL::Mixed_mesh_status;
+  if(o.fewest_vertices && result.status > Status::BUDGET_NOT_FILLED && result.status != Status::STOPPED)
+    throw std::runtime_error("--vertices auto: not even a mesh of " + std::to_string(result.vertex_budget)
+                             + " vertices is within a tolerance of " + rounded(o.tolerance) + " of "
+                             + o.surface + ": " + CGAL::description(result.status) + ", farthest "
+                             + rounded(result.optimization.largest_distance));
   switch(result.status) {
   case Status::BUDGET_TOO_SMALL:
     throw std::runtime_error("--vertices " + std::to_string(o.vertices)
@@ -164,7 +169,11 @@ void add_warnings(const Options& o, Outcome& outcome)
                        + ", or coordinates are too large to tell");
   if(outcome.elements_above_bound != 0)
     warnings.push_back("--max-arc " + rounded(o.largest_arc) + ": "
-                       + std::to_string(outcome.elements_above_bound) + " elements are above it");
+                       + counted(outcome.elements_above_bound, "element is", "elements are") + " above it"
+                       + (outcome.result.quality_bound > o.largest_arc
+                            ? ", none above " + rounded(outcome.result.quality_bound)
+                                + ": thin walls have room for flatter elements only"
+                            : ""));
   if(o.tolerance > 0 && f.distance() > o.tolerance)
     warnings.push_back(missed_tolerance(f, o));
   // Before the boundary is fitted, the cells around it add some volume; corners cut off take some.

@@ -126,19 +126,23 @@ private:
   static double warp(const Reference_element& reference, const Points& p, int v, Vec3& gradient)
   {
     using namespace internal;
-    double worst = 0;
+    // The smallest cosine is that with the smallest square, if signs are kept: one root suffices.
+    double least = 1, product = 1, squares = 1; // of the two normals; of their lengths
     int worst_face = -1, worst_diagonal = 0;
     for(int f = 0; f < reference.number_of_faces; ++f)
       if(reference.faces[f].size == 4)
         for(int diagonal = 0; diagonal < 2; ++diagonal) {
           const auto [n, m] = triangle_normals(reference.faces[f], diagonal, p);
-          const double w = 1 - dot(n, m) / std::sqrt(dot(n, n) * dot(m, m));
-          if(w > worst) {
-            worst = w;
+          const double nm = dot(n, m), nn_mm = dot(n, n) * dot(m, m);
+          if(const double square = nm * std::abs(nm) / nn_mm; square < least) {
+            least = square;
+            product = nm;
+            squares = nn_mm;
             worst_face = f;
             worst_diagonal = diagonal;
           }
         }
+    const double worst = 1 - product / std::sqrt(squares);
     if constexpr(with_gradient)
       if(worst_face >= 0) {
         const Element_face& face = reference.faces[worst_face];

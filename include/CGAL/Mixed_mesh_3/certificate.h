@@ -56,7 +56,10 @@ class Bernstein_polynomial
 public:
   explicit Bernstein_polynomial(const std::array<int, 3>& degrees) : m_degrees(degrees)
   {
-    m_coefficients.fill(NT(0)); // intervals are not zero by default
+    for(int i = 0; i <= degrees[0]; ++i) // the others are never read
+      for(int j = 0; j <= degrees[1]; ++j)
+        for(int k = 0; k <= degrees[2]; ++k)
+          (*this)(i, j, k) = NT(0);
   }
 
   NT& operator()(int i, int j, int k) { return m_coefficients[index(i, j, k)]; }

@@ -154,12 +154,8 @@ std::size_t number_of_vertices_off_surface(const Mesh& mesh, const FaceListGraph
   const internal::Nearest_triangle nearest(triangles);
   const double tolerance = relative_tolerance * internal::diagonal(triangles);
   std::size_t n = 0;
-  auto hint = nearest.start();
-  for(const auto& p : boundary.points) {
-    const auto query = nearest(p, hint);
-    n += query.distance > tolerance;
-    hint = query.nearest; // vertices in order are near to each other
-  }
+  for(const auto& p : boundary.points)
+    n += nearest(p).distance > tolerance;
   return n;
 }
 

@@ -92,6 +92,10 @@ def _count(name, value):
     return count
 
 
+def _most_vertices(vertices):
+    return 200000 if vertices == "auto" else _count("vertices", vertices)
+
+
 def _number(name, value, is_right=lambda x: True, what=""):
     if not isinstance(value, _numbers.Real) or isinstance(value, bool):
         raise TypeError(f"{name}: expected a number, not {value!r}")
@@ -164,7 +168,8 @@ def mesh(points, triangles, *, region=None, subdomains=None, vertices=660, toler
         wanted; None: everywhere.
     subdomains: {label: (points, triangles)}: parts inside, which count from the first to the last where they overlap;
         labels from 2 on, the rest has 1, and 0 is a cavity.
-    vertices: how many there may be at most.
+    vertices: how many there may be at most; "auto": as few as the tolerance allows, found by six to ten meshes of up to
+        200,000 vertices.
     tolerance: how far the boundary may be from the surface, in mm; 0: what the budget allows.
     quality_bound: no element has a larger aspect-ratio coefficient.
     progress: called as progress(stage, vertices, budget); what it raises ends the run, as Ctrl-C does.
@@ -173,10 +178,13 @@ def mesh(points, triangles, *, region=None, subdomains=None, vertices=660, toler
     measures. Raises ValueError if a surface is not one of a solid and cannot be mended, MeshingError if there is no mesh.
     """
     start = _time.perf_counter()
+    if vertices == "auto" and not tolerance > 0:
+        raise ValueError('vertices: "auto" needs a tolerance')
     result, report = _core.mesh(
         _soup("surface", (points, triangles)), _regions(region),
         [(*_soup(f"subdomain {label}", s), label) for label, s in (subdomains or {}).items()],
-        _count("vertices", vertices), _not_negative("tolerance", tolerance), _not_negative("grading", grading), base_level,
+        _most_vertices(vertices), vertices == "auto", _not_negative("tolerance", tolerance),
+        _not_negative("grading", grading), base_level,
         _number("quality_bound", quality_bound, lambda x: x == 0 or x >= 1, "of at least 1, or 0 for none"),
         _number("sharp_angle", sharp_angle, lambda x: 0 <= x <= 180, "from 0 to 180"), progress)
     report["seconds"] = _time.perf_counter() - start
@@ -223,7 +231,7 @@ def mesh_labels(image, affine, labels=None, *, smoothing=None, vertices=660, **o
 
     def surface(of, share):  # as fine as the mesh can use
         finer, least = (3, 1000) if share < 1 else (1, 2000)
-        size = max(finer * 20 * (share * vertices) ** (2 / 3), least)
+        size = max(finer * 20 * (share * _most_vertices(vertices)) ** (2 / 3), least)
         return label_surface(image, affine, of, smoothing=smoothing, vertices=int(size))
 
     parts = {}

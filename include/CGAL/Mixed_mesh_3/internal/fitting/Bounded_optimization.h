@@ -16,7 +16,7 @@
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/element_points.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Surface_optimizer.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/optimize_surface.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
 
@@ -145,19 +145,18 @@ private:
   }
 
   // Elements may get worse than the bound on the way.
-  Outcome optimize_freely(bool only_arrives, const std::function<bool()>& go_on) const
+  Outcome optimize_freely(bool is_calm, const std::function<bool()>& go_on) const
   {
     Outcome outcome;
     outcome.mesh = m_mesh;
-    Surface_optimizer optimizer(outcome.mesh, m_domain, Criteria(m_criteria).quality_bound(0), m_quality);
-    optimizer.finish_within(bound_for_doubles(m_criteria));
-    optimizer.follow(m_features);
-    if(only_arrives)
-      optimizer.only_arrive();
-    outcome.result = optimizer(go_on);
+    Fitting_mode mode;
+    mode.is_calm = is_calm;
+    const Fitting_outcome fitted = optimize_surface(outcome.mesh, m_domain, m_criteria, m_quality, mode,
+                                                    m_features, m_is_held, go_on);
+    outcome.result = fitted.result;
     outcome.is_within = is_within_bound(outcome.mesh) && outcome.result.is_boundary_simple;
     outcome.is_drawn = (m_criteria.tolerance() > 0 || m_criteria.number_of_bisections() > 0)
-                       && !optimizer.has_only_arrived();
+                       && !fitted.is_calm;
     return outcome;
   }
 
@@ -191,18 +190,17 @@ private:
   {
     for(std::size_t i = 0;; ++i) {
       mesh = m_mesh;
-      Surface_optimizer optimizer(mesh, m_domain, m_criteria, m_quality);
-      optimizer.hold(m_is_held);
-      optimizer.follow(m_features);
-      optimizer.only_arrive(); // where that is hard, the rest would make it harder
-      const Result result = optimizer(go_on);
+      const Fitting_mode mode{true, true}; // where that is hard, drawing the boundary would make it harder
+      const Fitting_outcome fitted = optimize_surface(mesh, m_domain, m_criteria, m_quality, mode, m_features,
+                                                      m_is_held, go_on);
+      const Result& result = fitted.result;
       if(result.is_boundary_simple || result.status == Status::STOPPED || i > std::size(rings)
          || (i == 0 && is_start_crossing()))
         return result;
       if(i == std::size(rings))
         std::fill(m_is_held.begin(), m_is_held.end(), 1);
       else
-        hold(optimizer.crossing_vertices(), rings[i]);
+        hold(fitted.crossing, rings[i]);
     }
   }
 

@@ -18,7 +18,10 @@
 
 #include <CGAL/assertions.h>
 
+#include <boost/container/small_vector.hpp>
+
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -339,17 +342,62 @@ private:
     return a.weight * dot(d, d);
   }
 
-  // Infinity if it is not less than the limit, or if an element costs more than `most`.
-  double energy(Vertex_index v, double limit, double most)
+  // An element around a vertex that is moved, with the positions of its vertices side by side.
+  struct Star_element
+  {
+    Element_kind kind;
+    std::uint8_t size, position; // of that vertex
+    std::array<std::array<double, 3>, 8> points;
+
+    Element_points relative_points() const
+    {
+      Element_points p;
+      p[0] = Vec3{};
+      for(std::size_t i = 1; i < size; ++i)
+        p[i] = Vec3(points[i]) - Vec3(points[0]);
+      return p;
+    }
+  };
+  using Star = boost::container::small_vector<Star_element, 40>;
+
+  Star star_of(Vertex_index v) const
+  {
+    Star star;
+    for(Element_index e : m_mesh.incident[v]) {
+      const Working_mesh::Element& element = m_mesh.elements[e];
+      Star_element& s = star.emplace_back();
+      s.kind = element.kind;
+      s.size = std::uint8_t(element.size());
+      s.position = std::uint8_t(element.position(v));
+      for(std::size_t i = 0; i < s.size; ++i)
+        s.points[i] = m_mesh.points[element.vertices[i]];
+    }
+    return star;
+  }
+
+  // The energy with the vertex at its trial position; infinity if it is not less than the limit, or if an
+  // element costs more than `most`.
+  double energy(Vertex_index v, Star& star, double limit, double most)
   {
     double sum = attraction_energy(v);
-    for(Element_index e : m_mesh.incident[v]) {
-      m_trial_costs[e] = cost(e);
-      sum += power(m_trial_costs[e], m_power);
-      if(!(sum < limit && m_trial_costs[e] <= most))
+    const auto& incident = m_mesh.incident[v];
+    for(std::size_t i = 0; i < star.size(); ++i) {
+      Star_element& element = star[i];
+      element.points[element.position] = m_mesh.points[v];
+      const double c = m_quality(element.kind, element.relative_points());
+      m_trial_costs[incident[i]] = c;
+      sum += power(c, m_power);
+      if(!(sum < limit && c <= most))
         return infinity;
     }
     return sum;
+  }
+
+  static bool are_positive(const Star& star)
+  {
+    return std::all_of(star.begin(), star.end(), [](const Star_element& element) {
+      return jacobian_sign(element.kind, element.points) == Jacobian_sign::POSITIVE;
+    });
   }
 
   bool improve(Vertex_index v)
@@ -370,17 +418,16 @@ private:
     const Vec3 old = m_mesh.points[v];
     Vec3 gradient = (2 * a.weight) * (old - a.place);
     double shortest = infinity;
-    for(Element_index e : m_mesh.incident[v]) {
-      const Working_mesh::Element& element = m_mesh.elements[e];
-      const Element_points p = m_mesh.relative_points(element);
-      const int position = element.position(v);
+    Star star = star_of(v);
+    for(const Star_element& element : star) {
+      const Element_points p = element.relative_points();
       Vec3 g{};
-      const double q = m_quality(element.kind, p, position, g);
+      const double q = m_quality(element.kind, p, element.position, g);
       gradient = gradient + (m_power * power(q, m_power) / q) * g;
       if(m_radii[v] == 0)
-        for(int i = 0; i < element.reference().number_of_vertices; ++i)
-          if(i != position)
-            shortest = (std::min)(shortest, norm(p[i] - p[position]));
+        for(std::size_t i = 0; i < element.size; ++i)
+          if(i != element.position)
+            shortest = (std::min)(shortest, norm(p[i] - p[element.position]));
     }
     const double slope = norm(gradient);
     if(!(slope > 0 && slope < infinity))
@@ -395,8 +442,8 @@ private:
           continue;
       }
       m_mesh.points[v] = p;
-      const double now = energy(v, sum, (std::max)(m_bound, worst));
-      if(now < sum && is_valid(v)) {
+      const double now = energy(v, star, sum, (std::max)(m_bound, worst));
+      if(now < sum && are_positive(star)) {
         accept(v);
         m_radii[v] = radius == m_radii[v] ? m_growth * radius : radius;
         if(sum - now > m_notable_gain * sum)

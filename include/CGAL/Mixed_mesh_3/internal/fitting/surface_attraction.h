@@ -15,12 +15,9 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
-#include <CGAL/Mixed_mesh_3/internal/base/compatibility.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_tolerances.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_optimizer.h>
-
-#include <CGAL/AABB_tree.h>
-#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Triangle_tree.h>
 
 #include <algorithm>
 #include <array>
@@ -70,6 +67,8 @@ class Surface_attraction
   std::vector<double> m_slack_of_triangles;
   std::vector<int> m_steps_of_triangles; // of the grid of samples
 
+  // Of barycentric coordinates: a place on an edge does not draw the vertex opposite to it.
+  static constexpr double nearly_0 = 1e-9;
   // Samples nearer than this share of the tolerance draw nothing.
   static constexpr double tolerated_share = 0.35;
   // Samples one after the other, each of which is a hint for the next, and so for one thread.
@@ -209,7 +208,7 @@ private:
     if(distance < threshold(tolerance))
       return;
     for(int i = 0; i < 3; ++i)
-      if(b[i] > 0) {
+      if(b[i] > nearly_0) {
         const double w = share * b[i] * excess * excess;
         m_shifts[t[i]] = m_shifts[t[i]] + w * shift;
         m_weights[t[i]] += w * b[i];
@@ -218,10 +217,6 @@ private:
 
   void measure_from_surface()
   {
-    // It does not matter which of two points is nearer by a rounding error.
-    using Kernel = CGAL::Simple_cartesian<double>;
-    using Traits = AABB_triangle_traits<Kernel, std::vector<Kernel::Triangle_3>::const_iterator>;
-    const auto point = [](const Vec3& p) { return Kernel::Point_3(p[0], p[1], p[2]); };
     if(m_samples.empty() || m_triangles.empty())
       return;
     std::vector<std::size_t> asked;
@@ -230,23 +225,21 @@ private:
         asked.push_back(i);
     if(asked.empty())
       return;
-    std::vector<Kernel::Triangle_3> triangles;
+    std::vector<std::array<Vec3, 3>> triangles;
     for(const Triangle& t : m_triangles)
-      triangles.emplace_back(point(m_mesh.points[t[0]]), point(m_mesh.points[t[1]]),
-                             point(m_mesh.points[t[2]]));
-    CGAL::AABB_tree<Traits> tree(triangles.begin(), triangles.end());
-    tree.do_not_accelerate_distance_queries(); // the last triangle is a good hint, as samples are in order
-    tree.build();
+      triangles.push_back({m_mesh.points[t[0]], m_mesh.points[t[1]], m_mesh.points[t[2]]});
+    const Triangle_tree tree(triangles);
     std::vector<Vec3> found(asked.size());
     parallel_for((asked.size() + samples_in_turn - 1) / samples_in_turn, m_threads,
                  [&](std::size_t block) {
                    const std::size_t first = block * samples_in_turn;
-                   const auto last_time = triangles.cbegin() + std::ptrdiff_t(m_nearest[asked[first]]);
-                   auto nearest = std::make_pair((*last_time)[0], last_time);
                    for(std::size_t k = first; k < (std::min)(first + samples_in_turn, asked.size()); ++k) {
-                     nearest = tree.closest_point_and_primitive(point(m_samples[asked[k]].point), nearest);
-                     m_nearest[asked[k]] = std::size_t(nearest.second - triangles.cbegin());
-                     found[k] = to_vec3(nearest.first);
+                     const Vec3& s = m_samples[asked[k]].point;
+                     std::size_t& nearest = m_nearest[asked[k]];
+                     // the triangle of the last time
+                     const Triangle_tree::Closest closest = tree.closest(s, tree.closest(s, nearest));
+                     nearest = closest.triangle;
+                     found[k] = closest.point;
                    }
                  },
                  1);

@@ -31,7 +31,7 @@ class Misfit
 {
   bool m_is_mesh = true;
   std::size_t m_topology = 0, m_number_of_lost_cells = 0, m_number_off = 0;
-  double m_volume = 0; // beyond what is tolerated, relatively
+  double m_volume = 0, m_distance = 0; // beyond what is tolerated, relatively
   std::optional<Shell_counts> m_shells_of_domain, m_shells;
 
   static constexpr double tolerated_volume = 0.05;
@@ -46,9 +46,11 @@ public:
 
   /// \param mesh its boundary is a manifold, except where it is pinched
   /// \param is_fitted whether its volume should be that of the domain
+  /// \param distance from the surface beyond the tolerance that was asked for, relatively
   Misfit(const Core_mesh& mesh, const Any_domain& domain, bool is_fitted, std::size_t number_of_lost_cells,
-         std::size_t number_off)
-    : m_number_of_lost_cells(number_of_lost_cells), m_number_off(number_off)
+         std::size_t number_off, double distance)
+    : m_number_of_lost_cells(number_of_lost_cells), m_number_off(number_off),
+      m_distance((std::max)(0., distance))
   {
     m_shells_of_domain = domain.shells();
     if(!m_shells_of_domain)
@@ -71,8 +73,9 @@ public:
   const std::optional<Shell_counts>& shells_of_domain() const { return m_shells_of_domain; }
   const std::optional<Shell_counts>& shells() const { return m_shells; }
 
-  /// Whether, besides, all boundary vertices are on the surface.
-  bool is_right() const { return is_none() && m_number_off == 0; }
+  /// Whether, besides, all boundary vertices are on the surface, and it is within the tolerance.
+  bool is_right() const { return is_none() && m_number_off == 0 && m_distance == 0; }
+  bool is_of_distance_only() const { return is_none() && m_number_off == 0; }
 
   bool is_topology_right() const { return m_is_mesh && m_topology == 0; }
   bool is_topology_wrong() const { return m_topology > 0; }
@@ -91,10 +94,10 @@ private:
     return std::size_t(a < b ? b - a : a - b);
   }
 
-  std::tuple<bool, std::size_t, bool, double, std::size_t, std::size_t> key() const
+  std::tuple<bool, std::size_t, bool, double, std::size_t, double, std::size_t> key() const
   {
-    return {!m_is_mesh, m_topology,   m_number_of_lost_cells > 0,
-            m_volume,   m_number_off, m_number_of_lost_cells};
+    return {!m_is_mesh,   m_topology, m_number_of_lost_cells > 0, m_volume,
+            m_number_off, m_distance, m_number_of_lost_cells};
   }
 };
 

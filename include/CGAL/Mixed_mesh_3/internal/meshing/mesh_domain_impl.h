@@ -11,7 +11,7 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/compiled.h>
-#include <CGAL/Mixed_mesh_3/internal/meshing/Driver.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/fewest_vertices.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/mesh_domain.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 
@@ -23,7 +23,11 @@ CGAL_MIXED_MESH_3_INLINE Mixed_mesh_result_3 mesh_domain(const Oracles& oracles,
                                                          const Mixed_mesh_criteria_3& criteria,
                                                          Any_visitor& visitor, Core_mesh& mesh)
 {
-  return Driver(Located_octree(oracles), criteria, visitor)(mesh);
+  const Located_octree root(oracles);
+  if(!criteria.fewest_vertices())
+    return run_stages(root, criteria, visitor, mesh);
+  CGAL_precondition(criteria.tolerance() > 0 && criteria.fit_to_surface());
+  return run_with_fewest_vertices(root, criteria, visitor, mesh);
 }
 
 } // namespace internal

@@ -23,6 +23,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <map>
 #include <vector>
 
 namespace CGAL {
@@ -46,6 +47,7 @@ class Thin_cell_finder
 
   const Located_octree& m_octree;
   const double m_strictness;
+  std::map<Lattice_point, bool> m_is_thin_at; // corners of leaves, which four have in common, mostly
 
   static constexpr double cells_in_wall = 1, cells_in_gap = 1;
   // In sides of cells: which gaps are widened, and how much at most on each side.
@@ -61,7 +63,8 @@ public:
   }
 
   /// Whether a leaf that meets the surface is too large, seen from its corners and its center.
-  bool operator()(Node_index n) const
+  /// \pre all leaves asked for are of one level
+  bool operator()(Node_index n)
   {
     const Octree& octree = m_octree.octree();
     const std::uint32_t half = octree.side(n) / 2;
@@ -69,9 +72,14 @@ public:
                                                    m_octree.surface_part(n));
     if(is_thin(n, at(n, half, half, half), hint))
       return true;
-    for(std::uint32_t i = 0; i < 8; ++i)
-      if(is_thin(n, at(n, (i & 1) * 2 * half, (i >> 1 & 1) * 2 * half, (i >> 2) * 2 * half), hint))
+    for(std::uint32_t i = 0; i < 8; ++i) {
+      const Lattice_point corner = at(n, (i & 1) * 2 * half, (i >> 1 & 1) * 2 * half, (i >> 2) * 2 * half);
+      const auto [known, is_new] = m_is_thin_at.try_emplace(corner, false);
+      if(is_new)
+        known->second = is_thin(n, corner, hint);
+      if(known->second)
         return true;
+    }
     return false;
   }
 
@@ -128,7 +136,7 @@ private:
 /// The leaves of a level that meet the surface and are too large for a wall or a gap.
 inline std::vector<Octree::Node_index> thin_cells(const Located_octree& octree, int level, double strictness)
 {
-  const Thin_cell_finder is_thin(octree, strictness);
+  Thin_cell_finder is_thin(octree, strictness);
   std::vector<Octree::Node_index> leaves;
   for(const Octree::Node_index n : octree.leaves_to_refine(level, false))
     if(octree.side(n) == ON_BOUNDARY && is_thin(n))

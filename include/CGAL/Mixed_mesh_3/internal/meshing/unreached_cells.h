@@ -47,7 +47,7 @@ inline std::vector<Octree::Node_index> unreached_cells(const Located_octree& oct
     const double far = (std::max)({box.x_span(), box.y_span(), box.z_span(), size});
     const auto is_unreached = [&](const Point_3& p) {
       const Point_3 q = octree.domain().closest_point(p, octree.surface_part(n));
-      return CGAL::do_overlap(q.bbox(), box) && boundary(q, boundary.start()).distance > far;
+      return CGAL::do_overlap(q.bbox(), box) && boundary(q).distance > far;
     };
     bool is_any = is_unreached(CGAL::midpoint(Point_3(box.xmin(), box.ymin(), box.zmin()),
                                               Point_3(box.xmax(), box.ymax(), box.zmax())));

@@ -13,15 +13,16 @@
 #include <CGAL/Mixed_mesh_3/internal/base/compatibility.h>
 #include <CGAL/Mixed_mesh_3/internal/base/compiled.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Sheet_oracle_3.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Triangle_tree.h>
 
 #include <CGAL/AABB_tree.h>
-#include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -32,14 +33,10 @@ namespace internal {
 struct Sheet_oracle_3::Trees
 {
   using Triangles = std::vector<Kernel::Triangle_3>;
-  using Doubles = CGAL::Simple_cartesian<double>;
-  using Triangles_of_doubles = std::vector<Doubles::Triangle_3>;
 
   Triangles triangles;
   CGAL::AABB_tree<AABB_triangle_traits<Kernel, Triangles::const_iterator>> tree;
-  // for closest points, on which no decision depends that rounding could make wrong
-  Triangles_of_doubles triangles_of_doubles;
-  CGAL::AABB_tree<AABB_triangle_traits<Doubles, Triangles_of_doubles::const_iterator>> tree_of_doubles;
+  std::optional<Triangle_tree> closest;
 };
 
 CGAL_MIXED_MESH_3_INLINE void Sheet_oracle_3::Delete_trees::operator()(Trees* trees) const { delete trees; }
@@ -74,6 +71,7 @@ CGAL_MIXED_MESH_3_INLINE void Sheet_oracle_3::build(const std::vector<Vec3>& poi
     if(found.second == 1)
       is_at_rim[edge.first] = is_at_rim[edge.second] = true;
   m_trees.reset(new Trees());
+  std::vector<std::array<Vec3, 3>> corners;
   for(std::size_t f = 0; f < triangles.size(); ++f) {
     Triangle& triangle = m_triangles[f];
     for(std::size_t i = 0; i < 3; ++i) {
@@ -85,17 +83,13 @@ CGAL_MIXED_MESH_3_INLINE void Sheet_oracle_3::build(const std::vector<Vec3>& poi
     }
     const auto& p = triangle.points;
     const auto point = [&](std::size_t i) { return Point_3(p[i][0], p[i][1], p[i][2]); };
-    const auto of_doubles = [&](std::size_t i) { return Trees::Doubles::Point_3(p[i][0], p[i][1], p[i][2]); };
     m_trees->triangles.emplace_back(point(0), point(1), point(2));
-    m_trees->triangles_of_doubles.emplace_back(of_doubles(0), of_doubles(1), of_doubles(2));
+    corners.push_back(p);
     m_bbox += m_trees->triangles.back().bbox();
   }
   m_trees->tree.insert(m_trees->triangles.cbegin(), m_trees->triangles.cend());
   m_trees->tree.build();
-  m_trees->tree_of_doubles.insert(m_trees->triangles_of_doubles.cbegin(),
-                                  m_trees->triangles_of_doubles.cend());
-  m_trees->tree_of_doubles.do_not_accelerate_distance_queries();
-  m_trees->tree_of_doubles.build();
+  m_trees->closest.emplace(corners);
 }
 
 CGAL_MIXED_MESH_3_INLINE double Sheet_oracle_3::area() const
@@ -108,7 +102,7 @@ CGAL_MIXED_MESH_3_INLINE double Sheet_oracle_3::area() const
 
 CGAL_MIXED_MESH_3_INLINE bool Sheet_oracle_3::may_intersect(const Bbox_3& box) const
 {
-  return CGAL::do_overlap(box, m_bbox) && m_trees->tree_of_doubles.do_intersect(box);
+  return CGAL::do_overlap(box, m_bbox) && m_trees->tree.do_intersect(box);
 }
 
 CGAL_MIXED_MESH_3_INLINE bool Sheet_oracle_3::do_intersect(const Point_3& p, const Point_3& q) const
@@ -118,23 +112,21 @@ CGAL_MIXED_MESH_3_INLINE bool Sheet_oracle_3::do_intersect(const Point_3& p, con
 
 CGAL_MIXED_MESH_3_INLINE Sheet_oracle_3::Point_3 Sheet_oracle_3::closest_point(const Point_3& p) const
 {
-  return closest_point(p, m_trees->triangles.front()[0]);
+  const Vec3 q = m_trees->closest->closest(to_vec3(p)).point;
+  return Point_3(q[0], q[1], q[2]);
 }
 
 CGAL_MIXED_MESH_3_INLINE Sheet_oracle_3::Point_3 Sheet_oracle_3::closest_point(const Point_3& p,
                                                                                const Point_3& hint) const
 {
-  const auto q = m_trees->tree_of_doubles.closest_point({p.x(), p.y(), p.z()},
-                                                        {hint.x(), hint.y(), hint.z()});
-  return Point_3(q.x(), q.y(), q.z());
+  const Vec3 q = m_trees->closest->closest(to_vec3(p), {to_vec3(hint), 0}).point;
+  return Point_3(q[0], q[1], q[2]);
 }
 
 CGAL_MIXED_MESH_3_INLINE Sheet_location Sheet_oracle_3::locate(const Point_3& p) const
 {
-  const Trees::Doubles::Point_3 place(p.x(), p.y(), p.z());
-  const auto found = m_trees->tree_of_doubles.closest_point_and_primitive(place);
-  const Triangle& t = m_triangles[std::size_t(found.second - m_trees->triangles_of_doubles.cbegin())];
-  const Vec3 q = to_vec3(found.first);
+  const auto [q, triangle] = m_trees->closest->closest(to_vec3(p));
+  const Triangle& t = m_triangles[triangle];
   // Which corners it is on the edge between, or at.
   constexpr double nearly_0 = 1e-9;
   const Vec3 area = cross(t.points[1] - t.points[0], t.points[2] - t.points[0]);

@@ -179,7 +179,7 @@ public:
   /// The closest point of the surface; faster if `hint`, a point of the surface, is near.
   Point_3 closest_point(const Point_3& p, const Point_3& hint) const;
 
-  /// The closest point of the surface, by a search that starts at its closest vertex.
+  /// The closest point of the surface.
   Point_3 closest_point(const Point_3& p) const;
 
   /// Points of the surface, such that none of its points is farther than about `spacing` from one of them:

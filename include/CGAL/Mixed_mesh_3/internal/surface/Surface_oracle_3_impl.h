@@ -10,16 +10,13 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
-#include <CGAL/Mixed_mesh_3/internal/base/compatibility.h>
 #include <CGAL/Mixed_mesh_3/internal/base/compiled.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/shell_counts.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Triangle_tree.h>
 
-#include <CGAL/AABB_tree.h>
-#include <CGAL/Cartesian_converter.h>
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Side_of_triangle_mesh.h>
-#include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <boost/property_map/property_map.hpp>
@@ -59,16 +56,10 @@ struct Surface_oracle_3::Trees
   using Side_of_surface = CGAL::Side_of_triangle_mesh<Surface, Kernel>;
   using Tree = Side_of_surface::AABB_tree; // its traits have another name in each CGAL version
 
-  // For closest points, on which no decision depends that rounding could make wrong: half as fast again.
-  using Doubles = CGAL::Simple_cartesian<double>;
-  using Triangles = std::vector<Doubles::Triangle_3>;
-  using Tree_of_doubles = CGAL::AABB_tree<AABB_triangle_traits<Doubles, Triangles::const_iterator>>;
-
   Surface surface;
   Tree tree;
   std::optional<Side_of_surface> side_of_surface;
-  Triangles triangles;
-  Tree_of_doubles tree_of_doubles;
+  std::optional<Triangle_tree> triangles;
 };
 
 CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::Delete_trees::operator()(Trees* trees) const { delete trees; }
@@ -92,11 +83,10 @@ Surface_oracle_3::build(const std::vector<Point_3>& points,
   m_trees->tree.insert(faces(s).first, faces(s).second, s, get(CGAL::vertex_point, std::as_const(s)));
   m_trees->tree.build();
   m_trees->side_of_surface.emplace(m_trees->tree);
-  const CGAL::Cartesian_converter<Kernel, Trees::Doubles> to_doubles;
+  std::vector<std::array<Vec3, 3>> corners;
   for(const Triangle_3& t : m_triangles)
-    m_trees->triangles.push_back(to_doubles(t));
-  m_trees->tree_of_doubles.insert(m_trees->triangles.cbegin(), m_trees->triangles.cend());
-  m_trees->tree_of_doubles.build();
+    corners.push_back({to_vec3(t[0]), to_vec3(t[1]), to_vec3(t[2])});
+  m_trees->triangles.emplace(corners);
   count_shells(points, triangles);
 }
 
@@ -140,7 +130,7 @@ Surface_oracle_3::count_shells(const std::vector<Point_3>& points,
 CGAL_MIXED_MESH_3_INLINE double Surface_oracle_3::area() const
 {
   double sum = 0;
-  for(const Trees::Doubles::Triangle_3& t : m_trees->triangles)
+  for(const Triangle_3& t : m_triangles)
     sum += std::sqrt(t.squared_area());
   return sum;
 }
@@ -148,8 +138,8 @@ CGAL_MIXED_MESH_3_INLINE double Surface_oracle_3::area() const
 CGAL_MIXED_MESH_3_INLINE double Surface_oracle_3::volume() const
 {
   double sum = 0;
-  const Trees::Doubles::Point_3 o = m_trees->triangles.front()[0];
-  for(const Trees::Doubles::Triangle_3& t : m_trees->triangles)
+  const Point_3 o = m_triangles.front()[0];
+  for(const Triangle_3& t : m_triangles)
     sum += CGAL::volume(o, t[0], t[1], t[2]);
   return std::abs(sum);
 }
@@ -180,7 +170,7 @@ CGAL_MIXED_MESH_3_INLINE Sharp_edges Surface_oracle_3::sharp_edges(double angle)
 CGAL_MIXED_MESH_3_INLINE Axis_parallel_planes Surface_oracle_3::axis_parallel_planes() const
 {
   Axis_parallel_planes planes;
-  for(const Trees::Doubles::Triangle_3& t : m_trees->triangles) {
+  for(const Triangle_3& t : m_triangles) {
     int k = 0;
     while(k < 3 && !(t[0][k] == t[1][k] && t[0][k] == t[2][k]))
       ++k;
@@ -199,15 +189,14 @@ CGAL_MIXED_MESH_3_INLINE Bounded_side Surface_oracle_3::bounded_side(const Point
 CGAL_MIXED_MESH_3_INLINE Surface_oracle_3::Point_3 Surface_oracle_3::closest_point(const Point_3& p,
                                                                                    const Point_3& hint) const
 {
-  const auto q = m_trees->tree_of_doubles.closest_point({p.x(), p.y(), p.z()},
-                                                        {hint.x(), hint.y(), hint.z()});
-  return Point_3(q.x(), q.y(), q.z());
+  const Vec3 q = m_trees->triangles->closest(to_vec3(p), {to_vec3(hint), 0}).point;
+  return Point_3(q[0], q[1], q[2]);
 }
 
 CGAL_MIXED_MESH_3_INLINE Surface_oracle_3::Point_3 Surface_oracle_3::closest_point(const Point_3& p) const
 {
-  const auto q = m_trees->tree_of_doubles.closest_point({p.x(), p.y(), p.z()});
-  return Point_3(q.x(), q.y(), q.z());
+  const Vec3 q = m_trees->triangles->closest(to_vec3(p)).point;
+  return Point_3(q[0], q[1], q[2]);
 }
 
 CGAL_MIXED_MESH_3_INLINE std::vector<Surface_oracle_3::Point_3>

@@ -17,9 +17,8 @@
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Triangle_tree.h>
 
-#include <CGAL/Side_of_triangle_mesh.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/assertions.h>
 #include <CGAL/squared_distance_3.h>
 
@@ -69,21 +68,24 @@ Triangle_soup boundary_triangles(const Mesh& mesh)
   return soup;
 }
 
+/// The corners of the triangles.
+inline std::vector<std::array<Vec3, 3>> corners(const Triangle_soup& soup)
+{
+  std::vector<std::array<Vec3, 3>> result;
+  for(const auto& t : soup.triangles)
+    result.push_back({to_vec3(soup.points[t[0]]), to_vec3(soup.points[t[1]]), to_vec3(soup.points[t[2]])});
+  return result;
+}
+
 /// Nearest points on the triangles of a soup.
 class Nearest_triangle
 {
-  using Kernel = Predicates_kernel;
-  using Point_3 = Kernel::Point_3;
-  using Surface = CGAL::Surface_mesh<Point_3>;
-  using Tree = CGAL::Side_of_triangle_mesh<Surface, Kernel>::AABB_tree; // see Surface_oracle_3
+  using Point_3 = Predicates_kernel::Point_3;
 
-  Surface m_surface;
-  std::vector<Kernel::Triangle_3> m_triangles;
-  Tree m_tree;
-  Tree::Point_and_primitive_id m_start;
+  Triangle_tree m_tree;
 
 public:
-  using Hint = Tree::Point_and_primitive_id;
+  using Hint = Triangle_tree::Closest;
 
   /// A point, the nearest point of the soup, and where that is.
   struct Query
@@ -91,38 +93,28 @@ public:
     Point_3 point;
     Hint nearest;
     double distance;
-    std::size_t triangle() const { return std::size_t(nearest.second); }
   };
 
-  explicit Nearest_triangle(const Triangle_soup& soup)
-  {
-    // Without connectivity, so that any set of triangles is a surface.
-    for(const auto& t : soup.triangles) {
-      const Point_3 &a = soup.points[t[0]], &b = soup.points[t[1]], &c = soup.points[t[2]];
-      m_surface.add_face(m_surface.add_vertex(a), m_surface.add_vertex(b), m_surface.add_vertex(c));
-      m_triangles.emplace_back(a, b, c);
-    }
-    m_tree.insert(faces(m_surface).first, faces(m_surface).second, m_surface,
-                  get(CGAL::vertex_point, std::as_const(m_surface)));
-    m_tree.do_not_accelerate_distance_queries(); // hints serve better
-    m_tree.build();
-    m_start = {m_triangles.front()[0], *faces(m_surface).first};
-  }
-  Nearest_triangle(const Nearest_triangle&) = delete; // the tree keeps the address of the surface
-  Nearest_triangle& operator=(const Nearest_triangle&) = delete;
+  /// \pre not empty
+  explicit Nearest_triangle(const Triangle_soup& soup) : m_tree(corners(soup)) {}
 
-  const Hint& start() const { return m_start; }
+  Query operator()(const Point_3& p) const { return query(p, m_tree.closest(to_vec3(p))); }
 
   /// \param hint a point of the soup; faster if it is near
   Query operator()(const Point_3& p, const Hint& hint) const
   {
-    const Hint nearest = m_tree.closest_point_and_primitive(p, hint);
-    return {p, nearest, std::sqrt(CGAL::squared_distance(p, nearest.first))};
+    return query(p, m_tree.closest(to_vec3(p), hint));
   }
 
   double distance(const Point_3& p, std::size_t triangle) const
   {
-    return std::sqrt(CGAL::squared_distance(p, m_triangles[triangle]));
+    return query(p, m_tree.closest(to_vec3(p), triangle)).distance;
+  }
+
+private:
+  static Query query(const Point_3& p, const Hint& nearest)
+  {
+    return {p, nearest, norm(nearest.point - to_vec3(p))};
   }
 };
 
@@ -157,8 +149,8 @@ inline One_sided_distance one_sided_distance(const Triangle_soup& soup, const Ne
   using Vertices = std::array<std::size_t, 3>;
   std::vector<Query> queries;
   std::size_t farthest = 0;
-  const auto add = [&](const Predicates_kernel::Point_3& p, const Nearest_triangle::Hint& hint) {
-    queries.push_back(target(p, hint));
+  const auto add = [&](const Query& query) {
+    queries.push_back(query);
     if(queries.back().distance > queries[farthest].distance)
       farthest = queries.size() - 1;
     return queries.size() - 1;
@@ -179,9 +171,10 @@ inline One_sided_distance one_sided_distance(const Triangle_soup& soup, const Ne
     for(std::size_t i : v) {
       double largest = 0;
       for(std::size_t j : v) {
-        const bool is_nearest = queries[j].triangle() == queries[i].triangle();
-        largest = (std::max)(largest, is_nearest ? queries[j].distance
-                                                 : target.distance(queries[j].point, queries[i].triangle()));
+        const std::size_t nearest = queries[i].nearest.triangle;
+        largest = (std::max)(largest, queries[j].nearest.triangle == nearest
+                                        ? queries[j].distance
+                                        : target.distance(queries[j].point, nearest));
       }
       bound = (std::min)(bound, largest);
     }
@@ -194,7 +187,7 @@ inline One_sided_distance one_sided_distance(const Triangle_soup& soup, const Ne
   for(const Vertices& t : soup.triangles)
     for(std::size_t v : t)
       if(query_of_point[v] == none)
-        query_of_point[v] = add(soup.points[v], queries.empty() ? target.start() : queries.back().nearest);
+        query_of_point[v] = add(target(soup.points[v]));
   for(const Vertices& t : soup.triangles)
     add_piece({query_of_point[t[0]], query_of_point[t[1]], query_of_point[t[2]]},
               std::numeric_limits<double>::infinity());
@@ -211,14 +204,14 @@ inline One_sided_distance one_sided_distance(const Triangle_soup& soup, const Ne
       std::swap(a, c);
     if(squared_length(a, c) > squared_length(a, b))
       std::swap(b, c);
-    const std::size_t m = add(CGAL::midpoint(queries[a].point, queries[b].point), queries[a].nearest);
+    const std::size_t m = add(target(CGAL::midpoint(queries[a].point, queries[b].point), queries[a].nearest));
     add_piece({a, m, c}, piece.bound);
     add_piece({m, b, c}, piece.bound);
   }
   const Query& q = queries[farthest];
   // Pieces left out are within the limit there was, which has only grown.
   const double bound = pieces.empty() ? limit() : (std::max)(limit(), pieces.top().bound);
-  return {q.distance, bound - q.distance, q.point, q.nearest.first};
+  return {q.distance, bound - q.distance, q.point, rounded_point(q.nearest.point)};
 }
 
 } // namespace internal

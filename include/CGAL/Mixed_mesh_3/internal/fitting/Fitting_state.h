@@ -1,0 +1,332 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The state that the passes of the optimization share: the mesh, what draws its boundary, and who has
+// arrived.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_FITTING_STATE_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_FITTING_STATE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Optimization_effort.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Surface_tolerances.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_optimizer.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/surface_attraction.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Strata.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/flips.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Sharp_features.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
+#include <CGAL/Mixed_mesh_optimization_criteria_3.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// The quality bound of the criteria, a little less: a cost within it in doubles is within the bound exactly.
+/// The relative error of the cost of an element near to the default bound is some 1e-13.
+inline double bound_for_doubles(const Mixed_mesh_optimization_criteria_3& criteria)
+{
+  return (1 - 1e-10) * criteria.quality_bound();
+}
+
+/// Which liberties a run of the optimization takes.
+struct Fitting_mode
+{
+  /// Every step keeps the quality bound. Else elements may exceed it on the way, and are mended in the end.
+  bool keeps_bound = false;
+  /// Boundary vertices are not drawn to places that are too far, which are measured only; edges are bisected
+  /// late.
+  bool is_calm = false;
+};
+
+/*!
+Vertices of the boundary are *underway* until they have *arrived* on the surface; those that are *held* stay
+where they are. Interfaces between subdomains are brought onto their surfaces like the boundary.
+
+The passes are functions of this state. They change elements only by the moves, and call `update_boundary()`
+after they have changed faces of the boundary.
+
+\tparam Quality a model of `MixedMeshQuality_3`
+*/
+template <class Quality>
+struct Fitting_state
+{
+  using Criteria = Mixed_mesh_optimization_criteria_3;
+  using Moves = Vertex_optimizer<Quality, Surface_projection>;
+  using Flipper = Tetrahedron_flipper<Quality>;
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  // Costs are ratios, 1 for the ideal element: no limit of a cost has a unit. Such limits decide how soon and
+  // how far bad elements are tolerated, never whether a mesh is valid: that each move proves. Once the
+  // boundary has arrived, nothing gets worse than this one, for the sake of the tolerance for example.
+  static constexpr double acceptable_in_the_end = 3;
+  static constexpr int sweeps_to_follow = 2; // of inner vertices, after the boundary has moved
+  // No half of a bisected tetrahedron may cost more.
+  static constexpr double worst_half = 3.2;
+
+  const Any_surface& domain;
+  const Criteria& criteria;
+  const Quality& quality;
+  Fitting_mode mode;
+  Strata strata;
+  Surface_projection project;
+  Interface_faces boundary; // interfaces, too
+  Working_mesh mesh;
+  const Optimization_effort effort;
+  Moves moves;
+  const std::map<Subdomain_index, double> mean_edge_lengths; // of interfaces, by the first subdomain
+  const Surface_tolerances tolerances;
+  const std::vector<Surface_sample> samples;
+  Surface_attraction<Surface_projection> attraction;
+  const Sharp_features* features = nullptr;
+  std::vector<std::pair<Vertex_index, Vec3>> underway; // with their targets
+  std::vector<std::uint8_t> is_arrived;
+  std::vector<std::uint8_t> is_held;
+  // Positions at which no faces cut each other: at the start, then the last time that was seen; and which
+  // vertices had arrived. New vertices are given those between the ends of their edges.
+  std::vector<Vec3> simple_points;
+  std::vector<std::uint8_t> simple_is_arrived;
+  std::vector<Vec3> feature_places; // where vertices start to look for their targets, if there are features
+  Mixed_mesh_optimization_result_3 result;
+
+  Fitting_state(const Core_mesh& start, const Any_surface& surface, const Criteria& c, const Quality& q,
+                const Fitting_mode& m)
+    : domain(surface), criteria(c), quality(q), mode(m), strata(domain), project(domain, strata),
+      boundary(strata.sorted_faces(start)),
+      mesh(start, strata.of_vertices(start.number_of_vertices(), boundary)), effort(mesh.points.size()),
+      moves(mesh, quality, project, criteria.sliding_threshold(), bound_on_way()),
+      mean_edge_lengths(measure_edges()), tolerances(enlarged_tolerances()), samples(surface_samples()),
+      attraction(mesh, project, samples, Concurrency::number_of_threads(criteria)),
+      is_arrived(mesh.points.size(), 0), is_held(mesh.points.size(), 0), simple_points(mesh.points),
+      simple_is_arrived(mesh.points.size(), 0)
+  {
+    attract_boundary();
+    moves.set_notable_gain(effort.notable_gain);
+    moves.set_steps(effort.first_step, effort.step_growth);
+    if(effort.samples_coarsely)
+      attraction.sample_coarsely();
+    if(effort.moves_by_colors)
+      moves.use_colors(Concurrency::number_of_threads(criteria));
+    if(effort.layers > 0)
+      moves.set_good_enough_inside(acceptable_in_the_end, effort.layers);
+  }
+
+  Fitting_state(const Fitting_state&) = delete; // members refer to each other
+  Fitting_state& operator=(const Fitting_state&) = delete;
+
+  double bound_in_the_end() const { return bound_for_doubles(criteria); }
+  double bound_on_way() const { return mode.keeps_bound ? bound_in_the_end() : infinity; }
+  bool has_bound() const { return criteria.quality_bound() < infinity; }
+
+  Subdomain_index first_subdomain(Stratum of_face) const { return strata.interfaces(of_face)[0].first; }
+
+  /// After faces of the boundary have changed.
+  void update_boundary()
+  {
+    boundary = mesh.interface_faces(strata);
+    attract_boundary();
+  }
+
+  /// All distances will be measured again.
+  void attract_boundary()
+  {
+    attraction.set_boundary(without_sheets(), [this](Stratum s) { return tolerances(first_subdomain(s)); });
+  }
+
+  /// Room for vertices that the mesh has more than before.
+  /// \param have_arrived whether they are on the surface
+  void add_vertices(bool have_arrived)
+  {
+    is_arrived.resize(mesh.points.size(), have_arrived);
+    simple_is_arrived.resize(mesh.points.size(), 0);
+    is_held.resize(mesh.points.size(), 0);
+    moves.add_vertices();
+  }
+
+  /// The boundary vertices underway go on.
+  void advance(double acceptable)
+  {
+    underway.erase(std::remove_if(underway.begin(), underway.end(),
+                                  [&](const auto& u) { return move_to(u.first, u.second, acceptable); }),
+                   underway.end());
+  }
+
+  /// A vertex that does not reach its target may reach the surface where it has come near to it.
+  void choose_new_targets()
+  {
+    for(auto& [v, target] : underway)
+      target = project(mesh.points[v], target, mesh.strata[v]);
+  }
+
+  /// Moves a vertex to its target, or a part of the way.
+  /// \return whether it has arrived
+  bool move_to(Vertex_index v, const Vec3& target, double acceptable)
+  {
+    if(moves.try_move(v, target, acceptable)) {
+      if(!project.is_reached(target, mesh.strata[v]))
+        return false;
+      moves.release(v);
+      is_arrived[v] = 1;
+      ++result.number_of_arrived_vertices;
+      return true;
+    }
+    const Vec3 p = mesh.points[v];
+    for(double share : {0.5, 0.25, 0.1})
+      if(moves.try_move(v, p + share * (target - p), acceptable))
+        break;
+    return false;
+  }
+
+  /// The boundary vertices that have not arrived, underway or not.
+  std::vector<Vertex_index> vertices_off() const
+  {
+    std::vector<Vertex_index> off;
+    for(Vertex_index v = 0; v < mesh.points.size(); ++v)
+      if(mesh.is_on_boundary(v) && !is_arrived[v])
+        off.push_back(v);
+    return off;
+  }
+
+  /// A vertex gives up the sharp edge or corner that it was to be on.
+  void leave_feature(Vertex_index v)
+  {
+    mesh.strata[v] = boundary_stratum;
+    for(auto e = mesh.sharp_edges.begin(); e != mesh.sharp_edges.end();)
+      e = e->first.first == v || e->first.second == v ? mesh.sharp_edges.erase(e) : std::next(e);
+  }
+
+  std::size_t flip(Flipper& flipper, double power, double worst)
+  {
+    const std::size_t removals = flipper.number_of_removals();
+    const std::size_t flips = flipper.run(power, worst, [&](Vertex_index v) { moves.activate(v); });
+    if(flipper.number_of_removals() != removals)
+      update_boundary();
+    return flips;
+  }
+
+  /// The vertices of faces of the boundary that cut each other, ascending.
+  std::vector<Vertex_index> crossing_vertices() const
+  {
+    // interfaces can not cut anything where no element is inverted
+    std::vector<Face> faces;
+    for(std::size_t f = 0; f < boundary.faces.size(); ++f)
+      if(strata.is_on_boundary(boundary.strata[f]))
+        faces.push_back(boundary.faces[f]);
+    return vertices_of_self_intersections(mesh.points, faces);
+  }
+
+  /// \return the number of vertices of faces that cut each other; if it is 0, all positions are remembered
+  std::size_t remember_if_simple()
+  {
+    const std::size_t crossing = crossing_vertices().size();
+    if(crossing == 0) {
+      simple_points = mesh.points;
+      simple_is_arrived = is_arrived;
+    }
+    return crossing;
+  }
+
+  /// Positions, and what has been achieved with them.
+  struct Snapshot
+  {
+    std::vector<Vec3> points;
+    std::vector<std::uint8_t> is_arrived;
+    std::vector<std::pair<Vertex_index, Vec3>> underway;
+    std::size_t number_of_arrived_vertices;
+    typename Moves::Freedom freedom;
+  };
+
+  Snapshot snapshot() const
+  {
+    return {mesh.points, is_arrived, underway, result.number_of_arrived_vertices, moves.freedom()};
+  }
+
+  /// \pre the elements are those of the snapshot
+  void restore(const Snapshot& s)
+  {
+    mesh.points = s.points;
+    is_arrived = s.is_arrived;
+    underway = s.underway;
+    result.number_of_arrived_vertices = s.number_of_arrived_vertices;
+    moves.set_freedom(s.freedom);
+    moves.forget_costs();
+    moves.activate_all();
+  }
+
+private:
+  // The faces that are on a surface. Distant places of a surface do not draw sheets.
+  Interface_faces without_sheets() const
+  {
+    if(!domain.has_sheets())
+      return boundary;
+    Interface_faces rest;
+    for(std::size_t f = 0; f < boundary.faces.size(); ++f)
+      if(!strata.is_on_sheet(boundary.strata[f])) {
+        rest.faces.push_back(boundary.faces[f]);
+        rest.strata.push_back(boundary.strata[f]);
+      }
+    return rest;
+  }
+
+  std::map<Subdomain_index, double> measure_edges() const
+  {
+    std::map<Subdomain_index, std::pair<double, std::size_t>> edges; // sum of lengths, number
+    for(std::size_t f = 0; f < boundary.faces.size(); ++f) {
+      const Face_vertices& v = boundary.faces[f].vertices();
+      auto& [sum, number] = edges[first_subdomain(boundary.strata[f])];
+      for(int i = 0; i < v.size(); ++i, ++number)
+        sum += norm(mesh.points[v[i]] - mesh.points[v[(i + 1) % v.size()]]);
+    }
+    std::map<Subdomain_index, double> means;
+    for(const auto& [index, sum] : edges)
+      means[index] = sum.first / double(sum.second);
+    return means;
+  }
+
+  // At the start; 0 where there is none.
+  double mean_edge_length(Subdomain_index first) const
+  {
+    const auto found = mean_edge_lengths.find(first);
+    return found == mean_edge_lengths.end() ? 0 : found->second;
+  }
+
+  // A distance of less than a tenth of an edge is the curvature of the surface: no sliding brings it nearer.
+  Surface_tolerances enlarged_tolerances() const
+  {
+    Surface_tolerances t(domain, criteria.tolerance(), mesh.points.size());
+    t.enlarge([this](Subdomain_index first) { return 0.1 * mean_edge_length(first); });
+    return t;
+  }
+
+  // Much closer samples than the boundary's vertices could not draw these to different places.
+  std::vector<Surface_sample> surface_samples() const
+  {
+    if(!(criteria.tolerance() > 0))
+      return {};
+    return tolerances.samples(domain, [this](Subdomain_index first) { return mean_edge_length(first) / 6; });
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_FITTING_STATE_H

@@ -1,0 +1,104 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The first pass: the boundary arrives on the surface, as far as validity and quality allow.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_ARRIVE_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_ARRIVE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/internal/fitting/Fitting_state.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/follow_sharp_edges.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// Boundary vertices that are not held get targets on the surface.
+template <class Quality>
+void set_targets(Fitting_state<Quality>& s)
+{
+  const Surface_targets targets = surface_targets(s.boundary.faces, s.mesh.points, s.project, s.mesh.strata,
+                                                  s.feature_places);
+  s.result.number_of_boundary_vertices = targets.vertices.size();
+  for(std::size_t i = 0; i < targets.vertices.size(); ++i) {
+    const Vertex_index v = targets.vertices[i];
+    if(s.is_held[v])
+      continue;
+    // a vertex that is on the surface stays, even if its faces are folded
+    const Vec3& p = s.mesh.points[v];
+    const Vec3 q = s.project(p, targets.positions[i], s.mesh.strata[v]);
+    const bool is_there = norm(q - p) <= 1e-14 * (norm(p) + norm(targets.positions[i] - p));
+    s.underway.emplace_back(v, is_there ? p : targets.positions[i]);
+  }
+}
+
+/// The vertices stay where they are, and are underway no more.
+template <class Quality>
+void leave_behind(Fitting_state<Quality>& s, const std::vector<Vertex_index>& vertices)
+{
+  for(Vertex_index v : vertices)
+    s.moves.fix(v);
+  s.underway.erase(std::remove_if(s.underway.begin(), s.underway.end(),
+                                  [&](const auto& u) {
+                                    return std::binary_search(vertices.begin(), vertices.end(), u.first);
+                                  }),
+                   s.underway.end());
+}
+
+/// Each boundary vertex goes to its target, all the way or a part of it, as far as validity and quality
+/// allow; then the inner vertices give way, and the next round follows.
+/// \return whether it was not stopped
+template <class Quality>
+bool arrive(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
+{
+  // While the boundary arrives, elements may become that bad; in each round more, as a vertex that does not
+  // arrive gently shall arrive nevertheless: from 4, 15 rounds lead to 100. A smaller limit leaves more
+  // vertices off the surface, a larger one worse elements.
+  constexpr double acceptable_at_first = 4, acceptable_growth = 1.25, acceptable_at_most = 100;
+  constexpr int rounds = 40, rounds_for_features = 25, rounds_until_new_target = 8, rounds_until_check = 2;
+
+  set_targets(s);
+  // Small steps are checked: vertices whose faces would cut others are left behind. Not without a bound:
+  // where elements may get that bad, too many would.
+  const bool is_careful = s.mode.is_calm && s.has_bound() && s.crossing_vertices().empty();
+  auto simple = s.snapshot();
+  double acceptable = acceptable_at_first;
+  for(int round = 0; round < rounds && !s.underway.empty(); ++round) {
+    if(!go_on())
+      return false;
+    s.advance(acceptable);
+    s.moves.run(4, s.effort.good_enough_to_arrive, s.sweeps_to_follow);
+    if(is_careful && (round % rounds_until_check == rounds_until_check - 1 || s.underway.empty())) {
+      const std::vector<Vertex_index> crossing = s.crossing_vertices();
+      if(!crossing.empty()) {
+        s.restore(simple);
+        leave_behind(s, crossing);
+      }
+      simple = s.snapshot();
+    }
+    acceptable = (std::min)(acceptable_growth * acceptable, acceptable_at_most);
+    if(round % rounds_until_new_target == rounds_until_new_target - 1)
+      s.choose_new_targets();
+    if(s.features && round >= rounds_for_features && (round - rounds_for_features) % 3 == 0)
+      give_up_features(s, round > rounds_for_features);
+  }
+  return true;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_ARRIVE_H

@@ -1,0 +1,121 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Sharp edges of the surface: paths of edges of the boundary are laid along them, given up where they do not
+// fit, and measured in the end.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_FOLLOW_SHARP_EDGES_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_FOLLOW_SHARP_EDGES_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/internal/fitting/Fitting_state.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/feature_paths.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// Chooses the paths of edges that are to follow the sharp edges.
+template <class Quality>
+void lay_feature_paths(Fitting_state<Quality>& s)
+{
+  const Surface_targets targets = surface_targets(s.boundary.faces, s.mesh.points, s.project, s.mesh.strata);
+  s.feature_places = s.mesh.points;
+  for(std::size_t i = 0; i < targets.vertices.size(); ++i)
+    s.feature_places[targets.vertices[i]] = targets.positions[i];
+  Feature_paths paths(s.mesh, s.quality, *s.features, s.boundary, s.feature_places, s.is_held,
+                      (std::min)(s.worst_half, s.bound_on_way()), s.criteria.number_of_bisections());
+  paths();
+  s.feature_places = paths.places();
+  const std::size_t number = paths.bisected().size();
+  s.result.number_of_bisections += number;
+  s.add_vertices(false);
+  for(Vertex_index v = Vertex_index(s.mesh.points.size() - number); v < s.mesh.points.size(); ++v) {
+    s.simple_points.push_back(s.mesh.points[v]);
+    s.moves.fix(v);
+  }
+  s.update_boundary();
+}
+
+/// Vertices that do not reach their sharp edge shall be on the surface at least.
+/// \param beside also vertices that have reached theirs, where one beside them does not reach the surface
+template <class Quality>
+void give_up_features(Fitting_state<Quality>& s, bool beside)
+{
+  for(const auto& [v, target] : s.underway)
+    if(s.mesh.strata[v] >= first_sharp_stratum)
+      s.leave_feature(v);
+    else if(beside)
+      for(Element_index e : s.mesh.incident[v])
+        for(Vertex_index u : s.mesh.elements[e])
+          if(s.mesh.strata[u] >= first_sharp_stratum)
+            s.leave_feature(u);
+  s.choose_new_targets();
+}
+
+/// The arc length of a vertex along its polyline, or at the corner that it is on.
+template <class Quality>
+double arc_length(const Fitting_state<Quality>& s, Vertex_index v, const Feature_polyline& polyline)
+{
+  const std::size_t first_corner = first_sharp_stratum + s.features->polylines().size();
+  return s.mesh.strata[v] < first_corner                          ? polyline.closest(s.mesh.points[v]).length
+         : s.mesh.strata[v] - first_corner == polyline.corners[0] ? 0
+                                                                  : polyline.length();
+}
+
+/// The length of the part of its polyline that an edge is near to.
+/// \pre both ends have arrived
+template <class Quality>
+double length_kept(const Fitting_state<Quality>& s, const Working_mesh::Edge& edge,
+                   const Feature_polyline& polyline)
+{
+  constexpr int samples = 16;
+  constexpr double near_enough = 0.05; // in lengths of the edge
+  const Vec3 &p = s.mesh.points[edge.first], along = s.mesh.points[edge.second] - p;
+  const double first = arc_length(s, edge.first, polyline), last = arc_length(s, edge.second, polyline);
+  double kept = 0;
+  for(int i = 0; i < samples; ++i) {
+    const Vec3 q = polyline.at(first + (i + 0.5) / samples * (last - first)) - p;
+    const double share = (std::min)((std::max)(dot(q, along) / dot(along, along), 0.), 1.);
+    if(norm(q - share * along) <= near_enough * norm(along))
+      kept += std::abs(last - first) / samples;
+  }
+  return kept;
+}
+
+/// The result says what of the sharp edges and corners the mesh has kept.
+template <class Quality>
+void measure_features(Fitting_state<Quality>& s)
+{
+  const auto& polylines = s.features->polylines();
+  Mixed_mesh_optimization_result_3& result = s.result;
+  result.length_of_sharp_edges = s.features->length();
+  result.length_of_sharp_edges_kept = 0;
+  for(const auto& [edge, stratum] : s.mesh.sharp_edges)
+    if(s.is_arrived[edge.first] && s.is_arrived[edge.second])
+      result.length_of_sharp_edges_kept += length_kept(s, edge, polylines[stratum - first_sharp_stratum]);
+  result.number_of_corners = result.number_of_corners_kept = 0;
+  for(std::size_t c = 0; c < s.features->corners().size(); ++c)
+    result.number_of_corners += s.features->is_real_corner(c);
+  const std::size_t first_corner = first_sharp_stratum + polylines.size();
+  for(Vertex_index v = 0; v < s.mesh.points.size(); ++v)
+    if(s.mesh.strata[v] >= first_corner && s.is_arrived[v])
+      result.number_of_corners_kept += s.features->is_real_corner(s.mesh.strata[v] - first_corner);
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_FOLLOW_SHARP_EDGES_H

@@ -1,0 +1,81 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The main pass: moves and flips alternate, edges are bisected, and far places draw the boundary.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_IMPROVE_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_IMPROVE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/internal/fitting/Fitting_state.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/bisect_boundary.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// Moves and flips alternate, first for all elements, then for the worst ones.
+/// \return whether it was not stopped
+template <class Quality>
+bool improve(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
+{
+  using Criteria = Mixed_mesh_optimization_criteria_3;
+  struct Phase
+  {
+    double power, worth_flipping, weight; // of what draws
+  };
+  constexpr Phase phases[2] = {{4, 1.2, 1}, {8, 1.4, 16}};
+  constexpr double share_of_first_phase = 0.6;
+  constexpr double acceptable = 10; // to those that arrive late
+
+  const bool has_tolerance = s.criteria.tolerance() > 0 && !s.mode.is_calm;
+  const int rounds = (has_tolerance || s.features ? s.criteria : Criteria(s.criteria).tolerance(0))
+                       .number_of_rounds_for(s.mesh.points.size());
+  const int second_phase = int(share_of_first_phase * rounds + 0.5);
+  const int first_bisection = s.mode.is_calm ? second_phase : 0,
+            last_bisection = s.mode.is_calm ? second_phase : rounds / 4; // of what is far yet
+  // many short rounds, so that boundary vertices can follow what draws them
+  const bool is_patient = rounds > 6;
+  const int rounds_to_flip = is_patient ? 3 : 1;
+  typename Fitting_state<Quality>::Flipper flipper(s.mesh, s.quality, s.bound_on_way());
+  s.moves.set_bound((std::min)(s.acceptable_in_the_end, s.bound_on_way()));
+  for(int round = 0; round < rounds; ++round) {
+    if(!go_on())
+      return false;
+    if(has_tolerance && round % rounds_to_flip == rounds_to_flip - 1)
+      s.remember_if_simple();
+    const int phase = round < second_phase ? 0 : 1;
+    const auto [power, worth_flipping, weight] = phases[phase];
+    if(s.criteria.flips() && round % rounds_to_flip == 0)
+      s.result.number_of_flips += s.flip(flipper, power, worth_flipping);
+    s.choose_new_targets();
+    s.advance(acceptable);
+    if(round == 0 || round == second_phase)
+      s.moves.activate_all();
+    if(has_tolerance) {
+      s.attraction.measure();
+      s.moves.attract(s.attraction.attractions(weight));
+    }
+    s.moves.run(power, s.effort.good_enough[phase], is_patient ? 3 : s.effort.sweeps[phase]);
+    if(round == first_bisection)
+      bisect_boundary(s);
+    if(round == last_bisection)
+      bisect_far_edges(s, s.criteria.number_of_bisections() - s.result.number_of_bisections, 4);
+    ++s.result.number_of_rounds;
+  }
+  return true;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_IMPROVE_H

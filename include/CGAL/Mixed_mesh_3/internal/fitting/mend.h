@@ -1,0 +1,89 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The pass after which no element is above the quality bound.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_MEND_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_MEND_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/internal/fitting/Fitting_state.h>
+
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// A round of steps at a power at which the worst elements count, within the bound in the end.
+template <class Quality>
+void improve_worst(Fitting_state<Quality>& s, typename Fitting_state<Quality>::Flipper& flipper, int round)
+{
+  constexpr int rounds_until_flips = 3;
+  constexpr double power = 16, goal = 0.8; // of the bound
+  const double bound = s.bound_in_the_end();
+  if(s.criteria.flips() && round % rounds_until_flips == 0)
+    s.result.number_of_flips += s.flip(flipper, power, goal * bound);
+  s.moves.reset_steps();
+  s.moves.run(power, goal * bound, s.sweeps_to_follow);
+  s.choose_new_targets();
+  s.advance(bound);
+}
+
+/// A boundary vertex may leave the surface, and comes back where it can.
+template <class Quality>
+void leave_surface(Fitting_state<Quality>& s, Vertex_index v)
+{
+  if(s.is_arrived[v]) {
+    s.is_arrived[v] = 0;
+    --s.result.number_of_arrived_vertices;
+    s.underway.emplace_back(v, s.mesh.points[v]);
+  }
+  s.moves.loosen(v);
+}
+
+// Rounds of improving the worst elements: with all boundary vertices on the surface, then, if there are sharp
+// edges, without those, then with vertices off the surface.
+constexpr int mending_rounds_on_surface = 6, mending_rounds_of_features = 6, mending_rounds_off_surface = 18;
+
+/// Elements above the bound get better at the cost of those around them; where that does not help, boundary
+/// vertices leave the surface, and come back where it has helped.
+/// \return whether a vertex was moved
+template <class Quality>
+bool mend(Fitting_state<Quality>& s)
+{
+  // Of all vertices: a mesh with a larger share of vertices of such elements is not worth it.
+  constexpr double worth_mending = 0.1, worth_mending_features = 0.3;
+  const double bound = s.bound_in_the_end();
+  std::vector<Vertex_index> bad = s.moves.vertices_above(bound);
+  const double worth = s.features ? worth_mending_features : worth_mending;
+  if(s.mode.keeps_bound || bad.empty() || double(bad.size()) > worth * double(s.mesh.points.size()))
+    return false;
+  typename Fitting_state<Quality>::Flipper flipper(s.mesh, s.quality, bound);
+  s.moves.attract({});
+  s.moves.set_bound(bound);
+  const int off_surface = mending_rounds_on_surface + (s.features ? mending_rounds_of_features : 0);
+  for(int round = 0; round < off_surface + mending_rounds_off_surface && !bad.empty(); ++round) {
+    for(Vertex_index v : bad) {
+      if(round >= mending_rounds_on_surface && s.mesh.strata[v] >= first_sharp_stratum)
+        s.leave_feature(v);
+      else if(round >= off_surface && s.mesh.is_on_boundary(v))
+        leave_surface(s, v);
+      s.moves.activate_around(v);
+    }
+    improve_worst(s, flipper, round);
+    bad = s.moves.vertices_above(bound);
+  }
+  return true;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_MEND_H

@@ -1,0 +1,120 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The pass that merges boundary vertices that can not get to the surface with those beside them.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_MERGE_VERTICES_OFF_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_MERGE_VERTICES_OFF_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/internal/fitting/Fitting_state.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/mend.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/merge_boundary_vertices.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <set>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+// Pairs of a vertex and the one that it shall not be merged with, or of a vertex and itself if it shall not
+// move.
+using Failed_merges = std::set<Working_mesh::Edge>;
+
+/// Merges each vertex off the surface with one beside it; the others are underway then.
+/// \return the pairs
+template <class Quality>
+std::vector<Working_mesh::Edge> merge_with_neighbors(Fitting_state<Quality>& s,
+                                                     Boundary_vertex_merger<Quality>& merger,
+                                                     const Failed_merges& failed)
+{
+  std::vector<Working_mesh::Edge> merged;
+  s.underway.clear();
+  for(Vertex_index v : s.vertices_off()) {
+    if(s.is_held[v])
+      continue;
+    const Vec3 place = s.project(s.mesh.points[v], s.mesh.strata[v]);
+    const Vertex_index w = merger(v, place, [&](Vertex_index u) { return failed.count({v, u}) == 0; });
+    if(w != no_vertex) {
+      s.leave_feature(v);
+      s.mesh.strata[v] = free_stratum;
+      s.moves.fix(v);
+      s.moves.activate_around(w);
+      --s.result.number_of_boundary_vertices;
+      ++s.result.number_of_merged_vertices;
+      merged.emplace_back(v, w);
+    } else if(failed.count({v, v}) == 0) {
+      s.underway.emplace_back(v, place);
+    }
+  }
+  if(!merged.empty())
+    s.update_boundary();
+  return merged;
+}
+
+/// If elements are above the bound after a round of merges, or faces cut each other, all goes back, and other
+/// merges are tried.
+/// \return whether it was not stopped
+template <class Quality>
+bool merge_vertices_off(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
+{
+  constexpr int rounds = 24;
+  // A merge that makes elements so many times worse than the bound would not be mended.
+  constexpr double worth_merging = 100;
+  const double bound = s.bound_in_the_end();
+  Boundary_vertex_merger<Quality> merger(s.mesh, s.quality, worth_merging * bound);
+  typename Fitting_state<Quality>::Flipper flipper(s.mesh, s.quality, bound);
+  Failed_merges failed;
+  s.moves.attract({});
+  s.moves.set_bound(bound);
+  if(!s.moves.vertices_above(bound).empty())
+    return true; // they would not get better
+  for(int round = 0; round < rounds && !s.vertices_off().empty(); ++round) {
+    if(!go_on())
+      return false;
+    const auto simple = s.snapshot();
+    const Working_mesh mesh = s.mesh;
+    const Mixed_mesh_optimization_result_3 result = s.result;
+    const std::vector<Working_mesh::Edge> merged = merge_with_neighbors(s, merger, failed);
+    if(merged.empty())
+      break;
+    for(int i = 0; i < mending_rounds_on_surface; ++i)
+      improve_worst(s, flipper, i);
+    const std::vector<Vertex_index> crossing = s.crossing_vertices();
+    std::vector<Vertex_index> bad = s.moves.vertices_above(bound);
+    if(bad.empty() && crossing.empty())
+      continue;
+    bad.insert(bad.end(), crossing.begin(), crossing.end());
+    std::sort(bad.begin(), bad.end());
+    const std::size_t before = failed.size();
+    for(Vertex_index v : crossing)
+      if(!simple.is_arrived[v])
+        failed.insert({v, v});
+    for(const Working_mesh::Edge& edge : merged)
+      if(std::binary_search(bad.begin(), bad.end(), edge.second))
+        failed.insert(edge);
+    if(failed.size() == before)
+      failed.insert(merged.begin(), merged.end());
+    s.mesh = mesh;
+    s.result = result;
+    s.restore(simple);
+    s.moves.forget_elements();
+    s.update_boundary();
+  }
+  return true;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_MERGE_VERTICES_OFF_H

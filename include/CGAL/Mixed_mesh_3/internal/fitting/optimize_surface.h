@@ -1,0 +1,124 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The optimization as a list of passes.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_OPTIMIZE_SURFACE_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_OPTIMIZE_SURFACE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/internal/fitting/Fitting_state.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/arrive.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/follow_sharp_edges.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/improve.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/mend.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/merge_vertices_off.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/retreat.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/return_to_surface.h>
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// What a run of the optimization has achieved; the mesh itself is changed.
+struct Fitting_outcome
+{
+  Mixed_mesh_optimization_result_3 result;
+  std::vector<Vertex_index> crossing; ///< vertices of boundary faces that cut each other in the end
+  bool is_calm;                       ///< by its mode, or as much of the boundary did not arrive
+};
+
+/// The passes that finish a boundary that does not cut itself.
+/// \return whether they were not stopped
+template <class Quality>
+bool finish(Fitting_state<Quality>& s, std::vector<Vertex_index>& crossing,
+            const std::function<bool()>& go_on)
+{
+  if(mend(s))
+    crossing = retreat_from_self_intersections(s);
+  if(!crossing.empty())
+    return true;
+  return_to_surface(s);
+  return !s.criteria.flips() || s.domain.has_sheets() || merge_vertices_off(s, go_on);
+}
+
+template <class Quality>
+void set_status(Fitting_state<Quality>& s, bool is_stopped)
+{
+  using Status = Mixed_mesh_optimization_status;
+  Mixed_mesh_optimization_result_3& r = s.result;
+  const bool is_fitted = r.number_of_arrived_vertices == r.number_of_boundary_vertices
+                         && r.is_boundary_simple;
+  r.status = is_stopped                                    ? Status::STOPPED
+             : !is_fitted                                  ? Status::NOT_ALL_ARRIVED
+             : r.largest_distance > s.criteria.tolerance() ? Status::TOLERANCE_NOT_REACHED
+                                                           : Status::SUCCESS;
+}
+
+/*!
+Runs all passes once.
+
+\param features sharp edges that paths of the boundary's edges are to follow; may be empty
+\param is_held boundary vertices that stay where they are, for each vertex whether it does
+*/
+template <class Quality>
+Fitting_outcome optimize_surface(Core_mesh& mesh, const Any_surface& domain,
+                                 const Mixed_mesh_optimization_criteria_3& criteria, const Quality& quality,
+                                 const Fitting_mode& mode, const Sharp_features& features,
+                                 const std::vector<std::uint8_t>& is_held, const std::function<bool()>& go_on)
+{
+  // Of the boundary vertices: where more have not arrived after the first pass, those that draw the others
+  // would be in their way, and take most of the time.
+  constexpr double max_share_underway = 0.02;
+  // Of the boundary vertices: where faces of more of them cut each other after the first pass (four surfaces
+  // of CGAL's demos, 10 % and more), a run within the bound is better, and takes a third of the time.
+  constexpr double max_share_crossing = 0.07;
+
+  Fitting_state<Quality> s(mesh, domain, criteria, quality, mode);
+  s.is_held = is_held;
+  s.project.set_features(features);
+  if(!features.empty()) {
+    s.features = &features;
+    lay_feature_paths(s);
+  }
+  bool goes_on = arrive(s, go_on);
+  if(goes_on) {
+    const double crossing = double(s.remember_if_simple()),
+                 boundary = double(s.result.number_of_boundary_vertices);
+    if(crossing > max_share_crossing * boundary && s.has_bound() && !mode.keeps_bound) {
+      s.result.is_boundary_simple = false; // only small steps lead to a boundary that does not cut itself
+      s.result.status = Mixed_mesh_optimization_status::NOT_ALL_ARRIVED;
+      return {s.result, {}, true};
+    }
+    s.mode.is_calm = s.mode.is_calm || double(s.underway.size()) > max_share_underway * boundary;
+    goes_on = improve(s, go_on);
+  }
+  std::vector<Vertex_index> crossing = retreat_from_self_intersections(s);
+  if(goes_on && crossing.empty())
+    goes_on = finish(s, crossing, go_on);
+  if(criteria.tolerance() > 0) {
+    s.attract_boundary(); // all distances are measured again
+    s.attraction.measure();
+    s.result.largest_distance = s.attraction.largest_distance();
+  }
+  if(s.features)
+    measure_features(s);
+  s.mesh.store(mesh);
+  set_status(s, !goes_on);
+  return {s.result, std::move(crossing), s.mode.is_calm};
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_OPTIMIZE_SURFACE_H

@@ -1,0 +1,59 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The pass after which no faces of the boundary cut each other.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_RETREAT_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_RETREAT_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/internal/fitting/Fitting_state.h>
+
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// Faces between vertices on the surface may meet where the surface comes near to itself. Their vertices go
+/// back towards where no faces met, on the surface if they were there already, until none meet.
+/// \return the vertices of faces that still cut each other, ascending
+template <class Quality>
+std::vector<Vertex_index> retreat_from_self_intersections(Fitting_state<Quality>& s)
+{
+  constexpr int rounds = 24, sweeps = 2;
+  constexpr double acceptable = 1000;
+  std::vector<Vertex_index> crossing = s.crossing_vertices();
+  for(int round = 0; round < rounds && !crossing.empty(); ++round) {
+    const double share = round < rounds / 2 ? 0.25 : 1;
+    for(Vertex_index v : crossing) {
+      const bool stays = s.is_arrived[v] && s.simple_is_arrived[v];
+      const Vec3 p = s.mesh.points[v], back = p + share * (s.simple_points[v] - p);
+      const Vec3 place = share == 1 ? s.simple_points[v]
+                         : stays    ? s.project(back, p, s.mesh.strata[v])
+                                    : back;
+      if(!s.moves.try_move(v, place, acceptable))
+        continue;
+      s.moves.fix(v);
+      if(!stays) {
+        s.result.number_of_arrived_vertices -= s.is_arrived[v];
+        s.is_arrived[v] = 0;
+      }
+    }
+    s.moves.run(8, s.effort.good_enough[1], sweeps);
+    crossing = s.crossing_vertices();
+  }
+  s.result.is_boundary_simple = crossing.empty();
+  return crossing;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_RETREAT_H

@@ -1,0 +1,200 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The state that the steps of the method share.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_MESHING_STATE_H
+#define CGAL_MIXED_MESH_3_INTERNAL_MESHING_MESHING_STATE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/boundary/assemble_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/boundary/lost_cells.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/Candidate.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/Misfit.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/Tolerance_search.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/base_level.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/place_lattice.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/Refinement_sequence.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/Any_visitor.h>
+#include <CGAL/Mixed_mesh_criteria_3.h>
+#include <CGAL/Mixed_mesh_result_3.h>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// The octree on its way to the budget, the mesh of it on the lattice, and what is known of both. The steps
+/// of the method are functions of this state.
+struct Meshing_state
+{
+  const Mixed_mesh_criteria_3& criteria;
+  Any_visitor& visitor;
+  const Located_octree root; // with nothing but its root
+  Located_octree octree;
+  const double radius; // of the region
+  const Lattice_on_surface lattice;
+  Candidate best;
+  std::vector<Octree::Node_index> lost;
+  std::optional<Located_octree> thin_start;  // walls and gaps are resolved
+  std::optional<Located_octree> right_start; // on the way there, the topology was right
+  bool are_gaps_wider = false;
+  bool keeps_topology = false; // while the budget is filled
+  bool is_stopped = false;     // by the visitor, which is not asked again then
+  double quality_bound;        // in force: larger than that of the criteria where walls need it
+  Mixed_mesh_result_3 result;
+  Tolerance_search tolerance_search;
+
+  /// \param r the octree with nothing but its root
+  Meshing_state(const Located_octree& r, const Mixed_mesh_criteria_3& c, Any_visitor& v)
+    : criteria(c), visitor(v), root(r), octree(root), radius(mean_radius_of_region(root)),
+      lattice(root.cell_traits().lattice_on_surface()), quality_bound(criteria.quality_bound()),
+      tolerance_search(root, criteria, visitor, result)
+  {
+  }
+
+  Meshing_state(const Meshing_state&) = delete; // the search refers to members
+  Meshing_state& operator=(const Meshing_state&) = delete;
+
+  bool may_resolve_thin_parts() const
+  {
+    return criteria.thin_parts() == Thin_parts::WHERE_NEEDED && root.domain().subdomain_indices().size() == 1;
+  }
+
+  /// Of the budget, for vertices that bisect edges of the boundary.
+  double share_of_bisections() const
+  {
+    return criteria.share_of_bisections_for(root.domain().subdomain_indices().size());
+  }
+
+  bool has_quality_bound() const
+  {
+    return criteria.quality_bound() < std::numeric_limits<double>::infinity();
+  }
+
+  /// The number of vertices that the octree may have; the rest is for the optimization.
+  std::size_t budget() const
+  {
+    const std::size_t n = criteria.maximal_number_of_vertices();
+    return n - std::size_t(share_of_bisections() * double(n));
+  }
+
+  /// The edge of the cubes that the vertices of the budget have to serve.
+  double mean_edge() const
+  {
+    return std::cbrt(volume_of_domain(root) / double(criteria.maximal_number_of_vertices()));
+  }
+
+  int coarsest_level() const { return (std::max)(first_base_level(criteria), lattice.level); }
+
+  bool go_on()
+  {
+    is_stopped = is_stopped || !visitor.go_on();
+    return !is_stopped;
+  }
+
+  /// The mesh of an octree on the lattice, with gaps widened if they are to be.
+  Candidate try_octree(const Located_octree& o)
+  {
+    Candidate c;
+    c.is_stopped = is_stopped;
+    if(is_stopped)
+      return c;
+    c = make_candidate(o, criteria, visitor, are_gaps_wider ? Gap_rule::NORMALS : Gap_rule::NONE);
+    is_stopped = c.is_stopped;
+    bool is_wrong = (are_gaps_wider || keeps_topology) && c.number_of_vertices > 0
+                    && misfit_on_lattice(o, c, 0).is_topology_wrong();
+    if(are_gaps_wider && is_wrong) {
+      Candidate other = make_candidate(o, criteria, visitor, Gap_rule::LINES);
+      is_stopped = other.is_stopped;
+      result.number_of_trials += !other.is_stopped;
+      if(!is_stopped && other.number_of_vertices > 0 && other.is_manifold()
+         && !misfit_on_lattice(o, other, 0).is_topology_wrong()) {
+        c = std::move(other);
+        is_wrong = false;
+      }
+    }
+    c.is_topology_wrong = keeps_topology && is_wrong;
+    result.number_of_trials += !c.is_stopped;
+    return c;
+  }
+
+  /// The octree and its mesh become the best.
+  void take(Located_octree o, Candidate candidate)
+  {
+    octree = std::move(o);
+    best = std::move(candidate);
+    lost = lost_cells(octree, best.mesh, best.boundary);
+    result.number_of_cells = octree.number_of_cells();
+  }
+
+  /// The octree and its mesh on the lattice; the boundary is not fitted yet.
+  struct Snapshot
+  {
+    Located_octree octree;
+    Candidate best;
+    std::vector<Octree::Node_index> lost;
+    Mixed_mesh_result_3 result;
+    bool are_gaps_wider;
+  };
+
+  Snapshot snapshot() const { return {octree, best, lost, result, are_gaps_wider}; }
+
+  void restore(Snapshot s)
+  {
+    octree = std::move(s.octree);
+    best = std::move(s.best);
+    lost = std::move(s.lost);
+    result = s.result;
+    are_gaps_wider = s.are_gaps_wider;
+  }
+
+  /// The misfit of the best, whose boundary is not fitted.
+  Misfit misfit_on_lattice() const
+  {
+    return best.number_of_vertices == 0 ? Misfit::of_no_mesh() : misfit_on_lattice(octree, best, lost.size());
+  }
+
+  Misfit misfit_on_lattice(const Located_octree& o, const Candidate& candidate, std::size_t number_lost) const
+  {
+    Core_mesh mesh;
+    assemble_mesh(o, candidate.mesh, candidate.boundary, mesh);
+    return Misfit(mesh, root.domain(), false, number_lost, 0, 0);
+  }
+
+  Misfit misfit_of(const Core_mesh& mesh) const
+  {
+    if(mesh.number_of_elements() == 0)
+      return Misfit::of_no_mesh();
+    const double tolerance = criteria.tolerance(), distance = result.optimization.largest_distance;
+    return Misfit(mesh, root.domain(), criteria.fit_to_surface(), result.number_of_lost_cells, number_off(),
+                  tolerance > 0 ? distance / tolerance - 1 : 0);
+  }
+
+  /// The number of boundary vertices of the mesh optimized last that are not on the surface.
+  std::size_t number_off() const
+  {
+    const Mixed_mesh_optimization_result_3& fit = result.optimization;
+    return fit.number_of_boundary_vertices - fit.number_of_arrived_vertices;
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_MESHING_MESHING_STATE_H

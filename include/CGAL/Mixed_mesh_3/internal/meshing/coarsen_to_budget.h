@@ -1,0 +1,265 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A finer mesh than the budget allows, whose topology is right, is coarsened to the budget.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_COARSEN_TO_BUDGET_H
+#define CGAL_MIXED_MESH_3_INTERNAL_MESHING_COARSEN_TO_BUDGET_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/internal/fitting/coarsen.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/make_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/thin_cells.h>
+#include <CGAL/Mixed_mesh_3/quality_bound.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+// How many times the budget a mesh may have that is coarsened to it: where more is wrong than the distance,
+// and else.
+constexpr double finer_multiple = 20, finer_multiple_for_distance = 5;
+
+/// Finds an octree with which the topology is right, with cells as small as walls and gaps ask for, or with
+/// all cells at the surface smaller. It becomes the best.
+/// \param least number of its vertices
+/// \return whether there is one
+inline bool find_finer_octree(Meshing_state& s, std::size_t least, std::size_t most, bool only_thin)
+{
+  const Stage_scope scope(s.visitor, Stage::OCTREE);
+  constexpr double cells_for_a_vertex = 2; // at most, nearly
+  Located_octree octree = s.root;
+  s.are_gaps_wider = only_thin;
+  if(!refine_to_level(octree, s.coarsest_level(), most))
+    return false;
+  for(int level = s.coarsest_level(); level < Octree::max_level; ++level) {
+    std::vector<Octree::Node_index> leaves;
+    if(only_thin)
+      leaves = thin_cells(octree, level, 1);
+    else
+      for(Octree::Node_index n : octree.leaves_to_refine(level, false))
+        if(octree.side(n) == ON_BOUNDARY)
+          leaves.push_back(n);
+    if(leaves.empty())
+      continue;
+    octree.refine(leaves);
+    if(double(octree.number_of_cells()) > cells_for_a_vertex * double(most))
+      return false;
+    Candidate candidate = s.try_octree(octree);
+    if(candidate.is_stopped || candidate.number_of_vertices > most)
+      return false;
+    if(candidate.number_of_vertices < least || !candidate.is_manifold()
+       || s.misfit_on_lattice(octree, candidate, 0).is_topology_wrong())
+      continue;
+    s.take(std::move(octree), std::move(candidate));
+    return true;
+  }
+  return false;
+}
+
+/// The tetrahedra of the octree's mesh, with most of the boundary on the surface.
+inline Core_mesh roughly_fitted_mesh(Meshing_state& s)
+{
+  constexpr double tolerated_off = 0.2; // share of the boundary vertices: those off the surface go first
+  Core_mesh fine;
+  {
+    const Stage_scope scope(s.visitor, Stage::ASSEMBLY);
+    Core_mesh mixed;
+    assemble_mesh(s.octree, s.best.mesh, s.best.boundary, mixed);
+    fine = split_to_tetrahedra(mixed);
+  }
+  const Stage_scope scope(s.visitor, Stage::OPTIMIZATION);
+  const auto rough = Mixed_mesh_optimization_criteria_3()
+                       .quality_bound(s.quality_bound)
+                       .sharp_angle(s.criteria.sharp_angle())
+                       .number_of_rounds(1);
+  optimize_bounded(
+    fine, s.root.domain(), Concurrency::with_threads(rough, Concurrency::number_of_threads(s.criteria)),
+    Aspect_ratio_quality_3(), [&s] { return s.go_on(); }, tolerated_off);
+  return fine;
+}
+
+/// Removes vertices of a mesh of tetrahedra.
+/// \return whether it has so few then
+inline bool coarsen_to(Meshing_state& s, Core_mesh& mesh, std::size_t number_of_vertices,
+                       Coarsening_goal goal = Coarsening_goal::SHAPE)
+{
+  const double radius = s.root.is_region_everywhere() ? 0 : s.criteria.grading() * s.radius;
+  return coarsen(
+           mesh, s.root.domain(), number_of_vertices, s.quality_bound, radius, [&s] { return s.go_on(); },
+           goal)
+         && !s.is_stopped;
+}
+
+/// Removes the boundary vertices off the surface, if they are few, and optimizes the mesh again.
+/// \param status before the optimization
+inline void remove_vertices_off(Meshing_state& s, Core_mesh& mesh, Mixed_mesh_status status)
+{
+  const std::size_t off = s.number_off();
+  if(off == 0 || s.is_stopped || !s.result.has_mesh())
+    return;
+  Core_mesh other = mesh;
+  const Mixed_mesh_result_3 result = s.result;
+  s.result.status = status;
+  s.result.number_of_collapsed_vertices += off;
+  if(coarsen_to(s, other, mesh.number_of_vertices() - off))
+    optimize_boundary(s, other);
+  if(!s.is_stopped && other.number_of_vertices() > 0 && s.number_off() < off)
+    mesh = std::move(other);
+  else
+    s.result = result;
+}
+
+/// The number of vertices of elements in the region.
+inline std::size_t number_of_vertices_in_region(const Core_mesh& mesh)
+{
+  std::vector<std::uint8_t> is_in_region(mesh.number_of_vertices(), 0);
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
+    if(mesh.attributes(e).is_in_region)
+      for(Vertex_index v : mesh.element(e))
+        is_in_region[v] = 1;
+  return std::size_t(std::count(is_in_region.begin(), is_in_region.end(), 1));
+}
+
+/// Makes a mesh with the vertices of the budget out of a finer one.
+/// \param mesh empty; stays so if edges that may be collapsed do not suffice
+inline void coarsen_and_optimize(Meshing_state& s, const Core_mesh& fine, Coarsening_goal goal,
+                                 Core_mesh& mesh)
+{
+  const Stage_scope scope(s.visitor, Stage::OPTIMIZATION);
+  Core_mesh coarse = fine;
+  if(s.is_stopped || !coarsen_to(s, coarse, s.budget(), goal))
+    return;
+  s.result.is_lattice_on_surface = false;
+  s.result.number_of_vertices_needed = coarse.number_of_vertices();
+  s.result.number_of_transition_vertices = s.result.number_of_boundary_vertices_inserted = 0;
+  s.result.number_of_vertices_in_region = number_of_vertices_in_region(coarse);
+  mesh = std::move(coarse);
+  s.result.number_of_collapsed_vertices = fine.number_of_vertices() - mesh.number_of_vertices();
+  const Mixed_mesh_status status = s.result.status;
+  optimize_boundary(s, mesh);
+  remove_vertices_off(s, mesh, status);
+  note_lost_cells(s, mesh);
+  note_share_filled(s, mesh.number_of_vertices());
+}
+
+/// Makes the mesh of an octree that is finer than the budget: once its boundary is on the surface, vertices
+/// are removed until the budget is met, by a rule that keeps the volume if one that keeps the shape has lost
+/// too much of it.
+inline void make_coarsened_mesh(Meshing_state& s, Core_mesh& mesh)
+{
+  mesh.clear();
+  describe_octree(s);
+  if(!s.result.has_mesh())
+    return;
+  const Core_mesh fine = roughly_fitted_mesh(s);
+  const Mixed_mesh_result_3 result = s.result;
+  coarsen_and_optimize(s, fine, Coarsening_goal::SHAPE, mesh);
+  if(s.is_stopped || !s.result.has_mesh())
+    return;
+  const Misfit first = s.misfit_of(mesh);
+  if(!first.is_volume_wrong())
+    return;
+  const Mixed_mesh_result_3 first_result = s.result;
+  s.result = result;
+  Core_mesh other;
+  coarsen_and_optimize(s, fine, Coarsening_goal::VOLUME, other);
+  if(!s.is_stopped && s.result.optimization.number_of_elements_above_bound == 0 && s.misfit_of(other) < first)
+    mesh = std::move(other);
+  else
+    s.result = first_result;
+}
+
+/// The best of several meshes.
+struct Best_mesh
+{
+  Misfit misfit;
+  Mixed_mesh_result_3 result;
+  std::optional<Core_mesh> mesh; // none if the first one is best
+
+  /// Makes the mesh of the octree, and takes it if it is better.
+  /// \param is_finer whether the octree is finer than the budget
+  void try_octree(Meshing_state& s, bool is_finer)
+  {
+    Core_mesh other;
+    if(is_finer)
+      make_coarsened_mesh(s, other);
+    else
+      make_mesh(s, other);
+    const Misfit of_other = s.misfit_of(other);
+    if(s.is_stopped || !(of_other < misfit))
+      return;
+    misfit = of_other;
+    result = s.result;
+    mesh = std::move(other);
+  }
+};
+
+/// Tries larger quality bounds with the octree as it is: into a thin wall only flatter elements fit, and
+/// topology, volume and arrival have precedence. The first bound that suffices is taken, so that elements are
+/// no flatter than needed.
+inline void try_flatter_elements(Meshing_state& s, bool is_finer, Best_mesh& best)
+{
+  constexpr std::array<double, 4> multiples{1.5, 2.25, 3.4, 5};
+  const double bound = s.criteria.quality_bound();
+  for(const double multiple : multiples) {
+    if(s.is_stopped || best.misfit.is_of_distance_only())
+      break;
+    s.quality_bound = multiple * bound;
+    best.try_octree(s, is_finer);
+  }
+  s.quality_bound = bound;
+  if(!best.mesh)
+    return;
+  best.result.optimization.quality_bound = bound;
+  best.result.optimization.number_of_elements_above_bound = number_of_elements_above(*best.mesh, bound);
+}
+
+/// Tries finer and finer octrees, until nothing is wrong with the coarsened mesh, then flatter elements. The
+/// best mesh is taken; if the run is stopped, the one that there was stays.
+inline void improve_by_finer_octree(Meshing_state& s, Core_mesh& mesh, Misfit& misfit)
+{
+  constexpr int most_trials = 3;
+  if(s.is_stopped || !s.criteria.fit_to_surface() || s.root.domain().has_sheets())
+    return;
+  const double multiple = misfit.is_of_distance_only() ? finer_multiple_for_distance : finer_multiple;
+  const std::size_t most = std::size_t(multiple * double(s.criteria.maximal_number_of_vertices()));
+  std::size_t least = s.budget() + s.budget() / 4;
+  const Mixed_mesh_result_3 result_before = s.result;
+  Best_mesh best{misfit, s.result, std::nullopt};
+  bool is_finer = false;
+  for(int trial = 0; trial < most_trials && !s.is_stopped && !best.misfit.is_right(); ++trial) {
+    if(!find_finer_octree(s, least, most, true) && !find_finer_octree(s, least, most, false))
+      break;
+    is_finer = true;
+    least = 2 * s.best.number_of_vertices;
+    best.try_octree(s, is_finer);
+  }
+  const bool may_be_flatter = s.has_quality_bound() && !s.criteria.is_quality_bound_strict();
+  if(may_be_flatter && (is_finer || best.misfit.is_topology_right())) // which no bound changes
+    try_flatter_elements(s, is_finer, best);
+  s.result = s.is_stopped ? result_before : best.result;
+  if(best.mesh && !s.is_stopped) {
+    mesh = std::move(*best.mesh);
+    misfit = best.misfit;
+  }
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_MESHING_COARSEN_TO_BUDGET_H

@@ -1,0 +1,105 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The smallest budget with which a mesh is within its tolerance.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_FEWEST_VERTICES_H
+#define CGAL_MIXED_MESH_3_INTERNAL_MESHING_FEWEST_VERTICES_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/run_stages.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/Any_visitor.h>
+#include <CGAL/Mixed_mesh_criteria_3.h>
+#include <CGAL/Mixed_mesh_result_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+constexpr std::size_t least_budget = 60; // with fewer, brains are no brains
+
+/// Whether a mesh is within the tolerance, and has topology and volume of the domain. Between the points
+/// where the distance is measured it is larger by up to a tenth.
+inline bool is_as_wanted(const Mixed_mesh_result_3& r)
+{
+  constexpr double share = 0.9;
+  return (r.status == Mixed_mesh_status::SUCCESS || r.status == Mixed_mesh_status::BUDGET_NOT_FILLED)
+         && r.optimization.largest_distance <= share * r.tolerance;
+}
+
+/// The budget that is tried first: a quarter of the one whose wish for a tolerance by default is that of the
+/// criteria, which is about what a brain takes.
+inline std::size_t first_budget(const Located_octree& root, const Mixed_mesh_criteria_3& criteria)
+{
+  constexpr double share = 0.25;
+  const double edge = criteria.tolerance() / share_of_edge_tolerated;
+  const double n = share * volume_of_domain(root) / (edge * edge * edge);
+  return std::size_t(std::clamp(n, double(least_budget), double(criteria.maximal_number_of_vertices())));
+}
+
+/*!
+Makes meshes with more and more vertices until one is as wanted, or with fewer and fewer until one is not, and
+with budgets in between, until the fewest that suffice are known to a tenth. The mesh with them is taken; if
+even the largest budget does not suffice, the mesh with that.
+
+\par Complexity
+Some six to ten meshes
+*/
+inline Mixed_mesh_result_3 run_with_fewest_vertices(const Located_octree& root,
+                                                    const Mixed_mesh_criteria_3& criteria,
+                                                    Any_visitor& visitor, Core_mesh& mesh)
+{
+  constexpr double step = 2, near_enough = 1.1;
+  const std::size_t most = criteria.maximal_number_of_vertices();
+  std::size_t enough = 0, too_few = 0, trials = 0; // 0: not known
+  std::size_t budget = first_budget(root, criteria);
+  Mixed_mesh_result_3 best;
+  for(;;) {
+    Core_mesh trial;
+    Mixed_mesh_result_3 result = run_stages(
+      root, Mixed_mesh_criteria_3(criteria).maximal_number_of_vertices(budget), visitor, trial);
+    result.number_of_budgets = ++trials;
+    if(result.status == Mixed_mesh_status::STOPPED && enough > 0)
+      return best;
+    const bool is_wanted = is_as_wanted(result);
+    if(is_wanted || enough == 0) {
+      best = result;
+      mesh = std::move(trial);
+    }
+    if(result.status == Mixed_mesh_status::STOPPED)
+      return best;
+    (is_wanted ? enough : too_few) = is_wanted ? (std::min)(budget, mesh.number_of_vertices()) : budget;
+    best.number_of_budgets = trials;
+    if(enough > 0 && too_few > 0) {
+      if(double(enough) <= near_enough * double(too_few))
+        return best;
+      budget = std::size_t(std::sqrt(double(enough) * double(too_few)));
+    } else if(enough > 0) {
+      if(enough <= least_budget)
+        return best;
+      budget = (std::max)(least_budget, std::size_t(double(enough) / step));
+    } else {
+      if(too_few >= most)
+        return best;
+      budget = (std::min)(most, std::size_t(step * double(too_few)));
+    }
+  }
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_MESHING_FEWEST_VERTICES_H

@@ -1,0 +1,166 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The octree becomes a mesh whose boundary is on the surface, with a result that says how it is.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_MAKE_MESH_H
+#define CGAL_MIXED_MESH_3_INTERNAL_MESHING_MAKE_MESH_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/optimize_bounded.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/Meshing_state.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/unreached_cells.h>
+#include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// The leaf of each vertex tells it; a query is asked only where the leaf meets the region's surface.
+inline std::size_t count_vertices_in_region(const Meshing_state& s)
+{
+  std::size_t count = 0;
+  for(Vertex_index v = 0; v < s.best.boundary.is_used.size(); ++v)
+    count += s.best.boundary.is_used[v]
+             && s.octree.is_in_region(s.best.mesh.vertices[v], s.best.mesh.leaves[v]);
+  return count;
+}
+
+/// The result says what the octree is like, and what is wrong with its mesh on the lattice.
+inline void describe_octree(Meshing_state& s)
+{
+  const Octree& octree = s.octree.octree();
+  bool meets_region = false;
+  for(Octree::Node_index n = 0; n < octree.size(); ++n)
+    if(octree.is_leaf(n) && s.octree.is_alive(n)) {
+      s.result.deepest_level = (std::max)(s.result.deepest_level, octree.level(n));
+      meets_region = meets_region || s.octree.is_in_region(n);
+    }
+  s.result.number_of_vertices_in_region = count_vertices_in_region(s);
+  const std::vector<std::uint8_t>& is_used = s.best.boundary.is_used;
+  s.result.number_of_transition_vertices = std::size_t(
+    std::count(is_used.begin() + std::ptrdiff_t(s.best.mesh.first_inserted_vertex),
+               is_used.end() - std::ptrdiff_t(s.best.boundary.number_of_inserted_vertices), 1));
+  s.result.number_of_boundary_vertices_inserted = s.best.boundary.number_of_inserted_vertices;
+  s.result.number_of_relabeled_vertices = s.best.boundary.number_of_relabeled_vertices;
+
+  using Status = Mixed_mesh_status;
+  const std::size_t n = s.best.number_of_vertices;
+  const auto note = [&s](bool is_so, Status status) {
+    if(is_so)
+      s.result.status = worse(s.result.status, status);
+  };
+  s.result.status = Status::SUCCESS;
+  note(s.result.number_of_vertices_needed > s.criteria.maximal_number_of_vertices(),
+       Status::BUDGET_TOO_SMALL);
+  note(n == 0, Status::EMPTY);
+  note(!meets_region, Status::REGION_NOT_MET);
+  note(!s.best.is_manifold(), Status::BOUNDARY_NOT_MANIFOLD);
+  if(s.tolerance_search.is_stopped() || s.best.is_stopped) {
+    s.result.is_kept = s.result.status < Status::BOUNDARY_NOT_MANIFOLD && s.criteria.keep_mesh_if_stopped();
+    s.result.status = Status::STOPPED;
+  }
+}
+
+/// Sheets are marked in the best mesh only, as they add no vertex.
+inline void mark_sheets(Meshing_state& s)
+{
+  if(!s.root.domain().has_sheets())
+    return;
+  s.best.boundary = split_boundary(s.octree, s.best.mesh, s.criteria.boundary_mode(),
+                                   Concurrency::number_of_threads(s.criteria),
+                                   Sheet_layer(s.octree, s.best.mesh));
+  s.result.number_of_lost_sheets = s.best.boundary.number_of_lost_sheets;
+  if(s.result.number_of_lost_sheets > 0)
+    s.result.status = worse(s.result.status, Mixed_mesh_status::PARTS_LOST);
+}
+
+/// The boundary is brought onto the surface, with the vertices that the budget has left.
+inline void optimize_boundary(Meshing_state& s, Core_mesh& mesh)
+{
+  s.visitor.before_fitting(mesh);
+  s.result.quality_bound = s.quality_bound;
+  const std::size_t rest = s.criteria.maximal_number_of_vertices() - mesh.number_of_vertices();
+  const auto criteria = Mixed_mesh_optimization_criteria_3()
+                          .tolerance(s.result.tolerance)
+                          .quality_bound(s.quality_bound)
+                          .sharp_angle(s.criteria.sharp_angle())
+                          .number_of_bisections(s.share_of_bisections() > 0 ? rest : 0);
+  const auto with_threads = Concurrency::with_threads(criteria, Concurrency::number_of_threads(s.criteria));
+  s.result.optimization = optimize_bounded(mesh, s.root.domain(), with_threads, Aspect_ratio_quality_3(),
+                                           [&s] { return s.go_on(); });
+  const bool is_only_wished = s.criteria.tolerance() == Mixed_mesh_criteria_3::automatic
+                              && s.result.optimization.status
+                                   == Mixed_mesh_optimization_status::TOLERANCE_NOT_REACHED;
+  if(!is_only_wished)
+    s.result.status = worse(s.result.status, status_of(s.result.optimization.status));
+  s.result.is_kept = s.result.status == Mixed_mesh_status::STOPPED && s.best.is_manifold()
+                     && s.criteria.keep_mesh_if_stopped();
+  if(!s.result.has_mesh())
+    mesh.clear();
+}
+
+/// Cells without elements are lost, except those that the boundary has come near to.
+inline void note_lost_cells(Meshing_state& s, const Core_mesh& mesh)
+{
+  const std::vector<Octree::Node_index> lost = s.criteria.fit_to_surface()
+                                                 ? unreached_cells(s.octree, s.lost, mesh, s.mean_edge())
+                                                 : s.lost;
+  s.result.number_of_lost_cells = lost.size();
+  s.result.lost_cells = Bbox_3();
+  for(Octree::Node_index n : lost)
+    s.result.lost_cells += s.root.domain().cell_box(s.octree.octree().corner(n), s.octree.octree().side(n));
+  if(!lost.empty())
+    s.result.status = worse(s.result.status, Mixed_mesh_status::PARTS_LOST);
+}
+
+/// A budget counts as filled if the mesh has most of it: of the whole one, or of the part that is not left
+/// over for a later optimization.
+inline void note_share_filled(Meshing_state& s, std::size_t n)
+{
+  const std::size_t whole = s.criteria.fit_to_surface() ? s.criteria.maximal_number_of_vertices()
+                                                        : s.budget();
+  if(double(n) < Mixed_mesh_criteria_3::full_share * double(whole))
+    s.result.status = worse(s.result.status, Mixed_mesh_status::BUDGET_NOT_FILLED);
+}
+
+/// Makes the mesh of the octree.
+inline void make_mesh(Meshing_state& s, Core_mesh& mesh)
+{
+  mesh.clear();
+  describe_octree(s);
+  if(!s.result.has_mesh())
+    return;
+  {
+    const Stage_scope scope(s.visitor, Stage::ASSEMBLY);
+    mark_sheets(s);
+    assemble_mesh(s.octree, s.best.mesh, s.best.boundary, mesh);
+    if(s.criteria.only_tetrahedra())
+      mesh = split_to_tetrahedra(mesh);
+  }
+  if(s.criteria.fit_to_surface() && !s.result.is_kept) {
+    const Stage_scope scope(s.visitor, Stage::OPTIMIZATION);
+    optimize_boundary(s, mesh);
+  }
+  note_lost_cells(s, mesh);
+  if(!s.result.is_lattice_on_surface)
+    note_share_filled(s, mesh.number_of_vertices());
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_MESHING_MAKE_MESH_H

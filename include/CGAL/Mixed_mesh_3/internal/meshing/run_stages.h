@@ -1,0 +1,87 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The method as a list of stages: octree, transitions, boundary, assembly, optimization.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_RUN_STAGES_H
+#define CGAL_MIXED_MESH_3_INTERNAL_MESHING_RUN_STAGES_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/internal/meshing/fill_budget.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/make_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/resolve_thin_parts.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// The tolerance by default, as a share of the edge of the cube that a vertex of the budget has to serve.
+constexpr double share_of_edge_tolerated = 0.42;
+
+/// The tolerance of the criteria, or by default one that the budget can serve. Smaller ones take too many
+/// vertices from the region, larger ones leave furrows unresolved: with 0.42 of an edge, brains of 660 to
+/// 10,000 vertices are nowhere farther than that from their surface, nearly.
+inline double chosen_tolerance(const Meshing_state& s)
+{
+  if(s.criteria.tolerance() != Mixed_mesh_criteria_3::automatic)
+    return s.criteria.tolerance();
+  return share_of_edge_tolerated * s.mean_edge();
+}
+
+/// The result says how topology and volume differ from those of the domain. A mesh that is not fitted has a
+/// larger volume; its status is left to the function that fits it.
+inline void note_misfit(Meshing_state& s, const Misfit& misfit)
+{
+  s.result.shells_of_domain = misfit.shells_of_domain();
+  s.result.shells = misfit.shells();
+  if(s.result.is_kept || !s.result.has_mesh() || !s.criteria.fit_to_surface())
+    return;
+  if(misfit.is_topology_wrong())
+    s.result.status = worse(s.result.status, Mixed_mesh_status::TOPOLOGY_DIFFERS);
+  else if(misfit.is_volume_wrong())
+    s.result.status = worse(s.result.status, Mixed_mesh_status::VOLUME_DIFFERS);
+}
+
+/// Makes the mesh, by the stages in their order: the octree is refined, and what follows is tried, until the
+/// budget is full.
+/// \param root the octree with nothing but its root
+inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Mixed_mesh_criteria_3& criteria,
+                                      Any_visitor& visitor, Core_mesh& mesh)
+{
+  Meshing_state s(root, criteria, visitor);
+  s.result.vertex_budget = criteria.maximal_number_of_vertices();
+  s.result.tolerance = chosen_tolerance(s);
+  {
+    const Stage_scope scope(visitor, Stage::OCTREE);
+    if(!fill_lattice(s)) {
+      if(s.result.tolerance > 0)
+        s.tolerance_search.run();
+      if(!s.tolerance_search.is_stopped()) {
+        if(criteria.thin_parts() == Thin_parts::FIRST)
+          resolve_thin_parts(s, true);
+        fill_budget(s);
+      }
+    }
+  }
+  Misfit misfit = Misfit::of_no_mesh();
+  if(!s.may_resolve_thin_parts() || !resolve_topology(s, mesh, misfit)) {
+    make_mesh(s, mesh);
+    misfit = s.misfit_of(mesh);
+    if(s.may_resolve_thin_parts())
+      improve_thin_parts(s, mesh, misfit);
+  }
+  note_misfit(s, misfit);
+  return s.result;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_MESHING_RUN_STAGES_H
