@@ -14,6 +14,7 @@
 #include <CGAL/Mixed_mesh_image_3/IO/Field_format.h>
 
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
@@ -37,15 +38,16 @@ struct Labeled_material
 
 struct Options
 {
-  std::string mesh, control_points, control_points_after, tumor, tumor_label, image, labels, output_image,
-    report, page, febio, command, up = "z", gravity = "0,0,0";
+  std::string mesh, control_points, control_points_after, landmarks, landmarks_after, tumor, tumor_label,
+    image, labels, output_image, report, page, febio, command, up = "z", gravity = "0,0,0";
   std::vector<std::string> outputs, deformed_outputs, material_texts;
   double fixed_below = 0.3, slide_below = 0, slide_beyond = std::numeric_limits<double>::infinity();
   // Patches of the boundary: closed surfaces, labels, and the names below.
   std::vector<std::string> fixed_patches, sliding_patches, touching_patches, openings;
   double density = 1.04, fluid_density = 1; // g/cm^3
   double fluid_level = std::numeric_limits<double>::infinity();
-  double max_distance = 5, compliance = 0, control_radius = 0;
+  double max_distance = 5, compliance = 0, landmark_compliance = 0, control_radius = 0;
+  std::size_t landmarks_given = 0; // the outermost ones; 0: as many as there should be
   bool corotational = false, leave_one_out = false, adapt = false;
   CGAL::Mixed_meshes_3::Elastic_material material; // of subdomains without one of their own
   CGAL::Mixed_meshes_3::Displacement_interpolation interpolation =
@@ -53,7 +55,8 @@ struct Options
   std::vector<CGAL::Mixed_meshes_3::IO::Field_format> field_formats;
   CGAL::Mixed_meshes_3::IO::Read_surface_options surface_options;
   bool quiet = false;
-  bool uses_petsc = false; // as solver
+  bool uses_petsc = false;                   // as solver
+  bool are_landmarks_control_points = false; // as there are no others
 
   // of the texts
   std::array<double, 3> up_direction{}, acceleration{};

@@ -106,6 +106,26 @@ struct Resection_facts
   Mesh_facts left;
 };
 
+/// Points that were measured before and after, and what methods that predict them leave, in mm: the point
+/// after less where a method puts it.
+struct Landmark_facts
+{
+  static constexpr const char* model = "model";
+  struct Errors
+  {
+    std::string method;
+    std::vector<std::optional<Vector>> left_out; // by all other landmarks; not if they do not determine it
+    std::vector<std::optional<Vector>> given;    // by those that are given; not of these
+  };
+  std::vector<Control_point> points;
+  Locations locations;
+  std::vector<double> depths; // distances from the boundary, negative outside
+  std::size_t number_given = 0;
+  std::vector<bool> is_given;
+  std::vector<Errors> errors;                  // the model comes last
+  std::optional<std::vector<Vector>> of_shift; // by control points that are not the landmarks
+};
+
 /// How PETSc solved.
 struct Petsc_facts
 {
@@ -122,6 +142,7 @@ struct Outcome
   std::optional<Surface_facts> tumor;
   std::optional<Image_facts> image;
   std::optional<CGAL::Mixed_mesh_adaptation_result_3> adaptation;
+  std::optional<Landmark_facts> landmarks;
   Supports supports;
   std::optional<Petsc_facts> petsc;
   Shift before; // the resection

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -21,7 +22,26 @@
 
 namespace control_points {
 
-static std::string_view trimmed(std::string_view text)
+static constexpr double largest_coordinate = 1e6; // mm
+
+void refuse(const std::string& path, const std::string& defect)
+{
+  throw std::runtime_error(path + ": " + defect);
+}
+
+std::ifstream opened(const std::string& path)
+{
+  std::error_code ignored; // opening it says more
+  if(std::filesystem::is_directory(path, ignored))
+    refuse(path, "is a directory");
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if(!file)
+    refuse(path, std::string("cannot be opened: ") + std::strerror(errno));
+  return file;
+}
+
+std::string_view trimmed(std::string_view text)
 {
   const char* const blanks = " \t\r";
   const std::size_t first = text.find_first_not_of(blanks);
@@ -69,62 +89,45 @@ std::string read_number(std::string_view text, double& x)
   return std::string();
 }
 
-} // namespace control_points
-
-namespace {
-
-constexpr double largest_coordinate = 1e6; // mm: nothing in a body is a kilometer away
-constexpr double least_weight = 1e-6;
-
-[[noreturn]] void refuse(const std::string& path, const std::string& defect)
+std::array<double, 3> difference(const std::array<double, 3>& p, const std::array<double, 3>& q)
 {
-  throw std::runtime_error(path + ": " + defect);
+  return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
 }
 
-std::ifstream opened(const std::string& path)
+std::string read_coordinate(std::string_view text, double& x)
 {
-  std::error_code ignored; // opening it says more
-  if(std::filesystem::is_directory(path, ignored))
-    refuse(path, "is a directory");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if(!file)
-    refuse(path, std::string("cannot be opened: ") + std::strerror(errno));
-  return file;
+  const std::string defect = read_number(text, x);
+  return defect.empty() && std::abs(x) > largest_coordinate ? quoted(text) + " mm is more than a kilometer"
+                                                            : defect;
 }
 
-} // namespace
-
-// The point of a line of the table.
-static Control_point point_of(const std::vector<std::string_view>& cells, std::size_t line,
-                              const std::function<void(const std::string&)>& refuse)
+static std::string joined(const std::vector<std::string>& headers)
 {
-  using namespace control_points;
-  Control_point point;
-  point.number = line;
-  for(std::size_t i = 0; i < cells.size(); ++i) {
-    double& x = i < 3 ? point.position[i] : i < 6 ? point.displacement[i - 3] : point.weight;
-    const std::string defect = read_number(cells[i], x);
-    if(!defect.empty())
-      refuse(defect);
-    if(i < 6 && std::abs(x) > largest_coordinate)
-      refuse(quoted(cells[i]) + " mm is more than a kilometer");
-  }
-  if(!(point.weight >= least_weight && point.weight <= 1 / least_weight))
-    refuse("the weight " + quoted(cells[6]) + " is not from 1e-6 to 1e6");
-  return point;
+  std::string result = headers.front();
+  for(std::size_t i = 1; i < headers.size(); ++i)
+    result += (i + 1 < headers.size() ? "; " : " or ") + headers[i];
+  return result;
 }
 
-std::vector<Control_point> read_control_points(const std::string& path)
+// The one of the headers that a line is.
+static std::string header_of(const std::vector<std::string_view>& cells, std::string_view line,
+                             const std::vector<std::string>& headers, const Refuse_line& refuse_line)
 {
-  using namespace control_points;
+  for(const std::string& header : headers)
+    if(cells == columns(header))
+      return header;
+  refuse_line("expected the header " + joined(headers) + ", not " + quoted(line));
+  return std::string();
+}
+
+std::string read_table(
+  const std::string& path, const std::vector<std::string>& headers,
+  const std::function<void(const std::vector<std::string_view>&, std::size_t, const Refuse_line&)>& add_row)
+{
   std::ifstream file = opened(path);
-  std::string header = "x,y,z,dx,dy,dz";
-  const std::string weighted = header + ",weight";
-  std::vector<Control_point> points;
-  bool has_header = false;
+  std::string header, text;
+  std::size_t width = 0;
   char separator = ',';
-  std::string text;
   for(std::size_t number = 1; std::getline(file, text); ++number) {
     std::string_view line = text;
     if(number == 1 && line.substr(0, 3) == "\xEF\xBB\xBF") // the byte-order mark that spreadsheets write
@@ -135,26 +138,55 @@ std::vector<Control_point> read_control_points(const std::string& path)
     const auto refuse_line = [&](const std::string& defect) {
       refuse(path, "line " + std::to_string(number) + ": " + defect);
     };
-    if(!has_header)
+    if(header.empty())
       separator = separator_of(line);
     const std::vector<std::string_view> cells = columns(line, separator);
-    if(!has_header) {
-      if(cells == columns(weighted))
-        header = weighted;
-      else if(cells != columns(header))
-        refuse_line("expected the header " + header + " or " + weighted + ", not " + quoted(line));
-      has_header = true;
+    if(header.empty()) {
+      header = header_of(cells, line, headers, refuse_line);
+      width = cells.size();
       continue;
     }
-    if(cells.size() != columns(header).size())
-      refuse_line("expected " + std::to_string(columns(header).size()) + " columns, " + header + ", not "
+    if(cells.size() != width)
+      refuse_line("expected " + std::to_string(width) + " columns, " + header + ", not "
                   + std::to_string(cells.size()));
-    points.push_back(point_of(cells, number, refuse_line));
+    add_row(cells, number, refuse_line);
   }
   if(file.bad())
     refuse(path, "cannot be read");
-  if(!has_header)
-    refuse(path, "is empty: expected the header " + header);
+  if(header.empty())
+    refuse(path, "is empty: expected the header " + headers.front());
+  return header;
+}
+
+} // namespace control_points
+
+using namespace control_points;
+
+// The point of a line of the table.
+static Control_point point_of(const std::vector<std::string_view>& cells, std::size_t line,
+                              const Refuse_line& refuse_line)
+{
+  constexpr double least_weight = 1e-6;
+  Control_point point;
+  point.number = line;
+  for(std::size_t i = 0; i < cells.size(); ++i) {
+    double& x = i < 3 ? point.position[i] : i < 6 ? point.displacement[i - 3] : point.weight;
+    const std::string defect = i < 6 ? read_coordinate(cells[i], x) : read_number(cells[i], x);
+    if(!defect.empty())
+      refuse_line(defect);
+  }
+  if(!(point.weight >= least_weight && point.weight <= 1 / least_weight))
+    refuse_line("the weight " + quoted(cells[6]) + " is not from 1e-6 to 1e6");
+  return point;
+}
+
+std::vector<Control_point> read_control_points(const std::string& path)
+{
+  std::vector<Control_point> points;
+  read_table(path, {"x,y,z,dx,dy,dz", "x,y,z,dx,dy,dz,weight"},
+             [&](const auto& cells, std::size_t number, const Refuse_line& refuse_line) {
+               points.push_back(point_of(cells, number, refuse_line));
+             });
   if(points.empty())
     refuse(path, "has no control points");
   return points;
@@ -178,15 +210,25 @@ bool is_lps(const std::string& path, const std::string& system)
   return is_lps;
 }
 
-std::vector<Point> read_fcsv(const std::string& path, std::istream& file, bool& has_lps)
+struct Fiducial
 {
-  using namespace control_points;
-  std::vector<Point> points;
+  Point position;
+  std::string name;
+};
+
+std::vector<Fiducial> read_fcsv(const std::string& path, std::istream& file, bool& has_lps)
+{
+  std::vector<Fiducial> points;
   std::string text;
+  std::size_t label = std::string::npos; // its column
   for(std::size_t number = 1; std::getline(file, text); ++number) {
-    const std::string_view line = trimmed(text), system = "# CoordinateSystem =";
+    const std::string_view line = trimmed(text), system = "# CoordinateSystem =", names = "# columns =";
     if(line.substr(0, system.size()) == system)
       has_lps = is_lps(path, std::string(trimmed(line.substr(system.size()))));
+    if(line.substr(0, names.size()) == names) {
+      const std::vector<std::string_view> all = columns(line.substr(names.size()));
+      label = std::size_t(std::find(all.begin(), all.end(), "label") - all.begin());
+    }
     if(line.empty() || line[0] == '#')
       continue;
     const std::vector<std::string_view> cells = columns(line); // a name, then x, y, z
@@ -195,47 +237,50 @@ std::vector<Point> read_fcsv(const std::string& path, std::istream& file, bool& 
     };
     if(cells.size() < 4)
       refuse_line("expected a name and three numbers, not " + std::to_string(cells.size()) + " columns");
-    Point p;
+    Fiducial p;
     for(std::size_t i = 0; i < 3; ++i) {
-      const std::string defect = read_number(cells[i + 1], p[i]);
+      const std::string defect = read_number(cells[i + 1], p.position[i]);
       if(!defect.empty())
         refuse_line(defect);
     }
+    if(label < cells.size())
+      p.name = cells[label];
     points.push_back(p);
   }
   return points;
 }
 
-std::vector<Point> read_markups(const std::string& path, std::istream& file, bool& has_lps)
+std::vector<Fiducial> read_markups(const std::string& path, std::istream& file, bool& has_lps)
 {
-  std::vector<Point> points;
+  std::vector<Fiducial> points;
   try {
     const nlohmann::json markups = nlohmann::json::parse(file).at("markups");
     if(markups.size() != 1)
       refuse(path, "has " + std::to_string(markups.size()) + " lists of points, expected one");
     has_lps = is_lps(path, markups[0].value("coordinateSystem", "RAS"));
     for(const auto& point : markups[0].at("controlPoints"))
-      points.push_back(point.at("position").get<Point>());
+      points.push_back({point.at("position").get<Point>(), point.value("label", "")});
   } catch(const nlohmann::json::exception& e) {
     refuse(path, std::string("is no list of markups: ") + e.what());
   }
   return points;
 }
 
-std::vector<Point> read_points(const std::string& path)
+std::vector<Fiducial> read_points(const std::string& path)
 {
   if(!is_fiducials(path))
     refuse(path, "unknown format; expected fiducials, .fcsv or .mrk.json, as the points before");
   std::ifstream file = opened(path);
   bool has_lps = false;
-  std::vector<Point> points = path.back() == 'v' ? read_fcsv(path, file, has_lps)
-                                                 : read_markups(path, file, has_lps);
+  std::vector<Fiducial> points = path.back() == 'v' ? read_fcsv(path, file, has_lps)
+                                                    : read_markups(path, file, has_lps);
   if(points.empty())
     refuse(path, "has no points");
   for(std::size_t i = 0; i < points.size(); ++i)
     for(int k = 0; k < 3; ++k) {
-      points[i][k] *= has_lps && k < 2 ? -1 : 1;
-      if(!(std::abs(points[i][k]) <= largest_coordinate))
+      double& x = points[i].position[k];
+      x *= has_lps && k < 2 ? -1 : 1;
+      if(!(std::abs(x) <= largest_coordinate))
         refuse(path, "point " + std::to_string(i + 1) + " is more than a kilometer away");
     }
   return points;
@@ -245,12 +290,12 @@ std::vector<Point> read_points(const std::string& path)
 
 std::vector<Control_point> read_fiducials(const std::string& before, const std::string& after)
 {
-  const std::vector<Point> p = read_points(before), q = read_points(after);
+  const std::vector<Fiducial> p = read_points(before), q = read_points(after);
   if(p.size() != q.size())
     refuse(after,
            "has " + std::to_string(q.size()) + " points, but " + before + " has " + std::to_string(p.size()));
   std::vector<Control_point> points;
   for(std::size_t i = 0; i < p.size(); ++i)
-    points.push_back({p[i], {q[i][0] - p[i][0], q[i][1] - p[i][1], q[i][2] - p[i][2]}, i + 1, "point"});
+    points.push_back({p[i].position, difference(q[i].position, p[i].position), i + 1, "point", 1, p[i].name});
   return points;
 }

@@ -10,6 +10,8 @@
 
 #include <array>
 #include <cstddef>
+#include <fstream>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,11 +23,21 @@ struct Control_point
   std::size_t number;                           // of the line in the file, or of the point: from 1
   const char* unit = "line";                    // or "point"
   double weight = 1;
+  std::string name = {}; // empty: the file has none
 
   std::string place() const { return unit + (' ' + std::to_string(number)); }
 };
 
 namespace control_points {
+
+/// Throws a line that names a file and what is wrong with it.
+[[noreturn]] void refuse(const std::string& path, const std::string& defect);
+
+/// Throws if the file cannot be opened.
+std::ifstream opened(const std::string& path);
+
+/// The text without blanks before and after it.
+std::string_view trimmed(std::string_view text);
 
 /// What is between separators, without the blanks around it. If these are blanks, several are one.
 std::vector<std::string_view> columns(std::string_view line, char separator = ',');
@@ -35,6 +47,24 @@ std::string quoted(std::string_view text);
 
 /// Reads a number, with a point whatever the locale; returns what is wrong with it, or nothing.
 std::string read_number(std::string_view text, double& x);
+
+/// The same for a coordinate in mm: nothing in a body is a kilometer away.
+std::string read_coordinate(std::string_view text, double& x);
+
+std::array<double, 3> difference(const std::array<double, 3>& p, const std::array<double, 3>& q);
+
+/// Throws what is wrong with a line of a file.
+using Refuse_line = std::function<void(const std::string&)>;
+
+/// Reads a table: one of the headers, then lines with as many columns. Blank lines, and those that start with
+/// #, are skipped. Columns are separated as in the header: by commas, semicolons, tabs or blanks.
+/// \param headers with commas
+/// \param add_row gets the cells of each line, its number from 1, and what to call if they are wrong
+/// \return the header that the table has
+/// \throw std::runtime_error a line naming the file, the line and the defect
+std::string read_table(
+  const std::string& path, const std::vector<std::string>& headers,
+  const std::function<void(const std::vector<std::string_view>&, std::size_t, const Refuse_line&)>& add_row);
 
 } // namespace control_points
 

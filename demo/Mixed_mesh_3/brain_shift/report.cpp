@@ -5,6 +5,7 @@
 
 #include "brain_shift/report.h"
 
+#include "brain_shift/landmark_report.h"
 #include "common/messages.h"
 #include "common/report_json.h"
 
@@ -207,6 +208,7 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
                         {"touching", outcome.supports.touching}};
   report["adaptation"] = outcome.adaptation ? describe(*outcome.adaptation) : Json();
   report["control points"] = describe_points(outcome);
+  report["landmarks"] = outcome.landmarks ? describe_landmarks(o, *outcome.landmarks) : Json();
   report["shift"] = describe(outcome.before, outcome.points);
   report["resection"] = outcome.resection ? describe(*outcome.resection) : Json();
   report["shift after resection"] = outcome.after ? describe(*outcome.after, outcome.points) : Json();
@@ -260,6 +262,8 @@ void print_summary(const Options& o, const Outcome& outcome, const Stage_log& lo
   if(outcome.before.left_out)
     std::cout << "control points: each is predicted by the others to " << rounded(*outcome.before.left_out)
               << " mm (root mean square)\n";
+  if(outcome.landmarks)
+    print_landmarks(o, *outcome.landmarks);
   if(outcome.resection)
     std::cout << "resection: " << outcome.resection->removed << " elements, "
               << rounded(outcome.resection->volume / 1000) << " ml; shift up to "

@@ -8,6 +8,8 @@
 #include "brain_shift/adapt.h"
 #include "brain_shift/febio.h"
 #include "brain_shift/images.h"
+#include "brain_shift/landmarks.h"
+#include "brain_shift/locate.h"
 #include "brain_shift/outcome.h"
 #include "brain_shift/patches.h"
 #include "brain_shift/read_control_points.h"
@@ -58,13 +60,23 @@ void tell_of_many_points(std::size_t n)
               << " s or more, which grows with the cube of their number\n";
 }
 
+// Landmarks are control points in their turn.
+std::size_t number_of_points(const Outcome& outcome)
+{
+  return (std::max)(outcome.points.size(), outcome.landmarks ? outcome.landmarks->points.size() : 0);
+}
+
 Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
 {
   Inputs inputs;
-  outcome.points = o.control_points_after.empty() ? read_control_points(o.control_points)
-                                                  : read_fiducials(o.control_points, o.control_points_after);
+  if(!o.landmarks.empty())
+    outcome.landmarks = read_landmarks(o);
+  outcome.points = o.are_landmarks_control_points ? outcome.landmarks->points
+                   : o.control_points_after.empty()
+                     ? read_control_points(o.control_points)
+                     : read_fiducials(o.control_points, o.control_points_after);
   if(!o.quiet)
-    tell_of_many_points(outcome.points.size());
+    tell_of_many_points(number_of_points(outcome));
   if(o.compliance == 0 && std::any_of(outcome.points.begin(), outcome.points.end(), [](const auto& p) {
        return p.weight != 1;
      }))
@@ -75,11 +87,13 @@ Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
   outcome.volume = mm3::volume(inputs.mesh);
   outcome.subdomains = find_subdomains(inputs.mesh, inputs.subdomain_names, o);
   // The response of each vertex and control point to each control point: 3 x 3 numbers.
-  const double n = double(outcome.points.size());
-  check_memory(o.control_points + ": " + std::to_string(outcome.points.size()) + " control points",
-               72 * n * (double(outcome.mesh.vertices) + 2 * n));
-  outcome.locations = log("locate control points",
-                          [&] { return locate(inputs.mesh, o, outcome.points, outcome.warnings); });
+  const std::size_t n = number_of_points(outcome);
+  check_memory((n == outcome.points.size() ? o.control_points : o.landmarks) + ": " + std::to_string(n)
+                 + " control points",
+               72 * double(n) * double(outcome.mesh.vertices + 2 * n));
+  outcome.locations = log("locate control points", [&] {
+    return locate(inputs.mesh, o, o.control_points, outcome.points, outcome.warnings);
+  });
   if(!o.tumor.empty())
     inputs.tumor.surface = log("read tumor", [&] {
       return std::make_unique<const Closed_surface>(o.tumor, o, inputs.mesh, outcome.tumor.emplace(),
@@ -92,8 +106,13 @@ Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
     log("adapt mesh", [&] { adapt(inputs.mesh, inputs.patches, o, outcome); });
     outcome.volume = mm3::volume(inputs.mesh);
     std::vector<std::string> known_warnings;
-    outcome.locations = locate(inputs.mesh, o, outcome.points, known_warnings);
+    outcome.locations = locate(inputs.mesh, o, o.control_points, outcome.points, known_warnings);
   }
+  if(outcome.landmarks)
+    log("registrations", [&] {
+      place_landmarks(inputs.mesh, o, outcome);
+      compare_registrations(*outcome.landmarks);
+    });
   if(!o.image.empty())
     inputs.image = log("read image", [&] { return read_image(o, inputs.mesh, outcome); });
   if(!o.labels.empty())
@@ -193,6 +212,8 @@ void run(const Options& o)
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);
   const std::vector<bool> is_removed = simulate(inputs.mesh, inputs.tumor, inputs.patches, o, log, outcome);
+  if(outcome.landmarks)
+    warn_of_landmarks(o, outcome);
   const Remaining_mesh remaining = remaining_mesh(inputs.mesh, is_removed, outcome);
   write_files(inputs, is_removed, remaining, o, log, outcome);
   log.finish_progress();

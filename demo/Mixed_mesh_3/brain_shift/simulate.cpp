@@ -5,15 +5,12 @@
 
 #include "brain_shift/simulate.h"
 
+#include "brain_shift/landmark_model.h"
+#include "brain_shift/solve.h"
 #include "brain_shift/subdomains.h"
 #include "brain_shift/supports.h"
 #include "common/messages.h"
-#include "common/misfit.h"
 
-#include <CGAL/Linear_elasticity_3.h>
-#if MIXED_MESH_3_HAS_PETSC
-#include <CGAL/Mixed_mesh_3/Petsc_solver_traits.h>
-#endif
 #include <CGAL/Mixed_mesh_3/certificate.h>
 
 #include <algorithm>
@@ -25,54 +22,8 @@
 #include <utility>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
-#if MIXED_MESH_3_HAS_PETSC
-using Elasticity = CGAL::Linear_elasticity_3<Mesh, mm3::Petsc_solver_traits>;
-#else
-using Elasticity = CGAL::Linear_elasticity_3<Mesh>;
-#endif
-using Elasticity_status = CGAL::Linear_elasticity_status;
 
 namespace {
-
-[[noreturn]] void refuse(const CGAL::Linear_elasticity_result_3& result, const Options& o,
-                         const std::vector<Control_point>& points)
-{
-  const auto at_line = [&] { return o.control_points + ": " + points[result.control_point].place() + ": "; };
-  switch(result.status) {
-  case Elasticity_status::CONTROL_POINT_OUTSIDE:
-    throw std::runtime_error(at_line() + "the control point is " + rounded(result.distance) + " mm outside "
-                             + o.mesh + "; --max-distance is " + rounded(o.max_distance) + " mm");
-  case Elasticity_status::CONTRADICTORY_CONTROL_POINTS:
-    throw std::runtime_error(at_line()
-                             + "the displacement contradicts those of other control points, or "
-                               "supports, in the same element: it is missed by "
-                             + rounded(result.distance) + " mm; see --control-compliance, --fixed-below");
-  case Elasticity_status::FREE_RIGID_MOTION:
-    throw std::runtime_error(o.mesh + ": " + result.description()
-                             + ", and the control points do not hold it; see --fixed-below");
-  case Elasticity_status::NOT_CONVERGED:
-    throw std::runtime_error(o.mesh + ": " + result.description()
-                             + "; --control-radius, or --control-compliance, would spread it");
-  default: throw std::runtime_error(o.mesh + ": " + result.description());
-  }
-}
-
-void check(const CGAL::Linear_elasticity_result_3& result, const Options& o,
-           const std::vector<Control_point>& points)
-{
-  if(!result.is_success())
-    refuse(result, o, points);
-}
-
-void solve(Elasticity& elasticity, const std::vector<Vector>& displacements, const Options& o,
-           const std::vector<Control_point>& points)
-{
-  const CGAL::Linear_elasticity_result_3 result = elasticity.solve(displacements);
-  const bool is_solution = elasticity.is_corotational()
-                           && result.status == Elasticity_status::INVERTED_ELEMENT; // those are counted
-  if(!is_solution)
-    check(result, o, points);
-}
 
 void set_supports(Elasticity& elasticity, const Supports& supports)
 {
@@ -127,10 +78,7 @@ void measure_controls(const Elasticity& elasticity, const Outcome& outcome, cons
     Control control;
     control.is_used = is_used[i];
     if(control.is_used) {
-      const auto& location = outcome.locations[i];
-      const auto element = elasticity.mesh().element(location.element);
-      for(int k = 0; k < element.size(); ++k)
-        control.displacement = control.displacement + location.weights[k] * shift.displacements[element[k]];
+      control.displacement = displacement_at(outcome.locations[i], elasticity.mesh(), shift.displacements);
       control.miss = norm(control.displacement - Vector(outcome.points[i].displacement));
       shift.largest_miss = (std::max)(shift.largest_miss, control.miss);
       squares += control.miss * control.miss;
@@ -181,26 +129,6 @@ Shift shift_of(const Elasticity& elasticity, const Options& o, const std::vector
   return shift;
 }
 
-std::vector<Vector> displacements_of(const std::vector<Control_point>& points)
-{
-  std::vector<Vector> displacements;
-  for(const Control_point& point : points)
-    displacements.push_back(point.displacement);
-  return displacements;
-}
-
-void set_control_points(Elasticity& elasticity, const Options& o, const std::vector<Control_point>& points)
-{
-  std::vector<Vector> positions;
-  std::vector<double> weights;
-  for(const Control_point& point : points) {
-    positions.push_back(point.position);
-    weights.push_back(point.weight);
-  }
-  check(elasticity.set_control_points(positions, o.max_distance, o.compliance, o.control_radius, weights), o,
-        points);
-}
-
 void tell_of_solver([[maybe_unused]] Elasticity& elasticity, [[maybe_unused]] Outcome& outcome)
 {
 #if MIXED_MESH_3_HAS_PETSC
@@ -224,87 +152,82 @@ Motion_constraints constraints_of(const Elasticity& elasticity, std::vector<Vect
   return constraints;
 }
 
+// Errors of predictions by landmarks, but for those that the shift tells if landmarks are its control points.
+void predict_landmarks(Elasticity& elasticity, const Options& o, Outcome& outcome)
+{
+  measure_by_outermost(elasticity, o, outcome);
+  if(o.are_landmarks_control_points)
+    return;
+  const Controls landmarks = controls_of_landmarks(o, *outcome.landmarks);
+  set_control_points(elasticity, o, landmarks);
+  solve(elasticity, o, landmarks);
+  measure_left_out(elasticity, outcome);
+}
+
+// Errors at landmarks that the shift tells.
+void measure_landmarks(const Elasticity& elasticity, const Options& o, Outcome& outcome)
+{
+  if(o.are_landmarks_control_points)
+    measure_left_out(elasticity, outcome);
+  else
+    measure_shift(elasticity.mesh(), outcome);
+}
+
 // How the rest moves when elements are removed.
 void remove(Elasticity& elasticity, const std::vector<bool>& is_removed, const Options& o, Stage_log& log,
             Outcome& outcome)
 {
   // Points in tissue that is removed move nothing.
-  std::vector<Control_point> left;
+  Controls left{o.control_points, {}, o.compliance};
   std::vector<bool> is_used;
   for(std::size_t i = 0; i < outcome.points.size(); ++i) {
     is_used.push_back(!is_removed[outcome.locations[i].element]);
     if(is_used.back()) {
-      left.push_back(outcome.points[i]);
+      left.points.push_back(outcome.points[i]);
     } else {
       outcome.warnings.push_back(o.control_points + ": " + outcome.points[i].place()
                                  + ": the control point is in tissue removed: it is not used after the "
                                    "resection");
     }
   }
-  if(left.size() != outcome.points.size())
+  if(left.points.size() != outcome.points.size())
     log("control points", [&] { set_control_points(elasticity, o, left); });
   log("remove elements", [&] { check(elasticity.remove_elements(is_removed), o, left); });
-  log("solve after resection", [&] { solve(elasticity, displacements_of(left), o, left); });
+  log("solve after resection", [&] { solve(elasticity, o, left); });
   if(!o.febio.empty())
-    outcome.constraints = constraints_of(elasticity, displacements_of(left), o);
+    outcome.constraints = constraints_of(elasticity, left.displacements(), o);
   outcome.after = log("checks",
                       [&] { return shift_of(elasticity, o, is_used, "shift after resection", outcome); });
 }
 
 } // namespace
 
-Locations locate(const Mesh& mesh, const Options& o, const std::vector<Control_point>& points,
-                 std::vector<std::string>& warnings)
-{
-  const mm3::Element_locator_3<Mesh> locator(mesh);
-  std::vector<std::array<double, 3>> positions;
-  for(const Control_point& point : points)
-    positions.push_back(point.position);
-  const std::string defect = misfit(positions, box_of(coordinates_of(mesh.points())),
-                                    [&](const std::array<double, 3>& p) {
-                                      return locator.nearest(Vector(p)).distance <= o.max_distance;
-                                    });
-  const std::string hint = defect.empty() ? "" : "beside " + o.mesh + ", the list of points " + defect;
-  if(!hint.empty())
-    warnings.push_back(o.control_points + ": " + hint);
-  Locations locations;
-  for(const Control_point& point : points) {
-    locations.push_back(locator.nearest(point.position));
-    if(!(locations.back().distance <= o.max_distance)) {
-      CGAL::Linear_elasticity_result_3 result;
-      result.status = Elasticity_status::CONTROL_POINT_OUTSIDE;
-      result.control_point = locations.size() - 1;
-      result.distance = locations.back().distance;
-      if(!hint.empty())
-        throw std::runtime_error(o.control_points + ": " + hint);
-      refuse(result, o, points);
-    }
-  }
-  return locations;
-}
-
 std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_patches& patches,
                            const Options& o, Stage_log& log, Outcome& outcome)
 {
-  const std::vector<Control_point>& points = outcome.points;
+  const Controls controls{o.control_points, outcome.points, o.compliance};
   Elasticity elasticity(mesh, materials_of_elements(mesh, outcome.subdomains));
-  outcome.supports = find_supports(mesh, patches, o, points);
+  outcome.supports = find_supports(mesh, patches, o, outcome.points);
   set_supports(elasticity, outcome.supports);
 
   // Before surgery the mesh is factored; then each measurement is a matter of milliseconds.
-  log("factor", [&] { check(elasticity.factor(), o, points); });
+  log("factor", [&] { check(elasticity.factor(), o, controls); });
   elasticity.set_corotational(o.corotational);
   elasticity.set_gravity(o.acceleration);
   if(norm(Vector(o.acceleration)) > 0)
     elasticity.set_body_forces(
       mm3::buoyant_forces(mesh, o.acceleration, o.fluid_density * kg_per_mm3, o.fluid_level));
-  log("control points", [&] { set_control_points(elasticity, o, points); });
-  log("solve", [&] { solve(elasticity, displacements_of(points), o, points); });
+  if(outcome.landmarks)
+    log("landmarks", [&] { predict_landmarks(elasticity, o, outcome); });
+  log("control points", [&] { set_control_points(elasticity, o, controls); });
+  log("solve", [&] { solve(elasticity, o, controls); });
   if(!o.febio.empty())
-    outcome.constraints = constraints_of(elasticity, displacements_of(points), o);
+    outcome.constraints = constraints_of(elasticity, controls.displacements(), o);
   outcome.before = log("checks", [&] {
-    return shift_of(elasticity, o, std::vector<bool>(points.size(), true), "shift", outcome);
+    return shift_of(elasticity, o, std::vector<bool>(outcome.points.size(), true), "shift", outcome);
   });
+  if(outcome.landmarks)
+    log("errors at landmarks", [&] { measure_landmarks(elasticity, o, outcome); });
   tell_of_solver(elasticity, outcome);
   if(!tumor.is_given())
     return std::vector<bool>(mesh.number_of_elements(), false);

@@ -15,14 +15,7 @@
 #include "common/Stage_log.h"
 #include "common/types.h"
 
-#include <string>
 #include <vector>
-
-/// Where the control points are.
-/// \param warnings gets a line if they are plainly in another unit
-/// \throw std::runtime_error if one is too far outside
-Locations locate(const Mesh& mesh, const Options& options, const std::vector<Control_point>& points,
-                 std::vector<std::string>& warnings);
 
 /// Computes the shift, and with a tumor its resection and the shift after it.
 /// \param patches of the boundary

@@ -1,0 +1,68 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "brain_shift/landmark_model.h"
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace {
+
+using Errors = std::vector<std::optional<Vector>>;
+
+// Landmarks that are given move the mesh; the others are where their elements take them.
+Errors errors_of_targets(Elasticity& elasticity, const Options& o, Outcome& outcome)
+{
+  const Landmark_facts& landmarks = *outcome.landmarks;
+  Controls given{o.landmarks, {}, o.landmark_compliance};
+  for(std::size_t i = 0; i < landmarks.points.size(); ++i)
+    if(landmarks.is_given[i])
+      given.points.push_back(landmarks.points[i]);
+  set_control_points(elasticity, o, given);
+  const CGAL::Linear_elasticity_result_3 result = elasticity.solve(given.displacements());
+  Errors errors(landmarks.points.size());
+  if(!is_solution(elasticity, result)) {
+    outcome.warnings.push_back(
+      o.landmarks + ": by the outermost landmarks, the model has no solution: " + result.description());
+    return errors;
+  }
+  for(std::size_t i = 0; i < errors.size(); ++i)
+    if(!landmarks.is_given[i])
+      errors[i] = Vector(landmarks.points[i].displacement)
+                  - displacement_at(landmarks.locations[i], elasticity.mesh(), elasticity.displacements());
+  return errors;
+}
+
+} // namespace
+
+Controls controls_of_landmarks(const Options& o, const Landmark_facts& landmarks)
+{
+  return {o.landmarks, landmarks.points, o.landmark_compliance};
+}
+
+void measure_by_outermost(Elasticity& elasticity, const Options& o, Outcome& outcome)
+{
+  const Errors errors = errors_of_targets(elasticity, o, outcome);
+  outcome.landmarks->errors.push_back({Landmark_facts::model, {}, errors});
+}
+
+void measure_left_out(const Elasticity& elasticity, Outcome& outcome)
+{
+  Errors& errors = outcome.landmarks->errors.back().left_out;
+  for(const Vector& error : elasticity.leave_one_out_errors()) // infinite if the others do not hold the mesh
+    errors.push_back(std::isfinite(error[0]) ? std::optional<Vector>(error) : std::nullopt);
+}
+
+void measure_shift(const Mesh& mesh, Outcome& outcome)
+{
+  Landmark_facts& landmarks = *outcome.landmarks;
+  landmarks.of_shift.emplace();
+  for(std::size_t i = 0; i < landmarks.points.size(); ++i)
+    landmarks.of_shift->push_back(
+      Vector(landmarks.points[i].displacement)
+      - displacement_at(landmarks.locations[i], mesh, outcome.before.displacements));
+}
