@@ -415,8 +415,9 @@ Mesh make_mesh_until_stopped(const Domain& domain, const Inputs& inputs, const O
     fit_by_algorithm_1(mesh, domain, o, log, outcome);
   if(outcome.is_stopped) {
     const std::string by = Deferred_signals::has_come() ? "a signal" : "--time-limit";
-    outcome.warnings.push_back("stopped by " + by + " after " + rounded(log.seconds())
-                               + " s: the mesh is what there was then");
+    outcome.warnings.push_back(
+      "stopped by " + by + " after " + rounded(log.seconds())
+      + " s: the mesh is what there was then, and its boundary may be off the surface");
     Deferred_signals::take(); // another one stops what follows
   }
   return mesh;
@@ -474,12 +475,22 @@ bool run(const Options& o)
   const std::vector<Sheet> sheets = add_sheets(o, domain, outcome.warnings);
   check_regions(domain, inputs, o, outcome);
   log.expect(plan_for(o));
+  constexpr unsigned patience = 2; // seconds from Ctrl-C to the end
+  std::optional<Signal_deadline> deadline;
+  deadline.emplace(patience,
+                   "mixed_mesh_3: stopped by a signal: there was no mesh to write within "
+                     + std::to_string(patience) + " s, nothing is written; --time-limit waits for one",
+                   1);
   Mesh mesh = make_mesh_until_stopped(domain, inputs, o, log, outcome);
+  const std::vector<std::string> warnings = outcome.warnings;
   examine(mesh, inputs.boundary, o, log, outcome);
   examine_subdomains(mesh, domain, inputs.subdomains, o, outcome);
   std::vector<mm3::IO::Facet_set> facet_sets = examine_sheets(mesh, domain, sheets, o, outcome);
   for(mm3::IO::Facet_set& set : interfaces_of(mesh, inputs.subdomains))
     facet_sets.push_back(std::move(set));
+  if(outcome.is_stopped) // others would blame the surface, or the options, for what was not finished
+    outcome.warnings = warnings;
+  deadline.reset();
   write_files(mesh, facet_sets, inputs.subdomains, o, log, outcome);
   log.finish_progress();
   for(const std::string& warning : outcome.warnings)
