@@ -60,7 +60,7 @@ class Surface_simplifier
   static constexpr const char* is_kept_name = "e:CGAL::Mixed_meshes_3::is_kept";
   static constexpr int attempts = 8, factor = 4;
   // How many times the vertices that are wanted the collapse by volume and shape starts from.
-  static constexpr std::size_t start = 4;
+  static constexpr std::size_t start = 16;
 
   Surface& m_surface;
 
@@ -140,8 +140,10 @@ private:
     for(Face_index f : m_surface.faces())
       for(auto h : m_surface.halfedges_around_face(m_surface.halfedge(f)))
         opposite.push_back(number[m_surface.opposite(h)]);
+    const auto number_of_fixed = std::size_t(std::count(is_fixed.begin(), is_fixed.end(), true));
     Quadric_collapses collapses(std::move(points), triangles, std::move(opposite), std::move(is_fixed));
-    collapses(number_of_vertices);
+    // those that stay come on top: the others would have to make up for them
+    collapses(number_of_vertices + number_of_fixed);
     return surface_of(collapses.result(), origin);
   }
 
@@ -186,7 +188,10 @@ private:
     using Placement = SMS::Constrained_placement<SMS::LindstromTurk_placement<Surface>, Is_kept>;
     const Is_kept is_kept = surface.template add_property_map<Edge_index, bool>(is_kept_name, false).first;
     // a face that would turn over would lie on another one
-    SMS::edge_collapse(surface, Stop_at_number_of_edges{3 * number_of_vertices},
+    std::size_t kept = 0; // those come on top
+    for(Edge_index e : surface.edges())
+      kept += is_kept[e];
+    SMS::edge_collapse(surface, Stop_at_number_of_edges{3 * number_of_vertices + kept},
                        parameters::edge_is_constrained_map(is_kept)
                          .get_placement(Placement(is_kept))
                          .filter(SMS::Bounded_normal_change_filter<>()));
@@ -225,7 +230,7 @@ private:
 \brief Simplifies a surface to a number of vertices, about, by the collapse of the edges that change its
 volume and shape least (Lindstrom, Turk: Fast and memory efficient polygonal simplification, 1998).
 
-Of a surface with more than four times as many, edges are collapsed down to that number by quadric errors
+Of a surface with more than sixteen times as many, edges are collapsed down to that number by quadric errors
 first (Garland, Heckbert: Surface simplification using quadric error metrics, 1997), which takes much less
 time and moves the surface much less than the rest does.
 
