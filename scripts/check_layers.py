@@ -42,7 +42,7 @@ INCLUDE = re.compile(r"^\s*#\s*include\s*[<\"]([^>\"]+)[>\"]", re.MULTILINE)
 WORDS = [
     ("include/**/*.h", r"(?i)nifti|\bznz", r"include/CGAL/Mixed_mesh_image_3/|.*/read_GIFTI\.h",
      "images are a package of their own"),
-    ("include/**/*.h", r"<zlib\.h>", r"include/CGAL/Mixed_mesh_image_3/|.*/(VTK_XML_reader|read_GIFTI)\.h",
+    ("include/**/*.h", r"<zlib\.h>", r"include/CGAL/Mixed_mesh_image_3/|.*/(Compressed_blocks|VTK_XML_reader|read_GIFTI)\.h",
      "only files of VTK, GIFTI and images are compressed"),
     ("include/**/*.h", "CGAL_VERSION_NR", r".*/internal/base/compatibility\.h",
      "differences of CGAL's versions stand in one header"),

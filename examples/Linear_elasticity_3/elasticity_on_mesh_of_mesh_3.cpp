@@ -13,8 +13,8 @@
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/cells_in_complex_3_to_mixed_mesh.h>
+#include <CGAL/Mixed_mesh_3/certify_mesh.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
-#include <CGAL/Mixed_mesh_3/validation.h>
 #include <CGAL/Polyhedral_mesh_domain_3.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/make_mesh_3.h>
@@ -63,8 +63,8 @@ try {
   // Vertices move and tetrahedra are flipped; none is inverted on the way.
   CGAL::optimize_mixed_mesh_3(mesh, brain, CGAL::Mixed_mesh_optimization_criteria_3());
   print("optimized", mesh);
-  if(!mm3::find_defects(mesh).none())
-    throw std::runtime_error("the mesh has defects");
+  if(!mm3::certify_mesh(mesh).is_valid())
+    throw std::runtime_error("the mesh is not valid");
 
   // It rests on its lower part, and weighs 4 % more than the fluid around it: 0.39 Pa per mm. E is 1 kPa.
   CGAL::Linear_elasticity_3<Mesh> elasticity(mesh);

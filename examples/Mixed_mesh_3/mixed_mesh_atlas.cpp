@@ -9,8 +9,8 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
+#include <CGAL/Mixed_mesh_3/certify_mesh.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
-#include <CGAL/Mixed_mesh_3/validation.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/fit_mixed_mesh_to_surface.h>
 #include <CGAL/make_mixed_mesh_3.h>
@@ -41,7 +41,7 @@ bool fit(Mesh mesh, const Surface& subject, const std::string& file)
     std::cerr << error << '\n';
     return false;
   }
-  return mm3::find_defects(mesh).none()
+  return mm3::certify_mesh(mesh).is_valid()
          && optimized.number_of_arrived_vertices == optimized.number_of_boundary_vertices;
 }
 

@@ -8,8 +8,8 @@
 #include "arrays.h"
 
 #include <CGAL/Mixed_mesh_3/certificate.h>
+#include <CGAL/Mixed_mesh_3/certify_mesh.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
-#include <CGAL/Mixed_mesh_3/validation.h>
 
 #include <pybind11/stl.h>
 
@@ -106,11 +106,12 @@ py::array_t<bool> certify(const Mesh& mesh)
 
 py::dict defects(const Mesh& mesh)
 {
-  mm3::Mesh_defects d;
+  mm3::Mesh_certificate certificate;
   {
     const py::gil_scoped_release release;
-    d = mm3::find_defects(mesh);
+    certificate = mm3::certify_mesh(mesh);
   }
+  const mm3::Mesh_defects& d = certificate.defects;
   py::dict result;
   result["nonconforming faces"] = d.nonconforming_faces;
   result["nonmanifold boundary edges"] = d.nonmanifold_boundary_edges;
@@ -119,6 +120,7 @@ py::dict defects(const Mesh& mesh)
   result["undecided elements"] = d.undecided_elements;
   result["unused vertices"] = d.unused_vertices;
   result["duplicate vertices"] = d.duplicate_vertices;
+  result["boundary self-intersections"] = certificate.number_of_self_intersections;
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <CGAL/Mixed_mesh_3/internal/meshing/usual_models.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Sheet_oracle_3_impl.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3_impl.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/boundary_self_intersections_impl.h>
 
 #ifndef CGAL_MIXED_MESH_3_COMPILED
 #error "build this file with CGAL_MIXED_MESH_3_COMPILED defined"

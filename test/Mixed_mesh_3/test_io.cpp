@@ -27,7 +27,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
@@ -928,8 +930,57 @@ void test_reader(const fs::path& directory)
   fs::remove(path);
 }
 
+#ifdef CGAL_USE_ZLIB
+// What is written in pieces of any size is what the blocks hold, around the sizes of one and of several.
+void test_compressed_blocks()
+{
+  constexpr std::size_t block = 1 << 16;
+  std::mt19937 random(17);
+  for(const std::size_t size :
+      {std::size_t(0), std::size_t(1), block - 1, block, block + 1, 3 * block, 200001ul}) {
+    std::string bytes;
+    for(std::size_t i = 0; i < size; ++i)
+      bytes += char(random() % 5);
+    IO::internal::Compressed_blocks blocks;
+    std::ostream out(&blocks);
+    for(std::size_t begin = 0; begin < size;) {
+      const std::size_t n = (std::min)(size - begin, std::size_t(random() % 100000));
+      out.write(bytes.data() + begin, std::streamsize(n));
+      begin += n;
+      if(begin < size)
+        out.put(bytes[begin++]);
+    }
+    const std::string array = blocks.take();
+    const auto word = [&](std::size_t i) {
+      std::uint64_t w;
+      std::memcpy(&w, array.data() + 8 * i, 8);
+      return std::size_t(w);
+    };
+    const std::size_t number = word(0), last = word(2) != 0 ? word(2) : word(1);
+    BOOST_TEST_EQ(number, (size + block - 1) / block);
+    std::string found;
+    std::size_t place = 8 * (3 + number);
+    for(std::size_t i = 0; i < number; ++i) {
+      std::string text(i + 1 == number ? last : word(1), ' ');
+      uLongf length = uLongf(text.size());
+      BOOST_TEST_EQ(uncompress(reinterpret_cast<Bytef*>(&text[0]), &length,
+                               reinterpret_cast<const Bytef*>(array.data() + place), uLong(word(3 + i))),
+                    Z_OK);
+      BOOST_TEST_EQ(length, text.size());
+      found += text;
+      place += word(3 + i);
+    }
+    BOOST_TEST(found == bytes);
+    BOOST_TEST_EQ(place, array.size());
+  }
+}
+#endif
+
 int run(int argc, char* argv[])
 {
+#ifdef CGAL_USE_ZLIB
+  test_compressed_blocks();
+#endif
   const fs::path directory = argc > 2 ? argv[2] : ".";
   fs::create_directories(directory);
   test_writers(directory);

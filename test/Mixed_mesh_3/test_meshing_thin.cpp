@@ -13,6 +13,7 @@
 #include <CGAL/Mixed_mesh_3/internal/elements/shell_counts.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Gap_widener.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/apply_transitions.h>
+#include <CGAL/Mixed_mesh_3/quality_bound.h>
 
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 
@@ -94,11 +95,10 @@ void test_becomes_right(const std::string& name, const Surface& surface, std::si
 void test_flatter_elements()
 {
   Surface shell;
-  add_sphere(shell, {0, 0, 0}, 1, 24);
-  Surface inner;
-  add_sphere(inner, {0, 0, 0}, 0.94, 24);
+  add_sphere(shell, Point_3(0, 0, 0), 1, 24);
+  Surface inner = sphere(Point_3(0, 0, 0), 0.94, 24);
   CGAL::Polygon_mesh_processing::reverse_face_orientations(inner);
-  CGAL::copy_face_graph(inner, shell);
+  shell += inner;
   const Mixed_mesh_criteria_3 criteria(400);
   Mesh mesh;
   const auto result = make_mixed_mesh_3(shell, criteria, mesh);
@@ -319,6 +319,7 @@ int run(int, char*[])
   test_shell_counts();
   test_cavities();
   test_untouched();
+  test_flatter_elements();
   Surface balls = sphere(Point_3(-0.55, 0.07, 0.03), 0.5, 24);
   add_sphere(balls, Point_3(0.55, 0.07, 0.03), 0.5, 24);
   test_becomes_right("two balls", balls, 2000);

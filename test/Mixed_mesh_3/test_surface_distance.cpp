@@ -11,6 +11,7 @@
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
+#include <CGAL/Mixed_mesh_3/certify_mesh.h>
 #include <CGAL/Mixed_mesh_3/surface_distance.h>
 #include <CGAL/make_mixed_mesh_3.h>
 
@@ -295,7 +296,19 @@ void test_self_intersections()
         expected += CGAL::do_intersect(triangle(0, *f), triangle(1, *g));
     BOOST_TEST((expected == 0) == (shift == 5));
     BOOST_TEST_EQ(number_of_boundary_self_intersections(mesh), expected);
+    // nothing else is wrong with the mesh
+    const Mesh_certificate certificate = certify_mesh(mesh);
+    BOOST_TEST(certificate.defects.none());
+    BOOST_TEST_EQ(certificate.number_of_self_intersections, expected);
+    BOOST_TEST_EQ(certificate.is_valid(), expected == 0);
+    for(const Mesh_certificate::Check& check : certificate.checks())
+      BOOST_TEST_EQ(check.holds,
+                    expected == 0 || std::string(check.name) != "boundary does not cut itself (exact)");
   }
+  BOOST_TEST(certify_mesh(mesh).is_valid());
+  std::swap(mesh.points()[0], mesh.points()[1]); // an element is inverted
+  BOOST_TEST(!certify_mesh(mesh).is_valid());
+  BOOST_TEST(certify_mesh(Mesh()).is_valid());
 
   // Elements that share a face, and ones that share an edge only: the boundary touches itself.
   mesh.clear();

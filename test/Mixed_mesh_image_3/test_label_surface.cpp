@@ -8,6 +8,8 @@
 
 #include "test_images.h"
 
+#include <CGAL/Mixed_mesh_image_3/complete_label.h>
+#include <CGAL/Mixed_mesh_image_3/label_extents.h>
 #include <CGAL/Mixed_mesh_image_3/make_label_surface.h>
 #include <CGAL/Mixed_mesh_image_3/simplify_closed_surface.h>
 
@@ -22,6 +24,8 @@
 #include <cstddef>
 #include <functional>
 #include <iostream>
+#include <limits>
+#include <map>
 #include <random>
 #include <vector>
 
@@ -200,8 +204,8 @@ void test_smoothing()
   }
   const Voxel_image_3 image = image_of({5, 6, 7}, identity,
                                        [](const std::array<double, 3>& p) { return p[0] == 2 || p[1] == 3; });
-  const auto raw = internal::smooth_indicator(image, is_label, {0, 0, 0}),
-             smooth = internal::smooth_indicator(image, is_label, {0.5, 1, 1.5});
+  const auto raw = internal::smooth_indicator(image, is_label, {0, 0, 0}, whole_extent(image.grid)),
+             smooth = internal::smooth_indicator(image, is_label, {0.5, 1, 1.5}, whole_extent(image.grid));
   const auto sum = [](const std::vector<float>& values) {
     double sum = 0;
     for(float v : values)
@@ -211,8 +215,122 @@ void test_smoothing()
   BOOST_TEST(std::abs(sum(raw.values) - sum(smooth.values)) < 1e-3 * sum(raw.values));
 }
 
+// Along each axis, as the sum by its definition; the same in several threads.
+void test_convolution()
+{
+  std::mt19937 random(3);
+  internal::Indicator start{{{}, {7, 70, 9}}, {}};
+  for(std::size_t i = 0; i < 7 * 70 * 9; ++i)
+    start.values.push_back(float(random() % 100));
+  const std::vector<float> kernel = internal::gaussian_kernel(1.3);
+  for(int axis = 0; axis < 3; ++axis) {
+    internal::Indicator once = start, again = start;
+    internal::convolve(once, axis, kernel, 1);
+    internal::convolve(again, axis, kernel, 4);
+    BOOST_TEST(once.values == again.values);
+    std::array<std::size_t, 3> p;
+    for(p[0] = 0; p[0] < start.size[0]; ++p[0])
+      for(p[1] = 0; p[1] < start.size[1]; ++p[1])
+        for(p[2] = 0; p[2] < start.size[2]; ++p[2]) {
+          double sum = 0;
+          std::array<std::size_t, 3> q = p;
+          for(q[axis] = 0; q[axis] < start.size[axis]; ++q[axis]) {
+            const auto distance = std::size_t(std::abs(std::ptrdiff_t(p[axis]) - std::ptrdiff_t(q[axis])));
+            if(distance < kernel.size())
+              sum += double(kernel[distance]) * double(start.values[start.offset(q)]);
+          }
+          BOOST_TEST_LT(std::abs(double(once.values[once.offset(p)]) - sum), 1e-3);
+        }
+  }
+}
+
+// As by sorting all values, where few are above what is passed over at first, and where many are.
+void test_level()
+{
+  std::mt19937 random(5);
+  for(const double largest : {0.1, 1.}) {
+    std::vector<float> values;
+    for(int i = 0; i < 1000; ++i)
+      values.push_back(float(largest * double(random() % 10000) / 10000));
+    std::vector<float> sorted = values;
+    std::sort(sorted.begin(), sorted.end(), std::greater<float>());
+    for(const std::size_t n : {1u, 10u, 500u, 900u})
+      BOOST_TEST_EQ(internal::level_above(values, n), (sorted[n - 1] + sorted[n]) / 2);
+  }
+}
+
+// The extents of all values are those that a pass for each one finds; a surface made with its extent is the
+// same as without, in one thread and in several.
+void test_extents()
+{
+  std::mt19937 random(13);
+  Voxel_image_3 image = image_of({30, 25, 20}, identity, [](const auto&) { return false; });
+  for(int value = 1; value <= 6; ++value) {
+    const Vec3 center{double(random() % 30), double(random() % 25), double(random() % 20)};
+    for(std::size_t i = 0; i < image.values.size(); ++i) {
+      const Vec3 p{double(i % 30), double(i / 30 % 25), double(i / 750)};
+      if(norm(p - center) < 2 + value)
+        image.values[i] = value == 6 ? std::numeric_limits<float>::quiet_NaN() : float(value);
+    }
+  }
+  const std::map<float, Label_extent_3> extents = label_extents(image);
+  std::size_t number = 0;
+  for(const auto& [value, extent] : extents) {
+    const float label = value;
+    const auto has_label = [label](float v) { return v == label; };
+    const auto box = internal::box_of_label(image, has_label, {0, 0, 0}, whole_extent(image.grid));
+    for(int i = 0; i < 3; ++i) {
+      BOOST_TEST_EQ(extent.first[i], std::size_t(box.first[i]));
+      BOOST_TEST_EQ(extent.last[i], std::size_t(box.first[i]) + box.size[i]);
+    }
+    BOOST_TEST_EQ(extent.number_of_voxels, internal::number_with_label(box));
+    number += extent.number_of_voxels;
+    Surface whole, within;
+    make_label_surface(image, has_label, 1, whole);
+    make_label_surface<CGAL::Parallel_if_available_tag>(image, has_label, 1, within, 0, extent);
+    BOOST_TEST(std::equal(whole.points().begin(), whole.points().end(), within.points().begin(),
+                          within.points().end()));
+  }
+  BOOST_TEST_LT(number, image.values.size()); // without those that are no number
+}
+
+// From many vertices: a torus keeps its handle, and each vertex stays near to it, nearer than with half as
+// many.
+void test_far_simplification()
+{
+  constexpr double large = 20, small = 7;
+  const auto off = [](const Surface& s) {
+    double largest = 0;
+    for(auto v : s.vertices()) {
+      const Vec3 p = to_vec3(s.point(v)) - Vec3{30, 30, 12};
+      largest = (std::max)(largest, std::abs(std::hypot(std::hypot(p[0], p[1]) - large, p[2]) - small));
+    }
+    return largest;
+  };
+  const Voxel_image_3 image = image_of({61, 61, 25}, identity, [](const std::array<double, 3>& p) {
+    return std::hypot(std::hypot(p[0] - 30, p[1] - 30) - large, p[2] - 12) < small;
+  });
+  const Surface full = surface_of(image, 1);
+  for(const std::size_t n : {1000u, 500u, 250u}) {
+    Surface s = full;
+    simplify_closed_surface(s, n);
+    std::cout << "torus: " << full.number_of_vertices() << " vertices off by up to " << off(full) << ", "
+              << s.number_of_vertices() << " by up to " << off(s) << '\n';
+    BOOST_TEST(is_clean(s));
+    BOOST_TEST(0.95 * double(n) < double(s.number_of_vertices())
+               && double(s.number_of_vertices()) < 1.1 * double(n));
+    BOOST_TEST_EQ(s.number_of_vertices() + s.number_of_faces(), s.number_of_edges());
+    BOOST_TEST(std::abs(volume(s) / volume(full) - 1) < 0.005);
+    BOOST_TEST_LT(off(s), off(full) + 50. / double(n));
+  }
+}
+
 int run(int, char*[])
 {
+  test_convolution();
+  test_level();
+  test_extents();
+  test_far_simplification();
   test_all_patterns();
   test_random_images();
   test_ball();

@@ -205,6 +205,18 @@ class Use(Case):
         self.assertEqual(status, 4, errors)
         self.assertIn("warning: stopped by a signal after ", errors)
         self.assertIn("all checks hold", out)
+        # after 2 s, whatever it is doing, and with one line
+        self.output.unlink()
+        command = [MESHER, DATA / "brain.off", "--vertices", "300000", "--output", self.output]
+        run = subprocess.Popen(list(map(str, command)), stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        time.sleep(4)
+        run.send_signal(signal.SIGINT)
+        begin = time.monotonic()
+        out, errors = run.communicate()
+        self.assertLess(time.monotonic() - begin, 4)
+        self.assertEqual((run.returncode, out, len(errors.splitlines())), (1, "", 1), errors)
+        self.assertIn("nothing is written", errors)
+        self.assertFalse(self.output.exists())
         # before there is a mesh
         self.fails(*arguments, "--time-limit", 1e-9, names="stopped before there was a mesh: nothing is written")
         self.fails(*arguments, "--time-limit", 0, names="--time-limit", status=2)
@@ -212,7 +224,7 @@ class Use(Case):
     def test_progress(self):
         """On a terminal: a share of the work that never falls, and the time that is left."""
         terminal, stderr = os.openpty()
-        run = subprocess.Popen([MESHER, DATA / "brain.off", "--vertices", "2000", "--output", self.output], stderr=stderr,
+        run = subprocess.Popen([MESHER, DATA / "brain.off", "--vertices", "10000", "--output", self.output], stderr=stderr,
                                stdout=subprocess.DEVNULL)
         os.close(stderr)
         text = b""
@@ -223,10 +235,16 @@ class Use(Case):
             pass
         os.close(terminal)
         self.assertEqual(run.wait(), 0)
+        # once a second at most, in one line
+        lines = text.split(b"\r\x1b[K")
+        seconds = [int(line.split()[0]) for line in lines if b" s  " in line and b"MiB" not in line]
+        self.assertGreater(len(seconds), 2)
+        self.assertTrue(all(a < b + 1 for a, b in zip(seconds, seconds[1:])), seconds)
+        self.assertNotIn(b"\n", b"".join(lines[:-1]))
         shares = [int(share) for share in re.findall(rb"about +(\d+) %, \d+ s left: ", text)]
-        self.assertGreater(len(shares), 10)
+        self.assertGreater(len(shares), 2)
         self.assertEqual(shares, sorted(shares))
-        self.assertTrue(shares[0] < 15 and 85 < shares[-1] < 100)
+        self.assertTrue(shares[0] < 50 and 75 < shares[-1] < 100, shares)
 
     def test_libraries(self):
         """No BLAS, which is for `brain_shift`: it takes much of the address space when it is loaded."""

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Names of subdomains: what mixed_mesh_3 writes, VTK and Gmsh read, and brain_shift understands.
 
+meshio is not needed: what it demands of a file of VTK is checked on the file (`strict_arrays()`).
+
   test_subdomain_names.py MESHER SHIFT WORK_DIRECTORY
 """
 
@@ -9,9 +11,12 @@ import json
 import pathlib
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import unittest
+import xml.etree.ElementTree as ElementTree
+import zlib
 
 MESHER, SHIFT, WORK = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
 
@@ -38,6 +43,40 @@ def box(name, low, high):
     return WORK / name
 
 
+def strict_arrays(path):
+    """The arrays of a file, read as meshio 5.0 does: it knows no type but those of numbers, no elements but
+    these, and finds appended arrays one behind the other, at the offsets that are declared."""
+    types = {"Float64": "f8", "Int32": "i4", "Int64": "i8", "UInt8": "u1"}
+    raw = path.read_bytes()
+    begin = re.search(b'<AppendedData[^>]+">', raw).end()
+    end = raw.find(b"</AppendedData>")
+    root = ElementTree.fromstring(raw[:begin] + raw[end:])
+    assert root.get("header_type") == "UInt64" and root.get("compressor") == "vtkZLibDataCompressor"
+    assert [child.tag for child in root] == ["UnstructuredGrid", "AppendedData"]
+    assert {child.tag for child in root[0]} <= {"FieldData", "Piece"}
+    assert {child.tag for child in root[0].find("Piece")} <= {"Points", "Cells", "PointData", "CellData"}
+    data = raw[begin:end].split(b"_", 1)[1].rsplit(b"\n", 1)[0]
+    declared = {int(a.get("offset")): a for a in root.iter() if a.get("format") == "appended"}
+    found = {}
+    for a in root.iter():
+        if a.get("format") == "ascii":
+            found[a.get("Name")] = np.array(a.text.split(), types[a.get("type")])
+    place = 0
+    while place < len(data):
+        a = declared.pop(place)
+        number, size, last = struct.unpack_from("<3Q", data, place)
+        sizes = struct.unpack_from(f"<{number}Q", data, place + 24)
+        place += 24 + 8 * number
+        blocks = []
+        for n in sizes:
+            blocks.append(zlib.decompress(data[place:place + n]))
+            place += n
+        assert [len(b) for b in blocks] == [size] * (number - 1) + [last or size] * (number > 0)
+        found[a.get("Name")] = np.frombuffer(b"".join(blocks), types[a.get("type")])
+    assert place == len(data) and not declared
+    return found
+
+
 class Test(unittest.TestCase):
 
     @classmethod
@@ -59,15 +98,34 @@ class Test(unittest.TestCase):
         reader.SetFileName(str(path))
         reader.Update()
         grid = reader.GetOutput()
-        names = grid.GetFieldData().GetAbstractArray("subdomain_names")
+        names = bytes(vtk_to_numpy(grid.GetFieldData().GetArray("subdomain_names"))).decode().split("\0")[:-1]
         indices = vtk_to_numpy(grid.GetFieldData().GetArray("subdomain_indices"))
         subdomain = vtk_to_numpy(grid.GetCellData().GetArray("subdomain"))
-        self.assertEqual(names.GetNumberOfValues(), len(indices))
-        self.assertEqual({int(n): names.GetValue(i) for i, n in enumerate(indices)}, NAMES)
+        self.assertEqual(len(names), len(indices))
+        self.assertEqual({int(n): names[i] for i, n in enumerate(indices)}, NAMES)
         return grid, {n: np.count_nonzero(subdomain == n) for n in NAMES}
 
     def test_vtk(self):
         self.assertEqual(self.numbers_in_vtu(self.files["vtu"])[1], self.elements)
+
+    def test_meshio(self):
+        """Its rules lead to the same arrays as VTK; they are smaller than their numbers."""
+        arrays = strict_arrays(self.files["vtu"])
+        grid, _ = self.numbers_in_vtu(self.files["vtu"])
+        self.assertEqual(bytes(arrays.pop("subdomain_names")), b"".join(n.encode() + b"\0" for n in NAMES.values()))
+        self.assertEqual(list(arrays.pop("subdomain_indices")), list(NAMES))
+        cells = {"types": grid.GetCellTypesArray(), "connectivity": grid.GetCells().GetConnectivityArray()}
+        size = 0
+        for name, values in arrays.items():
+            size += values.nbytes
+            if name == "Points":
+                other = vtk_to_numpy(grid.GetPoints().GetData()).ravel()
+            elif name == "offsets":
+                other = vtk_to_numpy(grid.GetCells().GetOffsetsArray())[1:]
+            else:
+                other = vtk_to_numpy(cells.get(name) or grid.GetCellData().GetArray(name))
+            self.assertTrue(np.array_equal(values, other), name)
+        self.assertLess(self.files["vtu"].stat().st_size, 0.8 * size)
 
     def test_gmsh(self):
         gmsh.initialize()
@@ -96,7 +154,6 @@ class Test(unittest.TestCase):
             self.assertEqual(size(name.upper()), self.elements[index])
 
     def test_febio(self):
-        import xml.etree.ElementTree as ElementTree
         root = ElementTree.parse(self.files["feb"]).getroot()
         mesh = root.find("Mesh")
         materials = {d.get("name"): d.get("mat") for d in root.find("MeshDomains")}
@@ -126,9 +183,14 @@ class Test(unittest.TestCase):
             copies[mode] = WORK / f"{mode}.vtu"
             writer.SetFileName(str(copies[mode]))
             writer.SetInputData(grid)
-            writer.SetCompressorTypeToNone()
             getattr(writer, f"SetDataModeTo{mode}")()
             writer.Write()
+        # strings of VTK, as files had them before
+        copies["strings"] = WORK / "strings.vtu"
+        text = copies["Ascii"].read_text()
+        old = re.search(r'<DataArray type="UInt8" Name="subdomain_names"[^>]*>([^<]*)</DataArray>', text)
+        copies["strings"].write_text(text.replace(old[0], '<Array type="String" Name="subdomain_names" NumberOfTuples="3" '
+                                                  f'format="ascii">{old[1]}</Array>'))
         for label, file in ((2, self.files["vtu"]), ("tumor", self.files["vtu"]), ("tumor", self.files["msh"]),
                             *(("tumor", copy) for copy in copies.values())):
             with self.subTest(label=label, file=file):

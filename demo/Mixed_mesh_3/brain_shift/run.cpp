@@ -35,8 +35,6 @@
 #include <string>
 #include <vector>
 
-#include <unistd.h>
-
 namespace mm3 = CGAL::Mixed_meshes_3;
 
 namespace {
@@ -208,7 +206,7 @@ void run(const Options& o)
   if(!o.quiet && outputs_of(o).empty())
     std::cerr << "note: nothing will be written, without --output, --output-deformed, --output-image, "
                  "--febio, --report and --page\n";
-  Stage_log log(!o.quiet && isatty(STDERR_FILENO));
+  Stage_log log(!o.quiet);
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);
   const std::vector<bool> is_removed = simulate(inputs.mesh, inputs.tumor, inputs.patches, o, log, outcome);

@@ -10,6 +10,7 @@
 #include "brain_shift/subdomains.h"
 #include "brain_shift/supports.h"
 #include "common/messages.h"
+#include "common/resources.h"
 
 #include <CGAL/Mixed_mesh_3/certificate.h>
 
@@ -137,6 +138,24 @@ void tell_of_solver([[maybe_unused]] Elasticity& elasticity, [[maybe_unused]] Ou
 #endif
 }
 
+// Tells what a factorization takes before it begins: afterwards there may be no memory to tell it. Numbers
+// are those of the table in the manual: the factor of CHOLMOD grows with n^(4/3), that of PETSc with n.
+void tell_of_factor([[maybe_unused]] const Mesh& mesh, [[maybe_unused]] const Options& o,
+                    [[maybe_unused]] Stage_log& log)
+{
+#if !MIXED_MESH_3_HAS_PETSC
+  constexpr double measured = 53799, bytes = 12e3, bytes_by_iteration = 5e3; // unknowns, and for each
+  constexpr double sure = 0.6; // of the estimate: so much is needed whatever the mesh is like
+  const double unknowns = 3 * double(mesh.number_of_vertices());
+  const double needed = bytes * unknowns * std::cbrt(unknowns / measured);
+  if(!o.quiet && needed > double(1 << 30))
+    log.note("factoring the matrix of " + std::to_string(mesh.number_of_vertices()) + " vertices takes about "
+             + gibibytes(needed) + " of memory, and its time grows with the square of their number; "
+             + "--solver petsc iterates, with about " + gibibytes(bytes_by_iteration * unknowns));
+  check_memory(o.mesh + ": without --solver petsc, the factor", sure * needed);
+#endif
+}
+
 // With a compliance, means are those that come out: they give the same displacements, without the springs.
 Motion_constraints constraints_of(const Elasticity& elasticity, std::vector<Vector> displacements,
                                   const Options& o)
@@ -210,6 +229,7 @@ std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_
   outcome.supports = find_supports(mesh, patches, o, outcome.points);
   set_supports(elasticity, outcome.supports);
 
+  tell_of_factor(mesh, o, log);
   // Before surgery the mesh is factored; then each measurement is a matter of milliseconds.
   log("factor", [&] { check(elasticity.factor(), o, controls); });
   elasticity.set_corotational(o.corotational);

@@ -6,12 +6,32 @@
 #include "common/Deferred_signals.h"
 
 #include <csignal>
+#include <string>
+
+#include <unistd.h>
 
 namespace {
 
 volatile std::sig_atomic_t the_signal = 0;
 
-extern "C" void note_signal(int signal) { the_signal = signal; }
+// Of the deadline, if there is one. A handler must not allocate: the line is there before.
+volatile std::sig_atomic_t the_seconds = 0;
+int the_status = 0;
+std::string the_line;
+
+extern "C" void note_signal(int signal)
+{
+  the_signal = signal;
+  if(the_seconds > 0)
+    alarm(unsigned(the_seconds));
+}
+
+extern "C" void end_program(int)
+{
+  const ssize_t ignored = write(STDERR_FILENO, the_line.data(), the_line.size());
+  static_cast<void>(ignored);
+  _exit(the_status);
+}
 
 } // namespace
 
@@ -41,3 +61,20 @@ Deferred_signals::~Deferred_signals()
 bool Deferred_signals::has_come() { return the_signal != 0; }
 
 void Deferred_signals::take() { the_signal = 0; }
+
+Signal_deadline::Signal_deadline(unsigned seconds, const std::string& line, int status)
+{
+  the_line = (isatty(STDERR_FILENO) ? "\r\033[K" : "") + line + '\n'; // over what is said of the progress
+  the_status = status;
+  struct sigaction action = {};
+  action.sa_handler = end_program;
+  sigaction(SIGALRM, &action, &m_former);
+  the_seconds = int(seconds);
+}
+
+Signal_deadline::~Signal_deadline()
+{
+  the_seconds = 0;
+  alarm(0);
+  sigaction(SIGALRM, &m_former, nullptr);
+}

@@ -6,6 +6,7 @@
 #ifndef MIXED_MESH_3_DEMO_COMMON_DEFERRED_SIGNALS_H
 #define MIXED_MESH_3_DEMO_COMMON_DEFERRED_SIGNALS_H
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,23 @@ public:
 
 private:
   std::vector<std::pair<int, struct sigaction>> m_former;
+};
+
+/// What a deferred signal starts: so many seconds after it the program ends, with a line on stderr, unless
+/// the object has been destroyed until then. What takes longer than one waits for cannot be put into order.
+/// One object at a time.
+class Signal_deadline
+{
+public:
+  /// \param line is written as it is
+  /// \param status of the program
+  Signal_deadline(unsigned seconds, const std::string& line, int status);
+  ~Signal_deadline();
+  Signal_deadline(const Signal_deadline&) = delete;
+  Signal_deadline& operator=(const Signal_deadline&) = delete;
+
+private:
+  struct sigaction m_former;
 };
 
 #endif // MIXED_MESH_3_DEMO_COMMON_DEFERRED_SIGNALS_H

@@ -8,6 +8,7 @@
 #ifndef MIXED_MESH_3_DEMO_COMMON_STAGE_LOG_H
 #define MIXED_MESH_3_DEMO_COMMON_STAGE_LOG_H
 
+#include "common/Progress.h"
 #include "common/messages.h"
 
 #include <CGAL/Mixed_mesh_3/Default_visitor.h>
@@ -25,6 +26,7 @@
 #include <vector>
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 /// What one stage took, over all its runs.
 struct Stage_cost
@@ -48,10 +50,10 @@ class Stage_log : public CGAL::Mixed_meshes_3::Default_visitor
   using Clock = std::chrono::steady_clock;
 
 public:
-  /// \param show_progress whether to rewrite a line on stderr while stages run
-  explicit Stage_log(bool show_progress) : m_show_progress(show_progress) {}
-
-  ~Stage_log() { clear_line(); }
+  /// \param show_progress whether to say on stderr, while stages run, how far they are
+  explicit Stage_log(bool show_progress) : m_show_progress(show_progress), m_progress(show_progress, m_start)
+  {
+  }
 
   void begin_stage(CGAL::Mixed_meshes_3::Stage stage)
   {
@@ -116,12 +118,18 @@ public:
   const std::vector<Stage_cost>& costs() const { return m_costs; }
   double seconds() const { return seconds_since(m_start); }
 
+  /// Says what the stage that runs is doing; may be called in several threads.
+  void tell(const std::string& what) { m_progress.show(m_current + ", " + what); }
+
+  /// Writes a line that stays.
+  void note(const std::string& line) { m_progress.note("note: " + line); }
+
   /// Replaces the progress line by what each stage took.
   void finish_progress()
   {
-    if(!m_show_progress)
+    m_progress.finish();
+    if(!m_show_progress || !isatty(STDERR_FILENO))
       return;
-    clear_line();
     for(const Stage_cost& cost : m_costs)
       std::fprintf(stderr, "%9.3f s %6zu MiB  %s\n", cost.seconds, cost.peak_bytes >> 20,
                    printable(cost.name).c_str());
@@ -132,18 +140,16 @@ public:
 
 private:
   // With a tolerance, many meshes are made, each with another place or size of the octree.
-  void show(const std::string& what) const
+  void show(const std::string& what)
   {
-    if(!m_show_progress)
-      return;
     const double seconds = seconds_since(m_start), share = share_of_work();
-    std::fprintf(stderr, "\r\033[K%7.2f s  ", seconds);
+    std::string text;
     if(share > 0.05)
-      std::fprintf(stderr, "about %2.0f %%, %.0f s left: ", 100 * share,
-                   std::ceil(seconds * (1 - share) / share));
+      text = "about " + std::to_string(std::lround(100 * share)) + " %, "
+             + std::to_string(std::lround(std::ceil(seconds * (1 - share) / share))) + " s left: ";
     if(m_number_of_meshes > 1)
-      std::fprintf(stderr, "octree %zu to compare: ", m_number_of_meshes);
-    std::fputs(printable(what).c_str(), stderr);
+      text += "octree " + std::to_string(m_number_of_meshes) + " to compare: ";
+    m_progress.show(text + what);
   }
 
   // Of a search or a fit that takes longer than expected, two steps are always left.
@@ -156,12 +162,6 @@ private:
       return m_plan.fit;
     return m_is_fitting ? m_plan.search + (m_plan.fit - m_plan.search) * done(m_round, m_plan.rounds)
                         : m_plan.search * done(m_number_of_trials, m_plan.trials);
-  }
-
-  void clear_line() const
-  {
-    if(m_show_progress)
-      std::fprintf(stderr, "\r\033[K");
   }
 
   void begin(const std::string& name)
@@ -218,6 +218,7 @@ private:
   Work_plan m_plan;
   std::function<bool()> m_is_over;
   std::vector<Stage_cost> m_costs;
+  Progress m_progress;
 };
 
 #endif // MIXED_MESH_3_DEMO_COMMON_STAGE_LOG_H

@@ -21,6 +21,7 @@
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
 #include <CGAL/Mixed_mesh_image_3/IO/NIFTI.h>
 #include <CGAL/Mixed_mesh_image_3/complete_label.h>
+#include <CGAL/Mixed_mesh_image_3/label_extents.h>
 #include <CGAL/Mixed_mesh_image_3/make_label_surface.h>
 #include <CGAL/Mixed_mesh_image_3/simplify_closed_surface.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
@@ -36,16 +37,17 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 struct Label_image::Data
 {
   mm3::Voxel_image_3 image;
-  std::map<float, std::size_t> numbers; // of voxels of each value
+  std::map<float, mm3::Label_extent_3> extents; // of voxels of each value
 
-  explicit Data(mm3::Voxel_image_3 read) : image(std::move(read))
+  explicit Data(mm3::Voxel_image_3 read) : image(std::move(read)), extents(mm3::label_extents(image)) {}
+
+  mm3::Label_extent_3 extent(const Voxel_selection& selection) const
   {
-    auto last = numbers.end(); // most voxels have the value of the one before
-    for(float value : image.values) {
-      if(last == numbers.end() || last->first != value)
-        last = numbers.try_emplace(value, 0).first;
-      ++last->second;
-    }
+    mm3::Label_extent_3 all;
+    for(const auto& [value, extent] : extents)
+      if(selection(value))
+        all.add(extent);
+    return all;
   }
 };
 
@@ -129,9 +131,10 @@ Label_image Label_image::completed(const Voxel_selection& selection, const Voxel
            done.number_of_filled_voxels, done.number_of_removed_voxels, done.number_of_removed_components};
 
   // Of the values that are selected for what is filled in, the commonest one; for the rest, none that is.
-  const std::pair<const float, std::size_t>* commonest = nullptr;
-  for(const auto& value : m_data->numbers)
-    if(filling(value.first) && (commonest == nullptr || value.second > commonest->second))
+  const std::pair<const float, mm3::Label_extent_3>* commonest = nullptr;
+  for(const auto& value : m_data->extents)
+    if(filling(value.first)
+       && (commonest == nullptr || value.second.number_of_voxels > commonest->second.number_of_voxels))
       commonest = &value;
   if(commonest == nullptr)
     throw std::runtime_error(m_path + ": there are no voxels " + filling.text);
@@ -153,10 +156,7 @@ Label_image Label_image::completed(const Voxel_selection& selection, const Voxel
 
 std::size_t Label_image::number_of_voxels(const Voxel_selection& selection) const
 {
-  std::size_t sum = 0;
-  for(const auto& [value, number] : m_data->numbers)
-    sum += selection(value) ? number : 0;
-  return sum;
+  return m_data->extent(selection).number_of_voxels;
 }
 
 double Label_image::volume_of_voxel() const
@@ -169,7 +169,7 @@ std::vector<int> Label_image::labels() const
   constexpr std::size_t most_labels = 60000;
   constexpr float largest = 2e9f;
   std::vector<int> result;
-  for(const auto& [value, number] : m_data->numbers) {
+  for(const auto& [value, extent] : m_data->extents) {
     if(value == 0)
       continue;
     if(!(value >= 1 && value <= largest) || value != std::floor(value))
@@ -196,7 +196,8 @@ Surface Label_image::surface_of(const Voxel_selection& selection, const Label_su
     throw std::runtime_error(m_path + ": smoothing by " + rounded(smoothing) + " mm is more than "
                              + rounded(most_voxels) + " voxels wide, see --smoothing");
   Surface surface;
-  mm3::make_label_surface(image, selection, smoothing, surface, options.vertices);
+  mm3::make_label_surface<CGAL::Parallel_if_available_tag>(image, selection, smoothing, surface,
+                                                           options.vertices, m_data->extent(selection));
   if(surface.is_empty() && number_of_voxels(selection) == 0)
     throw std::runtime_error(m_path + ": there are no voxels " + selection.text);
   if(surface.is_empty())

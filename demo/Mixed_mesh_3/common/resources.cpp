@@ -27,10 +27,9 @@ double available_memory()
   return bytes;
 }
 
-// Rounded up.
-std::string gibibytes(double bytes) { return std::to_string(std::size_t(bytes / (1 << 30)) + 1); }
-
 } // namespace
+
+std::string gibibytes(double bytes) { return std::to_string(std::size_t(bytes / (1 << 30)) + 1) + " GiB"; }
 
 void Output_paths::add(const std::string& path)
 {
@@ -51,6 +50,6 @@ void check_memory(const std::string& what, double needed)
 {
   const double available = available_memory();
   if(needed > available)
-    throw std::runtime_error(what + " would need about " + gibibytes(needed) + " GiB of memory, of "
-                             + gibibytes(available) + " GiB");
+    throw std::runtime_error(what + " would need about " + gibibytes(needed) + " of memory, of "
+                             + gibibytes(available));
 }

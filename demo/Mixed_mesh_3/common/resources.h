@@ -40,6 +40,9 @@ void require(const Io& io)
     throw std::runtime_error(error);
 }
 
+/// A number of bytes, rounded up, as in "2 GiB".
+std::string gibibytes(double bytes);
+
 /// Throws if `needed` bytes are more than there are: physical memory, or the limit of the control group if
 /// that is less.
 /// \param what the beginning of the message: what would need them

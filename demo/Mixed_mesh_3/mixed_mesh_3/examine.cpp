@@ -8,10 +8,10 @@
 #include "mixed_mesh_3/verdict.h"
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/certify_mesh.h>
 #include <CGAL/Mixed_mesh_3/fidelity.h>
 #include <CGAL/Mixed_mesh_3/quality_bound.h>
 #include <CGAL/Mixed_mesh_3/surface_distance.h>
-#include <CGAL/Mixed_mesh_3/validation.h>
 
 #include <algorithm>
 
@@ -43,7 +43,6 @@ Fidelity fidelity_of(const Mesh& mesh, const Surface& surface, double volume_of_
   f.volume_of_surface = volume_of_surface;
   f.vertices = mm3::boundary_vertices(mesh).size();
   f.vertices_off = mm3::number_of_vertices_off_surface(mesh, surface, on_surface);
-  f.self_intersections = mm3::number_of_boundary_self_intersections(mesh);
   return f;
 }
 
@@ -69,17 +68,6 @@ Topology topology_of(const Mesh& mesh, const Surface& surface, bool is_fitted,
   return t;
 }
 
-std::vector<Check> checks_of(const mm3::Mesh_defects& d, const Fidelity& fidelity)
-{
-  return {{"conforming", d.conforming()},
-          {"closed manifold boundary", d.closed_manifold_boundary()},
-          {"boundary does not cut itself (exact)", fidelity.self_intersections == 0},
-          {"corner tetrahedra positive (exact)", d.nonpositive_corners == 0},
-          {"Jacobian positive on whole elements (exact)", d.positive()},
-          {"no unused vertex", d.unused_vertices == 0},
-          {"no duplicate vertex", d.duplicate_vertices == 0}};
-}
-
 std::vector<Check> checks_of_fidelity(const Outcome& outcome, bool is_fitted)
 {
   std::vector<Check> checks{{"same topology as the surface", outcome.topology.is_same},
@@ -103,12 +91,14 @@ Aspect_ratios aspect_ratios_of(const Mesh& mesh)
 void examine(const Mesh& mesh, const Surface& surface, const Options& options, Stage_log& log,
              Outcome& outcome)
 {
-  const mm3::Mesh_defects defects = log("checks", [&] { return mm3::find_defects(mesh); });
-  if(defects.none())
+  const mm3::Mesh_certificate certificate = log("checks", [&] { return mm3::certify_mesh(mesh); });
+  if(certificate.defects.none())
     outcome.fidelity = log("distance to surface",
                            [&] { return fidelity_of(mesh, surface, outcome.surface.volume); });
-  outcome.checks = checks_of(defects, outcome.fidelity);
-  require_all(outcome.checks, defects.none() ? outcome.fidelity.self_intersections : 0);
+  outcome.fidelity.self_intersections = certificate.number_of_self_intersections;
+  for(const mm3::Mesh_certificate::Check& check : certificate.checks())
+    outcome.checks.push_back({check.name, check.holds});
+  require_all(outcome.checks, certificate.number_of_self_intersections);
   require_volume(options, outcome);
   outcome.topology = log("topology", [&] {
     return topology_of(mesh, surface, options.fit() != Fit::NONE, outcome.result.status);

@@ -21,13 +21,18 @@
 #include "mixed_mesh_3/verdict.h"
 #include "page/page.h"
 
+#include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
+#include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
 #include <CGAL/make_mixed_mesh_3.h>
 
 #include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <exception>
 #include <functional>
 #include <iostream>
 #include <map>
@@ -37,8 +42,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <unistd.h>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 using Domain = CGAL::Labeled_polyhedral_mixed_mesh_domain_3;
@@ -71,22 +74,35 @@ struct Inputs
   std::vector<Surface> regions;
 };
 
+// A part of the domain that has labels of an image.
+struct Part_of_image
+{
+  Subdomain_option option;
+  mm3::Subdomain_index index;
+  double number_of_voxels;
+  double share; // of the voxels of the domain
+};
+
 // Surfaces of files, each image read once.
 class Surface_reader
 {
   const Options& m_options;
+  Stage_log& m_log;
   std::vector<std::string>& m_warnings;
   std::map<std::string, Label_image> m_images;
   std::optional<Label_image> m_domain; // completed
 
 public:
-  Surface_reader(const Options& o, std::vector<std::string>& warnings) : m_options(o), m_warnings(warnings) {}
+  Surface_reader(const Options& o, Stage_log& log, std::vector<std::string>& warnings)
+    : m_options(o), m_log(log), m_warnings(warnings)
+  {
+  }
 
   const Label_image& image(const std::string& file) { return m_images.try_emplace(file, file).first->second; }
 
   Surface operator()(const std::string& file, const Voxel_selection& voxels, Surface_facts& facts)
   {
-    return is_image(file) ? surface_of(image(file), file, voxels, facts, 1, 1)
+    return is_image(file) ? surface_of(image(file), file, voxels, facts, m_warnings)
                           : read_surface(file, m_options.surface_options, facts, m_warnings);
   }
 
@@ -101,13 +117,50 @@ public:
     return *m_domain;
   }
 
-  // A part of the domain out of its image.
-  Subdomain part(const Subdomain_option& s, const Label_image& image, mm3::Subdomain_index index,
-                 double share = 1, std::size_t number_of_parts = 1)
+  // The domain, or what is around its parts, out of its image.
+  Subdomain whole(const Subdomain_option& s, const Label_image& image, mm3::Subdomain_index index)
   {
     return subdomain(s, index, [&](Surface_facts& facts) {
-      return surface_of(image, s.file, s.voxels, facts, share, number_of_parts);
+      return surface_of(image, s.file, s.voxels, facts, m_warnings);
     });
+  }
+
+  // Parts of the domain out of its image, several at a time: the surface of one does not depend on others.
+  std::vector<Subdomain> parts(const Label_image& image, const std::vector<Part_of_image>& parts,
+                               std::size_t number_of_parts)
+  {
+    struct Result
+    {
+      Subdomain subdomain;
+      std::vector<std::string> warnings;
+      std::exception_ptr error;
+    };
+    std::vector<Result> results(parts.size());
+    std::atomic<std::size_t> number_of_results = 0;
+    const auto make = [&](std::size_t i) {
+      const Part_of_image& part = parts[i];
+      Result& result = results[i];
+      try {
+        result.subdomain = subdomain(part.option, part.index, [&](Surface_facts& facts) {
+          return surface_of(image, part.option.file, part.option.voxels, facts, result.warnings, part.share,
+                            number_of_parts);
+        });
+        result.subdomain.volume = part.number_of_voxels * image.volume_of_voxel();
+      } catch(...) {
+        result.error = std::current_exception();
+      }
+      m_log.tell("label " + std::to_string(++number_of_results) + " of " + std::to_string(parts.size()));
+    };
+    mm3::internal::parallel_for(parts.size(),
+                                mm3::internal::number_of_threads<CGAL::Parallel_if_available_tag>(), make, 1);
+    std::vector<Subdomain> subdomains;
+    for(Result& result : results) {
+      if(result.error)
+        std::rethrow_exception(result.error);
+      m_warnings.insert(m_warnings.end(), result.warnings.begin(), result.warnings.end());
+      subdomains.push_back(std::move(result.subdomain));
+    }
+    return subdomains;
   }
 
   Subdomain operator()(const Subdomain_option& s, mm3::Subdomain_index index)
@@ -136,7 +189,8 @@ private:
   // \param share of the domain
   // \param number_of_parts of the domain that have surfaces
   Surface surface_of(const Label_image& image, const std::string& file, const Voxel_selection& voxels,
-                     Surface_facts& facts, double share, std::size_t number_of_parts)
+                     Surface_facts& facts, std::vector<std::string>& warnings, double share = 1,
+                     std::size_t number_of_parts = 1) const
   {
     // several times as many as the mesh has at its boundary; of parts more, as they are finer
     const double finer = share < 1 ? 3 : 1, least = share < 1 ? 1000 : 2000;
@@ -150,7 +204,7 @@ private:
     Surface surface = image.surface_of(voxels,
                                        {m_options.smoothing, std::size_t(vertices),
                                         m_options.surface_options.wrap_diameter},
-                                       facts, m_warnings);
+                                       facts, warnings);
     if(surface.is_empty() && share == 1)
       throw std::runtime_error(file + ": nothing is left of the voxels " + voxels.text
                                + " after smoothing, see --smoothing");
@@ -182,25 +236,24 @@ std::vector<Subdomain> read_labels(const Options& o, Surface_reader& read, Outco
     outcome.has_lost_labels = true;
     outcome.warnings.push_back("the subdomain " + what);
   };
-  std::vector<Subdomain> subdomains;
+  std::vector<Part_of_image> parts;
   for(std::size_t i = 0; i < all.size(); ++i) {
     if(i == largest)
       continue;
     const double number = number_of(all[i]);
-    if(number == 0 && sizes[i].first > 0) {
+    if(number == 0 && sizes[i].first > 0)
       lose(labels[i].name + " is lost: its component of the domain is dropped");
-      continue;
-    }
-    Subdomain s = read.part({labels[i].name, o.surface, all[i]}, image, index_of(i), number / number_of_all,
-                            all.size() - 1);
-    s.volume = number * image.volume_of_voxel();
+    else
+      parts.push_back({{labels[i].name, o.surface, all[i]}, index_of(i), number, number / number_of_all});
+  }
+  std::vector<Subdomain> subdomains;
+  for(Subdomain& s : read.parts(image, parts, all.size() - 1))
     if(s.surface->is_empty())
       lose(s.name + ", of volume " + rounded(*s.volume)
            + ", is lost: smoothing leaves nothing of it, see --smoothing");
     else
       subdomains.push_back(std::move(s));
-  }
-  subdomains.push_back(read.part({labels[largest].name, o.surface, whole}, image, index_of(largest)));
+  subdomains.push_back(read.whole({labels[largest].name, o.surface, whole}, image, index_of(largest)));
   subdomains.back().volume = number_of(all[largest]) * image.volume_of_voxel();
   return subdomains;
 }
@@ -219,7 +272,7 @@ std::vector<Subdomain> read_subdomains(const Options& o, Surface_reader& read, O
     subdomains.push_back(read(s, ++index));
   const Subdomain_option whole{surrounding_name(o), o.surface, o.voxels};
   if(!has_labels)
-    subdomains.push_back(is_image(o.surface) ? read.part(whole, read.domain(o.voxels, o.voxels, outcome), 1)
+    subdomains.push_back(is_image(o.surface) ? read.whole(whole, read.domain(o.voxels, o.voxels, outcome), 1)
                                              : read(whole, 1));
   subdomains.insert(subdomains.end(), labels.begin(), labels.end());
   return subdomains;
@@ -228,7 +281,7 @@ std::vector<Subdomain> read_subdomains(const Options& o, Surface_reader& read, O
 Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
 {
   Inputs inputs;
-  Surface_reader read(o, outcome.warnings);
+  Surface_reader read(o, log, outcome.warnings);
   inputs.subdomains = log("read surface", [&] { return read_subdomains(o, read, outcome); });
   inputs.boundary = boundary_of(inputs.subdomains);
   outcome.surface = inputs.subdomains.back().facts;
@@ -364,8 +417,9 @@ Mesh make_mesh_until_stopped(const Domain& domain, const Inputs& inputs, const O
     fit_by_algorithm_1(mesh, domain, o, log, outcome);
   if(outcome.is_stopped) {
     const std::string by = Deferred_signals::has_come() ? "a signal" : "--time-limit";
-    outcome.warnings.push_back("stopped by " + by + " after " + rounded(log.seconds())
-                               + " s: the mesh is what there was then");
+    outcome.warnings.push_back(
+      "stopped by " + by + " after " + rounded(log.seconds())
+      + " s: the mesh is what there was then, and its boundary may be off the surface");
     Deferred_signals::take(); // another one stops what follows
   }
   return mesh;
@@ -416,20 +470,30 @@ bool run(Options o)
   check_feasible(o);
   if(!o.quiet && o.outputs.empty() && o.report.empty() && o.page.empty())
     std::cerr << "note: nothing will be written, without --output, --report and --page\n";
-  Stage_log log(!o.quiet && isatty(STDERR_FILENO));
+  Stage_log log(!o.quiet);
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);
   Domain domain = log("AABB tree of surface", [&] { return make_domain(inputs.subdomains); });
   const std::vector<Sheet> sheets = add_sheets(o, domain, outcome.warnings);
   check_regions(domain, inputs, o, outcome);
   log.expect(plan_for(o));
+  constexpr unsigned patience = 2; // seconds from Ctrl-C to the end
+  std::optional<Signal_deadline> deadline;
+  deadline.emplace(patience,
+                   "mixed_mesh_3: stopped by a signal: there was no mesh to write within "
+                     + std::to_string(patience) + " s, nothing is written; --time-limit waits for one",
+                   1);
   Mesh mesh = make_mesh_until_stopped(domain, inputs, o, log, outcome);
   o.vertices = outcome.result.vertex_budget; // which --vertices auto has found
+  const std::vector<std::string> warnings = outcome.warnings;
   examine(mesh, inputs.boundary, o, log, outcome);
   examine_subdomains(mesh, domain, inputs.subdomains, o, outcome);
   std::vector<mm3::IO::Facet_set> facet_sets = examine_sheets(mesh, domain, sheets, o, outcome);
   for(mm3::IO::Facet_set& set : interfaces_of(mesh, inputs.subdomains))
     facet_sets.push_back(std::move(set));
+  if(outcome.is_stopped) // others would blame the surface, or the options, for what was not finished
+    outcome.warnings = warnings;
+  deadline.reset();
   write_files(mesh, facet_sets, inputs.subdomains, o, log, outcome);
   log.finish_progress();
   for(const std::string& warning : outcome.warnings)

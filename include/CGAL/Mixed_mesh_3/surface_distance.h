@@ -13,14 +13,11 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/surface/hausdorff_distance.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/boundary_self_intersections.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Named_function_parameters.h>
-#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/assertions.h>
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/named_params_helper.h>
@@ -167,15 +164,7 @@ std::size_t number_of_vertices_off_surface(const Mesh& mesh, const FaceListGraph
 template <class Mesh>
 std::size_t number_of_boundary_self_intersections(const Mesh& mesh)
 {
-  namespace PMP = Polygon_mesh_processing;
-  using Surface = CGAL::Surface_mesh<Predicates_kernel::Point_3>;
-  internal::Triangle_soup soup = internal::boundary_triangles(mesh);
-  PMP::orient_polygon_soup(soup.points, soup.triangles); // duplicates vertices that are not manifold
-  Surface surface;
-  PMP::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, surface);
-  std::vector<std::pair<Surface::Face_index, Surface::Face_index>> pairs;
-  PMP::self_intersections(surface, std::back_inserter(pairs));
-  return pairs.size();
+  return internal::number_of_self_intersections(internal::boundary_triangles(mesh));
 }
 
 } // namespace Mixed_meshes_3

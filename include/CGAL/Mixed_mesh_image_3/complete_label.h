@@ -160,7 +160,7 @@ Voxel_image_3 complete_label(const Voxel_image_3& image, const HasLabel& has_lab
   std::array<std::size_t, 3> margin;
   for(int i = 0; i < 3; ++i) // balls beyond the label, and a voxel at the border
     margin[i] = std::size_t(std::ceil(options.closing_radius / spacing[i])) + 2;
-  Labeled_box box = box_of_label(image, has_label, margin);
+  Labeled_box box = box_of_label(image, has_label, margin, whole_extent(image.grid));
   Label_completion_result done;
   std::size_t number = done.number_of_voxels = number_with_label(box);
   // By how many more voxels have the label than before.

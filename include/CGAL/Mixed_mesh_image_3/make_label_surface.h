@@ -10,15 +10,19 @@
 #ifndef CGAL_MIXED_MESH_IMAGE_3_MAKE_LABEL_SURFACE_H
 #define CGAL_MIXED_MESH_IMAGE_3_MAKE_LABEL_SURFACE_H
 
+#include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>
 #include <CGAL/Mixed_mesh_image_3/internal/Marching_tetrahedra.h>
 #include <CGAL/Mixed_mesh_image_3/internal/smooth_indicator.h>
+#include <CGAL/Mixed_mesh_image_3/label_extents.h>
 
 #include <CGAL/assertions.h>
+#include <CGAL/tags.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace CGAL {
@@ -49,21 +53,28 @@ have the label, the surface is empty.
        would have some 20 times as many, every second voxel's center along each index is enough, if
        `smoothing` is about a voxel (wherever the surface crosses an edge between two, it is off by at most
        a tenth of a voxel then): a quarter of the vertices, and of the time that the simplification takes
+\param extent a box of voxels that holds all that have the label: what is outside is not looked at. Of many
+       labels, `label_extents()` finds those of all at once. By default, it is the whole image
+\tparam ConcurrencyTag enables sequential versus parallel smoothing. The result does not depend on it.
+        Possible values are `Sequential_tag`, `Parallel_tag`, and `Parallel_if_available_tag`
 \pre `smoothing >= 0`, the determinant of `image.grid.index_to_world` is not 0
 
 \par Complexity
 Linear in the number of voxels of the box around the label, times the width of the Gaussian in voxels
 */
-template <class HasLabel, class Surface_mesh_>
+template <class ConcurrencyTag = Sequential_tag, class HasLabel, class Surface_mesh_>
 void make_label_surface(const Voxel_image_3& image, const HasLabel& has_label, double smoothing,
-                        Surface_mesh_& surface, std::size_t number_of_vertices = 0)
+                        Surface_mesh_& surface, std::size_t number_of_vertices = 0,
+                        const std::optional<Label_extent_3>& extent = std::nullopt)
 {
   CGAL_precondition(smoothing >= 0 && determinant(image.grid.index_to_world) != 0);
   surface.clear();
   std::array<double, 3> deviations = voxel_spacing(image.grid);
   for(double& d : deviations)
     d = smoothing / d;
-  internal::Indicator indicator = internal::smooth_indicator(image, has_label, deviations);
+  internal::Indicator indicator = internal::smooth_indicator(image, has_label, deviations,
+                                                             extent.value_or(whole_extent(image.grid)),
+                                                             internal::number_of_threads<ConcurrencyTag>());
   if(indicator.values.empty())
     return;
   constexpr std::size_t many_crossings = 8; // of edges along the axes: there are more vertices

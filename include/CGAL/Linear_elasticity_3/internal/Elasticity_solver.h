@@ -72,7 +72,9 @@ class Elasticity_solver_adaptor final : public Elasticity_solver
   static constexpr bool has_near_kernel =
     std::is_invocable_v<Set_near_kernel, SolverTraits&, Eigen::MatrixXd>;
 
-  std::optional<typename SolverTraits::Matrix> m_matrix; // must outlive the factorization
+  using Matrix = typename Matrix_of_solver<SolverTraits>::type;
+
+  std::optional<Matrix> m_matrix; // must outlive the factorization
   SolverTraits m_traits;
 
 public:
@@ -83,7 +85,7 @@ public:
   void set_matrix(const std::vector<int>& starts, const std::vector<int>& rows,
                   const std::vector<double>& values) override
   {
-    m_matrix.emplace(make_matrix<typename SolverTraits::Matrix>(starts, rows, values));
+    m_matrix.emplace(make_matrix<Matrix>(starts, rows, values));
   }
 
   bool wants_near_kernel() const override { return has_near_kernel; }

@@ -15,6 +15,7 @@
 #include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
 #include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/Compressed_blocks.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 
@@ -106,6 +107,38 @@ VTU_array element_data_array(const Mesh& mesh, const Data_array& data)
           }};
 }
 
+// What is known of the elements of each mesh.
+template <class Mesh>
+VTU_arrays own_element_arrays(const Mesh& mesh)
+{
+  VTU_arrays arrays = {
+    element_array<std::uint8_t>("kind", mesh, [&mesh](Element_index e) { return mesh.element(e).kind(); }),
+    element_array<double>("ARC", mesh,
+                          [&mesh](Element_index e) { return aspect_ratio_coefficient(mesh, e); }),
+    element_array<std::uint8_t>("in_region", mesh, [&mesh](Element_index e) { return mesh.is_in_region(e); }),
+    element_array<std::int32_t>("subdomain", mesh,
+                                [&mesh](Element_index e) { return mesh.subdomain_index(e); })};
+  if(std::any_of(mesh.attributes().begin(), mesh.attributes().end(),
+                 [](const Element_attributes& a) { return a.compartment != 0; }))
+    arrays.push_back(element_array<std::int32_t>("compartment", mesh, [&mesh](Element_index e) {
+      return mesh.attributes(e).compartment;
+    }));
+  return arrays;
+}
+
+// For each set that is not empty, how many faces of each element are in it.
+inline std::vector<std::vector<std::uint8_t>> numbers_of_facets_in(const std::vector<Facet_set>& sets,
+                                                                   std::size_t number_of_elements)
+{
+  std::vector<std::vector<std::uint8_t>> numbers;
+  for(const Facet_set& set : sets) {
+    numbers.emplace_back(set.faces.empty() ? 0 : number_of_elements);
+    for(const Face& face : set.faces)
+      ++numbers.back()[face.element()];
+  }
+  return numbers;
+}
+
 template <class Index, class Mesh>
 VTU_arrays cell_arrays(const Mesh& mesh)
 {
@@ -130,22 +163,86 @@ VTU_arrays cell_arrays(const Mesh& mesh)
           })};
 }
 
-// As text, between what is binary: VTK has each string as its characters' numbers, and a 0.
+// Names as numbers of bytes, a 0 after each: strings of VTK would be what they are, but meshio refuses a file
+// that has an array without numbers. As text, between what is binary, anyone can read them in the file.
 inline void write_VTU_subdomain_names(Buffered_output& out, const Subdomain_names& names)
 {
+  std::size_t number_of_bytes = 0;
+  for(const auto& [index, name] : names)
+    number_of_bytes += name.size() + 1;
   out << "    <FieldData>\n      <DataArray type=\"Int32\" Name=\"subdomain_indices\" NumberOfTuples=\""
       << names.size() << "\" format=\"ascii\">\n       ";
   for(const auto& [index, name] : names)
     out << ' ' << index;
-  out << "\n      </DataArray>\n      <Array type=\"String\" Name=\"subdomain_names\" NumberOfTuples=\""
-      << names.size() << "\" format=\"ascii\">\n";
+  out << "\n      </DataArray>\n      <DataArray type=\"UInt8\" Name=\"subdomain_names\" NumberOfTuples=\""
+      << number_of_bytes << "\" format=\"ascii\">\n";
   for(const auto& [index, name] : names) {
     out << "       ";
     for(char c : name)
-      out << ' ' << int(c);
+      out << ' ' << int(static_cast<unsigned char>(c));
     out << " 0\n";
   }
-  out << "      </Array>\n    </FieldData>\n";
+  out << "      </DataArray>\n    </FieldData>\n";
+}
+
+struct VTU_section
+{
+  const char* name;
+  VTU_arrays arrays;
+};
+
+// The bytes of an array with their header. Nothing if they are to be written as they are: without zlib.
+inline std::string compressed_bytes([[maybe_unused]] const VTU_array& array)
+{
+#ifdef CGAL_USE_ZLIB
+  Compressed_blocks blocks;
+  std::ostream stream(&blocks);
+  Buffered_output out(stream);
+  array.write(out);
+  out.finish();
+  return blocks.take();
+#else
+  return {};
+#endif
+}
+
+// All of the file but the first lines.
+inline void write_VTU_piece(Buffered_output& out, const std::vector<VTU_section>& sections, std::size_t n,
+                            std::size_t m)
+{
+  std::vector<std::string> compressed;
+  for(const VTU_section& section : sections)
+    for(const VTU_array& array : section.arrays)
+      compressed.push_back(compressed_bytes(array));
+  auto bytes = compressed.begin();
+  out << "    <Piece NumberOfPoints=\"" << n << "\" NumberOfCells=\"" << m << "\">\n";
+  std::uint64_t offset = 0;
+  for(const VTU_section& section : sections) {
+    out << "      <" << section.name << ">\n";
+    for(const VTU_array& array : section.arrays) {
+      out << "        <DataArray type=\"" << array.type << "\" Name=\"" << escaped_for_XML(array.name)
+          << "\" NumberOfComponents=\"" << array.number_of_components << "\" format=\"appended\" offset=\""
+          << offset << "\"/>\n";
+      offset += bytes->empty() ? sizeof(std::uint64_t) + array.number_of_bytes : bytes->size();
+      ++bytes;
+    }
+    out << "      </" << section.name << ">\n";
+  }
+  out << "    </Piece>\n"
+      << "  </UnstructuredGrid>\n"
+      << "  <AppendedData encoding=\"raw\">\n_";
+  bytes = compressed.begin();
+  for(const VTU_section& section : sections)
+    for(const VTU_array& array : section.arrays) {
+      if(bytes->empty()) {
+        out.write_binary(array.number_of_bytes);
+        array.write(out);
+      } else {
+        out << *bytes;
+      }
+      ++bytes;
+    }
+  out << "\n  </AppendedData>\n</VTKFile>\n";
 }
 
 } // namespace internal
@@ -153,7 +250,8 @@ inline void write_VTU_subdomain_names(Buffered_output& out, const Subdomain_name
 /*!
 \ingroup PkgMixedMesh3IO
 
-\brief Writes a mesh as VTK unstructured grid: XML, version 1.0, with raw binary data appended.
+\brief Writes a mesh as VTK unstructured grid: XML, version 1.0, with raw binary data appended, compressed by
+zlib if `CGAL_USE_ZLIB` is defined and zlib is linked.
 
 Elements are sorted by kind, within a kind in the order of the mesh: programs that read blocks of one kind
 find four. Element data: `kind` (the number of the `Element_kind`), `ARC` (the aspect-ratio coefficient),
@@ -161,8 +259,8 @@ find four. Element data: `kind` (the number of the `Element_kind`), `ARC` (the a
 (if there are sheets, see `find_sheet_faces()`), what the options add, and for each facet set
 `facets_` with its name: the number of the element's faces in the set, since a file of elements has no faces
 of their own; a threshold above 0 selects the elements. Field data, if subdomains have
-names: `subdomain_indices` and `subdomain_names`. Nothing of the size of the mesh is allocated but for facet
-sets.
+names: `subdomain_indices`, and `subdomain_names` as bytes with a zero behind each name. Nothing of the size
+of the mesh is allocated but for facet sets, and for what is compressed.
 
 VTK disagrees with itself on wedges. Written in the documented order, as here, their faces look
 outwards and `vtkCellSizeFilter` finds a positive volume, but the Jacobian of the shape functions of
@@ -177,45 +275,26 @@ bool write_VTU(std::ostream& stream, const Mesh& mesh, const VTU_options& option
   using namespace internal;
   const std::size_t n = mesh.number_of_vertices(), m = mesh.number_of_elements();
 
-  VTU_arrays vertex_data, element_data;
+  VTU_arrays vertex_data, element_data = own_element_arrays(mesh);
   bool fits = true;
   for(const Data_array& data : options.vertex_data)
     if((fits = fits && data.has_size(n)))
       vertex_data.push_back(vertex_data_array(data));
-  element_data.push_back(
-    element_array<std::uint8_t>("kind", mesh, [&mesh](Element_index e) { return mesh.element(e).kind(); }));
-  element_data.push_back(element_array<double>("ARC", mesh, [&mesh](Element_index e) {
-    return aspect_ratio_coefficient(mesh, e);
-  }));
-  element_data.push_back(element_array<std::uint8_t>("in_region", mesh, [&mesh](Element_index e) {
-    return mesh.is_in_region(e);
-  }));
-  element_data.push_back(element_array<std::int32_t>("subdomain", mesh, [&mesh](Element_index e) {
-    return mesh.subdomain_index(e);
-  }));
-  if(std::any_of(mesh.attributes().begin(), mesh.attributes().end(),
-                 [](const Element_attributes& a) { return a.compartment != 0; }))
-    element_data.push_back(element_array<std::int32_t>("compartment", mesh, [&mesh](Element_index e) {
-      return mesh.attributes(e).compartment;
-    }));
   for(const Data_array& data : options.element_data)
     if((fits = fits && data.has_size(m)))
       element_data.push_back(element_data_array(mesh, data));
-  std::vector<std::vector<std::uint8_t>> numbers_of_facets;
-  numbers_of_facets.reserve(options.facet_sets.size());
-  for(const Facet_set& set : options.facet_sets) {
-    numbers_of_facets.emplace_back(set.faces.empty() ? 0 : m);
-    for(const Face& face : set.faces)
-      ++numbers_of_facets.back()[face.element()];
-    if(!set.faces.empty())
-      element_data.push_back(element_array<std::uint8_t>("facets_" + set.name, mesh,
-                                                         [&numbers = numbers_of_facets.back()](
-                                                           Element_index e) { return numbers[e]; }));
-  }
   if(!fits) {
     stream.setstate(std::ios_base::failbit);
     return false;
   }
+  const std::vector<std::vector<std::uint8_t>> numbers_of_facets = numbers_of_facets_in(options.facet_sets,
+                                                                                        m);
+  for(std::size_t i = 0; i < options.facet_sets.size(); ++i)
+    if(!options.facet_sets[i].faces.empty())
+      element_data.push_back(element_array<std::uint8_t>("facets_" + options.facet_sets[i].name, mesh,
+                                                         [&numbers = numbers_of_facets[i]](Element_index e) {
+                                                           return numbers[e];
+                                                         }));
 
   // The name "Points" is the one VTK gives.
   const VTU_array points = {"Points", vtk_type_name<double>(), 3, n * 3 * sizeof(double),
@@ -228,16 +307,11 @@ bool write_VTU(std::ostream& stream, const Mesh& mesh, const VTU_options& option
   const bool is_small = (std::max)(n, mesh.elements().connectivity().size())
                         <= std::size_t((std::numeric_limits<std::int32_t>::max)());
 
-  struct Section
-  {
-    const char* name;
-    VTU_arrays arrays;
-  };
-  const Section sections[] = {{"PointData", std::move(vertex_data)},
-                              {"CellData", std::move(element_data)},
-                              {"Points", {points}},
-                              {"Cells",
-                               is_small ? cell_arrays<std::int32_t>(mesh) : cell_arrays<std::int64_t>(mesh)}};
+  const std::vector<VTU_section> sections = {{"PointData", std::move(vertex_data)},
+                                             {"CellData", std::move(element_data)},
+                                             {"Points", {points}},
+                                             {"Cells", is_small ? cell_arrays<std::int32_t>(mesh)
+                                                                : cell_arrays<std::int64_t>(mesh)}};
 
 #ifdef CGAL_BIG_ENDIAN
   const char* const byte_order = "BigEndian";
@@ -254,31 +328,14 @@ bool write_VTU(std::ostream& stream, const Mesh& mesh, const VTU_options& option
   Buffered_output out(stream);
   out << "<?xml version=\"1.0\"?>\n"
       << "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"" << byte_order
-      << "\" header_type=\"UInt64\">\n"
-      << "  <UnstructuredGrid>\n";
+      << "\" header_type=\"UInt64\""
+#ifdef CGAL_USE_ZLIB
+      << " compressor=\"vtkZLibDataCompressor\""
+#endif
+      << ">\n  <UnstructuredGrid>\n";
   if(!names.empty())
     write_VTU_subdomain_names(out, names);
-  out << "    <Piece NumberOfPoints=\"" << n << "\" NumberOfCells=\"" << m << "\">\n";
-  std::uint64_t offset = 0;
-  for(const Section& section : sections) {
-    out << "      <" << section.name << ">\n";
-    for(const VTU_array& array : section.arrays) {
-      out << "        <DataArray type=\"" << array.type << "\" Name=\"" << escaped_for_XML(array.name)
-          << "\" NumberOfComponents=\"" << array.number_of_components << "\" format=\"appended\" offset=\""
-          << offset << "\"/>\n";
-      offset += sizeof(std::uint64_t) + array.number_of_bytes;
-    }
-    out << "      </" << section.name << ">\n";
-  }
-  out << "    </Piece>\n"
-      << "  </UnstructuredGrid>\n"
-      << "  <AppendedData encoding=\"raw\">\n_";
-  for(const Section& section : sections)
-    for(const VTU_array& array : section.arrays) {
-      out.write_binary(array.number_of_bytes);
-      array.write(out);
-    }
-  out << "\n  </AppendedData>\n</VTKFile>\n";
+  write_VTU_piece(out, sections, n, m);
   return out.finish();
 }
 

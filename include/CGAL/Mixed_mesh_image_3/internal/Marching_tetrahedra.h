@@ -12,7 +12,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -37,7 +36,12 @@ class Marching_tetrahedra
   const Size m_size;
   const std::vector<float>& m_values;
   const float m_level;
-  std::unordered_map<std::uint64_t, std::size_t> m_vertices; // by edge
+  // Vertices on edges from a slice of the grid and from the next one, by the edge's first end in the slice
+  // and its direction: eight times as many as ends. A map of all edges took more time than all the rest.
+  std::array<std::vector<std::uint32_t>, 2> m_vertices;
+  std::uint32_t m_number_of_vertices = 0;
+
+  static constexpr std::uint32_t no_vertex = std::uint32_t(-1);
 
 public:
   /// \param size,values of the grid; the first index runs fastest
@@ -52,11 +56,16 @@ public:
   template <class AddPoint, class AddTriangle>
   void operator()(const AddPoint& add_point, const AddTriangle& add_triangle)
   {
-    Size p;
-    for(p[2] = 0; p[2] + 1 < m_size[2]; ++p[2])
-      for(p[1] = 0; p[1] + 1 < m_size[1]; ++p[1])
-        for(p[0] = 0; p[0] + 1 < m_size[0]; ++p[0])
-          march(p, add_point, add_triangle);
+    for(std::vector<std::uint32_t>& slice : m_vertices)
+      slice.assign(8 * m_size[0] * m_size[1], no_vertex);
+    for(std::size_t k = 0; k + 1 < m_size[2]; ++k) {
+      for(std::size_t j = 0; j + 1 < m_size[1]; ++j)
+        for_each_crossed_cube_of_row(j, k, [&](const Size& cube, int inside) {
+          march(cube, inside, add_point, add_triangle);
+        });
+      m_vertices[0].swap(m_vertices[1]);
+      std::fill(m_vertices[1].begin(), m_vertices[1].end(), no_vertex);
+    }
   }
 
 private:
@@ -70,16 +79,29 @@ private:
     return p;
   }
 
-  bool is_inside(const Size& p) const { return m_values[offset(p)] > m_level; }
+  /// Calls `f(cube, inside)` for each cube along the first index with corners inside and outside; bit c of
+  /// `inside` is that of corner c.
+  template <class F>
+  void for_each_crossed_cube_of_row(std::size_t j, std::size_t k, const F& f) const
+  {
+    const float* const rows[4] = {&m_values[offset({0, j, k})], &m_values[offset({0, j + 1, k})],
+                                  &m_values[offset({0, j, k + 1})], &m_values[offset({0, j + 1, k + 1})]};
+    const auto column = [&](std::size_t i) { // those of even numbers
+      return int(rows[0][i] > m_level) | int(rows[1][i] > m_level) << 2 | int(rows[2][i] > m_level) << 4
+             | int(rows[3][i] > m_level) << 6;
+    };
+    int first = column(0);
+    for(std::size_t i = 0; i + 1 < m_size[0]; ++i) {
+      const int second = column(i + 1), inside = first | second << 1;
+      first = second;
+      if(inside != 0 && inside != 255)
+        f(Size{i, j, k}, inside);
+    }
+  }
 
   template <class AddPoint, class AddTriangle>
-  void march(const Size& cube, const AddPoint& add_point, const AddTriangle& add_triangle)
+  void march(const Size& cube, int inside, const AddPoint& add_point, const AddTriangle& add_triangle)
   {
-    int inside = 0;
-    for(int c = 0; c < 8; ++c)
-      inside |= int(is_inside(corner(cube, c))) << c;
-    if(inside == 0 || inside == 255)
-      return;
     // From corner 0 to corner 7 along the axes in each order; positively oriented if that is an even one.
     constexpr int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
     for(int o = 0; o < 6; ++o) {
@@ -128,9 +150,10 @@ private:
     if(from > to)
       std::swap(from, to);
     const Size p = corner(cube, from), q = corner(cube, to);
-    const auto [found, is_new] = m_vertices.try_emplace(8 * std::uint64_t(offset(p)) + unsigned(to - from),
-                                                        m_vertices.size());
-    if(is_new) {
+    std::uint32_t& vertex = m_vertices[p[2] - cube[2]]
+                                      [8 * (p[0] + m_size[0] * p[1]) + std::size_t(to - from)];
+    if(vertex == no_vertex) {
+      vertex = m_number_of_vertices++;
       const double u = m_values[offset(p)], v = m_values[offset(q)];
       const double t = (std::min)((std::max)((m_level - u) / (v - u), least_share), 1 - least_share);
       std::array<double, 3> point;
@@ -138,7 +161,7 @@ private:
         point[i] = double(p[i]) + t * double(q[i] - p[i]);
       add_point(point);
     }
-    return found->second;
+    return vertex;
   }
 };
 

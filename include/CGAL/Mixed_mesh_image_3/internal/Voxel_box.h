@@ -9,6 +9,7 @@
 #define CGAL_MIXED_MESH_IMAGE_3_INTERNAL_VOXEL_BOX_H
 
 #include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>
+#include <CGAL/Mixed_mesh_image_3/label_extents.h>
 
 #include <algorithm>
 #include <array>
@@ -40,16 +41,17 @@ struct Labeled_box : Voxel_box
 };
 
 /// \param margin voxels without label on each side of those that have it, along each axis
+/// \param extent what is looked at
 template <class HasLabel>
 Labeled_box box_of_label(const Voxel_image_3& image, const HasLabel& has_label,
-                         const std::array<std::size_t, 3>& margin)
+                         const std::array<std::size_t, 3>& margin, const Label_extent_3& extent)
 {
   const Voxel_grid_3& grid = image.grid;
   std::array<std::size_t, 3> low = grid.size, high{};
   const auto for_each_voxel = [&](const auto& f) {
-    for(std::size_t k = 0; k < grid.size[2]; ++k)
-      for(std::size_t j = 0; j < grid.size[1]; ++j)
-        for(std::size_t i = 0; i < grid.size[0]; ++i)
+    for(std::size_t k = extent.first[2]; k < extent.last[2]; ++k)
+      for(std::size_t j = extent.first[1]; j < extent.last[1]; ++j)
+        for(std::size_t i = extent.first[0]; i < extent.last[0]; ++i)
           if(has_label(image.values[grid.offset(i, j, k)]))
             f(std::array<std::size_t, 3>{i, j, k});
   };

@@ -8,7 +8,9 @@
 #ifndef CGAL_MIXED_MESH_IMAGE_3_INTERNAL_SMOOTH_INDICATOR_H
 #define CGAL_MIXED_MESH_IMAGE_3_INTERNAL_SMOOTH_INDICATOR_H
 
+#include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
 #include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>
+#include <CGAL/Mixed_mesh_image_3/label_extents.h>
 #include <CGAL/Mixed_mesh_image_3/internal/Voxel_box.h>
 
 #include <algorithm>
@@ -17,6 +19,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <vector>
 
 namespace CGAL {
@@ -77,41 +80,67 @@ inline std::vector<float> gaussian_kernel(double deviation)
   return result;
 }
 
-/// Convolution along an axis, with 0 outside.
-inline void convolve(Indicator& indicator, int axis, const std::vector<float>& kernel)
+/// Convolution along an axis, with 0 outside. What is added, and in which order, depends neither on the
+/// threads nor on the blocks.
+inline void convolve(Indicator& indicator, int axis, const std::vector<float>& kernel, unsigned threads)
 {
-  const std::size_t n = indicator.size[axis], last = kernel.size() - 1;
-  const std::size_t stride = indicator.strides()[axis];
-  std::vector<float> line(n + 2 * last, 0.f);
-  for(std::size_t start = 0; start < indicator.values.size(); ++start) {
-    if(start / stride % n != 0)
-      continue; // not the first of a line
-    float* const values = indicator.values.data() + start;
+  const std::size_t last = kernel.size() - 1;
+  if(last == 0)
+    return; // it is 1
+  // A block is a bundle of lines beside each other: a loop over all its values is one over what is
+  // contiguous.
+  const std::array<std::size_t, 3> strides = indicator.strides();
+  const std::size_t n = indicator.size[axis], stride = strides[axis],
+                    width = axis == 0 ? 1 : indicator.size[0], padding = last * width;
+  const auto convolve_block = [&](float* const values, std::vector<float>& padded, std::vector<float>& sums) {
     for(std::size_t i = 0; i < n; ++i)
-      line[last + i] = values[i * stride];
-    for(std::size_t i = 0; i < n; ++i) {
-      const float* const middle = line.data() + last + i;
-      float sum = kernel[0] * middle[0];
-      for(std::size_t k = 1; k <= last; ++k)
-        sum += kernel[k] * (middle[-std::ptrdiff_t(k)] + middle[k]);
-      values[i * stride] = sum;
+      std::copy_n(values + i * stride, width, padded.data() + padding + i * width);
+    const float* const middle = padded.data() + padding;
+    for(std::size_t i = 0; i < n * width; ++i)
+      sums[i] = kernel[0] * middle[i];
+    for(std::size_t k = 1; k <= last; ++k) {
+      const float *const before = middle - k * width, *const behind = middle + k * width;
+      for(std::size_t i = 0; i < n * width; ++i)
+        sums[i] += kernel[k] * (before[i] + behind[i]);
     }
-  }
+    for(std::size_t i = 0; i < n; ++i)
+      std::copy_n(sums.data() + i * width, width, values + i * stride);
+  };
+  // Of rows, a slice of them is a task; of lines along another axis, those that start in one row.
+  const int other = axis == 2 ? 1 : 2;
+  const std::size_t rows = axis == 0 ? indicator.size[1] : 1;
+  parallel_for(
+    indicator.size[other], threads,
+    [&](std::size_t task) {
+      std::vector<float> padded(n * width + 2 * padding, 0.f), sums(n * width);
+      for(std::size_t row = 0; row < rows; ++row)
+        convolve_block(indicator.values.data() + task * strides[other] + row * strides[1], padded, sums);
+    },
+    1);
 }
 
 /// A level that so many values are above; fewer, if there are equal ones. \pre less than there are
-inline float level_above(std::vector<float> values, std::size_t number)
+inline float level_above(const std::vector<float>& values, std::size_t number)
 {
-  const auto next = values.begin() + std::ptrdiff_t(number);
-  std::nth_element(values.begin(), next, values.end(), std::greater<float>());
-  return (*next + *std::min_element(values.begin(), next)) / 2;
+  // most values are 0, or nearly: those that matter are found among the others, if there are enough
+  constexpr float low = 0.2f;
+  std::vector<float> candidates;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(candidates),
+               [](float value) { return value > low; });
+  if(candidates.size() <= number)
+    candidates = values;
+  const auto next = candidates.begin() + std::ptrdiff_t(number);
+  std::nth_element(candidates.begin(), next, candidates.end(), std::greater<float>());
+  return (*next + *std::min_element(candidates.begin(), next)) / 2;
 }
 
 /// The indicator of a label in the box around it, smoothed.
 /// \param deviations of the Gaussian, in voxels along each axis
+/// \param extent around all voxels that have the label
 template <class HasLabel>
 Indicator smooth_indicator(const Voxel_image_3& image, const HasLabel& has_label,
-                           const std::array<double, 3>& deviations)
+                           const std::array<double, 3>& deviations, const Label_extent_3& extent,
+                           unsigned threads = 1)
 {
   std::array<std::vector<float>, 3> kernels;
   std::array<std::size_t, 3> margin;
@@ -119,13 +148,13 @@ Indicator smooth_indicator(const Voxel_image_3& image, const HasLabel& has_label
     kernels[i] = gaussian_kernel(deviations[i]);
     margin[i] = kernels[i].size(); // one more than what is reached
   }
-  const Labeled_box box = box_of_label(image, has_label, margin);
+  const Labeled_box box = box_of_label(image, has_label, margin, extent);
   Indicator indicator{box, {box.has_label.begin(), box.has_label.end()}};
   if(indicator.values.empty())
     return indicator;
   const auto number_with_label = std::size_t(std::count(box.has_label.begin(), box.has_label.end(), 1));
   for(int axis = 0; axis < 3; ++axis)
-    convolve(indicator, axis, kernels[axis]);
+    convolve(indicator, axis, kernels[axis], threads);
   indicator.level = level_above(indicator.values, number_with_label);
   return indicator;
 }

@@ -346,6 +346,8 @@ protected:
     return n;
   }
 
+  bool has_strings(const Array& array) const { return type_of(array) == "String"; }
+
   // How many bytes an array of strings has; 0 if they are compressed, which is not for us.
   std::uint64_t size_of_text(const Array& array) const
   {

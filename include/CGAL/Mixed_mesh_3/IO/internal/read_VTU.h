@@ -132,7 +132,10 @@ class VTU_reader : VTK_XML_reader
     if(array == nullptr)
       return;
     std::vector<std::string> names(1);
-    for(std::int64_t c : values<std::int64_t>(file(), "FieldData", "subdomain_names", size_of_text(*array)))
+    // as numbers, or as strings of VTK: these count names, not bytes
+    const std::uint64_t size = has_strings(*array) ? size_of_text(*array)
+                                                   : number(array->tag, "NumberOfTuples");
+    for(std::int64_t c : values<std::int64_t>(file(), "FieldData", "subdomain_names", size))
       if(c != 0)
         names.back() += char(c);
       else

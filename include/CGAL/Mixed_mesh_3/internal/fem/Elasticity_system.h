@@ -242,6 +242,22 @@ Matrix make_matrix(const std::vector<int>& starts, const std::vector<int>& rows,
   }
 }
 
+/// The class of a solver's matrices. Of a class that has none, the first line of what the compiler says is
+/// the sentence here.
+template <class Solver, class = void>
+struct Matrix_of_solver
+{
+  static_assert(sizeof(Solver) == 0,
+                "the solver must be a model of SparseLinearAlgebraWithFactorTraits_d: it has no type Matrix");
+  using type = int;
+};
+
+template <class Solver>
+struct Matrix_of_solver<Solver, std::void_t<typename Solver::Matrix>>
+{
+  using type = typename Solver::Matrix;
+};
+
 } // namespace internal
 } // namespace Mixed_meshes_3
 } // namespace CGAL

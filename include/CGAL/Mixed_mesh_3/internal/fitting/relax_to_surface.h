@@ -92,6 +92,7 @@ class Surface_relaxation
 {
   using Status = Mixed_mesh_fit_status;
   using Criteria = Mixed_mesh_fit_criteria_3;
+  using Matrix = typename Matrix_of_solver<Solver>::type;
 
   enum class Outcome { ACCEPTED, INVERTED, FAILED, STOPPED };
 
@@ -291,8 +292,7 @@ private:
     if(n == 0)
       return true;
     ++m_result.number_of_solves;
-    const auto matrix = make_matrix<typename Solver::Matrix>(m_system.starts(), m_system.rows(),
-                                                             m_system.values());
+    const auto matrix = make_matrix<Matrix>(m_system.starts(), m_system.rows(), m_system.values());
     typename Solver::Vector b{std::size_t(n)};
     for(int i = 0; i < n; ++i)
       b[i] = m_system.right_hand_side()[std::size_t(i)];

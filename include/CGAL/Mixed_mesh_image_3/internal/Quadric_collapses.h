@@ -1,0 +1,293 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Garland and Heckbert: Surface simplification using quadric error metrics (1997).
+
+#ifndef CGAL_MIXED_MESH_IMAGE_3_INTERNAL_QUADRIC_COLLAPSES_H
+#define CGAL_MIXED_MESH_IMAGE_3_INTERNAL_QUADRIC_COLLAPSES_H
+
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <queue>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// A sum of squared distances to planes, each with a weight: `x A x + 2 b x + c`.
+struct Plane_quadric
+{
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+  Vec3 b{0, 0, 0};
+  double c = 0;
+
+  void add(const Plane_quadric& q)
+  {
+    xx += q.xx, xy += q.xy, xz += q.xz, yy += q.yy, yz += q.yz, zz += q.zz;
+    b = b + q.b;
+    c += q.c;
+  }
+
+  /// The plane through a point; the weight is the length of its normal.
+  static Plane_quadric of_plane(const Vec3& point, const Vec3& normal)
+  {
+    const double length = norm(normal);
+    if(!(length > 0))
+      return {};
+    const Vec3 n = 1 / length * normal;
+    const double d = -dot(n, point), w = length;
+    return {w * n[0] * n[0], w * n[0] * n[1], w * n[0] * n[2], w * n[1] * n[1],
+            w * n[1] * n[2], w * n[2] * n[2], w * d * n,       w * d * d};
+  }
+
+  double sum_of_weights() const { return xx + yy + zz; }
+
+  double operator()(const Vec3& p) const
+  {
+    const Vec3 a{xx * p[0] + xy * p[1] + xz * p[2], xy * p[0] + yy * p[1] + yz * p[2],
+                 xz * p[0] + yz * p[1] + zz * p[2]};
+    return (std::max)(dot(a, p) + 2 * dot(b, p) + c, 0.);
+  }
+
+  /// Where it is least; in directions in which it hardly changes, near to a point.
+  Vec3 minimum_near(const Vec3& p) const
+  {
+    constexpr double share = 1e-3; // of the weights that pull there: keeps the system well-conditioned
+    const double pull = share * sum_of_weights();
+    if(!(pull > 0))
+      return p;
+    const double a = xx + pull, d = yy + pull, f = zz + pull;
+    const Vec3 right = pull * p - b;
+    const Vec3 u{d * f - yz * yz, xz * yz - xy * f, xy * yz - xz * d}; // cofactors
+    const Vec3 v{u[1], a * f - xz * xz, xy * xz - a * yz};
+    const Vec3 w{u[2], v[2], a * d - xy * xy};
+    const double determinant = a * u[0] + xy * u[1] + xz * u[2];
+    return 1 / determinant * Vec3{dot(u, right), dot(v, right), dot(w, right)};
+  }
+};
+
+/*!
+Collapses edges of a closed triangulated surface, those first that move it least from the planes of its
+triangles.
+
+Arrays of numbers, and a cost of few operations: some 50 times as fast as the collapse by volume and shape,
+which it leaves some multiple of the vertices. The topology stays (the link condition), and no triangle turns
+over; that triangles which are no neighbors do not cut each other is for the caller to check.
+
+Edges are halfedges in pairs. Halfedge `3 t + i` goes from corner `i` of triangle `t` to the next one.
+*/
+class Quadric_collapses
+{
+public:
+  using Index = std::uint32_t;
+  using Triangle = std::array<Index, 3>;
+
+private:
+  static constexpr Index none = Index(-1);
+
+  struct Candidate
+  {
+    double cost;
+    Index halfedge, version;
+
+    // The halfedge decides between equal costs, so that the order does not depend on the queue.
+    bool operator>(const Candidate& other) const
+    {
+      return cost > other.cost || (cost == other.cost && halfedge > other.halfedge);
+    }
+  };
+
+  std::vector<Vec3> m_points;
+  std::vector<Index> m_source;   // of each halfedge; none if its triangle is gone
+  std::vector<Index> m_opposite; // of each halfedge
+  std::vector<Index> m_outgoing; // one of each vertex
+  std::vector<Index> m_version;  // of each vertex: grows when it moves
+  std::vector<Plane_quadric> m_quadrics;
+  std::vector<bool> m_is_fixed; // each vertex
+  std::size_t m_number_of_vertices;
+  std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> m_queue;
+
+public:
+  /// \param opposite of each halfedge
+  /// \param is_fixed for each vertex whether it stays where it is
+  Quadric_collapses(std::vector<Vec3> points, const std::vector<Triangle>& triangles,
+                    std::vector<Index> opposite, std::vector<bool> is_fixed)
+    : m_points(std::move(points)), m_opposite(std::move(opposite)), m_outgoing(m_points.size(), none),
+      m_version(m_points.size(), 0), m_quadrics(m_points.size()), m_is_fixed(std::move(is_fixed)),
+      m_number_of_vertices(m_points.size())
+  {
+    for(const Triangle& t : triangles) {
+      const Vec3 normal = cross(m_points[t[1]] - m_points[t[0]], m_points[t[2]] - m_points[t[0]]);
+      const Plane_quadric quadric = Plane_quadric::of_plane(m_points[t[0]], normal);
+      for(const Index v : t) {
+        m_quadrics[v].add(quadric);
+        m_outgoing[v] = Index(m_source.size());
+        m_source.push_back(v);
+      }
+    }
+  }
+
+  /// Until there are so many vertices, or no edge can be collapsed.
+  void operator()(std::size_t number_of_vertices)
+  {
+    for(Index h = 0; h < m_source.size(); ++h)
+      if(h < m_opposite[h])
+        add_candidate(h);
+    while(m_number_of_vertices > number_of_vertices && !m_queue.empty()) {
+      const Candidate next = m_queue.top();
+      m_queue.pop();
+      const Index h = next.halfedge;
+      if(m_source[h] == none || version_of(h) != next.version)
+        continue; // there is a newer one
+      const Vec3 point = place_of(h);
+      if(may_collapse(h, point))
+        collapse(h, point);
+    }
+  }
+
+  /// What is left: numbered as before, without gaps.
+  std::pair<std::vector<Vec3>, std::vector<Triangle>> result() const
+  {
+    std::pair<std::vector<Vec3>, std::vector<Triangle>> left;
+    std::vector<Index> number(m_points.size(), none);
+    for(Index v = 0; v < m_points.size(); ++v)
+      if(m_outgoing[v] != none) {
+        number[v] = Index(left.first.size());
+        left.first.push_back(m_points[v]);
+      }
+    for(std::size_t h = 0; h < m_source.size(); h += 3)
+      if(m_source[h] != none)
+        left.second.push_back({number[m_source[h]], number[m_source[h + 1]], number[m_source[h + 2]]});
+    return left;
+  }
+
+private:
+  static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
+  static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
+  Index target(Index h) const { return m_source[next(h)]; }
+  Index version_of(Index h) const { return m_version[m_source[h]] + m_version[target(h)]; }
+
+  /// Calls `f` for each halfedge from a vertex.
+  template <class F>
+  void for_each_outgoing(Index v, const F& f) const
+  {
+    Index h = m_outgoing[v];
+    do {
+      f(h);
+      h = m_opposite[previous(h)];
+    } while(h != m_outgoing[v]);
+  }
+
+  Plane_quadric quadric_of(Index h) const
+  {
+    Plane_quadric quadric = m_quadrics[m_source[h]];
+    quadric.add(m_quadrics[target(h)]);
+    return quadric;
+  }
+
+  Vec3 place_of(Index h) const
+  {
+    return quadric_of(h).minimum_near(0.5 * (m_points[m_source[h]] + m_points[target(h)]));
+  }
+
+  void add_candidate(Index h)
+  {
+    if(m_is_fixed[m_source[h]] || m_is_fixed[target(h)])
+      return;
+    // where the surface is plane, all places are as good: short edges first keep triangles compact
+    constexpr double weight_of_length = 1e-5;
+    const Plane_quadric quadric = quadric_of(h);
+    const Vec3 &p = m_points[m_source[h]], &q = m_points[target(h)];
+    const double cost = quadric(quadric.minimum_near(0.5 * (p + q)))
+                        + weight_of_length * quadric.sum_of_weights() * dot(q - p, q - p);
+    m_queue.push({cost, h, version_of(h)});
+  }
+
+  bool may_collapse(Index h, const Vec3& point) const
+  {
+    return keeps_topology(h) && keeps_sides(h, point) && keeps_sides(m_opposite[h], point);
+  }
+
+  // The link condition: the ends have two common neighbors, opposite to the edge, of more than three edges.
+  bool keeps_topology(Index h) const
+  {
+    const Index u = m_source[h], v = target(h);
+    int common = 0;
+    for_each_outgoing(u, [&](Index a) {
+      for_each_outgoing(v, [&](Index b) { common += target(a) == target(b); });
+    });
+    const auto has_more_than_three = [this](Index w) {
+      int degree = 0;
+      for_each_outgoing(w, [&degree](Index) { ++degree; });
+      return degree > 3;
+    };
+    return common == 2 && has_more_than_three(m_source[previous(h)])
+           && has_more_than_three(m_source[previous(m_opposite[h])]);
+  }
+
+  // Whether triangles at the source, but those at the edge, keep their side and do not become needles.
+  bool keeps_sides(Index edge, const Vec3& point) const
+  {
+    constexpr double least_cosine = 0.2, least_shape = 0.05; // of angles; 0.29 is equilateral
+    bool is_kept = true;
+    for_each_outgoing(m_source[edge], [&](Index h) {
+      if(!is_kept || h == edge || h == next(m_opposite[edge]))
+        return;
+      const Vec3 &p = m_points[m_source[h]], &a = m_points[target(h)], &b = m_points[m_source[previous(h)]];
+      const Vec3 before = cross(a - p, b - p), after = cross(a - point, b - point);
+      const double cosine = dot(before, after);
+      const auto shape = [&](const Vec3& normal, const Vec3& corner) {
+        const double squares = dot(a - corner, a - corner) + dot(b - corner, b - corner) + dot(a - b, a - b);
+        return norm(normal) / squares;
+      };
+      is_kept = cosine > 0
+                && cosine * cosine >= least_cosine * least_cosine * dot(before, before) * dot(after, after)
+                && shape(after, point) >= (std::min)(least_shape, shape(before, p));
+    });
+    return is_kept;
+  }
+
+  // The source becomes the target, which moves to the point.
+  void collapse(Index h, const Vec3& point)
+  {
+    const Index o = m_opposite[h], u = m_source[h], v = target(h);
+    const Plane_quadric quadric = quadric_of(h);
+    for_each_outgoing(u, [this, v](Index outgoing) { m_source[outgoing] = v; });
+    const auto close_triangle = [this](Index edge) {
+      const Index a = m_opposite[next(edge)], b = m_opposite[previous(edge)];
+      m_opposite[a] = b;
+      m_opposite[b] = a;
+      m_outgoing[m_source[a]] = a;
+      m_outgoing[m_source[b]] = b;
+      for(const Index gone : {edge, next(edge), previous(edge)})
+        m_source[gone] = none;
+    };
+    close_triangle(h);
+    close_triangle(o);
+    m_outgoing[u] = none;
+    m_points[v] = point;
+    m_quadrics[v] = quadric;
+    m_version[v] += m_version[u] + 1; // more than those of all edges to both
+    --m_number_of_vertices;
+    for_each_outgoing(v,
+                      [this](Index outgoing) { add_candidate((std::min)(outgoing, m_opposite[outgoing])); });
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_IMAGE_3_INTERNAL_QUADRIC_COLLAPSES_H
