@@ -36,7 +36,7 @@ std::vector<double> depths_of(const Mesh& mesh, const Landmark_facts& landmarks)
   std::vector<double> depths;
   for(std::size_t i = 0; i < landmarks.points.size(); ++i) {
     const auto& [x, y, z] = landmarks.points[i].position;
-    const double distance = boundary({x, y, z}, boundary.start()).distance;
+    const double distance = boundary({x, y, z}).distance;
     depths.push_back(landmarks.locations[i].distance > 0 ? -distance : distance);
   }
   return depths;
