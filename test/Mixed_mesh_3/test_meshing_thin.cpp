@@ -96,10 +96,10 @@ void test_flatter_elements()
 {
   Surface shell;
   add_sphere(shell, Point_3(0, 0, 0), 1, 24);
-  Surface inner = sphere(Point_3(0, 0, 0), 0.94, 24);
+  Surface inner = sphere(Point_3(0, 0, 0), 0.95, 24);
   CGAL::Polygon_mesh_processing::reverse_face_orientations(inner);
   shell += inner;
-  const Mixed_mesh_criteria_3 criteria(400);
+  const Mixed_mesh_criteria_3 criteria(500);
   Mesh mesh;
   const auto result = make_mixed_mesh_3(shell, criteria, mesh);
   const auto& fit = result.optimization;

@@ -213,7 +213,7 @@ struct Best_mesh
 /// no flatter than needed.
 inline void try_flatter_elements(Meshing_state& s, bool is_finer, Best_mesh& best)
 {
-  constexpr std::array<double, 4> multiples{1.5, 2.25, 3.4, 5};
+  constexpr std::array<double, 3> multiples{1.5, 2.5, 5};
   const double bound = s.criteria.quality_bound();
   for(const double multiple : multiples) {
     if(s.is_stopped || best.misfit.is_of_distance_only())
