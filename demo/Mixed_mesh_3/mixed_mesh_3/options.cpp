@@ -248,7 +248,12 @@ void add_files(CLI::App& app, Options& o)
       "Vertex budget: the mesh has at most that many vertices; auto: as few as --tolerance allows, found by "
       "meshes with six to ten budgets of up to 200,000")
     ->required()
-    ->check(count(1000000000) | CLI::IsMember({automatic_vertices})) // of 32-bit indices in files
+    ->check(CLI::Validator(
+      [](std::string& text) {
+        // of 32-bit indices in files
+        return text == automatic_vertices ? std::string() : count(1000000000)(text);
+      },
+      ""))
     ->type_name("N|auto");
   app
     .add_option("--output", o.outputs,
