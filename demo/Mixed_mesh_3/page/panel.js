@@ -36,12 +36,14 @@ function findPlaces() {
       result.push({kind: "note", at, length: d.distance, text: `Farthest ${what}`});
   }
   const shift = report["shift after resection"] ?? report.shift;
+  const radius = report.parameters?.["radius of control points"].value;
   if (shift)
     result.push({
       kind: "note",
       at: relative(shift.at),
       length: shift["largest displacement"],
       text: "Largest displacement"
+        + (radius > 0 ? ` (at control points, the mean within ${number(radius)} mm is prescribed)` : "")
     });
   const worst = ratioOf.indexOf(worstRatio);
   if (worst >= 0)
@@ -456,5 +458,6 @@ document.documentElement.dataset.firstPicture = Math.round(performance.now());
 window.mixedMeshPage = {
   state,
   update,
-  frame
+  frame,
+  camera: () => camera
 };  // for the console
