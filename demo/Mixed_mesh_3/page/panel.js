@@ -425,8 +425,9 @@ function showReport() {
   const name = fileName(sourceFile), program = report.program;
   document.title = `${name} \u2013 ${program.name}`;
   $("title").textContent = name;
-  $("subtitle").textContent =
-    program.name === "brain_shift" ? "Brain shift" : `Mixed-element mesh: ${report.status}`;
+  $("subtitle").textContent = program.name === "brain_shift" ?
+    "Brain shift" :
+    "Mixed-element mesh" + (report.status && `: ${report.status}`);
   canvas.setAttribute("aria-label", `The mesh of ${name} in 3D`);
   $("command").textContent = data.command;
   $("report").append(tree(report));
