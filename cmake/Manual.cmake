@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# The target doc: the manual, in doc/index.html of the build directory.
+# The target doc: the manual, in doc/index.html of the build directory. Without doxygen, the target tells how it comes.
 
 find_program(DOXYGEN doxygen)
 find_program(DEBIAN_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
@@ -8,6 +8,11 @@ find_program(DEBIAN_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
 find_path(MATHJAX MathJax.js PATHS /usr/share/javascript/mathjax /usr/share/mathjax NO_DEFAULT_PATH)
 mark_as_advanced(DOXYGEN DEBIAN_PYTHON MATHJAX)
 if(NOT DOXYGEN OR NOT DEBIAN_PYTHON)
+  add_custom_target(doc
+    COMMAND ${CMAKE_COMMAND} -E echo "The manual needs doxygen and Debian's python3, which were not there when cmake ran."
+    COMMAND ${CMAKE_COMMAND} -E echo "Install them (apt install doxygen libjs-mathjax python3), then: cmake ${PROJECT_BINARY_DIR}"
+    COMMAND ${CMAKE_COMMAND} -E false
+    VERBATIM)
   return()
 endif()
 

@@ -11,6 +11,8 @@
 #include <CGAL/Mixed_mesh_3/certify_mesh.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 
+#include <CGAL/version.h>
+
 #include <pybind11/stl.h>
 
 #include <memory>
@@ -136,6 +138,26 @@ py::array_t<double> quality(const Mesh& mesh, const std::string& measure)
                               + "'; expected ARC, scaled Jacobian or volume");
 }
 
+// The table of element kinds: the page of a mesh finds the faces to draw by it.
+py::list element_kinds()
+{
+  py::list kinds;
+  for(const mm3::Reference_element& kind : mm3::reference_elements) {
+    py::list faces;
+    for(int f = 0; f < kind.number_of_faces; ++f) {
+      const mm3::Element_face& face = kind.faces[f];
+      faces.append(std::vector<int>(face.vertices, face.vertices + face.size));
+    }
+    py::dict row;
+    row["name"] = kind.name;
+    row["plural"] = kind.plural;
+    row["size"] = kind.number_of_vertices;
+    row["faces"] = faces;
+    kinds.append(row);
+  }
+  return kinds;
+}
+
 } // namespace
 
 void add_mesh(py::module_& module)
@@ -194,4 +216,6 @@ void add_mesh(py::module_& module)
   module.def("certify", &certify);
   module.def("defects", &defects);
   module.def("quality", &quality);
+  module.def("element_kinds", &element_kinds);
+  module.attr("CGAL_version") = CGAL_VERSION_STR;
 }

@@ -222,16 +222,16 @@ void test_bodies()
           {{Kind::BODY_SPLIT, "a body falls into 2 pieces near (7, ", {6, 2, 2}, {8, 5, 5}}});
   compare(
     both, large,
-    {{Kind::BODY_MISSING, "a piece of volume 27 near (9.", {8, 2, 2}, {11, 5, 5}},
+    {{Kind::BODY_MISSING, "a piece of volume 27 cubic units near (9.", {8, 2, 2}, {11, 5, 5}},
      {Kind::VOLUME, "the volume of all bodies is 17.8 % less, for example near (", {8, 2, 2}, {11, 5, 5}}});
   compare(large, both,
-          {{Kind::BODY_ADDED, "a piece of volume 27 near (9.", {8, 2, 2}, {11, 5, 5}},
+          {{Kind::BODY_ADDED, "a piece of volume 27 cubic units near (9.", {8, 2, 2}, {11, 5, 5}},
            {Kind::VOLUME, "the volume of all bodies is 21.6 % more", {8, 2, 2}, {11, 5, 5}}});
   // The numbers are the same, the bodies are not.
   const Solid two = block({1, 1, 1}, {6, 4, 4}) + block({1, 8, 8}, {6, 11, 11});
   const Solid halves = block({1, 1, 1}, {3, 4, 4}) + block({4, 1, 1}, {6, 4, 4});
   compare(two, halves,
-          {{Kind::BODY_MISSING, "a piece of volume 45 ", {1, 8, 8}, {6, 11, 11}},
+          {{Kind::BODY_MISSING, "a piece of volume 45 cubic units ", {1, 8, 8}, {6, 11, 11}},
            {Kind::BODY_SPLIT, "a body falls into 2 pieces ", {3, 1, 1}, {4, 4, 4}},
            {Kind::VOLUME, "the volume of all bodies is 60 % less", {1, 1, 1}, {6, 11, 11}},
            {Kind::VOLUME, "a body near (3.5, ", {3, 1, 1}, {4, 4, 4}}});
@@ -243,11 +243,11 @@ void test_cavities()
   const Solid hole = block({2, 2, 2}, {4, 5, 4}), other_hole = block({6, 2, 2}, {9, 5, 5});
   const Solid shell = outer - hole - other_hole;
   compare(shell, outer - other_hole,
-          {{Kind::CAVITY_FILLED, "a cavity of volume 12 near (", {2, 2, 2}, {4, 5, 4}}});
+          {{Kind::CAVITY_FILLED, "a cavity of volume 12 cubic units near (", {2, 2, 2}, {4, 5, 4}}});
   compare(outer - other_hole, shell,
-          {{Kind::CAVITY_ADDED, "a cavity of volume 12 near (", {2, 2, 2}, {4, 5, 4}}});
+          {{Kind::CAVITY_ADDED, "a cavity of volume 12 cubic units near (", {2, 2, 2}, {4, 5, 4}}});
   compare(shell, shell - block({2, 3, 1}, {3, 4, 2}),
-          {{Kind::CAVITY_OPENED, "a cavity of volume 12 near (", {2, 2, 2}, {4, 5, 4}}});
+          {{Kind::CAVITY_OPENED, "a cavity of volume 12 cubic units near (", {2, 2, 2}, {4, 5, 4}}});
   compare(shell, shell - block({4, 3, 2}, {6, 4, 3}),
           {{Kind::CAVITIES_JOINED, "2 cavities are joined near (5, ", {4, 2, 2}, {6, 5, 4}},
            {Kind::VOLUME, "a cavity near (5", {4, 3, 2}, {6, 4, 3}}});
@@ -256,7 +256,7 @@ void test_cavities()
   // A body within a cavity.
   const Solid room = outer - block({2, 2, 2}, {10, 10, 10}), kernel = block({4, 4, 4}, {8, 8, 8});
   compare(room + kernel, room,
-          {{Kind::BODY_MISSING, "a piece of volume 64 near (", {4, 4, 4}, {8, 8, 8}},
+          {{Kind::BODY_MISSING, "a piece of volume 64 cubic units near (", {4, 4, 4}, {8, 8, 8}},
            {Kind::VOLUME, "the volume of all bodies is 11.6 % less", {4, 4, 4}, {8, 8, 8}},
            {Kind::VOLUME, "a cavity ", {4, 4, 4}, {8, 8, 8}}});
 }

@@ -43,6 +43,7 @@ class Images(Case):
                                   "--output-deformed", WORK / "left.msh", "--output-image", WORK / "all",
                                   "--interpolation", "linear", "--field", "nifti")
         self.assertIn("wrote", run.stdout)
+        self.assertRegex(run.stdout, r"factor [0-9.]+ m?s, control points [0-9.]+ m?s\n")
         grid, left = self.read(WORK / "all.vtu"), self.read(WORK / "left.vtu")
         displacement = vtk_to_numpy(grid.GetPointData().GetArray("displacement"))
         before = vtk_to_numpy(grid.GetPointData().GetArray("displacement_before_resection"))
@@ -183,6 +184,27 @@ class Images(Case):
         sure = (mask != 2) & np.all(np.abs(source - np.floor(source) - 0.5) > 1e-4, axis=0)
         self.assertTrue(np.array_equal(after[sure], labels[tuple(nearest)][sure]))
         self.assertGreater(np.count_nonzero(after[sure] != labels[sure]), 300)
+        # a label that is mostly resected, and how much is left around the cavity
+        rim = labels.astype(np.int32)
+        corners = np.array([[float(x) for x in line.split()] for line in self.tumor.read_text().splitlines()
+                            if len(line.split()) == 3 and "." in line])
+        world = np.einsum("ij,jxyz->ixyz", self.affine[:3, :3], np.indices(labels.shape)) + self.affine[:3, 3].reshape(
+            3, 1, 1, 1)
+        middle = corners.mean(0)
+        radius = np.linalg.norm(corners - middle, axis=1).max()
+        rim[np.linalg.norm(world - middle.reshape(3, 1, 1, 1), axis=0) < 1.05 * radius] = 7777
+        nibabel.save(nibabel.Nifti1Image(rim.astype(np.int16), self.affine), WORK / "rim.nii")
+        told, run = self.succeeds(*arguments, "--labels", WORK / "rim.nii", "--tumor", self.tumor, "--output-image",
+                                  WORK / "rim")
+        there = rim[tuple(nearest)] == 7777
+        resected, left = (np.count_nonzero(there & (mask == m)) for m in (2, 1))
+        self.assertTrue(0 < left < resected)
+        facts, = told["image"]["labels with a rim"]
+        self.assertEqual(facts["label"], 7777)
+        self.assertAlmostEqual(facts["voxels resected"], resected, delta=2)
+        self.assertAlmostEqual(facts["voxels left as a rim"], left, delta=2)
+        self.assertIn(f"of label 7777, {facts['voxels resected']} voxels are resected, and "
+                      f"{facts['voxels left as a rim']} others are left as a rim", run.stderr)
         # bad labels
         nibabel.save(nibabel.Nifti1Image(labels + np.float32(0.5), self.affine), WORK / "halves.nii")
         nibabel.save(nibabel.Nifti1Image(labels[1:], self.affine), WORK / "smaller.nii")

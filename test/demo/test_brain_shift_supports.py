@@ -91,6 +91,9 @@ class Supports(Case):
         self.assertEqual(spread["shift"]["inverted elements"], 0)
         self.assertGreater(spread["shift"]["energy"], base["shift"]["energy"])
         self.assertEqual(run.stderr, "")
+        self.assertIn(f"shift: up to {spread['shift']['largest displacement']:.3g} mm at (", run.stdout)
+        self.assertIn(f", more than the {np.linalg.norm(VALUES[:, 3:], axis=1).max():.3g} mm measured: the mean within "
+                      "8 mm of a control point is prescribed", run.stdout)
         other, _ = self.succeeds(self.mesh, "--control-points", self.points, "--poisson-ratio", 0.3)
         self.assertNotEqual(at(other), at(base))
 

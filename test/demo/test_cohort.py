@@ -140,7 +140,12 @@ class Cohort(unittest.TestCase):
         self.assertIn("cohort: failed: broken: " + rows[2]["message"], run.stdout + run.stderr)
         page = Text_of_cells((WORK / folder / "cohort.html").read_text())
         self.assertEqual(page.rows, [list(rows[0])] + [list(r.values()) for r in rows])
-        self.assertEqual(page.links, [])
+        done = table(WORK / folder / "loads.csv")
+        expected = [f"{r['id']}/mesh.{ending}" for r in rows[:2] for ending in ("vtu", "json")]
+        expected += [f"{r['id']}/{r['load']}/shift.{ending}" for r in done if r["status"] == "done"
+                     for ending in ("json", "vtu")]
+        self.assertEqual(page.links, expected)
+        self.assertTrue(all((WORK / folder / link).is_file() for link in page.links))
         self.assertIn(rows[2]["message"], (WORK / folder / "cohort.md").read_text())
 
     def test_cohort(self):

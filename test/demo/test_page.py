@@ -21,6 +21,7 @@ import subprocess
 import sys
 
 import browser
+from cube import CUBE, TRIANGLES, moved, off, shifted
 
 MESHER, BRAIN_SHIFT, DATA, WORK = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
 PLENTY = 5 * 10**6 # bytes, at 10,000 vertices
@@ -313,7 +314,13 @@ def test_brain_shift():
         page.choose("colors", "displacement")
         arrows = page.run("return document.querySelector('#overlay .control').getAttribute('d')")
         assert arrows.count("Z") == len(report["control points"]) # each starts with a dot
+        # Arrows differ from each color of the shift, and so does their edge.
+        core, edge = page.run("""return ['.control:not(.edge)', '.control.edge'].map(name =>
+          getComputedStyle(document.querySelector('#overlay ' + name)).stroke.match(/[0-9]+/g).map(Number))""")
+        assert math.dist(core, edge) > 250
+        page.screenshot(WORK / "arrows.png")
         assert "mm" in page.text("#legend")
+        assert "the mean within 8 mm is prescribed" in page.text("#places")
         page.is_quiet()
 
 
@@ -369,9 +376,50 @@ def test_warnings():
         page.look()
         at = page.run("return mixedMeshPage.state.cut[0]") + data_of(WORK / "coarse.html")["center"][0]
         assert abs(at - farthest["at"][0]) < 1e-3
-        pins = page.run("return [...document.querySelectorAll('#overlay .pin.warning.current text')].map(t => t.textContent)")
-        assert pins == [str(numbers[0] + 1)]
+        pins = page.run("return [...document.querySelectorAll('#overlay .pin.warning.current')].map(p => p.dataset.places)")
+        assert [pin.split()[0] for pin in pins] == [str(numbers[0] + 1)]
         assert not page.run("return document.getElementById('isPatient') !== null") # the axes are known
+        page.is_quiet()
+
+
+def test_crowded_places():
+    """Badges that would overlap are one, which leads to each of its places in turn; near by, they come apart."""
+    cubes = [moved(CUBE, 10)] + [moved(CUBE, 0.01, (12 + 0.1 * i, 0.2 * j, 0.2 * k)) for i in range(3) for j in range(4)
+                                 for k in range(4)]
+    surface = WORK / "specks.off"
+    surface.write_text(off([p for cube in cubes for p in cube],
+                           [f for n in range(len(cubes)) for f in shifted(TRIANGLES, 8 * n)]))
+    make(MESHER, surface.name, "--vertices", "300", "--page", "specks.html", "--report", "specks.json")
+    differences = json.loads((WORK / "specks.json").read_text())["topology"]["differences"]
+    assert len(differences) == 48
+    with Page() as page:
+        page.open(WORK / "specks.html")
+        page.look()
+        pins = """return [...document.querySelectorAll('#overlay .pin')].map(p => {
+          const m = p.transform.baseVal[0].matrix; return [p.dataset.places.split(' ').map(Number), m.e, m.f]; })"""
+        with_place = page.run("return [...document.querySelectorAll('#places li')].flatMap((li, i) => li.querySelector('button') ? [i + 1] : [])")
+        assert len(with_place) >= 48
+
+        def check(shown):
+            assert sorted(n for members, _, _ in shown for n in members) == with_place
+            for i, (_, x, y) in enumerate(shown):
+                assert all(math.dist((x, y), other[1:]) > 18 for other in shown[:i])
+
+        far = page.run(pins)
+        check(far)
+        assert len(far) < 20
+        page.screenshot(WORK / "specks.png")
+        members = max((members for members, _, _ in far), key=len)
+        assert len(members) > 2
+        click = "document.querySelector(`#overlay .pin[data-places='${arguments[0]}']`).dispatchEvent(new Event('click'))"
+        page.run(click, " ".join(map(str, members)))
+        page.look()
+        assert page.run("return mixedMeshPage.state.place") + 1 == members[0]
+        page.run("mixedMeshPage.camera().zoom = 150; mixedMeshPage.camera().updateProjectionMatrix()")
+        page.look()
+        near = page.run(pins)
+        check(near)
+        assert len(near) > 2 * len(far)
         page.is_quiet()
 
 
@@ -428,6 +476,7 @@ def main():
     test_brain_shift()
     test_hostile_names()
     test_warnings()
+    test_crowded_places()
     test_files()
     test_large()
 

@@ -5,12 +5,14 @@
   test_python.py BUILD SOURCE FOLDER        BUILD holds bin/ and python/
 """
 
+import base64
 import copy
 import ctypes
 import json
 import os
 import pathlib
 import pickle
+import re
 import shutil
 import signal
 import subprocess
@@ -32,6 +34,7 @@ if not list((BUILD / "python" / "mixed_mesh_3").glob("_core*")):
     print("skipped: the module was not built, see MIXED_MESH_3_BUILD_PYTHON")
     sys.exit(77)
 sys.path.insert(0, str(BUILD / "python"))
+import browser  # noqa: E402
 import mixed_mesh_3 as mm3  # noqa: E402
 
 DATA = SOURCE / "data"
@@ -462,6 +465,65 @@ class Test(unittest.TestCase):
             np.testing.assert_array_equal(grid.cells[at + 1:at + 1 + size], next(expected[vtk_type]))
             at += size + 1
         self.assertEqual(at, len(grid.cells))
+
+    def test_show(self):
+        """The page is that of the program; a notebook has it in a frame, where it draws."""
+        def data_of(text):
+            return json.loads(text.split('<script type="application/json" id="data">')[1].split("</script>")[0])
+        self.run_program("mixed_mesh_3", DATA / "brain.off", "--region", DATA / "region.off", "--vertices", 660, "--page",
+                         "program.html")
+        report = {**self.report, "warnings": ["</script>"]}
+        page = self.mesh.show(report=report, title="<!--<script>&ü")
+        expected, got = data_of((FOLDER / "program.html").read_text(encoding="utf-8")), data_of(page.html)
+        for key in ("kinds", "center", "points"):
+            self.assertEqual(got[key], expected[key], key)
+        unpacked = lambda data, key, dtype: np.frombuffer(base64.b64decode(data[key]), dtype)
+        kinds = unpacked(expected, "element kinds", "u1")
+        order = np.argsort(kinds, kind="stable")  # elements of the module are sorted by kind
+        for key, dtype in (("element kinds", "u1"), ("labels", "<u4"), ("in region", "u1"), ("ARC", "<f4")):
+            np.testing.assert_array_equal(unpacked(got, key, dtype), unpacked(expected, key, dtype)[order], key)
+        ends = np.cumsum([expected["kinds"][kind]["size"] for kind in kinds])
+        elements = np.split(unpacked(expected, "element vertices", "<u4"), ends[:-1])
+        np.testing.assert_array_equal(unpacked(got, "element vertices", "<u4"), np.concatenate([elements[i] for i in order]))
+        self.assertEqual(page.html, self.mesh.show(report={**report, "seconds": 7}, title="<!--<script>&ü").html)
+        self.assertEqual(page.html.count("</script>"), 3)
+        page.save(FOLDER / "python.html")
+        self.assertEqual((FOLDER / "python.html").read_text(encoding="utf-8"), page.html)
+        self.assertIn("save(path)", repr(page))
+        for arguments in ({"displacements": np.zeros((2, 3))}, {"removed": np.zeros(len(self.mesh.kinds), bool)},
+                          {"displacements": np.full_like(self.mesh.points, np.nan)}):
+            with self.assertRaises(ValueError):
+                self.mesh.show(**arguments)
+        if not browser.is_there():
+            self.skipTest("no chromium, the page is not drawn")
+        shifted = self.mesh.show(np.full_like(self.mesh.points, 2), title="shifted", height=500)
+        (FOLDER / "notebook.html").write_text(f"<!DOCTYPE html><meta charset=utf-8>{page._repr_html_()}"
+                                              f"{shifted._repr_html_()}", encoding="utf-8")
+        with browser.Browser() as view:
+            view.open(FOLDER / "notebook.html")
+            self.assertEqual(view.run("""return [...document.querySelectorAll('iframe')].map(frame => {
+              frame.contentWindow.mixedMeshPage.frame();
+              const text = id => frame.contentDocument.getElementById(id).textContent, shown = text('shown');
+              return [text('title'), text('subtitle'), shown.startsWith('0 '), shown.includes('elements shown')]; })"""),
+                             [["<!--<script>&ü", "Mixed-element mesh: success", False, True],
+                              ["shifted", "Mixed-element mesh", False, True]])
+            view.screenshot(FOLDER / "notebook.png")
+            self.assertEqual(view.messages(), [])
+
+    def test_packages_of_wheel(self):
+        """README names each package of Debian that has a library the module needs, but for what each system has."""
+        module, = (BUILD / "python" / "mixed_mesh_3").glob("_core*.so")
+        run = lambda *command: subprocess.run(command, capture_output=True, text=True, check=True).stdout
+        if not all(map(shutil.which, ("readelf", "ldd", "dpkg"))):
+            self.skipTest("no readelf, ldd or dpkg")
+        needed = re.findall(r"NEEDED.*\[(.*)\]", run("readelf", "-d", module))
+        paths = dict(re.findall(r"(\S+) => (\S+)", run("ldd", module)))
+        line, = (line for line in (SOURCE / "README.md").read_text().splitlines() if "install python3-numpy" in line)
+        there = [name for name in needed if not re.match(r"(libc|libm|libgcc_s|ld-linux.*)\.so", name)]
+        self.assertGreater(len(there), 5)
+        for name in there:
+            owner = run("dpkg", "-S", os.path.basename(os.path.realpath(paths[name])))
+            self.assertTrue({row.split(":")[0] for row in owner.splitlines()} & set(line.split()), (name, owner))
 
     def test_wheel(self):
         shutil.rmtree(FOLDER / "wheel", ignore_errors=True)

@@ -111,8 +111,22 @@ def _bars(rows):
     return f'<svg width="{9 * len(done)}" height="30" overflow="hidden">{"".join(bars)}</svg>'
 
 
+def _links(row):
+    """The files that cells of a row lead to, relative to the page, by column."""
+    if "load" in row:
+        return {"load": f"{row['id']}/{row['load']}/shift.json", "displacements": row["displacements"]}
+    return {"id": f"{row['id']}/mesh.vtu", "warnings": f"{row['id']}/mesh.json"}
+
+
+def _cell(row, column):
+    text, path = html.escape(str(row[column])), _links(row).get(column)
+    if text and path and pathlib.Path(path).is_file():
+        return f'<td><a href="{html.escape(path)}">{text}</a></td>'
+    return f"<td>{text}</td>"
+
+
 def _table(columns, rows):
-    cells = lambda row: "".join(f"<td>{html.escape(str(row[c]))}</td>" for c in columns)
+    cells = lambda row: "".join(_cell(row, c) for c in columns)
     return ("<table><tr>" + "".join(f"<th>{html.escape(c)}</th>" for c in columns) + "</tr>\n"
             + "\n".join(f'<tr class="{row["status"]}">{cells(row)}</tr>' for row in rows) + "</table>")
 
@@ -120,7 +134,8 @@ def _table(columns, rows):
 def _page(title, told, rows, loads):
     parts = [f'<!DOCTYPE html>\n<html lang="en"><meta charset="utf-8"><title>{html.escape(title)}</title>',
              f"<style>{STYLE}</style>", f"<h1>{html.escape(title)}</h1>", f"<p>{html.escape(told)}</p>",
-             _table(COLUMNS, rows), "<h2>Loads</h2><p>Bars: the largest shift of each load; orange: some"
+             _table(COLUMNS, rows), "<p>An id leads to its mesh, for ParaView, and its warnings to the report.</p>"
+             "<h2>Loads</h2><p>Bars: the largest shift of each load; orange: some"
              " elements are inverted by it, as the strain is not small there.</p>"]
     for row in rows:
         mine = loads[row["id"]]

@@ -23,6 +23,8 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <vector>
 
 namespace {
 
@@ -108,10 +110,37 @@ bool are_same(const mm3::Voxel_grid_3& a, const mm3::Voxel_grid_3& b)
   return true;
 }
 
+// Labels of which most is resected, but not all: the cavity ends at faces of the mesh, or at a surface that
+// was smoothed, and both cut voxels off.
+std::vector<Rim_facts> find_rims(const mm3::Voxel_image_3& labels, const mm3::Voxel_image_3& mask)
+{
+  std::map<float, Rim_facts> found;
+  for(std::size_t i = 0; i < labels.values.size(); ++i) {
+    Rim_facts& facts = found[labels.values[i]];
+    facts.resected += mask.values[i] == 2;
+    facts.left += mask.values[i] == 1;
+  }
+  std::vector<Rim_facts> rims;
+  for(auto& [label, facts] : found)
+    if(label != 0 && 0 < facts.left && facts.left < facts.resected) {
+      facts.label = label;
+      rims.push_back(facts);
+    }
+  return rims;
+}
+
 // The labels after the deformation; those of tissue that is removed are 0.
-mm3::Voxel_image_3 warp_labels(const mm3::Voxel_image_3& labels, const mm3::Warped_image_3& warped)
+mm3::Voxel_image_3 warp_labels(const mm3::Voxel_image_3& labels, const mm3::Warped_image_3& warped,
+                               const Options& o, Outcome& outcome)
 {
   mm3::Voxel_image_3 result = mm3::resample_image(labels, warped.backward, mm3::Image_interpolation::NEAREST);
+  outcome.image->rims = find_rims(result, warped.mask);
+  for(const Rim_facts& rim : outcome.image->rims)
+    outcome.warnings.push_back(
+      o.labels + ": of label " + std::to_string(std::llround(rim.label)) + ", "
+      + counted(rim.resected, "voxel is", "voxels are") + " resected, and "
+      + counted(rim.left, "one is", "others are")
+      + " left as a rim: the cavity ends where elements, or the smoothed surface, do");
   for(std::size_t i = 0; i < result.values.size(); ++i)
     if(warped.mask.values[i] == 2)
       result.values[i] = 0;
@@ -184,7 +213,8 @@ void write_images(mm3::IO::Output_files& files, const mm3::Voxel_image_3& image,
       });
       if(!o.labels.empty())
         require([&](std::string* error) {
-          return mm3::IO::write_NIFTI(files, labels_output(o), warp_labels(labels, warped), error);
+          return mm3::IO::write_NIFTI(files, labels_output(o), warp_labels(labels, warped, o, outcome),
+                                      error);
         });
     });
 }

@@ -38,6 +38,13 @@ struct Subdomain_facts
   CGAL::Mixed_meshes_3::Elastic_material material;
 };
 
+/// A label of an image, most of which is resected.
+struct Rim_facts
+{
+  double label = 0;
+  std::size_t resected = 0, left = 0; // voxels
+};
+
 struct Image_facts
 {
   std::array<std::size_t, 3> voxels{};
@@ -45,6 +52,7 @@ struct Image_facts
   int world = 0; // NIfTI's number
   double smallest = 0, largest = 0, share_inside = 0;
   std::size_t voxels_of_tissue = 0, voxels_resected = 0, linear_elements = 0; // when it is warped
+  std::vector<Rim_facts> rims;                                                // if there are labels
 };
 
 enum class Support { FREE, TOUCHING, SLIDING, FIXED };

@@ -9,9 +9,11 @@
 #include "common/messages.h"
 #include "common/report_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iostream>
+#include <string>
 #include <vector>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
@@ -161,6 +163,34 @@ Json describe(const Resection_facts& resection)
           {"elements left", resection.left.elements}};
 }
 
+Json describe_rims(const std::vector<Rim_facts>& rims)
+{
+  Json result = Json::array();
+  for(const Rim_facts& rim : rims)
+    result.push_back(
+      {{"label", rim.label}, {"voxels resected", rim.resected}, {"voxels left as a rim", rim.left}});
+  return result;
+}
+
+// The largest displacement beside the largest one that was measured, which may be less.
+std::string largest_shift(const Shift& shift, const Options& o, const std::vector<Control_point>& points)
+{
+  constexpr double notable = 1.1; // times as much; a difference of less than a tenth needs no reason
+  const std::string text = "up to " + rounded(shift.largest) + " mm";
+  double measured = 0;
+  for(std::size_t i = 0; i < points.size(); ++i)
+    if(shift.controls[i].is_used)
+      measured = (std::max)(measured, norm(Vector(points[i].displacement)));
+  if(measured == 0 || shift.largest < notable * measured)
+    return text;
+  const std::string why = o.control_radius > 0
+                            ? ": the mean within " + rounded(o.control_radius)
+                                + " mm of a control point is prescribed (--control-radius), "
+                                  "and its middle moves farther"
+                            : "";
+  return text + " at " + place(shift.at) + ", more than the " + rounded(measured) + " mm measured" + why;
+}
+
 // A line for each, if there are several.
 void print_subdomains(const std::vector<Subdomain_facts>& subdomains)
 {
@@ -216,6 +246,8 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
     report["image"] = {{"voxels of tissue", outcome.image->voxels_of_tissue},
                        {"voxels resected", outcome.image->voxels_resected},
                        {"elements with linear interpolation", outcome.image->linear_elements}};
+  if(!o.labels.empty())
+    report["image"]["labels with a rim"] = describe_rims(outcome.image->rims);
   report["outputs"] = outputs_of(o);
   report["warnings"] = outcome.warnings;
   report["stages"] = describe_stages(log, "ms", 1000);
@@ -226,10 +258,10 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
 
 void print_summary(const Options& o, const Outcome& outcome, const Stage_log& log)
 {
-  const auto ms = [&log](const std::string& stage) {
+  const auto time = [&log](const std::string& stage) {
     for(const Stage_cost& cost : log.costs())
       if(cost.name == stage)
-        return rounded(1000 * cost.seconds) + " ms";
+        return duration(cost.seconds);
     return std::string();
   };
   std::cout << outcome.mesh.vertices << " vertices, " << outcome.mesh.elements << " elements; "
@@ -247,14 +279,14 @@ void print_summary(const Options& o, const Outcome& outcome, const Stage_log& lo
                 << rounded(a.energies_after[i]);
     std::cout << "; worst ARC " << rounded(a.worst_aspect_ratio_before) << " -> "
               << rounded(a.worst_aspect_ratio_after) << "; " << a.number_of_steps << " steps, "
-              << ms("adapt mesh") << '\n';
+              << time("adapt mesh") << '\n';
   }
-  std::cout << "before surgery: factor " << ms("factor") << ", control points " << ms("control points")
+  std::cout << "before surgery: factor " << time("factor") << ", control points " << time("control points")
             << '\n';
   if(outcome.petsc)
     std::cout << "PETSc: " << counted(std::size_t(outcome.petsc->processes), "process", "processes")
               << ", up to " << outcome.petsc->iterations << " iterations\n";
-  std::cout << "shift: up to " << rounded(outcome.before.largest) << " mm; " << ms("solve") << '\n';
+  std::cout << "shift: " << largest_shift(outcome.before, o, outcome.points) << "; " << time("solve") << '\n';
   if(outcome.supports.touching > 0)
     std::cout << "contact: " << counted(outcome.before.closed_contacts, "vertex", "vertices")
               << " still at the skull, which pushes with " << rounded(outcome.before.contact_force)
@@ -267,10 +299,10 @@ void print_summary(const Options& o, const Outcome& outcome, const Stage_log& lo
   if(outcome.resection)
     std::cout << "resection: " << outcome.resection->removed << " elements, "
               << rounded(outcome.resection->volume / 1000) << " ml; shift up to "
-              << rounded(outcome.after->largest) << " mm; " << ms("remove elements") << " and "
-              << ms("solve after resection") << '\n';
+              << rounded(outcome.after->largest) << " mm; " << time("remove elements") << " and "
+              << time("solve after resection") << '\n';
   if(!o.image.empty())
-    std::cout << "image: " << ms("warp image") << '\n';
+    std::cout << "image: " << time("warp image") << '\n';
   for(const std::string& path : outputs_of(o))
     std::cout << "wrote " << printable(path) << '\n';
 }

@@ -5,6 +5,7 @@
 
 #include "common/messages.h"
 
+#include <cmath>
 #include <cstdio>
 #include <iomanip>
 #include <sstream>
@@ -32,6 +33,31 @@ std::string rounded(double x)
   std::ostringstream text;
   text << std::setprecision(3) << x;
   return text.str();
+}
+
+std::string percent(double share) { return rounded(std::round(1000 * share) / 10) + " %"; }
+
+std::string as_part_of(double ratio)
+{
+  return ratio < 2 ? percent(ratio) + " of" : rounded(ratio) + " times";
+}
+
+std::string duration(double seconds)
+{
+  if(seconds < 0.9995) // else three digits of it would be a second
+    return rounded(1000 * seconds) + " ms";
+  return seconds < 300 ? rounded(seconds) + " s" : rounded(seconds / 60) + " min";
+}
+
+std::string volume_with_unit(double volume, bool is_in_mm)
+{
+  constexpr double ml = 1000;         // in mm^3
+  const auto in_full = [](double x) { // no power of ten for organs in mm
+    return x >= 1000 && x < 1e9 ? std::to_string(std::llround(x)) : rounded(x);
+  };
+  if(!is_in_mm)
+    return in_full(volume) + " cubic units";
+  return volume < ml ? rounded(volume) + " mm^3" : in_full(volume / ml) + " ml";
 }
 
 std::string counted(std::size_t n, const char* one, const char* many)

@@ -18,6 +18,18 @@ std::string printable(const std::string& text);
 /// A number with three digits.
 std::string rounded(double x);
 
+/// A share in percent, with one decimal.
+std::string percent(double share);
+
+/// A ratio before what it is of: in percent, "99.8 % of", or, where that says less, "12.3 times".
+std::string as_part_of(double ratio);
+
+/// A time that was measured: in milliseconds, seconds, or minutes.
+std::string duration(double seconds);
+
+/// A volume with its unit: of lengths in mm, or in a unit that no file names.
+std::string volume_with_unit(double volume, bool is_in_mm);
+
 /// A number and what it counts.
 std::string counted(std::size_t n, const char* one, const char* many);
 

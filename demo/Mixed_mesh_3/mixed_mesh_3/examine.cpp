@@ -51,20 +51,30 @@ Solid solid_of(const mm3::Solid_topology& t)
   return {t.number_of_bodies, t.number_of_handles, t.number_of_cavities, t.volume};
 }
 
+// The library does not know the unit of volumes; where the program does, the sentence names it.
+std::string with_unit(std::string sentence, const Options& options)
+{
+  const std::string unknown = "cubic units";
+  const std::size_t at = sentence.find(unknown);
+  return at != std::string::npos && options.is_in_patient_space()
+           ? sentence.replace(at, unknown.size(), "mm^3")
+           : sentence;
+}
+
 // Needs a boundary that is a closed manifold. Before it is fitted, the cells around it add some volume.
-Topology topology_of(const Mesh& mesh, const Surface& surface, bool is_fitted,
+Topology topology_of(const Mesh& mesh, const Surface& surface, const Options& options,
                      CGAL::Mixed_mesh_status& status)
 {
   mm3::Solid_comparison c = mm3::compare_with_surface(mesh, surface, volume_tolerance);
   auto& d = c.differences;
-  if(!is_fitted)
+  if(options.fit() == Fit::NONE)
     d.erase(std::remove_if(d.begin(), d.end(),
                            [](const auto& x) { return x.kind == mm3::Solid_difference_kind::VOLUME; }),
             d.end());
   status = CGAL::worse(status, mm3::status_of(c));
   Topology t{solid_of(c.surface), solid_of(c.mesh), {}, c.has_same_topology()};
   for(const mm3::Solid_difference& x : d)
-    t.differences.push_back({x.sentence, {x.point.x(), x.point.y(), x.point.z()}});
+    t.differences.push_back({with_unit(x.sentence, options), {x.point.x(), x.point.y(), x.point.z()}});
   return t;
 }
 
@@ -100,9 +110,8 @@ void examine(const Mesh& mesh, const Surface& surface, const Options& options, S
     outcome.checks.push_back({check.name, check.holds});
   require_all(outcome.checks, certificate.number_of_self_intersections);
   require_volume(options, outcome);
-  outcome.topology = log("topology", [&] {
-    return topology_of(mesh, surface, options.fit() != Fit::NONE, outcome.result.status);
-  });
+  outcome.topology = log("topology",
+                         [&] { return topology_of(mesh, surface, options, outcome.result.status); });
   outcome.checks_of_fidelity = checks_of_fidelity(outcome, options.fit() != Fit::NONE);
 
   outcome.mesh = facts_of(mesh);

@@ -486,6 +486,14 @@ void check_options(Options& o)
 
 } // namespace
 
+bool Options::is_in_patient_space() const
+{
+  const auto silent = {".off", ".obj", ".stl", ".ply", ".vtp", ".vtk"}; // endings of files that do not say it
+  return surface_options.space || std::none_of(silent.begin(), silent.end(), [this](const char* ending) {
+           return boost::algorithm::iends_with(surface, ending);
+         });
+}
+
 std::string surrounding_name(const Options& o)
 {
   const std::string file = std::filesystem::path(o.surface).filename().string(),

@@ -83,6 +83,9 @@ struct Options
   double acceptable_quality = CGAL::Mixed_mesh_fit_criteria_3().acceptable_aspect_ratio();
   Solver solver = Solver::CG;
 
+  /// Whether the surface's file says where the patient is, in mm, or the user does.
+  bool is_in_patient_space() const;
+
   bool has_quality_bound() const { return fit() == Fit::OPTIMIZATION && largest_arc > 0; }
   Fit fit() const { return no_fit ? Fit::NONE : no_optimize ? Fit::ALGORITHM_1 : Fit::OPTIMIZATION; }
 };

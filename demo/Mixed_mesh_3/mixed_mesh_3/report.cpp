@@ -300,19 +300,21 @@ void describe_method(const Options& o, const Outcome& outcome, Json& report)
 }
 
 // A line for each subdomain, if there are several, and each sheet.
-std::string parts_in_words(const Outcome& outcome)
+std::string parts_in_words(const Options& o, const Outcome& outcome)
 {
   std::ostringstream text;
   text << std::setprecision(4);
   for(const Subdomain_outcome& s : outcome.subdomains) {
-    text << s.name << " (" << s.index << "): " << s.elements << " elements, volume " << s.volume;
+    text << s.name << " (" << s.index << "): " << s.elements << " elements, volume "
+         << volume_with_unit(s.volume, o.is_in_patient_space());
     if(s.volume_of_surface)
-      text << ", " << s.volume / *s.volume_of_surface << " times that of its surface";
+      text << ", " << as_part_of(s.volume / *s.volume_of_surface) << " that of its surface";
     text << '\n';
   }
   for(const Sheet_outcome& s : outcome.sheets)
-    text << s.name << ": " << s.faces << " faces, area " << s.area << ", "
-         << (s.area_inside > 0 ? s.area / s.area_inside : 0) << " times that of the sheet inside\n";
+    text << s.name << ": " << s.faces << " faces, area " << s.area
+         << (o.is_in_patient_space() ? " mm^2, " : " square units, ")
+         << as_part_of(s.area_inside > 0 ? s.area / s.area_inside : 0) << " that of the sheet inside\n";
   if(outcome.slit)
     text << "slit along " << outcome.slit->faces << " of them: " << outcome.slit->vertices
          << " vertices doubled\n";
@@ -400,9 +402,11 @@ void print_summary(const Options& o, const Outcome& outcome)
               << (k > 0 ? ", " : ")\n");
   const mm3::Quality_statistics& all = outcome.after.up_to_7.back();
   std::cout << std::setprecision(3) << "ARC mean " << all.mean << ", max " << all.maximum
-            << "; Hausdorff distance " << outcome.fidelity.distance() << "; "
-            << outcome.fidelity.ratio_of_volumes() << " times the surface's volume\n"
-            << parts_in_words(outcome) << checks_in_words(outcome) << "; " << outcome.seconds << " s\n";
+            << "; Hausdorff distance " << outcome.fidelity.distance()
+            << (o.is_in_patient_space() ? " mm; " : "; ") << as_part_of(outcome.fidelity.ratio_of_volumes())
+            << " the surface's volume\n"
+            << parts_in_words(o, outcome) << checks_in_words(outcome) << "; " << duration(outcome.seconds)
+            << '\n';
   for(const std::string& path : o.outputs)
     std::cout << "wrote " << printable(path) << '\n';
   for(const std::string& path : {o.report, o.page})

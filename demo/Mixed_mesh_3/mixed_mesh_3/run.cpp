@@ -25,8 +25,6 @@
 #include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
 #include <CGAL/make_mixed_mesh_3.h>
 
-#include <boost/algorithm/string/predicate.hpp>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -249,7 +247,7 @@ std::vector<Subdomain> read_labels(const Options& o, Surface_reader& read, Outco
   std::vector<Subdomain> subdomains;
   for(Subdomain& s : read.parts(image, parts, all.size() - 1))
     if(s.surface->is_empty())
-      lose(s.name + ", of volume " + rounded(*s.volume)
+      lose(s.name + ", of volume " + volume_with_unit(*s.volume, o.is_in_patient_space())
            + ", is lost: smoothing leaves nothing of it, see --smoothing");
     else
       subdomains.push_back(std::move(s));
@@ -418,20 +416,11 @@ Mesh make_mesh_until_stopped(const Domain& domain, const Inputs& inputs, const O
   if(outcome.is_stopped) {
     const std::string by = Deferred_signals::has_come() ? "a signal" : "--time-limit";
     outcome.warnings.push_back(
-      "stopped by " + by + " after " + rounded(log.seconds())
-      + " s: the mesh is what there was then, and its boundary may be off the surface");
+      "stopped by " + by + " after " + duration(log.seconds())
+      + ": the mesh is what there was then, and its boundary may be off the surface");
     Deferred_signals::take(); // another one stops what follows
   }
   return mesh;
-}
-
-// Of these formats, the file does not say where the patient is, nor in which unit.
-bool is_in_patient_space(const Options& o)
-{
-  const auto endings = {".off", ".obj", ".stl", ".ply", ".vtp", ".vtk"};
-  return o.surface_options.space || std::none_of(endings.begin(), endings.end(), [&](const char* ending) {
-           return boost::algorithm::iends_with(o.surface, ending);
-         });
 }
 
 void write_files(const Mesh& mesh, const std::vector<mm3::IO::Facet_set>& facet_sets,
@@ -452,7 +441,7 @@ void write_files(const Mesh& mesh, const std::vector<mm3::IO::Facet_set>& facet_
     log("write " + path, [&] { write_mesh(files, path, mesh, write_options); });
   if(!o.page.empty())
     log("write " + o.page, [&] {
-      const Page_data data{o.command, subdomain_names, is_in_patient_space(o)};
+      const Page_data data{o.command, subdomain_names, o.is_in_patient_space()};
       write_text(files, o.page, page(mesh, data, report(o, outcome, log)));
     });
   outcome.seconds = log.seconds();

@@ -89,18 +89,17 @@ std::vector<std::optional<double>> expected_volumes(const std::vector<Subdomain>
   return volumes;
 }
 
-std::string percent(double share) { return rounded(std::round(1000 * share) / 10) + " %"; }
-
 void warn_of(const Subdomain_outcome& s, const Options& o, std::vector<std::string>& warnings)
 {
   const std::string named = "the subdomain " + s.name;
   if(s.elements == 0)
-    warnings.push_back(named + ", of volume " + rounded(s.volume_of_surface.value_or(s.surface.volume))
-                       + ", is lost: too small for the cells; try more vertices than "
-                       + std::to_string(o.vertices));
+    warnings.push_back(
+      named + ", of volume "
+      + volume_with_unit(s.volume_of_surface.value_or(s.surface.volume), o.is_in_patient_space())
+      + ", is lost: too small for the cells; try more vertices than " + std::to_string(o.vertices));
   else if(s.volume_of_surface && std::abs(s.volume / *s.volume_of_surface - 1) > tolerated_change_of_volume)
-    warnings.push_back(named + " has a volume of " + rounded(s.volume) + ", "
-                       + percent(std::abs(s.volume / *s.volume_of_surface - 1))
+    warnings.push_back(named + " has a volume of " + volume_with_unit(s.volume, o.is_in_patient_space())
+                       + ", " + percent(std::abs(s.volume / *s.volume_of_surface - 1))
                        + (s.volume < *s.volume_of_surface ? " less" : " more")
                        + " than its surface encloses; try more vertices");
 }

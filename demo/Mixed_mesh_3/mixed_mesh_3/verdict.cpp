@@ -38,8 +38,8 @@ std::string missed_tolerance(const Fidelity& f, const Options& o)
 
 std::string times_volume(double ratio, const Options& o)
 {
-  return o.surface + ": the mesh has " + rounded(ratio)
-         + " times the surface's volume: it is "
+  return o.surface + ": the mesh has " + as_part_of(ratio)
+         + " the surface's volume: it is "
            "too coarse for the domain; try more vertices or a larger --base-level"
          + (o.fit() == Fit::OPTIMIZATION && o.tolerance == 0 ? ", or --tolerance" : "");
 }
@@ -51,8 +51,9 @@ std::string needed_for_thin_parts(const CGAL::Mixed_mesh_result_3& result, const
   if(n <= o.vertices)
     return {};
   const double unit = std::pow(10, std::floor(std::log10(double(n))) - 1); // two digits
-  return "its thin walls and narrow gaps take about "
-         + std::to_string(std::size_t(std::ceil(double(n) / unit) * unit)) + " vertices";
+  return "a mesh that is fine enough for all its thin walls and narrow gaps is estimated at "
+         + std::to_string(std::size_t(std::ceil(double(n) / unit) * unit)) + " vertices; this one may have "
+         + std::to_string(o.vertices);
 }
 
 std::string after_semicolon(const std::string& text) { return text.empty() ? text : "; " + text; }

@@ -36,12 +36,14 @@ function findPlaces() {
       result.push({kind: "note", at, length: d.distance, text: `Farthest ${what}`});
   }
   const shift = report["shift after resection"] ?? report.shift;
+  const radius = report.parameters?.["radius of control points"].value;
   if (shift)
     result.push({
       kind: "note",
       at: relative(shift.at),
       length: shift["largest displacement"],
       text: "Largest displacement"
+        + (radius > 0 ? ` (at control points, the mean within ${number(radius)} mm is prescribed)` : "")
     });
   const worst = ratioOf.indexOf(worstRatio);
   if (worst >= 0)
@@ -423,8 +425,9 @@ function showReport() {
   const name = fileName(sourceFile), program = report.program;
   document.title = `${name} \u2013 ${program.name}`;
   $("title").textContent = name;
-  $("subtitle").textContent =
-    program.name === "brain_shift" ? "Brain shift" : `Mixed-element mesh: ${report.status}`;
+  $("subtitle").textContent = program.name === "brain_shift" ?
+    "Brain shift" :
+    "Mixed-element mesh" + (report.status && `: ${report.status}`);
   canvas.setAttribute("aria-label", `The mesh of ${name} in 3D`);
   $("command").textContent = data.command;
   $("report").append(tree(report));
@@ -456,5 +459,6 @@ document.documentElement.dataset.firstPicture = Math.round(performance.now());
 window.mixedMeshPage = {
   state,
   update,
-  frame
+  frame,
+  camera: () => camera
 };  // for the console

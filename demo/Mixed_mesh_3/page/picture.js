@@ -203,21 +203,42 @@ function drawOverlay() {
       svg("text", {x: x0 + pixels / 2, y: y0 - 14}, number(length) + unit()))
   ];
   if (state.hasPlaces) {
-    const arrows = controlPoints.map(([from, to]) => arrow(onScreen(from), onScreen(to)));
-    parts.push(svg("path", {class: "control", d: arrows.join("")}));
-    places.forEach((place, i) => {
-      if (!place.at) return;
-      const [x, y] = onScreen(place.at);
-      const pin = svg(
-        "g",
-        {class: `pin ${place.kind}${i === state.place ? " current" : ""}`, transform: `translate(${x} ${y})`},
-        svg("title", {}, place.text), svg("circle", {r: 9}),
-        svg("text", {class: i < 99 ? "" : "long"}, i + 1));
-      pin.addEventListener("click", () => showPlace(i));
-      parts.push(pin);
-    });
+    const d = controlPoints.map(([from, to]) => arrow(onScreen(from), onScreen(to))).join("");
+    parts.push(svg("path", {class: "control edge", d}), svg("path", {class: "control", d}));
+    parts.push(...pinsOf(places.map(place => place.at && onScreen(place.at))));
   }
   overlay.replaceChildren(...parts);
+}
+
+// Badges of places: those that would overlap are one, which tells all of them, and shows the next at each
+// click.
+function pinsOf(positions) {
+  const RADIUS = 9, groups = [];
+  const order = positions.map((_, i) => i).filter(i => positions[i]);
+  order.sort((i, j) => (j === state.place) - (i === state.place) || i - j);  // the current one keeps its own
+  for (const i of order) {
+    const [x, y] = positions[i];
+    const group = groups.find(g => Math.hypot(g.x - x, g.y - y) <= 2 * RADIUS);
+    if (group)
+      group.members.push(i);
+    else
+      groups.push({x, y, members: [i]});
+  }
+  return groups.map(({x, y, members}) => {
+    const isWarning = members.some(i => places[i].kind === "warning"), isCurrent = members[0] === state.place;
+    const text = `${members[0] + 1}${members.length > 1 ? "+" : ""}`;
+    const pin = svg(
+      "g", {
+        class: `pin ${isWarning ? "warning" : "note"}${isCurrent ? " current" : ""}`,
+        transform: `translate(${x} ${y})`,
+        "data-places": members.map(i => i + 1).join(" ")
+      },
+      svg("title", {}, members.map(i => `${i + 1}: ${places[i].text}`).join("\n")),
+      svg("circle", {r: RADIUS}), svg("text", {class: text.length < 3 ? "" : "long"}, text));
+    const next = [...members].sort((i, j) => i - j).find(i => i > state.place);
+    pin.addEventListener("click", () => showPlace(next ?? Math.min(...members)));
+    return pin;
+  });
 }
 
 // A dot, a line, a head.

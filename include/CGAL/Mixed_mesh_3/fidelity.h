@@ -182,6 +182,9 @@ private:
     return " near (" + text(p.x(), 6) + ", " + text(p.y(), 6) + ", " + text(p.z(), 6) + ")";
   }
 
+  // Of the unit of length, nothing is known.
+  static std::string of_volume(double volume) { return " of volume " + text(volume, 3) + " cubic units"; }
+
   static std::string counted(std::size_t n, const char* one, const char* many)
   {
     return std::to_string(n) + " " + (n == 1 ? one : many);
@@ -222,7 +225,7 @@ private:
             + " pieces" + near(p));
     } else if(of_mesh.empty() && m_in_mesh[r].same == Nested_shells::outside) {
       const Point_3 p = m_in_mesh[r].middle;
-      const std::string what = " of volume " + text(m_surface[r].volume, 3) + near(p);
+      const std::string what = of_volume(m_surface[r].volume) + near(p);
       if(!is_cavity)
         add(Kind::BODY_MISSING, p, m_surface[r].volume, "a piece" + what + " is missing");
       else if(m_in_mesh[r].share_in_solid >= 0.5)
@@ -242,7 +245,7 @@ private:
             + near(p));
     } else if(of_surface.empty() && m_in_surface[r].same == Nested_shells::outside) {
       const Point_3 p = m_in_surface[r].middle;
-      const std::string what = " of volume " + text(m_mesh[r].volume, 3) + near(p) + " is added";
+      const std::string what = of_volume(m_mesh[r].volume) + near(p) + " is added";
       add(is_cavity ? Kind::CAVITY_ADDED : Kind::BODY_ADDED, p, m_mesh[r].volume,
           (is_cavity ? "a cavity" : "a piece") + what);
     }

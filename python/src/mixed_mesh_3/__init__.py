@@ -23,9 +23,10 @@ import numpy as _np
 
 from . import _core
 from ._core import ElasticityError, Mesh, MeshingError, boundary_vertices
+from ._page import Page, make_page as _make_page
 
 __version__ = "0.1.0"
-__all__ = ["Elasticity", "ElasticityError", "KINDS", "Mesh", "MeshingError", "boundary_vertices", "certify", "complete_label",
+__all__ = ["Elasticity", "ElasticityError", "KINDS", "Mesh", "MeshingError", "Page", "boundary_vertices", "certify", "complete_label",
            "defects", "example_data", "fit", "label_surface", "mesh", "mesh_labels", "optimize", "quality", "read_image",
            "read_surface", "resect", "warp"]
 
@@ -71,7 +72,16 @@ def _to_pyvista(self):
     return grid
 
 
-def _show(self):
+def _show(self, displacements=None, *, removed=None, report=None, title="mesh", height=620):
+    """The mesh in 3D, as a Page: the last line of a cell of a notebook shows it; save(path) writes it as a file.
+
+    displacements: of vertices, (n, 3), that the page deforms the mesh by; removed: which elements are gone then.
+    report: that of mesh(), whose status, warnings and measures the page tells. title: its heading; height: in pixels.
+    """
+    return _make_page(self, displacements, removed, report, str(title), int(height), __version__)
+
+
+def _repr(self):
     counts = ", ".join(f"{len(v)} {kind}" for kind, v in self.cells.items())
     return f"<mixed_mesh_3.Mesh: {len(self.points)} vertices, {counts}>"
 
@@ -79,7 +89,8 @@ def _show(self):
 Mesh.cells = property(_cells)
 Mesh.to_meshio = _to_meshio
 Mesh.to_pyvista = _to_pyvista
-Mesh.__repr__ = _show
+Mesh.show = _show
+Mesh.__repr__ = _repr
 
 
 def _count(name, value):
