@@ -53,10 +53,10 @@ public:
   std::size_t maximal_number_of_vertices() const { return m_maximal_number_of_vertices; }
 
   /// Whether the mesh shall have as few vertices as its tolerance, and the topology and the volume of the
-  /// domain allow, to about a tenth, and at most those of the budget. Meshes with six to ten budgets are made
-  /// for it (`Mixed_mesh_result_3::number_of_budgets`). If the whole budget does not suffice, the mesh is
-  /// that of the whole budget, and the status tells. Default: no, the budget is filled. \pre a tolerance is
-  /// given, and the boundary is fitted, when the mesh is made
+  /// domain allow, to about a tenth, and at most those of the budget. Meshes with five to ten budgets are
+  /// made for it (`Mixed_mesh_result_3::number_of_budgets`). If the whole budget does not suffice, the mesh
+  /// is that of the whole budget, and the status tells. Default: no, the budget is filled. \pre a tolerance
+  /// is given, and the boundary is fitted, when the mesh is made
   Mixed_mesh_criteria_3& fewest_vertices(bool fewest)
   {
     m_fewest_vertices = fewest;

@@ -246,7 +246,7 @@ void add_files(CLI::App& app, Options& o)
         o.vertices = o.fewest_vertices ? most_automatic_vertices : std::stoul(text);
       },
       "Vertex budget: the mesh has at most that many vertices; auto: as few as --tolerance allows, found by "
-      "meshes with six to ten budgets of up to 200,000")
+      "meshes with five to ten budgets of up to 200,000")
     ->required()
     ->check(CLI::Validator(
       [](std::string& text) {

@@ -179,7 +179,7 @@ def mesh(points, triangles, *, region=None, subdomains=None, vertices=660, toler
         wanted; None: everywhere.
     subdomains: {label: (points, triangles)}: parts inside, which count from the first to the last where they overlap;
         labels from 2 on, the rest has 1, and 0 is a cavity.
-    vertices: how many there may be at most; "auto": as few as the tolerance allows, found by six to ten meshes of up to
+    vertices: how many there may be at most; "auto": as few as the tolerance allows, found by five to ten meshes of up to
         200,000 vertices.
     tolerance: how far the boundary may be from the surface, in mm; 0: what the budget allows.
     quality_bound: no element has a larger aspect-ratio coefficient.
