@@ -55,7 +55,7 @@ with budgets in between, until the fewest that suffice are known to a tenth. The
 even the largest budget does not suffice, the mesh with that.
 
 \par Complexity
-Some six to ten meshes
+Some five to ten meshes
 */
 inline Mixed_mesh_result_3 run_with_fewest_vertices(const Located_octree& root,
                                                     const Mixed_mesh_criteria_3& criteria,
@@ -68,20 +68,17 @@ inline Mixed_mesh_result_3 run_with_fewest_vertices(const Located_octree& root,
   Mixed_mesh_result_3 best;
   for(;;) {
     Core_mesh trial;
-    Mixed_mesh_result_3 result = run_stages(
+    const Mixed_mesh_result_3 result = run_stages(
       root, Mixed_mesh_criteria_3(criteria).maximal_number_of_vertices(budget), visitor, trial);
-    result.number_of_budgets = ++trials;
-    if(result.status == Mixed_mesh_status::STOPPED && enough > 0)
-      return best;
     const bool is_wanted = is_as_wanted(result);
     if(is_wanted || enough == 0) {
       best = result;
       mesh = std::move(trial);
     }
+    best.number_of_budgets = ++trials;
     if(result.status == Mixed_mesh_status::STOPPED)
       return best;
     (is_wanted ? enough : too_few) = is_wanted ? (std::min)(budget, mesh.number_of_vertices()) : budget;
-    best.number_of_budgets = trials;
     if(enough > 0 && too_few > 0) {
       if(double(enough) <= near_enough * double(too_few))
         return best;
