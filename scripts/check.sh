@@ -10,7 +10,8 @@
 #               110 columns
 #   shell       shell scripts, by shellcheck
 #   python      programs in Python, by pyflakes
-#   layers      arrows between folders run one way: scripts/check_layers.py
+#   layers      arrows between folders run one way: scripts/check_layers.py; the graph of ARCHITECTURE.md has
+#               them: scripts/draw_architecture.py
 #   doc         the manual, by doxygen; a warning is an error
 #   headers     headers compile alone, by clang, without a warning: public ones that the change since BASE (default:
 #               origin/main, or 20 commits ago on main itself) reaches, and internal ones that changed; all with
@@ -85,6 +86,7 @@ check_python() {
 
 check_layers() {
   /usr/bin/python3 scripts/check_layers.py
+  /usr/bin/python3 scripts/draw_architecture.py --check
 }
 
 # Makes a build directory in the folder of these, or brings it up to date.

@@ -102,27 +102,30 @@ def chains_from(header, includes):
     return chains
 
 
-def find_violations(root):
+def read_includes(root):
+    """For each header below include/CGAL, those of them that it includes."""
     top = root / "include" / "CGAL"
-    headers = sorted(str(path.relative_to(top)) for path in top.rglob("*.h"))
     includes = {}
-    violations = []
-    for header in headers:
+    for header in sorted(str(path.relative_to(top)) for path in top.rglob("*.h")):
         # A header and that of its definitions, which may be compiled apart, include each other.
         declarations = header.replace("_impl.h", ".h")
         for inside, outside in (("read_surface", "read_closed_surface"), ("write_mixed_mesh", "write_mixed_mesh")):
             declarations = declarations.replace(f"/IO/internal/{inside}.h", f"/IO/{outside}.h")
         includes[header] = [name for name in own_includes(top / header) if (top / name).exists()
                             and not (header.endswith("_impl.h") and name == declarations)]
-        folder = folder_of(header)
-        if folder not in MAY_REACH:
-            violations.append(f"include/CGAL/{header}: folder {folder} is not in scripts/check_layers.py")
+    return includes
+
+
+def find_violations(root):
+    includes = read_includes(root)
+    violations = [f"include/CGAL/{header}: folder {folder_of(header)} is not in scripts/check_layers.py"
+                  for header in includes if folder_of(header) not in MAY_REACH]
 
     cycle = find_cycle(includes)
     if cycle:
         return violations + ["headers include each other: " + " -> ".join(cycle)]
 
-    for header in headers:
+    for header in includes:
         folder = folder_of(header)
         allowed = {folder, PUBLIC, *MAY_REACH.get(folder, "").split()}
         for other, chain in chains_from(header, includes).items():
