@@ -50,6 +50,11 @@ def peers(rows):
                "edge there": f"{r['mean edge in region']:.2f}", "CPU s": number(r["CPU seconds"], ".2f")}
 
 
+def without(columns, rows):
+    for r in rows:
+        yield {name: value for name, value in r.items() if name not in columns}
+
+
 def scale(rows):
     """The default path, by one thread, and the time by two."""
     with_two = {r["budget"]: r["seconds"] for r in rows if r["threads"] == 2}
@@ -64,7 +69,7 @@ def scale(rows):
 
 TABLES = {
     "peers": lambda: peers(load("peers")["rows"]),
-    "peers_of_two_sizes": lambda: peers(r for r in load("peers")["rows"] if r["wanted"] in (2000, 200000)),
+    "peers_of_one_size": lambda: without(("N",), peers(r for r in load("peers")["rows"] if r["wanted"] == 2000)),
     "paper": lambda: load("paper")["rows"],
     "scale": lambda: scale(load("scale")["rows"]),
 }

@@ -38,6 +38,7 @@ import browser  # noqa: E402
 import mixed_mesh_3 as mm3  # noqa: E402
 
 DATA = SOURCE / "data"
+GUIDE = SOURCE / "doc" / "guides" / "python_user.txt"
 
 
 def read_off(path):
@@ -511,14 +512,14 @@ class Test(unittest.TestCase):
             self.assertEqual(view.messages(), [])
 
     def test_packages_of_wheel(self):
-        """README names each package of Debian that has a library the module needs, but for what each system has."""
+        """The manual names each package of Debian that has a library the module needs, but for what each system has."""
         module, = (BUILD / "python" / "mixed_mesh_3").glob("_core*.so")
         run = lambda *command: subprocess.run(command, capture_output=True, text=True, check=True).stdout
         if not all(map(shutil.which, ("readelf", "ldd", "dpkg"))):
             self.skipTest("no readelf, ldd or dpkg")
         needed = re.findall(r"NEEDED.*\[(.*)\]", run("readelf", "-d", module))
         paths = dict(re.findall(r"(\S+) => (\S+)", run("ldd", module)))
-        line, = (line for line in (SOURCE / "README.md").read_text().splitlines() if "install python3-numpy" in line)
+        line, = (line for line in GUIDE.read_text().splitlines() if "install python3-numpy" in line)
         there = [name for name in needed if not re.match(r"(libc|libm|libgcc_s|ld-linux.*)\.so", name)]
         self.assertGreater(len(there), 5)
         for name in there:
