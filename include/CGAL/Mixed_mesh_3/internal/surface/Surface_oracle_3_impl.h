@@ -36,7 +36,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// What CGAL's detection of sharp edges marks them in.
+/// The property map in which CGAL's detection of sharp edges marks them.
 struct Is_sharp_map
 {
   using key_type = CGAL::Surface_mesh<Surface_oracle_3::Point_3>::Edge_index;
@@ -90,8 +90,8 @@ Surface_oracle_3::build(const std::vector<Point_3>& points,
   count_shells(points, triangles);
 }
 
-// Around a cavity, what is inside of a shell, but near to it, is outside; whichever way the triangles are
-// oriented.
+// Counts the shells. Around a cavity, points inside the shell, but near to it, are outside of the domain, for
+// either orientation of the triangles.
 CGAL_MIXED_MESH_3_INLINE void
 Surface_oracle_3::count_shells(const std::vector<Point_3>& points,
                                const std::vector<std::array<std::size_t, 3>>& triangles)
