@@ -38,11 +38,10 @@ is coordinate `k` of free node `i`. The pattern is computed once; values are fil
 class Elasticity_system
 {
   const Element_list* m_elements;
-  std::vector<Element_index> m_active;  // elements with a free node
-  std::vector<Vertex_index> m_free;     // the free nodes
-  std::vector<Vertex_index> m_unknowns; // number of each node among the free nodes, or no_vertex
-  std::vector<std::size_t>
-    m_block_starts; // starts of the neighbors of larger number, without the node itself
+  std::vector<Element_index> m_active;     // elements with a free node
+  std::vector<Vertex_index> m_free;        // the free nodes
+  std::vector<Vertex_index> m_unknowns;    // number among the free nodes, or no_vertex
+  std::vector<std::size_t> m_block_starts; // of the neighbors of larger number, without the node itself
   std::vector<int> m_neighbors;
   std::vector<int> m_starts, m_rows;
   std::vector<double> m_values, m_right_hand_side;

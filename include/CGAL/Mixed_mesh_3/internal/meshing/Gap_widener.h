@@ -59,8 +59,7 @@ class Gap_widener
 
   static constexpr double smallest_step = 1. / 64; // of a line: narrower gaps may be missed
   static constexpr int most_rounds = 3;
-  static constexpr std::size_t smallest_wall =
-    9; // number of vertices that stay if they would be lost together
+  static constexpr std::size_t smallest_wall = 9; // vertices that stay if they would be lost together
 
 public:
   Gap_widener(const Located_octree& octree, Lattice_mesh& mesh)

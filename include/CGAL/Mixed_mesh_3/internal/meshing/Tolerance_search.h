@@ -66,11 +66,10 @@ class Tolerance_search
   Mixed_mesh_result_3& m_result;
   const bool m_has_subdomains;
   std::vector<Surface_sample> m_samples;
-  std::vector<std::vector<Vec3>>
-    m_far_points;            // points of the surface where cells are split: the farthest first
-  bool m_is_stopped = false; // the visitor stopped the search
-  bool m_only_parts = false; // small parts only, not the outer surface
-  bool m_is_full = false;    // there is no room for more splits
+  std::vector<std::vector<Vec3>> m_far_points; // on the surface, where cells are split: the farthest first
+  bool m_is_stopped = false;                   // the visitor stopped the search
+  bool m_only_parts = false;                   // small parts only, not the outer surface
+  bool m_is_full = false;                      // there is no room for more splits
 
 public:
   /// \param root the octree with nothing but its root
@@ -176,8 +175,7 @@ private:
 
   struct Estimate
   {
-    std::vector<std::pair<double, Vec3>>
-      far_points; // points of the surface, with their distances in tolerances
+    std::vector<std::pair<double, Vec3>> far_points; // on the surface, with distances in tolerances
     std::vector<Vec3>
       defects; // places where the boundary folds or cuts itself: the surface is too fine for the cells
     std::size_t number_of_defects;

@@ -48,8 +48,7 @@ class Thin_cell_finder
 
   const Located_octree& m_octree;
   const double m_strictness;
-  std::map<Lattice_point, bool>
-    m_is_thin_at; // for corners of leaves, which four leaves have in common, mostly
+  std::map<Lattice_point, bool> m_is_thin_at; // corners of leaves are mostly common to four leaves
 
   static constexpr double cells_in_wall = 1, cells_in_gap = 1;
   // Limits in sides of cells: width of gaps that are widened, and largest widening on each side.
@@ -160,9 +159,8 @@ inline void widen_gaps(const Located_octree& octree, Lattice_mesh& mesh)
 /// The result of splitting cells for walls and gaps.
 struct Thin_cell_splits
 {
-  bool is_complete = true; ///< whether the budget sufficed
-  std::size_t number_of_vertices =
-    0; ///< approximate number once all are split; at most some hundred times the budget
+  bool is_complete = true;            ///< whether the budget sufficed
+  std::size_t number_of_vertices = 0; ///< about, once all are split; at most some hundred budgets
 };
 
 /*!

@@ -35,8 +35,7 @@ struct Solid_reading
   /// Whether there is a result: not if more than `most` pairs of triangles meet, or no ray tells what is
   /// solid.
   bool is_complete = true;
-  double inverted_volume =
-    0; ///< volume of places that triangles wind around inwards: such places are not solid
+  double inverted_volume = 0; ///< volume of places that triangles wind around inwards
 };
 
 /*!

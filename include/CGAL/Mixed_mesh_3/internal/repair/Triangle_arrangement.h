@@ -39,8 +39,8 @@ namespace internal {
 struct Arrangement_facet
 {
   std::array<std::size_t, 3> vertices; ///< ascending: the front is where they are counterclockwise
-  int weight = 0; ///< number of triangles with that orientation, minus those of the opposite one
-  int number = 0; ///< number of triangles
+  int weight = 0;                      ///< number of triangles oriented so, minus that of the others
+  int number = 0;                      ///< number of triangles
 };
 
 /*!

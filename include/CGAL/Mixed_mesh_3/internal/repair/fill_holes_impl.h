@@ -40,7 +40,7 @@ class Surface_parts
 
   std::vector<Point>& m_points;
   std::map<std::array<std::size_t, 2>, std::size_t> m_directed_edges; // edges with their triangles
-  std::vector<std::size_t> m_part; // first triangle of the component of each triangle
+  std::vector<std::size_t> m_part;                                    // first triangle of the component
 
 public:
   /// Constructs the components. \pre the surface is oriented consistently, and a manifold
@@ -131,8 +131,7 @@ CGAL_MIXED_MESH_3_INLINE Hole_filling fill_holes(std::vector<Predicates_kernel::
                                                  std::vector<std::array<std::size_t, 3>>& triangles,
                                                  double largest_share)
 {
-  constexpr double sheet_area =
-    0.25; // share of the area of all; the patch of a flat sheet has about the area of the sheet
+  constexpr double sheet_area = 0.25; // of all; the patch of a flat sheet has about its area
   Hole_filling result;
   CGAL::Polygon_mesh_processing::orient_polygon_soup(points, triangles);
   const Surface_parts parts(points, triangles);
