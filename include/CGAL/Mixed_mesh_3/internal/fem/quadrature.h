@@ -54,8 +54,8 @@ Quadrature_rule make_quadrature_rule()
   if constexpr(kind == TETRAHEDRON) {
     add(0.25, 0.25, 0.25, 1. / 6); // gradients are constant
   } else if constexpr(kind == PYRAMID) {
-    // Conical product: (r, s) shrink toward the apex, and heights are Gauss-Jacobi points for the weight
-    // (1 - t)^2 on [0,1].
+    // Conical product: (r, s) shrink toward the apex, and heights are Gauss-Jacobi points for the weight (1 -
+    // t)^2 on [0,1].
     const double offset = std::sqrt(10.) / 15, weight_offset = std::sqrt(10.) / 48;
     for(int k : {-1, 1}) {
       const double t = 1. / 3 + k * offset, weight = 1. / 6 - k * weight_offset;

@@ -51,8 +51,7 @@ public:
   }
 
   /// \param place place of the surface near the vertex, from which the new faces shall not be far: not
-  /// farther than
-  ///        the vertex is, or than a share of an edge
+  /// farther than the vertex is, or than a share of an edge
   /// \param is_candidate whether the vertex may be merged with a given vertex
   /// \return the vertex with which the vertex was merged, where the worst new element is best; `no_vertex`:
   /// none

@@ -44,9 +44,9 @@ corner triangle may be folded.
 
 A target triangle is folded when its normal turns away from the normal of the boundary there, which is that of
 the *mesh* before it moves, averaged over the faces around the vertices. The surface's own normals are less
-suitable: between the banks of a furrow narrower than a face the normals say nothing about the face.
-The normal of the single face before it moves is not suitable either: on a staircase the face may be at a
-right angle to the surface.
+suitable: between the banks of a furrow narrower than a face the normals say nothing about the face. The
+normal of the single face before it moves is not suitable either: on a staircase the face may be at a right
+angle to the surface.
 */
 class Boundary_folds
 {

@@ -86,8 +86,7 @@ public:
   }
 
   /// Whether triangles would meet in more than vertices and edges they share, if w replaced v in all
-  /// triangles.
-  /// The test is exact.
+  /// triangles. The test is exact.
   bool would_cross(Vertex_index v, Vertex_index w) const
   {
     std::vector<Triangle> fan;
