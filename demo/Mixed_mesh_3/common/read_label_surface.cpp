@@ -77,7 +77,7 @@ std::size_t remove_specks(Surface& surface, double volume_of_voxel)
   return number;
 }
 
-// In foil: what the mesh generator takes for the surface.
+// The surface wrapped: the mesh generator takes the wrap as the surface.
 Surface wrapped(const Surface& surface, double diameter, const std::string& path,
                 std::vector<std::string>& repairs)
 {
@@ -130,7 +130,8 @@ Label_image Label_image::completed(const Voxel_selection& selection, const Voxel
   facts = {options.closing_radius,       done.number_of_voxels,         done.number_of_closed_voxels,
            done.number_of_filled_voxels, done.number_of_removed_voxels, done.number_of_removed_components};
 
-  // Of the values that are selected for what is filled in, the commonest one; for the rest, none that is.
+  // The value of filled voxels is the commonest of the values selected for filling; no value is taken from
+  // the rest.
   const std::pair<const float, mm3::Label_extent_3>* commonest = nullptr;
   for(const auto& value : m_data->extents)
     if(filling(value.first)
