@@ -35,7 +35,7 @@ namespace CGAL {
 
 \brief The domain inside one or more closed triangulated surfaces, each of which encloses a subdomain.
 
-Where surfaces overlap, the surface that was added first counts: a tumor, then the ventricles, then the brain
+The surface that was added first counts where surfaces overlap: a tumor, then the ventricles, then the brain
 around both. So surfaces may be nested, disjoint, touch, or cross each other; each interface lies on the
 surface of the subdomain that was added first. The subdomain with index 0 is a cavity: it belongs to the
 outside.
@@ -151,7 +151,7 @@ public:
 
   Bounded_side bounded_side(const Point_3& p, const Surface_part& part) const
   {
-    bool is_on_surface = false; // this is the boundary if the outside is behind
+    bool is_on_surface = false; // the boundary if the outside is behind
     for(const auto& [i, of_surface] : part.parts) {
       const Bounded_side side = m_surfaces[i].surface->bounded_side(p, of_surface);
       is_on_surface = is_on_surface || side == ON_BOUNDARY;

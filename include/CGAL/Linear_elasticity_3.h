@@ -242,7 +242,7 @@ public:
   strains should not be. Supports, control points, loads, removals and the factorization are as before.
   Directions in which vertices slide, and forces, do not turn.
 
-  With finite rotations, `solve()` is Newton's method, each step by conjugate gradients with the factor of the
+  `solve()` with finite rotations is Newton's method, each step by conjugate gradients with the factor of the
   linear system as preconditioner, to the tolerance of `set_iteration_tolerance()`; the method starts from the
   last solution, if there is one, and may end with
   - `INVERTED_ELEMENT`: the displacement inverts an element, by the certificate

@@ -169,7 +169,7 @@ public:
 
 \brief A region with a weight: the factor by which an error counts more there.
 
-Where the weight is \f$ w \f$, cells become smaller by a factor of about \f$ w^{1/5} \f$. Weights are relative
+Cells become smaller by a factor of about \f$ w^{1/5} \f$ where the weight is \f$ w \f$. Weights are relative
 to the weights of other places, and to 1, for which the share of the budget that serves the volume is set.
 
 \tparam Region a model of `MixedMeshRegion_3`

@@ -37,7 +37,7 @@ struct Opening_disk
 Opening_disk disk_around(const Mesh& mesh, const Options& o, const Outcome& outcome)
 {
   Opening_disk disk;
-  std::vector<Vector> points; // in the mesh
+  std::vector<Vector> points; // points in the mesh
   for(const auto& location : outcome.locations) {
     Vector p{};
     for(int i = 0; i < mesh.element(location.element).size(); ++i)

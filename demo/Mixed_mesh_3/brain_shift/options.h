@@ -49,7 +49,7 @@ struct Options
   double max_distance = 5, compliance = 0, landmark_compliance = 0, control_radius = 0;
   std::size_t landmarks_given = 0; // the outermost ones; 0: the default number
   bool corotational = false, leave_one_out = false, adapt = false;
-  CGAL::Mixed_meshes_3::Elastic_material material; // of subdomains without one of their own
+  CGAL::Mixed_meshes_3::Elastic_material material; // material of subdomains without one of their own
   CGAL::Mixed_meshes_3::Displacement_interpolation interpolation =
     CGAL::Mixed_meshes_3::Displacement_interpolation::RECOVERED;
   std::vector<CGAL::Mixed_meshes_3::IO::Field_format> field_formats;

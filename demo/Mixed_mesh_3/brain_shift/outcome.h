@@ -52,7 +52,7 @@ struct Image_facts
   int world = 0; // NIfTI's number
   double smallest = 0, largest = 0, share_inside = 0;
   std::size_t voxels_of_tissue = 0, voxels_resected = 0, linear_elements = 0; // numbers of the warped image
-  std::vector<Rim_facts> rims;                                                // if there are labels
+  std::vector<Rim_facts> rims;                                                // empty without labels
 };
 
 enum class Support { FREE, TOUCHING, SLIDING, FIXED };
@@ -75,7 +75,7 @@ struct Control
 /// A displacement of the mesh, and its measures.
 struct Shift
 {
-  std::vector<Vector> displacements; // of vertices
+  std::vector<Vector> displacements; // displacements of vertices
   double largest = 0;
   Vector at{}; // place of the largest one
   double energy = 0;
@@ -95,8 +95,8 @@ struct Shift
 struct Motion_constraints
 {
   using Weights = std::vector<std::pair<CGAL::Mixed_meshes_3::Vertex_index, double>>;
-  std::vector<std::vector<Vector>> held_directions; // of each vertex, orthonormal: no displacement there
-  std::vector<Weights> weights;                     // of the vertices whose mean each control point has
+  std::vector<std::vector<Vector>> held_directions; // orthonormal, for each vertex: no displacement there
+  std::vector<Weights> weights;                     // weights of the vertices averaged at each control point
   std::vector<Vector> means;                        // mean displacements, at each control point
 };
 
@@ -111,7 +111,7 @@ struct Resection_facts
   std::string status;
   std::size_t removed = 0, asked = 0, restored = 0, floating = 0, pinch = 0; // elements
   std::vector<Piece> floating_pieces;
-  double volume = 0, area = 0; // of the cavity
+  double volume = 0, area = 0; // volume and area of the cavity
   Mesh_facts left;
 };
 
@@ -123,8 +123,8 @@ struct Landmark_facts
   struct Errors
   {
     std::string method;
-    std::vector<std::optional<Vector>> left_out; // by all other landmarks; none if these do not determine it
-    std::vector<std::optional<Vector>> given;    // by the given ones; not at these
+    std::vector<std::optional<Vector>> left_out; // errors by all other landmarks; none if undetermined
+    std::vector<std::optional<Vector>> given;    // errors by the given landmarks; not at these
   };
   std::vector<Control_point> points;
   Locations locations;
@@ -132,7 +132,7 @@ struct Landmark_facts
   std::size_t number_given = 0;
   std::vector<bool> is_given;
   std::vector<Errors> errors;                  // the model comes last
-  std::optional<std::vector<Vector>> of_shift; // by control points that are not the landmarks
+  std::optional<std::vector<Vector>> of_shift; // errors by control points that are not the landmarks
 };
 
 /// Statistics of PETSc.
@@ -144,7 +144,7 @@ struct Petsc_facts
 struct Outcome
 {
   Mesh_facts mesh;
-  double volume = 0; // of the mesh
+  double volume = 0; // volume of the mesh
   std::vector<Subdomain_facts> subdomains;
   std::vector<Control_point> points;
   Locations locations;
@@ -157,7 +157,7 @@ struct Outcome
   Shift before; // the resection
   std::optional<Resection_facts> resection;
   std::optional<Shift> after;
-  Motion_constraints constraints; // of the last shift; if it is written as a model
+  Motion_constraints constraints; // constraints of the last shift; if it is written as a model
   std::vector<std::string> warnings;
   double seconds = 0;
   std::size_t peak_bytes = 0;

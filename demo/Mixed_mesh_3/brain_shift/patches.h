@@ -24,8 +24,8 @@ enum class Patch { NONE, OPENING, FIXED, SLIDING, TOUCHING };
 
 struct Boundary_patches
 {
-  std::vector<CGAL::Mixed_meshes_3::Face> faces; // of the boundary
-  std::vector<Patch> of_faces, of_vertices;      // of the faces above; of all vertices of the mesh
+  std::vector<CGAL::Mixed_meshes_3::Face> faces; // faces of the boundary
+  std::vector<Patch> of_faces, of_vertices;      // patches of the faces above; of all vertices of the mesh
 };
 
 /// Reads the surfaces of the patches. The order of precedence is: openings, fixed, sliding, touching. A

@@ -20,7 +20,7 @@
 struct Control_point
 {
   std::array<double, 3> position, displacement; // mm
-  std::size_t number;                           // of the line in the file, or of the point: from 1
+  std::size_t number;                           // number of the line in the file, or of the point: from 1
   const char* unit = "line";                    // or "point"
   double weight = 1;
   std::string name = {}; // empty: the file has none

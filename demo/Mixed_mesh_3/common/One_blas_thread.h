@@ -13,7 +13,7 @@
 /// began.
 class One_blas_thread
 {
-  int m_openmp_threads; // of this thread, or 0 without OpenMP
+  int m_openmp_threads; // number of this thread, or 0 without OpenMP
 
 public:
   One_blas_thread();

@@ -33,7 +33,7 @@ struct Stage_cost
 {
   std::string name;
   double seconds = 0;         // wall clock
-  double cpu_seconds = 0;     // of all threads
+  double cpu_seconds = 0;     // time of all threads
   std::size_t peak_bytes = 0; // largest resident memory of the process during the stage
 };
 

@@ -18,7 +18,7 @@
 struct Surface_facts
 {
   std::string file;
-  std::size_t points = 0, polygons = 0; // in the file
+  std::size_t points = 0, polygons = 0; // numbers in the file
   std::size_t vertices = 0, triangles = 0, components = 0;
   double volume = 0;
   std::vector<std::string> repairs = {}; // lines

@@ -37,7 +37,7 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 struct Label_image::Data
 {
   mm3::Voxel_image_3 image;
-  std::map<float, mm3::Label_extent_3> extents; // of voxels of each value
+  std::map<float, mm3::Label_extent_3> extents; // extents of voxels of each value
 
   explicit Data(mm3::Voxel_image_3 read) : image(std::move(read)), extents(mm3::label_extents(image)) {}
 
@@ -60,7 +60,7 @@ mm3::Voxel_image_3 read(const std::string& path)
   return image;
 }
 
-constexpr double most_voxels = 100; // of a length: the box around the label grows by several times as many
+constexpr double most_voxels = 100; // voxels of a length: the box of the label grows by several times as many
 
 // Removes components of less than a voxel, which smoothing leaves of specks and of thin gaps, unless there
 // are no others.

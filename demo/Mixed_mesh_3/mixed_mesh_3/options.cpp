@@ -33,7 +33,7 @@ constexpr bool has_eigen = true;
 constexpr bool has_eigen = false;
 #endif
 
-constexpr const char* automatic_vertices = "auto"; // of --vertices
+constexpr const char* automatic_vertices = "auto"; // value of --vertices
 constexpr std::size_t most_automatic_vertices = 200000;
 
 double weight_option(const std::string& option, const std::string& text)

@@ -32,14 +32,14 @@ struct Region_option
 {
   std::string file;
   double weight;
-  Voxel_selection voxels = {}; // of an image
+  Voxel_selection voxels = {}; // voxels of an image
 };
 
 /// A part of the domain with a label of its own.
 struct Subdomain_option
 {
   std::string name, file;
-  Voxel_selection voxels = {}; // of an image
+  Voxel_selection voxels = {}; // voxels of an image
 };
 
 struct Options
@@ -47,15 +47,15 @@ struct Options
   using Templates = CGAL::Mixed_meshes_3::Transition_templates_choice;
 
   std::string surface, report, page;
-  std::string command; // with all options
+  std::string command; // the command with all options
   std::vector<Region_option> regions;
   std::vector<Subdomain_option> subdomains; // inside the surface; earlier ones count where they overlap
-  std::vector<Subdomain_option> labels;     // of an image, with names, instead of voxels
+  std::vector<Subdomain_option> labels;     // labels of an image, with names, instead of voxels
   bool has_each_label = false;              // all labels of an image, instead
   std::vector<std::string> cavities;
   std::vector<Subdomain_option> sheets; // surfaces inside that need not enclose anything
-  Voxel_selection voxels;               // of an image, the domain
-  Label_completion completion;          // of the domain
+  Voxel_selection voxels;               // voxels of an image, the domain
+  Label_completion completion;          // completion of the domain
   std::optional<double> smoothing;
   std::vector<std::string> outputs;
   std::size_t vertices = 0;

@@ -59,7 +59,7 @@ struct Fidelity
   Distance from_mesh, from_surface;
   double volume_of_mesh = 0, volume_of_surface = 0;
   std::size_t vertices = 0;     // on the boundary
-  std::size_t vertices_off = 0; // of these, vertices that are not on the surface
+  std::size_t vertices_off = 0; // vertices that are not on the surface
   std::size_t self_intersections = 0;
 
   double distance() const { return (std::max)(from_mesh.distance, from_surface.distance); }
@@ -90,7 +90,7 @@ struct Topology
 
 // Largest relative difference of the volume of a body from its right volume.
 constexpr double volume_tolerance = 0.05;
-constexpr double on_surface = 1e-9; // of the diagonal of the surface's box
+constexpr double on_surface = 1e-9; // share of the diagonal of the surface's box
 
 /// A property of a valid mesh, or of a faithful one, in words.
 struct Check
@@ -126,7 +126,7 @@ struct Sheet_outcome
   std::string name;
   Surface_facts surface;
   std::size_t faces = 0, vertices = 0, vertices_off = 0, bad_edges = 0;
-  double largest_distance = 0;      // of a vertex from the sheet
+  double largest_distance = 0;      // largest distance of a vertex from the sheet
   double area = 0, area_inside = 0; // area of the faces; of the sheet inside the domain
 };
 
@@ -139,16 +139,16 @@ struct Slit_outcome
 struct Outcome
 {
   Surface_facts surface;
-  std::optional<Completion_facts> completion; // of the image's label
+  std::optional<Completion_facts> completion; // completion of the image's label
   std::vector<Surface_facts> regions;
-  std::vector<Subdomain_outcome> subdomains; // if there are several
+  std::vector<Subdomain_outcome> subdomains; // empty for a single subdomain
   std::vector<Interface_outcome> interfaces;
   bool has_lost_labels = false; // lost before there was a mesh
   std::vector<Sheet_outcome> sheets;
   std::optional<Slit_outcome> slit;
   CGAL::Mixed_mesh_result_3 result;
   CGAL::Mixed_mesh_fit_result_3 algorithm_1;
-  bool is_stopped = false; // by a signal or the limit of time
+  bool is_stopped = false; // stopped by a signal or the limit of time
   Mesh_facts mesh;
   std::size_t elements_in_region = 0, boundary_faces = 0;
   std::optional<Aspect_ratios> before; // the boundary is fitted
@@ -157,7 +157,7 @@ struct Outcome
   Shapes shapes;
   Fidelity fidelity;
   Topology topology;
-  std::vector<Check> checks;             // of validity: a mesh that fails is not written
+  std::vector<Check> checks;             // checks of validity: a mesh that fails is not written
   std::vector<Check> checks_of_fidelity; // whether the mesh represents this surface
   std::vector<std::string> warnings;
   double seconds = 0;

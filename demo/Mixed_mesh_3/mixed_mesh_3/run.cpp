@@ -221,7 +221,7 @@ std::vector<Subdomain> read_labels(const Options& o, Surface_reader& read, Outco
     return o.has_each_label ? mm3::Subdomain_index(labels[i].voxels.ranges[0].first)
                             : mm3::Subdomain_index(i + 1);
   };
-  std::vector<std::pair<std::size_t, std::size_t>> sizes; // with the numbers of labels
+  std::vector<std::pair<std::size_t, std::size_t>> sizes; // sizes with the numbers of labels
   std::vector<Voxel_selection> all;
   for(const Subdomain_option& label : labels) {
     sizes.emplace_back(read.image(o.surface).number_of_voxels(label.voxels), all.size());
@@ -476,7 +476,7 @@ bool run(Options o)
                      + std::to_string(patience) + " s, nothing is written; --time-limit waits for one",
                    1);
   Mesh mesh = make_mesh_until_stopped(domain, inputs, o, log, outcome);
-  o.vertices = outcome.result.vertex_budget; // which --vertices auto has found
+  o.vertices = outcome.result.vertex_budget; // number found by --vertices auto
   const std::vector<std::string> warnings = outcome.warnings;
   examine(mesh, inputs.boundary, o, log, outcome);
   examine_subdomains(mesh, domain, inputs.subdomains, o, outcome);

@@ -106,7 +106,7 @@ void warn_of(const Subdomain_outcome& s, const Options& o, std::vector<std::stri
 
 void warn_of(const std::vector<Interface_outcome>& interfaces, std::vector<std::string>& warnings)
 {
-  constexpr std::size_t most = 10; // with many labels, nearly all interfaces have some such vertices
+  constexpr std::size_t most = 10; // nearly all interfaces have such vertices with many labels
   const auto named = [](const Interface_outcome& i) {
     return "the interface between " + i.first + " and " + i.second;
   };

@@ -28,7 +28,7 @@ struct Subdomain
   CGAL::Mixed_meshes_3::Subdomain_index index; // 0: a cavity
   std::shared_ptr<const Surface> surface;
   Surface_facts facts;
-  std::optional<double> volume; // if known: of the voxels of a label
+  std::optional<double> volume; // volume of the voxels of a label, if known
 };
 
 /// \param subdomains surfaces; the last one is around the others

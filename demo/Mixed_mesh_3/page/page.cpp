@@ -28,7 +28,7 @@ class Packed_array
 {
   std::string m_text;
   std::uint32_t m_bits = 0;
-  int m_number_of_bytes = 0; // in `m_bits`
+  int m_number_of_bytes = 0; // bytes in `m_bits`
 
   // Appends the six bits of each character, the first bits the highest.
   void put_characters(int count)

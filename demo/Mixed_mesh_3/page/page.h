@@ -25,7 +25,7 @@ struct Page_data
   {
     std::string name;
     std::vector<double> displacements; // x, y, z of each vertex
-    std::vector<bool> is_removed = {}; // for each element; empty: none
+    std::vector<bool> is_removed = {}; // one value for each element; empty: none
   };
 
   std::string command;

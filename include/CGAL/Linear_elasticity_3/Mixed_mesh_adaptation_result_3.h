@@ -52,7 +52,7 @@ struct Mixed_mesh_adaptation_result_3
   /// The outcome.
   Mixed_mesh_adaptation_status status = Mixed_mesh_adaptation_status::EMPTY;
   int number_of_steps = 0;                  ///< accepted steps: each has lowered the functional
-  int number_of_solves = 0;                 ///< of all load cases: in steps tried, and on the initial mesh
+  int number_of_solves = 0;                 ///< solves of all load cases: in steps, and on the initial mesh
   std::size_t number_of_inner_vertices = 0; ///< vertices that may move
   /// Energies of standard elements before the adaptation, of each load case, in microjoules (mN mm).
   std::vector<double> energies_before;

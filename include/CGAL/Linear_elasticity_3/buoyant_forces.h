@@ -33,7 +33,7 @@ inline double share_below(std::array<double, 4> heights)
 {
   std::sort(heights.begin(), heights.end());
   const auto [a, b, c, d] = heights;
-  const auto cut = [](double below, double above) { return below / (below - above); }; // where 0 is
+  const auto cut = [](double below, double above) { return below / (below - above); }; // place of 0
   if(d <= 0)
     return 1;
   if(a >= 0)

@@ -23,7 +23,7 @@ struct Element_location_3
 {
   /// The element; -1 before a location is found.
   Element_index element = Element_index(-1);
-  std::array<double, 3> coordinates{}; ///< in the reference element
+  std::array<double, 3> coordinates{}; ///< reference coordinates
   /// Values of the shape functions, in the order of the element's vertices: a field of the mesh is the sum of
   /// its values at the vertices times these values.
   std::array<double, 8> weights{};

@@ -54,7 +54,7 @@ inline std::array<double, 4> nearest_weights_on_quadrilateral(const Vec3* p, dou
     const double length = dot(d, d);
     return length > 0 ? (std::max)(0., (std::min)(1., -dot(a, d) / length)) : 0.;
   };
-  constexpr int largest_number_of_turns = 200; // for warped faces, where steps gain little
+  constexpr int largest_number_of_turns = 200; // limit for warped faces, where steps gain little
   constexpr double settled = 1e-14;            // some tens of roundings of weights, which are at most 1
   for(int i = 0; i < largest_number_of_turns; ++i) {
     const double new_u = on_segment((1 - v) * p[0] + v * p[3], (1 - v) * p[1] + v * p[2]);

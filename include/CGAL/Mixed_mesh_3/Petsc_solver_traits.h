@@ -545,7 +545,7 @@ private:
       try {
         internal::together(
           [&] { system = std::make_unique<internal::Petsc_system>(message, &lower, &near_kernel); });
-      } catch(const internal::Petsc_error&) { // in the only process
+      } catch(const internal::Petsc_error&) { // error of the only process
         return false;
       }
       return true;

@@ -32,8 +32,8 @@ namespace Mixed_meshes_3 {
 /// \ingroup PkgMixedMesh3Fields
 /// The way in which displacements between vertices are computed from the displacements of the vertices.
 enum class Displacement_interpolation {
-  LINEAR,   ///< by the shape functions of the elements
-  RECOVERED ///< by shape functions and by the gradients of the displacement: see `Recovered_displacement_3`
+  LINEAR,   ///< shape functions of the elements
+  RECOVERED ///< shape functions and gradients of the displacement: see `Recovered_displacement_3`
 };
 
 /// \ingroup PkgMixedMesh3Fields
@@ -87,7 +87,7 @@ given displacements at the vertices, is linear where these are linear, and quadr
 and the gradients are exact. No unknown is added. See D. Kraaijpoel, T. van Leeuwen: "Raising the order of
 multivariate approximation schemes using supplementary derivative data", Procedia Computer Science 1, 2010.
 
-As \f$ \sum_i N_i x_i = x \f$, this is a sum over pairs of the element's vertices,
+The formula is a sum over pairs of the element's vertices, as \f$ \sum_i N_i x_i = x \f$,
 
 \f[ u(x) = \sum_i N_i u_i + \sum_{i<j} N_i N_j b_{ij}, \qquad b_{ij} = \frac12 (G_i - G_j) (x_j - x_i), \f]
 

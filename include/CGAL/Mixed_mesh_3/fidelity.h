@@ -90,7 +90,7 @@ struct Solid_comparison
 {
   Solid_topology surface;                    ///< topology of the solid that the surface bounds
   Solid_topology mesh;                       ///< topology of the mesh
-  std::vector<Solid_difference> differences; ///< of topology, then of volume; largest volumes first
+  std::vector<Solid_difference> differences; ///< topology first, then volume; largest volumes first
 
   /// The ratio of the volume of the mesh to the volume of the surface's solid.
   double ratio_of_volumes() const { return mesh.volume / surface.volume; }

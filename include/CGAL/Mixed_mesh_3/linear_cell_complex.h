@@ -34,8 +34,8 @@ namespace CGAL {
 
 \brief Items of a linear cell complex whose volumes store the attributes of the elements of a mesh.
 
-With these items, or others whose 3-attributes have `Mixed_meshes_3::Element_attributes` as information,
-labels go from mesh to complex and back.
+Labels go from mesh to complex and back with these items, or others whose 3-attributes have
+`Mixed_meshes_3::Element_attributes` as information.
 
 \cgalModels{LinearCellComplexItems}
 */

@@ -39,7 +39,7 @@ enum class Root_cell {
 /// The time at which cells as large as a wall is thick, or half as large as a gap is wide, are split before
 /// others.
 enum class Thin_parts {
-  WHERE_NEEDED, ///< if the mesh would have another topology than the surface, or lose parts or volume
+  WHERE_NEEDED, ///< split first if the mesh would have another topology, or lose parts or volume
   FIRST,        ///< always
   LIKE_OTHERS   ///< never
 };

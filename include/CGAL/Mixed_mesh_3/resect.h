@@ -71,7 +71,7 @@ struct Resection_options
 /// A piece that comes loose: elements connected across faces.
 struct Floating_piece_3
 {
-  std::vector<Element_index> elements; ///< in increasing order
+  std::vector<Element_index> elements; ///< elements in increasing order
   double volume = 0;                   ///< in the cube of the mesh's unit: mm^3
 };
 
@@ -82,9 +82,9 @@ struct Resection_3
 {
   /// The outcome.
   Resection_status status = Resection_status::NOTHING_REMOVED;
-  std::vector<bool> is_removed;                ///< for each element, including elements removed before
+  std::vector<bool> is_removed;                ///< elements to remove, including elements removed before
   std::size_t number_of_asked_elements = 0;    ///< requested elements that were not removed before
-  std::size_t number_of_restored_elements = 0; ///< that stay: without them a vertex would be pinched
+  std::size_t number_of_restored_elements = 0; ///< elements that stay: without them a vertex would be pinched
   /// The number of elements removed in addition, as they came loose; 0 if loose pieces are kept.
   std::size_t number_of_floating_elements = 0;
   std::size_t number_of_pinch_elements = 0;   ///< removed in addition: with them a vertex would be pinched
@@ -167,7 +167,7 @@ Resection_3 resect(const Mesh& mesh, const std::vector<bool>& is_asked,
   Resection_3 result;
   result.is_removed = options.already_removed;
   result.is_removed.resize(n, false);
-  std::size_t number_of_elements_left = 0; // if all requested elements are removed
+  std::size_t number_of_elements_left = 0; // number if all requested elements are removed
   std::vector<State> states(n, State::KEPT);
   std::vector<double> volumes(n);
   for(std::size_t e = 0; e < n; ++e) {

@@ -33,7 +33,7 @@ struct Slit
 {
   /// The faces of the slit, from both sides; in the order of the first faces.
   std::vector<std::pair<Face, Face>> faces;
-  std::vector<Vertex_index> origins; ///< for each added vertex, the vertex of which it is a copy
+  std::vector<Vertex_index> origins; ///< vertex of which each added vertex is a copy
   /// The number of faces that stay closed: all of their vertices are at the rim; or parts of the slit would
   /// meet in an edge or a vertex only, where the boundary would not be manifold.
   std::size_t number_of_faces_left = 0;
@@ -50,7 +50,7 @@ class Slit_vertices
   const Mesh& m_mesh;
   std::map<Key, std::pair<Face, Face>> m_faces;
   std::vector<Element_index> m_elements; // elements at vertices of the slit
-  Element_list m_new_elements;           // these elements with the new vertices
+  Element_list m_new_elements;           // copies of the elements with the new vertices
   std::vector<Vertex_index> m_origins;
 
 public:

@@ -64,7 +64,7 @@ struct Mesh_defects
   std::size_t nonmanifold_boundary_vertices = 0; ///< vertices with more than one fan of boundary faces
   std::size_t nonpositive_corners = 0;  ///< corner tetrahedra whose orientation is not positive, exactly
   std::size_t nonpositive_elements = 0; ///< elements whose Jacobian is not positive everywhere, exactly
-  std::size_t undecided_elements = 0;   ///< of these, elements that could be neither proved nor disproved
+  std::size_t undecided_elements = 0;   ///< elements that could be neither proved nor disproved
   /// Vertices of no element.
   std::size_t unused_vertices = 0;
   std::size_t duplicate_vertices = 0; ///< vertices with the coordinates of an earlier one

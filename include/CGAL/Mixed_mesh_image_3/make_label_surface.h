@@ -78,7 +78,7 @@ void make_label_surface(const Voxel_image_3& image, const HasLabel& has_label, d
                                                              internal::number_of_threads<ConcurrencyTag>());
   if(indicator.values.empty())
     return;
-  constexpr std::size_t many_crossings = 8; // of edges along the axes: there are more vertices than crossings
+  constexpr std::size_t many_crossings = 8; // crossings of edges along the axes: there are more vertices
   if(number_of_vertices > 0 && *std::min_element(deviations.begin(), deviations.end()) >= 0.9
      && internal::number_of_crossings(indicator) > many_crossings * number_of_vertices)
     indicator = internal::every_second(indicator);

@@ -242,10 +242,10 @@ inline Voxel_image_3 resample_image(const Voxel_image_3& image, const Displaceme
 
 \brief Deforms an image with a mesh.
 
-For each voxel, the element of the deformed mesh that contains its center tells the point of the tissue that
-is now at the center; the value is the image's value at that point, linear between voxels by default. For
-points outside the mesh see `Warp_options::fade_distance`. The mesh and the image are in the same world:
-millimeters, x to the right, y to the front, z upwards.
+The element of the deformed mesh that contains the center of a voxel tells the point of the tissue that is now
+at the center; the value is the image's value at that point, linear between voxels by default. For points
+outside the mesh see `Warp_options::fade_distance`. The mesh and the image are in the same world: millimeters,
+x to the right, y to the front, z upwards.
 
 The fields in the mesh are those of the elements at the centers of the voxels, up to the rounding to floats,
 and inverse to each other; outside, they agree at the surface only. Voxels of resected tissue are voxels that

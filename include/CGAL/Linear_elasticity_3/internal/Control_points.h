@@ -58,7 +58,7 @@ public:
   {
   }
 
-  // Not copyable: the locator would refer to the mesh of the other object.
+  // The class is not copyable: the locator would refer to the mesh of the other object.
   Located_elements(const Located_elements&) = delete;
   Located_elements& operator=(const Located_elements&) = delete;
 
@@ -119,7 +119,7 @@ class Control_points
   using Status = Linear_elasticity_status;
 
   // A pointer, as the object cannot be moved.
-  std::unique_ptr<Located_elements> m_located; // when needed
+  std::unique_ptr<Located_elements> m_located; // null until needed
   Control_options m_options;
   std::vector<Vec3> m_positions;
   std::vector<Element_index> m_elements; // elements that contain the points

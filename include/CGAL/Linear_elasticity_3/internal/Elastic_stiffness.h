@@ -44,10 +44,10 @@ class Elastic_stiffness
   const Element_list* m_elements;
   std::vector<Vec3> m_points;
   std::vector<Elastic_material> m_materials; // one for all, or one for each element
-  std::vector<bool> m_is_removed;            // of each element
+  std::vector<bool> m_is_removed;            // one value for each element
   Patches m_patches;
-  std::vector<std::size_t> m_patch_of;       // of each element
-  std::optional<Elasticity_system> m_system; // of all vertices
+  std::vector<std::size_t> m_patch_of;       // patch of each element
+  std::optional<Elasticity_system> m_system; // system of all vertices
 
 public:
   /// \param elements elements, kept by reference: they must outlive the object

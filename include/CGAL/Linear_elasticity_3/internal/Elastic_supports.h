@@ -43,7 +43,7 @@ struct Elastic_part
 /// gap. The wall then holds the vertex, as long as the wall pushes.
 struct Contact
 {
-  Vec3 normal; // of length 1, to the outside
+  Vec3 normal; // length 1, to the outside
   double gap;  // mm
   bool is_closed;
 };

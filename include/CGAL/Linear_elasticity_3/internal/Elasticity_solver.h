@@ -32,7 +32,7 @@ class Elasticity_solver
 {
 public:
   Elasticity_solver() = default;
-  // Not copyable: solvers of the concept need not be movable, and refer to their matrix.
+  // The class is not copyable: solvers of the concept need not be movable, and refer to their matrix.
   Elasticity_solver(const Elasticity_solver&) = delete;
   Elasticity_solver& operator=(const Elasticity_solver&) = delete;
   virtual ~Elasticity_solver() = default;

@@ -139,7 +139,7 @@ private:
     return springs;
   }
 
-  // As many unknowns of a part as motions are free, such that holding these unknowns holds the part: rows of
+  // Unknowns of a part, as many as motions are free, such that holding these unknowns holds the part: rows of
   // the matrix of modes, by elimination with pivots.
   static std::vector<std::size_t> springs_for(const Elastic_part& part, const std::vector<Vec3>& points,
                                               const Elastic_supports& supports)

@@ -32,7 +32,7 @@ namespace internal {
 /// The start of the next solution.
 struct Corotational_state
 {
-  Eigen::VectorXd displacements, force; // for all vertices; body forces
+  Eigen::VectorXd displacements, force; // displacements of all vertices; body forces
   std::vector<double> residuals;        // before each step of Newton's method, failed ones included
   int number_of_iterations = 0;         // iterations of conjugate gradients
 };
@@ -70,7 +70,7 @@ class Corotational_solution
   const Control_constraints& m_constraints;
   Corotational_elements& m_elements;
   Corotational_state& m_state;
-  Control_solution m_step; // of the preconditioner
+  Control_solution m_step; // step of the preconditioner
 
 public:
   /// \param body body that is factored, and for which `solve_loads()` has been called since

@@ -111,7 +111,7 @@ Patches dilatation_patches(const Element_list& elements, std::size_t number_of_v
       }
       for(Element_index e : left)
         join(e, patch);
-      vertices_by_size[size].push_back(v); // for its remaining elements of other materials
+      vertices_by_size[size].push_back(v); // again for remaining elements of other materials
     }
 
   for_each_face(elements, number_of_vertices, [&](const auto& faces) {

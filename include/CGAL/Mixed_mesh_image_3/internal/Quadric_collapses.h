@@ -111,12 +111,12 @@ private:
   };
 
   std::vector<Vec3> m_points;
-  std::vector<Index> m_source;   // of each half-edge; none if its triangle is removed
-  std::vector<Index> m_opposite; // of each half-edge
+  std::vector<Index> m_source;   // source of each half-edge; none if its triangle is removed
+  std::vector<Index> m_opposite; // opposite of each half-edge
   std::vector<Index> m_outgoing; // a half-edge of each vertex
-  std::vector<Index> m_version;  // of each vertex: grows when the vertex moves
+  std::vector<Index> m_version;  // version of each vertex: grows when the vertex moves
   std::vector<Plane_quadric> m_quadrics;
-  std::vector<bool> m_is_fixed; // for each vertex
+  std::vector<bool> m_is_fixed; // one value for each vertex
   std::size_t m_number_of_vertices;
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> m_queue;
 
@@ -243,7 +243,7 @@ private:
   // Whether triangles at the source, except those at the edge, keep their side and do not become needles.
   bool keeps_sides(Index edge, const Vec3& point) const
   {
-    constexpr double least_cosine = 0.2, least_shape = 0.05; // of angles; an equilateral triangle has 0.29
+    constexpr double least_cosine = 0.2, least_shape = 0.05; // cosine of angles; shape, 0.29 if equilateral
     bool is_kept = true;
     for_each_outgoing(m_source[edge], [&](Index h) {
       if(!is_kept || h == edge || h == next(m_opposite[edge]))

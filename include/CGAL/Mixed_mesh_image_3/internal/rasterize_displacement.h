@@ -57,7 +57,7 @@ class Row_of_locations
   const Map& m_map;
   std::array<Vec3, 3> m_last{}; // the last points, the nearest first
   int m_number_of_last = 0;
-  std::array<Vec3, 3> m_inverse_rows{}; // of the derivative, at one of the last points or before
+  std::array<Vec3, 3> m_inverse_rows{}; // inverse of the derivative, at one of the last points or before
 
   // The prediction from the polynomial through the last points.
   Vec3 prediction(const Vec3& start, const Vec3& step) const
@@ -245,7 +245,7 @@ void rasterize_displacement(const Element_list& elements, const Is_used& is_used
 }
 
 /*!
-For each line of values g, the place q with the least `(spacing (i - q))^2 + g(q)`: the lower envelope of
+The place q with the least `(spacing (i - q))^2 + g(q)`, for each line of values g: the lower envelope of
 parabolas (Felzenszwalb, Huttenlocher: "Distance transforms of sampled functions", 2012).
 */
 class Lower_envelope

@@ -30,7 +30,7 @@ namespace internal {
 struct Indicator : Voxel_box
 {
   std::vector<float> values; // none if no voxel has the label
-  float level = 0.5f;        // as many values are above as voxels have the label, except for equal ones
+  float level = 0.5f;        // number of values above: that of voxels with the label, except for equal ones
   std::size_t step = 1;      // step of the box, in voxels of the image
 };
 

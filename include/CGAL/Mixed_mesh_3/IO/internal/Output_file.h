@@ -48,7 +48,7 @@ inline std::filesystem::path follow_links(std::filesystem::path path)
     const fs::path next = fs::read_symlink(path, error);
     if(error)
       break;
-    path = path.parent_path() / next; // this is `next` if that is absolute
+    path = path.parent_path() / next; // `next` if that is absolute
   }
   const fs::path target = fs::weakly_canonical(path, error);
   return error || target.empty() ? path : target;

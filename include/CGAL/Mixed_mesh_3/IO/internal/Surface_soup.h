@@ -42,8 +42,8 @@ struct Surface_soup
 {
   std::vector<Mixed_meshes_3::Vec3> points;
   std::vector<std::vector<std::size_t>> polygons;
-  std::optional<Anatomical_space> space; // if the file says so
-  bool is_RAS = false;                   // by definition of the format
+  std::optional<Anatomical_space> space; // space named in the file
+  bool is_RAS = false;                   // defined by the format
   bool repeats_points = false;           // each polygon has its own
   std::vector<std::string> warnings;
 };

@@ -331,7 +331,7 @@ private:
   struct Boundary_polygons
   {
     Polygons whole;
-    std::map<Subdomain_rank, Polygons> of_subdomains;                            // if there are several
+    std::map<Subdomain_rank, Polygons> of_subdomains;                            // empty for a single one
     std::map<std::pair<Subdomain_rank, Subdomain_rank>, Polygons> of_interfaces; // earlier first
   };
 

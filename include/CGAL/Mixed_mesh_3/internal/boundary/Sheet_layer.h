@@ -59,15 +59,14 @@ of a cell in front counts as behind, so that sheet vertices are not far from the
 order of the vertices makes diagonals; diagonals from front to behind, which are at the boundary, have sheet
 vertices at their ends too.
 
-Where the sheet ends inside the domain, vertices beyond its rim are no sheet vertices, and the sheet faces
-end.
+The sheet faces end where the sheet ends inside the domain: vertices beyond its rim are no sheet vertices.
 
 Where sheet faces touch each other other than along edges, or have a face of the boundary between them, which
 would have no area, a vertex counts as in front, and if edges still touch, the vertex is no sheet vertex. A
 tetrahedron may have four sheet vertices, where cells of two sizes meet or at the boundary: flips remove the
 tetrahedron.
 
-Where two sheets meet, each has faces of its own.
+Each of two sheets that meet has faces of its own.
 
 */
 class Sheet_layer

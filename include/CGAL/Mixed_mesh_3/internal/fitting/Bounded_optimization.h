@@ -46,8 +46,8 @@ boundary arrives, and no element is above the bound in the end, as for most surf
 vertices around them; in the end all of the boundary, which then does not cut itself if it did not at the
 start.
 
-If no element is above the bound at the start, none is in the end; else none is worse than the worst one at
-the start.
+The end has no element above the bound if the start has none; else none is worse than the worst one at the
+start.
 
 \tparam Quality a model of `MixedMeshQuality_3`
 */
@@ -67,7 +67,7 @@ class Bounded_optimization
   const Sharp_edges m_sharp_edges;
   const double m_edge_length; // mean of the boundary; any value if there are no sharp edges
   const Sharp_features m_features;
-  std::vector<std::uint8_t> m_is_held; // for each vertex
+  std::vector<std::uint8_t> m_is_held; // one value for each vertex
 
   // Tolerated share of vertices between subdomains that have not arrived; tolerated loss of the length of
   // sharp edges.

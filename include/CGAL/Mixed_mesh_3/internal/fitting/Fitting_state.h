@@ -98,7 +98,7 @@ struct Fitting_state
   const std::vector<Surface_sample> samples;
   Surface_attraction<Surface_projection> attraction;
   const Sharp_features* features = nullptr;
-  std::vector<std::pair<Vertex_index, Vec3>> underway; // with their targets
+  std::vector<std::pair<Vertex_index, Vec3>> underway; // vertices with their targets
   std::vector<std::uint8_t> is_arrived;
   std::vector<std::uint8_t> is_held;
   // Positions at which no faces cut each other, at the start or at the last such test, and the vertices that

@@ -31,7 +31,7 @@ class Vertex_coloring
 
   std::vector<Color> m_colors;                       // color of each vertex
   std::vector<std::vector<Vertex_index>> m_vertices; // vertices of each color, ascending
-  std::vector<std::size_t> m_last_seen;              // for each color: the last search in which it was taken
+  std::vector<std::size_t> m_last_seen;              // last search in which each color was taken
   std::size_t m_number_of_elements = 0, m_number_of_searches = 0;
 
   static constexpr Color none = Color(-1);

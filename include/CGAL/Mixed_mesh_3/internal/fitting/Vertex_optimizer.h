@@ -66,7 +66,7 @@ already, above the worst one), and all are proved positive: validity and the bou
 Boundary vertices slide on the surface, and only where an element is bad (free sliding would lose volume) or
 an attraction draws them.
 
-By default vertices move in the order of their numbers; or by colors: vertices of one color share no element,
+Vertices move in the order of their numbers by default; or by colors: vertices of one color share no element,
 so that several threads move them, with the same result as one thread.
 
 \tparam Quality a model of `MixedMeshQuality_3`

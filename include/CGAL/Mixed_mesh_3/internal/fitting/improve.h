@@ -42,7 +42,7 @@ bool improve(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
                        .number_of_rounds_for(s.mesh.points.size());
   const int second_phase = int(share_of_first_phase * rounds + 0.5);
   const int first_bisection = s.mode.is_calm ? second_phase : 0,
-            last_bisection = s.mode.is_calm ? second_phase : rounds / 4; // of edges that are still far
+            last_bisection = s.mode.is_calm ? second_phase : rounds / 4; // edges that are still far
   // Many short rounds let boundary vertices follow the places that draw them.
   const bool is_patient = rounds > 6;
   const int rounds_to_flip = is_patient ? 3 : 1;

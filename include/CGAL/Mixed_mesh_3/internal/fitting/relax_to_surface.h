@@ -109,12 +109,12 @@ class Surface_relaxation
   Elasticity_system m_system;
   typename Solver::Vector m_solution;                // last solution: the start of an iterative solver
   std::vector<Element_index> m_moving;               // elements with a vertex that may move
-  std::vector<std::uint8_t> m_is_elastic;            // for each of these, whether the system moves a vertex
-  std::vector<double> m_sizes, m_stiffness, m_costs; // for each element
+  std::vector<std::uint8_t> m_is_elastic;            // whether the system moves a vertex of each of these
+  std::vector<double> m_sizes, m_stiffness, m_costs; // one value for each element
   std::vector<Vec3>& m_points;
   std::vector<Vec3> m_sources; // start of the vertex of each target
   std::vector<Vec3> m_candidate, m_displacements;
-  std::vector<std::uint8_t> m_is_frozen; // for each target
+  std::vector<std::uint8_t> m_is_frozen; // one value for each target
   std::vector<Element_index> m_inverted; // elements inverted in the last candidate
   Mixed_mesh_fit_result_3 m_result;
 

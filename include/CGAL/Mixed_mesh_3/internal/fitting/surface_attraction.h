@@ -52,7 +52,7 @@ class Surface_attraction
   std::vector<double> m_tolerances_of_triangles;
   std::vector<Triangle> m_triangles; // triangles of the boundary
   std::vector<Stratum> m_strata;     // strata of the triangles
-  std::vector<double> m_stiffness;   // of each vertex: grows when it was drawn in vain
+  std::vector<double> m_stiffness;   // factor of each vertex: grows when drawn in vain
   std::vector<Vec3> m_shifts;        // weighted mean of the shifts of each vertex
   std::vector<double> m_weights;
   std::vector<std::pair<double, Vec3>> m_far_points; // points with their distances

@@ -51,13 +51,13 @@ class Gap_widener
 
   const Located_octree& m_octree;
   Lattice_mesh& m_mesh;
-  std::vector<Vec3> m_points, m_closest;          // for vertices of cells that meet the surface
+  std::vector<Vec3> m_points, m_closest;          // of vertices of cells that meet the surface
   std::vector<double> m_distances;                // negative elsewhere
   std::vector<Vertex_index> m_taken;              // vertices whose labels were removed
   std::unordered_map<std::uint64_t, bool> m_gaps; // whether pairs of vertices have a gap between them
   Point_3 m_hint;
 
-  static constexpr double smallest_step = 1. / 64; // of a line: narrower gaps may be missed
+  static constexpr double smallest_step = 1. / 64; // step on a line: narrower gaps may be missed
   static constexpr int most_rounds = 3;
   static constexpr std::size_t smallest_wall = 9; // vertices that stay if they would be lost together
 

@@ -54,7 +54,7 @@ class Tolerance_search
   static constexpr double largest_share = 0.5, largest_share_of_parts = 0.7,
                           largest_share_of_subdomains = 0.75;
   static constexpr double multiples[] = {1.6, 2, 2.5, 3}, multiples_of_wish[] = {2.5, 3.2, 4};
-  static constexpr int number_of_trials = 5; // of a search for such a multiple
+  static constexpr int number_of_trials = 5; // trials of a search for such a multiple
   // Rounds of sliding. Between subdomains, where folds are no defects, the first few rounds gain most; with
   // 189 subdomains most boundary vertices are where three or more meet, and all rounds would take nearly all
   // of the time.
@@ -82,7 +82,7 @@ public:
 
   bool is_stopped() const { return m_is_stopped; }
 
-  /// To be called in the stage `OCTREE`.
+  /// Runs the search. To be called in the stage `OCTREE`.
   void run()
   {
     if(m_has_subdomains) { // small parts come first

@@ -28,7 +28,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-constexpr std::size_t least_budget = 60; // with fewer vertices, the shape of a brain is lost
+constexpr std::size_t least_budget = 60; // the shape of a brain is lost with fewer vertices
 
 /// Whether a mesh is within the tolerance, and has topology and volume of the domain. The distance between
 /// the points where it is measured is larger by up to a tenth.

@@ -177,7 +177,7 @@ Thin_cell_splits split_thin_cells(Located_octree& octree, double strictness, std
 {
   constexpr double cells_for_a_vertex = 4;   // approximate maximum: meshes of more cells would be in vain
   constexpr double cells_of_estimate = 16;   // times the budget
-  constexpr double vertices_of_a_cell = 1.4; // of a cell at the surface
+  constexpr double vertices_of_a_cell = 1.4; // vertices for each cell at the surface
   Thin_cell_splits result;
   Located_octree trial = octree;
   for(int level = 0; level < Octree::max_level; ++level) {

@@ -59,7 +59,7 @@ inline double mean_radius_of_region(const Located_octree& root)
 /*!
 The splits of an octree, in the order of a key: the error that a vertex removes if it is spent in the cell.
 
-For linear elements, the error of a functional of the solution in the region is the sum of w h^2 over the
+The error of a functional of the solution in the region, for linear elements, is the sum of w h^2 over the
 volume, where w is the product of the second derivatives of the solution and of the functional's influence;
 splitting a cell of side h removes error w h^5 and costs a fixed number of vertices. Outside the region w
 falls like a power of the distance d: the key is (1 + d / r)^-6 h^5, times the weight that the region gives
@@ -69,11 +69,11 @@ Cells at the surface come two levels of 32^(1/2) earlier: displacements are pres
 tetrahedra, which are less accurate. Cells at the surface also remove volume between the surface and the
 boundary, which falls like h^4: so they get a share of the error that does not depend on the region.
 
-Without a region, cells at sharp edges come first, up to a level finer than others at the surface, and cells
-of equal keys are split here and there, so that the last level is not at one end.
+Cells at sharp edges come first without a region, up to a level finer than others at the surface, and cells of
+equal keys are split here and there, so that the last level is not at one end.
 
-As nodes of an octree are numbered in the order of the splits, the octree after any number of steps is a
-prefix of the octree after all steps.
+The octree after any number of steps is a prefix of the octree after all steps, as nodes of an octree are
+numbered in the order of the splits.
 */
 class Refinement_sequence
 {

@@ -34,7 +34,7 @@ namespace internal {
 struct Solid_facet
 {
   std::size_t facet;
-  bool is_outwards; // as the facet is oriented
+  bool is_outwards; // orientation of the facet
 };
 
 /// Gives each sheet of the boundary its own vertices, where several sheets meet in an edge or a vertex: the

@@ -230,7 +230,7 @@ private:
     std::vector<std::size_t> cell(m_cell.size());
     for(std::size_t s = 0; s < cell.size(); ++s)
       cell[s] = root_of_set(m_cell, s);
-    std::vector<int> winding(cell.size(), 0); // by cell
+    std::vector<int> winding(cell.size(), 0); // winding numbers by cell
     std::vector<char> is_known(cell.size(), 0);
     std::vector<std::vector<std::size_t>> facets_of(cell.size());
     for(std::size_t f = 0; f < m_facets.size(); ++f)

@@ -54,7 +54,7 @@ struct Surface_oracle_3::Trees
 {
   using Surface = CGAL::Surface_mesh<Point_3>;
   using Side_of_surface = CGAL::Side_of_triangle_mesh<Surface, Kernel>;
-  using Tree = Side_of_surface::AABB_tree; // its traits have another name in each CGAL version
+  using Tree = Side_of_surface::AABB_tree; // the traits have another name in each CGAL version
 
   Surface surface;
   Tree tree;
@@ -96,7 +96,7 @@ CGAL_MIXED_MESH_3_INLINE void
 Surface_oracle_3::count_shells(const std::vector<Point_3>& points,
                                const std::vector<std::array<std::size_t, 3>>& triangles)
 {
-  constexpr double near = 1e-6; // in sides of a triangle
+  constexpr double near = 1e-6; // distance in sides of a triangle
   const Shells_of_vertices shells = find_shells(triangles, points.size());
   m_shells = shells.counts;
   m_shells.number_of_cavities = 0;

@@ -55,7 +55,7 @@ inline Predicates_kernel::Point_3 middle_of(const std::vector<Nested_shells::Sam
 
 inline Region_location locate_region(const Nested_shells& a, std::size_t region, const Nested_shells& b)
 {
-  constexpr double least_share = 0.1; // what only lies on the border of a region does not belong to it
+  constexpr double least_share = 0.1; // parts on the border of a region do not belong to it
   Region_location location;
   const std::vector<Nested_shells::Sample> samples = a.samples(region);
   location.middle = samples.empty() ? a.point_on(region) : middle_of(samples);

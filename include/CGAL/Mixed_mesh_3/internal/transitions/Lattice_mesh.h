@@ -34,7 +34,7 @@ struct Lattice_mesh
   std::vector<Lattice_point> vertices;
   std::vector<std::int8_t> sides;         ///< `Bounded_side` of each vertex, or unknown
   std::vector<Subdomain_rank> subdomains; ///< rank of the subdomain of each vertex inside
-  std::vector<Octree::Node_index> leaves; ///< for each vertex, a leaf that touches the vertex
+  std::vector<Octree::Node_index> leaves; ///< a leaf that touches each vertex
   std::vector<std::uint8_t> is_on_rim;    ///< whether not all leaves around the vertex have elements
   Element_list elements;
   std::vector<Octree::Node_index> cells; ///< leaf that each element comes from
