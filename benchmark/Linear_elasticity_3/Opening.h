@@ -28,7 +28,7 @@ struct Opening
   double length; // from center to center
 };
 
-/// \param file as openings.json
+/// Reads openings. \param file file in the form of openings.json
 inline std::vector<Opening> read_openings(const std::string& file)
 {
   using namespace CGAL::Mixed_meshes_3;

@@ -25,9 +25,9 @@
 #include <utility>
 #include <vector>
 
-/// Tetrahedra of degree 2 with straight edges: nothing in common with what is measured but the strain of a
-/// linear tetrahedron. Solved by conjugate gradients; the preconditioner is the sum of Gauss-Seidel to and
-/// fro, and the solution with linear tetrahedra.
+/// Tetrahedra of degree 2 with straight edges: only the strain of a linear tetrahedron is common with the
+/// measured code. The system is solved by conjugate gradients; the preconditioner is the sum of symmetric
+/// Gauss-Seidel steps, and the solution with linear tetrahedra.
 class Quadratic_reference
 {
   using Vec3 = mm3::Vec3;
@@ -224,7 +224,7 @@ private:
     return k;
   }
 
-  // Into the matrix; what is prescribed goes to the right-hand sides.
+  // Adds to the matrix; prescribed displacements go to the right-hand sides.
   void add(const Nodes& nodes, const Stiffness& k, const std::vector<Displacements>& prescribed,
            std::vector<Vector_x>& right_hand_sides)
   {
@@ -247,7 +247,7 @@ private:
     const std::vector<int>& rows = m_rows[std::size_t(j)];
     const auto before = std::lower_bound(rows.begin(), rows.end(), i) - rows.begin();
     for(int c = 0; c < 3; ++c) {
-      // the first block of a column lacks what is above the diagonal
+      // The first block of a column lacks the entries above the diagonal.
       double* const values = m_matrix.valuePtr() + m_matrix.outerIndexPtr()[3 * j + c] + 3 * before - c;
       for(int r = i == j ? c : 0; r < 3; ++r)
         values[r] += block[r][c];

@@ -3,9 +3,9 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// CPU times of what a surgeon waits for: new control points, a resection, a warped image; and of the same
-// work with a new factorization by Eigen's LDLT. Medians, minima and maxima, in milliseconds. One thread, if
-// OMP_NUM_THREADS=1 keeps CHOLMOD to it.
+// CPU times of operations that a surgeon waits for: new control points, a resection, a warped image; and of
+// the same work with a new factorization by Eigen's LDLT. Medians, minima and maxima, in milliseconds. There
+// is one thread, if OMP_NUM_THREADS=1 limits CHOLMOD to it.
 
 #include "fix_lower_part.h"
 
@@ -100,7 +100,7 @@ int main(int argc, char* argv[])
     mm3::Resection_3 resection;
     measure("elements to remove", [&] { resection = mm3::resect(mesh, tumor); });
     report["elements removed"] = std::count(resection.is_removed.begin(), resection.is_removed.end(), true);
-    // each time from the factor of the whole
+    // Each run starts from the factor of the whole.
     std::vector<double> times;
     for(int run = 0; run < runs; ++run) {
       Elasticity whole(mesh);

@@ -22,7 +22,7 @@ inline void check(const CGAL::Linear_elasticity_result_3& result)
 }
 
 /// Fixes the boundary vertices of the lower 30 % of the mesh.
-/// \return how many vertices are left free
+/// \return the number of free vertices
 template <class Elasticity>
 std::size_t fix_lower_part(Elasticity& elasticity)
 {

@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The region of interest of an opening: the convex hull of the tumor's sphere and the opening's disk. Of
-// several openings: a surface of several parts.
+// The region of interest of an opening: the convex hull of the tumor's sphere and the opening's disk. Several
+// openings give a surface of several parts.
 
 #include "Opening.h"
 

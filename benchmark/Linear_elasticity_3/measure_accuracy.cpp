@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The error of brain shift in the region of interest, on meshes from files, against quadratic elements on a
-// fine mesh. Prints a JSON object a line. compare_accuracy.py runs it.
+// The error of brain shift in the region of interest, on meshes from files, compared with quadratic elements
+// on a fine mesh. Prints a JSON object in each line. compare_accuracy.py runs the program.
 
 #include "common/resources.h"
 
@@ -35,7 +35,7 @@ namespace {
 constexpr std::size_t number_of_points = 2000;
 constexpr double least_depth = 3; // mm, below the surface of the brain
 
-// Of the points of a subset.
+// The root mean square over the points of a subset.
 double root_mean_square(const std::vector<Vector>& u, const std::vector<bool>& is_in_subset)
 {
   double sum = 0;
@@ -79,7 +79,7 @@ mm3::Prescribed_displacements prescribed_displacements(const Mesh& mesh,
   return displacements;
 }
 
-// To one load, as brain_shift does: with a Poisson's ratio at which standard elements do not lock.
+// Adapts a mesh to one load, like brain_shift: with a Poisson's ratio at which standard elements do not lock.
 nlohmann::ordered_json adapt(Mesh& mesh, const Boundary_displacement& load, mm3::Elastic_material material)
 {
   material.poisson_ratio = (std::min)(material.poisson_ratio, 0.3);
@@ -95,7 +95,7 @@ nlohmann::ordered_json adapt(Mesh& mesh, const Boundary_displacement& load, mm3:
           {"CPU seconds", double(std::clock() - start) / CLOCKS_PER_SEC}};
 }
 
-// By Linear_elasticity_3, and by standard elements.
+// Solves by Linear_elasticity_3, and by standard elements.
 std::pair<std::vector<Vector>, std::vector<Vector>>
 solve(const Mesh& mesh, const Boundary_displacement& boundary, const mm3::Elastic_material& material)
 {
@@ -115,7 +115,7 @@ solve(const Mesh& mesh, const Boundary_displacement& boundary, const mm3::Elasti
   return {elasticity.displacements(), standard_solution(mesh, material, is_prescribed, displacements)};
 }
 
-// A region, and where displacements are compared in it.
+// A region, and the points of comparison in the region.
 struct Test_case
 {
   Opening opening;
@@ -163,7 +163,7 @@ std::vector<Vector> read_reference(const std::string& file)
   return values;
 }
 
-// All loads that prescribe the whole boundary share a matrix.
+// Makes the references. All loads that prescribe the whole boundary share a matrix.
 void make_references(const std::string& mesh_file, const std::string& work,
                      const std::vector<Test_case>& cases, const mm3::Elastic_material& material)
 {

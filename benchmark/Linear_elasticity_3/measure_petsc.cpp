@@ -3,9 +3,9 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The solver of PETSc beside the direct one: a body under gravity, whose lower 30 % are fixed. Wall times,
-// iterations, the memory of the first process and the difference of the displacements, as a JSON object. Run
-// it by mpirun for several processes.
+// The solver of PETSc compared with the direct one: a body under gravity, whose lower 30 % are fixed. Prints
+// wall times, iterations, the memory of the first process and the difference of the displacements, as a JSON
+// object. Run it by mpirun for several processes.
 
 #include "fix_lower_part.h"
 

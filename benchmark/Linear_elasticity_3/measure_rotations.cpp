@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Brain shift with finite rotations beside that with small ones: the bump of measure_accuracy. CPU times,
-// iterations, and elements that are inverted. Prints a JSON object a line.
+// Brain shift with finite rotations compared with small ones: the bump of measure_accuracy. CPU times,
+// iterations, and inverted elements. Prints a JSON object in each line.
 
 #include "test_cases.h"
 

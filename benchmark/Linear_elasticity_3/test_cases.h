@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Brain shift with known boundary displacements, and what is compared: the displacement at points of the
-// region.
+// Brain shift with known boundary displacements, and the points of comparison: the displacement at points of
+// the region.
 
 #ifndef MIXED_MESH_3_BENCHMARK_TEST_CASES_H
 #define MIXED_MESH_3_BENCHMARK_TEST_CASES_H
@@ -74,7 +74,7 @@ inline std::vector<Vector> points_to_compare(const CGAL::Polyhedral_mixed_mesh_r
   return points;
 }
 
-/// What a boundary vertex is prescribed, if it is.
+/// The prescribed displacement of a boundary vertex, if there is one.
 using Boundary_displacement = std::function<std::optional<Vector>(const Vector&)>;
 
 inline constexpr double push = 10; // millimeters towards the tumor

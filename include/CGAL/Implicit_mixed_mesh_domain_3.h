@@ -30,10 +30,10 @@ namespace CGAL {
 
 \brief The domain where a function is positive.
 
-The function is as that of `Implicit_mixed_mesh_region_3`: positive inside, and it must not change faster than
-the distance. Near the surface its gradient must not be near zero; best is the signed distance. Closest points
-are found by descent along the gradient (finite differences), until the value is below 1e-12 of the diagonal
-of the box, or after 100 steps; they are as near as the function is like a distance.
+The function is like that of `Implicit_mixed_mesh_region_3`: positive inside, and it must not change faster
+than the distance. The gradient near the surface must not be near zero; the signed distance is best. Closest
+points are found by descent along the gradient (finite differences), until the value is below 1e-12 of the
+diagonal of the box, or after 100 steps; they are as near as the function resembles a distance.
 
 \cgalModels{MixedMeshDomain_3}
 */
@@ -63,8 +63,8 @@ class Implicit_mixed_mesh_domain_3 : public Implicit_mixed_mesh_region_3
   }
 
 public:
-  /// \param depth a function object `double(Point_3)`, positive inside, of Lipschitz constant 1
-  /// \param bbox a box that contains the domain. \pre its three extents are positive and finite
+  /// \param depth function object `double(Point_3)`, positive inside, of Lipschitz constant 1
+  /// \param bbox box that contains the domain. \pre the three extents of the box are positive and finite
   Implicit_mixed_mesh_domain_3(std::function<double(const Point_3&)> depth, const Bbox_3& bbox)
     : Implicit_mixed_mesh_region_3(std::move(depth)), m_bbox(bbox),
       m_diagonal(Mixed_meshes_3::norm({bbox.x_span(), bbox.y_span(), bbox.z_span()}))
@@ -89,7 +89,7 @@ public:
       if(!(std::abs(d) > accuracy * m_diagonal))
         break;
       Vec3 g = gradient(q);
-      if(!(dot(g, g) > 1e-6)) // as near to one side as to another: any direction will do
+      if(!(dot(g, g) > 1e-6)) // equally near to several sides: any direction is right
         g = {1, 0, 0};
       q = q - (d / dot(g, g)) * g;
     }
@@ -100,7 +100,7 @@ public:
 
   /// The points closest to the centers of the cells of a grid that the surface may meet.
   /// \par Complexity
-  /// That of a grid with cells of `spacing`, but at most 200 in each direction
+  /// Complexity of a grid with cells of `spacing`, but at most 200 in each direction
   std::vector<Point_3> surface_samples(double spacing) const
   {
     std::vector<Point_3> samples;

@@ -35,13 +35,13 @@ namespace CGAL {
 
 \brief The domain inside one or more closed triangulated surfaces, each of which encloses a subdomain.
 
-Where surfaces overlap, the one that was added first counts: a tumor, then the ventricles, then the brain
-around both. So surfaces may be nested, disjoint, touch, or cross each other; each interface lies on a given
-surface, on that of the subdomain that was added first. The subdomain with index 0 is a cavity: it belongs to
-the outside.
+The surface that was added first counts where surfaces overlap: a tumor, then the ventricles, then the brain
+around both. So surfaces may be nested, disjoint, touch, or cross each other; each interface lies on the
+surface of the subdomain that was added first. The subdomain with index 0 is a cavity: it belongs to the
+outside.
 
-As for `Polyhedral_mixed_mesh_domain_3`, all answers are exact on the coordinates of the surfaces, rounded to
-double.
+All answers are exact on the coordinates of the surfaces, rounded to double, as for
+`Polyhedral_mixed_mesh_domain_3`.
 
 \cgalModels{MixedMeshDomainWithSheets_3}
 */
@@ -54,16 +54,18 @@ public:
   /// The label of a subdomain.
   using Subdomain_index = Mixed_meshes_3::Subdomain_index;
 
-  /// The surfaces that are seen in a cell: those that meet it and are not hidden inside an earlier one.
+  /// The surfaces that are visible in a cell: those that meet the cell and are not hidden inside an earlier
+  /// one.
   struct Surface_part
   {
-    std::vector<std::pair<std::size_t, Surface::Surface_part>> parts; ///< numbers of surfaces ascend
+    std::vector<std::pair<std::size_t, Surface::Surface_part>> parts; ///< by numbers of surfaces
     std::size_t background = std::size_t(-1); ///< the first surface around the whole cell, if there is one
   };
 
-  /// Adds a subdomain, behind those that are there.
-  /// \param surface shared by copies
-  /// \param index not negative; 0 is a cavity. \pre surfaces of the same index are added one after the other
+  /// Adds a subdomain, behind those that were added before.
+  /// \param surface surface, which copies share
+  /// \param index label, not negative; 0 is a cavity. \pre surfaces of the same index are added one after the
+  /// other
   void add(std::shared_ptr<const Polyhedral_mixed_mesh_domain_3> surface, Subdomain_index index)
   {
     CGAL_precondition(index >= 0);
@@ -86,8 +88,8 @@ public:
   }
 
   /// Adds the subdomain inside a surface.
-  /// \param surface,np as for `Polyhedral_mixed_mesh_domain_3`
-  /// \param index as above
+  /// \param surface,np parameters of `Polyhedral_mixed_mesh_domain_3`
+  /// \param index label as above
   template <class FaceListGraph, class NamedParameters = parameters::Default_named_parameters,
             std::enable_if_t<!std::is_convertible_v<
               FaceListGraph, std::shared_ptr<const Polyhedral_mixed_mesh_domain_3>>>* = nullptr>
@@ -97,12 +99,12 @@ public:
     add(std::make_shared<const Polyhedral_mixed_mesh_domain_3>(surface, np), index);
   }
 
-  /// Adds a sheet: faces of the mesh are brought onto it, as `find_sheet_faces()` tells.
-  /// \param sheet shared by copies
+  /// Adds a sheet: faces of the mesh are brought onto the sheet, as `find_sheet_faces()` tells.
+  /// \param sheet sheet, which copies share
   void add_sheet(std::shared_ptr<const Mixed_mesh_sheet_3> sheet) { m_sheets.push_back(std::move(sheet)); }
 
   /// Adds a sheet.
-  /// \param surface,np as for `Mixed_mesh_sheet_3`
+  /// \param surface,np parameters of `Mixed_mesh_sheet_3`
   template <class FaceListGraph, class NamedParameters = parameters::Default_named_parameters,
             std::enable_if_t<
               !std::is_convertible_v<FaceListGraph, std::shared_ptr<const Mixed_mesh_sheet_3>>>* = nullptr>
@@ -111,10 +113,10 @@ public:
     add_sheet(std::make_shared<const Mixed_mesh_sheet_3>(surface, np));
   }
 
-  /// In the order in which they were added.
+  /// The sheets in the order in which they were added.
   const std::vector<std::shared_ptr<const Mixed_mesh_sheet_3>>& sheets() const { return m_sheets; }
 
-  /// Those that are not 0, in the order in which they were added.
+  /// The indices of subdomains that are not 0, in the order in which they were added.
   const std::vector<Subdomain_index>& subdomain_indices() const { return m_indices; }
 
   const Bbox_3& bbox() const { return m_bbox; }
@@ -137,7 +139,7 @@ public:
       const Bounded_side side = m_surfaces[i].surface->locate(cell, of_parent, part.parts.back().second);
       if(side != ON_BOUNDARY)
         part.parts.pop_back();
-      if(side == ON_BOUNDED_SIDE) { // what follows is hidden
+      if(side == ON_BOUNDED_SIDE) { // later surfaces are hidden
         part.background = i;
         break;
       }
@@ -149,7 +151,7 @@ public:
 
   Bounded_side bounded_side(const Point_3& p, const Surface_part& part) const
   {
-    bool is_on_surface = false; // that is the boundary, if outside is behind
+    bool is_on_surface = false; // the boundary if the outside is behind
     for(const auto& [i, of_surface] : part.parts) {
       const Bounded_side side = m_surfaces[i].surface->bounded_side(p, of_surface);
       is_on_surface = is_on_surface || side == ON_BOUNDARY;
@@ -162,8 +164,8 @@ public:
   }
 
   /// The subdomain of a point inside the domain. A point on an interface belongs to the later subdomain.
-  /// \param p a point
-  /// \param part as for `bounded_side()`, or as `locate()` filled it for a cell in the interior
+  /// \param p point
+  /// \param part part as for `bounded_side()`, or as `locate()` filled it for a cell in the interior
   Subdomain_index subdomain_index(const Point_3& p, const Surface_part& part) const
   {
     for(const auto& [i, of_surface] : part.parts)
@@ -203,23 +205,24 @@ public:
   }
 
   /// A point as near as any of the interface between two subdomains, of which the first was added first; or
-  /// between a subdomain and the outside, 0. It is on the surface of the first one, or that of a cavity.
+  /// between a subdomain and the outside, 0. The point is on the surface of the first subdomain, or on that
+  /// of a cavity.
   /// \pre `first` is one of `subdomain_indices()`
   Point_3 closest_point(const Point_3& p, Subdomain_index first, Subdomain_index second) const
   {
     return nearest(p, surfaces_of(first, second), [&](const Surface* s) { return s->closest_point(p); });
   }
 
-  /// Faster if `hint`, a point of that interface, is near.
+  /// The closest point of an interface; faster if `hint`, a point of that interface, is near.
   Point_3 closest_point(const Point_3& p, const Point_3& hint, Subdomain_index first,
                         Subdomain_index second) const
   {
-    // of several surfaces, the hint is on one only
+    // The hint is on only one of several surfaces.
     const std::vector<const Surface*>& surfaces = surfaces_of(first, second);
     return surfaces.size() == 1 ? surfaces.front()->closest_point(p, hint) : closest_point(p, first, second);
   }
 
-  /// Points of the surfaces that are seen, as those of `Polyhedral_mixed_mesh_domain_3`.
+  /// Points of the visible surfaces, like those of `Polyhedral_mixed_mesh_domain_3`.
   std::vector<Point_3> surface_samples(double spacing) const
   {
     std::vector<Point_3> samples;
@@ -228,7 +231,7 @@ public:
     return samples;
   }
 
-  /// Those of one subdomain, or of the cavities, 0.
+  /// Points of the visible surfaces of one subdomain, or of the cavities, 0.
   std::vector<Point_3> surface_samples(double spacing, Subdomain_index index) const
   {
     std::vector<Point_3> samples;
@@ -238,7 +241,7 @@ public:
     return samples;
   }
 
-  /// The shells of the whole surface; nothing if it is made of several.
+  /// The shells of the whole surface; nothing if there are several surfaces.
   std::optional<Mixed_meshes_3::Shell_counts> shells() const
   {
     if(m_surfaces.size() != 1)
@@ -246,8 +249,8 @@ public:
     return m_surfaces.front().surface->shells();
   }
 
-  /// The volume inside the surfaces, less that of cavities. It is that of the domain if no two of them
-  /// overlap, and cavities are inside.
+  /// The volume inside the surfaces, minus that of cavities. The result is the volume of the domain if no two
+  /// surfaces overlap, and cavities are inside.
   double volume() const
   {
     double sum = 0;
@@ -256,8 +259,8 @@ public:
     return sum;
   }
 
-  /// Four times the volume by the area, of the surfaces of a subdomain: of a convex body, the mean length of
-  /// the segments that lines leave in it.
+  /// Four times the volume divided by the area of the surfaces of a subdomain: for a convex body, the mean
+  /// length of the segments that lines have inside.
   double mean_chord_length(Subdomain_index index) const
   {
     double area = 0, volume = 0;
@@ -269,8 +272,8 @@ public:
     return 4 * volume / area;
   }
 
-  /// The sharp edges of the surfaces, as those of `Polyhedral_mixed_mesh_domain_3`; none if there are several
-  /// subdomains, or sheets.
+  /// The sharp edges of the surfaces, like those of `Polyhedral_mixed_mesh_domain_3`; none if there are
+  /// several subdomains, or sheets.
   Mixed_meshes_3::Sharp_edges sharp_edges(double angle) const
   {
     Mixed_meshes_3::Sharp_edges all;
@@ -288,8 +291,8 @@ public:
     return all;
   }
 
-  /// The planes that the surfaces lie in, as those of `Polyhedral_mixed_mesh_domain_3`; nothing if there are
-  /// several subdomains.
+  /// The planes that the surfaces lie in, like those of `Polyhedral_mixed_mesh_domain_3`; nothing if there
+  /// are several subdomains.
   Mixed_meshes_3::Axis_parallel_planes axis_parallel_planes() const
   {
     Mixed_meshes_3::Axis_parallel_planes planes;
@@ -316,7 +319,7 @@ private:
     return surface < m_surfaces.size() ? m_surfaces[surface].index : 0;
   }
 
-  // Without those inside earlier surfaces.
+  // Adds the samples of a surface, without samples inside earlier surfaces.
   void add_samples(std::size_t number, double spacing, std::vector<Point_3>& samples) const
   {
     for(const Point_3& p : m_surfaces[number].surface->surface_samples(spacing))
@@ -341,7 +344,7 @@ private:
     return best;
   }
 
-  // Those of the interface between a subdomain and a later one, or the outside.
+  // The surfaces of the interface between a subdomain and a later one, or the outside.
   const std::vector<const Surface*>& surfaces_of(Subdomain_index first, Subdomain_index second) const
   {
     const auto found = m_surfaces_of.find({first, second == 0});
@@ -350,7 +353,7 @@ private:
   }
 
   std::vector<Labeled> m_surfaces;
-  std::map<std::pair<Subdomain_index, bool>, std::vector<const Surface*>> m_surfaces_of; // is to the outside
+  std::map<std::pair<Subdomain_index, bool>, std::vector<const Surface*>> m_surfaces_of; // to the outside?
   std::vector<const Surface*> m_cavities;
   std::vector<Subdomain_index> m_indices;
   std::vector<std::shared_ptr<const Mixed_mesh_sheet_3>> m_sheets;

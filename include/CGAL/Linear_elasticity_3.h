@@ -37,7 +37,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Of whatever has components `[0]`, `[1]`, `[2]`.
+/// The components `[0]`, `[1]`, `[2]` of a range of any type, as vectors.
 template <class Range>
 std::vector<Vec3> vectors(const Range& range)
 {
@@ -64,16 +64,16 @@ std::vector<Vec3> points_of(const Mesh& mesh)
 /*!
 \ingroup PkgLinearElasticity3Ref
 
-\brief Linear elasticity on a mixed mesh: factored once, solved for many load cases. Of small rotations, or of
+\brief Linear elasticity on a mixed mesh: factored once, solved for many load cases; with small rotations or
 finite ones.
 
-Elements are isoparametric; those of the four kinds fit together. What resists a change of volume is the mean
-dilatation of a hexahedron, of two prisms, and of a patch of tetrahedra and pyramids, so that nearly
-incompressible materials do not lock. In a patch, as much of the bulk modulus as twice the shear modulus
-counts in each element by itself.
+Elements are isoparametric; elements of the four kinds fit together. The resistance to a change of volume is
+by the mean dilatation of a hexahedron, of two prisms, and of a patch of tetrahedra and pyramids, so that
+nearly incompressible materials do not lock. In a patch, as much of the bulk modulus as twice the shear
+modulus counts in each element by itself.
 
-Units: millimeters, kilopascals, kilograms, seconds. So forces are in millinewtons (kPa mm^2), and forces by
-volume in mN/mm^3.
+Units: millimeters, kilopascals, kilograms, seconds. Therefore forces are in millinewtons (kPa mm^2), and
+forces by volume in mN/mm^3.
 
 The order of use:
 -# *supports*: `prescribe()` and `slide()` vertices, let them `touch()` a wall; the others are free;
@@ -82,19 +82,19 @@ The order of use:
    `set_control_points()`; in any order, and again as often as wanted;
 -# `solve()`, and read `displacements()`.
 
-After a resection, `remove_elements()`: supports, loads, control points and the factorization stay.
+After a resection, call `remove_elements()`: supports, loads, control points and the factorization stay.
 
-Supports may leave rigid motions free, as long as the control points hold these: the mesh can be held by
-control points alone.
+Supports may leave rigid motions free, if the control points hold these: control points alone can hold the
+mesh.
 
-The mesh must outlive the object and not change. Models can be moved: one that was moved from can be destroyed
-or assigned to. They cannot be copied, as factorizations cannot.
+The mesh must outlive the object and not change. Models can be moved: a model that was moved from can be
+destroyed or assigned to. Models cannot be copied, as factorizations cannot.
 
 \tparam Mesh a `Mixed_mesh_3`
-\tparam SolverTraits a model of `SparseLinearAlgebraWithFactorTraits_d`, direct, or as exact as one. If it has
-        a member `set_near_kernel(Eigen::MatrixXd, int)`, as `Petsc_solver_traits` has, that gets before each
-        factorization the rigid motions of the unknowns, in the directions that are free: six columns, and the
-        number of unknowns of a vertex, 3
+\tparam SolverTraits a model of `SparseLinearAlgebraWithFactorTraits_d`, direct, or as exact as a direct one.
+A member `set_near_kernel(Eigen::MatrixXd, int)`, as `Petsc_solver_traits` has, gets before each factorization
+the rigid motions of the unknowns, in the directions that are free: six columns, and the number of unknowns of
+a vertex, 3
 */
 template <class Mesh, class SolverTraits = Mixed_meshes_3::Direct_solver_traits>
 class Linear_elasticity_3
@@ -113,20 +113,21 @@ public:
   using Elastic_material = Mixed_meshes_3::Elastic_material;
   /// A displacement in mm, a force in mN, a point.
   using Vec3 = Mixed_meshes_3::Vec3;
-  /// As `Vec3`.
+  /// The type of vectors, `Vec3`.
   using Vector = Vec3;
-  /// What an operation did.
+  /// The result of an operation.
   using Result = Linear_elasticity_result_3;
-  /// How an operation ended.
+  /// The status in which an operation ended.
   using Status = Linear_elasticity_status;
 
-  /// One material: by default E = 1 kPa, nu = 0.45, 1e-6 kg/mm^3.
+  /// Constructs a model of one material: by default E = 1 kPa, nu = 0.45, 1e-6 kg/mm^3.
   explicit Linear_elasticity_3(const Mesh& mesh, const Elastic_material& material = Elastic_material())
     : Linear_elasticity_3(mesh, std::vector<Elastic_material>{material})
   {
   }
 
-  /// A material for each element; `Mixed_meshes_3::materials_of_elements()` tells them by subdomain.
+  /// Constructs a model with a material for each element, as `Mixed_meshes_3::materials_of_elements()`
+  /// returns them by subdomain.
   Linear_elasticity_3(const Mesh& mesh, std::vector<Elastic_material> materials)
     : m_mesh(&mesh), m_model(mesh.elements(), Mixed_meshes_3::internal::points_of(mesh), std::move(materials),
                              std::make_unique<Solver>())
@@ -134,7 +135,7 @@ public:
   }
 
   /// \name Supports
-  /// To be set before `factor()`.
+  /// Functions to be called before `factor()`.
   /// @{
 
   /// Gives a vertex a displacement, in mm. The default fixes it.
@@ -143,14 +144,14 @@ public:
     m_model.prescribe(v, displacement);
   }
 
-  /// Lets a vertex slide without friction, orthogonally to a direction; on an edge or in a corner of such
-  /// planes when called again. A vertex that is prescribed stays so.
-  /// \param v the vertex
-  /// \param normal of any length but zero
+  /// Lets a vertex slide without friction, orthogonally to a direction; on an edge or in a corner of several
+  /// such planes if called again. A prescribed vertex stays prescribed.
+  /// \param v vertex
+  /// \param normal vector of any length but zero
   void slide(Vertex_index v, const Vector& normal) { m_model.slide(v, normal); }
 
   /// Lets boundary vertices slide without friction along the boundary, as on the inside of the skull.
-  /// \param is_sliding `bool(Vertex_index)`, asked for the vertices of the boundary
+  /// \param is_sliding `bool(Vertex_index)`, called for the vertices of the boundary
   template <class Is_sliding>
   void slide_along_boundary(const Is_sliding& is_sliding)
   {
@@ -158,17 +159,17 @@ public:
   }
 
   /*!
-  Lets a vertex touch a plane wall without friction: it can slide along it and leave it, but not get beyond
-  it. Which vertices do, `solve()` finds out; each change of that is a new factorization, and three solutions
-  of the system for each control point. A vertex that is prescribed, or cannot move in that direction, stays
-  as it is.
+  Lets a vertex touch a plane wall without friction: the vertex can slide along the wall and leave the wall,
+  but not get beyond it. `solve()` finds out which vertices touch; each change of contacts takes a new
+  factorization, and three solutions of the system for each control point. A vertex that is prescribed, or
+  cannot move in that direction, stays as it is.
 
-  Other supports, or control points, should hold rigid motions while contacts are open; else `solve()` may end
-  with `FREE_RIGID_MOTION`.
+  Other supports, or control points, should hold rigid motions while contacts are open; otherwise `solve()`
+  may end with `FREE_RIGID_MOTION`.
 
-  \param v the vertex; called again for it, the last wall counts
-  \param normal to the outside, of any length but zero
-  \param gap in mm: the displacement in the direction of the normal at which the vertex touches the wall
+  \param v vertex; of several calls for a vertex, the last one counts
+  \param normal vector to the outside, of any length but zero
+  \param gap displacement in mm, in the direction of the normal, at which the vertex touches the wall
   */
   void touch(Vertex_index v, const Vector& normal, double gap = 0)
   {
@@ -176,10 +177,10 @@ public:
     m_model.touch(v, normal, gap);
   }
 
-  /// Lets boundary vertices touch the boundary as it is, or at a gap in mm: as the brain does the skull, from
-  /// which it sinks away when the fluid is drained.
-  /// \param is_touching `bool(Vertex_index)`, asked for the vertices of the boundary
-  /// \param gap in mm, between the boundary and the wall
+  /// Lets boundary vertices touch the boundary as it is, or at a gap in mm: as the brain touches the skull,
+  /// from which it sinks away when the fluid is drained.
+  /// \param is_touching `bool(Vertex_index)`, called for the vertices of the boundary
+  /// \param gap gap in mm between the boundary and the wall
   template <class Is_touching>
   void touch_along_boundary(const Is_touching& is_touching, double gap = 0)
   {
@@ -191,11 +192,10 @@ public:
   /*!
   Assembles and factors the system for the supports.
 
-  \return `NO_ELEMENTS`, `INVERTED_ELEMENT`, `SOLVER_FAILED` or `SUCCESS`. It is a success if supports leave
-  rigid
-          motions free: control points may hold them, `solve()` will tell.
+  \return `NO_ELEMENTS`, `INVERTED_ELEMENT`, `SOLVER_FAILED` or `SUCCESS`. The status is `SUCCESS` even if
+  supports leave rigid motions free: control points may hold them, as `solve()` will tell.
   \par Complexity
-  That of the sparse factorization: with nested dissection O(n^2) operations and O(n^(4/3)) memory for n
+  Complexity of the sparse factorization: with nested dissection O(n^2) operations and O(n^(4/3)) memory for n
         vertices
   */
   Result factor() { return m_model.factor(); }
@@ -206,18 +206,19 @@ public:
 
   The factorization stays as well. From here on `solve()` iterates: conjugate gradients for the stiffness K'
   that is left, with the factor of the former stiffness K as the preconditioner. On the vertices that are
-  left, K is K' plus the Schur complement of what was removed. Both resist the displacement of their common
-  interface alike, so that the number of iterations hardly depends on the mesh, and is small. A new
+  left, K is K' plus the Schur complement of the removed part. Both parts resist the displacement of their
+  common interface alike, so that the number of iterations hardly depends on the mesh, and is small. A new
   `factor()`, when there is time, makes `solve()` direct again.
 
-  It is factored at once if that does not do: if a part or a rigid motion comes free, if a control point was
-  in an element removed (it is located anew then), or if control points have a compliance.
+  The system is factored at once if iterations do not suffice: if a part or a rigid motion comes free, if a
+  control point was in a removed element (the point is located again then), or if control points have a
+  compliance.
 
-  \param is_removed for each element; those removed before stay removed
-  \return as `factor()` and `set_control_points()`
+  \param is_removed true for each element to be removed; elements removed before stay removed
+  \return the result as that of `factor()` and `set_control_points()`
   \pre `factor()` was successful
   \par Complexity
-  Linear; that of `factor()` if it is factored
+  Linear; the complexity of `factor()` if the system is factored
   */
   Result remove_elements(const std::vector<bool>& is_removed)
   {
@@ -225,11 +226,10 @@ public:
     return m_model.remove_elements(is_removed);
   }
 
-  /// How exact `solve()` is after `remove_elements()`, and with finite rotations: the error in the energy
-  /// norm, relative to that of the
-  /// solution. Default: 1e-3, well below what the mesh makes wrong. Each power of ten takes about five
-  /// iterations.
-  /// \pre positive
+  /// Sets the accuracy of `solve()` after `remove_elements()`, and with finite rotations: the error in the
+  /// energy norm, relative to that of the solution. Default: 1e-3, well below the error due to the mesh. Each
+  /// power of ten takes about five iterations.
+  /// \pre `tolerance` is positive
   void set_iteration_tolerance(double tolerance)
   {
     CGAL_precondition(tolerance > 0);
@@ -237,44 +237,41 @@ public:
   }
 
   /*!
-  Chooses between small rotations, which is the default, and finite ones: corotational elements. The law of
-  the
-  material stays linear, in a frame that turns with each element; so rotations may be large, but strains
-  should
-  not be. Supports, control points, loads, removals and the factorization are as before. Directions in which
-  vertices slide, and forces, do not turn.
+  Chooses between small rotations, which is the default, and finite rotations: corotational elements. The law
+  of the material stays linear, in a frame that turns with each element; so rotations may be large, but
+  strains should not be. Supports, control points, loads, removals and the factorization are as before.
+  Directions in which vertices slide, and forces, do not turn.
 
-  `solve()` then is Newton's method, each step by conjugate gradients with the factor of the linear system as
-  preconditioner, to the tolerance of `set_iteration_tolerance()`; from the last solution, if there is one. It
-  may end with
+  `solve()` with finite rotations is Newton's method, each step by conjugate gradients with the factor of the
+  linear system as preconditioner, to the tolerance of `set_iteration_tolerance()`; the method starts from the
+  last solution, if there is one, and may end with
   - `INVERTED_ELEMENT`: the displacement inverts an element, by the certificate
-  (`Mixed_meshes_3::jacobian_sign()`).
-    It is a solution all the same, and `displacements()` has it;
-  - `NOT_CONVERGED`: no equilibrium was found, with all of the loads at once nor in parts.
+  (`Mixed_meshes_3::jacobian_sign()`). The solution is valid all the same, and `displacements()` has it;
+  - `NOT_CONVERGED`: no equilibrium was found, neither with all of the loads at once nor in parts.
   */
   void set_corotational(bool is_corotational) { m_model.set_corotational(is_corotational); }
 
   /// Whether rotations are finite.
   bool is_corotational() const { return m_model.is_corotational(); }
 
-  /// Of the last `solve()` with finite rotations: the residual before each step, and of what came out. In the
+  /// Residuals of the last `solve()` with finite rotations: before each step, and of the result. In the
   /// energy norm, relative to that of the displacements.
   const std::vector<double>& residuals() const { return m_model.residuals(); }
 
   /// Whether `solve()` iterates, as elements have been removed since `factor()`.
   bool is_iterative() const { return m_model.is_iterative(); }
 
-  /// Whether `factor()` has been called with success, so that `solve()` can be.
+  /// Whether `factor()` has been called with success, so that `solve()` can be called.
   bool is_factored() const { return m_model.is_factored(); }
 
   /// \name Loads
   /// @{
 
-  /// A force by volume, in mN/mm^3, the same everywhere.
+  /// Sets a force by volume, in mN/mm^3, the same everywhere.
   void set_body_force(const Vector& force) { m_model.set_body_forces({force}); }
 
-  /// As above, one for each element, such as the `Mixed_meshes_3::buoyant_forces()` of a fluid.
-  /// \pre as many as elements
+  /// Sets a force by volume for each element, such as the `Mixed_meshes_3::buoyant_forces()` of a fluid.
+  /// \pre there are as many forces as elements
   void set_body_forces(std::vector<Vector> forces)
   {
     CGAL_precondition(forces.size() == mesh().number_of_elements());
@@ -283,11 +280,11 @@ public:
     m_model.set_body_forces(std::move(forces));
   }
 
-  /// Gravity: an acceleration in mm/s^2, times the density of each element; (0, 0, -9810) on the Earth,
-  /// upright. It is added to the body forces; in a fluid, set those as well.
+  /// Sets gravity: an acceleration in mm/s^2, times the density of each element; (0, 0, -9810) on the Earth,
+  /// upright. Gravity is added to the body forces; in a fluid, set buoyant forces as well.
   void set_gravity(const Vector& acceleration) { m_model.set_gravity(acceleration); }
 
-  /// Another displacement of a vertex that was prescribed, in mm. No new factorization.
+  /// Sets another displacement of a vertex that was prescribed, in mm, without a new factorization.
   /// \pre `prescribe()` was called for the vertex
   void set_support_displacement(Vertex_index v, const Vector& displacement)
   {
@@ -295,25 +292,24 @@ public:
   }
 
   /*!
-  Points that will have given displacements: points in space, each in the element that contains it. The
-  displacement there is interpolated by the element's shape functions.
+  Sets points that will have given displacements: points in space, each in the element that contains it. The
+  displacement of a point is interpolated by the element's shape functions.
 
-  \param points in mm
-  \param largest_distance points outside the mesh up to so far, in mm, stand for the nearest point of its
-  boundary
-  \param compliance in mm/mN: a spring between each point and its displacement gives way so much. With 0, the
-         displacements are exact; measured ones that are many to an element, and noisy, contradict each other
-         then
-  \param radius in mm: what is given is the mean displacement, by area, of the boundary's vertices within so
-  far
-         from each point; of the point itself if there are fewer than three. The force on a single point makes
-         a dent that is the deeper, the finer the mesh
-  \param weights positive, of each point: its compliance is `compliance` divided by its weight, so that
-         weights in proportion to the inverse variances of the measurements are right. Empty: 1
-  \return `CONTROL_POINT_OUTSIDE` or `SOLVER_FAILED`: none of them is used; or `SUCCESS`
+  \param points points in mm
+  \param largest_distance largest distance in mm from the mesh of points outside; such a point stands for the
+  nearest point of the boundary
+  \param compliance compliance in mm/mN of a spring between each point and its displacement. With 0, the
+  displacements are exact; measured displacements that are many to an element, and noisy, contradict each
+  other then
+  \param radius distance in mm within which the given displacement of a point is the mean displacement, by
+  area, of the boundary's vertices; the displacement of the point itself if there are fewer than three
+  vertices. The force on a single point makes a dent that is the deeper, the finer the mesh
+  \param weights positive weight of each point: the compliance of a point is `compliance` divided by its
+  weight, so that weights in proportion to the inverse variances of the measurements are right. Empty: 1
+  \return `CONTROL_POINT_OUTSIDE` or `SOLVER_FAILED`: no control point is used; or `SUCCESS`
   \pre `factor()` was successful
   \par Complexity
-  Three solutions of the system a point, and 72 bytes a vertex and point
+  Three solutions of the system for each point, and 72 bytes for each vertex and point
   */
   template <class Points>
   Result set_control_points(const Points& points, double largest_distance = 0, double compliance = 0,
@@ -329,18 +325,17 @@ public:
   /// @}
 
   /*!
-  Solves for the loads. If there are contacts, several times, until none of them pulls, and no vertex is
-  beyond its wall; from the contacts that the last solution had.
+  Solves for the loads. With contacts, solves several times, until no contact pulls, and no vertex is beyond
+  its wall, starting with the contacts of the last solution.
 
-  \param control_displacements in mm, of each control point
+  \param control_displacements displacement of each control point, in mm
   \return `FREE_RIGID_MOTION`, `CONTRADICTORY_CONTROL_POINTS`, `SOLVER_FAILED`, `NOT_CONVERGED` (contacts), or
-          `SUCCESS`; `displacements()`
-  has
-          the solution if successful, else it is as before. With finite rotations, see `set_corotational()`
+  `SUCCESS`; `displacements()` returns the solution if successful, else the former one. With finite rotations,
+  see `set_corotational()`
   \par Complexity
-  For new displacements of the same control points: linear, in vertices times control points. For new
-        loads or displacements of supports, one solution of the system besides. After `remove_elements()`,
-        about ten solutions of the system.
+  For new displacements of the same control points: linear, in vertices times control points. For new loads or
+  displacements of supports, one more solution of the system. After `remove_elements()`, about ten solutions
+  of the system.
   \pre `factor()` was successful
   */
   template <class Displacements>
@@ -351,7 +346,7 @@ public:
     return m_model.solve(Mixed_meshes_3::internal::vectors(control_displacements));
   }
 
-  /// As above, without control points.
+  /// Solves without control points.
   Result solve() { return solve(std::vector<Vector>()); }
 
   /// The displacement of each vertex, in mm.
@@ -360,27 +355,28 @@ public:
   /// The force that each control point needs for its displacement, in mN.
   std::vector<Vector> control_forces() const { return m_model.control_forces(); }
 
-  /// What was given less what came out at each control point, in mm: zero, but for those with a compliance.
+  /// The given displacement minus the resulting one at each control point, in mm: zero without a compliance.
   std::vector<Vector> control_residuals() const { return m_model.control_residuals(); }
 
-  /// Vertices whose displacements each control point has the weighted mean of, and their weights, which add
-  /// up to 1.
+  /// The vertices, and their weights, whose displacements have the displacement of each control point as
+  /// their weighted mean; weights add up to 1.
   std::vector<std::vector<std::pair<Vertex_index, double>>> control_weights() const
   {
     return m_model.control_weights();
   }
 
-  /// The directions in which supports hold a vertex, orthogonal to each other and of length 1: none if it is
-  /// free, three if it is prescribed. Those of contacts that are closed are among them.
+  /// The directions in which supports hold a vertex, orthogonal to each other and of length 1: none if the
+  /// vertex is free, three if it is prescribed. The directions of closed contacts are among them.
   std::vector<Vector> held_directions(Vertex_index v) const { return m_model.held_directions(v); }
 
   /*!
-  What was given less where each control point would be if it were not used, in mm: the others predict it.
-  That is the error that is to be expected at targets nearby, without landmarks there. Infinite for a point
-  without which rigid motions would be free.
+  The given displacement of each control point minus its displacement if the point were not used, in mm: the
+  other points predict it. This difference is the error to be expected at targets nearby, without landmarks at
+  the target. Infinite for a point without which rigid motions would be free.
 
-  Nothing is solved anew: exact for small rotations and the contacts of the solution. With finite rotations,
-  it is an estimate with the stiffness at rest, which is as far off as the body has turned.
+  No system is solved again: the result is exact for small rotations and the contacts of the solution. With
+  finite rotations, it is an estimate with the stiffness at rest, whose error grows with the rotation of the
+  body.
 
   \pre `solve()` was successful since control points were set, and `is_iterative()` is false
   \par Complexity
@@ -388,8 +384,8 @@ public:
   */
   std::vector<Vector> leave_one_out_errors() const { return m_model.leave_one_out_errors(); }
 
-  /// With which force the wall pushes each vertex, in mN; 0 where contacts are open, or there are none. See
-  /// `touch()`.
+  /// The force with which the wall pushes each vertex, in mN; 0 where contacts are open, or without contacts.
+  /// See `touch()`.
   const std::vector<double>& contact_forces() const { return m_model.contact_forces(); }
 
   /// The elastic energy of the last solution, in microjoules (mN mm).
@@ -399,9 +395,9 @@ public:
   const Mesh& mesh() const { return *m_mesh; }
   /// True for each element that is removed.
   const std::vector<bool>& removed_elements() const { return m_model.removed_elements(); }
-  /// Of conjugate gradients in the last `solve()`; 0 if it was direct.
+  /// The number of iterations of conjugate gradients in the last `solve()`; 0 if that was direct.
   int number_of_iterations() const { return m_model.number_of_iterations(); }
-  /// How many control points there are.
+  /// The number of control points.
   std::size_t number_of_control_points() const { return m_model.number_of_control_points(); }
   /// The solver, to set its parameters before `factor()`.
   SolverTraits& solver() { return static_cast<Solver&>(m_model.solver()).traits(); }

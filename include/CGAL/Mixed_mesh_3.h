@@ -54,7 +54,7 @@ public:
   using Element_kind = Mixed_meshes_3::Element_kind;
   /// The label of elements.
   using Subdomain_index = Mixed_meshes_3::Subdomain_index;
-  /// What is known of an element besides its kind and vertices.
+  /// The attributes of an element besides its kind and vertices.
   using Element_attributes = Mixed_meshes_3::Element_attributes;
   /// An element: its kind and its vertices, a range.
   using Element = Mixed_meshes_3::Element_view;
@@ -74,15 +74,15 @@ public:
   /// elements are added or the mesh is assigned to. \pre `e < number_of_elements()`, not checked
   Element element(Element_index e) const { return m_elements[e]; }
 
-  /// What is known of an element. \pre `e < number_of_elements()`, not checked
+  /// The attributes of an element. \pre `e < number_of_elements()`, not checked
   const Element_attributes& attributes(Element_index e) const { return m_attributes[e]; }
-  /// What is known of all elements, in their order.
+  /// The attributes of all elements, in their order.
   const std::vector<Element_attributes>& attributes() const { return m_attributes; }
   /// Whether the element meets the region of interest.
   bool is_in_region(Element_index e) const { return m_attributes[e].is_in_region; }
   /// The label of the element, for example its material.
   Subdomain_index subdomain_index(Element_index e) const { return m_attributes[e].subdomain_index; }
-  /// \pre positive: 0 is outside
+  /// Sets the label of an element. \pre `index` is positive: 0 is outside
   void set_subdomain_index(Element_index e, Subdomain_index index)
   {
     CGAL_precondition(index > 0);
@@ -91,7 +91,7 @@ public:
 
   /// The positions of all vertices.
   const std::vector<Point_3>& points() const { return m_points; }
-  /// As above; positions may be changed, and it is up to the caller that elements stay valid.
+  /// The positions of all vertices; the caller may change positions, and has to keep elements valid.
   std::vector<Point_3>& points() { return m_points; }
   /// All elements.
   const Elements& elements() const { return m_elements; }
@@ -117,7 +117,7 @@ public:
     return Element_index(m_elements.size() - 1);
   }
 
-  /// As above.
+  /// Adds an element with a list of vertices.
   Element_index add_element(Element_kind kind, std::initializer_list<Vertex_index> vertices,
                             const Element_attributes& attributes = {})
   {

@@ -23,26 +23,27 @@ namespace CGAL {
 /*!
 \ingroup PkgMixedMesh3Mesh
 
-\brief What a mixed mesh shall be like. Each setter returns the object, so that calls can be chained.
+\brief Criteria of a mixed mesh. Each setter returns the object, so that calls can be chained.
 */
 class Mixed_mesh_criteria_3
 {
 public:
-  /// Stands for the default where that depends on other criteria or the domain.
+  /// Value for the default, where the default depends on other criteria or the domain.
   static constexpr int automatic = -1;
-  /// The share of the budget that is to be used, after bisections; else the status tells. Single cells take
-  /// 7 to 20 vertices: with the smallest budgets that make sense, a few hundred, some 3 % may be left over.
+  /// The share of the budget, after bisections, below which the status tells that the budget is not filled.
+  /// Single cells take 7 to 20 vertices: with the smallest budgets that make sense, a few hundred, some 3 %
+  /// may be left over.
   static constexpr double full_share = 0.97;
 
-  /// A number is a vertex budget with the default settings.
-  /// \param maximal_number_of_vertices the vertex budget: the mesh has at most that many vertices,
-  ///        those of transitions and of the boundary included. \pre at least 1, at most 2^32 - 2
+  /// Constructs criteria with the default settings; a number converts to its budget.
+  /// \param maximal_number_of_vertices vertex budget: the mesh has at most that many vertices, those of
+  /// transitions and of the boundary included. \pre at least 1, at most 2^32 - 2
   Mixed_mesh_criteria_3(std::size_t maximal_number_of_vertices)
   {
     this->maximal_number_of_vertices(maximal_number_of_vertices);
   }
 
-  /// The vertex budget. \pre at least 1, at most 2^32 - 2
+  /// Sets the vertex budget. \pre at least 1, at most 2^32 - 2
   Mixed_mesh_criteria_3& maximal_number_of_vertices(std::size_t number)
   {
     CGAL_precondition(number > 0 && number < Mixed_meshes_3::Vertex_index(-1));
@@ -52,9 +53,9 @@ public:
   /// The vertex budget.
   std::size_t maximal_number_of_vertices() const { return m_maximal_number_of_vertices; }
 
-  /// Whether the mesh shall have as few vertices as its tolerance, and the topology and the volume of the
-  /// domain allow, to about a tenth, and at most those of the budget. Meshes with five to ten budgets are
-  /// made for it (`Mixed_mesh_result_3::number_of_budgets`). If the whole budget does not suffice, the mesh
+  /// Sets whether the mesh shall have as few vertices as its tolerance, and the topology and the volume of
+  /// the domain allow, to about a tenth, and at most those of the budget. Meshes with five to ten budgets are
+  /// made for that (`Mixed_mesh_result_3::number_of_budgets`). If the whole budget does not suffice, the mesh
   /// is that of the whole budget, and the status tells. Default: no, the budget is filled. \pre a tolerance
   /// is given, and the boundary is fitted, when the mesh is made
   Mixed_mesh_criteria_3& fewest_vertices(bool fewest)
@@ -65,10 +66,10 @@ public:
   /// The value set, or the default.
   bool fewest_vertices() const { return m_fewest_vertices; }
 
-  /// The octree level to which the whole domain is refined at least, in the region or not; cells of level `l`
-  /// are 2^l times smaller than the root. Default: 3; coarser, down to 1, if the budget is too small for it;
-  /// finer, up to 6, if no octree vertex would be inside a thin domain, or more than 5 % of its cells would
-  /// be lost.
+  /// Sets the octree level to which the whole domain is refined at least, in the region or not; cells of
+  /// level `l` are 2^l times smaller than the root. Default: 3; coarser, down to 1, if the budget is too
+  /// small for 3; finer, up to 6, if no octree vertex would be inside a thin domain, or more than 5 % of its
+  /// cells would be lost.
   /// \pre `automatic`, or from 0 to 10
   Mixed_mesh_criteria_3& base_level(int level)
   {
@@ -79,11 +80,11 @@ public:
   /// The value set, or the default.
   int base_level() const { return m_base_level; }
 
-  /// How gently cells grow with the distance from the region. A cell is worth (1 + d/r)^-6 h^5, with its
-  /// side h and its distance d from the region, and what is worth most is split first; r is the grading
-  /// times the region's mean radius, that of a ball with the volume that region and domain have in common.
-  /// At the distance r cells are 2.3 times as large as in the region, up to a power of two. 0: only what
-  /// meets the region is split, the largest cells first, as in the paper. Default: 0.35.
+  /// Sets how slowly cells grow with the distance from the region. A cell is worth (1 + d/r)^-6 h^5, with its
+  /// side h and its distance d from the region, and the cell that is worth most is split first; r is the
+  /// grading times the region's mean radius, that of a ball with the volume that region and domain have in
+  /// common. At the distance r cells are 2.3 times as large as in the region, up to a power of two. 0: only
+  /// cells that meet the region are split, the largest cells first, as in the paper. Default: 0.35.
   /// \pre at least 0
   Mixed_mesh_criteria_3& grading(double share_of_radius)
   {
@@ -94,11 +95,11 @@ public:
   /// The value set, or the default.
   double grading() const { return m_grading; }
 
-  /// The share of the budget for bisections: vertices on the surface that the optimization inserts at the
-  /// middles of boundary edges. Each costs one vertex, where an octree cell costs 8 to 19. Without
-  /// `fit_to_surface()`, so many vertices are left over, for a later `optimize_mixed_mesh_3()`. 0: none is
-  /// bisected, even if the octree leaves vertices over. Default: 0.08, or 0.12 with subdomains within others,
-  /// which lose most; 0 without `fit_to_surface()`. \pre `automatic`, or in [0, 0.5]
+  /// Sets the share of the budget for bisections: vertices on the surface that the optimization inserts at
+  /// the middles of boundary edges. Each bisection costs one vertex, where an octree cell costs 8 to 19.
+  /// Without `fit_to_surface()`, that share is left over, for a later `optimize_mixed_mesh_3()`. 0: no edge
+  /// is bisected, even if the octree leaves vertices over. Default: 0.08, or 0.12 with subdomains within
+  /// others, which lose most; 0 without `fit_to_surface()`. \pre `automatic`, or in [0, 0.5]
   Mixed_mesh_criteria_3& share_of_bisections(double share)
   {
     CGAL_precondition(share == automatic || (share >= 0 && share <= 0.5));
@@ -107,7 +108,7 @@ public:
   }
   /// The value set, or the default for one subdomain.
   double share_of_bisections() const { return share_of_bisections_for(1); }
-  /// The value set, or the default.
+  /// The value set, or the default for a number of subdomains.
   double share_of_bisections_for(std::size_t number_of_subdomains) const
   {
     if(m_share_of_bisections != automatic)
@@ -115,7 +116,7 @@ public:
     return !m_fit_to_surface ? 0 : number_of_subdomains > 1 ? 0.12 : 0.08;
   }
 
-  /// The shape of the root, hence of all cells. Default: a cube.
+  /// Sets the shape of the root, hence of all cells. Default: a cube.
   Mixed_mesh_criteria_3& root_cell(Mixed_meshes_3::Root_cell root)
   {
     m_root_cell = root;
@@ -124,7 +125,7 @@ public:
   /// The value set, or the default.
   Mixed_meshes_3::Root_cell root_cell() const { return m_root_cell; }
 
-  /// The transition templates. Default: those with the fewest vertices.
+  /// Sets the transition templates. Default: those with the fewest vertices.
   Mixed_mesh_criteria_3& transition_templates(Mixed_meshes_3::Transition_templates_choice choice)
   {
     m_transition_templates = choice;
@@ -133,7 +134,7 @@ public:
   /// The value set, or the default.
   Mixed_meshes_3::Transition_templates_choice transition_templates() const { return m_transition_templates; }
 
-  /// How elements at the surface are split. Default: by vertex order.
+  /// Sets the way in which elements at the surface are split. Default: by vertex order.
   Mixed_mesh_criteria_3& boundary_mode(Mixed_meshes_3::Boundary_mode mode)
   {
     m_boundary_mode = mode;
@@ -142,7 +143,7 @@ public:
   /// The value set, or the default.
   Mixed_meshes_3::Boundary_mode boundary_mode() const { return m_boundary_mode; }
 
-  /// Whether the boundary is carried onto the surface and the elements are optimized, as
+  /// Sets whether the boundary is brought onto the surface and the elements are optimized, as
   /// `optimize_mixed_mesh_3()` does. If not, boundary vertices stay where the octree has them, outside the
   /// domain or on its surface. Default: yes.
   Mixed_mesh_criteria_3& fit_to_surface(bool fit)
@@ -153,8 +154,8 @@ public:
   /// The value set, or the default.
   bool fit_to_surface() const { return m_fit_to_surface; }
 
-  /// Whether all elements are split into tetrahedra before the boundary is fitted, without further vertices.
-  /// Default: no.
+  /// Sets whether all elements are split into tetrahedra before the boundary is fitted, without further
+  /// vertices. Default: no.
   Mixed_mesh_criteria_3& only_tetrahedra(bool only)
   {
     m_only_tetrahedra = only;
@@ -163,11 +164,12 @@ public:
   /// The value set, or the default.
   bool only_tetrahedra() const { return m_only_tetrahedra; }
 
-  /// How far boundary and surface may be from each other, in the surface's unit. If positive, part of the
+  /// Sets the largest distance between boundary and surface, in the surface's unit. If positive, part of the
   /// budget, at most half of it, is spent on cells outside the region where the boundary would be much
-  /// farther, and boundary vertices slide towards places that are; the status tells if that was not enough.
-  /// 0: no more is asked for than that vertices are on the surface. Default: 0.42 of the edge of a cube with
-  /// the volume that one vertex of the budget has to serve; that is a wish: the status does not tell.
+  /// farther, and boundary vertices slide toward places that are farther; the status tells if that did not
+  /// suffice. 0: vertices have to be on the surface, without further conditions. Default: 0.42 of the edge of
+  /// a cube with the volume that one vertex of the budget has to serve; the default is a wish: the status
+  /// does not tell.
   /// \pre `automatic`, or at least 0
   Mixed_mesh_criteria_3& tolerance(double distance)
   {
@@ -175,27 +177,27 @@ public:
     m_tolerance = distance;
     return *this;
   }
-  /// `automatic` if none is given: see `Mixed_mesh_result_3::tolerance`.
+  /// The value set, or `automatic` if none is set: see `Mixed_mesh_result_3::tolerance`.
   double tolerance() const { return m_tolerance; }
 
-  /// The largest aspect-ratio coefficient (ARC) of an element, if the boundary is fitted. From the default on
-  /// it is guaranteed for cubic cells and the default boundary mode, unless only flatter elements fit into a
-  /// thin wall: see `strict_quality_bound()`; what would need worse elements stays off the surface. A smaller
-  /// one is not reached by all elements, but none gets worse than it is at the start. 0, or infinity: no
-  /// bound. Default: 3.2. \pre 0, or at least 1
+  /// Sets the largest aspect-ratio coefficient (ARC) of an element, if the boundary is fitted. A bound from
+  /// the default on is guaranteed for cubic cells and the default boundary mode, unless only flatter elements
+  /// fit into a thin wall: see `strict_quality_bound()`; boundary vertices that would need worse elements do
+  /// not arrive on the surface. A smaller bound is not reached by all elements, but no element gets worse
+  /// than at the start. 0, or infinity: no bound. Default: 3.2. \pre 0, or at least 1
   Mixed_mesh_criteria_3& quality_bound(double arc)
   {
     m_quality_bound = Mixed_mesh_optimization_criteria_3().quality_bound(arc).quality_bound();
     return *this;
   }
-  /// Infinity if there is none.
+  /// The value set, or the default; infinity if there is no bound.
   double quality_bound() const { return m_quality_bound; }
 
-  /// Whether the quality bound is kept even where topology, volume and arrival of the boundary cannot be
-  /// right with it. If not, larger bounds are tried then, up to five times as large, and the first one that
+  /// Sets whether the quality bound is kept even where topology, volume and arrival of the boundary cannot be
+  /// right with it. If not, larger bounds are tried then, up to five times as large, and the first bound that
   /// suffices is taken; `Mixed_mesh_optimization_result_3::number_of_elements_above_bound` counts the
-  /// elements that exceed the bound that was asked for. Domains that can be meshed within the bound, as
-  /// organs are, are not concerned. Default: no
+  /// elements that exceed the bound that was asked for. Domains that can be meshed within the bound, such as
+  /// organs, are not concerned. Default: no
   Mixed_mesh_criteria_3& strict_quality_bound(bool is_strict)
   {
     m_is_quality_bound_strict = is_strict;
@@ -204,10 +206,11 @@ public:
   /// The value set, or the default.
   bool is_quality_bound_strict() const { return m_is_quality_bound_strict; }
 
-  /// The angle between the normals of two facets, in degrees, from which on their edge is sharp: the mesh has
-  /// edges along it, and vertices at its corners. Where there are no long lines of such edges, as on organs,
-  /// it does nothing. And where all of the surface is perpendicular to the axes, cells are placed such that
-  /// lattice planes lie on it, if they can, and stay whole there. 0: neither. Default: 50. \pre in [0, 180]
+  /// Sets the angle between the normals of two facets, in degrees, from which on their edge is sharp: the
+  /// mesh has edges along sharp edges, and vertices at their corners. Without long lines of such edges, as on
+  /// organs, the angle has no effect. If all of the surface is perpendicular to the axes, cells are placed
+  /// such that lattice planes lie on the surface, if possible, and cells stay whole there. 0: neither.
+  /// Default: 50. \pre in [0, 180]
   Mixed_mesh_criteria_3& sharp_angle(double degrees)
   {
     m_sharp_angle = Mixed_mesh_optimization_criteria_3().sharp_angle(degrees).sharp_angle();
@@ -216,11 +219,12 @@ public:
   /// The value set, or the default.
   double sharp_angle() const { return m_sharp_angle; }
 
-  /// Whether thin walls and narrow gaps are resolved before the region, as far as the budget goes. Default:
-  /// if a mesh without that turns out to have other bodies, handles or cavities than the surface, to have
-  /// lost parts of it, or, fitted, to have a volume more than 5 % off or vertices off the surface. That takes
-  /// a second run; the better mesh is taken. Where the budget does not suffice, and the boundary is fitted, a
-  /// finer mesh, of tetrahedra, is coarsened to it: `Mixed_mesh_result_3::number_of_collapsed_vertices`.
+  /// Sets whether thin walls and narrow gaps are resolved before the region, as far as the budget allows.
+  /// Default: if a mesh without that turns out to have other bodies, handles or cavities than the surface, to
+  /// have lost parts of the surface, or, fitted, to have a volume more than 5 % off or vertices that have not
+  /// arrived. That takes a second run; the better mesh is taken. If the budget does not suffice, and the
+  /// boundary is fitted, a finer mesh, of tetrahedra, is coarsened to the budget:
+  /// `Mixed_mesh_result_3::number_of_collapsed_vertices`.
   Mixed_mesh_criteria_3& thin_parts(Mixed_meshes_3::Thin_parts choice)
   {
     m_thin_parts = choice;
@@ -229,9 +233,9 @@ public:
   /// The value set, or the default.
   Mixed_meshes_3::Thin_parts thin_parts() const { return m_thin_parts; }
 
-  /// Whether the best mesh so far, if there is one, is kept when the visitor stops the run: valid, within the
-  /// budget, but its boundary may be off the surface; `Mixed_mesh_result_3::has_mesh()` tells. Default: no,
-  /// the mesh is empty then.
+  /// Sets whether the best mesh so far, if there is one, is kept when the visitor stops the run: the mesh is
+  /// valid, and within the budget, but its boundary may not have arrived; `Mixed_mesh_result_3::has_mesh()`
+  /// tells. Default: no, the mesh is empty then.
   Mixed_mesh_criteria_3& keep_mesh_if_stopped(bool keep)
   {
     m_keep_mesh_if_stopped = keep;

@@ -19,19 +19,19 @@ namespace CGAL {
 /*!
 \ingroup PkgMixedMesh3Optimization
 
-\brief How a mixed mesh is carried onto a surface. Each setter returns the object, so that calls can be
+\brief Criteria for fitting a mixed mesh to a surface. Each setter returns the object, so that calls can be
 chained.
 */
 class Mixed_mesh_fit_criteria_3
 {
 public:
-  /// Stands for the default where that depends on the mesh.
+  /// Value for the default, where the default depends on the mesh.
   static constexpr int automatic = -1;
-  /// A `number_of_layers()` for which all vertices move.
+  /// Value of `number_of_layers()` for which all vertices move.
   static constexpr int all_layers = std::numeric_limits<int>::max();
 
-  /// In how many steps the boundary goes to the surface, the paper's MAX_STEP; steps that fail are halved.
-  /// Default: 4. \pre at least 1
+  /// Sets the number of steps in which the boundary goes to the surface, the paper's MAX_STEP; steps that
+  /// fail are halved. Default: 4. \pre at least 1
   Mixed_mesh_fit_criteria_3& number_of_steps(int steps)
   {
     CGAL_precondition(steps > 0);
@@ -41,7 +41,7 @@ public:
   /// The value set, or the default.
   int number_of_steps() const { return m_number_of_steps; }
 
-  /// Poisson's ratio of the elastic medium, without unit: the larger, the better volumes are kept; the
+  /// Sets Poisson's ratio of the elastic medium, without unit: the larger, the better volumes are kept; the
   /// smaller, the more an element gives way. Default: 0.3, as in the paper.
   /// \pre at least 0, below 0.5
   Mixed_mesh_fit_criteria_3& poisson_ratio(double ratio)
@@ -53,8 +53,8 @@ public:
   /// The value set, or the default.
   double poisson_ratio() const { return m_poisson_ratio; }
 
-  /// By how much an element of bad quality is stiffened before its step is done again, without unit.
-  /// Default: 2, as in the paper. \pre greater than 1
+  /// Sets the factor by which an element of bad quality is stiffened before its step is repeated, without
+  /// unit. Default: 2, as in the paper. \pre greater than 1
   Mixed_mesh_fit_criteria_3& stiffness_factor(double factor)
   {
     CGAL_precondition(factor > 1);
@@ -64,8 +64,8 @@ public:
   /// The value set, or the default.
   double stiffness_factor() const { return m_stiffness_factor; }
 
-  /// No element becomes stiffer than that, the paper's Y_MAX, as a multiple of its stiffness at the start,
-  /// without unit: with 1, none is stiffened. Default: 256. \pre at least 1
+  /// Sets the largest stiffness of an element, the paper's Y_MAX, as a multiple of its stiffness at the
+  /// start, without unit: with 1, no element is stiffened. Default: 256. \pre at least 1
   Mixed_mesh_fit_criteria_3& maximal_stiffness(double stiffness)
   {
     CGAL_precondition(stiffness >= 1);
@@ -75,7 +75,7 @@ public:
   /// The value set, or the default.
   double maximal_stiffness() const { return m_maximal_stiffness; }
 
-  /// The aspect-ratio coefficient up to which an element is of acceptable quality, without unit.
+  /// Sets the aspect-ratio coefficient up to which an element is of acceptable quality, without unit.
   /// Default: 7, as in the paper. \pre at least 1
   Mixed_mesh_fit_criteria_3& acceptable_aspect_ratio(double coefficient)
   {
@@ -86,8 +86,8 @@ public:
   /// The value set, or the default.
   double acceptable_aspect_ratio() const { return m_acceptable_aspect_ratio; }
 
-  /// Only vertices within so many layers of elements from the boundary move; 0 moves boundary vertices only.
-  /// Default: all of a mesh of up to 3,000 vertices, 4 of a larger one.
+  /// Sets the number of layers of elements from the boundary within which vertices move; 0 moves boundary
+  /// vertices only. Default: all layers of a mesh of up to 3,000 vertices, 4 layers of a larger one.
   /// \pre `automatic`, or at least 0
   Mixed_mesh_fit_criteria_3& number_of_layers(int layers)
   {

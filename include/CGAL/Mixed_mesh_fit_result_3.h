@@ -15,14 +15,14 @@
 namespace CGAL {
 
 /// \ingroup PkgMixedMesh3Optimization
-/// How `fit_mixed_mesh_to_surface()` ended: of those that apply the last.
+/// The outcome of `fit_mixed_mesh_to_surface()`: the last of the statuses that apply.
 enum class Mixed_mesh_fit_status {
   SUCCESS,         ///< the boundary is on the surface, all elements that moved are of acceptable quality
   CAP_REACHED,     ///< the boundary is on the surface; stiffening did not make all elements acceptable
-  NOT_ALL_ARRIVED, ///< valid, but boundary vertices stay off the surface: elements would be inverted
-  SOLVER_FAILED,   ///< valid, as far as it went: the solver did not solve a system
-  STOPPED,         ///< valid, as far as it went: the visitor said so
-  INVALID_MESH,    ///< unchanged: an element is inverted, or names a vertex that does not exist
+  NOT_ALL_ARRIVED, ///< valid, but boundary vertices have not arrived: elements would be inverted
+  SOLVER_FAILED,   ///< valid, but incomplete: the solver did not solve a system
+  STOPPED,         ///< valid, but incomplete: the visitor stopped the run
+  INVALID_MESH,    ///< unchanged: an element is inverted, or has a vertex that does not exist
   EMPTY            ///< unchanged: there is no element
 };
 
@@ -43,20 +43,20 @@ inline const char* description(Mixed_mesh_fit_status status)
 }
 
 /// \ingroup PkgMixedMesh3Optimization
-/// What `fit_mixed_mesh_to_surface()` did.
+/// The result of `fit_mixed_mesh_to_surface()`.
 struct Mixed_mesh_fit_result_3
 {
-  /// How it ended.
+  /// The outcome.
   Mixed_mesh_fit_status status = Mixed_mesh_fit_status::EMPTY;
-  /// All of the boundary.
+  /// The number of all vertices of the boundary.
   std::size_t number_of_boundary_vertices = 0;
   std::size_t number_of_arrived_vertices = 0; ///< boundary vertices on the surface
-  std::size_t number_of_frozen_vertices = 0;  ///< held back in the last attempt, lest elements be inverted
+  std::size_t number_of_frozen_vertices = 0;  ///< held in the last attempt, lest elements be inverted
   std::size_t number_of_folded_faces = 0;     ///< boundary faces whose target could not be unfolded
-  std::size_t number_of_solves = 0;           ///< of systems of linear equations
-  std::size_t number_of_halvings = 0;         ///< of steps
-  /// Elements of unacceptable quality among those that moved: stiffened up to the cap, or without an inner
-  /// vertex, or bad from the start and not worse now.
+  std::size_t number_of_solves = 0;           ///< solved systems of linear equations
+  std::size_t number_of_halvings = 0;         ///< halvings of steps
+  /// Elements of unacceptable quality among those that moved: stiffened up to the largest stiffness, or
+  /// without an inner vertex, or bad from the start and not worse now.
   std::size_t number_of_unacceptable_elements = 0;
 
   /// Whether the mesh is valid and all its boundary vertices are on the surface.

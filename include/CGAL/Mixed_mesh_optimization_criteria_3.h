@@ -25,7 +25,7 @@ struct Concurrency;
 /*!
 \ingroup PkgMixedMesh3Optimization
 
-\brief How a mixed mesh is optimized. Each setter returns the object, so that calls can be chained.
+\brief Criteria for optimizing a mixed mesh. Each setter returns the object, so that calls can be chained.
 */
 class Mixed_mesh_optimization_criteria_3
 {
@@ -34,12 +34,13 @@ public:
   /// is fitted: 3.1918.
   static constexpr double default_quality_bound = 3.2;
 
-  /// Less than the 60 degrees of a hexagonal prism, more than most smooth surfaces of few facets have.
+  /// The default sharp angle: less than the 60 degrees of a hexagonal prism, more than most smooth surfaces
+  /// of few facets have.
   static constexpr double default_sharp_angle = 50;
 
-  /// How far the boundary may be from the surface, and the surface from the boundary, in the mesh's unit:
-  /// boundary vertices slide towards places that are farther. 0: vertices are on the surface, and no more is
-  /// asked for. Default: 0. \pre at least 0
+  /// Sets the largest distance between boundary and surface, either way, in the mesh's unit: boundary
+  /// vertices slide toward places that are farther. 0: vertices have to be on the surface, without further
+  /// conditions. Default: 0. \pre at least 0
   Mixed_mesh_optimization_criteria_3& tolerance(double distance)
   {
     CGAL_precondition(distance >= 0);
@@ -49,8 +50,8 @@ public:
   /// The value set, or the default.
   double tolerance() const { return m_tolerance; }
 
-  /// How often moves and flips alternate. Default: 4; 12 with a tolerance and at most 20,000 vertices; 2 with
-  /// more than 100,000.
+  /// Sets the number of rounds of moves and flips. Default: 4; 12 with a tolerance and at most 20,000
+  /// vertices; 2 with more than 100,000.
   /// \pre at least 1
   Mixed_mesh_optimization_criteria_3& number_of_rounds(int rounds)
   {
@@ -58,7 +59,7 @@ public:
     m_number_of_rounds = rounds;
     return *this;
   }
-  /// Those of a mesh of so many vertices.
+  /// The number of rounds for a mesh of a number of vertices.
   int number_of_rounds_for(std::size_t number_of_vertices) const
   {
     const bool is_patient = m_tolerance > 0 && number_of_vertices <= 20000;
@@ -68,7 +69,7 @@ public:
                                          : 4;
   }
 
-  /// Boundary vertices slide on the surface only where an element has a larger cost: free sliding would lose
+  /// Sets the cost of an element above which boundary vertices slide on the surface: free sliding would lose
   /// volume. Default: 2.25. \pre at least 1
   Mixed_mesh_optimization_criteria_3& sliding_threshold(double cost)
   {
@@ -79,7 +80,7 @@ public:
   /// The value set, or the default.
   double sliding_threshold() const { return m_sliding_threshold; }
 
-  /// Whether tetrahedra may be flipped, and boundary vertices merged that can not get to the surface; else
+  /// Sets whether tetrahedra may be flipped, and boundary vertices that can not arrive may be merged; else
   /// the elements stay the same. Default: yes.
   Mixed_mesh_optimization_criteria_3& flips(bool allowed)
   {
@@ -89,9 +90,9 @@ public:
   /// The value set, or the default.
   bool flips() const { return m_flips; }
 
-  /// How many edges of the boundary may be bisected, each for one more vertex on the surface. With n
-  /// vertices at the start, up to 0.7 n^(2/3) of them are edges of elements in the region of interest
-  /// (`Element_attributes`), the longest first; the others are where boundary and surface enclose most
+  /// Sets the number of edges of the boundary that may be bisected, each for one more vertex on the surface.
+  /// With n vertices at the start, up to 0.7 n^(2/3) of them are edges of elements in the region of interest
+  /// (`Element_attributes`), the longest first; the other edges are where boundary and surface enclose most
   /// volume. No new tetrahedron costs more than 3.2, or than the quality bound. Default: 0.
   Mixed_mesh_optimization_criteria_3& number_of_bisections(std::size_t number)
   {
@@ -101,11 +102,11 @@ public:
   /// The value set, or the default.
   std::size_t number_of_bisections() const { return m_number_of_bisections; }
 
-  /// The largest cost that an element may get. Where elements cost more already, none gets worse than the
-  /// worst of those that are changed with it; so if none costs more than the bound, none ever will. What
-  /// would need worse elements stays off the surface. By default, costs are aspect-ratio coefficients, or
-  /// above them. 0, or infinity: no bound; elements may get worse the longer a vertex does not arrive.
-  /// Default: 3.2.
+  /// Sets the largest cost that an element may get. Where elements cost more already, none gets worse than
+  /// the worst of the elements that are changed with it; so if no element costs more than the bound, none
+  /// ever will. Boundary vertices that would need worse elements do not arrive on the surface. By default,
+  /// costs are aspect-ratio coefficients, or above them. 0, or infinity: no bound; elements may get worse the
+  /// longer a vertex does not arrive. Default: 3.2.
   /// \pre 0, or at least 1
   Mixed_mesh_optimization_criteria_3& quality_bound(double cost)
   {
@@ -113,12 +114,12 @@ public:
     m_quality_bound = cost == 0 ? std::numeric_limits<double>::infinity() : cost;
     return *this;
   }
-  /// Infinity if there is none.
+  /// The value set, or the default; infinity if there is no bound.
   double quality_bound() const { return m_quality_bound; }
 
-  /// The angle between the normals of two facets, in degrees, from which on their edge is sharp: paths of
-  /// edges of the boundary, and vertices at the corners, are brought there and stay there. 0: none is sharp.
-  /// Default: 50. \pre in [0, 180]
+  /// Sets the angle between the normals of two facets, in degrees, from which on their edge is sharp: paths
+  /// of edges of the boundary, and vertices at the corners, are brought to sharp edges and stay there. 0: no
+  /// edge is sharp. Default: 50. \pre in [0, 180]
   Mixed_mesh_optimization_criteria_3& sharp_angle(double degrees)
   {
     CGAL_precondition(degrees >= 0 && degrees <= 180);
@@ -141,14 +142,14 @@ private:
 };
 
 /// \ingroup PkgMixedMesh3Optimization
-/// How `optimize_mixed_mesh_3()` ended. The first that applies, from the bottom up.
+/// The outcome of `optimize_mixed_mesh_3()`: the last of the statuses that apply.
 enum class Mixed_mesh_optimization_status {
   SUCCESS,               ///< the boundary is on the surface, and within the tolerance if there is one
-  TOLERANCE_NOT_REACHED, ///< the boundary vertices are on the surface; it is farther away between them
-  NOT_ALL_ARRIVED,       ///< valid, but boundary vertices stay off the surface: elements would be too bad,
+  TOLERANCE_NOT_REACHED, ///< the boundary vertices are on the surface, but places between them are farther
+  NOT_ALL_ARRIVED,       ///< valid, but boundary vertices have not arrived: elements would be too bad,
                          ///< or faces of the boundary would cut each other
-  STOPPED,               ///< valid, as far as it went, or unchanged: the visitor said so
-  INVALID_MESH,          ///< unchanged: an element is inverted, or names a vertex that does not exist
+  STOPPED,               ///< valid, but incomplete, or unchanged: the visitor stopped the run
+  INVALID_MESH,          ///< unchanged: an element is inverted, or has a vertex that does not exist
   EMPTY                  ///< unchanged: there is no element
 };
 
@@ -168,28 +169,29 @@ inline const char* description(Mixed_mesh_optimization_status status)
 }
 
 /// \ingroup PkgMixedMesh3Optimization
-/// What `optimize_mixed_mesh_3()` did.
+/// The result of `optimize_mixed_mesh_3()`.
 struct Mixed_mesh_optimization_result_3
 {
-  /// How it ended.
+  /// The outcome.
   Mixed_mesh_optimization_status status = Mixed_mesh_optimization_status::EMPTY;
-  std::size_t number_of_boundary_vertices = 0; ///< new ones included
+  std::size_t number_of_boundary_vertices = 0; ///< including new ones
   std::size_t number_of_arrived_vertices = 0;  ///< boundary vertices on the surface
-  std::size_t number_of_flips = 0;             ///< of tetrahedra
-  std::size_t number_of_bisections = 0;        ///< of boundary edges: so many vertices are new
-  std::size_t number_of_merged_vertices = 0;   ///< of the boundary: so many are gone
+  std::size_t number_of_flips = 0;             ///< flips of tetrahedra
+  std::size_t number_of_bisections = 0;        ///< bisected boundary edges, each with a new vertex
+  std::size_t number_of_merged_vertices = 0;   ///< merged vertices of the boundary, which are removed
   bool is_boundary_simple = true;              ///< whether the boundary does not cut itself
   /// Rounds of moves that were done.
   std::size_t number_of_rounds = 0;
-  /// With a tolerance: the largest distance between boundary and surface, either way, at sample points.
+  /// The largest distance between boundary and surface, either way, at sample points; with a tolerance only.
   double largest_distance = 0;
-  /// Of the surface, if they are not only of noise.
+  /// The length of the sharp edges of the surface, unless they are only noise.
   double length_of_sharp_edges = 0;
-  /// The part that is within 0.05 of the length of the edge of the mesh that is to follow it.
+  /// The length of the part of sharp edges within 0.05 of the length of the edge of the mesh that follows
+  /// them.
   double length_of_sharp_edges_kept = 0;
-  std::size_t number_of_corners = 0;      ///< where sharp edges of the surface end or turn
-  std::size_t number_of_corners_kept = 0; ///< those that a vertex is at
-  double quality_bound = std::numeric_limits<double>::infinity(); ///< that of the criteria
+  std::size_t number_of_corners = 0;      ///< places where sharp edges of the surface end or turn
+  std::size_t number_of_corners_kept = 0; ///< corners that have a vertex
+  double quality_bound = std::numeric_limits<double>::infinity(); ///< bound of the criteria
   /// Elements that are not proved to cost at most the bound: 0 if the mesh had none at the start.
   std::size_t number_of_elements_above_bound = 0;
 };

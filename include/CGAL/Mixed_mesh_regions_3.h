@@ -45,7 +45,7 @@ class Polyhedral_mixed_mesh_region_3 : public Mixed_meshes_3::internal::Surface_
 public:
   /*!
   \tparam FaceListGraph a model of `FaceListGraph`, with points of any CGAL kernel
-  \param surface the surface. \pre `CGAL::is_triangle_mesh(surface) && CGAL::is_closed(surface)`
+  \param surface surface. \pre `CGAL::is_triangle_mesh(surface) && CGAL::is_closed(surface)`
   \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those below
 
   \cgalNamedParamsBegin
@@ -76,8 +76,8 @@ public:
 
 \brief The region where a function is positive.
 
-The function must not change faster than the distance (for example, a signed distance, positive
-inside), so that its value at the center of a cell tells where the cell can not be.
+The function must not change faster than the distance (for example, a signed distance, positive inside), so
+that its value at the center of a cell limits where the cell can be.
 
 \cgalModels{MixedMeshRegion_3}
 */
@@ -86,12 +86,12 @@ class Implicit_mixed_mesh_region_3
 public:
   /// The type of points.
   using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
-  /// Nothing: the function is asked anywhere.
+  /// Empty: the function can be evaluated anywhere.
   struct Surface_part
   {
   };
 
-  /// \param depth a function object `double(Point_3)`, positive inside, of Lipschitz constant 1
+  /// \param depth function object `double(Point_3)`, positive inside, of Lipschitz constant 1
   explicit Implicit_mixed_mesh_region_3(std::function<double(const Point_3&)> depth)
     : m_depth(std::move(depth))
   {
@@ -124,7 +124,7 @@ private:
 class Ball_mixed_mesh_region_3 : public Implicit_mixed_mesh_region_3
 {
 public:
-  /// \param center,radius in the unit of the domain. \pre `radius > 0`
+  /// \param center,radius center and radius in the unit of the domain. \pre `radius > 0`
   Ball_mixed_mesh_region_3(const Point_3& center, double radius)
     : Implicit_mixed_mesh_region_3(
       [center, radius](const Point_3& p) { return radius - std::sqrt(CGAL::squared_distance(p, center)); })
@@ -132,7 +132,7 @@ public:
     CGAL_precondition(radius > 0);
   }
 
-  /// As above; a center of another kernel is rounded to doubles.
+  /// Constructs a ball with a center of another kernel, which is rounded to doubles.
   template <class Kernel>
   Ball_mixed_mesh_region_3(const CGAL::Point_3<Kernel>& center, double radius)
     : Ball_mixed_mesh_region_3(Point_3(Mixed_meshes_3::rounded(center.x()),
@@ -151,7 +151,7 @@ class Everywhere_mixed_mesh_region_3
 public:
   /// The type of points.
   using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
-  /// Nothing: there is no surface.
+  /// Empty: there is no surface.
   struct Surface_part
   {
   };
@@ -167,10 +167,10 @@ public:
 /*!
 \ingroup PkgMixedMesh3Domains
 
-\brief A region with a weight: how many times as much an error counts there.
+\brief A region with a weight: the factor by which an error counts more there.
 
-Where the weight is \f$ w \f$, cells become smaller by a factor of about \f$ w^{1/5} \f$. Weights are relative
-to those of other places, and to 1, for which the share of the budget that serves the volume is set.
+Cells become smaller by a factor of about \f$ w^{1/5} \f$ where the weight is \f$ w \f$. Weights are relative
+to the weights of other places, and to 1, for which the share of the budget that serves the volume is set.
 
 \tparam Region a model of `MixedMeshRegion_3`
 \cgalModels{MixedMeshRegion_3}
@@ -183,18 +183,18 @@ public:
   using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
 
   /// Takes the region over (wrap it in `std::move` if it cannot be copied).
-  /// \param region the region
-  /// \param weight the same everywhere. \pre positive and finite
+  /// \param region region
+  /// \param weight weight, the same everywhere. \pre positive and finite
   Weighted_mixed_mesh_region_3(Region region, double weight)
     : Weighted_mixed_mesh_region_3(std::move(region), [weight](const Point_3&) { return weight; })
   {
     CGAL_precondition(weight > 0 && std::isfinite(weight));
   }
 
-  /// As above.
-  /// \param region the region
-  /// \param weight a function of the point, inside the region or not: finite, and not negative. Where it is 0
-  ///        no cell is split for the sake of the region
+  /// Takes the region over, with a weight that depends on the point.
+  /// \param region region
+  /// \param weight function of the point, inside the region or not: finite, and not negative. Where the
+  /// weight is 0 no cell is split for the sake of the region
   Weighted_mixed_mesh_region_3(Region region, std::function<double(const Point_3&)> weight)
     : Region(std::move(region)), m_weight(std::move(weight))
   {
@@ -215,7 +215,7 @@ private:
 
 \brief The union of regions.
 
-An error counts as in that of them in which it counts most.
+An error counts as in the region in which it counts most.
 
 \tparam Regions models of `MixedMeshRegion_3`
 \cgalModels{MixedMeshRegion_3}
@@ -226,12 +226,12 @@ class Union_mixed_mesh_region_3
 public:
   /// The type of points.
   using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
-  /// The parts of the regions, and where the cell is relative to each.
+  /// The parts of the regions, and the side of the cell relative to each region.
   struct Surface_part
   {
     /// A part of each region.
     std::tuple<typename Regions::Surface_part...> parts;
-    /// Where the cell is relative to each region.
+    /// The side of the cell relative to each region.
     std::array<Bounded_side, sizeof...(Regions)> sides;
   };
 
@@ -271,8 +271,8 @@ public:
   }
 
 private:
-  // Inside one is inside; a boundary may lie within another region, which does no harm. A region whose
-  // surface does not meet the parent is not asked.
+  // The location of a cell: inside one region is inside; a boundary may lie within another region, which does
+  // no harm. A region whose surface does not meet the parent is not queried.
   template <class Cell, std::size_t... I>
   Bounded_side locate(const Cell& cell, const Surface_part& parent, Surface_part& part,
                       std::index_sequence<I...>) const
@@ -293,8 +293,8 @@ private:
 
 \brief The union of any number of regions inside closed triangulated surfaces, each with a weight.
 
-An error counts as in that of them in which it counts most. Without regions, it counts everywhere alike, as
-with `Everywhere_mixed_mesh_region_3`. Copies share the regions.
+An error counts as in the region in which it counts most. Without regions, an error counts everywhere alike,
+as with `Everywhere_mixed_mesh_region_3`. Copies share the regions.
 
 \cgalModels{MixedMeshRegion_3}
 */
@@ -305,18 +305,18 @@ class Polyhedral_mixed_mesh_regions_3
 public:
   /// The type of points.
   using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
-  /// The parts of the regions, and where the cell is relative to each.
+  /// The parts of the regions, and the side of the cell relative to each region.
   struct Surface_part
   {
     /// A part of each region.
     std::vector<Region::Surface_part> parts;
-    /// Where the cell is relative to each region.
+    /// The side of the cell relative to each region.
     std::vector<Bounded_side> sides;
   };
 
   /// Adds a region.
-  /// \param region shared by copies
-  /// \param weight as that of a `Weighted_mixed_mesh_region_3`. \pre positive and finite
+  /// \param region region, which copies share
+  /// \param weight weight as that of a `Weighted_mixed_mesh_region_3`. \pre positive and finite
   void add(std::shared_ptr<const Polyhedral_mixed_mesh_region_3> region, double weight = 1)
   {
     CGAL_precondition(weight > 0 && std::isfinite(weight));
@@ -325,8 +325,8 @@ public:
   }
 
   /// Adds the region inside a surface.
-  /// \param surface,np as for `Polyhedral_mixed_mesh_region_3`
-  /// \param weight as above
+  /// \param surface,np parameters of `Polyhedral_mixed_mesh_region_3`
+  /// \param weight weight as above
   template <class FaceListGraph, class NamedParameters = parameters::Default_named_parameters,
             std::enable_if_t<!std::is_convertible_v<FaceListGraph, std::shared_ptr<const Region>>>* = nullptr>
   void add(const FaceListGraph& surface, double weight = 1,
@@ -387,7 +387,7 @@ private:
     double weight;
   };
   std::vector<Weighted> m_regions;
-  bool m_has_weights = false; // that differ
+  bool m_has_weights = false; // whether weights differ
 };
 
 } // namespace CGAL

@@ -22,8 +22,8 @@ namespace CGAL {
 \brief A triangulated surface inside a domain that need not enclose anything, such as the falx or the
 tentorium of a brain.
 
-It may stick out of the domain, and end inside. It is an oriented 2-manifold, mostly with a border. The
-surface is copied, its coordinates rounded to double.
+The sheet may stick out of the domain, and end inside. The sheet is an oriented 2-manifold, mostly with a
+border. The surface is copied, its coordinates rounded to double.
 
 \sa `Labeled_polyhedral_mixed_mesh_domain_3::add_sheet()`
 */
@@ -34,7 +34,7 @@ public:
   Builds the AABB trees.
 
   \tparam FaceListGraph a model of `FaceListGraph`, with points of any CGAL kernel
-  \param surface the sheet. \pre `CGAL::is_triangle_mesh(surface)`, and it has faces
+  \param surface the sheet. \pre `CGAL::is_triangle_mesh(surface)`, and the sheet has faces
   \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those below
 
   \cgalNamedParamsBegin

@@ -23,12 +23,12 @@ namespace CGAL {
 
 \brief Shows the boundary of a mesh in a window, and returns when the user closes it.
 
-As other functions of \cgal with that name, it needs Qt: the target `CGAL::CGAL_Basic_viewer` (with \cgal 5.5:
-`CGAL::CGAL_Qt5` and the macro `CGAL_USE_BASIC_VIEWER`). Without it, it shows nothing.
+Like other functions of \cgal with that name, `draw()` needs Qt: the target `CGAL::CGAL_Basic_viewer` (with
+\cgal 5.5: `CGAL::CGAL_Qt5` and the macro `CGAL_USE_BASIC_VIEWER`). Without Qt, `draw()` shows nothing.
 
 \tparam GeomTraits a model of `MixedMeshTraits_3`
 \param mesh a conforming mesh
-\param title of the window
+\param title title of the window
 */
 template <class GeomTraits>
 void draw(const Mixed_mesh_3<GeomTraits>& mesh, const char* title = "Mixed mesh")

@@ -25,7 +25,7 @@ namespace CGAL {
 /*!
 \ingroup PkgMixedMesh3Optimization
 
-\brief Carries the boundary of a mixed mesh onto a closed surface, and lets the inner vertices follow.
+\brief Brings the boundary of a mixed mesh onto a closed surface, and lets the inner vertices follow.
 
 Each boundary vertex goes to the closest point of the surface, or to one near it where boundary faces would
 fold otherwise, step by step; the inner vertices follow as an elastic medium does, in which elements whose
@@ -40,11 +40,11 @@ mesh.
 \tparam Surface a model of `MixedMeshSurface_3`, or of `FaceListGraph`
 \tparam Quality a model of `MixedMeshQuality_3`; its gradients are not used
 \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
-\param mesh its points are changed
-\param surface where the boundary goes. \pre a `FaceListGraph` is closed and triangulated
-\param quality elements of a cost that is not acceptable are stiffened; `acceptable_aspect_ratio()` of the
-       criteria is not used
-\param criteria how to get there
+\param mesh mesh whose points are changed
+\param surface target of the boundary. \pre a `FaceListGraph` is closed and triangulated
+\param quality cost of elements: elements of a cost that is not acceptable are stiffened;
+`acceptable_aspect_ratio()` of the criteria is not used
+\param criteria criteria of the fitting
 \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those below
 
 \cgalNamedParamsBegin
@@ -65,7 +65,7 @@ mesh.
   \cgalParamNEnd
 \cgalNamedParamsEnd
 
-\return the status and what was done
+\return the status and the numbers of the result
 \par Complexity
 A linear system with three unknowns for each vertex that moves inside, in each step and each time that
       elements are stiffened
@@ -82,7 +82,7 @@ Mixed_mesh_fit_result_3 fit_mixed_mesh_to_surface(Mixed_mesh_3<GeomTraits>& mesh
   using Solver = typename internal_np::Lookup_named_param_def<internal_np::sparse_linear_solver_t,
                                                               NamedParameters, Default_solver>::reference;
   Default_solver default_solver;
-  default_solver.solver().setTolerance(1e-3); // inner vertices need no more
+  default_solver.solver().setTolerance(1e-3); // inner vertices need no smaller tolerance
   Solver solver = parameters::choose_parameter(
     parameters::get_parameter_reference(np, internal_np::sparse_linear_solver), default_solver);
   const auto& s = mm3::as_surface(surface, np);
@@ -97,7 +97,7 @@ Mixed_mesh_fit_result_3 fit_mixed_mesh_to_surface(Mixed_mesh_3<GeomTraits>& mesh
 /*!
 \ingroup PkgMixedMesh3Optimization
 
-As above, with the paper's aspect-ratio coefficient, acceptable up to `acceptable_aspect_ratio()`.
+Overload with the paper's aspect-ratio coefficient, acceptable up to `acceptable_aspect_ratio()`.
 */
 template <class GeomTraits, class Surface, class NamedParameters = parameters::Default_named_parameters>
 Mixed_mesh_fit_result_3 fit_mixed_mesh_to_surface(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface,
@@ -111,7 +111,7 @@ Mixed_mesh_fit_result_3 fit_mixed_mesh_to_surface(Mixed_mesh_3<GeomTraits>& mesh
 /*!
 \ingroup PkgMixedMesh3Optimization
 
-As above, with the default criteria.
+Overload with the default criteria.
 */
 template <class GeomTraits, class Surface, class NamedParameters = parameters::Default_named_parameters>
 Mixed_mesh_fit_result_3 fit_mixed_mesh_to_surface(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface,

@@ -36,17 +36,16 @@ The octree of the domain is split where a vertex removes most of the error of th
 cells are smallest in the region and grow with the distance from it (`criteria.grading()`). Before that,
 cells are split where the boundary would be farther from the surface than `criteria.tolerance()`. The octree
 is balanced across faces and edges, and made conforming by transition templates; elements at the surface are
-split so that they can follow it (Lobos, Bucki, Hitschfeld, Payan: sections 5.1 and 5.2). Then the boundary
-is carried onto the surface, some of its edges are bisected (`criteria.share_of_bisections()`), and the
-elements are optimized, as `optimize_mixed_mesh_3()` does; with `criteria.fit_to_surface(false)` boundary
+split so that they can follow the surface (Lobos, Bucki, Hitschfeld, Payan: sections 5.1 and 5.2). Then the
+boundary is brought onto the surface, some of its edges are bisected (`criteria.share_of_bisections()`), and
+the elements are optimized, as `optimize_mixed_mesh_3()` does; with `criteria.fit_to_surface(false)` boundary
 vertices stay where the octree has them, all outside or on the surface.
 
 Guarantees if `result.has_mesh()`: at most `criteria.maximal_number_of_vertices()` vertices; conforming;
 the Jacobian of every element is positive on the whole element; no element has an aspect-ratio coefficient
 above `criteria.quality_bound()` if that is at least 3.2, cells are cubes and the boundary mode is the
-default; the boundary is a closed oriented
-2-manifold unless the status says otherwise; the same input gives the same mesh, whatever the number of
-threads.
+default; the boundary is a closed oriented 2-manifold unless the status says otherwise; the same input gives
+the same mesh, whatever the number of threads.
 
 \tparam ConcurrencyTag enables sequential versus parallel algorithm: `Sequential_tag`, `Parallel_tag`, which
         needs TBB, or `Parallel_if_available_tag`
@@ -56,15 +55,14 @@ threads.
 \tparam GeomTraits a model of `MixedMeshTraits_3`
 \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
 \tparam RegionNamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
-\param domain what to mesh: a domain, or its surface, with points of any CGAL kernel. \pre a surface is closed
-       and
-       triangulated
-\param region where to refine: a region, or its surface. \pre a surface is closed and triangulated
-\param criteria the budget (a number will do), and how to mesh
-\param cell_traits the frame of the octree
+\param domain domain to be meshed, or its surface, with points of any CGAL kernel. \pre a surface is closed
+and triangulated
+\param region region to be refined, or its surface. \pre a surface is closed and triangulated
+\param criteria criteria of the mesh; a number is a budget
+\param cell_traits frame of the octree
 \param mesh the result; cleared first
 \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those below
-\param np_region likewise, of the region's surface
+\param np_region sequence of named parameters for the region's surface
 
 \cgalNamedParamsBegin
   \cgalParamNBegin{visitor}
@@ -80,7 +78,7 @@ threads.
   \cgalParamNEnd
 \cgalNamedParamsEnd
 
-\return the status and what was done
+\return the status and the numbers of the result
 \par Complexity
 For n vertices and t triangles of the surfaces O(n log n + t log t), nearly linear; a query for a
       closest point for each boundary vertex that moves, and for each sample point of a tolerance
@@ -106,10 +104,11 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
 /*!
 \ingroup PkgMixedMesh3Functions
 
-As above, with cells parallel to the axes and the root that the criteria say. If the whole surface is
-perpendicular to the axes, as that of a box is, cells are placed such that it lies in lattice planes if they
-can, with edges of a ratio of at most 1.25: then elements there stay whole, vertices have the coordinates of
-the surface exactly, and without a region all elements are hexahedra, as far as the budget allows.
+Overload with cells parallel to the axes and the root of the criteria. If the whole surface is perpendicular
+to the axes, as the surface of a box is, cells are placed such that the surface lies in lattice planes if
+possible, with edges of a ratio of at most 1.25: then elements at the surface stay whole, vertices have the
+coordinates of the surface exactly, and without a region all elements are hexahedra, as far as the budget
+allows.
 */
 template <class ConcurrencyTag = Sequential_tag, class Domain, class Region, class GeomTraits,
           class NamedParameters = parameters::Default_named_parameters,
@@ -128,7 +127,7 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
 /*!
 \ingroup PkgMixedMesh3Functions
 
-As above, refined everywhere alike, and somewhat more at the surface.
+Overload without a region: refined everywhere alike, and somewhat more at the surface.
 */
 template <class ConcurrencyTag = Sequential_tag, class Domain, class GeomTraits,
           class NamedParameters = parameters::Default_named_parameters>

@@ -32,28 +32,29 @@ namespace CGAL {
 elements, and bisects edges of the boundary if asked to.
 
 Boundary vertices that are not on the surface yet are brought there, each as far at a time as its elements
-allow, while inner vertices give way. Then, in turns, each vertex descends on the sum of the powers (4, later
-8) of the costs of its elements, and tetrahedra are replaced by others between the same vertices where that
-sum falls: 2-3 flips, and the removal of edges with up to 7 tetrahedra around. Boundary vertices slide on the
-surface where an element is bad, or towards places of the surface that are farther than the tolerance. This is
-the improvement of slivers that the paper announces (Lobos, Bucki, Hitschfeld, Payan: section 7).
+allow, while inner vertices give way. Then, alternately, each vertex descends on the sum of the powers (4,
+later 8) of the costs of its elements, and tetrahedra are replaced by others between the same vertices where
+that sum falls: 2-3 flips, and the removal of edges with up to 7 tetrahedra around. Boundary vertices slide on
+the surface where an element is bad, or toward places of the surface that are farther than the tolerance. This
+is the improvement of slivers that the paper announces (Lobos, Bucki, Hitschfeld, Payan: section 7).
 
 Up to `criteria.number_of_bisections()` edges of the boundary, none by default, are bisected after the first
 round: the middle goes to the closest point of the surface, and the tetrahedra around the edge are split in
-two. Each adds one vertex, on the surface, behind those that are there already.
+two. Each bisection adds one vertex, on the surface, behind the existing vertices.
 
-No element gets a cost above `criteria.quality_bound()`, or, where one has, above the worst one at the start:
-where that bound and the surface conflict, boundary vertices stay off the surface. In the end, those are
-merged with neighbors on the boundary, where the elements stay within the bound and the topology is the same.
+No element gets a cost above `criteria.quality_bound()`, or, if an element is above already, above the worst
+one at the start: where that bound and the surface conflict, boundary vertices do not arrive. In the end,
+these vertices are merged with neighbors on the boundary, where the elements stay within the bound and the
+topology is the same.
 
 Guarantees: if the mesh was valid, it is valid after each move and in the end (the Jacobian of each element is
 proved positive on the whole element, on the coordinates as they are); boundary vertices counted in
 `number_of_arrived_vertices` are on the surface up to the rounding of `double`; the boundary does not cut
-itself (if it does at the start, `is_boundary_simple` may be false); hexahedra, prisms and pyramids stay; no
-vertex is added but by bisections; none is removed but those that are merged: then those behind get smaller
-numbers; the boundary's faces stay but for those at bisected edges, at merged vertices, and where a flat
-tetrahedron on it is removed; the same input gives the same mesh. With `criteria.flips(false)` no vertex and
-no element is removed.
+itself (if it does at the start, `is_boundary_simple` may be false); hexahedra, prisms and pyramids stay;
+vertices are added by bisections only; only merged vertices are removed: then the vertices behind get smaller
+numbers; the boundary's faces stay except at bisected edges, at merged vertices, and where a flat tetrahedron
+on the boundary is removed; the same input gives the same mesh. With `criteria.flips(false)` no vertex and no
+element is removed.
 
 \tparam ConcurrencyTag enables sequential versus parallel algorithm: `Sequential_tag`, `Parallel_tag`, which
         needs TBB, or `Parallel_if_available_tag`
@@ -61,10 +62,10 @@ no element is removed.
 \tparam Surface a model of `MixedMeshSurface_3`, or of `FaceListGraph`
 \tparam Quality a model of `MixedMeshQuality_3`
 \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
-\param mesh its points and tetrahedra are changed; bisections add some
-\param surface where boundary vertices are to be. \pre a `FaceListGraph` is closed and triangulated
-\param quality the cost of an element
-\param criteria what to reach
+\param mesh mesh whose points and tetrahedra are changed; bisections add some
+\param surface target of the boundary vertices. \pre a `FaceListGraph` is closed and triangulated
+\param quality cost of an element
+\param criteria criteria of the optimization
 \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those below
 
 \cgalNamedParamsBegin
@@ -80,11 +81,11 @@ no element is removed.
   \cgalParamNEnd
 \cgalNamedParamsEnd
 
-\return the status and what was done
+\return the status and the numbers of the result
 \par Complexity
-Proportional to the number of elements whose cost can be improved, times the rounds. Of more than 100,000
-vertices, those of hexahedra, prisms and pyramids beyond the third layer of elements at the boundary are taken
-for good unless an element there costs more than 3.
+Proportional to the number of elements whose cost can be improved, times the rounds. With more than 100,000
+vertices, the vertices of hexahedra, prisms and pyramids beyond the third layer of elements at the boundary
+are considered good unless an element there costs more than 3.
 */
 template <class ConcurrencyTag = Sequential_tag, class GeomTraits, class Surface, class Quality,
           class NamedParameters = parameters::Default_named_parameters>
@@ -114,7 +115,7 @@ optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface, co
 /*!
 \ingroup PkgMixedMesh3Optimization
 
-As above, with the aspect-ratio coefficient as the cost of an element.
+Overload with the aspect-ratio coefficient as the cost of an element.
 */
 template <class ConcurrencyTag = Sequential_tag, class GeomTraits, class Surface,
           class NamedParameters = parameters::Default_named_parameters>
@@ -130,7 +131,7 @@ optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface,
 /*!
 \ingroup PkgMixedMesh3Optimization
 
-As above, with the default criteria.
+Overload with the default criteria.
 */
 template <class ConcurrencyTag = Sequential_tag, class Surface, class GeomTraits,
           class NamedParameters = parameters::Default_named_parameters>

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The library Linear_elasticity_3_compiled: the method of elasticity, whatever mesh and solver.
+// The library Linear_elasticity_3_compiled: the method of elasticity, for any mesh and solver.
 
 #include <CGAL/Linear_elasticity_3/internal/Elasticity_model_impl.h>
 

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Of the library Linear_elasticity_3_compiled: the adaptation of meshes to load cases.
+// The library Linear_elasticity_3_compiled: the adaptation of meshes to load cases.
 
 #include <CGAL/Linear_elasticity_3/internal/adapt_points_impl.h>
 

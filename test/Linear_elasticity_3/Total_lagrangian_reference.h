@@ -3,10 +3,10 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What corotational elements are compared with: a total Lagrangian solution for hexahedra of a St.
-// Venant-Kirchhoff material, whose bulk modulus acts on the mean of the trace of Green's strain. It has
-// nothing
-// in common with the package: shape functions, quadrature, strain, assembly and Newton's method are its own.
+// Reference solution for corotational elements: a total Lagrangian solution for hexahedra of a St.
+// Venant-Kirchhoff material, whose bulk modulus acts on the mean of the trace of Green's strain. The
+// reference has nothing in common with the package: shape functions, quadrature, strain, assembly and
+// Newton's method are its own.
 
 #ifndef MIXED_MESH_3_TEST_TOTAL_LAGRANGIAN_REFERENCE_H
 #define MIXED_MESH_3_TEST_TOTAL_LAGRANGIAN_REFERENCE_H
@@ -31,7 +31,7 @@ using Matrix_3x8 = Eigen::Matrix<double, 3, 8>;
 using Matrix_24 = Eigen::Matrix<double, 24, 24>;
 using Vector_24 = Eigen::Matrix<double, 24, 1>;
 
-// Forces of an element, and their derivative. Nodes as in VTK: around the base, then around the top.
+// Adds forces of an element, and their derivative. Nodes as in VTK: around the base, then around the top.
 inline void element(const Matrix_3x8& x, const Matrix_3x8& u,
                     const CGAL::Mixed_meshes_3::Elastic_material& material, const Eigen::Vector3d& load,
                     Vector_24& force, Matrix_24& tangent)
@@ -77,7 +77,7 @@ inline void element(const Matrix_3x8& x, const Matrix_3x8& u,
       by_trace.segment<3>(3 * a) += weights[q] * f[q] * ga;
       for(int b = 0; b < 8; ++b) {
         const Eigen::Vector3d gb = gradients[q].col(b);
-        // 2 mu times the deviator of the change of strain, sym(F^T du gb^T), times F ga
+        // The term is 2 mu times the deviator of the change of strain, sym(F^T du gb^T), times F ga.
         const Matrix3d block = mu
                                  * (f[q] * f[q].transpose() * ga.dot(gb)
                                     + f[q] * gb * (f[q] * ga).transpose())
@@ -92,7 +92,7 @@ inline void element(const Matrix_3x8& x, const Matrix_3x8& u,
 
 } // namespace total_lagrangian
 
-/// The displacements under a force by volume that comes in steps.
+/// The displacements under a force by volume that is applied in steps.
 template <class Mesh>
 std::vector<CGAL::Mixed_meshes_3::Vec3>
 total_lagrangian_solution(const Mesh& mesh, const CGAL::Mixed_meshes_3::Elastic_material& material,

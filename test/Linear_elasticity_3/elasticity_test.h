@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the tests of Linear_elasticity_3 have in common: grids of cells, mixed ones among them, fields of
-// their vertices, and an elastic energy.
+// Common parts of the tests of Linear_elasticity_3: grids of cells, mixed ones among them, fields at their
+// vertices, and an elastic energy.
 
 #ifndef MIXED_MESH_3_TEST_ELASTICITY_TEST_H
 #define MIXED_MESH_3_TEST_ELASTICITY_TEST_H
@@ -64,7 +64,7 @@ public:
 
 enum class Moved { ALL, INNER }; // which vertices of a grid are displaced
 
-// From coordinates in cells to [0,1]^3, vertices moved by up to `noise` cells.
+// Places vertices from coordinates in cells in [0,1]^3, moved by up to `noise` cells.
 inline auto placed(int n, double noise, Moved moved)
 {
   return [n, noise, moved, random = Noise()](double x, double y, double z) mutable {
@@ -77,14 +77,15 @@ inline auto placed(int n, double noise, Moved moved)
   };
 }
 
-// n^3 cells, of elements of one kind. \param moved INNER: the sides of the cube stay plane
+// A grid of n^3 cells, of elements of one kind. \param moved INNER: the sides of the cube stay plane
 inline Mesh grid(int n, Element_kind kind, double noise = 0, Moved moved = Moved::ALL)
 {
   auto place = placed(n, noise, moved);
   return grid_of_cells<Mesh>(n, kind, [&](double x, double y, double z) { return place(x, y, z); });
 }
 
-// n^3 cells, from below: hexahedra; cells divided from their centers; tetrahedra; prisms. \pre 4 divides n
+// A grid of n^3 cells, from below: hexahedra; cells divided from their centers; tetrahedra; prisms. \pre 4
+// divides n
 inline Mesh mixed_grid(int n, double noise = 0, Moved moved = Moved::ALL)
 {
   auto place = placed(n, noise, moved);
@@ -109,7 +110,7 @@ inline Mesh mixed_grid(int n, double noise = 0, Moved moved = Moved::ALL)
           const Vertex_index center = mesh.add_vertex(place(x + 0.5, y + 0.5, z + 0.5));
           for(int f = 0; f < 6; ++f) {
             const auto& w = reference_elements[HEXAHEDRON].faces[f].vertices;
-            if(f == 5 && 4 * (z + 1) / n == 2) { // to the tetrahedra: along their diagonal
+            if(f == 5 && 4 * (z + 1) / n == 2) { // at tetrahedra: along their diagonal
               mesh.add_element(TETRAHEDRON, {v[6], v[5], v[4], center});
               mesh.add_element(TETRAHEDRON, {v[7], v[6], v[4], center});
             } else {
@@ -198,7 +199,7 @@ inline void prescribe(Elasticity& problem, const std::vector<bool>& is_prescribe
   prescribe(problem, is_prescribed, at_vertices(problem.mesh(), f));
 }
 
-// Says what went wrong.
+// Whether a result is a success; prints the error otherwise.
 inline bool is_success(const Linear_elasticity_result_3& result)
 {
   if(!result.is_success())

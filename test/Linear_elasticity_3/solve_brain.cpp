@@ -4,8 +4,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Writes the brain's mesh and its displacements under a push at the opening, for test_getfem.py: with the
-// elements of Linear_elasticity_3, with standard ones, and on the mesh split to tetrahedra with both. With a
-// tumor, that is a subdomain, ten times as stiff, and of another Poisson's ratio.
+// elements of Linear_elasticity_3, with standard ones, and on the mesh split to tetrahedra with both. A tumor
+// is a subdomain, ten times as stiff, and of another Poisson's ratio.
 //
 //   solve_brain DATA_DIRECTORY VERTICES POISSON_RATIO fitted|unfitted|tumor FILE
 
@@ -103,7 +103,7 @@ int main(int argc, char** argv)
   const Elastic_material material{1, std::stod(argv[3])};
   const std::vector<Elastic_material> materials = materials_of(mesh, material, has_tumor);
 
-  // The lower 30 % is fixed; around the opening, the boundary is pushed in by 10 mm, less towards the rim.
+  // The lower 30 % is fixed; around the opening, the boundary is pushed in by 10 mm, less toward the rim.
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   Field points;
   for(const auto& p : mesh.points()) {

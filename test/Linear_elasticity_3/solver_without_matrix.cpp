@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Does not compile: a solver that is no model of the concept. test_compiler_messages.py reads what the
-// compiler says.
+// A solver that is no model of the concept, and does not compile. test_compiler_messages.py reads the
+// compiler's message.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Linear_elasticity_3.h>

@@ -3,7 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Configurational forces against differences of the energy, and the adaptation of meshes along them.
+// Configurational forces compared with differences of the energy, and the adaptation of meshes along the
+// forces.
 
 #include "elasticity_test.h"
 #include "standard_elasticity.h"
@@ -67,7 +68,7 @@ void test_gradient(Element_kind kind, double nu)
       x = before + offset * step;
       return energy().energy;
     };
-    // of fourth order
+    // The difference is of fourth order.
     const double numeric = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * step);
     x = before;
     largest = (std::max)(largest, std::abs(gradient));
@@ -160,8 +161,8 @@ void test_steps(int kind)
 
 // ---- error in energy ---------------------------------------------------------------------------
 
-// The error in energy, half the square of that in the energy norm, is the excess of the energy over that of a
-// fine mesh. The data are the same on all grids whose cells fit into the patch that is pulled.
+// The error in energy, half the square of the error in the energy norm, is the excess of the energy over that
+// of a fine mesh. The data are the same on all grids whose cells fit into the patch that is pulled.
 void test_error_in_energy()
 {
   const Elastic_material material{1, 0.3};

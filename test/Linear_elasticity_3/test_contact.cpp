@@ -3,7 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Contact without friction: beside all choices of closed contacts, and by what characterizes the solution.
+// Contact without friction, compared with all choices of closed contacts, and by the conditions of the
+// solution.
 
 #include "elasticity_test.h"
 
@@ -44,7 +45,7 @@ Load random_load(Noise& random)
   return load;
 }
 
-// Fixed at the bottom, and loaded.
+// Fixes the bottom, and sets loads.
 void prepare(Elasticity& problem, const Load& load)
 {
   const Mesh& mesh = problem.mesh();
@@ -54,7 +55,7 @@ void prepare(Elasticity& problem, const Load& load)
   BOOST_TEST(is_success(problem.set_control_points(load.points)));
 }
 
-// Of all choices of vertices at the top that are held, one only neither pulls nor penetrates.
+// Only one of all choices of held vertices at the top neither pulls nor penetrates.
 void test_all_choices(int kind)
 {
   constexpr double rounding = 1e-10;
@@ -84,7 +85,7 @@ void test_all_choices(int kind)
           is_solution = held.displacements()[top[i]][2] <= rounding;
       if(!is_solution)
         continue;
-      // one that would pull moves away when it is let go
+      // A vertex that would pull moves away when it is released.
       for(std::size_t i = 0; i < top.size() && is_solution; ++i)
         if(choice >> i & 1) {
           Elasticity without(mesh);
@@ -108,8 +109,8 @@ void test_all_choices(int kind)
   BOOST_TEST_GT(mixed, 0);
 }
 
-// Walls around a body, at a distance: no penetration, no pull, forces only where it is in contact, and these
-// are what keeps the body in equilibrium.
+// Walls around a body, at a distance: no penetration, no pull, forces only in contact, and these forces keep
+// the body in equilibrium.
 void test_conditions(int kind, bool is_corotational)
 {
   constexpr double gap = 0.004;
@@ -118,7 +119,7 @@ void test_conditions(int kind, bool is_corotational)
   Elasticity problem(mesh);
   const std::vector<bool> is_boundary = is_on_boundary(mesh);
   problem.touch_along_boundary([](Vertex_index) { return true; }, gap);
-  for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v) { // beside the edges, the normals are known
+  for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v) { // normals are known except at edges
     const Vec3 p = position(mesh, v);
     for(int k = 0; k < 2 && is_boundary[v]; ++k)
       if(p[k] == 0 || p[k] == 1)
@@ -160,7 +161,7 @@ void test_conditions(int kind, bool is_corotational)
       } else {
         ++open;
       }
-      if(!is_corotational) { // the force is what the energy rises by
+      if(!is_corotational) { // the force is the increase of the energy
         Field d(mesh.number_of_vertices(), Vec3{});
         d[v] = normal;
         Field both = u;
@@ -175,10 +176,10 @@ void test_conditions(int kind, bool is_corotational)
     BOOST_TEST_GT(open, closed);
     if(first.empty())
       first = u;
-    else if(wanted == Vec3{0.02, 0.01, 0.03}) // whatever was in between
+    else if(wanted == Vec3{0.02, 0.01, 0.03}) // independent of solutions in between
       BOOST_TEST_LT(difference(u, first), is_corotational ? 1e-6 : 1e-12);
   }
-  // What is tolerated elsewhere does not keep a wall from letting go.
+  // The tolerance of the removal does not keep a wall from releasing a vertex.
   problem.set_iteration_tolerance(1e-10);
   BOOST_TEST(is_success(problem.solve(Field{{0.02, 0.01, 0.03}})));
   BOOST_TEST_LT(difference(problem.displacements(), first), 1e-6);
@@ -200,7 +201,7 @@ void test_limits()
   };
   const auto touch = [](Elasticity& problem, Vertex_index v) { problem.touch(v, {0, 0, 1}); };
   Field u, expected;
-  // pressed against the wall, it slides; pulled away, it is free
+  // The body slides if pressed against the wall, and is free if pulled away.
   const std::vector<double> pressed = solve(touch, 0.02, u);
   for(Vertex_index v : top_vertices(mesh))
     BOOST_TEST_GT(pressed[v], 0);
@@ -209,7 +210,7 @@ void test_limits()
   BOOST_TEST(solve(touch, -0.02, u) == std::vector<double>(mesh.number_of_vertices(), 0.));
   solve([](Elasticity&, Vertex_index) {}, -0.02, expected);
   BOOST_TEST_LT(difference(u, expected), 1e-12);
-  // a point of the wall itself can be pulled off it, again and again, and not be pushed into it
+  // A point of the wall can be pulled off the wall again and again, but not pushed into it.
   Elasticity held(mesh);
   for(Vertex_index v : top_vertices(mesh))
     held.touch(v, {0, 0, 1});
@@ -223,7 +224,7 @@ void test_limits()
       BOOST_TEST_LT(norm(interpolated(mesh, held.displacements(), {1. / 3, 1. / 3, 1}) - Vec3{0.01, 0, way}),
                     1e-9);
   }
-  // what holds it anyway makes no force
+  // A support that holds a vertex anyway leaves no contact force.
   BOOST_TEST(solve(
                [](Elasticity& problem, Vertex_index v) {
                  problem.slide(v, {0, 0, 1});
@@ -232,7 +233,7 @@ void test_limits()
                -0.02, u)
              == std::vector<double>(mesh.number_of_vertices(), 0.));
 
-  // Nothing holds a body that rests on a table, but its weight: it could slide; and taken up, it could turn.
+  // Only the weight holds a body that rests on a table: the body could slide; and lifted, it could turn.
   Elasticity problem(mesh);
   for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
     if(is_at_bottom(position(mesh, v)))
@@ -240,7 +241,8 @@ void test_limits()
   BOOST_TEST(is_success(problem.factor()));
   problem.set_gravity({0, 0, -9810});
   BOOST_TEST(problem.solve().status == Status::FREE_RIGID_MOTION);
-  // A corner held: it rests there. The table bears what the corner does not, by the balance of moments half.
+  // The body rests with a corner held. The table bears the rest, half of the weight by the balance of
+  // moments.
   BOOST_TEST(is_success(problem.set_control_points(std::vector<Vec3>{{0, 0, 1}, {0, 1, 1}})));
   BOOST_TEST(is_success(problem.solve(Field(2, Vec3{}))));
   double table = 0, corner = 0;
@@ -252,7 +254,7 @@ void test_limits()
   BOOST_TEST_LT(std::abs(table + corner - weight), 1e-9 * weight);
   BOOST_TEST_GT(table, 0.3 * weight);
 
-  // Drawn up, it turns about the points. Let go, it rests again, whatever the contacts were.
+  // The body turns about the points when lifted. Released, it rests again, whatever the contacts were.
   problem.set_gravity({0, 0, 9810});
   BOOST_TEST(problem.solve(Field(2, Vec3{})).status == Status::FREE_RIGID_MOTION);
   problem.set_gravity({0, 0, -9810});

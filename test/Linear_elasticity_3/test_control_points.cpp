@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Control points of Linear_elasticity_3: their displacements, and that nothing else is constrained.
+// Control points of Linear_elasticity_3: their displacements, and the absence of other constraints.
 
 #include "elasticity_test.h"
 
@@ -43,7 +43,7 @@ void test_control_points(int kind)
   const Element_locator_3<Mesh> locator(mesh);
   Noise random;
 
-  // In elements, on faces inside and on the boundary, at vertices.
+  // The points are in elements, on faces inside and on the boundary, and at vertices.
   std::vector<Vec3> points;
   const std::uint32_t last = std::uint32_t(mesh.number_of_elements() - 1);
   for(Element_index e : {last / 5, 2 * last / 5, 3 * last / 5, 4 * last / 5, last})
@@ -76,8 +76,8 @@ void test_control_points(int kind)
   for(std::size_t i = 0; i < points.size(); ++i)
     BOOST_TEST_LT(norm(interpolated(mesh, u, points[i]) - wanted[i]), 1e-9 * 0.05);
 
-  // Minimal energy: no work against whatever keeps supports and control points; and the forces do the work of
-  // whatever moves the points.
+  // The energy is minimal: supports and control points do no other work; and the forces do the work of the
+  // moved points.
   Energy energy(mesh);
   BOOST_TEST_LT(std::abs(problem.energy() - energy(u)), 1e-12 * energy(u));
   for(int trial = 0; trial < 5; ++trial) {
@@ -107,7 +107,7 @@ void test_control_points(int kind)
   }
   BOOST_TEST_LT(distance, 1e-4 * largest(u));
 
-  // Vertices: as if these were prescribed.
+  // Vertices as control points act like prescribed vertices.
   std::vector<Vec3> corners;
   std::vector<bool> is_prescribed(mesh.number_of_vertices(), false);
   Field given(mesh.number_of_vertices(), Vec3{}), displacements;
@@ -136,7 +136,7 @@ void test_control_points(int kind)
   BOOST_TEST_LT(norm(force), 1e-9 * size);
   BOOST_TEST_LT(norm(moment), 1e-9 * size);
 
-  // Held by control points alone: a rigid motion; the same with the springs of any compliance.
+  // A body held by control points alone makes a rigid motion; springs of any compliance give the same motion.
   for(double compliance : {0., 1e-2, 10.}) {
     displacements.clear();
     for(const Vec3& p : points)
@@ -147,7 +147,7 @@ void test_control_points(int kind)
     BOOST_TEST_LT(as_controls.energy(), 1e-14);
   }
 
-  // Too few of them.
+  // Too few points leave rigid motions free.
   const Vec3 a = points[0], b = points[1], c = 0.5 * (a + b);
   const auto free_motions = [&](const std::vector<Vec3>& some) {
     BOOST_TEST(is_success(as_controls.set_control_points(some)));
@@ -172,7 +172,8 @@ void test_control_points(int kind)
                || result.description().find("rotation about the axis through") != std::string::npos);
   }
 
-  // The mean over the boundary around a point, by area; around a point with few neighbors, that of the point.
+  // The mean is over the boundary around a point, by area; around a point with few neighbors, it is that of
+  // the point.
   for(double radius : {0.8, 1e-9}) {
     const std::vector<Vec3> middle{{0.5, 0.5, 1}};
     BOOST_TEST(is_success(problem.set_control_points(middle, 0.2, 0, radius)));
@@ -186,7 +187,7 @@ void test_control_points(int kind)
       const auto triangle = [&](int i, int j, int k) {
         return norm(cross(at(j) - at(i), at(k) - at(i))) / 2;
       };
-      // of a warped quadrilateral, the mean of its two triangulations
+      // The area of a warped quadrilateral is the mean of its two triangulations.
       const double area_of_face = n == 3 ? triangle(0, 1, 2)
                                          : (triangle(0, 1, 2) + triangle(2, 3, 0) + triangle(1, 2, 3)
                                             + triangle(3, 0, 1))
@@ -205,7 +206,7 @@ void test_control_points(int kind)
                     1e-9);
   }
 
-  // Outside.
+  // A point outside is refused.
   auto result = problem.set_control_points(std::vector<Vec3>{a, {0.5, 0.5, 2}});
   BOOST_TEST(result.status == Status::CONTROL_POINT_OUTSIDE);
   BOOST_TEST_EQ(result.control_point, 1u);
@@ -215,7 +216,7 @@ void test_control_points(int kind)
   BOOST_TEST(is_success(problem.set_control_points(std::vector<Vec3>{{0.5, 0.5, 2}}, 1.2)));
   BOOST_TEST(is_success(problem.solve(Field{{0, 0, 0.1}})));
 
-  // Twice the same point; more points in an element than it has vertices.
+  // The same point twice, and more points in an element than it has vertices, are tested.
   for(double compliance : {0., 1e-3}) {
     BOOST_TEST(is_success(problem.set_control_points(std::vector<Vec3>{a, b, a}, 0, compliance)));
     BOOST_TEST(is_success(problem.solve(Field{wanted[0], wanted[1], wanted[0]})));
@@ -258,7 +259,7 @@ void test_control_points(int kind)
   BOOST_TEST(is_success(problem.solve(contradictory)));
 }
 
-// A weight of two is the same point twice. Points left out, beside solving without them.
+// Compares a weight of two with the same point twice, and points left out with solutions without them.
 void test_weights(int kind)
 {
   const Mesh mesh = any_grid(3, kind, 0.1);
@@ -318,7 +319,7 @@ void test_weights(int kind)
       }
     }
 
-    // A point twice says itself what it is without one of them; three points hold a body, two of them do not.
+    // A repeated point predicts itself without one of the two; three points hold a body, two do not.
     std::vector<Vec3> some{points[0], points[3], points[6], points[3]};
     Field wanted_of_some{wanted[0], wanted[3], wanted[6], wanted[3]};
     BOOST_TEST(is_success(problem.set_control_points(some)));
@@ -331,7 +332,7 @@ void test_weights(int kind)
   }
 }
 
-// Its solutions fail when told to.
+// Solver whose solutions fail when told to.
 struct Failing_solver_traits : Simplicial_solver_traits
 {
   bool fails = false;
@@ -341,7 +342,7 @@ struct Failing_solver_traits : Simplicial_solver_traits
   }
 };
 
-// Control points that cannot be solved for are none.
+// Control points that cannot be solved for do not exist afterwards.
 void test_failing_solver()
 {
   const Mesh mesh = any_grid(2, HEXAHEDRON);

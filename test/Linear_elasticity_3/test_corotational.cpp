@@ -3,9 +3,9 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Linear_elasticity_3 with finite rotations: derivatives against differences, rotations that cost nothing,
-// constant strain, small loads, bent bars against a total Lagrangian solution, supports and control points,
-// removals, and what does not converge.
+// Linear_elasticity_3 with finite rotations: derivatives compared with differences, rotations without energy,
+// constant strain, small loads, bent bars compared with a total Lagrangian solution, supports and control
+// points, removals, and cases without convergence.
 
 #include "Total_lagrangian_reference.h"
 #include "elasticity_test.h"
@@ -57,8 +57,8 @@ Elastic_stiffness stiffness_of(const Mesh& mesh, const Elastic_material& materia
   return stiffness;
 }
 
-// Forces are the gradient of the energy, and the tangent that of the forces, symmetric; also of elements that
-// are turned, and squeezed.
+// Forces are the gradient of the energy, and the tangent is that of the forces, symmetric; also for elements
+// that are turned, and squeezed.
 void test_derivatives(int kind)
 {
   const Mesh mesh = any_grid(4, kind, 0.1);
@@ -86,7 +86,7 @@ void test_derivatives(int kind)
   elements.move(x - step * p);
   BOOST_TEST_LT(std::abs((above - elements.energy()) / (2 * step) - slope), 1e-6 * std::abs(slope));
   BOOST_TEST_LT(((forces_above - elements.forces()) / (2 * step) - tangent).norm(), 1e-5 * tangent.norm());
-  // At rest, it is the matrix of small rotations.
+  // The tangent at rest is the matrix of small rotations.
   elements.move(0 * x);
   BOOST_TEST_LT((elements.product(p) - stiffness.product(p)).norm(), 1e-12 * tangent.norm());
 }
@@ -104,7 +104,7 @@ void test_rotations(int kind)
     BOOST_TEST_LT(elements.energy(), 1e-24);
     BOOST_TEST_GT(stiffness.product(flat(u)).norm(), 1e-3); // where the linear one has forces
   }
-  // The boundary turns; so does the inside.
+  // The inside turns with the boundary.
   for(double angle : {0.5, 1.5}) {
     const Function turn = rotation({0.3, -1, 0.6}, angle);
     Elasticity problem(mesh, material);
@@ -147,7 +147,7 @@ void fix_where(Elasticity& problem, const std::function<bool(const Vec3&)>& wher
   prescribe(problem, vertices_where(problem.mesh(), where), [](const Vec3&) { return Vec3{}; });
 }
 
-// All loads there are, small: as with small rotations, up to the square of the displacement.
+// Small loads of all kinds give the same as small rotations, up to the square of the displacement.
 void test_small_loads(int kind)
 {
   const Mesh mesh = any_grid(4, kind, 0.1, Moved::INNER);
@@ -227,7 +227,7 @@ double tip_angle(const Mesh& mesh, const Field& u, double length)
   return std::atan2(-along[0], 1 + along[2]);
 }
 
-// Bent by a force by volume, as far as that the tip turns by 45 and by 90 degrees.
+// A bar is bent by a force by volume, such that the tip turns by 45 and by 90 degrees.
 void test_bar(int n, int kind, double force, double degrees)
 {
   const double length = 20;
@@ -247,7 +247,7 @@ void test_bar(int n, int kind, double force, double degrees)
   static Field linear_expected, expected; // of hexahedra, which come first
   if(kind == HEXAHEDRON)
     linear_expected = linear;
-  // A bar of other elements is stiffer, with small rotations as well: it gets so much more load.
+  // A bar of other elements is stiffer, with small rotations as well: the load is increased accordingly.
   problem.set_body_force((norm(tip(linear_expected)) / norm(tip(linear))) * load);
   linear = linear_expected;
   problem.set_corotational(true);
@@ -258,7 +258,8 @@ void test_bar(int n, int kind, double force, double degrees)
     expected = total_lagrangian_solution(hexahedra, material, vertices_where(hexahedra, is_clamped), load);
   Vec3 a = tip(problem.displacements());
   const Vec3 b = tip(expected);
-  // On one side of a diagonal they are stiffer: they bend a bar sideways, too, with small rotations as well.
+  // Elements are stiffer on one side of a diagonal: they bend a bar sideways, too, with small rotations as
+  // well.
   if(kind == TETRAHEDRON || kind == PRISM)
     a[1] = b[1];
   const double angle = -tip_angle(hexahedra, expected, length) * 180 / pi;
@@ -271,9 +272,8 @@ void test_bar(int n, int kind, double force, double degrees)
   BOOST_TEST_LT(std::abs(angle - degrees), 2);
 }
 
-// After a removal, the old factor does: the solution is that of a model which never had the elements. And
-// with
-// control points alone, some of them compliant, all turns.
+// The old factor suffices after a removal: the solution is that of a model that never had the elements. A
+// body held by control points alone, some of them compliant, can turn as a whole.
 void test_removal_and_controls()
 {
   const Mesh mesh = any_grid(4, HEXAHEDRON, 0.1, Moved::INNER); // others would get other patches
@@ -324,7 +324,7 @@ void test_removal_and_controls()
     BOOST_TEST(is_success(problem.solve(turned)));
     BOOST_TEST_LT(difference(problem.displacements(), at_vertices(mixed, turn)), 1e-6);
     BOOST_TEST_LT(problem.energy(), 1e-10);
-    if(compliance > 0) { // with a load, springs give way by as much as they bear
+    if(compliance > 0) { // springs with a load give way by what they bear
       problem.set_body_force({0, 0.02, -0.05});
       BOOST_TEST(is_success(problem.solve(turned)));
       Vec3 sum{};
@@ -342,7 +342,7 @@ void test_removal_and_controls()
   }
 }
 
-// Pressed flat beyond what an element can bear: an answer with a name, and the next question is answered.
+// A body pressed flat beyond what an element can bear: the status says so, and the next problem is solved.
 void test_too_much()
 {
   const Mesh mesh = any_grid(4, HEXAHEDRON);

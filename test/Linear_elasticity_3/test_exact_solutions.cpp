@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Linear_elasticity_3 against exact solutions: linear fields, rigid motions, polynomials and harmonic fields
-// with their order of convergence, bending that locks other elements.
+// Linear_elasticity_3 compared with exact solutions: linear fields, rigid motions, polynomials and harmonic
+// fields with their order of convergence, bending that locks other elements.
 //
 //   test_exact_solutions [DATA_DIRECTORY]
 
@@ -68,7 +68,7 @@ void test_patch(const std::string& data)
 
 // ---- rigid motions -----------------------------------------------------------------------------
 
-// By polarization of the energy.
+// The stiffness matrix, by polarization of the energy.
 Eigen::MatrixXd stiffness(const Mesh& mesh, const Elastic_material& material)
 {
   Energy energy(mesh, material);
@@ -136,8 +136,9 @@ struct Exact_solution
   std::function<Vec3(const Elastic_material&)> force; // by volume, constant
 };
 
-// u_i = 1/2 p^T q_i p: the divergence of the stress is constant.
-// \param is_incompressible a field without change of volume; else the force grows with the bulk modulus
+// The field u_i = 1/2 p^T q_i p: the divergence of the stress is constant.
+// \param is_incompressible whether the field has no change of volume; else the force grows with the bulk
+// modulus
 Exact_solution quadratic_solution(bool is_incompressible)
 {
   using Forms = std::array<std::array<Vec3, 3>, 3>;
@@ -235,7 +236,7 @@ Field solved(const Mesh& mesh, const Elastic_material& material, const Exact_sol
   return problem.displacements();
 }
 
-// The standard elements, that lock. Without force.
+// Solution without force with standard elements, which lock.
 Field solved_pointwise(const Mesh& mesh, const Elastic_material& material, const Exact_solution& exact,
                        const std::vector<bool>& is_prescribed)
 {
@@ -268,7 +269,7 @@ void test_convergence()
       };
       std::cout << "  " << order(1, &Errors::inside) << " " << order(1, &Errors::at_vertices) << "  "
                 << order(2, &Errors::inside) << " " << order(2, &Errors::at_vertices) << '\n';
-      // Vertices of coarse meshes are nearer than the order says: almost all of them are given.
+      // Vertices of coarse meshes are nearer than the order says: almost all of them are prescribed.
       BOOST_TEST_GE(order(1, &Errors::inside), nu == 0.3 ? 1.5 : 1.8);
       BOOST_TEST_GE(order(2, &Errors::inside), 1.8);
       BOOST_TEST_GE(order(2, &Errors::at_vertices), 1.7);

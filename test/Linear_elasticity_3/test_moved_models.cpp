@@ -4,7 +4,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Models of Linear_elasticity_3 that are moved: into a new one, into one that has been used, within a
-// std::vector. The source is destroyed; what follows is as without the move, bit by bit.
+// std::vector. The source is destroyed; further results are those without the move, bit by bit.
 
 #include "elasticity_test.h"
 
@@ -27,7 +27,7 @@ namespace test_moved_models {
 
 using namespace elasticity_test;
 
-// A solver that can be neither moved nor copied, as those of Eigen.
+// A solver that can be neither moved nor copied, like those of Eigen.
 struct Fixed_solver_traits : Simplicial_solver_traits
 {
   Fixed_solver_traits() = default;
@@ -43,8 +43,8 @@ constexpr bool is_movable = std::is_nothrow_move_constructible_v<Type>&&
 template <class Type>
 constexpr bool is_copyable = std::is_copy_constructible_v<Type>&& std::is_copy_assignable_v<Type>;
 
-// A factorization cannot be copied: Eigen's solvers are not copyable. One that copies shared would change
-// under the others with the next `factor()`.
+// A factorization cannot be copied: Eigen's solvers are not copyable. A factorization that copies shared
+// would change for all of them with the next `factor()`.
 static_assert(
   is_movable<
     Elasticity> && !std::is_copy_constructible_v<Elasticity> && !std::is_copy_assignable_v<Elasticity>);
@@ -58,7 +58,7 @@ const Field wanted{{0.1, 0, 0}, {0, 0.05, 0.05}, {0, 0, -0.1}, {0, 0.02, 0}};
 
 enum class Progress { NEW, SUPPORTED, FACTORED, CONTROLLED, SOLVED, REMOVED };
 
-// What is done before the move.
+// Steps before the move.
 template <class Problem>
 void advance(Problem& problem, Progress progress)
 {
@@ -79,7 +79,7 @@ void advance(Problem& problem, Progress progress)
       elements_where(mesh, [](const Vec3& p) { return p[0] > 0.75 && p[2] > 0.75; }))));
 }
 
-// What is done after it: all that comes out.
+// Steps after the move: all results.
 template <class Problem>
 std::vector<Field> finish(Problem& problem, Progress progress)
 {
@@ -165,7 +165,7 @@ void test_vector(const Mesh& mesh)
   }
 }
 
-// Copies of the traits are one solver: which pattern it has analyzed, each of them has to know.
+// Copies of the traits are one solver: each copy has to know the pattern that was analyzed.
 template <class Solver>
 void test_copied_solver()
 {
@@ -191,7 +191,7 @@ void test_copied_solver()
   BOOST_TEST(is_solved(moved, arrow, 4));
 }
 
-// Of a graph without small separators the factor is dense, nearly: here it has more entries than an `int`
+// The factor of a graph without small separators is nearly dense: here it has more entries than an `int`
 // counts.
 #ifdef CGAL_MIXED_MESH_3_USE_CHOLMOD
 void test_large_factor()

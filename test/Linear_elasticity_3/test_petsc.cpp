@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The solver of PETSc beside the direct one: supports that fix and slide, gravity, control points, removal,
-// free bodies; systems that cannot be solved. Run alone, and in two processes by mpirun.
+// The solver of PETSc compared with the direct one: supports that fix and slide, gravity, control points,
+// removal, free bodies; systems that cannot be solved. The test runs alone, and in two processes by mpirun.
 
 #include "elasticity_test.h"
 
@@ -66,7 +66,7 @@ void test_beside_direct(int n, int kind, double nu)
             << iterative.solver().largest_number_of_iterations() << " iterations\n";
 }
 
-// Held by control points alone; all that moves is the rigid motion. Two bodies at once, each with its matrix.
+// Bodies held by control points alone make rigid motions. There are two bodies at once, each with its matrix.
 void test_free_bodies()
 {
   const Mesh mesh = any_grid(4, HEXAHEDRON), other = any_grid(2, TETRAHEDRON);
@@ -92,7 +92,7 @@ Petsc_solver_traits::Matrix matrix_of(const std::vector<double>& diagonal)
   return matrix;
 }
 
-// The concept of CGAL, of matrices that know nothing of elasticity, as small as one unknown.
+// The concept of CGAL, with matrices that have nothing to do with elasticity, as small as one unknown.
 void test_concept()
 {
   for(std::size_t n : {1, 2, 7}) {
@@ -114,7 +114,7 @@ void test_concept()
   }
 }
 
-// Two halves that hang together by an edge only; no convergence.
+// Two halves connected by an edge only; no convergence.
 void test_failures()
 {
   Mesh hinge = any_grid(2, HEXAHEDRON);
@@ -128,7 +128,7 @@ void test_failures()
   BOOST_TEST(is_success(problem.factor()));
   BOOST_TEST(!problem.remove_elements(is_removed).is_success() || !problem.factor().is_success());
 
-  if(internal::petsc_size() > 1) // which would take the option of this one only
+  if(internal::petsc_size() > 1) // the option would be that of one process only
     return;
   const Mesh mesh = any_grid(3, HEXAHEDRON);
   Iterative hasty(mesh);

@@ -72,8 +72,8 @@ void test_removal(int kind)
 
   BOOST_TEST_LT(difference(removed({first, second}, 1e-3), u), 1e-2 * largest(u)); // the default
 
-  // Another problem with what is left. Patches keep what elements are left of them, while those of another
-  // problem are cut anew.
+  // Another problem has only the remaining elements. Patches keep the remaining ones of their elements, while
+  // patches of another problem are chosen anew.
   std::vector<Vertex_index> vertices;
   const Mesh rest = remaining_mesh(mesh, both, &vertices);
   Elasticity fresh(rest);
@@ -86,7 +86,7 @@ void test_removal(int kind)
   std::cout << "  removal, " << name_of(kind) << ": relative difference " << error << '\n';
   BOOST_TEST_LT(error, kind == HEXAHEDRON ? 1e-6 : 0.2);
 
-  // Factored again with what is left, everything is as in another problem.
+  // A new factorization of the remaining elements gives the results of another problem.
   Elasticity again(mesh);
   prepared(again);
   again.set_iteration_tolerance(1e-8);
@@ -96,7 +96,7 @@ void test_removal(int kind)
   BOOST_TEST(is_success(again.solve(wanted)));
   BOOST_TEST_LT(difference(again.displacements(), expected), 1e-9 * largest(expected));
 
-  // Nothing changes if nothing is removed; a control point in what is removed is outside.
+  // Nothing changes if no element is removed; a control point in removed elements is outside.
   BOOST_TEST(is_success(again.remove_elements(std::vector<bool>(mesh.number_of_elements(), false))));
   BOOST_TEST(is_success(again.solve(wanted)));
   BOOST_TEST_LT(difference(again.displacements(), expected), 1e-9 * largest(expected));
@@ -116,7 +116,7 @@ void test_pieces()
   const Mesh nothing;
   BOOST_TEST(Elasticity(nothing).factor().status == Status::NO_ELEMENTS);
 
-  // Two pieces, of which one is not held: named, and held by control points.
+  // There are two pieces, one of which is not held: it is reported, and then held by control points.
   const Mesh mesh = any_grid(4, HEXAHEDRON, 0.1);
   Elasticity problem(mesh);
   prescribe(problem, vertices_where(mesh, [](const Vec3& p) { return p[2] < 0.1; }), rigid_motion);
@@ -136,8 +136,8 @@ void test_pieces()
   BOOST_TEST(is_success(problem.solve(wanted)));
   BOOST_TEST_LT(difference(problem.displacements(), at_vertices(mesh, rigid_motion)), 1e-9);
 
-  // A hinge: two cubes with a common edge, or a common vertex. The stiffness is singular but for rounding:
-  // factors of it may exist.
+  // A hinge consists of two cubes with a common edge, or a common vertex. The stiffness is singular except
+  // for rounding: a factor of it may exist.
   for(double z : {0., 1.}) {
     Mesh hinge;
     for(const Vec3& origin : {Vec3{0, 0, 0}, Vec3{1, 1, z}}) {
@@ -163,7 +163,7 @@ void test_pieces()
                == Status::SOLVER_FAILED);
   }
 
-  // An inverted element is named.
+  // An inverted element is reported.
   Mesh inverted = any_grid(2, TETRAHEDRON);
   std::array<Vertex_index, 4> v;
   std::copy(inverted.element(7).begin(), inverted.element(7).end(), v.begin());

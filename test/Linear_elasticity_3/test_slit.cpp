@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Meshes that are slit along faces: two bodies, or one whose sides part.
+// Meshes that are slit along faces: two bodies, or one body whose sides part.
 
 #include "elasticity_test.h"
 
@@ -29,7 +29,7 @@ Vec3 middle(const Mesh& mesh, const Element_view& element)
 
 bool is_left(const Mesh& mesh, Element_index e) { return middle(mesh, mesh.element(e))[0] < 0.5; }
 
-// In the plane x = 1/2, seen from the left.
+// Faces in the plane x = 1/2, seen from the left.
 std::vector<Face> faces_in_plane(const Mesh& mesh, double lowest)
 {
   std::vector<Face> faces;
@@ -65,7 +65,7 @@ Mesh side_of(const Mesh& mesh, bool left, std::vector<Vertex_index>& origins)
   return side;
 }
 
-// Held at both ends, and drawn apart.
+// Solves for a body that is held at both ends, and drawn apart.
 Field solve(const Mesh& mesh, double& energy)
 {
   Elasticity problem(mesh, Elastic_material{3, 0.4});
@@ -105,7 +105,7 @@ void test_two_bodies(int kind)
   BOOST_TEST_LT(std::abs(energy - energy_of_sides), 1e-10 * std::abs(energy));
 }
 
-// Slit down to the middle: the rim stays one, above it the sides part, the farther the higher.
+// A body slit down to the middle: the rim stays single, above it the sides part, the farther the higher.
 void test_half(int kind)
 {
   Mesh mesh = any_grid(4, kind);

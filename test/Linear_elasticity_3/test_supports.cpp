@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Supports and loads of Linear_elasticity_3: uniaxial stress, shear, layers of materials, gravity; and which
-// rigid motions supports leave free.
+// Supports and loads of Linear_elasticity_3: uniaxial stress, shear, layers of materials, gravity; and the
+// rigid motions that supports leave free.
 
 #include "elasticity_test.h"
 
@@ -22,7 +22,7 @@ namespace test_supports {
 
 using namespace elasticity_test;
 
-// The cube's sides x = 0, y = 0 and z = 0 slide; so do the opposite ones that are asked for.
+// Makes the cube's sides x = 0, y = 0 and z = 0 slide, and the requested opposite sides.
 void slide_on_sides(Elasticity& problem, bool x_at_1, bool y_at_1)
 {
   for(Vertex_index v = 0; v < problem.mesh().number_of_vertices(); ++v) {
@@ -43,7 +43,7 @@ void test_supports(int kind)
   const Mesh mesh = any_grid(4, kind, 0.15, Moved::INNER);
   const double nu = 0.45;
 
-  // Between plates without friction: uniaxial stress.
+  // Plates without friction cause uniaxial stress.
   const auto compressed = [&](const Vec3& p) { return Vec3{0.1 * nu * p[0], 0.1 * nu * p[1], -0.1 * p[2]}; };
   Elasticity problem(mesh, Elastic_material{3, nu});
   slide_on_sides(problem, false, false);
@@ -53,7 +53,7 @@ void test_supports(int kind)
   BOOST_TEST_LT(difference(problem.displacements(), at_vertices(mesh, compressed)), 1e-10);
   BOOST_TEST_LT(std::abs(problem.energy() - 3 * 0.1 * 0.1 / 2), 1e-10);
 
-  // Sheared planes: vertices slide on planes that are not parallel to the axes.
+  // Vertices slide on sheared planes that are not parallel to the axes.
   const auto turned = [](const Vec3& p) { return p[0] == 0 ? cross(Vec3{1, 2, 3}, p) : Vec3{}; };
   Elasticity sheared(mesh, Elastic_material{3, nu});
   for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v) {
@@ -67,7 +67,7 @@ void test_supports(int kind)
   for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
     BOOST_TEST_LT(std::abs(dot(sheared.displacements()[v], turned(position(mesh, v)))), 1e-12);
 
-  // Other displacements of the supports, without another factorization.
+  // Supports get other displacements, without another factorization.
   for(double factor : {2., -0.5}) {
     Elasticity fresh(mesh, Elastic_material{3, nu});
     slide_on_sides(fresh, true, false);
@@ -88,7 +88,7 @@ void test_supports(int kind)
     BOOST_TEST_LT(difference(again.displacements(), fresh.displacements()), 1e-12);
   }
 
-  // Two layers in series, confined at the sides: the stress is the same in both.
+  // Two layers in series are confined at the sides: the stress is the same in both.
   std::vector<Elastic_material> layers;
   for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
     double z = 0;
@@ -102,7 +102,7 @@ void test_supports(int kind)
   const auto in_series = [&](const Vec3& p) {
     return Vec3{0, 0, -stress * ((std::min)(p[2], 0.5) / below + (std::max)(p[2] - 0.5, 0.) / above)};
   };
-  // the vertices between the layers have to be in a plane
+  // The vertices between the layers have to be in a plane.
   Mesh layered = mesh;
   {
     const Mesh regular = any_grid(4, kind);
@@ -120,7 +120,7 @@ void test_supports(int kind)
   BOOST_TEST(is_success(bar.solve()));
   BOOST_TEST_LT(difference(bar.displacements(), at_vertices(layered, in_series)), 1e-10);
 
-  // Under its weight: a parabola; at vertices of regular hexahedra and prisms it is exact.
+  // The displacement under the weight is a parabola, exact at vertices of regular hexahedra and prisms.
   const double g = 9810;
   const auto weighed = [&](const Vec3& p) {
     return Vec3{0, 0, -2e-5 * g / modulus({3, nu}) * (p[2] - p[2] * p[2] / 2)};
@@ -144,7 +144,7 @@ void test_supports(int kind)
       last = error;
     else
       BOOST_TEST_LT(error, 0.5 * last);
-    // The same as a force by volume; and both together are twice that.
+    // Gravity equals a force by volume; and both together are twice that.
     const Field by_gravity = heavy.displacements();
     heavy.set_body_force({0, 0, -2e-5 * g});
     BOOST_TEST(is_success(heavy.solve()));
@@ -155,7 +155,7 @@ void test_supports(int kind)
     BOOST_TEST_LT(difference(heavy.displacements(), by_gravity), 1e-12);
   }
 
-  // Control points bear the weight, each layer's its own, and its moment.
+  // Control points bear the weight, which is different in each layer, and its moment.
   Elasticity hung(layered, layers);
   BOOST_TEST(is_success(hung.factor()));
   hung.set_gravity({0, 0, -g});
@@ -172,7 +172,7 @@ void test_supports(int kind)
   BOOST_TEST_LT(norm(moment), 1e-9 * weight);
 }
 
-// The share of a tetrahedron below a height: by points all over it, and by what must be the same.
+// The share of a tetrahedron below a height, compared with the share of points, and by symmetries.
 void test_share_below()
 {
   Noise random;
@@ -198,13 +198,14 @@ void test_share_below()
     if(!is_flat)
       BOOST_TEST_LT(std::abs(share + share_below(mirrored) - 1), 1e-12);
   }
-  // The edge between two heights of 0 and 1 and two of -1 and -2, by hand: simple cases.
+  // Simple cases with one, two or three vertices below, computed by hand.
   BOOST_TEST_LT(std::abs(share_below({-1, 1, 1, 1}) - 0.125), 1e-15);
   BOOST_TEST_LT(std::abs(share_below({-1, -1, 1, 1}) - 0.5), 1e-15);
   BOOST_TEST_LT(std::abs(share_below({-3, 1, 1, 1}) - 27. / 64), 1e-15);
 }
 
-// A body in a fluid, up to a level: a column with the weight of the difference below, and all of it above.
+// A body in a fluid, up to a level: a column with the weight of the difference below, and the whole weight
+// above.
 void test_fluid(int kind)
 {
   const double g = 9810, density = 1.04e-6, fluid = 1e-6, nu = 0.3;
@@ -218,7 +219,8 @@ void test_fluid(int kind)
   BOOST_TEST(is_success(problem.solve()));
   const Field dry = problem.displacements();
 
-  // All in the fluid: the difference of the densities, as a share of the weight; none in it: the weight.
+  // The whole body in the fluid bears the difference of the densities, as a share of the weight; outside it
+  // bears the weight.
   problem.set_body_forces(buoyant_forces(column, acceleration, fluid));
   BOOST_TEST(is_success(problem.solve()));
   for(Vertex_index v = 0; v < dry.size(); ++v)
@@ -228,12 +230,13 @@ void test_fluid(int kind)
     BOOST_TEST(is_success(problem.solve()));
     BOOST_TEST_LT(difference(problem.displacements(), dry), 1e-12 * largest(dry));
   }
-  // As heavy as the fluid, in the fluid: nothing moves.
+  // A body as heavy as the fluid does not move in the fluid.
   problem.set_body_forces(buoyant_forces(column, acceleration, density, 1));
   BOOST_TEST(is_success(problem.solve()));
   BOOST_TEST_LT(largest(problem.displacements()), 1e-12 * largest(dry));
 
-  // Half in it: stress is the weight of what is above, and exact at vertices of regular hexahedra and prisms.
+  // The stress in a half immersed body is the weight above, and exact at vertices of regular hexahedra and
+  // prisms.
   const double modulus = material.lambda() + 2 * material.mu(), level = 0.5;
   const auto sunk = [&](const Vec3& p) {
     const double z = p[2], low = (std::min)(z, level);
@@ -246,7 +249,7 @@ void test_fluid(int kind)
   const bool is_exact = kind == HEXAHEDRON || kind == PRISM;
   BOOST_TEST_LT(difference(problem.displacements(), expected), (is_exact ? 1e-10 : 0.1) * largest(expected));
 
-  // Control points bear the difference, whatever the level and the direction; elements are cut, and warped.
+  // Control points bear the difference, for any level and direction; elements are cut, and warped.
   const Mesh mesh = any_grid(4, kind, 0.15, Moved::INNER);
   double volume_of_mesh = 0;
   for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
@@ -264,7 +267,7 @@ void test_fluid(int kind)
       Vec3 force{};
       for(const Vec3& f : hung.control_forces())
         force = force + f;
-      // The part of the cube below: of unit width along y, and a polygon across.
+      // The part of the cube below has unit width along y, and a polygon as its section.
       const int n = 2000;
       double below = 0;
       for(int i = 0; i < n; ++i) {
@@ -298,7 +301,7 @@ void test_free_motions()
     return result.motion.translation + cross(result.motion.rotation, p - result.motion.center);
   };
   BOOST_TEST_LT(norm(motion(center)), 1e-6 * norm(result.motion.rotation));
-  // A point on the boundary leaves one rotation; two hold all three. Both turn as the points do.
+  // A point on the boundary leaves one rotation; two hold all three. The body turns as the points do.
   const auto turn = [&](const Vec3& p) { return cross(Vec3{0.1, -0.2, 0.3}, p - center); };
   const Vec3 a = position(mesh, 0), b = position(mesh, 4);
   BOOST_TEST(is_success(problem.set_control_points(std::vector<Vec3>{a})));
@@ -311,8 +314,8 @@ void test_free_motions()
   BOOST_TEST_LT(difference(problem.displacements(), at_vertices(mesh, turn)), 1e-9);
   BOOST_TEST_LT(problem.energy(), 1e-14);
 
-  // A plane leaves two translations and a rotation; a fixed vertex three rotations; an edge of fixed vertices
-  // one.
+  // A plane leaves two translations and a rotation; a fixed vertex leaves three rotations; an edge of fixed
+  // vertices one.
   const Mesh block = any_grid(4, number_of_element_kinds, 0.1, Moved::INNER);
   const auto free_motions = [&](const std::function<void(Elasticity&)>& support) {
     Elasticity held(block);
@@ -342,7 +345,7 @@ void test_free_motions()
                   [](Elasticity& held) { held.slide_along_boundary([](Vertex_index) { return true; }); }),
                 0);
 
-  // Along the boundary: the volume stays, to first order, in whatever direction vertices move.
+  // Vertices slide along the boundary: the volume stays, to first order, in whatever direction vertices move.
   Elasticity sliding(mesh);
   sliding.slide_along_boundary([](Vertex_index) { return true; });
   BOOST_TEST(is_success(sliding.factor()));
@@ -363,7 +366,7 @@ void test_free_motions()
   BOOST_TEST_LT(std::abs(volumes[1] - volumes[0]), 1e-12); // of third order in the step
 }
 
-// What supports and control points are, as others can ask for it.
+// The constraints of supports and control points, as other programs can query them.
 void test_constraints()
 {
   const Mesh mesh = any_grid(3, 0, 0, Moved::INNER);
@@ -381,7 +384,7 @@ void test_constraints()
   BOOST_TEST(is_success(problem.factor()));
   BOOST_TEST(problem.control_weights().empty());
   const Vec3 places[] = {{0.4, 0.3, 0.7}, {0.5, 0.5, 1}};
-  for(double radius : {0., 0.6}) { // the latter has the mean of the boundary's vertices for both
+  for(double radius : {0., 0.6}) { // with 0.6, both have the mean of the boundary's vertices
     BOOST_TEST(is_success(problem.set_control_points(places, 0, 0, radius)));
     const auto weights = problem.control_weights();
     BOOST_TEST_EQ(weights.size(), 2u);

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Ground floors: vectors, keys of lattice points, the parallel loop.
+// Basic parts: vectors, keys of lattice points, the parallel loop.
 
 #include <CGAL/Mixed_mesh_3/Index.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Lattice_point.h>
@@ -33,7 +33,7 @@ using CGAL::Mixed_meshes_3::internal::Octree;
 using CGAL::Mixed_meshes_3::internal::lattice_key;
 using CGAL::Mixed_meshes_3::internal::parallel_for;
 
-// On small integers, so that all is exact. Operators are found without a using-declaration.
+// Vectors of small integers, so that all results are exact. Operators are found without a using-declaration.
 void test_vectors()
 {
   std::mt19937 random(3);
@@ -59,7 +59,7 @@ void test_vectors()
   BOOST_TEST(cross(Vec3(1, 0, 0), Vec3(0, 1, 0)) == Vec3(0, 0, 1));
 }
 
-// A lazy number is rounded to the nearest double, whatever was asked of it before.
+// A lazy number is rounded to the nearest double, independently of earlier uses of the number.
 void test_rounding()
 {
   using Exact_kernel = CGAL::Exact_predicates_exact_constructions_kernel;
@@ -95,7 +95,7 @@ void test_parallel_for()
       parallel_for(n, threads, [&](std::size_t i) { ++calls[i]; });
       BOOST_TEST(calls == std::vector<int>(n, 1));
     }
-  // few are not worth a thread
+  // Few calls are not worth a thread.
   std::vector<std::thread::id> ids(600);
   parallel_for(ids.size(), 8, [&](std::size_t i) { ids[i] = std::this_thread::get_id(); });
   BOOST_TEST(ids == std::vector<std::thread::id>(600, std::this_thread::get_id()));
@@ -115,7 +115,7 @@ void test_concurrency_tags()
 #endif
 }
 
-// An index is made of integers and is one, but not one of another kind.
+// An index converts to and from integers, but not to an index of another kind.
 static_assert(
   std::is_convertible_v<std::size_t, Vertex_index> && std::is_convertible_v<Vertex_index, std::size_t>);
 static_assert(!std::is_convertible_v<Element_index, Vertex_index>);

@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The boundary stage: one element by itself, meshes of balls that almost touch, and of noise; what it cannot
-// repair, and what it loses.
+// The boundary stage: one element by itself, meshes of balls that almost touch, and of noise; defects that
+// the stage cannot repair, and lost parts.
 
 #include "test_lattice.h"
 
@@ -105,15 +105,15 @@ void test_split_element()
 std::size_t number_reaching_out = 0, number_with_first_defects = 0, number_of_repaired = 0,
             number_unrepaired = 0;
 
-// Runs the stage and checks all it promises. `margin` tells that the rim can not be reached.
+// Runs the stage and checks all its guarantees. `margin` tells that the rim can not be reached.
 void test_boundary(const Located_octree& located, Transition_templates_choice choice, Boundary_mode mode,
                    bool has_margin)
 {
   Lattice_mesh mesh = apply_transitions(located, choice);
   const Lattice_mesh before = mesh;
 
-  // Before: elements that reach out and are not tetrahedra. With every vertex on the rim nothing can
-  // be relabeled: the pinched places of the first round are left.
+  // Before: elements that reach out and are not tetrahedra. With every vertex on the rim no vertex can be
+  // relabeled: the pinched places of the first round are left.
   std::size_t n_reaching_out = 0;
   for(std::size_t e = 0; e < before.elements.size(); ++e) {
     const Element_view element = before.elements[e];
@@ -141,7 +141,7 @@ void test_boundary(const Located_octree& located, Transition_templates_choice ch
     mode, 3);
   BOOST_TEST(again.pieces.connectivity() == boundary.pieces.connectivity());
 
-  // Relabeled: only outside vertices, to inside.
+  // Relabeled vertices were outside, and are inside now.
   std::size_t n_relabeled = 0;
   for(std::size_t v = 0; v < before.sides.size(); ++v)
     if(mesh.sides[v] != before.sides[v]) {
@@ -167,7 +167,7 @@ void test_boundary(const Located_octree& located, Transition_templates_choice ch
   for(Vertex_index v : boundary.defects.vertices)
     BOOST_TEST(mesh.is_on_rim[v]);
 
-  // Kept: what has a vertex inside. In pieces: what has another one, too.
+  // Kept elements have a vertex inside. Elements in pieces have another vertex, too.
   std::set<Vertex_index> used;
   std::vector<Integer> volume_of_pieces(mesh.elements.size(), 0);
   for(std::size_t i = 0; i < boundary.pieces.size(); ++i)
@@ -254,7 +254,7 @@ void test_boundary_stage()
   }
   BOOST_TEST_GT(number_of_repaired, 5u);
 
-  // Noise: with a margin all is repaired, without one the status tells what is not.
+  // Noise with a margin is repaired completely, without a margin the status tells the remaining defects.
   for(double margin : {0.3, 0.01})
     for(int share : {3, 10, 30, 60})
       for(int repeat = 0; repeat < 4; ++repeat) {
@@ -275,7 +275,7 @@ void test_boundary_stage()
 // ---- what cannot be repaired -------------------------------------------------------------------
 
 // A domain that reaches the border of a root of eight cells: two of the lattice's 27 vertices are inside. A
-// pinched vertex on the border is left, and said to be so.
+// pinched vertex on the border is left, and reported.
 void test_unrepaired()
 {
   static const Everywhere_mixed_mesh_region_3 region;
@@ -302,7 +302,7 @@ void test_unrepaired()
       BOOST_TEST(!boundary.defects.empty());
       const auto is_on_rim = [&](Vertex_index v) { return lattice.is_on_rim[v] != 0; };
       BOOST_TEST(std::all_of(boundary.defects.vertices.begin(), boundary.defects.vertices.end(), is_on_rim));
-      if(i == 2 && j == 0) { // at both ends of an edge of the root: tetrahedra that meet in its middle
+      if(i == 2 && j == 0) { // at both ends of an edge of the root: tetrahedra meet in the middle of the edge
         BOOST_TEST_EQ(mesh.number_of_vertices(), 7u);
         BOOST_TEST_EQ(mesh.number_of_elements(), 2u);
         BOOST_TEST_EQ(mesh.elements().counts()[TETRAHEDRON], 2u);
@@ -315,8 +315,8 @@ void test_unrepaired()
 
 // ---- what is lost ------------------------------------------------------------------------------
 
-// By all pairs of leaves: those that meet the domain, have no elements, and meet none that has, not even one
-// that is as near as a cell of their size beside them.
+// Lost cells by all pairs of leaves: leaves that meet the domain, have no elements, and meet no leaf with
+// elements, not even one that is as near as a cell of their size beside them.
 std::vector<Octree::Node_index> expected_lost_cells(const Located_octree& located, const Lattice_mesh& mesh,
                                                     const Boundary_pieces& boundary)
 {
@@ -334,7 +334,7 @@ std::vector<Octree::Node_index> expected_lost_cells(const Located_octree& locate
     const std::int64_t side = octree.side(n);
     bool is_lost = true;
     for(Octree::Node_index m : meshed) {
-      bool is_near = true; // the open boxes meet, that of n three times as large
+      bool is_near = true; // the open boxes meet, if that of n is three times as large
       for(int k = 0; k < 3; ++k) {
         const std::int64_t a = octree.corner(n)[k], b = octree.corner(m)[k];
         is_near = is_near && b < a + 2 * side && a - side < b + std::int64_t(octree.side(m));

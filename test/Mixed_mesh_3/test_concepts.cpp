@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The concepts of the manual, from both sides: every model has what its concept asks for, and an
-// archetype, which has nothing else, is enough to make a mesh with.
+// The concepts of the manual, from both sides: every model has all members of its concept, and an archetype,
+// which has no other members, is sufficient for making a mesh.
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -43,9 +43,9 @@ using Kernel = mm3::Predicates_kernel;
 using Point_3 = Kernel::Point_3;
 using Triangle_3 = Kernel::Triangle_3;
 
-//-- What the concepts ask for ----------------------------------------------------------------------
+//-- Requirements of the concepts -------------------------------------------------------------------
 
-// Where `T` is no model of the concept, is_...<T>() does not compile.
+// is_...<T>() does not compile if `T` is no model of the concept.
 template <class T>
 const T& a();
 template <class T>
@@ -150,7 +150,7 @@ constexpr bool is_element_traits()
   return has_reference && has_values && has_gradients && has_shapes && has_slopes;
 }
 
-//-- Archetypes: the members of the concept, nothing more -------------------------------------------
+//-- Archetypes: only the members of the concept ----------------------------------------------------
 
 struct Archetype // neither default constructible, nor copied, nor moved
 {
@@ -159,7 +159,7 @@ struct Archetype // neither default constructible, nor copied, nor moved
   Archetype& operator=(const Archetype&) = delete;
 };
 
-// The concepts do not ask for assignment.
+// The concepts do not require assignment.
 struct Surface_part_archetype
 {
   Surface_part_archetype() = default;
@@ -176,7 +176,7 @@ struct Cell_archetype : Archetype
   bool do_intersect(const Triangle_3& t) const { return CGAL::do_intersect(t, bbox()); }
 };
 
-// Cubes in [-1.5, 1.5]^3. That is 1.5 * 2^-20 for the side 2^21 of the root.
+// Cubes in [-1.5, 1.5]^3: the unit is 1.5 * 2^-20 for the side 2^21 of the root.
 struct Cell_traits_archetype : Archetype
 {
   using Archetype::Archetype;
@@ -253,7 +253,7 @@ struct Region_archetype : Archetype
   double depth(const Point_3& p) const { return p.x() - 0.25; }
 };
 
-// A measure of the user's: the worst corner, as a tetrahedron; its gradient by differences.
+// A measure of a user: the worst corner, as a tetrahedron; its gradient by differences.
 struct Quality_archetype
 {
   explicit Quality_archetype(int) {}
@@ -303,7 +303,7 @@ private:
   static double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 };
 
-// Writes down what it is told, and says no when asked for the n-th time.
+// Notes its calls, and returns false when asked for the n-th time.
 struct Visitor_archetype : Archetype
 {
   explicit Visitor_archetype(int n) : Archetype(0), m_questions(n) {}
@@ -313,10 +313,10 @@ struct Visitor_archetype : Archetype
   void progress(std::size_t, std::size_t) { ++m_trials; }
   bool go_on() { return --m_questions != 0; }
 
-  // For the test, not of the concept.
+  // Members for the test, not of the concept.
   const std::vector<std::pair<Stage, bool>>& log() const { return m_log; }
   std::size_t trials() const { return m_trials; }
-  int questions() const { return -m_questions; } // of one that never says no
+  int questions() const { return -m_questions; } // of a visitor that never returns false
 
 private:
   int m_questions;
@@ -413,11 +413,11 @@ constexpr bool are_element_traits = is_element_traits<mm3::Mixed_element_traits_
 static_assert(are_element_traits<mm3::TETRAHEDRON> && are_element_traits<mm3::PYRAMID>);
 static_assert(are_element_traits<mm3::PRISM> && are_element_traits<mm3::HEXAHEDRON>);
 
-//-- Meshes made with them --------------------------------------------------------------------------
+//-- Meshes made with archetypes --------------------------------------------------------------------
 
 constexpr double volume_of_ball = 4 * 3.14159265358979 / 3;
 
-// How far the boundary vertices are from the center: the least and the largest distance.
+// The least and the largest distance of the boundary vertices from the center.
 template <class Mesh>
 std::pair<double, double> radii_of_boundary(const Mesh& mesh)
 {
@@ -430,7 +430,7 @@ std::pair<double, double> radii_of_boundary(const Mesh& mesh)
   return radii;
 }
 
-// Everything that takes a mesh, and the mesh is that of a ball, on whose surface its boundary is.
+// Tests everything that takes a mesh, and that the mesh is that of a ball, with its boundary on the surface.
 template <class Mesh>
 void test_mesh(const CGAL::Mixed_mesh_result_3& result, const Mesh& mesh, std::size_t budget)
 {
@@ -460,13 +460,13 @@ void test_archetypes()
   test_mesh(CGAL::make_mixed_mesh_3(domain, region, criteria, cell_traits, mesh,
                                     CGAL::parameters::visitor(std::ref(visitor))),
             mesh, 700);
-  // In the paper's mode, some tetrahedra here would be flat with all vertices on the ball.
+  // The paper's mode would make some flat tetrahedra here with all vertices on the ball.
   const auto result = CGAL::make_mixed_mesh_3(
     domain, region, CGAL::Mixed_mesh_criteria_3(700).boundary_mode(mm3::Boundary_mode::PAPER), cell_traits,
     mesh, CGAL::parameters::visitor(std::ref(visitor)));
   BOOST_TEST(result.has_mesh());
   BOOST_TEST(mm3::find_defects(mesh).none());
-  // without a cell traits, and without a visitor
+  // There are no cell traits, and no visitor.
   test_mesh(CGAL::make_mixed_mesh_3(domain, region, CGAL::Mixed_mesh_criteria_3(700), mesh), mesh, 700);
 }
 
@@ -494,7 +494,7 @@ void test_optimization()
   }
 }
 
-// Our models in the place of one archetype at a time.
+// Our models replace one archetype at a time.
 void test_models()
 {
   const Domain_archetype ball(0);
@@ -517,7 +517,7 @@ void test_models()
   test_mesh(CGAL::make_mixed_mesh_3(ball, Region_archetype(0), criteria, exact_mesh), exact_mesh, 700);
 }
 
-// Stages alternate as the manual says, and a visitor that says no is obeyed.
+// Stages alternate as the manual says, and a visitor that returns false is obeyed.
 void test_visitor()
 {
   const Domain_archetype domain(0);
@@ -542,7 +542,7 @@ void test_visitor()
     const bool is_in_search = n <= int(patient.trials());
     BOOST_TEST_EQ(impatient.trials(), is_in_search ? std::size_t(n - 1) : patient.trials());
 
-    // One stage at a time, each ended once.
+    // The stages are one at a time, and each of them is ended once.
     const auto& log = impatient.log();
     BOOST_TEST_EQ(log.size() % 2, 0u);
     for(std::size_t i = 0; i + 1 < log.size(); i += 2)
@@ -553,7 +553,7 @@ void test_visitor()
   BOOST_TEST(log.front() == std::make_pair(Stage::OCTREE, true));
   BOOST_TEST(log.back() == std::make_pair(Stage::OPTIMIZATION, false));
 
-  // On the way to a tolerance, where coarse meshes are measured first, and more rounds follow.
+  // The tolerance has coarse meshes measured first, and more rounds follow.
   const CGAL::Mixed_mesh_criteria_3 with_tolerance = CGAL::Mixed_mesh_criteria_3(criteria).tolerance(0.05);
   const auto questions_until = [&](int n) {
     Visitor_archetype visitor(n);
@@ -569,7 +569,7 @@ void test_visitor()
   BOOST_TEST(result.has_mesh());
   BOOST_TEST_GT(questions, patient.questions());
   for(int n = 1; n <= questions; ++n) {
-    BOOST_TEST_EQ(questions_until(n), 0); // after a no, it is not asked again
+    BOOST_TEST_EQ(questions_until(n), 0); // after a false, the visitor is not asked again
     BOOST_TEST(result.status == Mixed_mesh_status::STOPPED);
     BOOST_TEST(mesh.is_empty());
   }

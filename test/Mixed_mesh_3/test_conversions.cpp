@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Meshes as other packages have them: linear cell complexes, surface meshes of boundaries, streams.
+// Meshes in other packages: linear cell complexes, surface meshes of boundaries, streams.
 
 #include "test_meshes.h"
 
@@ -93,7 +93,7 @@ void test_round_trips()
   test_round_trip<Complex>(Mesh(), true);
 }
 
-// Volumes that CGAL makes: their orientation is not ours.
+// Volumes made by CGAL, whose orientation is not ours.
 void test_volumes_of_cgal()
 {
   Plain_complex lcc;
@@ -147,7 +147,7 @@ void test_boundaries()
     BOOST_TEST_EQ(num_faces(none), 0u);
   }
 
-  // Two cubes with an edge in common, and only that.
+  // Two cubes have only an edge in common.
   Mesh mesh = grid(2, mm3::HEXAHEDRON), pinched;
   for(const Point_3& p : mesh.points())
     pinched.add_vertex(p);
@@ -157,7 +157,7 @@ void test_boundaries()
   Surface surface;
   BOOST_TEST(!CGAL::boundary_to_face_graph(pinched, surface));
   BOOST_TEST_EQ(num_vertices(surface), 0u);
-  // At a vertex.
+  // Two cubes have only a vertex in common.
   pinched.clear();
   for(const Point_3& p : mesh.points())
     pinched.add_vertex(p);
@@ -168,7 +168,7 @@ void test_boundaries()
   BOOST_TEST_EQ(num_vertices(surface), 0u);
 }
 
-// What is written to a stream can be read as a file.
+// A mesh that is written to a stream can be read as a file.
 void test_stream(const std::string& path)
 {
   const Mesh mesh = four_kinds<Mesh>(1, {0, 0, 0});

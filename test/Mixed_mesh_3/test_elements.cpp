@@ -48,7 +48,7 @@ void test_manifold_defects()
   BOOST_TEST(manifold_defects({}).empty());
   BOOST_TEST(manifold_defects(tetrahedron(0, 1, 2, 3)).empty());
   BOOST_TEST(manifold_defects(both(tetrahedron(0, 1, 2, 3), tetrahedron(4, 5, 6, 7))).empty());
-  // all quadrilaterals, and both sizes
+  // The polygons are all quadrilaterals, or of both sizes.
   std::vector<Face_vertices> polygons;
   for(Element_kind kind : element_kinds) {
     const Reference_element& r = reference_elements[kind];
@@ -59,28 +59,28 @@ void test_manifold_defects()
                                               : Face_vertices{v[0], v[1], v[2], v[3]});
     }
     BOOST_TEST(manifold_defects(polygons).empty());
-    // open, at each of its faces
+    // The surface is open at each of its faces in turn.
     for(std::size_t f = 0; f < polygons.size(); ++f) {
       std::vector<Face_vertices> open = polygons;
       open.erase(open.begin() + std::ptrdiff_t(f));
       const Manifold_defects d = manifold_defects(open);
       BOOST_TEST_EQ(int(d.edges.size()), polygons[f].size());
       BOOST_TEST_EQ(int(d.vertices.size()), polygons[f].size());
-      // turned over
+      // One polygon is reversed.
       std::vector<Face_vertices> turned = polygons;
       std::swap(turned[f][0], turned[f][2]);
       BOOST_TEST_EQ(int(manifold_defects(turned).edges.size()), polygons[f].size());
     }
   }
-  // four polygons at an edge: two fans at its ends
+  // Four polygons are at an edge: two fans at its ends.
   Manifold_defects d = manifold_defects(both(tetrahedron(0, 1, 2, 3), tetrahedron(0, 1, 4, 5)));
   BOOST_TEST(d.edges == (Edges{{0, 1}}));
   BOOST_TEST_LE(d.vertices.size(), 2u);
-  // two fans at a vertex, all edges fine
+  // Two fans are at a vertex, all edges are right.
   d = manifold_defects(both(tetrahedron(0, 1, 2, 3), tetrahedron(4, 5, 6, 2)));
   BOOST_TEST(d.edges.empty());
   BOOST_TEST(d.vertices == (Vertices{2}));
-  // the same surface twice
+  // The same surface is there twice.
   d = manifold_defects(both(tetrahedron(0, 1, 2, 3), tetrahedron(0, 1, 2, 3)));
   BOOST_TEST_EQ(d.edges.size(), 6u);
 }
@@ -92,7 +92,7 @@ Mesh_defects expect(const Mesh& mesh)
   return d;
 }
 
-// The numbers of one kind are zero except those asked for.
+// The numbers of one kind are zero except the expected ones.
 enum Defect {
   NONCONFORMING = 1,
   EDGES = 2,
@@ -118,7 +118,7 @@ void check(const Mesh& mesh, int expected)
   BOOST_TEST_EQ(d.positive(), (expected & (CORNERS | NONFINITE | INVALID)) == 0);
 }
 
-// A unit cube of vertices 0 to 7 in the order of the hexahedron, then others.
+// A unit cube of vertices 0 to 7 in the order of the hexahedron, then other vertices.
 Mesh cube_vertices(std::initializer_list<Point_3> others = {})
 {
   Mesh mesh;
@@ -164,7 +164,7 @@ void test_find_defects()
     BOOST_TEST_GT(find_defects(mesh).nonpositive_corners, 0u);
   }
 
-  // A pyramid on the cube is fine, two tetrahedra against its face are not.
+  // A pyramid on the cube is conforming, two tetrahedra against its face are not.
   Mesh mesh = cube({{0.5, 0.5, 2}});
   mesh.add_element(PYRAMID, {4, 5, 6, 7, 8});
   check(mesh, 0);
@@ -173,7 +173,7 @@ void test_find_defects()
   mesh.add_element(TETRAHEDRON, {4, 6, 7, 8});
   check(mesh, NONCONFORMING | EDGES | (find_defects(mesh).nonmanifold_boundary_vertices ? VERTICES : 0));
   BOOST_TEST_EQ(find_defects(mesh).nonconforming_faces, 1u);
-  // one of the two only
+  // One of the two tetrahedra only is there.
   mesh = cube({{0.5, 0.5, 2}});
   mesh.add_element(TETRAHEDRON, {4, 5, 6, 8});
   BOOST_TEST_EQ(expect(mesh).nonconforming_faces, 1u);
@@ -189,7 +189,7 @@ void test_find_defects()
     check(neighbor(zero), DUPLICATE);
     BOOST_TEST_EQ(find_defects(neighbor(zero)).duplicate_vertices, 4u);
   }
-  // three at one place count twice
+  // Three vertices at one place count twice.
   mesh = cube({{0, 0, 0}, {0, 0, 0}});
   check(mesh, DUPLICATE | UNUSED);
   BOOST_TEST_EQ(find_defects(mesh).duplicate_vertices, 2u);
@@ -202,7 +202,7 @@ void test_find_defects()
   check(tetrahedra({{0, 2, 1, 3}}, {o, x, y, z}), CORNERS);         // inverted
   check(tetrahedra({{0, 1, 2, 3}}, {o, x, y, {1, 1, 0}}), CORNERS); // flat
   check(tetrahedra({{0, 1, 2, 3}}, {o, x, y, {0, 0, 1e-300}}), 0);  // almost
-  // collinear but for the last digit: doubles would round the determinant
+  // The points are collinear but for the last digit: doubles would round the determinant.
   check(tetrahedra({{0, 1, 2, 3}}, {{1e8, 1e8, 1e8},
                                     {1e8 + 1, 1e8, 1e8},
                                     {1e8, 1e8 + 1, 1e8},
@@ -214,25 +214,25 @@ void test_find_defects()
                                     {1e8 + 1, 1e8 + 1, std::nextafter(1e8, 0)}}),
         CORNERS);
 
-  // two that share a face
+  // Two tetrahedra share a face.
   check(tetrahedra({{0, 1, 2, 3}, {0, 2, 1, 4}}, {o, x, y, z, below}), 0);
-  // on the same side of it: both positive, folded
+  // Both are on the same side of the face: positive, but folded.
   const Mesh folded = tetrahedra({{0, 1, 2, 3}, {0, 1, 2, 4}}, {o, x, y, z, {0.3, 0.3, 2}});
   check(folded, NONCONFORMING | EDGES | (find_defects(folded).nonmanifold_boundary_vertices ? VERTICES : 0));
   BOOST_TEST_EQ(find_defects(folded).nonconforming_faces, 1u);
   BOOST_TEST_EQ(find_defects(folded).nonmanifold_boundary_edges, 3u);
-  // a face with three elements
+  // A face has three elements.
   const Mesh thrice = tetrahedra({{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 2, 1, 5}},
                                  {o, x, y, z, below, {0.3, 0.3, -2}});
   BOOST_TEST_EQ(expect(thrice).nonconforming_faces, 1u);
   BOOST_TEST(!find_defects(thrice).conforming());
 
-  // quadrilaterals with the same vertices in another cyclic order
+  // Quadrilaterals have the same vertices in another cyclic order.
   mesh = cube({{0.5, 0.5, 2}});
   mesh.add_element(PYRAMID, {4, 6, 5, 7, 8});
   BOOST_TEST_EQ(expect(mesh).nonconforming_faces, 1u);
 
-  // two that share an edge, or a vertex, only
+  // Two tetrahedra share only an edge, or a vertex.
   const Mesh edge = tetrahedra({{0, 1, 2, 3}, {0, 1, 4, 5}}, {o, x, y, z, {0, -1, 0}, {0, 0, -1}});
   BOOST_TEST_EQ(expect(edge).nonmanifold_boundary_edges, 1u);
   BOOST_TEST(edge.is_empty() || (find_defects(edge).conforming() && find_defects(edge).positive()));
@@ -241,13 +241,13 @@ void test_find_defects()
   check(vertex, VERTICES);
   BOOST_TEST_EQ(find_defects(vertex).nonmanifold_boundary_vertices, 1u);
 
-  // indices that do not exist, or twice the same
+  // Indices do not exist, or are repeated.
   check(tetrahedra({{0, 1, 2, 7}}, {o, x, y}), INVALID);
   check(tetrahedra({{0, 1, 2, Vertex_index(-1)}}, {o, x, y}), INVALID);
   check(tetrahedra({{0, 1, 2, 3}, {0, 1, 2, 2}}, {o, x, y, z}), INVALID);
 }
 
-// Not a number, or infinite.
+// Coordinates are not a number, or infinite.
 void test_find_nonfinite()
 {
   const Point_3 o(0, 0, 0), x(1, 0, 0), y(0, 1, 0);
@@ -280,7 +280,7 @@ void test_moved()
   };
   std::vector<Mesh> meshes;
   meshes.push_back(std::move(first));
-  first = cube(); // what has been moved from can be used again
+  first = cube(); // an object that has been moved from can be used again
   check(first, 0);
   for(int i = 0; i < 5; ++i) // the vector moves what it has
     meshes.push_back(meshes.front());

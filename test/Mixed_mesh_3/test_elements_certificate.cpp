@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The certificate against sampling of the Jacobian with the shape functions, which share no code.
+// The certificate compared with samples of the Jacobian by the shape functions, which share no code with it.
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
@@ -36,7 +36,7 @@ double jacobian(const Points& p, double r, double s, double t)
          + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-// The smallest Jacobian on a grid of the reference element; the pyramid's without its apex.
+// The smallest Jacobian on a grid of the reference element; for the pyramid without its apex.
 template <Element_kind Kind>
 double smallest_jacobian(const Points& p, int n)
 {
@@ -101,11 +101,11 @@ void test_random(int runs)
       BOOST_TEST_GT(smallest, 0.);
     if(smallest < -1e-9)
       BOOST_TEST(sign == Jacobian_sign::NOT_POSITIVE);
-    // "not positive" is not said in vain: between the grid points it can be just below zero only
+    // The answer "not positive" is right: the Jacobian between the grid points can only be just below zero.
     if(sign == Jacobian_sign::NOT_POSITIVE)
       BOOST_TEST_LT(smallest, 0.1);
     hidden += sign == Jacobian_sign::NOT_POSITIVE && has_positive_corners(Kind, p);
-    // mirrored, it is negative
+    // The mirrored element is negative.
     for(auto& x : p)
       x[0] = -x[0];
     if(sign == Jacobian_sign::POSITIVE)
@@ -114,12 +114,12 @@ void test_random(int runs)
   BOOST_TEST_GT(counts[0], runs / 20);
   BOOST_TEST_GT(counts[1], runs / 20);
   BOOST_TEST_EQ(counts[2], 0);
-  // corners are not enough: hexahedra and prisms that are positive there and negative elsewhere
+  // Corners are not sufficient: hexahedra and prisms may be positive there and negative elsewhere.
   if(Kind == HEXAHEDRON || Kind == PRISM)
     BOOST_TEST_GT(hidden, 0);
 }
 
-// Eight positive corners, and clearly negative in between.
+// A hexahedron with eight positive corners, but clearly negative in between.
 void test_known_hexahedron()
 {
   Points p{};
@@ -136,7 +136,7 @@ void test_known_hexahedron()
   BOOST_TEST(has_positive_corners(HEXAHEDRON, p));
   BOOST_TEST(jacobian_sign(HEXAHEDRON, p) == Jacobian_sign::NOT_POSITIVE);
 
-  // the top turned by half a turn: the Jacobian is positive but for half height, where it is zero
+  // The top is turned by half a turn: the Jacobian is positive except at half height, where it is zero.
   p = reference_points(HEXAHEDRON);
   for(std::size_t i = 4; i < 8; ++i)
     p[i][0] = -p[i][0], p[i][1] = -p[i][1];
@@ -144,7 +144,7 @@ void test_known_hexahedron()
   BOOST_TEST(jacobian_sign(HEXAHEDRON, p) == Jacobian_sign::NOT_POSITIVE);
 }
 
-// Where doubles and intervals can not decide: exactly flat, and a hair above.
+// Elements for which doubles and intervals can not decide: exactly flat, and slightly positive.
 void test_exact()
 {
   for(Element_kind kind : element_kinds) {
@@ -158,19 +158,19 @@ void test_exact()
         x[2] *= height;
       BOOST_TEST(jacobian_sign(kind, p) == Jacobian_sign::POSITIVE);
     }
-    // far from the origin: the coordinates that are left decide
+    // The remaining digits of coordinates decide far from the origin.
     Points p = reference_points(kind);
     for(auto& x : p)
       for(double& c : x)
         c = 1e15 + 8 * c;
     BOOST_TEST(jacobian_sign(kind, p) == Jacobian_sign::POSITIVE);
   }
-  // a tetrahedron whose volume is one unit in the last place
+  // The tetrahedron has a volume of one unit in the last place.
   Points p{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1. / 3, 1. / 3, std::ldexp(1., -1060)}}};
   BOOST_TEST(jacobian_sign(TETRAHEDRON, p) == Jacobian_sign::POSITIVE);
   p[3][2] = -p[3][2];
   BOOST_TEST(jacobian_sign(TETRAHEDRON, p) == Jacobian_sign::NOT_POSITIVE);
-  // a hexahedron collapsed along one edge is not positive; lifted from it by a digit, it is
+  // A hexahedron collapsed along one edge is not positive; lifted by a digit, it is.
   Points h = reference_points(HEXAHEDRON);
   h[1] = h[0];
   BOOST_TEST(jacobian_sign(HEXAHEDRON, h) == Jacobian_sign::NOT_POSITIVE);
@@ -178,8 +178,8 @@ void test_exact()
   BOOST_TEST(jacobian_sign(HEXAHEDRON, h) == Jacobian_sign::POSITIVE);
 }
 
-// The top is the bottom turned and twice as large. After half a turn the Jacobian is positive but for a third
-// of the height, where it is zero: at no point that halving the element ever meets.
+// An element whose top is the bottom turned and twice as large. After half a turn the Jacobian is positive
+// except at a third of the height, where it is zero: halving the element never meets these points.
 Points twisted(Element_kind kind, double turns)
 {
   Points p = reference_points(kind);
@@ -199,19 +199,19 @@ void test_undecided()
     BOOST_TEST(jacobian_sign(kind, twisted(kind, 0.3)) == Jacobian_sign::POSITIVE);
     BOOST_TEST(jacobian_sign(kind, twisted(kind, 0.45)) == Jacobian_sign::POSITIVE);
     BOOST_TEST(jacobian_sign(kind, twisted(kind, 0.5)) == Jacobian_sign::UNDECIDED);
-    // positive, by a hair
+    // The element is slightly positive.
     BOOST_TEST(jacobian_sign(kind, twisted(kind, 0.5 - 1e-8)) == Jacobian_sign::UNDECIDED);
     BOOST_TEST(has_positive_corners(kind, twisted(kind, 0.5)));
-    // mirrored, it is negative
+    // The mirrored element is negative.
     Points p = twisted(kind, 0.5);
     for(auto& x : p)
       x[0] = -x[0];
     BOOST_TEST(jacobian_sign(kind, p) == Jacobian_sign::NOT_POSITIVE);
   }
-  // along an edge of a prism only: less is decided sooner
+  // The Jacobian is small along an edge of a prism only: smaller turns are decided sooner.
   BOOST_TEST(jacobian_sign(PRISM, twisted(PRISM, 0.4999)) == Jacobian_sign::POSITIVE);
 
-  // In a mesh it is a defect of its own kind.
+  // Undecided elements of a mesh are a defect of their own kind.
   using Mesh = CGAL::Mixed_mesh_3<Predicates_kernel>;
   Mesh mesh;
   for(const auto& x : twisted(HEXAHEDRON, 0.5))
@@ -225,8 +225,8 @@ void test_undecided()
   BOOST_TEST(!defects.positive() && !defects.none());
 }
 
-// A tetrahedron has one Jacobian, whose sign is that of an exact predicate: also if it is flat up to
-// rounding, or far too large.
+// A tetrahedron has a constant Jacobian, whose sign is that of an exact predicate: also if the tetrahedron is
+// flat up to rounding, or far too large.
 void test_flat_tetrahedra()
 {
   using Kernel = Predicates_kernel;

@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Points in elements, and elements at points: the isoparametric map and its inverse against the shape
-// functions, the locator against all elements.
+// Points in elements, and elements at points: the isoparametric map and its inverse compared with the shape
+// functions, the locator compared with all elements.
 
 #include "test_meshes.h"
 
@@ -35,7 +35,7 @@ using Mesh = CGAL::Mixed_mesh_3<Kernel>;
 
 bool is_close(const Vec3& a, const Vec3& b, double tolerance) { return norm(a - b) <= tolerance; }
 
-// Reference coordinates: vertices, midpoints of edges, points of faces, of the interior.
+// Reference coordinates: vertices, midpoints of edges, points of faces, and of the interior.
 std::vector<Vec3> sample_points(Element_kind kind)
 {
   const Reference_element& reference = reference_elements[kind];
@@ -124,7 +124,7 @@ void test_locator()
           const auto found = locator.locate(p);
           BOOST_TEST_EQ(found ? found->element : Element_index(4), first);
         }
-        // Nearest: against a sampling of the boundary.
+        // The nearest point is compared with samples of the boundary.
         std::vector<Vec3> surface;
         for(const auto& f : boundary_faces(mesh)) {
           const Face_vertices& v = f.vertices();
@@ -169,7 +169,7 @@ void test_locator()
   BOOST_TEST(!Element_locator_3<Mesh>(empty).locate(Vec3{0, 0, 0}));
 }
 
-// Elements of one kind, as distorted as they can be while their Jacobian is positive.
+// Elements of one kind, as distorted as possible with a positive Jacobian.
 template <Element_kind Kind>
 void test_inverse_map()
 {
@@ -214,7 +214,7 @@ void test_inverse_map()
     }
   }
 }
-// A locator refers to the mesh, and to nothing else that may move.
+// A locator refers to the mesh, and to no other object that may move.
 void test_moved()
 {
   using Locator = Element_locator_3<Mesh>;

@@ -63,7 +63,7 @@ Points prism(double height)
   return {{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {0, 0, height}, {1, 0, height}, {0.5, h, height}};
 }
 
-// All edges are equal.
+// Ideal elements, in which all edges are equal.
 Points ideal(Element_kind kind)
 {
   switch(kind) {
@@ -76,7 +76,7 @@ Points ideal(Element_kind kind)
 
 void test_ideal_elements()
 {
-  // By kind. Triangles of the pyramid meet as in the regular octahedron.
+  // The angles by kind. Triangles of the pyramid meet as in the regular octahedron.
   const double tetrahedron = degrees(std::acos(1. / 3)), base = degrees(std::acos(std::sqrt(1. / 3)));
   const double smallest[] = {tetrahedron, base, 60, 90}, largest[] = {tetrahedron, 2 * base, 90, 90};
   for(Element_kind kind : element_kinds) {
@@ -91,14 +91,14 @@ void test_ideal_elements()
 
 void test_distorted_elements()
 {
-  // A tetrahedron at the corner of a cube: the largest product of edges is at the other corners.
+  // The tetrahedron is at the corner of a cube: the largest product of edges is at the other corners.
   const Points corner{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   BOOST_TEST(is_close(value(scaled_jacobian, TETRAHEDRON, corner), std::sqrt(0.5), 1e-15));
   BOOST_TEST(is_close(value(smallest_dihedral_angle, TETRAHEDRON, corner),
                       degrees(std::acos(std::sqrt(1. / 3))), 1e-12));
   BOOST_TEST(is_close(value(largest_dihedral_angle, TETRAHEDRON, corner), 90, 1e-12));
 
-  // A sliver: two edges that nearly cross.
+  // The sliver has two edges that nearly cross.
   const double h = 1e-3;
   const Points sliver{{-1, 0, 0}, {1, 0, 0}, {0, 1, h}, {0, -1, h}};
   BOOST_TEST(
@@ -106,10 +106,10 @@ void test_distorted_elements()
   BOOST_TEST(
     is_close(value(scaled_jacobian, TETRAHEDRON, sliver), std::sqrt(2.) * 4 * h / (2 * (2 + h * h)), 1e-12));
 
-  // A flat pyramid, of height 1/4: lateral edges are 3/4 long.
+  // The flat pyramid of height 1/4 has lateral edges of length 3/4.
   BOOST_TEST(
     is_close(value(scaled_jacobian, PYRAMID, pyramid(0.25)), 2 * 0.25 / (std::sqrt(2.) * 0.75), 1e-15));
-  // one of height 1: lateral edges of sqrt(3/2)
+  // The pyramid of height 1 has lateral edges of sqrt(3/2).
   BOOST_TEST(is_close(value(scaled_jacobian, PYRAMID, pyramid(1)), 2 - 2 / std::pow(1.5, 1.5), 1e-15));
   BOOST_TEST(is_close(value(smallest_dihedral_angle, PYRAMID, pyramid(0.5)), 45, 1e-12));
   for(double height : {0.1, 0.5, 0.9, 0.956, 1.1, 2., 10.})
@@ -139,14 +139,15 @@ void test_distorted_elements()
   BOOST_TEST(is_close(value(largest_dihedral_angle, HEXAHEDRON, points), 135, 1e-12));
   BOOST_TEST(is_close(value(quad_warp, HEXAHEDRON, points), 0, 1e-12));
 
-  // A pyramid's base lifted at two opposite corners: both triangles lean by the same angle.
+  // The base of a pyramid is lifted at two opposite corners: both triangles lean by the same angle.
   points = {{0, 0, 0.1}, {1, 0, -0.1}, {1, 1, 0.1}, {0, 1, -0.1}, {0.5, 0.5, 1}};
   BOOST_TEST(is_close(value(quad_warp, PYRAMID, points), 2 * degrees(std::atan(0.2 * std::sqrt(2.))), 1e-12));
-  // One corner of a cube lifted: 36.9 degrees about the diagonal through it, 35.3 about the other one.
+  // One corner of a cube is lifted: 36.9 degrees about the diagonal through the corner, 35.3 about the other
+  // one.
   points = cube();
   points[6][2] += 0.5;
   BOOST_TEST(is_close(value(quad_warp, HEXAHEDRON, points), degrees(std::acos(0.8)), 1e-12));
-  // a prism twisted: its triangles stay plane
+  // A prism is twisted: its triangles stay plane.
   points = prism(1);
   const Vec3 center{0.5, std::sqrt(3.) / 6, 0};
   for(int i = 3; i < 6; ++i) {
@@ -161,19 +162,19 @@ void test_distorted_elements()
 void test_degenerate_elements()
 {
   for(Element_kind kind : element_kinds) {
-    // Inside out: mirrored. Jacobians change sign, angles a become 360 - a.
+    // Mirrored elements: Jacobians change sign, angles a become 360 - a.
     Points points = ideal(kind);
     for(Vec3& p : points)
       p[2] = -p[2];
     BOOST_TEST(value(scaled_jacobian, kind, points) < -0.9);
     BOOST_TEST(is_close(value(largest_dihedral_angle, kind, points),
                         360 - value(smallest_dihedral_angle, kind, ideal(kind)), 1e-12));
-    // flat
+    // The element is flat.
     points = ideal(kind);
     for(Vec3& p : points)
       p[2] = 0;
     BOOST_TEST(is_close(value(scaled_jacobian, kind, points), 0, 1e-15));
-    // a point
+    // The element is a point.
     for(Vec3& p : points)
       p = {3, 2, 1};
     BOOST_TEST_EQ(value(scaled_jacobian, kind, points), 0.);
@@ -278,7 +279,7 @@ void test_statistics_and_histogram()
   BOOST_TEST_EQ(quality_statistics(mesh, my_measure).back().maximum, 9.);
   BOOST_TEST_EQ(quality_statistics(Mesh(), my_measure).back().count, 0u);
 
-  // Edges belong to the bin above them; nothing is left out.
+  // Values at edges belong to the bin above; no element is left out.
   const auto counts = histogram(mesh, aspect_ratio_coefficient, {1, 2, 3, 7});
   BOOST_TEST((counts == std::vector<std::size_t>{0, 1, 1, 0, 2}));
   add(mesh, HEXAHEDRON, Points(8)); // infinite

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Displacements between vertices from recovered gradients: what they reproduce, continuity, and the way back.
+// Displacements between vertices from recovered gradients: exact reproduction, continuity, and the inverse.
 
 #include "test_grids.h"
 
@@ -121,7 +121,7 @@ double largest_error(const Recovered& u, const std::function<Vec3(const Vec3&)>&
   return largest;
 }
 
-// Largest ones, away from the boundary; also of the shape functions.
+// The largest errors, away from the boundary; also of the shape functions.
 struct Errors
 {
   double recovered = 0, plain = 0;
@@ -142,7 +142,7 @@ struct Errors
   }
 };
 
-// With exact gradients an element has the polynomial, however it is distorted.
+// An element with exact gradients has the polynomial, however distorted the element is.
 template <Element_kind Kind>
 void test_quadratic_on_element()
 {
@@ -209,7 +209,8 @@ void test_reproduction()
   }
 }
 
-// The error falls with the third power of the size of elements; that of the shape functions with the second.
+// The error falls with the third power of the size of elements; the error of the shape functions with the
+// second.
 void test_order()
 {
   const auto exact = [](const Vec3& x) {
@@ -229,7 +230,7 @@ void test_order()
   }
 }
 
-// The displacement on common faces, seen from both sides. Returns how many faces there are.
+// Checks the displacement on common faces, seen from both sides. Returns the number of faces.
 int check_continuity(const Recovered& u)
 {
   const Mesh& mesh = u.mesh();
@@ -285,7 +286,7 @@ void test_continuity()
       }
       const Recovered u(mesh, noise(0.02, n), removed, recovery);
       BOOST_TEST_LE(3, check_continuity(u));
-      // Where some elements fall back to shape functions.
+      // Some elements fall back to shape functions.
       const Recovered wild(mesh, noise(0.2, n), removed, recovery);
       check_continuity(wild);
       const std::vector<Vec3> values = at_vertices(mesh, linear);
@@ -322,7 +323,7 @@ void test_subdomains()
   }
 }
 
-// Only what is left counts: as on a mesh of the remaining elements.
+// Only the remaining elements count: the field is that of a mesh of these elements.
 void test_cavity()
 {
   for(Element_kind kind : element_kinds) {
@@ -367,7 +368,7 @@ void test_cavity()
   }
 }
 
-// There and back again.
+// The inverse leads back.
 void test_inverse()
 {
   const auto bend = [](const Vec3& x) {
@@ -412,7 +413,7 @@ void test_orientation()
       const Recovered u(mesh, values, {}, Gradient_recovery::LEAST_SQUARES);
       check_continuity(u);
       number += u.number_of_linear_elements();
-      // What is left of the formula does not fold, where the shape functions do not.
+      // The remaining formula does not fold where the shape functions do not.
       const Element_locator_3<Mesh> locator(u), plain(mesh, values);
       std::size_t found = 0, all = 0;
       for_each_sample(u, [&](const Element_location_3& l) {

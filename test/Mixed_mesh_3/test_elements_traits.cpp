@@ -32,7 +32,7 @@ using CGAL::Mixed_meshes_3::determinant;
 using CGAL::Mixed_meshes_3::dot;
 using CGAL::Mixed_meshes_3::norm;
 
-// No kernel is needed to look at elements.
+// Traits without a kernel, which is not needed for elements.
 struct Plain_traits
 {
   struct Point_3
@@ -115,7 +115,7 @@ void test_table(Element_kind kind)
     for(int i = 0; i < face.size; ++i)
       BOOST_TEST(directed_edges.emplace(face.vertices[i], face.vertices[(i + 1) % face.size]).second);
     for(int v = 0; v < r.number_of_vertices; ++v) {
-      // the element is strictly behind each of its faces, and faces are planar
+      // The element is strictly behind each of its faces, and faces are planar.
       const bool is_on_face = std::count(face.vertices, face.vertices + face.size, v) != 0;
       const int d = determinant_of(r, face.vertices[0], face.vertices[1], face.vertices[2], v);
       BOOST_TEST(is_on_face ? d == 0 : d < 0);
@@ -125,7 +125,7 @@ void test_table(Element_kind kind)
   }
   BOOST_TEST_EQ(six_volume, six_volumes[kind]);
 
-  // closed: each edge once in each direction, and these are the edges of the table
+  // The surface is closed: each edge is there once in each direction, and edges are those of the table.
   std::set<std::pair<int, int>> edges;
   for(const auto& [a, b] : directed_edges) {
     BOOST_TEST_EQ(directed_edges.count({b, a}), 1u);
@@ -140,8 +140,8 @@ void test_table(Element_kind kind)
   BOOST_TEST(edges == table_edges);
   BOOST_TEST_EQ(r.number_of_vertices - r.number_of_edges + r.number_of_faces, 2);
 
-  // Corners: a vertex with its three neighbors, each vertex of three edges once. For tetrahedra the
-  // first one stands for all.
+  // Corners are vertices with their three neighbors, one for each vertex of three edges. The first one stands
+  // for all corners of a tetrahedron.
   std::set<int> with_corner;
   for(int c = 0; c < r.number_of_corners; ++c) {
     const auto& v = r.corners[c];
@@ -154,7 +154,8 @@ void test_table(Element_kind kind)
   }
   BOOST_TEST_EQ(r.number_of_corners, kind == TETRAHEDRON ? 1 : kind == PYRAMID ? 4 : r.number_of_vertices);
 
-  // To VTK and back; VTK's wedge has its base normal away from the top, the others as ours.
+  // The orders convert to VTK and back; VTK's wedge has its base normal away from the top, other kinds as
+  // ours.
   const IO::internal::Element_names& names = IO::internal::element_names[kind];
   std::set<int> images;
   for(int i = 0; i < r.number_of_vertices; ++i) {
@@ -179,9 +180,8 @@ struct Quadrature_point
   double weight;
 };
 
-// A product rule on the cube, collapsed to the reference element: exact for polynomials of degree 9
-// less the weight of the collapse, also for the pyramid's rational functions, which become
-// polynomials.
+// A product rule on the cube, collapsed to the reference element: exact for polynomials of degree 9 minus the
+// weight of the collapse, also for the pyramid's rational functions, which become polynomials.
 std::vector<Quadrature_point> quadrature(Element_kind kind)
 {
   static constexpr double x[5] = {-0.9061798459386640, -0.5384693101056831, 0, 0.5384693101056831,
@@ -256,8 +256,8 @@ void test_shape_functions()
     BOOST_TEST(is_close(jacobian<Kind>(vertices, q.position), 1, 1e-13));
   }
 
-  // Conforming: on a face only its own vertices count, linearly on triangles, bilinearly on
-  // quadrilaterals, whatever the element behind it.
+  // Shape functions are conforming: only the vertices of a face count on the face, linearly on triangles,
+  // bilinearly on quadrilaterals, whatever the element behind the face is.
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(0, 1);
   for(int f = 0; f < r.number_of_faces; ++f)
@@ -299,16 +299,16 @@ void test_volume()
     if(repeat == 0)
       BOOST_TEST(is_close(smallest, 1, 1e-13));
   }
-  // far from the origin only the rounding of the vertices counts
+  // Only the rounding of the vertices counts far from the origin.
   const Vec3 far{1e8, -1e8, 1e8};
   const Points points = transformed(reference_points(Kind), [&](const Vec3& p) { return p + far; });
   BOOST_TEST_EQ(volume(one_element(Kind, points), 0), volume(one_element(Kind, reference_points(Kind)), 0));
 }
 
-// Two elements that share a warped face: the volumes add up to that of the whole.
+// Two elements that share a warped face: their volumes add up to the volume of the whole.
 void test_sum_of_volumes()
 {
-  // a box 2 x 1 x 1 of two hexahedra, the four shared vertices anywhere
+  // The box 2 x 1 x 1 consists of two hexahedra, with the four shared vertices anywhere.
   std::mt19937 random(5);
   for(int repeat = 0; repeat < 10; ++repeat) {
     const Points middle = perturbed({{1, 0, 0}, {1, 1, 0}, {1, 0, 1}, {1, 1, 1}}, 0.4, random);
@@ -320,8 +320,8 @@ void test_sum_of_volumes()
         mesh.add_vertex({p[0], p[1], p[2]});
     mesh.add_element(HEXAHEDRON, {4, 0, 1, 5, 6, 2, 3, 7});
     mesh.add_element(HEXAHEDRON, {0, 8, 9, 1, 2, 10, 11, 3});
-    // the middle vertices move the outer faces too: compare with the whole as one hexahedron of
-    // the same outer faces, that is, with the flux through these
+    // The middle vertices move the outer faces too: the sum is compared with the whole as one hexahedron of
+    // the same outer faces, that is, with the flux through these.
     double six_fluxes = 0;
     for(std::size_t e = 0; e < 2; ++e) {
       const Element_view element = mesh.element(e);
@@ -367,23 +367,23 @@ void test_known_aspect_ratios()
   const Points regular = {{1, 1, 1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, 1}};
   BOOST_TEST(is_close(arc(TETRAHEDRON, regular), 6 * std::sqrt(2.) / 8.47867, 1e-14));
   BOOST_TEST(is_close(arc(TETRAHEDRON, regular), 1, 1e-3));
-  // corner of a cube: squared edges 1 1 1 2 2 2, volume 1/6
+  // The corner of a cube has squared edges 1 1 1 2 2 2, volume 1/6.
   BOOST_TEST(is_close(arc(TETRAHEDRON, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}),
                       std::pow(1.5, 1.5) * 6 / 8.47867, 1e-14));
-  // 1/10 of its height: squared edges 1 1 0.01 2 1.01 1.01
+  // The tetrahedron of 1/10 of that height has squared edges 1 1 0.01 2 1.01 1.01.
   BOOST_TEST(is_close(arc(TETRAHEDRON, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0.1}}),
                       std::pow(6.03 / 6, 1.5) * 60 / 8.47867, 1e-13));
 
   BOOST_TEST_EQ(arc(HEXAHEDRON, box(1, 1, 1)), 1.);
   BOOST_TEST_EQ(arc(HEXAHEDRON, box(1, 2, 3)), 3.);
   BOOST_TEST_EQ(arc(HEXAHEDRON, box(5, 1, 2)), 5.);
-  // sheared by 45 degrees: two segments 1, one sqrt 2
+  // The cube sheared by 45 degrees has two segments 1, one sqrt 2.
   BOOST_TEST(is_close(arc(HEXAHEDRON, transformed(box(1, 1, 1),
                                                   [](const Vec3& p) {
                                                     return Vec3{p[0] + p[2], p[1], p[2]};
                                                   })),
                       std::sqrt(2.), 1e-15));
-  // frustum, top half as wide: the segments across are 3/4 long, that along is 1
+  // The frustum has a top half as wide: the segments across are 3/4 long, the segment along is 1.
   BOOST_TEST(
     is_close(arc(HEXAHEDRON, transformed(box(1, 1, 1),
                                          [](const Vec3& p) {
@@ -396,9 +396,9 @@ void test_known_aspect_ratios()
   BOOST_TEST_EQ(arc(PYRAMID, square_pyramid(1, {3, -2, 1})), 1.); // the height decides, not the foot
   BOOST_TEST_EQ(arc(PYRAMID, square_pyramid(1, {0.5, 0.5, 0.5})), 2.);
   BOOST_TEST_EQ(arc(PYRAMID, square_pyramid(1, {0.5, 0.5, 3})), 3.);
-  // base 2 x 1, height 1
+  // The pyramid has base 2 x 1, height 1.
   BOOST_TEST_EQ(arc(PYRAMID, {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {1, 0.5, 1}}), 2.);
-  // warped base, mean plane z = 0: the midpoint segments stay 1, the height too
+  // The base is warped, mean plane z = 0: the midpoint segments stay 1, the height too.
   BOOST_TEST(
     is_close(arc(PYRAMID, {{0, 0, 0.1}, {1, 0, -0.1}, {1, 1, 0.1}, {0, 1, -0.1}, {0.5, 0.5, 1}}), 1, 1e-15));
 
@@ -407,10 +407,10 @@ void test_known_aspect_ratios()
   BOOST_TEST(is_close(arc(PRISM, prism(left, right, third, 0.9)), 2 / std::sqrt(3.), 1e-15));
   BOOST_TEST(is_close(arc(PRISM, prism(left, right, third, 0.5)), 2, 1e-15));
   BOOST_TEST(is_close(arc(PRISM, prism(left, right, third, 3)), 3 * 2 / std::sqrt(3.), 1e-14));
-  // half a cube: at the long face, width sqrt 2, height sqrt(1/2)
+  // Half a cube has at the long face width sqrt 2, height sqrt(1/2).
   BOOST_TEST(is_close(arc(PRISM, prism({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1)), 2, 1e-14));
 
-  // flat or inside out
+  // The elements are flat or inside out.
   BOOST_TEST_EQ(arc(TETRAHEDRON, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}), infinity);
   BOOST_TEST_EQ(arc(TETRAHEDRON, {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}}), infinity);
   BOOST_TEST_EQ(arc(PYRAMID, square_pyramid(1, {0.5, 0.5, 0})), infinity);
@@ -431,7 +431,7 @@ void test_invariance(Element_kind kind)
     const Points points = perturbed(reference_points(kind), 0.2, random);
     const double expected = arc(kind, points);
     BOOST_TEST(std::isfinite(expected) && expected >= 1);
-    // a rotation about a random axis by a random angle (Rodrigues)
+    // The rotation is about a random axis by a random angle (Rodrigues).
     Vec3 axis{normal(random), normal(random), normal(random)};
     axis = (1 / norm(axis)) * axis;
     const double angle = 6 * normal(random), c = std::cos(angle), s = std::sin(angle);
@@ -444,7 +444,7 @@ void test_invariance(Element_kind kind)
     for(double scale : {1e-6, 1e6, std::ldexp(1., 40)})
       BOOST_TEST(is_close(arc(kind, transformed(points, [&](const Vec3& p) { return scale * p; })), expected,
                           1e-12 * expected));
-    // vertices are rounded to 1.5e-8 there
+    // Vertices are rounded to 1.5e-8 there.
     const Vec3 far{1e8, -1e8, 1e8};
     BOOST_TEST(is_close(arc(kind, transformed(points, [&](const Vec3& p) { return p + far; })), expected,
                         1e-5 * expected));

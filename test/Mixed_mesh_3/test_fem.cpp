@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Element matrices: linear fields, that they must reproduce; and the solvers of the systems made of them.
+// Element matrices: linear fields, which they must reproduce; and the solvers of their systems.
 
 #include "test_grids.h"
 
@@ -73,7 +73,7 @@ void test_elasticity()
     BOOST_TEST(find_defects(mesh).positive());
     BOOST_TEST_LT(error_of_field(mesh, linear_field, Simplicial_solver_traits()), 1e-12);
 
-    // Quadrature gives the volume; rigid motions no force, others some energy.
+    // Quadrature gives the volume; rigid motions cause no force, other displacements some energy.
     const Element_view element = mesh.element(0);
     std::array<Vec3, 8> p{};
     for(int i = 0; i < element.size(); ++i)
@@ -82,10 +82,10 @@ void test_elasticity()
     for(int q = 0; q < quadrature_rule(kind).number_of_points; ++q)
       sum += strain_operator(kind, p, q).volume;
     BOOST_TEST_LT(std::abs(sum - CGAL::Mixed_meshes_3::volume(mesh, 0)), 1e-14);
-    // of a constant strain: volume times stress times strain
+    // The energy of a constant strain is volume times stress times strain.
     const double trace = 0.3 + 0.1 - 0.1, strain_squared = 0.09 + 0.01 + 0.01 + (0.04 + 0.16 + 0.25) / 2;
     const double expected = sum * (soft.lambda() * trace * trace + 2 * soft.mu() * strain_squared);
-    // whose dilatation is its own mean
+    // The dilatation is its own mean.
     for(Dilatation dilatation : {Dilatation::POINTWISE, Dilatation::MEAN}) {
       Element_stiffness stiffness;
       compute_element_stiffness(kind, p, soft, dilatation, stiffness);
@@ -107,7 +107,7 @@ void test_elasticity()
     }
   }
 }
-// By itself, with another matrix of the same pattern, and one of another.
+// Tests a solver by itself, with another matrix of the same pattern, and with one of another pattern.
 void test_solver()
 {
   Simplicial_solver_traits solver;

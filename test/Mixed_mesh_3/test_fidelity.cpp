@@ -3,8 +3,9 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Meshes beside the solids they stand for: solids of voxels, whose topology is counted by flooding, and
-// meshes of round ones. Each difference is told for a mesh that has it, and none for one that has not.
+// Meshes compared with the solids that they represent: solids of voxels, whose topology is counted by
+// flooding, and meshes of round solids. Each difference is reported for a mesh that has it, and not for
+// others.
 
 #include "test_meshing.h"
 #include "test_surfaces.h"
@@ -78,7 +79,8 @@ Mesh mesh_of(const Solid& solid)
   return mesh;
 }
 
-// Other triangles than the boundary of a mesh of it has: four around the middle of each quadrilateral.
+// A surface with triangles other than those of the boundary of a mesh: four around the middle of each
+// quadrilateral.
 Surface surface_of(const Solid& solid)
 {
   const Mesh mesh = mesh_of(solid);
@@ -99,7 +101,7 @@ Surface surface_of(const Solid& solid)
   return surface;
 }
 
-// Components of the voxels where a predicate holds, in the grid with a layer around.
+// The number of components of voxels where a predicate holds, in the grid with a layer around.
 std::size_t number_of_components(const Solid& solid)
 {
   constexpr int m = n + 2;
@@ -134,7 +136,7 @@ std::size_t number_of_components(const Solid& solid)
   return number;
 }
 
-// Cells of all dimensions of the voxels in a solid: those of even dimension minus the others.
+// Cells of all dimensions of the voxels in a solid: the number of cells of even dimension minus the others.
 std::ptrdiff_t euler_characteristic(const Solid& solid)
 {
   std::ptrdiff_t sum = 0;
@@ -172,12 +174,11 @@ void check(const Solid_topology& topology, const Solid& solid)
 struct Expected
 {
   Kind kind;
-  std::string begin;                  // of the sentence
-  std::array<double, 3> lower, upper; // of the box that the point is in
+  std::string begin;                  // beginning of the sentence
+  std::array<double, 3> lower, upper; // box that contains the point
 };
 
-// What a mesh of `wrong` is told to be, beside the surface of `right`; and that right ones have no
-// difference.
+// Compares a mesh of `wrong` with the surface of `right`; right meshes have no difference.
 void compare(const Solid& right, const Solid& wrong, const std::vector<Expected>& expected)
 {
   const Surface surface = surface_of(right);
@@ -227,7 +228,7 @@ void test_bodies()
   compare(large, both,
           {{Kind::BODY_ADDED, "a piece of volume 27 cubic units near (9.", {8, 2, 2}, {11, 5, 5}},
            {Kind::VOLUME, "the volume of all bodies is 21.6 % more", {8, 2, 2}, {11, 5, 5}}});
-  // The numbers are the same, the bodies are not.
+  // The numbers are the same, but the bodies are not.
   const Solid two = block({1, 1, 1}, {6, 4, 4}) + block({1, 8, 8}, {6, 11, 11});
   const Solid halves = block({1, 1, 1}, {3, 4, 4}) + block({4, 1, 1}, {6, 4, 4});
   compare(two, halves,
@@ -274,12 +275,12 @@ void test_handles()
   compare(riddled, plate,
           {{Kind::HANDLES_LOST, "3 handles are lost near (", {3, 3, 1}, {10, 8, 3}},
            {Kind::VOLUME, "a body near (", {3, 3, 1}, {10, 8, 3}}});
-  // A ring that is cut
+  // The ring is cut.
   const Solid ring = plate - block({3, 3, 1}, {9, 9, 3}), cut = block({1, 5, 1}, {3, 7, 3});
   compare(ring, ring - cut,
           {{Kind::HANDLES_LOST, "1 handle is lost near (", {1, 5, 1}, {3, 7, 3}},
            {Kind::VOLUME, "a body near (", {1, 5, 1}, {3, 7, 3}}});
-  // A ring that is filled
+  // The ring is filled.
   compare(ring, plate,
           {{Kind::HANDLES_LOST, "1 handle is lost near (", {3, 3, 1}, {9, 9, 3}},
            {Kind::VOLUME, "a body near (", {3, 3, 1}, {9, 9, 3}}});
@@ -298,8 +299,8 @@ void test_volume()
   BOOST_TEST(compare_with_surface(thinner, surface_of(block_10), 0.08).differences.empty());
 }
 
-// What no voxel is: round, turned, far from the origin, with faces oriented inwards; and a surface with
-// corners of two shells in a common point.
+// Solids that are not of voxels: round, turned, far from the origin, with faces oriented inwards; and a
+// surface with corners of two shells in a common point.
 void test_placements()
 {
   const auto moved = [](const Point_3& p) {
@@ -328,7 +329,8 @@ void test_placements()
              && apart.differences[0].kind == Kind::BODY_MISSING);
 }
 
-// Meshes that make_mixed_mesh_3() makes of two balls: one too coarse for the gap, and one that is not.
+// Meshes that make_mixed_mesh_3() makes of two balls: one that is too coarse for the gap, and one that is
+// not.
 void test_balls()
 {
   Surface balls = sphere({0, 0, 0}, 1, 16);

@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What draws boundary vertices: distances that are remembered, against those measured anew; distances of
-// samples, against all triangles.
+// Attraction of boundary vertices: remembered distances compared with new measurements; distances of samples,
+// compared with all triangles.
 
 #include "test_fitting.h"
 #include "test_strata.h"
@@ -37,7 +37,7 @@ using Project = internal::Surface_projection;
 const Vec3 center{0.5, 0.5, 0.5};
 constexpr double radius = 0.8;
 
-// A cube of elements of one kind, its boundary vertices on a sphere.
+// A cube of elements of one kind, with its boundary vertices on a sphere.
 Mesh inscribed(Element_kind kind, int n)
 {
   Mesh mesh = grid(n, kind);
@@ -76,11 +76,11 @@ double farthest(const std::vector<Vec3>& samples, const std::vector<Test_kernel:
   return result;
 }
 
-// Returns whether anything draws.
+// Returns whether any place draws.
 template <class Attraction>
 bool compare(Attraction remembering, Attraction fresh, double tolerance)
 {
-  // of copies, as this strengthens what draws
+  // Copies are compared, as the call strengthens the attraction.
   const auto a = remembering.attractions(1), b = fresh.attractions(1);
   BOOST_TEST_EQ(a.size(), b.size());
   bool draws = false;
@@ -192,13 +192,13 @@ void test_more_samples()
   BOOST_TEST(compare(remembering, fresh, tolerance));
 }
 
-// From the surface alone, the distances are those of its samples; another boundary is measured anew.
+// The distances from the surface alone are those of its samples; another boundary is measured anew.
 void test_samples()
 {
   const Test_surface surface = sphere({center[0], center[1], center[2]}, radius, 16);
   const Polyhedral_mixed_mesh_domain_3 domain(surface);
   const Test_projection is_anywhere{
-    [](const Vec3& p, const Vec3&) { return p; }}; // so the boundary is on the surface
+    [](const Vec3& p, const Vec3&) { return p; }}; // the boundary is on the surface
   const Mesh mesh = inscribed(TETRAHEDRON, 3);
   const std::vector<Face> boundary = boundary_faces(mesh);
   const Working_mesh working = working_mesh(mesh, boundary);

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Bisection of boundary edges, against the triangles of the boundary alone.
+// Bisection of boundary edges, compared with the triangles of the boundary alone.
 
 #include "test_fitting.h"
 #include "test_strata.h"
@@ -50,7 +50,8 @@ struct Bisected
   std::vector<Edge> edges;
 };
 
-// The longest edges, of those that `is_allowed(a, b)` tells; `project(p, hint)` is where middles go.
+// Bisects the longest of the edges that `is_allowed(a, b)` tells; `project(p, hint)` is the place of a
+// middle.
 template <class Is_allowed, class Project>
 Bisected bisect(const Mesh& start, std::size_t number, double worst, const Is_allowed& is_allowed,
                 const Project& project)
@@ -132,8 +133,9 @@ std::multiset<Polygon> other_elements(const Mesh& mesh)
   return result;
 }
 
-// What holds for any bisections: valid elements, the same body, and the boundary with just these edges
-// bisected, each of them the longest of those that `is_allowed`, if none was refused for quality.
+// Checks conditions that hold for any bisections: valid elements, the same body, and the boundary with
+// exactly these edges bisected, each of them the longest of the allowed edges, if none was refused for
+// quality.
 template <class Is_allowed>
 void check(const Mesh& start, const Bisected& result, std::size_t number, double worst,
            const Is_allowed& is_allowed)
@@ -180,7 +182,7 @@ Mesh distorted_cube(unsigned seed)
     std::copy(plain.element(e).begin(), plain.element(e).end(), v.begin());
     mesh.add_element(TETRAHEDRON, v, {e % 5 == 0 ? 2 : 1, e % 3 == 0});
   }
-  // boundary vertices within their faces and edges of the cube, so that lengths differ
+  // Boundary vertices move within their faces and edges of the cube, so that lengths differ.
   for(Test_point& p : mesh.points()) {
     const auto bent = [](double x, double y, double z) {
       return x + x * (1 - x) * (0.2 * y + 0.1 * z - 0.07);
@@ -203,7 +205,7 @@ void test_tetrahedra()
       BOOST_TEST(std::equal(result.edges.begin(), result.edges.end(), most.begin()));
       check(start, result, number, infinity, all);
     }
-    // only some, and only as long as elements are good
+    // Only some edges are bisected, and only as long as elements are good.
     const auto is_odd = [](Vertex_index a, Vertex_index b) { return (a + b) % 2 == 1; };
     check(start, bisect(start, 50, infinity, is_odd, stay), 50, infinity, is_odd);
     BOOST_TEST(bisect(
@@ -223,7 +225,7 @@ void test_tetrahedra()
   }
 }
 
-// Middles go where they are sent, if elements stay valid.
+// Middles go to their projections, if elements stay valid.
 void test_projection()
 {
   Mesh start = grid(3, TETRAHEDRON);
@@ -247,7 +249,7 @@ void test_projection()
     else
       BOOST_TEST_LE(std::abs(norm(Vec3{p.x(), p.y(), p.z()} - Vec3{0.5, 0.5, 0.5}) - 0.9), 1e-14);
   }
-  // inside out: nothing fits
+  // The result would be inside out: no bisection fits.
   const auto opposite = [](const Vec3& p, const Vec3&) { return Vec3{1, 1, 1} - p; };
   BOOST_TEST(is_same(bisect(start, 20, infinity, all, opposite).mesh, start));
 }
@@ -262,7 +264,7 @@ void test_other_elements()
     BOOST_TEST(result.edges.empty());
     BOOST_TEST(is_same(result.mesh, start));
   }
-  // One of each kind: only edges at which there are no others.
+  // The mesh has one element of each kind: only edges without other kinds are bisected.
   const Mesh start = four_kinds<Mesh>(1, {0, 0, 0});
   const Bisected result = bisect(start, 12, infinity, all, stay);
   check(start, result, 12, 1e9, all);
@@ -275,8 +277,7 @@ void test_other_elements()
     }
 }
 
-// Two tetrahedra, or four, with nothing but an edge, the longest, in common: four faces of the boundary meet
-// there.
+// Two tetrahedra, or four, have only an edge, the longest, in common: four faces of the boundary meet there.
 void test_nonmanifold_edge()
 {
   for(int n : {2, 4}) {

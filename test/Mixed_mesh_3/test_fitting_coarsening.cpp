@@ -3,9 +3,9 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Edge collapses, thousands of them on meshes of any topology: after each, Betti numbers of the mesh and of
-// its boundary are those of the start, by brute force, and no element is inverted, by rationals. What would
-// cut itself is what all pairs of faces say. And coarsening of a whole mesh.
+// Edge collapses, thousands of them on meshes of any topology: after each collapse, Betti numbers of the mesh
+// and of its boundary are those of the start, by brute force, and no element is inverted, by rationals.
+// Self-intersections are compared with those of all pairs of faces. And coarsening of a whole mesh.
 
 #include "test_cells.h"
 #include "test_fitting.h"
@@ -46,7 +46,8 @@ using internal::Working_mesh;
 using Simplex = std::vector<Vertex_index>; // sorted
 using Betti_numbers = std::array<int, 4>;
 
-// Of the simplices and their faces, over Z/2: the numbers of simplices, less the ranks of the boundary maps.
+// Betti numbers of the simplices and their faces, over Z/2: the numbers of simplices, minus the ranks of the
+// boundary maps.
 Betti_numbers betti_numbers(const std::vector<Simplex>& simplices)
 {
   std::array<std::set<Simplex>, 4> all;
@@ -97,7 +98,7 @@ Simplex sorted(Simplex s)
   return s;
 }
 
-// Of a mesh, and of its boundary.
+// Betti numbers of a mesh, and of its boundary.
 std::array<Betti_numbers, 2> topology(const Mesh& mesh)
 {
   std::vector<Simplex> elements, faces;
@@ -131,7 +132,8 @@ struct Counts
   std::size_t collapsed = 0, refused_and_harmful = 0, cuts = 0, cuts_found = 0;
 };
 
-// Random edges, until `most` are collapsed or none is left to try. Those of the boundary may cut it.
+// Collapses random edges, until `most` are collapsed or none is left to try. Collapses of boundary edges may
+// be refused because the boundary would cut itself.
 void collapse_at_random(const Mesh& start, unsigned seed, std::size_t most, Counts& counts)
 {
   const auto before = topology(start);
@@ -156,7 +158,7 @@ void collapse_at_random(const Mesh& start, unsigned seed, std::size_t most, Coun
     Edge_collapser<Aspect_ratio_quality_3>(changed, quality)(v, w);
     Mesh mesh = start;
     changed.store(mesh);
-    if(!is_allowed) { // what would it do?
+    if(!is_allowed) { // the collapse is done to see its effect
       counts.refused_and_harmful += topology(mesh) != before || !find_defects(mesh).none();
       continue;
     }
@@ -185,7 +187,7 @@ void test_collapses()
   Counts counts;
   std::mt19937 random(1);
   for(unsigned seed = 1; seed <= 40; ++seed) {
-    // cells at random, so that there are bodies, handles and cavities, if the boundary is a manifold
+    // The cells are random, so that there are bodies, handles and cavities, if the boundary is a manifold.
     std::array<bool, 27> is_there{};
     for(bool& b : is_there)
       b = random() % 8 != 0;
@@ -195,7 +197,7 @@ void test_collapses()
     if(find_defects(start).none())
       collapse_at_random(start, seed, 60, counts);
   }
-  // with a hole, and with a cavity
+  // The meshes have a hole, and a cavity.
   for(unsigned seed = 1; seed <= 5; ++seed) {
     collapse_at_random(cells_of_grid(3, seed, [](const Cell& c) { return c[0] == 1 && c[1] == 1 ? 0 : 1; }),
                        seed, 60, counts);
@@ -210,7 +212,7 @@ void test_collapses()
   BOOST_TEST_GT(counts.refused_and_harmful, 100u);
 }
 
-// A cube loses nothing of its volume, nor its corners: its faces are flat.
+// A cube loses none of its volume, nor its corners: its faces are flat.
 void test_coarsen()
 {
   const Test_surface cube = box(Test_point(0, 0, 0), Test_point(1, 1, 1));
@@ -237,13 +239,13 @@ void test_coarsen()
     BOOST_TEST(internal::coarsen(again, surface, n, 3.2, 0, [] { return true; }));
     BOOST_TEST(again.points() == mesh.points());
   }
-  // no mesh has so few
+  // No mesh has so few vertices.
   internal::Core_mesh mesh = internal::as_core_mesh(start);
   BOOST_TEST(!internal::coarsen(mesh, surface, 3, 3.2, 0, [] { return true; }));
   BOOST_TEST(find_defects(mesh).none());
 }
 
-// Where elements are in a region, vertices near it are more.
+// More vertices remain near elements in a region.
 void test_weights()
 {
   const Mesh all = grid(10, TETRAHEDRON);

@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Vertices that move by colors: no two of an element at the same time, and the same result with any number of
-// threads.
+// Vertices that move by colors: no two vertices of an element move at the same time, and the result is the
+// same with any number of threads.
 
 #include "test_fitting.h"
 #include "test_strata.h"
@@ -30,7 +30,7 @@ using namespace CGAL::Mixed_meshes_3;
 using internal::Vertex_coloring;
 using internal::Working_mesh;
 
-// Cubes whose vertices were moved a little, those of the boundary as well.
+// A grid of cubes whose vertices were moved a little, boundary vertices as well.
 Mesh shaken_grid(int n)
 {
   std::mt19937 random(3);
@@ -60,7 +60,7 @@ Working_mesh shaken_cubes(int n)
   return working_mesh(mesh, boundary_faces(mesh));
 }
 
-// Each vertex has one color, and no two of an element have the same.
+// Checks that each vertex has one color, and no two vertices of an element have the same.
 void check_colors(const Working_mesh& mesh, const Vertex_coloring& coloring)
 {
   std::vector<std::size_t> color_of(mesh.points.size(), coloring.vertices().size());
@@ -88,7 +88,7 @@ void test_coloring()
   check_colors(mesh, coloring);
   BOOST_TEST_EQ(coloring.vertices().size(), 8u); // every other one in three directions
 
-  // new elements between vertices of the same color, and a new vertex
+  // New elements are between vertices of the same color, and there is a new vertex.
   const Vertex_index middle = mesh.add_vertex({2.5, 2.5, 2.5}, internal::free_stratum);
   std::size_t i = 0;
   for(const std::vector<Vertex_index>& same : std::vector(coloring.vertices())) {
@@ -131,7 +131,7 @@ void test_threads()
   BOOST_TEST(first != start.points);
 }
 
-// In each direction, the vertices of the layers at the sides of a grid.
+// Whether a vertex is in the layers at the sides of a grid, in each direction.
 bool is_in_layers(Vertex_index v, int n, int layers)
 {
   int i = int(v);
@@ -141,7 +141,7 @@ bool is_in_layers(Vertex_index v, int n, int layers)
   return false;
 }
 
-// Far from the boundary only what is bad moves, or has tetrahedra only.
+// Vertices far from the boundary move only if an element is bad, or if all elements are tetrahedra.
 void test_inside()
 {
   constexpr int n = 9, layers = 2;

@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// fit_mixed_mesh_to_surface() and its stages: solvers, targets; meshes carried onto surfaces that they were
-// made for, and onto others; each way to end.
+// fit_mixed_mesh_to_surface() and its stages: solvers, targets; meshes fitted to surfaces that they were made
+// for, and to others; each outcome.
 //
 //   test_fitting_fit [DATA_DIRECTORY]
 
@@ -66,7 +66,7 @@ double diagonal(const Test_surface& s)
   return norm(Vec3{b.x_span(), b.y_span(), b.z_span()});
 }
 
-// Without the tree.
+// The distance from a surface, computed without the tree.
 double distance(const Test_point& p, const Test_surface& s)
 {
   double d = std::numeric_limits<double>::infinity();
@@ -79,7 +79,7 @@ double distance(const Test_point& p, const Test_surface& s)
   return std::sqrt(d);
 }
 
-// What holds for any input.
+// Checks conditions that hold for any input.
 void check(const Mesh& mesh, const Mesh& before, const Test_surface& surface,
            const Mixed_mesh_fit_result_3& result)
 {
@@ -99,7 +99,7 @@ void check(const Mesh& mesh, const Mesh& before, const Test_surface& surface,
                 result.is_on_surface() && result.number_of_unacceptable_elements != 0);
 }
 
-// Fits, checks, says what came out.
+// Fits, checks, and prints the result.
 Mixed_mesh_fit_result_3 fit(const char* what, Mesh& mesh, const Test_surface& surface,
                             const Mixed_mesh_fit_criteria_3& criteria = Mixed_mesh_fit_criteria_3())
 {
@@ -151,7 +151,7 @@ void test_solvers()
 #ifdef CGAL_MIXED_MESH_3_USE_CHOLMOD
   BOOST_TEST_LT(difference(fitted_with(Cholmod_solver_traits(), mesh, ball), expected), 1e-9);
 #endif
-  // The default is less exact, but boundary vertices are where they are with all others.
+  // The default is less exact, but boundary vertices are at the same places as with all other solvers.
   Mesh by_default = mesh;
   fit_mixed_mesh_to_surface(by_default, ball);
   BOOST_TEST_LT(difference(by_default, expected), 1e-2);
@@ -163,7 +163,7 @@ void test_solvers()
 
 // ---- targets -----------------------------------------------------------------------------------
 
-// Faces below a quality if vertices go to the closest points of the surface, and if they go to their targets.
+// Numbers of faces below a quality if vertices go to the closest points of the surface, or to their targets.
 struct Folded_faces
 {
   std::size_t before, after;
@@ -232,7 +232,7 @@ void test_other_surfaces(const Test_surface& brain)
   BOOST_TEST(fit("ball to bent ellipsoid", mesh, bent_ellipsoid()).is_on_surface());
   mesh = ball;
   BOOST_TEST(fit("ball to box", mesh, box({-1, -0.8, -0.7}, {0.9, 0.8, 0.8})).is_on_surface());
-  // a mesh of another head: the brain, smoother and larger
+  // The surface is that of another head: the brain, smoother and larger.
   CGAL::Bbox_3 b;
   for(auto v : brain.vertices())
     b += brain.point(v).bbox();
@@ -242,7 +242,7 @@ void test_other_surfaces(const Test_surface& brain)
   });
   mesh = ball;
   BOOST_TEST(fit("ball to brain", mesh, scaled_brain).is_on_surface());
-  // closest points fold, targets do not
+  // Faces fold at closest points, but not at targets.
   const Mesh finer_ball = mesh_of(sphere({0, 0, 0}, 1, 16), 2000);
   for(const Test_surface& surface : {scaled_brain, box({-1, -0.8, -0.7}, {0.9, 0.8, 0.8})}) {
     const Folded_faces folded = folded_faces(finer_ball, surface, 0);
@@ -257,7 +257,7 @@ void test_other_surfaces(const Test_surface& brain)
     const Test_surface larger_box = box({-0.1, -0.05, -0.1}, {1.1, 1.05, 1.2});
     BOOST_TEST(fit((what + " to box").c_str(), mesh, larger_box).is_on_surface());
     mesh = grid(5, kind);
-    // at the cube's edges two of the three vertices around a corner of a pyramid's base pass the third
+    // Two of the three vertices around a corner of a pyramid's base pass the third at the cube's edges.
     BOOST_TEST_EQ(fit((what + " to ball").c_str(), mesh, sphere({0.5, 0.5, 0.5}, 0.7, 32)).is_on_surface(),
                   kind != PYRAMID);
   }
@@ -272,7 +272,7 @@ struct Stop_after : Default_visitor
   bool go_on() { return --questions >= 0; }
 };
 
-// Solves so many systems, then no more.
+// Solver that solves a number of systems, then no more.
 struct Failing_solver : Simplicial_solver_traits
 {
   int solves = 1;
@@ -295,7 +295,7 @@ void test_statuses()
   BOOST_TEST(capped.status == Status::CAP_REACHED);
   BOOST_TEST(capped.number_of_unacceptable_elements > 0);
 
-  // A single tetrahedron over a plane has nowhere to go; it stays as it is, or at least not flat.
+  // A single tetrahedron over a plane can not arrive; it stays as it is, or at least not flat.
   mesh.clear();
   for(const Test_point& p : {Test_point(0, 0, 1.1), {0.3, 0, 1.1}, {0, 0.3, 1.1}, {0, 0, 1.4}})
     mesh.add_vertex(p);
@@ -357,7 +357,8 @@ void test_criteria()
     BOOST_TEST_LE(std::size_t(steps), result.number_of_solves);
     BOOST_TEST(result.is_on_surface());
   }
-  // the same again; far from the origin and in another unit nearly so, if no two points are equally close
+  // The result is repeated; far from the origin and in another unit nearly so, if no two points are equally
+  // close.
   const Test_surface other_ball = sphere({0.47, 0.52, 0.51}, 0.7, 32);
   Mesh first = cubes, second = cubes, other = cubes;
   fit("first", first, other_ball);

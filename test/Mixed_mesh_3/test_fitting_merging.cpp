@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Merging of boundary vertices, one after the other until nothing is left to merge: after each, the mesh and
-// each of its subdomains are without defects, with the topology of the start.
+// Merging of boundary vertices, one after the other until no vertex is left to merge: after each merge, the
+// mesh and each of its subdomains are without defects, with the topology of the start.
 
 #include "test_cells.h"
 #include "test_fitting.h"
@@ -104,7 +104,7 @@ void test_cells()
   std::size_t merged = 0;
   for(unsigned seed = 1; seed <= 3; ++seed) {
     merged += test_merging(cells_of_grid(3, seed, [](const Cell&) { return 1; }), seed);
-    // a tunnel, a cavity, walls and gaps of one cell
+    // The meshes have a tunnel, a cavity, walls and gaps of one cell.
     merged += test_merging(
       cells_of_grid(3, seed, [&](const Cell& c) { return !(is_in_middle(c[0]) && is_in_middle(c[1])); }),
       seed);
@@ -113,7 +113,7 @@ void test_cells()
       seed);
     merged += test_merging(cells_of_grid(4, seed, [](const Cell& c) { return c[0] % 2 == 0 || c[2] == 0; }),
                            seed);
-    // subdomains beside each other, and one within
+    // Subdomains are beside each other, and one within another.
     merged += test_merging(cells_of_grid(4, seed, [](const Cell& c) { return c[0] < 2 ? 1 : 2; }), seed);
     merged += test_merging(
       cells_of_grid(3, seed, [&](const Cell& c) { return is_in_middle(c[0]) && is_in_middle(c[2]) ? 2 : 1; }),

@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// optimize_mixed_mesh_3(): distorted meshes that must stay valid, each way to end, and the brain with all
-// that is promised for it.
+// optimize_mixed_mesh_3(): distorted meshes that must stay valid, each outcome, and the brain with all
+// guarantees.
 //
 //   test_fitting_optimize [DATA_DIRECTORY]
 
@@ -79,13 +79,13 @@ std::vector<Polygon> other_elements(const Mesh& mesh)
   return result;
 }
 
-// What holds for any valid start.
+// Checks conditions that hold for any valid start.
 void check(const Mesh& before, const Mesh& after, const Mixed_mesh_optimization_result_3& result,
            const Test_surface& surface)
 {
   BOOST_TEST(is_positive(before) && is_positive(after));
   BOOST_TEST_EQ(after.number_of_vertices(), before.number_of_vertices());
-  // where the surface has sharp edges, flips in flat places beside them change the faces
+  // Flips in flat places beside sharp edges of the surface change the faces.
   BOOST_TEST(result.length_of_sharp_edges > 0 || boundary_of(after) == boundary_of(before));
   BOOST_TEST(other_elements(after) == other_elements(before));
   BOOST_TEST(result.number_of_flips > 0
@@ -103,7 +103,7 @@ Test_surface unit_cube() { return box({0, 0, 0}, {1, 1, 1}); }
 
 Test_surface ball_surface(double radius = 1) { return sphere({0.1, 0.2, 0.3}, radius, 12); }
 
-// As the octree leaves it: its boundary outside the surface.
+// The mesh as the octree makes it, with its boundary outside the surface.
 Mesh unfitted(const Test_surface& surface, std::size_t n)
 {
   Mesh mesh;
@@ -167,7 +167,7 @@ void test_statuses()
   empty.add_vertex({0, 0, 0});
   BOOST_TEST(optimize_mixed_mesh_3(empty, surface).status == Status::EMPTY);
 
-  // no valid start
+  // No start is valid.
   for(Element_kind kind : element_kinds) {
     Mesh mesh = grid(2, kind);
     const Vertex_index center = 13;
@@ -187,7 +187,7 @@ void test_statuses()
   nameless.add_element(TETRAHEDRON, {0, 1, 2, 99});
   BOOST_TEST(optimize_mixed_mesh_3(nameless, surface).status == Status::INVALID_MESH);
 
-  // success, and what it means
+  // The outcome is a success, with its guarantees.
   const Mesh start = unfitted(surface, 300);
   BOOST_TEST_GT(number_of_vertices_off_surface(start, surface), 50u);
   Mesh mesh = start;
@@ -201,7 +201,7 @@ void test_statuses()
   optimize_mixed_mesh_3(same, surface);
   BOOST_TEST(is_same(same, mesh));
 
-  // stopped anywhere: valid; a no is a no
+  // A run stopped anywhere is valid; a visitor that returned false is obeyed.
   BOOST_TEST_GT(patient.number_of_questions, 4u);
   std::size_t unchanged = 0;
   for(std::size_t i = 0; i < patient.number_of_questions; ++i) {
@@ -212,7 +212,7 @@ void test_statuses()
                                    CGAL::parameters::visitor(std::ref(impatient)));
     BOOST_TEST(result.status == Status::STOPPED);
     BOOST_TEST_EQ(impatient.number_of_questions, i + 1);
-    // outside the quality bound, where it may be on the way, it comes back
+    // Elements that exceed the quality bound on the way come back to it.
     const bool is_unchanged = is_same(stopped, start);
     BOOST_TEST(is_unchanged || i > 0);
     BOOST_TEST(!is_unchanged || result.number_of_arrived_vertices == 0);
@@ -221,7 +221,7 @@ void test_statuses()
   }
   BOOST_TEST_LE(unchanged, 2u);
 
-  // A plate so thin that its elements would be flatter than what is accepted.
+  // The plate is so thin that its elements would be flatter than acceptable.
   Test_surface plate;
   add_box(plate, {-0.1, -0.1, 0.49999}, {1.1, 1.1, 0.50001});
   const Mesh cube = grid(2, HEXAHEDRON);
@@ -232,7 +232,7 @@ void test_statuses()
   BOOST_TEST_EQ(result.number_of_boundary_vertices, 26u);
   check(cube, mesh, result, plate);
 
-  // a tolerance
+  // The tolerance is positive.
   for(double tolerance : {1., 0.02}) {
     mesh = start;
     result = optimize_mixed_mesh_3(mesh, domain, Criteria().tolerance(tolerance));
@@ -240,7 +240,7 @@ void test_statuses()
     BOOST_TEST(result.status == (tolerance == 1 ? Status::SUCCESS : Status::TOLERANCE_NOT_REACHED));
     BOOST_TEST_EQ(result.largest_distance > tolerance, tolerance < 1);
     BOOST_TEST_EQ(result.number_of_rounds, 12u);
-    // at samples: not above the true distance, and not much below that of the surface
+    // The distance at samples is not above the true distance, and not much below that of the surface.
     const auto distance = hausdorff_distance(mesh, surface);
     const auto &from_mesh = distance.from_mesh, &from_surface = distance.from_surface;
     BOOST_TEST_LE(result.largest_distance,
@@ -265,7 +265,7 @@ void test_criteria()
     BOOST_TEST_EQ(result.number_of_rounds, std::size_t(rounds));
     check(start, mesh, result, surface);
   }
-  // Carried elsewhere: to a sphere twice as large, and with the other measure.
+  // Meshes are fitted elsewhere: to a sphere twice as large, and with the other measure.
   const Test_surface larger = ball_surface(1.5);
   for(int model : {0, 1}) {
     Mesh mesh = start;
@@ -281,7 +281,7 @@ void test_criteria()
   }
 }
 
-// Each bisection adds a vertex of the surface, as many as are allowed; elements that are no tetrahedra stay.
+// Each bisection adds a vertex on the surface, as many as are allowed; elements that are no tetrahedra stay.
 void test_bisections()
 {
   const Test_surface surface = ball_surface();
@@ -323,7 +323,7 @@ void test_brain(const Test_surface& brain, const Test_surface& region_surface)
   BOOST_TEST(made.status == CGAL::Mixed_mesh_status::SUCCESS);
   check(before, mesh, made.optimization, brain);
 
-  // off the surface before, on it after
+  // The vertices were not on the surface before, and are on it after.
   BOOST_TEST_GT(number_of_vertices_off_surface(before, brain), 150u);
   BOOST_TEST_EQ(number_of_vertices_off_surface(mesh, brain), 0u);
   BOOST_TEST_EQ(number_of_boundary_self_intersections(mesh), 0u);
@@ -347,7 +347,7 @@ void test_brain(const Test_surface& brain, const Test_surface& region_surface)
   std::cout << "brain, 660: ARC " << rows[number_of_element_kinds].mean << ", at most "
             << rows[number_of_element_kinds].maximum << "; warp " << warp << std::endl;
 
-  // What sliding costs, against vertices that stay where they arrive.
+  // The cost of sliding is compared with vertices that stay where they arrive.
   Mesh again = before, stiff = before;
   BOOST_TEST(optimize_mixed_mesh_3(again, brain).status == Status::SUCCESS);
   BOOST_TEST(is_same(again, mesh)); // by itself as in the driver; and repeatable
@@ -358,7 +358,7 @@ void test_brain(const Test_surface& brain, const Test_surface& region_surface)
   BOOST_TEST_GE(quality_statistics(stiff)[number_of_element_kinds].maximum,
                 rows[number_of_element_kinds].maximum);
 
-  // A tolerance brings both surfaces nearer: the same elements, and elements chosen for it.
+  // A tolerance brings both surfaces nearer: with the same elements, and with elements chosen for it.
   Mesh near = before, nearer;
   const auto drawn = optimize_mixed_mesh_3(near, domain, Criteria().tolerance(4));
   check(before, near, drawn, brain);

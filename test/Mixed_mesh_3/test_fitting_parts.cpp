@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the optimization is made of: gradients of the costs against differences, flips on integers.
+// Parts of the optimization: gradients of the costs compared with differences, flips on integers.
 
 #include "test_fitting.h"
 #include "test_strata.h"
@@ -57,7 +57,7 @@ Element_points reference_points(Element_kind kind, double r3, double height)
   return p;
 }
 
-// All edges equal but for the height of the pyramid.
+// Elements with equal edges, except for the height of the pyramid.
 Element_points ideal(Element_kind kind, double height_of_pyramid)
 {
   return reference_points(kind, std::sqrt(3.), height_of_pyramid);
@@ -74,7 +74,7 @@ void test_gradients(const Quality& quality, double height_of_pyramid, double ide
   std::size_t compared = 0, kinks = 0, inverted = 0;
   for(Element_kind kind : element_kinds) {
     const int n = reference_elements[kind].number_of_vertices;
-    // the paper's constant is that of the regular tetrahedron but for a rounding
+    // The paper's constant is that of the regular tetrahedron up to rounding.
     const double best = kind == PRISM ? ideal_prism : kind == TETRAHEDRON ? ideal_tetrahedron : 1;
     BOOST_TEST_LE(std::abs(quality(kind, ideal(kind, height_of_pyramid)) - best), 1e-6);
     for(int repeat = 0; repeat < 400; ++repeat) {
@@ -126,7 +126,7 @@ void test_qualities()
                    const double j = internal::scaled_jacobian(kind, p);
                    return j > 0 ? 1 / j : 1;
                  });
-  // the cost of the second is the reciprocal, not less
+  // The cost of the second quality is the reciprocal, not less.
   std::mt19937 random(6);
   std::uniform_real_distribution<double> uniform(-0.2, 0.2);
   for(Element_kind kind : element_kinds)
@@ -146,7 +146,7 @@ void test_qualities()
 
 // ---- flips -------------------------------------------------------------------------------------
 
-// On integers, so that volumes are exact.
+// Six times the volumes, on integers, so that volumes are exact.
 std::int64_t six_volumes(const Mesh& mesh)
 {
   std::int64_t sum = 0;
@@ -195,8 +195,8 @@ bool has_edge(const Mesh& mesh, Vertex_index a, Vertex_index b)
   return false;
 }
 
-// As if inside of a larger mesh, so that nothing is removed. Returns the number of flips, and checks that the
-// elements fill the same volume.
+// Flips as inside of a larger mesh, so that nothing is removed. Returns the number of flips, and checks that
+// the elements fill the same volume.
 std::size_t flip(Mesh& mesh)
 {
   const Mesh before = mesh;
@@ -228,7 +228,7 @@ std::size_t flip(Mesh& mesh)
 
 void test_flips()
 {
-  // 3-2, of a long edge; not of a short one, where 2-3 does the contrary
+  // A long edge gets a 3-2 flip; a short one does not, where a 2-3 flip does the contrary.
   Mesh mesh = around_axis(3, 120);
   BOOST_TEST_EQ(flip(mesh), 1u);
   BOOST_TEST_EQ(mesh.number_of_elements(), 2u);
@@ -244,14 +244,14 @@ void test_flips()
   for(int e = 0; e < 3; ++e) // the region takes what it met
     BOOST_TEST(mesh.is_in_region(std::size_t(e)));
 
-  // Never across the interface of two subdomains: the same two, one of them of another one.
+  // No flip crosses the interface of two subdomains: the same two elements, one of them of another subdomain.
   mesh = bipyramid(3, 30);
   mesh.add_element(TETRAHEDRON, {2, 3, 4, 1});
   mesh.add_element(TETRAHEDRON, {4, 3, 2, 0}, {2, false});
   BOOST_TEST_EQ(flip(mesh), 0u);
   BOOST_TEST(mesh.subdomain_index(0) == 1 && mesh.subdomain_index(1) == 2);
 
-  // 4-4, and rings of 5, 6, 7; larger ones stay
+  // The flips are 4-4, and rings of 5, 6, 7; larger rings stay.
   for(int n = 4; n <= 8; ++n) {
     mesh = around_axis(n, 250);
     const std::size_t flips = flip(mesh);
@@ -260,7 +260,7 @@ void test_flips()
     BOOST_TEST_EQ(int(mesh.number_of_elements()), n <= 7 ? 2 * (n - 2) : n);
   }
 
-  // Not where the new elements would be inverted: vertex 2 is beyond the axis, and the ring not convex there.
+  // No flip inverts new elements: vertex 2 is beyond the axis, and the ring is not convex there.
   mesh = around_axis(4, 250);
   for(const Test_point& outside : {Test_point(-150, 0, 0), Test_point(-90, 0, 0)}) {
     Mesh bent = bipyramid(4, 250);
@@ -273,7 +273,7 @@ void test_flips()
     flip(bent);
   }
 
-  // Random points in a cube, in each cell of which the edges are as they happen to be.
+  // The points are random in a cube, in each cell of which the edges are arbitrary.
   for(unsigned seed = 1; seed <= 5; ++seed) {
     mesh = grid(4, TETRAHEDRON);
     for(Test_point& p : mesh.points())

@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// That no element has an aspect-ratio coefficient (ARC) above the bound: all elements that there can be
-// before the boundary is fitted, each way to end, the proof for one element, and what follows for dihedral
+// The guarantee that no element has an aspect-ratio coefficient (ARC) above the bound: all possible elements
+// before the boundary is fitted, each outcome, the proof for one element, and the consequences for dihedral
 // angles.
 
 #include "test_fitting.h"
@@ -50,7 +50,7 @@ using Points = internal::Element_points;
 
 constexpr double bound = Criteria::default_quality_bound;
 
-// The proof, on the coordinates as the certificates take them.
+// The proof on the coordinates in the form of the certificates.
 bool is_within(Element_kind kind, const Points& p, double q)
 {
   std::array<std::array<double, 3>, 8> points{};
@@ -60,7 +60,7 @@ bool is_within(Element_kind kind, const Points& p, double q)
 
 // ---- the start ---------------------------------------------------------------------------------
 
-// The largest cost and ARC of all that is added.
+// The largest cost and ARC of all elements added.
 struct Worst
 {
   double cost = 0;
@@ -83,8 +83,8 @@ Points points_of(const Points& p, std::initializer_list<Vertex_index> vertices)
   return q;
 }
 
-// All that the boundary stage can make of an element: each set of vertices outside, in each order. Of
-// vertices inside, which have no order, it takes none before.
+// Adds all pieces that the boundary stage can make of an element: each set of vertices outside, in each
+// order. Vertices inside, which have no order, do not come before.
 void add_pieces(Element_kind kind, const Points& p, Worst& worst)
 {
   constexpr Vertex_index vertices[8] = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -112,7 +112,7 @@ void add_pieces(Element_kind kind, const Points& p, Worst& worst)
   add(0);
 }
 
-// As tetrahedra, of whatever vertex and diagonals: what `split_to_tetrahedra()` makes of elements and of
+// Adds tetrahedra of any vertex and diagonals, as `split_to_tetrahedra()` makes them of elements and of
 // pieces.
 void add_tetrahedra(Element_kind kind, const Points& p, Worst& worst)
 {
@@ -127,7 +127,7 @@ void add_tetrahedra(Element_kind kind, const Points& p, Worst& worst)
   }
 }
 
-// Elements of templates that are congruent, vertex by vertex, are looked at once.
+// Squared distances, by which elements of templates that are congruent, vertex by vertex, are tested once.
 std::vector<int> squared_distances(const internal::Template_element& element, const Points& p)
 {
   std::vector<int> result{element.kind};
@@ -213,7 +213,7 @@ Rational squared_ratio(std::initializer_list<Rational> squares)
   return std::max(squares) / std::min(squares);
 }
 
-// The square of the ARC, of elements that are not degenerate; 0 if it is inverted.
+// The square of the ARC of elements that are not degenerate; 0 for an inverted element.
 Rational squared_arc(Element_kind kind, const Points& p)
 {
   const auto at = [&](int i) { return mean(p, {i}); };
@@ -320,7 +320,7 @@ void test_exact_bounds()
     BOOST_TEST(is_within(kind, p, 3));
     BOOST_TEST(!is_within(kind, p, below));
   }
-  // the prism on a right triangle with legs of 1: its height of 3, and the triangle's over the hypotenuse
+  // The prism is on a right triangle with legs of 1: heights are 3, and the triangle's over the hypotenuse.
   const Rational squared = squared_arc(PRISM, prism);
   BOOST_TEST(squared == Rational(18));
   BOOST_TEST(is_within(PRISM, prism, 4.25) && !is_within(PRISM, prism, 4.24));
@@ -349,7 +349,7 @@ double dihedral_angle(const Points& p, bool largest)
                  : internal::smallest_dihedral_angle(TETRAHEDRON, p);
 }
 
-// The tetrahedron with two planes of symmetry that has the angle, in degrees, and of these the least ARC.
+// The tetrahedron with two planes of symmetry that has the angle, in degrees, and the least ARC of these.
 Points symmetric_tetrahedron(double angle)
 {
   const double half = angle / 360 * CGAL_PI, length = std::sqrt((3 - std::cos(2 * half)) / 2);
@@ -362,7 +362,7 @@ Points symmetric_tetrahedron(double angle)
 void test_dihedral_angles()
 {
   const auto arc = [](const Points& p) { return internal::aspect_ratio_coefficient(TETRAHEDRON, p); };
-  // attained
+  // The bounds are attained.
   for(double q : {1.01, 1.5, 2.2, 3.2, 4., 10., 1000.}) {
     const auto angles = dihedral_angle_bounds(q);
     for(int largest : {0, 1}) {
@@ -375,7 +375,7 @@ void test_dihedral_angles()
   BOOST_TEST(std::abs(dihedral_angle_bounds(bound)[0] - 12.94) < 0.005
              && std::abs(dihedral_angle_bounds(bound)[1] - 154.44) < 0.005);
 
-  // never exceeded: by random tetrahedra, of any shape
+  // Random tetrahedra, of any shape, never exceed the bounds.
   std::mt19937 random(1);
   const auto uniform = [&] { return random() / 4294967296. * 2 - 1; };
   for(int run = 0; run < 20000; ++run) {
@@ -390,7 +390,7 @@ void test_dihedral_angles()
     BOOST_TEST_LE(dihedral_angle(p, true), angles[1] + 1e-6);
   }
 
-  // nor by those that are led there: random steps that make the angle more extreme, within the bound
+  // Random steps that make the angle more extreme, within the bound, never exceed the bounds either.
   for(int largest : {0, 1}) {
     double extreme = 90;
     for(int start = 0; start < 4; ++start) {
@@ -448,7 +448,8 @@ Test_surface thin_plates()
   return s;
 }
 
-// Surfaces that mesh after mesh was above the bound for, and none is now. What gives way is counted.
+// Surfaces for which meshes used to exceed the bound, and no mesh does now. Vertices that do not arrive are
+// counted.
 void test_hard_surfaces()
 {
   const struct
@@ -486,7 +487,7 @@ void test_hard_surfaces()
       std::cout << c.name << ": ARC at most " << largest_arc(free) << " without a bound; with " << q << ", "
                 << off << " vertices off the surface" << std::endl;
     }
-    // a finer mesh that is coarsened has it easier
+    // A finer mesh that is coarsened has more freedom.
     const auto coarsened = make_mixed_mesh_3(c.surface, c.vertices, mesh).optimization;
     BOOST_TEST_EQ(coarsened.number_of_arrived_vertices, coarsened.number_of_boundary_vertices);
     BOOST_TEST_EQ(coarsened.quality_bound, bound);
@@ -494,7 +495,7 @@ void test_hard_surfaces()
   }
 }
 
-// Spikes whose faces cut each other on the way if vertices are free to go, with and without a bound.
+// Spikes whose faces cut each other on the way if vertices are free, with and without a bound.
 void test_crossing_faces()
 {
   const struct
@@ -527,7 +528,7 @@ struct Stopping_visitor : Default_visitor
   bool go_on() { return number_of_questions++ != stop_at; }
 };
 
-// Wherever it is stopped, on the way that may leave the bound or on that within it.
+// The run is stopped anywhere, on the way that may exceed the bound or on the way within the bound.
 void test_stopped()
 {
   const Test_surface surface = spiky_ball(2.5, 7, 16);
@@ -557,7 +558,7 @@ void test_stopped()
   BOOST_TEST(unchanged > 1 && unchanged < patient.number_of_questions / 3);
 }
 
-// Vertices that can not get to the surface are merged, unless elements are to stay.
+// Vertices that can not arrive are merged, unless elements have to stay.
 void test_merging()
 {
   const Test_surface surface = spiky_ball(2.5, 7, 16);
@@ -578,7 +579,7 @@ void test_merging()
   BOOST_TEST(kept.elements().connectivity() == start.elements().connectivity());
 }
 
-// From elsewhere, with elements above the bound at the start: none gets worse than the worst of them.
+// The start is from elsewhere, with elements above the bound: none gets worse than the worst of them.
 void test_bad_start()
 {
   const Test_surface cube = box({0, 0, 0}, {1, 1, 1});
@@ -594,7 +595,7 @@ void test_bad_start()
       BOOST_TEST(result.status == Status::SUCCESS);
       BOOST_TEST_LT(largest_cost(mesh), worst);
       BOOST_TEST_GE(result.number_of_elements_above_bound, number_of_elements_above(mesh, q));
-      // where it is asked to go to another surface, too
+      // The guarantee holds for another surface, too.
       mesh = start;
       optimize_mixed_mesh_3(mesh, thin_plates(), Criteria().quality_bound(q));
       BOOST_TEST_LE(largest_cost(mesh), worst);

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Sharp edges: boxes between lattice planes, features that are found, and meshes that keep them.
+// Sharp edges: boxes between lattice planes, detection of features, and meshes that keep features.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3.h>
@@ -34,7 +34,7 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 
 using Polygon = std::vector<std::array<double, 2>>;
 
-// A prism over a polygon, counter-clockwise, that is seen whole from its first vertex.
+// A prism over a counter-clockwise polygon, all of which is visible from its first vertex.
 Surface prism(const Polygon& base, double height)
 {
   Surface s;
@@ -63,7 +63,7 @@ Surface box(const Point& corner, double a, double b, double c)
   return s;
 }
 
-// About odd angles.
+// The surface turned about axes by odd angles.
 Surface turned(Surface s)
 {
   for(const auto v : s.vertices()) {
@@ -158,7 +158,7 @@ void test_boxes()
   }
 }
 
-// In several planes, and with a part that is finer.
+// A lattice in several planes, and with a finer part.
 void test_lattice_with_region()
 {
   const Surface l = prism({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, 1);
@@ -175,7 +175,7 @@ void test_lattice_with_region()
   BOOST_TEST(mesh.number_of_vertices() > 1200);
   BOOST_TEST(std::abs(volume(mesh) - 1) < 1e-12);
 
-  // without, the edges are cut off
+  // The edges are cut off without sharp features.
   CGAL::make_mixed_mesh_3(cube, CGAL::Mixed_mesh_criteria_3(1500).sharp_angle(0), mesh);
   BOOST_TEST(!is_hexahedral(mesh) && volume(mesh) < 1 - 1e-4);
 }
@@ -254,9 +254,9 @@ void test_detection()
   BOOST_TEST_EQ(std::count_if(cylinder.polylines().begin(), cylinder.polylines().end(),
                               [](const auto& p) { return std::abs(p.length() - 2 * M_PI / 3) < 0.01; }),
                 6);
-  // too coarse elements follow nothing
+  // Too coarse elements follow no features.
   BOOST_TEST(features(box(Point(0, 0, 0), 1, 1, 1), 10).empty());
-  // what organs look like: few edges, or very many, here and there
+  // Surfaces that resemble organs have few sharp edges, or very many, here and there.
   for(double noise : {0., 0.02, 0.05, 0.1, 0.2})
     for(double size : {0.1, 0.2})
       BOOST_TEST(features(ball(40, noise), size).empty());

@@ -3,9 +3,9 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Usage: test_io [directory]. Writes files there (default: the current directory), and what is in
-// them to io_expected.json, for test_io_readers.py: a program that reads its own files cannot find
-// an error of convention.
+// Usage: test_io [directory]. Writes files there (default: the current directory), and their content to
+// io_expected.json, for test_io_readers.py: a program that reads its own files cannot find an error of
+// convention.
 
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
@@ -63,7 +63,7 @@ using Point = Kernel::Point_3;
 
 const char* const extensions[] = {".vtu", ".msh", ".msh2", ".mesh", ".inp", ".feb"};
 
-// Brute force: the faces that occur once. Empty if one occurs more than twice, or twice in the same
+// The faces that occur once, by brute force. Empty if one occurs more than twice, or twice in the same
 // direction.
 template <class Mesh>
 std::vector<Face> find_boundary_faces(const Mesh& mesh)
@@ -206,7 +206,7 @@ Mesh grid(int n, unsigned int seed, double noise)
         }
       }
 
-  // No unused vertices.
+  // The mesh has no unused vertices.
   std::vector<Vertex_index> used_number(number.size());
   std::vector<bool> is_number_used(number.size());
   for(std::size_t i = 0; i < number.size(); ++i)
@@ -236,7 +236,7 @@ std::size_t number_of_files(const fs::path& directory)
   return std::size_t(std::distance(fs::directory_iterator(directory), fs::directory_iterator()));
 }
 
-// The error that a function hands over; empty if it succeeds. `io(&error)` returns whether it did.
+// The error of a function; empty if the function succeeds. `io(&error)` returns whether it did.
 template <class Io>
 std::string error_of(const Io& io)
 {
@@ -255,7 +255,7 @@ bool mentions(const std::string& error, const std::string& text)
   return result;
 }
 
-// What `write_mixed_mesh()` says; empty if nothing.
+// The error of `write_mixed_mesh()`; empty if there is none.
 std::string write_error(const std::string& path, const Mesh& mesh,
                         const IO::Write_options& options = IO::Write_options())
 {
@@ -267,7 +267,7 @@ std::string check_error(const std::string& path)
   return error_of([&](std::string* error) { return IO::check_output_path(path, error); });
 }
 
-// Elements by kind, as VTU files have them.
+// Elements by kind, in the order of VTU files.
 std::vector<Element_index> order_by_kind(const Mesh& mesh)
 {
   std::vector<Element_index> order;
@@ -305,7 +305,8 @@ public:
     m_json << std::setprecision(17) << "[";
   }
 
-  // Writes the mesh in all formats, twice, and what readers must find. Vertex data are the positions.
+  // Writes the mesh in all formats, twice, and the content that readers must find. Vertex data are the
+  // positions.
   void write(const std::string& name, const Mesh& mesh,
              const IO::Write_options& vtu_options = IO::Write_options(),
              const std::vector<IO::Facet_set>& facet_sets = {}, bool share_faces = false)
@@ -358,7 +359,8 @@ public:
     m_json << "]}";
   }
 
-  // Facet sets of the last mesh: of each face its element, whether it is on the boundary, and its vertices.
+  // Adds facet sets of the last mesh: for each face its element, whether the face is on the boundary, and its
+  // vertices.
   void add_facet_sets(const Mesh& mesh, const std::vector<IO::Facet_set>& sets)
   {
     const std::vector<Face> boundary = find_boundary_faces(mesh);
@@ -401,7 +403,7 @@ double area_of(const Mesh& mesh, const std::vector<Face>& faces)
                          [&mesh](double sum, const Face& face) { return sum + area(mesh, face); });
 }
 
-// The faces of the boundary that look in a direction; those of the elements of a subdomain, all around.
+// The faces of the boundary that face a direction; and the faces of the elements of a subdomain.
 std::vector<IO::Facet_set> facet_sets_of(const Mesh& mesh)
 {
   std::vector<IO::Facet_set> sets{{"Left-side", {}}, {"right_2", {}}, {"empty", {}}, {"around", {}}};
@@ -416,7 +418,7 @@ std::vector<IO::Facet_set> facet_sets_of(const Mesh& mesh)
   return sets;
 }
 
-// Faces of sets that are in none before, so that all formats hold them.
+// Removes faces that are in an earlier set, so that all formats can have the sets.
 void make_disjoint(std::vector<IO::Facet_set>& sets)
 {
   std::vector<Face> used;
@@ -433,7 +435,7 @@ void make_disjoint(std::vector<IO::Facet_set>& sets)
 void test_facet_sets(Expectations& expectations, const fs::path& directory, const Mesh& mesh)
 {
   std::vector<IO::Facet_set> sets = facet_sets_of(mesh);
-  // A face in two sets is in both, or refused.
+  // A face in two sets is written in both, or refused.
   for(const char* extension : extensions)
     if(!can_share_faces(extension))
       BOOST_TEST(
@@ -444,7 +446,7 @@ void test_facet_sets(Expectations& expectations, const fs::path& directory, cons
   expectations.write("io_facets", mesh, {}, sets);
   expectations.add_facet_sets(mesh, sets);
 
-  // What is on the mesh is on its tetrahedra: faces are planar here.
+  // Sets of the mesh are sets of its tetrahedra: faces are planar here.
   std::vector<Element_index> origins;
   const Mesh tetrahedra = split_to_tetrahedra(mesh, &origins);
   const std::vector<IO::Facet_set> split = IO::internal::split_facet_sets(tetrahedra, origins, sets);
@@ -542,7 +544,7 @@ void test_writers(const fs::path& directory)
   expectations.write("io_tetrahedra", split_to_tetrahedra(cells));
   test_facet_sets(expectations, directory, cells);
 
-  // The option is the function; element data follow their elements.
+  // The option has the effect of the function; element data follow their elements.
   const std::string path = (directory / "io_option.vtu").string();
   IO::Write_options options = with_data;
   options.tetrahedra = true;
@@ -644,7 +646,7 @@ void test_split(const Mesh& mesh, bool is_planar)
     for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
       BOOST_TEST_LT(std::abs(volumes[e] - volume(mesh, e)), 1e-12);
 
-  // Conforming, and the boundary faces are those found by brute force.
+  // The mesh is conforming, and the boundary faces are those found by brute force.
   BOOST_TEST(has_right_boundary(tetrahedra));
 }
 
@@ -664,7 +666,7 @@ const auto text_writer = [](const std::string& text) {
   return [text](std::ostream& stream) { return bool(stream << text); };
 };
 
-// Files appear all or none: here the third one cannot, since a folder took its name in the meantime.
+// Files appear all or none: here the third file cannot, since a folder took its name in the meantime.
 void test_outputs_together(const fs::path& directory)
 {
   const fs::path place = directory / "together";
@@ -682,7 +684,7 @@ void test_outputs_together(const fs::path& directory)
   }
   BOOST_TEST(mentions(error, path("folder") + ": cannot replace: "));
   BOOST_TEST_EQ(contents(path("old")), "old");
-  BOOST_TEST_EQ(number_of_files(place), 2u); // nothing new, nothing left behind
+  BOOST_TEST_EQ(number_of_files(place), 2u); // nothing new, no remains
   fs::remove_all(place / "folder");
   IO::Output_files files;
   for(const char* name : {"old", "new", "third"})
@@ -706,14 +708,14 @@ void test_names_and_modes(const fs::path& directory)
       BOOST_TEST(files.commit(&error));
     return error;
   };
-  // As long as the system allows, and longer.
+  // Names are as long as the system allows, and longer.
   for(std::size_t length : {1u, 251u, 255u}) {
     const fs::path path = place / std::string(length, 'a');
     BOOST_TEST_EQ(write(path), "");
     BOOST_TEST_EQ(contents(path), "content");
   }
   BOOST_TEST(mentions(write(place / std::string(256, 'a')), "File name too long"));
-  // The mode of a file is kept; what nobody else may read is never readable.
+  // The mode of a file is kept; a file that nobody else may read is never readable.
   for(unsigned mode : {0600u, 0640u, 0444u, 0666u}) {
     const fs::path path = place / "mode";
     std::ofstream(path) << "old";
@@ -731,7 +733,7 @@ void test_names_and_modes(const fs::path& directory)
     BOOST_TEST_EQ(permissions(path), mode);
     fs::remove(path);
   }
-  // Links that lead to no file yet are written through; those that go round are refused.
+  // Links that lead to no file yet are written through; circles of links are refused.
   fs::create_directory(place / "folder");
   fs::create_symlink("folder/second", place / "first");
   fs::create_symlink("third", place / "folder/second");
@@ -740,7 +742,7 @@ void test_names_and_modes(const fs::path& directory)
   BOOST_TEST_EQ(contents(place / "folder/third"), "content");
   fs::create_symlink("round", place / "round");
   BOOST_TEST(mentions(write(place / "round"), "Too many levels of symbolic links"));
-  // Stopped while it is written: nothing is left.
+  // A run stopped while the file is written leaves nothing.
   bool go_on = true;
   std::string error;
   {
@@ -786,7 +788,7 @@ void test_errors(const fs::path& directory)
   BOOST_TEST(IO::format_of("A.B/C.MSH2") == IO::Format::MSH_2_2);
   BOOST_TEST_EQ(number_of_files(place), 2u);
 
-  // An existing file is not touched by the check, nor by a failure; other files never.
+  // The check and failures do not touch an existing file, and never other files.
   const fs::path old = place / "old.vtu";
   std::ofstream(old) << "old";
   std::ofstream(place / "old.vtu.tmp0") << "somebody else's";
@@ -817,7 +819,7 @@ void test_errors(const fs::path& directory)
   BOOST_TEST_EQ(number_of_files(place), 4u);
 
 #if defined(__unix__)
-  // Files that stop growing: what a full disk does.
+  // Files stop growing, as on a full disk.
   const Mesh large = grid(8, 1, 0);
   std::signal(SIGXFSZ, SIG_IGN);
   rlimit limit;
@@ -836,7 +838,7 @@ void test_errors(const fs::path& directory)
   test_outputs_together(place);
   test_names_and_modes(place);
 
-  // A link stays, and what it points to is replaced or, if a device, written to.
+  // A link stays, and its target is replaced or, if a device, written to.
   fs::create_symlink("old.vtu", place / "link.vtu");
   BOOST_TEST(IO::write_mixed_mesh((place / "link.vtu").string(), mesh));
   BOOST_TEST(fs::is_symlink(place / "link.vtu"));
@@ -855,7 +857,7 @@ void test_errors(const fs::path& directory)
   fs::remove_all(place);
 }
 
-// For Surface_mesh and Polyhedron_3.
+// Tests a reader for Surface_mesh and Polyhedron_3.
 template <class Surface>
 void test_reader(const fs::path& directory)
 {
@@ -883,8 +885,8 @@ void test_reader(const fs::path& directory)
   BOOST_TEST_EQ(faces(surface).size(), 12u);
   BOOST_TEST(has_warning(input, "triangulated 6 polygons"));
 
-  // A cavity that hangs from the middle of the upper face: the components touch, where the cavity is
-  // highest. What was in the mesh is replaced.
+  // A cavity hangs from the middle of the upper face: the components touch, where the cavity is highest. The
+  // former content of the mesh is replaced.
   const std::string walls = "4 0 2 3 1\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n"
                             "3 4 5 8\n3 5 7 8\n3 7 6 8\n3 6 4 8\n";
   for(const char* cavity :
@@ -915,7 +917,7 @@ void test_reader(const fs::path& directory)
   }
   BOOST_TEST_EQ(n, vertices(surface).size());
 
-  // Faces that cut each other are repaired, or refused if that is wanted.
+  // Faces that cut each other are repaired, or refused if requested.
   const std::string crossing =
     "OFF\n8 8 0\n0 0 0\n3 0 0\n0 3 0\n0 0 3\n0.5 0.5 0.5\n3 0.5 0.5\n0.5 3 0.5\n0.5 0.5 3\n"
     "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n3 4 6 5\n3 4 5 7\n3 4 7 6\n3 5 6 7\n";
@@ -931,7 +933,8 @@ void test_reader(const fs::path& directory)
 }
 
 #ifdef CGAL_USE_ZLIB
-// What is written in pieces of any size is what the blocks hold, around the sizes of one and of several.
+// Blocks hold the bytes that are written in pieces of any size, around the sizes of one and of several
+// blocks.
 void test_compressed_blocks()
 {
   constexpr std::size_t block = 1 << 16;

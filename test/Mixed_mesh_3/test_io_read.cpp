@@ -66,7 +66,7 @@ bool are_same(const Mesh& a, const Mesh& b)
   return same;
 }
 
-// The mesh with its elements by kind, as VTU files have them.
+// The mesh with its elements by kind, in the order of VTU files.
 Mesh sorted_by_kind(const Mesh& mesh)
 {
   Mesh sorted;
@@ -110,7 +110,7 @@ Mesh one_of_each_kind()
   return mesh;
 }
 
-// Files cut off anywhere, and with wrong bytes: they are refused, or what is read is a mesh.
+// Files cut off anywhere, and with wrong bytes: they are refused, or the result is a mesh.
 void test_damage(const std::string& path, const std::string& damaged_path)
 {
   const std::string bytes = contents(path);
@@ -132,7 +132,8 @@ void test_damage(const std::string& path, const std::string& damaged_path)
   for(std::size_t trial = 0; trial < trials; ++trial) {
     std::string wrong = bytes;
     for(std::size_t n = 1 + random() % 3; n != 0; --n) {
-      // Half of them where the file describes itself; digits, so that numbers stay numbers; bits.
+      // Half of the wrong bytes are where the file describes itself; digits, so that numbers stay numbers;
+      // bits.
       const std::size_t range = trial % 2 == 0 ? wrong.size() : (std::min)(wrong.size(), std::size_t(2000));
       char& c = wrong[random() % range];
       c = n % 3 == 0   ? char('0' + random() % 10)
@@ -169,8 +170,8 @@ void test_round_trip(const fs::path& directory, const std::string& name, const M
   }
 }
 
-// References of the file tell the subdomain: in ours, a part in the region has another one than the rest.
-// Names of subdomains that the mesh has come back; those that files cannot have are refused.
+// References of the file tell the subdomain: in our files, a part in the region has another reference than
+// the rest. Names of subdomains that the mesh has are read back; names that files cannot have are refused.
 void test_subdomain_names(const fs::path& directory)
 {
   Mesh mesh = one_of_each_kind();
@@ -232,7 +233,7 @@ void test_round_trips(const fs::path& data, const fs::path& directory)
   test_round_trip(directory, "brain", mesh);
   test_MEDIT(directory, mesh);
 
-  // A vertex that is on no element stays.
+  // A vertex without an element stays.
   mesh = one_of_each_kind();
   mesh.add_vertex({7, 8, 9});
   for(const char* name : {"unused.vtu", "unused.msh2"}) {
@@ -343,7 +344,7 @@ void test_hand_written(const fs::path& directory)
     BOOST_TEST(!mesh.is_in_region(0) && mesh.is_in_region(1) && mesh.is_in_region(2));
   }
 
-  // Header and values encoded apart or as one.
+  // Header and values are encoded separately or as one.
   for(const char* base64 : {"BAAAAA==AACAPw==", "\n BAAAAA==\n AACA\r\nPw== ", "BAAAAAAAgD8="}) {
     mesh = read_text(directory, "hand_base64.vtu", with_region(base64));
     BOOST_TEST(mesh.number_of_elements() == 1 && mesh.is_in_region(0));
@@ -373,7 +374,7 @@ void test_hand_written(const fs::path& directory)
   test_damage((directory / "hand.msh").string(), (directory / "damaged_hand.msh").string());
 }
 
-// A unit cube with a pyramid, a prism and a tetrahedron on it, as other programs have them.
+// The unit cube has a pyramid, a prism and a tetrahedron on it, in the form of other programs.
 const char* const node =
   "# a comment\n 9  3  2  1\n0 0 0 0 7.5 1 -1\n1 1 0 0 0 0 0\n2 1 1 0 0 0 0 # and here\n"
   "3 0 1 0 0 0 0\n4 0 0 1 0 0 0\n5 1 0 1 0 0 0\n6 1 1 1 0 0 0\n7 0 1 1 0 0 0\n"
@@ -572,7 +573,7 @@ void test_errors_of_others(const fs::path& directory)
   fs::remove(directory / "error.ele");
 }
 
-// What test_read_writers.py compares with.
+// Prints the content for test_read_writers.py.
 void print(const std::string& path)
 {
   Mesh mesh;

@@ -3,10 +3,10 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Surfaces from files: the unit cube in all formats, spaces, and files that lie.
+// Surfaces from files: the unit cube in all formats, spaces, and files with wrong content.
 //
 //   test_io_surface [DIRECTORY]
-//   test_io_surface --files FILE...   prints what is read, a line of JSON each, and reads damaged copies
+//   test_io_surface --files FILE...   prints the content, a line of JSON each, and reads damaged copies
 
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
 
@@ -89,7 +89,8 @@ void refuses(const std::string& name, const std::string& contents, const std::st
   BOOST_TEST(std::none_of(r.error.begin(), r.error.end(), [](char c) { return c >= 0 && c < ' '; }));
 }
 
-// Read as another surface of that volume, with a line that names the defect; or refused, if that is wanted.
+// Checks that a file is read as another surface of that volume, with a line that names the defect; or
+// refused, if requested.
 void is_repaired(const std::string& name, const std::string& contents, const std::string& words,
                  double volume)
 {
@@ -173,7 +174,7 @@ void is_cube(const Result& r)
 void test_off()
 {
   is_cube(read("cube.off", off()));
-  // normals, colors, texture coordinates; comments; numbers in any style
+  // The file has normals, colors, texture coordinates; comments; numbers in any style.
   std::string points, faces = triangle_lines();
   for(int v = 0; v < 8; ++v)
     points += std::to_string(v & 1) + ".0 +" + std::to_string(v >> 1 & 1) + "e0 " + std::to_string(v >> 2)
@@ -278,7 +279,7 @@ void test_stl()
   refuses("short.stl", "STL", "not a complete STL file");
 }
 
-// Coordinates and indices of any types.
+// A PLY file with coordinates and indices of any types.
 template <class Coordinate, class Count, class Index>
 std::string ply(const std::string& format, const std::string& coordinate, const std::string& count,
                 const std::string& index)
@@ -385,7 +386,7 @@ void test_vtk()
   std::string not_finite = text;
   not_finite.replace(not_finite.find("POINTS 8 float\n") + 15, 8, "0 nan\n0 ");
   refuses("nan.vtk", not_finite, "line 9: vertex 0 has a coordinate that is not a finite number");
-  // sizes that do not fit
+  // Sizes do not fit.
   std::string wrong = text;
   wrong.replace(wrong.find("POLYGONS 4 20\n4"), 15, "POLYGONS 4 20\n9");
   refuses("sizes.vtk", wrong, "do not have the size");
@@ -414,8 +415,8 @@ void test_freesurfer()
   r = read("rh.white", freesurfer() + head + "valid = 1  # volume info valid\n" + axes);
   BOOST_TEST(r.is_read && r.bbox() == CGAL::Bbox_3(10, 20, 30, 11, 21, 31));
   BOOST_TEST(r.input.warnings.empty());
-  // a volume that was not resampled: columns to the left, rows to the back, slices upwards, all turned by 90
-  // degrees
+  // The volume was not resampled: columns to the left, rows to the back, slices upwards, all turned by 90
+  // degrees.
   r = read("rh.white",
            freesurfer() + head + "valid = 1\nxras = 0 -1 0\nyras = 1 0 0\nzras = 0 0 1\ncras = 0 0 0\n");
   BOOST_TEST(r.is_read && r.bbox() == CGAL::Bbox_3(-1, 0, 0, 0, 1, 1));
@@ -514,7 +515,7 @@ std::string moved_points(double x, double y, double z)
   return points.str();
 }
 
-// As STL: what is at the same place is the same point.
+// A surface as in STL: points at the same place are the same point.
 std::string without_indices(const std::vector<std::array<double, 3>>& shifts)
 {
   std::string all = "solid\n";
@@ -534,7 +535,8 @@ std::string without_indices(const std::vector<std::array<double, 3>>& shifts)
 
 void test_touching_bodies()
 {
-  // in a corner, along an edge, beside each other; as closed bodies, and as triangles without indices
+  // The cubes touch in a corner, along an edge, or beside each other; as closed bodies, and as triangles
+  // without indices.
   for(const std::array<double, 3>& shift :
       {std::array<double, 3>{1, 1, 1}, std::array<double, 3>{1, 1, 0}, std::array<double, 3>{3, 0, 0}})
     for(const Result& r : {read("two.off", off(cube_points + moved_points(shift[0], shift[1], shift[2]),
@@ -551,12 +553,12 @@ void test_touching_bodies()
       BOOST_TEST(!has_warning(r, "merged"));
     }
   BOOST_TEST(has_warning(read("two.stl", without_indices({{0, 0, 0}, {1, 1, 0}})), "touch along 1 edge"));
-  // four around an edge
+  // Four cubes are around an edge.
   const Result four = read("four.stl", without_indices({{0, 0, 0}, {1, 1, 0}, {0, 1, 1}, {1, 0, 1}}));
   BOOST_TEST(four.is_read);
   BOOST_TEST_LE(std::abs(four.input.volume - 4), 1e-15);
 
-  // A face in common, and three faces at an edge.
+  // Cubes have a face in common, and three faces are at an edge.
   is_repaired("stacked.off", off(cube_points + moved_points(0, 0, 1), triangle_lines() + triangle_lines(8)),
               "intersects itself", 2);
   is_repaired("fin.off", off(cube_points + "1.5 1.5 1.5\n", triangle_lines() + "3 0 1 8\n"), "not closed", 1);
@@ -565,7 +567,8 @@ void test_touching_bodies()
                   triangle_lines() + triangle_lines(8) + "3 0 1 16\n3 0 16 1\n"),
               "not closed", 2);
 
-  // Pairs of cones over the same square: one beside the other, and one through the other along the square.
+  // Pairs of cones are over the same square: one beside the other, and one through the other along the
+  // square.
   for(double lowest : {1.5, 0.5}) {
     std::ostringstream points, faces;
     int first = 0;
@@ -585,7 +588,7 @@ void test_touching_bodies()
     }
   }
 
-  // Half of the points twice: closed only when merged.
+  // Half of the points occur twice: the surface is closed only when points are merged.
   const Result halves = read("halves.off", off(cube_points + cube_points, [] {
                                std::string faces;
                                std::size_t i = 0;
@@ -600,7 +603,7 @@ void test_touching_bodies()
   is_cube(halves);
   BOOST_TEST(has_warning(halves, "merged"));
 
-  // A cavity is one, beside it is another body.
+  // A cavity is recognized, and a surface beside it is another body.
   std::string small;
   for(int v = 0; v < 8; ++v)
     small += std::to_string(0.25 + cube_coordinate(v, 0) / 2) + " "
@@ -622,7 +625,7 @@ void test_holes_and_wraps()
   is_repaired("hole.off", without(2), "not closed: 4 border edges", 1);
   const Result filled = read("hole.off", without(2));
   BOOST_TEST(has_warning(filled, "filled 1 hole, the largest of length 4 near ("));
-  // too large; a wrap of the width that is told is a solid, and contains the cube's half
+  // The hole is too large; a wrap of the given width is a solid, and contains half of the cube.
   const Result large = read("large_hole.off", without(6));
   BOOST_TEST(!large.is_read && mentions(large.error, "too large to be filled"));
   BOOST_TEST_GT(large.input.wrap_diameter, 1);
@@ -632,13 +635,13 @@ void test_holes_and_wraps()
   BOOST_TEST(wrapped.is_read && has_warning(wrapped, "wrapped it"));
   BOOST_TEST_GT(wrapped.input.volume, 0.2);
   BOOST_TEST_EQ(wrapped.input.repairs.size(), 1u);
-  // what is closed is wrapped, too
+  // A closed surface is wrapped, too.
   options.wrap_diameter = 0.5;
   const Result cube = read("cube.off", off(), options);
   BOOST_TEST(cube.is_read && has_warning(cube, "wrapped it, closing what is narrower than 0.5"));
   BOOST_TEST(cube.input.volume > 1 && cube.input.volume < 1.2);
 
-  // the same after scaling and shifting: no length is absolute
+  // The results are the same after scaling and shifting: no length is absolute.
   for(double scale : {1e-6, 1e6, 1e12})
     for(double shift : {0., 1e3, 1e6}) {
       std::ostringstream points;
@@ -670,10 +673,10 @@ void test_flat_and_tiny()
   refuses("flat_open.off", off("0 0 0\n1 0 0\n0 1 0\n", "3 0 1 2\n"), "is flat");
   refuses("line.off", off("0 0 0\n1 1 1\n2 2 2\n", "3 0 1 2\n"), "is flat");
 
-  // A point 1e-170 away from the corner: no number, next to 1, for any arithmetic.
+  // A point is 1e-170 away from the corner: next to 1, this is no number for any arithmetic.
   const std::string points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1e-170 0 0\n";
   const Result r = read("tiny.off", off(points, "3 0 4 2\n3 4 1 2\n3 0 3 4\n3 4 3 1\n3 0 2 3\n3 1 3 2\n"));
-  // ... is the corner, after triangles without area are gone
+  // The point becomes the corner, after triangles without area are removed.
   BOOST_TEST(!r.is_read || std::abs(r.input.volume - 1. / 6) < 1e-15);
   for(const auto& p : r.surface.points())
     for(int k = 0; k < 3; ++k)
@@ -722,7 +725,7 @@ void print(const Result& r)
   std::cout << "]}\n";
 }
 
-// Files cut off anywhere, and with wrong bytes: they are refused in one line, or what is read is a surface.
+// Files cut off anywhere, and with wrong bytes: they are refused in one line, or the result is a surface.
 void test_damage(const fs::path& path)
 {
   std::ifstream in(path, std::ios_base::binary);

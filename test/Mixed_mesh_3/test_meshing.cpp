@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// make_mixed_mesh_3() from end to end: what it guarantees, on the brain.
+// make_mixed_mesh_3() from end to end: its guarantees, on the brain.
 //
 //   test_meshing [DATA_DIRECTORY]
 
@@ -129,7 +129,7 @@ void test_bisections(const Surface& brain, const Polyhedral_mixed_mesh_domain_3&
       BOOST_TEST_EQ(result.optimization.number_of_boundary_vertices, boundary_vertices(mesh).size());
       BOOST_TEST_EQ(number_of_vertices_off_surface(mesh, brain), 0u);
 
-      // what is left over without fitting
+      // Vertices are left over without fitting.
       Mesh before;
       const auto rest = make_mixed_mesh_3(domain, region, unfitted(n).share_of_bisections(used), before);
       check(before, rest, n - std::size_t(used * double(n)));
@@ -141,8 +141,8 @@ void test_bisections(const Surface& brain, const Polyhedral_mixed_mesh_domain_3&
   BOOST_TEST_EQ(Mixed_mesh_criteria_3(660).share_of_bisections(0).share_of_bisections(), 0);
 }
 
-// The octree of the paper: no cell is deeper than the base level but in the region, or for the balance. The
-// mesh is that of an octree made here, of which that is checked.
+// The octree of the paper: no cell is deeper than the base level except in the region, or for the balance.
+// The mesh is that of an octree made here, which is checked.
 void test_paper(const Polyhedral_mixed_mesh_domain_3& domain, const Polyhedral_mixed_mesh_region_3& region)
 {
   const Axis_aligned_octree_cell_traits_3 traits(domain.bbox());
@@ -190,14 +190,14 @@ void test_paper(const Polyhedral_mixed_mesh_domain_3& domain, const Polyhedral_m
     }
     BOOST_TEST(in_region > 20 && for_balance > 0);
 
-    // and with grading more than that is split
+    // Grading splits more cells than these.
     Mesh graded;
     run(domain, region, unfitted(1500).base_level(base_level).tolerance(0), graded);
     BOOST_TEST(!(content(graded) == content(mesh)));
   }
 }
 
-// The smallest budget that suffices: it does, half of it does not, and too small a limit is told.
+// The smallest budget that suffices: it does, half of it does not, and too small a limit is reported.
 void test_fewest_vertices(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& domain,
                           const Polyhedral_mixed_mesh_region_3& region)
 {
@@ -233,7 +233,7 @@ void test_fewest_vertices(const Surface& brain, const Polyhedral_mixed_mesh_doma
   }
 }
 
-// The search for a tolerance, with the root given. One that is not given is a wish.
+// The search for a tolerance, with the root given. A tolerance that is not given is a wish.
 void test_tolerance(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& domain,
                     const Polyhedral_mixed_mesh_region_3& region)
 {
@@ -269,7 +269,7 @@ void test_tolerance(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& 
     BOOST_TEST(result.tolerance > 0 && result.tolerance < last); // finer with more vertices
     last = result.tolerance;
     BOOST_TEST(result.status != Status::TOLERANCE_NOT_REACHED);
-    Mesh asked; // where it is no wish, the status tells
+    Mesh asked; // the status tells about a requested tolerance
     const auto same = run(domain, region, Mixed_mesh_criteria_3(n).tolerance(last), asked);
     BOOST_TEST_EQ(same.status == Status::TOLERANCE_NOT_REACHED,
                   same.status < Status::PARTS_LOST
@@ -278,7 +278,7 @@ void test_tolerance(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& 
   }
 }
 
-// What is wished for takes no level of the surface in the region; what is asked for may.
+// A wished tolerance takes no level of the surface in the region; a requested one may.
 void test_region_before_wish(const Polyhedral_mixed_mesh_domain_3& domain)
 {
   const Ball_mixed_mesh_region_3 opening({-25, -20, 66}, 24);
@@ -313,7 +313,8 @@ void test_repeatability(const Polyhedral_mixed_mesh_domain_3& domain,
     run<Tag>(domain, region, Mixed_mesh_criteria_3(1000), mesh);
     BOOST_TEST(content(mesh) == first);
   }
-  // so large that vertices move by colors; cells without bisections, so that more are moved at a time
+  // The mesh is so large that vertices move by colors; cells are without bisections, so that more are moved
+  // at a time.
   first = {};
   for(unsigned threads : {1, 3}) {
     const Thread_limit limit(threads);
@@ -384,7 +385,7 @@ void test_criteria(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& d
   BOOST_TEST_GT(result.number_of_transition_vertices, expected.number_of_transition_vertices);
   check_sides(mesh, result, domain);
 
-  // In the paper's mode the kept elements are the same; fewer of them are for the same budget.
+  // The kept elements are the same in the paper's mode; there are fewer of them for the same budget.
   result = run(domain, region, unfitted(1500).boundary_mode(Boundary_mode::PAPER), mesh);
   BOOST_TEST(result.status == Status::SUCCESS);
   BOOST_TEST_GT(result.number_of_boundary_vertices_inserted, 0u);
@@ -400,7 +401,7 @@ void test_criteria(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& d
     BOOST_TEST_GE(result.deepest_level, level);
   }
   BOOST_TEST(result.status == Status::BUDGET_TOO_SMALL);
-  // as many as needed are enough
+  // The needed number of vertices is sufficient.
   const std::size_t needed = result.number_of_vertices_needed;
   result = run(domain, region, unfitted(needed).base_level(5), mesh);
   BOOST_TEST(result.status == Status::SUCCESS);
@@ -436,7 +437,7 @@ void test_regions(const Polyhedral_mixed_mesh_domain_3& domain, const Surface& r
   for(std::size_t e = 0; e < everywhere.number_of_elements(); ++e)
     BOOST_TEST(everywhere.is_in_region(e));
 
-  // any number of surfaces: the same as one, or none
+  // Any number of surfaces gives the same as one, or none.
   CGAL::Polyhedral_mixed_mesh_regions_3 regions;
   run(domain, regions, criteria, same);
   BOOST_TEST(content(everywhere) == content(same));
@@ -453,7 +454,7 @@ void test_regions(const Polyhedral_mixed_mesh_domain_3& domain, const Surface& r
                           criteria, united);
   BOOST_TEST(result.status == Status::SUCCESS);
   const Polyhedral_mixed_mesh_region_3 alone(region_surface);
-  // elements of the union belong to one of the two
+  // Elements of the union belong to one of the two regions.
   bool has_first = false, has_second = false;
   for(std::size_t e = 0; e < united.number_of_elements(); ++e)
     if(united.is_in_region(e))
@@ -463,7 +464,7 @@ void test_regions(const Polyhedral_mixed_mesh_domain_3& domain, const Surface& r
       }
   BOOST_TEST(has_first && has_second);
 
-  // away from the domain
+  // The region is away from the domain.
   Mesh none;
   none.add_vertex(center);
   const Point_3 away(b.xmax() + 1000, 0, 0);
@@ -471,7 +472,7 @@ void test_regions(const Polyhedral_mixed_mesh_domain_3& domain, const Surface& r
              == Status::REGION_NOT_MET);
 }
 
-// Position and unit do not matter, but for the rounding of the input.
+// Position and unit do not matter, except for the rounding of the input.
 void test_invariance(const Surface& brain, const Surface& region)
 {
   Mesh mesh;
@@ -490,7 +491,7 @@ void test_invariance(const Surface& brain, const Surface& region)
     const Surface surface = transformed(brain, f), region_surface = transformed(region, f);
     const Content scaled = make(surface, region_surface, false);
     // The side of a cell is rounded to 20 bits: other factors move vertices by up to 2e-6 of the root
-    // relative to the surface, which can swap two that are almost equally far from it.
+    // relative to the surface, which can swap two vertices that are almost equally far from it.
     int exponent;
     if(std::frexp(scale, &exponent) == 0.5) {
       BOOST_TEST(scaled.has_same_topology(expected));
@@ -502,9 +503,9 @@ void test_invariance(const Surface& brain, const Surface& region)
   for(double offset : {1000., 1e8}) {
     const auto f = [&](const Point_3& p) { return p + Vector_3(offset, -offset, offset); };
     const Surface surface = transformed(brain, f), region_surface = transformed(region, f);
-    // at 1e8 the lattice has so few digits left that the root is a little larger
+    // The lattice has so few digits left at 1e8 that the root is a little larger.
     BOOST_TEST(make(surface, region_surface, false).has_same_topology(expected) || offset > 1e6);
-    // flips may differ, by the rounding of the closest points; the elements are as good
+    // Flips may differ, by the rounding of the closest points; the elements are as good.
     make(surface, region_surface, true);
     BOOST_TEST_LE(std::abs(quality_statistics(mesh)[number_of_element_kinds].mean - mean), 0.02);
     BOOST_TEST_EQ(number_of_vertices_off_surface(mesh, surface), 0u);
@@ -526,11 +527,11 @@ void test_small_budgets(const Polyhedral_mixed_mesh_domain_3& domain,
     BOOST_TEST(result.has_mesh() || result.status == Status::BUDGET_TOO_SMALL);
     if(!result.has_mesh())
       BOOST_TEST_GT(result.number_of_vertices_needed, n);
-    if(n <= 4) // a vertex inside has at least four around it
+    if(n <= 4) // a vertex inside has at least four around
       BOOST_TEST(!result.has_mesh());
     if(result.has_mesh() && smallest == 0)
       smallest = n;
-    BOOST_TEST(smallest == 0 || result.has_mesh()); // more is never too small
+    BOOST_TEST(smallest == 0 || result.has_mesh()); // a larger budget is never too small
   }
   BOOST_TEST(smallest > 4 && smallest <= 200);
 }
@@ -575,7 +576,7 @@ void test_visitor(const Surface& brain, const Surface& region)
     BOOST_TEST_EQ(visitor.begun[int(Stage::OPTIMIZATION)], is_in_search ? 0u : 1u);
   }
 
-  // What there is can be kept: valid, and the more the later.
+  // The mesh so far can be kept: valid, and with more vertices the later the run is stopped.
   std::size_t last = 0, first_kept = 0;
   for(std::size_t i = 0; i < all.number_of_questions; i += 3) {
     Recording_visitor visitor;
@@ -600,7 +601,7 @@ void test_visitor(const Surface& brain, const Surface& region)
   BOOST_TEST(last > 500 && first_kept < result.number_of_trials);
 }
 
-// Along a spike there are cells without vertices, any number of them: their number is bounded.
+// The number of cells without vertices, of which a spike may have any number, is bounded.
 void test_spikes()
 {
   for(double length : {1e3, 1e5, 1e9})

@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Domains of users, through the public concepts: what they tell of their surface is used, and what they do
-// not is not needed.
+// Domains of users, through the public concepts: their optional descriptions of the surface are used, and are
+// not required.
 
 #include "test_meshing.h"
 
@@ -46,7 +46,7 @@ public:
   }
 };
 
-// The same, which knows what its surface is like.
+// The same domain, which describes its surface.
 class Two_balls_with_shells : public Two_balls
 {
   Shell_counts m_shells;
@@ -59,7 +59,7 @@ public:
   std::optional<Shell_counts> shells() const { return m_shells; }
 };
 
-// A box in a rotated frame, by its planes.
+// A box in a rotated frame, given by its planes.
 class Box_domain
 {
 public:
@@ -189,7 +189,7 @@ struct Box_with_planes : Box_domain
   }
 };
 
-// A narrow gap, which is bridged if nobody tells that it is there; and a blend, which needs no such help.
+// A narrow gap, which is bridged if no description tells of the gap; and a blend, which needs no description.
 void test_thin_parts()
 {
   const struct
@@ -216,7 +216,7 @@ void test_thin_parts()
   }
 }
 
-// What the domain tells is not what the mesh is like, and the status says so.
+// The mesh does not match the domain's description, and the status says so.
 void test_topology_that_differs()
 {
   Mesh mesh;
@@ -270,7 +270,7 @@ void test_planes()
   BOOST_TEST_LT(std::abs(volume(mesh) - 0.375), 1e-12);
 }
 
-// A surface given directly is meshed as one with a label.
+// A surface given directly is meshed like a surface with a label.
 void test_labels()
 {
   const Surface surface = sphere(Point_3(0, 0, 0), 1, 16);

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// make_mixed_mesh_3() on awkward domains, and each way to end.
+// make_mixed_mesh_3() on awkward domains, and each outcome.
 
 #include "test_meshing.h"
 
@@ -33,7 +33,7 @@ using CGAL::Polyhedral_mixed_mesh_region_3;
 
 // ---- awkward domains ---------------------------------------------------------------------------
 
-// Cells are lost if that is the status, or if one of precedence is.
+// Checks that cells are lost if the status says so, or a status of precedence.
 void check_lost(const Mixed_mesh_result_3& result)
 {
   BOOST_TEST(result.status != Status::PARTS_LOST || result.number_of_lost_cells > 0);
@@ -41,9 +41,9 @@ void check_lost(const Mixed_mesh_result_3& result)
   BOOST_TEST_EQ(result.number_of_lost_cells > 0, result.lost_cells != CGAL::Bbox_3());
 }
 
-// Returns the volume of the mesh that is not fitted; the fitted one is valid, too, and nearer.
-// expected: how the mesh that is not fitted ends, with a cube and with a box as root
-// fitted: likewise after fitting, without more vertices; convex surfaces and small budgets only, to save time
+// Returns the volume of the mesh that is not fitted; the fitted mesh is valid, too, and nearer.
+// expected: outcome of the mesh that is not fitted, with a cube and with a box as root
+// fitted: outcome after fitting, without more vertices; convex surfaces and small budgets only, to save time
 double mesh_shape(const std::string& name, const Surface& surface, std::size_t budget,
                   const std::array<Status, 2>& expected, const std::vector<Status>& fitted_status = {})
 {
@@ -78,7 +78,7 @@ double mesh_shape(const std::string& name, const Surface& surface, std::size_t b
       BOOST_TEST_LE(off,
                     r->optimization.number_of_boundary_vertices - r->optimization.number_of_arrived_vertices);
       BOOST_TEST(r->status >= Status::NOT_ALL_ARRIVED || off == 0);
-      // the chords of a convex surface are inside
+      // The chords of a convex surface are inside.
       const double exact = CGAL::to_double(CGAL::Polygon_mesh_processing::volume(surface));
       BOOST_TEST(r->status >= Status::NOT_ALL_ARRIVED || volume(*m) < exact * (1 + 1e-9));
       const auto rows = quality_statistics(*m);
@@ -92,7 +92,7 @@ double mesh_shape(const std::string& name, const Surface& surface, std::size_t b
 
 void test_shapes()
 {
-  // the mesh contains the vertices inside; its volume is not far from that of the domain
+  // The mesh contains the vertices inside; its volume is near that of the domain.
   const auto is_near = [](double volume, double exact) {
     return volume > 0.8 * exact && volume < 2.5 * exact;
   };
@@ -160,7 +160,7 @@ void test_shapes()
     BOOST_TEST(n < 20000 || result.status == Status::SUCCESS);
   }
 
-  // almost touching: pinched without the repair
+  // The spheres almost touch: the mesh would be pinched without the repair.
   Surface touching;
   add_sphere(touching, {0, 0, 0}, 1, 8);
   add_sphere(touching, {1.3, 1.3, 1.2}, 1, 8);
@@ -173,7 +173,7 @@ void test_shapes()
   volume_of_mesh = mesh_shape("cavity", cavity, 4000, {Status::SUCCESS, Status::SUCCESS});
   BOOST_TEST(is_near(volume_of_mesh, sphere * 7 / 8));
 
-  // inside out; the sphere is symmetric, so that many cells are equally deep, but for rounding
+  // The sphere is inside out, and symmetric, so that many cells are equally deep, except for rounding.
   Surface reversed;
   add_sphere(reversed, {0, 0, 0}, 1, 8);
   Mesh a, b;
@@ -189,7 +189,7 @@ void test_shapes()
 
 // ---- each way to end ---------------------------------------------------------------------------
 
-// A ball that says that all its surface is at one place.
+// A ball whose closest points are all at one place.
 struct Pinched_domain : Analytic_domain
 {
   using Analytic_domain::Analytic_domain;
@@ -215,7 +215,7 @@ void test_statuses()
   BOOST_TEST(find_defects(mesh).none());
   BOOST_TEST(status(Mixed_mesh_criteria_3(1000).base_level(6)) == Status::BUDGET_TOO_SMALL);
   // One more cell is worth so many vertices of a small mesh that some budgets cannot be filled.
-  // Bisections fill more of them.
+  // Bisections fill more of these budgets.
   std::size_t number_not_filled = 0, number_bisected_not_filled = 0;
   for(std::size_t n = 30; n < 60; n += 3) {
     const auto is_filled = [&] { return double(mesh.number_of_vertices()) >= 0.97 * double(n); };
@@ -251,7 +251,8 @@ void test_statuses()
       .status
     == Status::TOPOLOGY_DIFFERS);
 
-  // Balls at two corners of the root, which is too small for them: what is in it meets in a vertex.
+  // Balls are at two corners of the root, which is too small for them: the part in the root meets in a
+  // vertex.
   const Axis_aligned_octree_cell_traits_3 small_root({0, 0, 0, 1, 1, 1});
   const std::uint32_t side = internal::lattice_root_side;
   const Analytic_domain corners(
@@ -272,7 +273,7 @@ void test_statuses()
                 result.optimization.number_of_boundary_vertices);
 }
 
-// Of several statuses the last one in their order; each has words of its own.
+// The last one of several statuses in their order counts; each status has words of its own.
 void test_precedence()
 {
   std::vector<std::string> words;
@@ -288,7 +289,7 @@ void test_precedence()
   }
 }
 
-// A function as domain, with and without a region, beside the surface of the same ball.
+// A function as domain, with and without a region, compared with the surface of the same ball.
 void test_implicit_domain()
 {
   const Point_3 center(0.1, -0.2, 0.3);
@@ -308,7 +309,7 @@ void test_implicit_domain()
       farthest = (std::max)(farthest, std::abs(domain.depth(mesh.point(v))));
     BOOST_TEST_LT(farthest, 1e-10);
   }
-  // the direction of the closest point does not matter from the center
+  // The direction of the closest point does not matter from the center.
   BOOST_TEST_LT(std::abs(domain.depth(domain.closest_point(center))), 1e-10);
   BOOST_TEST_GT(domain.surface_samples(0.1).size(), 400u);
 

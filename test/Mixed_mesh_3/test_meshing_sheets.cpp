@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Sheets inside domains: faces of the mesh are on them, between two sides; and slits along them.
+// Sheets inside domains: faces of the mesh are on sheets, between two sides; and slits along the faces.
 
 #include "test_meshing.h"
 
@@ -54,7 +54,7 @@ Surface plane(double a, double b, double c, double from, double to, int n = 4)
   });
 }
 
-// Elements that hang together by faces.
+// Components of elements connected by faces.
 std::vector<std::size_t> components(const Mesh& mesh)
 {
   std::vector<std::size_t> parent(mesh.number_of_elements());
@@ -82,7 +82,7 @@ std::map<std::size_t, double> volumes(const Mesh& mesh)
   return result;
 }
 
-// V - E + F of the boundary.
+// The Euler characteristic V - E + F of the boundary.
 int euler_characteristic(const Mesh& mesh)
 {
   const std::vector<Face> faces = boundary_faces(mesh);
@@ -93,7 +93,7 @@ int euler_characteristic(const Mesh& mesh)
   return int(vertices_of(faces).size()) - int(edges.size()) + int(faces.size());
 }
 
-// What holds for any sheet; it is given back.
+// Checks conditions that hold for any sheet; returns the sheet.
 Sheet_in_mesh check_sheet(const Mesh& mesh, const Domain& domain, const Mixed_mesh_result_3& result)
 {
   const Sheet_in_mesh sheet = find_sheets(mesh, domain)[0];
@@ -112,7 +112,7 @@ Mixed_mesh_result_3 mesh_domain(const Domain& domain, std::size_t n, Mesh& mesh)
   return run(domain, CGAL::Everywhere_mixed_mesh_region_3(), Mixed_mesh_criteria_3(n), mesh);
 }
 
-// Slits all of it, and checks what holds for any slit. \return how many vertices were doubled
+// Slits all faces, and checks conditions that hold for any slit. \return the slit
 Slit slit(Mesh& mesh, const std::vector<Face>& faces)
 {
   const Mesh before = mesh;
@@ -153,7 +153,7 @@ void test_cut_ball()
     BOOST_TEST_LE(std::abs(sheet.area / disc - 1), 0.06);
     BOOST_TEST_EQ(volumes(mesh).size(), 1u);
     BOOST_TEST_EQ(find_sheet_faces(mesh).size(), sheet.faces.size());
-    double reversed = 0; // seen from in front, but where a vertex has not arrived
+    double reversed = 0; // area seen from in front, except where a vertex has not arrived
     for(const Face& face : sheet.faces)
       if(const Vec3 n = vector_area(mesh, face); n[0] * a + n[1] * b + n[2] >= 0)
         reversed += norm(n);
@@ -174,7 +174,7 @@ void test_cut_ball()
   }
 }
 
-// A sheet that ends inside: a notch of the boundary when it is slit, or a cavity without volume.
+// A sheet that ends inside: a notch of the boundary when the sheet is slit, or a cavity without volume.
 void test_ends_inside()
 {
   for(bool reaches_boundary : {true, false}) {
@@ -225,7 +225,7 @@ void test_curved()
     BOOST_TEST(i.is_manifold());
 }
 
-// Two that meet in a line: a vertex there has three sides.
+// Two sheets that meet in a line: a vertex there has three sides.
 void test_two_sheets()
 {
   Domain domain;
@@ -257,7 +257,7 @@ void test_outside()
   BOOST_TEST(find_sheet_faces(b).empty());
 }
 
-// Any plane, any rim: valid, and never with its vertices elsewhere.
+// Any plane, any rim: the mesh is valid, and its sheet vertices are on the sheet.
 void test_random()
 {
   std::mt19937 random(3);

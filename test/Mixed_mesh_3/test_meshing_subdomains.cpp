@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Domains of several subdomains: what a point belongs to, and meshes whose interfaces are on the surfaces.
+// Domains of several subdomains: the subdomain of a point, and meshes whose interfaces are on the surfaces.
 
 #include "test_meshing.h"
 
@@ -48,7 +48,7 @@ struct Box
   }
 };
 
-// By the definition.
+// The subdomain of a point by definition.
 Subdomain_index subdomain_by_hand(const std::vector<Box>& boxes, const Point_3& p)
 {
   for(const Box& b : boxes)
@@ -71,7 +71,8 @@ CGAL::Bounded_side side_by_hand(const std::vector<Box>& boxes, const Point_3& p)
   return is_on_surface ? ON_BOUNDARY : ON_UNBOUNDED_SIDE;
 }
 
-// From the root down, as the octree asks; points on all lattice planes, so that many are on surfaces.
+// Checks cells from the root down, as the octree asks; points on all lattice planes, so that many are on
+// surfaces.
 template <class Cell_traits>
 void check_cells(const Domain& domain, const std::vector<Box>& boxes, const Cell_traits& traits,
                  const Lattice_point& corner, std::uint32_t side, const Domain::Surface_part& parent)
@@ -137,25 +138,25 @@ void test_closest_points()
   BOOST_TEST(domain.closest_point(p) == Point_3(1, 0.5, 0.5));
   BOOST_TEST(domain.closest_point(p, 7, 3) == Point_3(4, 0.5, 0.5));
   BOOST_TEST(domain.closest_point(p, Point_3(4, 0, 0), 7, 3) == Point_3(4, 0.5, 0.5));
-  BOOST_TEST(domain.closest_point(p, 3, 0) == Point_3(1, 0.5, 0.5)); // the cavity, nearer than what is around
+  BOOST_TEST(domain.closest_point(p, 3, 0) == Point_3(1, 0.5, 0.5)); // the cavity, nearer than outside
   BOOST_TEST(domain.closest_point(Point_3(8.5, 0.5, 0.5), 3, 0) == Point_3(9, 0.5, 0.5));
   BOOST_TEST(std::abs(domain.mean_chord_length(7) - 2. / 3) < 1e-15);
   for(const Point_3& q : domain.surface_samples(0.4, 7))
     BOOST_TEST(domain.closest_point(q, 7, 3) == q);
 
-  // what is hidden has no samples
+  // Hidden surfaces have no samples.
   domain.add(box(Point_3(4.2, 0.2, 0.2), Point_3(4.8, 0.8, 0.8)), 5);
   BOOST_TEST(domain.surface_samples(0.4, 5).empty());
 }
 
-// What holds for the mesh of any labeled domain.
+// Checks conditions that hold for the mesh of any labeled domain.
 void check_subdomains(const Mesh& mesh, const Domain& domain, const Mixed_mesh_result_3& result)
 {
   std::size_t off = 0;
   for(const Subdomain_interface& one : find_interfaces(mesh))
     off += number_of_vertices_off_interface(mesh, one, domain);
   const auto& fitted = result.optimization;
-  // a vertex can be on several interfaces
+  // A vertex can be on several interfaces.
   BOOST_TEST_EQ(off == 0, fitted.number_of_arrived_vertices == fitted.number_of_boundary_vertices);
   BOOST_TEST_EQ(number_of_boundary_self_intersections(mesh), 0u);
   BOOST_TEST_EQ(fitted.number_of_elements_above_bound, 0u);
@@ -193,17 +194,17 @@ void test_nested()
     BOOST_TEST(one.is_manifold());
     const std::size_t all = vertices_of(one.faces).size(),
                       off = number_of_vertices_off_interface(mesh, one, domain);
-    BOOST_TEST_LE(double(off), one.second == 0 ? 0 : 0.2 * double(all)); // held back from both sides
+    BOOST_TEST_LE(double(off), one.second == 0 ? 0 : 0.2 * double(all)); // kept from arriving from both sides
   }
 
-  // the same bytes from several threads
+  // The bytes are the same from several threads.
   Mesh again;
   const Thread_limit limit(4);
   run<CGAL::Parallel_if_available_tag>(domain, CGAL::Everywhere_mixed_mesh_region_3(),
                                        Mixed_mesh_criteria_3(3000), again);
   BOOST_TEST(content(again) == content(mesh));
 
-  // one surface is a domain without labels
+  // One surface is a domain without labels.
   Domain one;
   one.add(sphere(Point_3(0, 0, 0), 1, 16), 5);
   Mesh labeled, plain;
@@ -220,7 +221,7 @@ void test_junction()
   Domain domain;
   domain.add(box(Point_3(-2, -2, -2), Point_3(0.1, 2, 2)), 1);
   domain.add(sphere(Point_3(0, 0, 0), 1, 16), 2);
-  // what is left of the first one's box is far from the second: only the plane matters
+  // The rest of the first box is far from the second: only the plane matters.
   Mesh mesh;
   const Mixed_mesh_result_3 result = make_mixed_mesh_3(domain, Mixed_mesh_criteria_3(2500), mesh);
   check(mesh, result, 2500);
@@ -309,7 +310,7 @@ void test_interfaces()
   }
   BOOST_TEST_EQ(volumes_of_subdomains(mesh).at(1), double(n * n * n));
 
-  // two cubes that touch along an edge only, and at a vertex only, within the other subdomain
+  // Two cubes touch along an edge only, and at a vertex only, within the other subdomain.
   const auto cube = [&](int x, int y, int z) {
     return Element_index(std::uint32_t(x + 2 * n * (y + n * z)));
   };
@@ -327,8 +328,8 @@ void test_interfaces()
   BOOST_TEST_EQ((found.at({1, 2}).number_of_bad_vertices), 1u);
 }
 
-// Before it is fitted, an interface between subdomains has vertices on both sides of its surface, those
-// inside next to it; what is thin has elements nevertheless. The boundary is outside.
+// An interface between subdomains has vertices on both sides of its surface before it is fitted, and inner
+// ones next to it; thin parts have elements nevertheless. The boundary is outside.
 void test_both_sides()
 {
   Domain domain;

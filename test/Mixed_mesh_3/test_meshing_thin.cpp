@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Walls and gaps that are thinner than the cells of a budget spent evenly: wrong without, right with them
-// first.
+// Walls and gaps that are thinner than the cells of a budget spent evenly: wrong without, right with thin
+// parts first.
 
 #include "test_lattice.h"
 #include "test_meshing.h"
@@ -48,7 +48,7 @@ Surface torus(double radius, double small_radius, int n, int m)
   return s;
 }
 
-// Not parallel to the axes.
+// The surface turned, so that it is not parallel to the axes.
 Surface turned(const Surface& s)
 {
   return transformed(s, [](const Point_3& p) {
@@ -57,7 +57,7 @@ Surface turned(const Surface& s)
   });
 }
 
-// What a mesh is like by `compare_with_surface()`, and that it is valid.
+// Meshes and compares by `compare_with_surface()`, and checks that the mesh is valid.
 Solid_comparison mesh_and_compare(const std::string& name, const Surface& surface, std::size_t budget,
                                   Thin_parts thin_parts, Mixed_mesh_result_3& result)
 {
@@ -90,8 +90,7 @@ void test_becomes_right(const std::string& name, const Surface& surface, std::si
   BOOST_TEST_GT(result.number_of_vertices_for_thin_parts, 0u);
 }
 
-// Nothing changes where all is right already, and it costs nothing: no octree more.
-// A wall with room for flatter elements only: they are taken, and counted, unless the bound is strict.
+// A wall with room for flatter elements only: these are taken, and counted, unless the bound is strict.
 void test_flatter_elements()
 {
   Surface shell;
@@ -118,6 +117,7 @@ void test_flatter_elements()
   BOOST_TEST_EQ(number_of_elements_above(mesh, criteria.quality_bound()), 0u);
 }
 
+// The result does not change where all is right already, and no octree more is tried.
 void test_untouched()
 {
   const Surface ball = sphere(Point_3(0, 0, 0), 1, 16);
@@ -128,8 +128,8 @@ void test_untouched()
   BOOST_TEST_EQ(result.number_of_vertices_for_thin_parts, 0u);
 }
 
-// Where cells as thin as a pane are too many, a mesh of those is coarsened. Where even they are too few, it
-// is no success, and it is told that more vertices are needed.
+// A mesh of cells as thin as a pane has too many vertices, and is coarsened. If even that does not suffice,
+// the outcome is no success, and the need for more vertices is reported.
 void test_pane()
 {
   Mixed_mesh_result_3 result;
@@ -145,7 +145,7 @@ void test_pane()
   BOOST_TEST_GT(result.number_of_vertices_for_thin_parts, 10000u);
 }
 
-// A visitor that stops the run is not asked again, at whatever trial or round.
+// A visitor that stops the run is not asked again, at any trial or round.
 void test_stopped()
 {
   struct Stopping : Default_visitor
@@ -230,7 +230,7 @@ void test_cavities()
 
 // ---- gaps on the lattice ------------------------------------------------------------------------
 
-// Where a box with half of these sides and this center is, in a system that is turned: positive inside.
+// Depth in a box with half of these sides and this center, in a turned system: positive inside.
 double depth_in_box(const Vec3& p, const Vec3& center, const Vec3& half)
 {
   const Vec3 d = p - center;
@@ -245,7 +245,7 @@ struct Two_boxes
 {
   Vec3 half[2], center[2];
 
-  // On both sides of a gap at right angles to the first direction of the boxes.
+  // Boxes on both sides of a gap at right angles to the first direction of the boxes.
   Two_boxes(double thickness, double other_thickness, double gap)
     : half{{thickness / 2, 0.22, 0.2}, {other_thickness / 2, 0.2, 0.22}}
   {
@@ -257,7 +257,7 @@ struct Two_boxes
   double depth(const Test_point& p, int i) const { return depth_in_box(to_vec3(p), center[i], half[i]); }
 };
 
-// Vertices and elements that join the boxes, and how many vertices are inside of each.
+// Vertices and elements that join the boxes, and the numbers of vertices inside of each box.
 struct Joints
 {
   std::size_t count = 0;

@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// `vertex_point_map` is obeyed wherever a surface is taken: with a map that puts a surface elsewhere, the
-// result is that of a surface which is there.
+// `vertex_point_map` is obeyed wherever a function takes a surface: with a map that puts a surface elsewhere,
+// the result is that of a surface which is there.
 
 #include "test_surfaces.h"
 
@@ -23,10 +23,10 @@ namespace test_named_parameters {
 using Mesh = CGAL::Mixed_mesh_3<Test_kernel>;
 using CGAL::parameters::vertex_point_map;
 
-// Twice as large, and elsewhere; the same in doubles as in the map.
+// A point scaled by two, and elsewhere; the same in doubles as in the map.
 Test_point moved(const Test_point& p) { return {2 * p.x() + 5, 2 * p.y(), 2 * p.z() - 3}; }
 
-// A surface, where it is not, with the map to where it is; and another one that is there.
+// A surface at a wrong place, with the map to the right place; and another surface at the right place.
 struct Moved_surface
 {
   Test_surface surface, expected;
@@ -54,7 +54,7 @@ bool is_same(const Mesh& a, const Mesh& b)
 const Moved_surface domain(sphere({0, 0, 0}, 1, 12)), region(sphere({0.4, 0.3, 0.2}, 0.3, 8));
 constexpr std::size_t budget = 300;
 
-// Maps of both surfaces, of one of them, of none.
+// Tests maps of both surfaces, of one of them, of none.
 void test_make()
 {
   Mesh expected, mesh;
@@ -74,7 +74,7 @@ void test_make()
   BOOST_TEST(!mesh.is_empty() && !is_same(mesh, expected));
 }
 
-// The mesh as the octree leaves it, carried onto the surface.
+// Tests the mesh as the octree makes it, fitted to the surface.
 template <class Carry>
 void test_carried(const Carry& carry)
 {

@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The octree, its balance and its edge patterns, against brute force over all nodes: nothing here
-// uses neighbor() but to test it.
+// The octree, its balance and its edge patterns, compared with brute force over all nodes: neighbor() is used
+// only where it is tested.
 
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/balance.h>
@@ -45,7 +45,7 @@ struct Cell
 
 Cell cell(const Octree& octree, Node_index n) { return {octree.corner(n), octree.level(n)}; }
 
-// Half-open, so that exactly one leaf contains a position inside the root.
+// Whether a half-open cell contains a position, so that exactly one leaf contains a position inside the root.
 bool contains(const Cell& c, const Lattice_point& p)
 {
   for(int k = 0; k < 3; ++k)
@@ -107,7 +107,7 @@ Octree scattered(std::mt19937& random, int n)
   return octree;
 }
 
-// Down to a level at a point, which may be on the border of the root or next to its middle.
+// Descends to a level at a point, which may be on the border of the root or next to its middle.
 void descend_to(Octree& octree, const Lattice_point& p, int level)
 {
   for(;;) {
@@ -127,7 +127,7 @@ std::vector<Octree> random_octrees(unsigned seed)
   octrees[1].split(Octree::root());
   for(int n : {5, 20, 60})
     octrees.push_back(scattered(random, n));
-  // narrow ones: the worst for balance
+  // The octrees are narrow: the worst for balance.
   for(const Lattice_point& p :
       {Lattice_point{0, 0, 0}, Lattice_point{last, last, 0}, Lattice_point{middle, middle, middle},
        Lattice_point{middle - 1, middle, 0}, Lattice_point{coordinate(), coordinate(), coordinate()}}) {
@@ -208,7 +208,7 @@ void test_vertices(const Octree& octree)
   for(const auto& [p, around] : visited) {
     BOOST_TEST_EQ(expected.count(p), 1u);
     for(std::uint32_t i = 0; i < 8; ++i) {
-      // the lattice cell of side 1 on that side of the vertex
+      // The lattice cell of side 1 is on that side of the vertex.
       Lattice_point q;
       bool is_in_root = true;
       for(int k = 0; k < 3; ++k) {
@@ -223,7 +223,7 @@ void test_vertices(const Octree& octree)
 
 // ---- balance -----------------------------------------------------------------------------------
 
-// 1: the closed boxes share a part of a face, 2: of an edge, 3: a vertex only, 0: nothing.
+// The rank: 1 if the closed boxes share a part of a face, 2: of an edge, 3: a vertex only, 0: nothing.
 int rank_of_contact(const Cell& a, const Cell& b)
 {
   int rank = 0;
@@ -237,7 +237,7 @@ int rank_of_contact(const Cell& a, const Cell& b)
   return rank;
 }
 
-// By the boxes of all pairs of leaves.
+// Whether cells are balanced, by the boxes of all pairs of leaves.
 bool is_balanced(const std::vector<Cell>& cells, Adjacency adjacency)
 {
   for(const Cell& a : cells)
@@ -250,8 +250,8 @@ bool is_balanced(const std::vector<Cell>& cells, Adjacency adjacency)
   return true;
 }
 
-// The coarsest balanced refinement: a cell that is too large for one of its neighbors is so for
-// whatever refinement the neighbor undergoes, so that it has to be split in any of them.
+// The coarsest balanced refinement: a cell that is too large for one of its neighbors is too large for any
+// refinement of the neighbor, so that it has to be split in any refinement.
 std::vector<Cell> naively_balanced(std::vector<Cell> cells, Adjacency adjacency)
 {
   for(bool changed = true; changed;) {
@@ -300,7 +300,7 @@ int test_balance(const Octree& octree, std::mt19937& random)
     BOOST_TEST(cells == naively_balanced(before, adjacency));
     BOOST_TEST(leaf_cells(balanced(after, adjacency)) == cells);
 
-    // From one balanced octree to the next, only new nodes are to be looked at.
+    // Only new nodes have to be looked at from one balanced octree to the next.
     Octree next = after;
     std::vector<Node_index> refined;
     for(Node_index n : leaves(after))
@@ -326,7 +326,7 @@ std::size_t test_edge_patterns(const Octree& octree)
   const std::set<Lattice_point> vertices = corners_of_leaves(octree);
   const std::vector<std::uint16_t> patterns = edge_patterns(octree);
   BOOST_TEST_EQ(patterns.size(), octree.size());
-  // as in the drawing of transition_templates.h
+  // The numbers are those of the drawing of transition_templates.h.
   static constexpr int midpoints[12] = {1, 7, 19, 25, 3, 5, 21, 23, 9, 11, 15, 17};
   std::set<int> seen;
   for(Node_index n : leaves(octree)) {
@@ -364,7 +364,7 @@ int run(int, char*[])
       test_edge_patterns(balanced(octree, Adjacency::VERTEX));
     }
   }
-  // the octrees are not trivial
+  // The octrees are not trivial.
   BOOST_TEST_GE(number_unbalanced, 40);
   BOOST_TEST_GE(most_patterns, 50u);
   return boost::report_errors();

@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the octree is made of besides itself: the cells of the lattice, against exact rationals; balance, by
-// all pairs; what a located octree says of its cells, by their boxes.
+// Parts of the octree: the cells of the lattice, compared with exact rationals; balance, by all pairs; the
+// locations of cells of a located octree, by their boxes.
 
 #include "test_lattice.h"
 
@@ -101,7 +101,7 @@ void test_lattice(const Traits& traits)
 {
   std::mt19937 random(17);
   const Frame frame(traits);
-  // Every lattice point is where it should be, without rounding.
+  // Every lattice point is at its right place, without rounding.
   for(int repeat = 0; repeat < 300; ++repeat) {
     Lattice_point p;
     for(std::uint32_t& c : p)
@@ -121,7 +121,8 @@ void test_lattice(const Traits& traits)
                + u[0][2] * (u[1][0] * u[2][1] - u[1][1] * u[2][0])
              > 0);
 
-  // Cells: center, box, length, and which triangles they meet; those through lattice points touch.
+  // Cells have the right center, box, length, and triangles that they meet; triangles through lattice points
+  // touch.
   for(int repeat = 0; repeat < 60; ++repeat) {
     const int level = int(random() % 6);
     const std::uint32_t side = Octree::side_at(level);
@@ -203,7 +204,7 @@ void test_cell_traits()
             BOOST_TEST(dot(frame.units[0], frame.units[0]) == dot(frame.units[k], frame.units[k]));
         }
       }
-      // far more extent than digits left is needed to turn a box 1e-5 small at 1e8
+      // The extent needed for a box 1e-5 small at 1e8 is far more than the digits left.
       const Kernel::Vector_3 axis = n % 7 == 0
                                       ? Kernel::Vector_3(0, 0, -1)
                                       : Kernel::Vector_3(uniform(random) - 0.5, uniform(random) - 0.5,
@@ -224,7 +225,7 @@ void test_cell_traits()
 
 // ---- balance -----------------------------------------------------------------------------------
 
-// Against all pairs of leaves, on an octree that is not balanced and after.
+// Balance compared with all pairs of leaves, on an octree that is not balanced and after.
 void test_is_balanced()
 {
   std::mt19937 random(31);
@@ -267,7 +268,7 @@ void test_is_balanced()
 
 // ---- located cells -----------------------------------------------------------------------------
 
-// A box as region, so that what meets it is decided by comparisons.
+// A box as region, so that comparisons decide whether a cell meets it.
 struct Box_region
 {
   struct Surface_part
@@ -296,7 +297,7 @@ struct Box_region
   }
 };
 
-// What is chosen for refinement, and what is told of cells, by the boxes of all nodes.
+// Choice for refinement, and locations of cells, by the boxes of all nodes.
 void test_located_cells()
 {
   const Analytic_domain domain(ball({0.5, 0.5, 0.5}, 0.3));

@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// In which order cells are split, against a choice among all leaves, and how many of the splits a budget
-// gets, against all numbers of them.
+// The order in which cells are split, compared with a choice among all leaves, and the number of splits for a
+// budget, compared with all numbers.
 
 #include "test_lattice.h"
 
@@ -75,8 +75,8 @@ Octree_ refined(Octree_ octree, int level)
   return octree;
 }
 
-// After any number of splits, what is left of all is what these alone give; and further splits follow as if
-// there had been no others.
+// The octree after a truncation is that of the remaining splits alone; and further splits follow as if there
+// had been no others.
 void test_truncate()
 {
   std::mt19937 random(3);
@@ -102,7 +102,7 @@ void test_truncate()
   }
 }
 
-// Of two octrees, the leaves around each point are as small as in either, and no smaller ones are needed: the
+// The leaves around each point are as small as in either of two octrees, and no smaller ones are needed: the
 // order does not matter.
 void test_refine_like()
 {
@@ -152,7 +152,7 @@ void test_refine_like()
 
 // ---- the sequence ------------------------------------------------------------------------------
 
-// The rule as it is documented, without what the sequence remembers.
+// The rule as documented, without the memory of the sequence.
 class Rule
 {
   const Region& m_region;
@@ -165,7 +165,7 @@ public:
   {
   }
 
-  // Of a cell, or of the smallest one around it that is not small against the radius.
+  // The depth of a cell, or of the smallest one around it that is not small against the radius.
   double depth(const Located_octree& octree, Node_index n) const
   {
     while(n > 0 && octree.edge_length(n) < m_radius / 2)
@@ -257,7 +257,7 @@ void test_sequences()
     }
 }
 
-// With nothing in the region there is nothing to split, and no radius.
+// A region without cells has nothing to split, and no radius.
 void test_ends()
 {
   const Analytic_domain domain(ball({0.5, 0.5, 0.5}, 0.3));
@@ -272,7 +272,7 @@ void test_ends()
     const double mean = mean_radius_of_region(Located_octree(domain, region, traits));
     BOOST_TEST(0.9 * radius < mean && mean < 1.1 * radius);
   }
-  // a sheet that no center is in, until cells are as small as it is thick
+  // The sheet contains no center, until cells are as small as it is thick.
   for(double thickness : {1e-3, 1e-7}) {
     const CGAL::Implicit_mixed_mesh_region_3 sheet(
       [&](const Test_point& p) { return thickness / 2 - std::abs(p.z() - 0.5); });
@@ -284,8 +284,8 @@ void test_ends()
 
 // ---- the rule of the paper ---------------------------------------------------------------------
 
-// Without grading, a cell that is split does not meet the region only if a cell beside it, or beside one that
-// follows like that, does and is smaller.
+// Without grading, a split cell that does not meet the region has a smaller cell beside it that does, or that
+// is split for such a cell.
 void test_only_for_balance()
 {
   const Analytic_domain domain(ball({0.5, 0.5, 0.5}, 0.45));
@@ -324,7 +324,7 @@ struct Candidate
 
 using Count = std::function<std::size_t(std::size_t)>;
 
-// Takes the candidate as it should be for the octree, and the largest of all that fit.
+// Checks that the candidate belongs to the octree, and is the largest of all that fit.
 void check_best(const Located_octree& start, double radius, std::size_t budget, const Count& count,
                 const Located_octree& octree, const Candidate& best)
 {
@@ -346,7 +346,7 @@ void check_best(const Located_octree& start, double radius, std::size_t budget, 
   BOOST_TEST_GE(double(best.number_of_vertices), (std::min)(double(largest), 0.998 * double(budget)));
   if(double(best.number_of_vertices) > 0.97 * double(budget))
     return;
-  // Far from full: not one of the next cells fits in addition.
+  // The budget is far from full, but none of the next cells fits in addition.
   while(sequence.number_of_steps() < steps + 10 && sequence.extend()) {
   }
   for(std::size_t i = steps; i < (std::min)(steps + 10, sequence.number_of_steps()); ++i) {
@@ -391,7 +391,7 @@ void test_budgets()
   BOOST_TEST_GT(number_not_full, 10u);
 }
 
-// Candidates that are pinched are passed over; a stop is final.
+// Candidates that are pinched are skipped; a stop is final.
 void test_other_candidates()
 {
   const Analytic_domain domain(ball({0.5, 0.5, 0.5}, 0.45));

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the manual forbids is noticed where CGAL's checks are on; and its limits are allowed.
+// Inputs that the manual forbids are detected where CGAL's checks are on; and its limits are allowed.
 
 #undef NDEBUG // on in Release, too
 #undef CGAL_NDEBUG
@@ -49,7 +49,7 @@ using Mesh = CGAL::Mixed_mesh_3<Test_kernel>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// Counts what is not noticed, or noticed in vain, with the line.
+// Counts violations that are not detected, or wrong detections, with the line.
 #define FORBIDDEN(...) BOOST_TEST_THROWS(__VA_ARGS__, CGAL::Precondition_exception)
 #define ALLOWED(...) BOOST_TEST_NO_THROW(__VA_ARGS__)
 

@@ -44,7 +44,7 @@ struct Soup
   }
 };
 
-// From one corner to the opposite one.
+// A box from one corner to the opposite one.
 Soup box(const Vec3& low, const Vec3& high)
 {
   Soup soup;
@@ -67,7 +67,7 @@ Soup reversed(Soup soup)
   return soup;
 }
 
-// Such that nothing is parallel to an axis.
+// The soup turned, such that nothing is parallel to an axis.
 Soup turned(Soup soup, double angle = 0.3)
 {
   for(Point& p : soup.points) {
@@ -92,7 +92,7 @@ double volume(const std::vector<Point>& points, const std::vector<Triangle>& tri
   return sum;
 }
 
-// Each edge once in each direction: closed, oriented, and a manifold at edges.
+// Whether each edge is there once in each direction: closed, oriented, and a manifold at edges.
 bool is_closed(const std::vector<Triangle>& triangles)
 {
   std::set<std::pair<std::size_t, std::size_t>> edges;
@@ -122,22 +122,22 @@ void test_unions()
   encloses(cube().add(cube(3)), 2);
   encloses(cube().add(cube(0.5, 0.25, 0.125)), 2 - 0.5 * 0.75 * 0.875);
   encloses(turned(cube().add(cube(0.5, 0.25, 0.125))), 2 - 0.5 * 0.75 * 0.875);
-  // faces in one plane; all of a face; the same box twice
+  // The boxes have faces in one plane; all of a face; the same box twice.
   encloses(cube().add(cube(0.5)), 1.5);
   encloses(turned(cube().add(cube(0.5, 0.5))), 2 - 0.25);
   encloses(cube().add(cube(1)), 2);
   encloses(cube().add(cube()), 1);
   encloses(box({0, 0, 0}, {2, 2, 2}).add(cube(0, 0, 2)), 9);
-  // three, of which no two are enough
+  // There are three cubes, of which no two are sufficient.
   encloses(cube().add(cube(0.5)).add(cube(0.75, 0.5, 0.5)), 1.5 + 1 - 0.75 * 0.5 * 0.5);
-  // a row of twelve
+  // The cubes are a row of twelve.
   Soup row;
   for(int i = 0; i < 12; ++i)
     row.add(cube(0.75 * i, 0.0625 * i, 0));
   encloses(row, 1 + 11 * (1 - 0.25 * 0.9375));
 }
 
-// Each face by either of its diagonals; bit k of `diagonals` is for face k.
+// A box with each face split by either of its diagonals; bit k of `diagonals` is for face k.
 Soup box_by_diagonals(const Vec3& low, const Vec3& high, int diagonals)
 {
   Soup soup = box(low, high);
@@ -150,7 +150,7 @@ Soup box_by_diagonals(const Vec3& low, const Vec3& high, int diagonals)
   return soup;
 }
 
-// The point (x, y, z) becomes (y, z, x), so often.
+// The soup with the point (x, y, z) mapped to (y, z, x), several times.
 Soup cycled(Soup soup, int times)
 {
   for(; times > 0; --times)
@@ -159,7 +159,7 @@ Soup cycled(Soup soup, int times)
   return soup;
 }
 
-// Where faces in one plane overlap, both are cut in the same way, even into pieces with corners on a circle.
+// Overlapping faces in one plane are both cut in the same way, even into pieces with corners on a circle.
 void test_overlapping_faces()
 {
   const int none = 0, all = 63;
@@ -171,10 +171,10 @@ void test_overlapping_faces()
           return cycled(is_reversed ? Soup(b).add(a) : Soup(a).add(b), axis);
         };
         for(bool is_reversed : {false, true}) {
-          // 0.3 and 0.7 are not 1 together: a sliver of 1e-17, an isosceles trapezoid
+          // The numbers 0.3 and 0.7 do not sum to 1: a sliver of 1e-17, an isosceles trapezoid.
           encloses(touching({1, 0.3, 0.3}, {2, 0.7, 0.7}, is_reversed), 1.16);
           encloses(touching({-1, 0.3, 0.3}, {0, 0.7, 0.7}, is_reversed), 1.16);
-          // rectangles
+          // The faces are rectangles.
           encloses(touching({1, -0.5, -0.5}, {2, 0.25, 0.25}, is_reversed), 1 + 0.75 * 0.75);
           encloses(touching({1, 0.5, 0.25}, {2, 1.5, 1.25}, is_reversed), 2);
           encloses(touching({0.5, 0.5, 0}, {2, 1.5, 1}, is_reversed), 1 + 1.5 - 0.25);
@@ -185,26 +185,26 @@ void test_overlapping_faces()
 
 void test_cavities()
 {
-  // inwards: a cavity; outwards: solid in solid
+  // The inner box is a cavity if inwards; solid in solid if outwards.
   const Soup large = box({0, 0, 0}, {4, 4, 4});
   encloses(Soup(large).add(reversed(cube(1, 1, 1))), 63);
   encloses(Soup(large).add(cube(1, 1, 1)), 64);
-  // two cavities that overlap, and one that another body covers
+  // Two cavities overlap, and another body covers one.
   encloses(Soup(large).add(reversed(cube(1, 1, 1))).add(reversed(cube(1.5, 1, 1))), 64 - 1.5);
   encloses(Soup(large).add(reversed(cube(1, 1, 1))).add(box({1, 1, 1}, {1.5, 2, 9})), 63.5 + 5 * 0.5);
-  // what is inside out only is nothing
+  // A body that is only inside out is nothing.
   const Solid_reading r = encloses(Soup(large).add(reversed(cube(7, 7, 7))), 64);
   BOOST_TEST_LE(std::abs(r.inverted_volume - 1), 1e-14);
 }
 
 void test_nonmanifold()
 {
-  // an edge and a corner in common: each cube has its own
+  // The cubes have an edge and a corner in common: each cube has its own.
   for(const Soup& two : {cube().add(cube(1, 1, 0)), cube().add(cube(1, 1, 1))}) {
     const Solid_reading r = encloses(two, 2);
     BOOST_TEST_EQ(r.points.size(), 16u);
   }
-  // a wall inside, and a fin outside
+  // There is a wall inside, and a fin outside.
   const Soup walled = cube().add(cube(1));
   Soup shared;
   {
@@ -227,19 +227,19 @@ void test_nonmanifold()
   fin.points.emplace_back(2, 2, 2);
   fin.triangles.push_back({0, 1, 8});
   encloses(fin, 1, Solid_rule::ENCLOSED);
-  // faces of any orientation
+  // The faces have any orientation.
   Soup mixed = cube();
   for(std::size_t t : {0, 3, 7})
     std::swap(mixed.triangles[t][0], mixed.triangles[t][1]);
   encloses(mixed, 1, Solid_rule::PARITY);
-  // nothing is enclosed
+  // Nothing is enclosed.
   Soup open = cube();
   open.triangles.pop_back();
   BOOST_TEST(read_solid(open.points, open.triangles).triangles.empty());
   BOOST_TEST(read_solid({}, {}).triangles.empty());
 }
 
-// A vertex pulled through the opposite side: what is turned inside out does not count.
+// A vertex pulled through the opposite side: the part that is turned inside out does not count.
 void test_fold()
 {
   Soup soup = cube();
@@ -247,13 +247,13 @@ void test_fold()
   const Solid_reading r = read_solid(soup.points, soup.triangles);
   BOOST_TEST(is_closed(r.triangles));
   BOOST_TEST_GT(r.inverted_volume, 0.01);
-  // all windings together are what the integral says
+  // All windings together have the volume of the integral.
   BOOST_TEST_LE(std::abs(volume(r.points, r.triangles) - r.inverted_volume
                          - volume(soup.points, soup.triangles)),
                 1e-13);
 }
 
-// A vertex on the edge of a neighbor that does not have it; a face without area.
+// A vertex on the edge of a neighbor that does not have the vertex; a face without area.
 void test_cracks()
 {
   Soup soup = cube();
@@ -266,10 +266,10 @@ void test_cracks()
   encloses(soup, 1, Solid_rule::WINDING);
 }
 
-// A body that has an edge with itself in common, and is joined around both ends of it.
+// A body that has an edge with itself in common, and is joined around both ends of the edge.
 void test_edge_with_itself()
 {
-  // blocks of 3 x 3 x 1, without two at opposite corners of an edge in the middle
+  // The soup has blocks of 3 x 3 x 1, without two at opposite corners of an edge in the middle.
   Soup soup;
   for(int x = 0; x < 4; ++x)
     for(int y = 0; y < 4; ++y)
@@ -289,7 +289,7 @@ void test_limit()
 
 void test_holes()
 {
-  // a face of a cube that has others besides
+  // A face of a cube has others besides.
   Soup soup = box({0, 0, 0}, {1, 1, 2});
   soup.triangles.erase(soup.triangles.begin(), soup.triangles.begin() + 2);
   Hole_filling holes = fill_holes(soup.points, soup.triangles, 0.2);
@@ -298,7 +298,7 @@ void test_holes()
   BOOST_TEST_LE(std::abs(holes.filled[0].length - 4), 1e-14);
   BOOST_TEST_LE(std::abs(holes.filled[0].area - 1), 1e-14);
   encloses(soup, 2);
-  // two that are too large together; a sheet beside
+  // The two holes are too large together; a sheet is beside.
   soup = cube();
   soup.triangles.resize(8);
   soup.add(cube(5));

@@ -41,7 +41,7 @@ using Mesh = CGAL::Mixed_mesh_3<Test_kernel>;
 using Set = std::vector<bool>;
 using Face_key = std::array<Vertex_index, 4>;
 
-// What the tests met, to make sure that they are hard enough.
+// Statistics of the tests, to make sure that they are hard enough.
 struct Tally
 {
   std::size_t runs = 0, repaired = 0, restored = 0, removed = 0, floating = 0;
@@ -89,8 +89,8 @@ Face_key face_key(const Mesh& mesh, std::size_t e, int f)
   return key;
 }
 
-// Sets of elements connected across faces, those not in `without`: found apart from the code tested, by
-// sorting all faces.
+// Sets of elements connected across faces, of elements not in `without`: found independently of the tested
+// code, by sorting all faces.
 std::vector<std::vector<Element_index>> components(const Mesh& mesh, const Set& without)
 {
   std::vector<std::pair<Face_key, Element_index>> faces;
@@ -123,7 +123,7 @@ std::vector<std::vector<Element_index>> components(const Mesh& mesh, const Set& 
   return result;
 }
 
-// The mesh that is left, and the surface of the cavity.
+// Checks the remaining mesh, and the surface of the cavity.
 void check_remaining_mesh(const Mesh& mesh, const Set& is_removed)
 {
   std::vector<Vertex_index> vertex_map;
@@ -145,7 +145,7 @@ void check_remaining_mesh(const Mesh& mesh, const Set& is_removed)
   }
   BOOST_TEST(is_same);
 
-  // Boundary faces are old ones or at the cavity: each is one of the two.
+  // Boundary faces are either old ones or at the cavity.
   const auto handle = [](const Face& f) { return std::make_pair(f.element(), f.local_index()); };
   std::set<std::pair<Element_index, int>> old, cavity, all;
   for(const auto& f : boundary_faces(mesh))
@@ -175,7 +175,7 @@ void check_remaining_mesh(const Mesh& mesh, const Set& is_removed)
   BOOST_TEST_EQ(number_of_old_faces + faces.size(), boundary_faces(remaining).size());
 }
 
-// Resects, and checks all that can be checked on any mesh that is connected.
+// Resects, and checks all conditions on any connected mesh.
 Resection_3 check(const Mesh& mesh, const Set& asked, const Resection_options& options = Resection_options())
 {
   const Resection_3 result = resect(mesh, asked, options);
@@ -207,7 +207,7 @@ Resection_3 check(const Mesh& mesh, const Set& asked, const Resection_options& o
   }
   check_remaining_mesh(mesh, result.is_removed);
 
-  // Loose pieces: those of what was asked for, then what the repair cut off.
+  // Loose pieces are those of the requested elements, then pieces that the repair cut off.
   const auto volume_of_elements = [&](const std::vector<Element_index>& elements) {
     return volume_of(mesh, set_of(mesh, elements));
   };
@@ -242,7 +242,7 @@ Resection_3 check(const Mesh& mesh, const Set& asked, const Resection_options& o
     BOOST_TEST_EQ(components(mesh, result.is_removed).size(), 1u);
   }
 
-  // The repair is needed, or it does nothing.
+  // The repair is needed, or changes nothing.
   const bool is_manifold = find_defects(remaining_mesh(mesh, naive)).closed_manifold_boundary();
   tally.repaired += !is_manifold;
   tally.restored += result.number_of_restored_elements;
@@ -269,7 +269,8 @@ void test_two_cubes()
   const Mesh mesh = grid(5, HEXAHEDRON);
   const auto cell = [](int x, int y, int z) { return Element_index(x + 5 * (y + 5 * z)); };
 
-  // Touching at a face, or apart: nothing to repair. At an edge, at a vertex: one stays.
+  // Cubes that touch at a face, or are apart, need no repair. If they touch at an edge or a vertex, one
+  // stays.
   BOOST_TEST_EQ(check(mesh, set_of(mesh, {cell(1, 1, 1), cell(2, 1, 1)})).volume, 2.);
   BOOST_TEST_EQ(check(mesh, set_of(mesh, {cell(1, 1, 1), cell(3, 1, 1)})).volume, 2.);
   for(Element_index other : {cell(2, 2, 1), cell(2, 1, 2), cell(1, 2, 2), cell(2, 2, 2)}) {
@@ -283,25 +284,25 @@ void test_two_cubes()
     BOOST_TEST_EQ(result.number_of_pinch_elements, 0u);
   }
 
-  // The smaller one stays: of two blocks that touch at an edge, a single cube rather than four.
+  // The smaller part stays: of two blocks that touch at an edge, a single cube rather than four.
   const Set block = set_of(mesh, {cell(1, 1, 1), cell(1, 1, 2), cell(1, 2, 1), cell(1, 2, 2)});
   Resection_3 result = check(mesh, united(block, set_of(mesh, {cell(2, 3, 1)})));
   BOOST_TEST_EQ(result.number_of_restored_elements, 1u);
   BOOST_TEST(result.is_removed == block);
 
-  // If one of them has been removed before, it cannot come back.
+  // An element that has been removed before cannot come back.
   Resection_options options;
   options.already_removed = set_of(mesh, {cell(2, 3, 1)});
   result = check(mesh, set_of(mesh, {cell(1, 2, 1)}), options);
   BOOST_TEST(result.status == Resection_status::EVERYTHING_RESTORED);
-  // If both have, the resections before were not ours: a neighbor goes.
+  // If both have been removed before, by resections of others, a neighbor is removed.
   options.already_removed = set_of(mesh, {cell(2, 3, 1), cell(1, 2, 1)});
   result = check(mesh, set_of(mesh, {cell(3, 0, 3)}), options);
   BOOST_TEST(result.status == Resection_status::SUCCESS);
   BOOST_TEST_EQ(result.number_of_pinch_elements, 1u);
 
-  // A cube that hangs on by an edge or a vertex is a loose piece, and goes; if pieces stay, it is joined or
-  // taken.
+  // A cube connected by an edge or a vertex is a loose piece, and is removed; if pieces stay, it is joined or
+  // removed.
   for(int z : {1, 2}) {
     Set shell(mesh.number_of_elements(), true); // all but a block of 2^3 cubes, and one more
     for(int i = 0; i < 125; ++i)
@@ -336,7 +337,7 @@ void test_checkerboards()
           BOOST_TEST_EQ(result.floating.size(), mesh.number_of_elements() - count(asked) - 1);
           BOOST_TEST_EQ(count(result.is_removed), mesh.number_of_elements() - 1);
         }
-        // columns that touch along edges
+        // The columns touch along edges.
         for(std::size_t i = 0; i < asked.size(); ++i)
           asked[i] = int(i % std::size_t(n) + i / std::size_t(n) % std::size_t(n)) % 2 == parity
                      && i / std::size_t(n) / std::size_t(n) != 0;
@@ -363,7 +364,8 @@ void test_statuses()
   BOOST_TEST(again.status == Resection_status::NOTHING_REMOVED);
   BOOST_TEST(again.is_removed == options.already_removed);
 
-  // Tetrahedra that touch the boundary at vertices only, one by one: without one, it would be pinched there.
+  // Tetrahedra touch the boundary at vertices only, one by one: without such a tetrahedron, the boundary
+  // would be pinched.
   std::vector<int> boundary_faces_of(n, 0);
   std::vector<bool> is_on_boundary(mesh.number_of_vertices(), false);
   for(const auto& f : boundary_faces(mesh)) {
@@ -382,7 +384,7 @@ void test_statuses()
     }
   BOOST_TEST_GT(found, 0u);
 
-  // A mesh that is pinched already, far from the resection: said, not touched.
+  // A mesh that is pinched already, far from the resection: reported, not changed.
   const Mesh cubes = grid(5, HEXAHEDRON);
   const Mesh pinched = remaining_mesh(cubes, set_of(cubes, {31, 37}));
   BOOST_TEST(!find_defects(pinched).closed_manifold_boundary());
@@ -393,7 +395,7 @@ void test_statuses()
   BOOST_TEST_EQ(result.number_of_pinched_vertices, 2u);
   BOOST_TEST_EQ(count(result.is_removed), 1u);
 
-  // A mesh of two parts: neither came loose, and a part may be removed as a whole.
+  // A mesh of two parts: neither part came loose, and a part may be removed as a whole.
   Set plane(125, false);
   for(std::size_t i = 0; i < 125; ++i)
     plane[i] = i / 25 == 1;
@@ -408,7 +410,7 @@ void test_statuses()
   BOOST_TEST(part.is_removed == lower);
 }
 
-// A domain that answers with a part of its surface only, as the concept has it.
+// A domain that answers only with a part of its surface, as the concept has it.
 class Box_domain
 {
 public:
@@ -445,7 +447,7 @@ void test_domains()
   BOOST_TEST_EQ(resect(mesh, box({0.5, 0.5, 0.5}, {2.5, 2.5, 2.5})).number_of_asked_elements, 1u);
   BOOST_TEST_EQ(resect(mesh, box({0.5, 0.5, 0.5}, {2.5, 2.5, 2.5001})).number_of_asked_elements, 2u);
 
-  // Another kernel.
+  // The mesh has another kernel.
   using Exact = CGAL::Mixed_mesh_3<CGAL::Exact_predicates_exact_constructions_kernel>;
   const Exact exact = grid_of_cells<Exact>(4, HEXAHEDRON, [](double x, double y, double z) {
     return Exact::Point_3(x, y, z);
@@ -479,7 +481,7 @@ void test_random_sets(const Mesh& mesh, int repeats, unsigned seed)
       options.keep_floating_pieces = repeat % 3 == 0;
       const Resection_3 result = check(mesh, asked, options);
       BOOST_TEST(resect(mesh, asked, options).is_removed == result.is_removed);
-      // and once more, in what is left
+      // The resection is repeated in the remaining mesh.
       options.already_removed = result.is_removed;
       options.keep_floating_pieces = false;
       for(std::size_t e = 0; e < n; ++e)
@@ -513,7 +515,7 @@ Set elements_inside(const Mesh& mesh, const Test_surface& surface)
   return set;
 }
 
-// What a surgeon would do.
+// Resections as by a surgeon.
 void test_tumors(const Mesh& mesh, const Test_surface& brain, int repeats)
 {
   std::mt19937 random(5);
@@ -537,14 +539,14 @@ void test_tumors(const Mesh& mesh, const Test_surface& brain, int repeats)
     const Resection_3 result = check(mesh, asked);
     BOOST_TEST(resect(mesh, tumor).is_removed == result.is_removed);
     BOOST_TEST_EQ(resect(mesh, tumor).number_of_asked_elements, count(asked));
-    // one after the other, until half is gone
+    // Tumors are removed one after the other, until half is gone.
     const Resection_3 next = check(mesh, asked, sequence);
     BOOST_TEST(resect(mesh, tumor, sequence).is_removed == next.is_removed);
     number_of_resections += next.status == Resection_status::SUCCESS;
     sequence.already_removed = next.is_removed;
     if(volume_of(mesh, next.is_removed) > whole / 2)
       sequence.already_removed.clear();
-    // two at once
+    // Two tumors are removed at once.
     check(mesh, united(asked, elements_inside(mesh, sphere(random_point(random, bbox), radius, 8))));
   }
   BOOST_TEST_GT(number_of_resections, centers.size() / 4);
@@ -582,7 +584,7 @@ void test_tumors(const Mesh& mesh, const Test_surface& brain, int repeats)
       }
   BOOST_TEST_GE(cut, 16u);
 
-  // Everything, and nothing.
+  // Everything, and nothing, is removed.
   const Test_point middle((bbox.xmin)() + bbox.x_span() / 2, (bbox.ymin)() + bbox.y_span() / 2,
                           (bbox.zmin)() + bbox.z_span() / 2);
   Resection_3 result = resect(mesh, sphere(middle, 300, 12));

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Queries on a surface, by brute force over its triangles.
+// Queries on a surface, compared with brute force over its triangles.
 
 #include "test_surfaces.h"
 
@@ -73,7 +73,7 @@ double distance_of(const Vec3& p, const std::array<Vec3, 3>& t)
 }
 
 // Random triangles of all sizes, some without area, near the origin and far from it: the closest point of all
-// is on the triangle named, and at the least distance, from anywhere, with any hint.
+// is on the named triangle, and at the least distance, from anywhere, with any hint.
 void test_triangle_tree()
 {
   std::mt19937 random(7);
@@ -137,7 +137,7 @@ void walk(const Polyhedral_mixed_mesh_domain_3& domain, const Surface& surface, 
   BOOST_TEST_EQ(located, met.empty() ? side_of(cell.center()) : CGAL::ON_BOUNDARY);
   BOOST_TEST(part.facets == met);
 
-  // all points that the stages ask for: corners, midpoints, centers, and some others
+  // The points are all that the stages ask for: corners, midpoints, centers, and some others.
   const std::uint32_t half = side / 2;
   for(std::uint32_t i = 0; i < 27; ++i) {
     const Point_3 p = traits.point(
@@ -159,7 +159,7 @@ void walk(const Polyhedral_mixed_mesh_domain_3& domain, const Surface& surface, 
       BOOST_TEST_LE(std::abs(std::sqrt(CGAL::squared_distance(p, q)) - nearest), tolerance);
       const Point_3 without_hint = domain.closest_point(p, Polyhedral_mixed_mesh_domain_3::Surface_part());
       BOOST_TEST_LE(std::abs(std::sqrt(CGAL::squared_distance(p, without_hint)) - nearest), tolerance);
-      // a hint from elsewhere, and none
+      // The hint is from elsewhere, or there is none.
       for(const Point_3& r :
           {domain.closest_point(p, surface.point(Surface::Vertex_index(i % 6))), domain.closest_point(p)})
         BOOST_TEST_LE(std::abs(std::sqrt(CGAL::squared_distance(p, r)) - nearest), tolerance);
@@ -196,8 +196,8 @@ Bounded_side side_of_box(const Bbox_3& b, const Point_3& p)
 
 void test_domain_oracle()
 {
-  // A box with a cavity, all facets on faces of cells: every query is degenerate. The sides are
-  // known without CGAL.
+  // A box with a cavity, all facets on faces of cells: every query is degenerate. The sides are known without
+  // CGAL.
   const Bbox_3 outer(0, 0, 0, 8, 8, 8), cavity(2, 2, 4, 6, 4, 6);
   Surface box;
   add_box(box, outer);
@@ -223,7 +223,7 @@ void test_domain_oracle()
     3);
   BOOST_TEST_GT(number_on_surface, before + 1000);
 
-  // A round surface, two components, rotated cells, far away and large: against CGAL.
+  // A round surface, two components, rotated cells, far away and large: compared with CGAL.
   for(double offset : {0., 1e8}) {
     Surface spheres;
     add_sphere(spheres, {offset, 0, -offset}, 1000, 6);
@@ -236,7 +236,7 @@ void test_domain_oracle()
   BOOST_TEST_GT(number_of_boundary_cells, 300u);
 }
 
-// No point of the surface is far from all samples, and they are on the surface.
+// No point of the surface is far from all samples, and samples are on the surface.
 void test_surface_samples()
 {
   Surface thin; // long triangles
@@ -277,7 +277,7 @@ void test_surface_samples()
 
 // ---- moved domains -----------------------------------------------------------------------------
 
-// The tree keeps the address of the surface: what is moved is the owner of both.
+// The tree keeps the address of the surface: a move moves the owner of both.
 template <class Oracle>
 void test_moved()
 {
@@ -315,7 +315,7 @@ void test_moved_union()
   BOOST_TEST_LT(second.depth({1.5, 0, 0}), 0.);
 }
 
-// Of the regions around a point, or near it, that counts where an error counts most; against brute force.
+// The region around a point, or near it, counts in which an error counts most; compared with brute force.
 void test_weights_in_unions()
 {
   using CGAL::Ball_mixed_mesh_region_3;
@@ -332,7 +332,7 @@ void test_weights_in_unions()
     equal.add(parts.back(), 3);
   }
   BOOST_TEST_EQ(regions.size(), 3u);
-  // the same of three types
+  // The union of three types is the same.
   const CGAL::Union_mixed_mesh_region_3 united(
     Polyhedral_mixed_mesh_region_3(boxes[0].first),
     Weighted_mixed_mesh_region_3(Polyhedral_mixed_mesh_region_3(boxes[1].first), 8),

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Distances between the boundary of a mesh and a surface, and where it cuts itself, by brute force.
+// Distances between the boundary of a mesh and a surface, and self-intersections, compared with brute force.
 //
 //   test_surface_distance [DATA_DIRECTORY]
 
@@ -60,7 +60,7 @@ void add(Mesh& mesh, Element_kind kind, const Points& points)
   mesh.add_element(kind, v);
 }
 
-// A mesh whose boundary is the surface: tetrahedra around a point from which all of it is seen.
+// A mesh whose boundary is the surface: tetrahedra around a point from which the whole surface is visible.
 Mesh solid(const Test_surface& surface, const Test_point& center)
 {
   Mesh mesh;
@@ -78,7 +78,7 @@ Mesh solid(const Test_surface& surface, const Test_point& center)
   return mesh;
 }
 
-// Each triangle into four, n times.
+// The surface with each triangle split into four, n times.
 Test_surface refined(Test_surface s, int n)
 {
   for(; n > 0; --n) {
@@ -182,8 +182,8 @@ void test_hausdorff_distance()
     }
   }
 
-  // Concentric spheres. Of the outer one the vertices are farthest, of the octahedron within the centers
-  // of its faces.
+  // The spheres are concentric. The vertices of the outer one are farthest, and the centers of the faces of
+  // the octahedron within.
   const Test_point center(0.5, 0.5, 0.5);
   d = check_hausdorff(sphere(center, 1, 8), sphere(center, 2, 8), 4);
   BOOST_TEST(is_close(d.from_surface.distance, 1, 1e-14));
@@ -200,7 +200,7 @@ void test_hausdorff_distance()
     d = check_hausdorff(a, b, 8);
     BOOST_TEST_LE(d.from_mesh.error, 1.01e-4 * 2.4 * std::sqrt(3.));
 
-    // In any unit, anywhere; to the last bit for powers of 2.
+    // The distance is right in any unit, anywhere; to the last bit for powers of 2.
     for(double scale : {std::ldexp(1., -40), std::ldexp(1., 40)}) {
       Test_surface c = a, e = b;
       for(Test_surface* s : {&c, &e})
@@ -240,7 +240,7 @@ void test_hausdorff_distance()
   BOOST_TEST_EQ(hausdorff_distance(exact, polyhedron).distance(), 0.);
   BOOST_TEST_EQ(number_of_vertices_off_surface(exact, polyhedron), 0u);
   BOOST_TEST_EQ(number_of_boundary_self_intersections(exact), 0u);
-  // a map that puts the surface elsewhere
+  // The map puts the surface elsewhere.
   Test_surface moved = unit;
   auto map = moved.add_property_map<Test_surface::Vertex_index, Test_point>("elsewhere").first;
   for(auto v : vertices(moved))
@@ -276,7 +276,7 @@ void test_self_intersections()
   mesh.points()[20] = mesh.point(20) - 2.5 * (mesh.point(20) - CGAL::ORIGIN); // out on the other side
   BOOST_TEST_GT(number_of_boundary_self_intersections(mesh), 0u);
 
-  // Two tetrahedra that have nothing in common but space: as many pairs as brute force finds.
+  // Two tetrahedra that overlap, but are not connected: as many pairs as brute force finds.
   const Points first{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}},
     second{{0.3, 0.3, 0.1}, {3, 0.4, 0.2}, {0.2, 3, 0.3}, {0.1, 0.2, 3}};
   for(double shift : {0., 0.4, 5.}) {
@@ -296,7 +296,7 @@ void test_self_intersections()
         expected += CGAL::do_intersect(triangle(0, *f), triangle(1, *g));
     BOOST_TEST((expected == 0) == (shift == 5));
     BOOST_TEST_EQ(number_of_boundary_self_intersections(mesh), expected);
-    // nothing else is wrong with the mesh
+    // The mesh has no other defects.
     const Mesh_certificate certificate = certify_mesh(mesh);
     BOOST_TEST(certificate.defects.none());
     BOOST_TEST_EQ(certificate.number_of_self_intersections, expected);
@@ -310,7 +310,7 @@ void test_self_intersections()
   BOOST_TEST(!certify_mesh(mesh).is_valid());
   BOOST_TEST(certify_mesh(Mesh()).is_valid());
 
-  // Elements that share a face, and ones that share an edge only: the boundary touches itself.
+  // Elements share a face, or an edge only: the boundary touches itself.
   mesh.clear();
   for(const Vec3& p :
       Points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {-1, 0, 0}, {-1, -1, 0.5}})
@@ -322,7 +322,7 @@ void test_self_intersections()
   BOOST_TEST_GT(number_of_boundary_self_intersections(mesh), 0u);
 }
 
-// The brain as it is before its boundary is fitted, against CGAL's distance.
+// The brain before its boundary is fitted, compared with CGAL's distance.
 void test_brain(const std::string& data)
 {
   namespace PMP = CGAL::Polygon_mesh_processing;

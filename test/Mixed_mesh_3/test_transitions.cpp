@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The lattice mesh that transition templates make of an octree, on integers.
+// The lattice mesh that transition templates make of an octree, checked on integers.
 
 #include "test_lattice.h"
 
@@ -53,7 +53,7 @@ void test_transitions(const Located_octree& located, Transition_templates_choice
   BOOST_TEST_EQ(mesh.leaves.size(), n);
   BOOST_TEST_EQ(mesh.is_on_rim.size(), n);
 
-  // Used: leaves that meet the domain, those that touch one (and some more beside refined cells).
+  // Used leaves meet the domain, or touch a leaf that does (and some more beside refined cells).
   std::vector<Octree::Node_index> leaves, alive;
   for(Octree::Node_index m = 0; m < octree.size(); ++m)
     if(octree.is_leaf(m)) {
@@ -88,7 +88,7 @@ void test_transitions(const Located_octree& located, Transition_templates_choice
   }
   BOOST_TEST_EQ(volume_of_elements, volume_of_leaves);
 
-  // Conforming; what is on the boundary has no used leaf behind it.
+  // The mesh is conforming; faces on the boundary have no used leaf behind them.
   const Faces faces = faces_of(mesh.elements);
   BOOST_TEST_EQ(faces.nonconforming, 0u);
   std::set<Vertex_index> on_boundary;
@@ -109,7 +109,7 @@ void test_transitions(const Located_octree& located, Transition_templates_choice
     BOOST_TEST(axis >= 0);
     if(axis < 0)
       continue;
-    // outward along the axis?
+    // Whether the face is outward along the axis.
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;
     const auto x = [&](int i, int k) { return std::int64_t(mesh.vertices[p[i]][k]); };
     const bool is_upper = (x(1, b) - x(0, b)) * (x(2, c) - x(0, c))
@@ -120,8 +120,8 @@ void test_transitions(const Located_octree& located, Transition_templates_choice
     BOOST_TEST(behind == Octree::no_node || used.count(behind) == 0);
   }
 
-  // Vertices: no two at one place, on the rim iff on the boundary or beside an unused leaf, sides as
-  // the domain says.
+  // Vertices are at different places, on the rim iff on the boundary or beside an unused leaf, and have the
+  // sides that the domain says.
   std::size_t n_inserted = 0;
   std::set<Lattice_point> places;
   for(Vertex_index v = 0; v < n; ++v) {
@@ -166,8 +166,8 @@ void test_all_transitions()
       }
 }
 
-// The center of a face on the border of the root, inserted since its four edges are split, is on the
-// rim like the others.
+// The center of a face on the border of the root, inserted since its four edges are split, is on the rim like
+// the others.
 void test_inserted_on_rim()
 {
   static const Everywhere_mixed_mesh_region_3 region;

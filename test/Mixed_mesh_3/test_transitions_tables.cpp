@@ -4,9 +4,9 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Checks the transition templates of all 4096 edge patterns, in both variants. Nothing is taken
-// from the code under test but the elements: lattice, face splits, element faces, symmetries and
-// aspect ratios are defined here a second time, as plainly as possible.
+// Checks the transition templates of all 4096 edge patterns, in both variants. Only the elements are taken
+// from the code under test: lattice, face splits, element faces, symmetries and aspect ratios are defined
+// here a second time, as plainly as possible.
 
 #include <CGAL/Mixed_mesh_3/internal/transitions/transition_templates.h>
 
@@ -157,7 +157,7 @@ std::set<Vertex_set> expected_pieces(unsigned int mask, int face)
     return result;
   }
   if(split.size() == 3) {
-    // Rectangle at the edge that is not split; m is opposite to it.
+    // The rectangle is at the edge that is not split; m is opposite to it.
     Vertex_set rectangle;
     int m = -1;
     for(int s : split)
@@ -220,7 +220,7 @@ Polygon reversed(Polygon polygon)
 
 int six_volume(const Template_element& e)
 {
-  // Cones from the cell's center; any apex would do, as all faces are planar.
+  // The volume by cones from the cell's center; any apex is possible, as all faces are planar.
   int result = 0;
   for(const Polygon& face : faces(e))
     for(std::size_t i = 2; i < face.size(); ++i)
@@ -236,7 +236,7 @@ bool has_positive_order(const Template_element& e)
   return det(v[0], v[1], v[3], v[4]) > 0;
 }
 
-// Faces planar and strictly convex, all other vertices strictly inside of them.
+// Whether faces are planar and strictly convex, all other vertices strictly inside of them.
 bool is_strictly_convex(const Template_element& e)
 {
   for(const Polygon& face : faces(e)) {
@@ -255,7 +255,8 @@ bool is_strictly_convex(const Template_element& e)
   return true;
 }
 
-// Coned from any vertex over the faces not containing it: positive tetrahedra, full volume.
+// Whether the element can be a cone of any vertex over the faces not containing the vertex: positive
+// tetrahedra, full volume.
 bool can_be_coned(const Template_element& e)
 {
   for(int i = 0; i < e.size; ++i) {
@@ -296,7 +297,7 @@ double distance(const Vector& p, const Vector& q)
 
 double ratio(double a, double b, double c) { return std::max({a, b, c}) / std::min({a, b, c}); }
 
-// Twice the area of a triangle, by Heron.
+// Twice the area of a triangle, by Heron's formula.
 double double_area(const Vector& p, const Vector& q, const Vector& r)
 {
   const double a = distance(p, q), b = distance(q, r), c = distance(r, p), s = (a + b + c) / 2;
@@ -364,7 +365,7 @@ std::array<int, 4> counts(const Elements& elements)
   return result;
 }
 
-// What is wrong with a template of a pattern; empty if nothing is.
+// The defect of a template of a pattern; empty if there is none.
 std::string defect(unsigned int mask, const Elements& elements, bool may_have_center)
 {
   std::set<Vertex_set> pieces;
@@ -404,7 +405,7 @@ std::string defect(unsigned int mask, const Elements& elements, bool may_have_ce
   std::size_t on_boundary = 0;
   for(const Polygon& face : oriented)
     if(common_face(face) >= 0) {
-      // Elements lie in the cube and are positive: the orientation is outwards by itself.
+      // Elements are in the cube and positive: the orientation is outwards by itself.
       ++on_boundary;
       if(pieces.count(Vertex_set(face.begin(), face.end())) == 0)
         return "boundary face that is no piece";
@@ -415,8 +416,7 @@ std::string defect(unsigned int mask, const Elements& elements, bool may_have_ce
   return std::string();
 }
 
-// The pieces that a template shows on a face, oriented, moved along the face's axis to coordinate
-// 0.
+// The pieces that a template shows on a face, oriented, moved along the face's axis to coordinate 0.
 std::set<Polygon> shown(const Elements& elements, int face)
 {
   std::set<Polygon> result;
@@ -476,7 +476,7 @@ void test_templates()
   BOOST_TEST(worst_centered <= 2.0 + 1e-9);
 }
 
-// defect() must notice when something is wrong.
+// The function defect() must detect defects.
 void test_checker()
 {
   const unsigned int mask = 0x337;
@@ -513,8 +513,8 @@ void test_face_splits()
         ++number;
         const Polygon polygon(piece.vertices, piece.vertices + piece.size);
         pieces.insert(Vertex_set(polygon.begin(), polygon.end()));
-        // Strictly convex, and counter-clockwise from outside: every turn leaves the cell's center
-        // below.
+        // The piece is strictly convex, and counter-clockwise from outside: the cell's center is below each
+        // turn.
         for(std::size_t k = 0; k < polygon.size(); ++k)
           BOOST_TEST(det(polygon[k], polygon[(k + 1) % polygon.size()], polygon[(k + 2) % polygon.size()], 13)
                      < 0);

@@ -3,7 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Labels completed: each step beside its definition by brute force, and beside the surface of the label.
+// Completion of labels: each step compared with its definition by brute force, and with the surface of the
+// label.
 
 #include "test_images.h"
 
@@ -54,7 +55,7 @@ Voxel_image_3 random_image(std::mt19937& random, unsigned share)
                   [&](const Voxel&) { return random() % 12 < share; });
 }
 
-// Whether voxels have the label; none beyond the image does.
+// A mask of voxels with the label; no voxel beyond the image has the label.
 class Mask
 {
   std::array<int, 3> m_size;
@@ -97,7 +98,7 @@ public:
   }
 };
 
-// The voxels that no ball covers which avoids the label, by that definition.
+// Whether a voxel is not covered by any ball that avoids the label, by that definition.
 bool is_closed_voxel(const Mask& mask, const Voxel& p, double radius, const std::array<double, 3>& spacing)
 {
   const auto is_near = [&](const Voxel& a, const Voxel& b) {
@@ -146,7 +147,7 @@ void test_closing()
   BOOST_TEST_GT(number_closed, 1000u);
 }
 
-// Of the surface without smoothing.
+// The number of components of the surface without smoothing.
 std::size_t number_of_components(const Voxel_image_3& image)
 {
   Surface surface;
@@ -179,7 +180,7 @@ void test_components()
     BOOST_TEST(Mask(complete_label(filled, is_one, options), is_one) == after_filling);
     number_of_holes += number_of_components(same) > number_of_components(filled);
 
-    // without holes, each component of the surface is around one of the label
+    // Without holes, each component of the surface is around one component of the label.
     Label_completion_result result;
     options.keep_largest = true;
     const Voxel_image_3 largest = complete_label(image, is_label, options, &result);
@@ -188,7 +189,7 @@ void test_components()
     BOOST_TEST_EQ(Mask(largest, is_one).number() + result.number_of_removed_voxels, after_filling.number());
     number_removed += result.number_of_removed_components;
 
-    // as large as the largest: at least that is kept, and nothing of less
+    // With the volume of the largest component as the least volume, the largest is kept, and no smaller one.
     options.keep_largest = false;
     options.least_volume = double(Mask(largest, is_one).number()) * 0.7 * 1.1 * 2.3 * (1 - 1e-9);
     const Mask large(complete_label(image, is_label, options), is_one);

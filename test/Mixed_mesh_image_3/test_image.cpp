@@ -61,7 +61,8 @@ void test_identity()
   BOOST_TEST(std::abs(inside * 1.1 * 0.9 * 1.3 / volume(scene.mesh) - 1) < 0.01);
 }
 
-// u(X) = A X + b - X: the closed form of both fields, in all four kinds; with resected value none.
+// The displacement u(X) = A X + b - X has the closed form of both fields, in all four kinds; without resected
+// value.
 void test_affine_displacement(bool mirror)
 {
   const Scene scene(mirror);
@@ -88,7 +89,7 @@ void test_affine_displacement(bool mirror)
     BOOST_TEST(n > 100);
 }
 
-// Both fields, against locators.
+// Both fields compared with locators.
 void test_fields_are_inverse(bool mirror, Displacement_interpolation interpolation)
 {
   const Scene scene(mirror);
@@ -121,7 +122,7 @@ void test_fields_are_inverse(bool mirror, Displacement_interpolation interpolati
     largest_difference = (std::max)(largest_difference, norm(linear - to));
   });
   BOOST_TEST_EQ(largest_difference > 0.01, is_recovered);
-  // The image deformed and back: that of before, in the mesh, up to interpolation.
+  // The image deformed and back is the former image, in the mesh, up to interpolation.
   const Voxel_image_3 again = resample_image(warped.image, warped.forward);
   double worst = 0, mean = 0;
   std::size_t n = 0;
@@ -136,7 +137,7 @@ void test_fields_are_inverse(bool mirror, Displacement_interpolation interpolati
   BOOST_TEST_LT(worst, 1.5);             // at the surface, where the fields have a kink
 }
 
-// Labels: the voxel whose center is nearest, by brute force; nothing between them appears.
+// Labels: the voxel whose center is nearest, by brute force; no values in between appear.
 void test_labels()
 {
   Scene scene(true);
@@ -206,7 +207,7 @@ void test_outside()
   });
 }
 
-// The nearest voxel against brute force; sizes of voxels differ.
+// The nearest voxel compared with brute force; sizes of voxels differ.
 void test_fade()
 {
   std::mt19937 random(4);
@@ -239,7 +240,7 @@ void test_resection()
   const Scene scene(false);
   const auto u = scene.displacements(bend);
   const Warped_image_3 whole = warp_image(scene.image, scene.mesh, u);
-  // By a predicate on points before the deformation.
+  // The resection is a predicate on points before the deformation.
   Warp_options options;
   options.is_resected = [](const Vec3& x) { return norm(x - Vec3{-5, 2, -8}) < 6; };
   options.resected_value = -1;
@@ -253,8 +254,8 @@ void test_resection()
     BOOST_TEST_EQ(by_points.image.values[offset], is_resected ? -1.f : whole.image.values[offset]);
   });
   BOOST_TEST(count > 300);
-  // By elements: without the prism. Nothing moves, so that the mask is where the elements are. What is
-  // said of vertices of the prism only does not matter.
+  // The resection is by elements: without the prism. Nothing moves, so that the mask is where the elements
+  // are. Displacements of vertices of the prism only do not matter.
   options = Warp_options();
   options.resected_elements = {false, true, false, false};
   auto zero = scene.displacements([](const Vec3&) { return Vec3{}; });
@@ -294,7 +295,7 @@ void test_misfit()
   BOOST_TEST_EQ(message(near, u), "none");
   u[3][1] = std::numeric_limits<double>::infinity();
   BOOST_TEST_EQ(message(near, u), "vertex 3 of the mesh does not have a finite position and displacement");
-  // An inverted mesh is no reason to crash.
+  // An inverted mesh must not cause a crash.
   std::mt19937 wild(2);
   for(Vec3& v : u)
     v = {double(wild() % 20), double(wild() % 20), double(wild() % 20)};

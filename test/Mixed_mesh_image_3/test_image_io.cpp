@@ -5,7 +5,7 @@
 //
 // Files of images.
 //
-//   test_image_io [DIRECTORY]    writes images there (default: the current directory), and what is in them to
+//   test_image_io [DIRECTORY]    writes images there (default: the current directory), and their content to
 //                                image_expected.json, for test_image_readers.py
 
 #include "test_images.h"
@@ -51,7 +51,7 @@ void write_bytes(const std::string& path, const T& header, const std::string& re
   out << rest;
 }
 
-// The line that says why a file is refused.
+// The line with the reason why a file is refused.
 std::string defect(const std::string& path)
 {
   Voxel_image_3 image;
@@ -153,7 +153,7 @@ void test_round_trips()
              << ", " << double(field.vectors[i][2]) << "]";
   expected << "]}\n";
 
-  // Slope and intercept: values to the nearest that the type holds, cut off at its ends.
+  // Slope and intercept: values are rounded to the nearest of the type, and cut off at its ends.
   Voxel_image_3 scaled;
   scaled.grid.size = {5, 1, 1};
   scaled.type = Voxel_type::UINT8;
@@ -164,7 +164,7 @@ void test_round_trips()
   const Voxel_image_3 read = read_image(file("image_scaled.nii"));
   BOOST_TEST(read.values == (std::vector<float>{10, 10.5f, 11, 10, 137.5f}));
   BOOST_TEST(read.slope == 0.5 && read.intercept == 10 && read.type == Voxel_type::UINT8);
-  // Axes that are not at right angles: only the sform can say that.
+  // Axes that are not at right angles: only the sform can represent these.
   Voxel_image_3 sheared = scaled;
   sheared.grid.index_to_world[0] = {1, 0.3, 0, 5};
   BOOST_TEST(IO::write_NIFTI(file("image_sheared.nii"), sheared));
@@ -265,7 +265,7 @@ void test_orientation()
   BOOST_TEST_EQ(difference(read_image(file("image_second.nii")).grid.index_to_world, sform), 0.);
 }
 
-// Numbers that nifti_clib replaces by others: voxels would be read from another place, mean something else,
+// Numbers that nifti_clib replaces by others: voxels would be read from another place, have another meaning,
 // or be elsewhere in the world.
 void test_numbers_of_headers()
 {
@@ -319,7 +319,7 @@ void test_numbers_of_headers()
                   refused("pixdim[3]", text, "a size greater than 0"));
   BOOST_TEST_EQ(defect_of([](nifti_1_header& h) { h.quatern_b = 2; }),
                 refused("quaternion (quatern_b, quatern_c, quatern_d)", "2", "at most 1, its length"));
-  // What does not count may be anything.
+  // Fields that do not count may have any value.
   BOOST_TEST_EQ(defect_of([&](nifti_1_header& h) { h.scl_slope = 0, h.scl_inter = nan; }), "none");
   BOOST_TEST_EQ(defect_of([&](nifti_1_header& h) { h.qform_code = 0, h.quatern_b = nan; }), "none");
   BOOST_TEST_EQ(defect_of([&](nifti_1_header& h) { h.pixdim[4] = nan; }), "none");
@@ -377,7 +377,7 @@ void test_bad_input()
   fs::create_directories(file("image_directory.nii"));
   BOOST_TEST_EQ(defect(file("image_directory.nii")), "is a directory");
 
-  // Compressed: cut off anywhere, and damaged.
+  // Compressed files are cut off anywhere, and damaged.
   Voxel_image_3 image;
   image.grid.size = {20, 20, 20};
   std::mt19937 random(6);
@@ -397,7 +397,7 @@ void test_bad_input()
   std::ofstream(file("image_bad.nii.gz"), std::ios::binary) << damaged;
   BOOST_TEST_EQ(defect(file("image_bad.nii.gz")), "is damaged: its compressed data are not valid");
 
-  // Any byte of the header wrong: read, or refused with a line.
+  // Any byte of the header is wrong: the file is read, or refused with a line.
   for(std::size_t i = 0; i < 352; ++i)
     for(int value : {0, 1, 127, 128, 255}) {
       const nifti_1_header header = small_header();
@@ -436,7 +436,7 @@ void test_warped_files()
   BOOST_TEST(IO::write_NRRD(files, file("image_raw.nrrd"), warped.backward, false));
   BOOST_TEST(IO::write_NIFTI(files, file("image_unwarped.nii.gz"), scene.image));
   BOOST_TEST(files.commit());
-  // Fields are written when they are asked for.
+  // Fields are written when requested.
   BOOST_TEST(IO::write_warped_image(files, file("image_only.nii"), warped));
   BOOST_TEST(files.commit());
   BOOST_TEST(fs::exists(file("image_only_mask.nii")) && !fs::exists(file("image_only_backward.nii")));

@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Surfaces of labels: closed, manifold and without cuts for all patterns of a cube and for random images;
-// round where the label is; in the right place of the world.
+// Surfaces of labels: closed, manifold and without self-intersections for all patterns of a cube and for
+// random images; round where the label is round; in the right place of the world.
 
 #include "test_images.h"
 
@@ -71,7 +71,7 @@ double volume(const Surface& s)
   return sum;
 }
 
-// Closed, each vertex with one fan of faces, and no two faces that meet where they should not.
+// Whether a surface is closed, each vertex has one fan of faces, and no two faces meet where they should not.
 bool is_clean(const Surface& s)
 {
   for(auto h : s.halfedges())
@@ -151,7 +151,7 @@ void test_ball()
   }
 }
 
-// At the border of an image the label ends; a label that is not there has no surface.
+// The label ends at the border of an image; a label without voxels has no surface.
 void test_borders()
 {
   const Voxel_image_3 full = image_of({6, 5, 4}, identity, [](const auto&) { return true; });
@@ -168,7 +168,7 @@ void test_borders()
   BOOST_TEST(is_clean(ball) && 0.2 < volume(ball) && volume(ball) < 2);
 }
 
-// Fewer vertices, the same body; nothing happens to what is small already.
+// Fewer vertices give the same body; a surface that is small already does not change.
 void test_simplification()
 {
   std::mt19937 random(11);
@@ -190,7 +190,7 @@ void test_simplification()
   }
 }
 
-// The kernel keeps volumes: what it takes from a voxel it gives to others.
+// The kernel keeps volumes: values that it takes from a voxel go to others.
 void test_smoothing()
 {
   for(double deviation : {0., 0.3, 1., 2.5}) {
@@ -215,7 +215,7 @@ void test_smoothing()
   BOOST_TEST(std::abs(sum(raw.values) - sum(smooth.values)) < 1e-3 * sum(raw.values));
 }
 
-// Along each axis, as the sum by its definition; the same in several threads.
+// Convolution along each axis equals the sum by its definition; the same in several threads.
 void test_convolution()
 {
   std::mt19937 random(3);
@@ -244,7 +244,7 @@ void test_convolution()
   }
 }
 
-// As by sorting all values, where few are above what is passed over at first, and where many are.
+// The level equals that by sorting all values, with few candidates at first, and with many.
 void test_level()
 {
   std::mt19937 random(5);
@@ -259,8 +259,8 @@ void test_level()
   }
 }
 
-// The extents of all values are those that a pass for each one finds; a surface made with its extent is the
-// same as without, in one thread and in several.
+// The extents of all values equal those of a pass for each value; a surface made with its extent is the same
+// as without, in one thread and in several.
 void test_extents()
 {
   std::mt19937 random(13);
@@ -294,8 +294,8 @@ void test_extents()
   BOOST_TEST_LT(number, image.values.size()); // without those that are no number
 }
 
-// From many vertices: a torus keeps its handle, and each vertex stays near to it, nearer than with half as
-// many.
+// A torus of many vertices keeps its handle, and each vertex stays near to it, nearer than with half as many
+// vertices.
 void test_far_simplification()
 {
   constexpr double large = 20, small = 7;

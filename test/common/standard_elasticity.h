@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The standard finite elements of degree 1, with the dilatation at each point of the quadrature: what other
-// programs have, and what locks.
+// The standard finite elements of degree 1, with the dilatation at each point of the quadrature, as other
+// programs have them: they lock.
 
 #ifndef MIXED_MESH_3_TEST_STANDARD_ELASTICITY_H
 #define MIXED_MESH_3_TEST_STANDARD_ELASTICITY_H
@@ -17,7 +17,7 @@
 #include <cstddef>
 #include <vector>
 
-// Displacements of all vertices, for those of some. A material for each element.
+// Displacements of all vertices, from those of some vertices, with a material for each element.
 template <class Mesh>
 std::vector<CGAL::Mixed_meshes_3::Vec3>
 standard_solution(const Mesh& mesh, const std::vector<CGAL::Mixed_meshes_3::Elastic_material>& materials,

@@ -23,7 +23,7 @@ using namespace CGAL::Mixed_meshes_3;
 
 using Cell = std::array<int, 3>;
 
-// Of the cells of a grid of tetrahedra those that belong to a subdomain, not 0.
+// The cells of a grid of tetrahedra that belong to a subdomain other than 0.
 inline Mesh cells_of_grid(int n, unsigned seed, const std::function<Subdomain_index(const Cell&)>& subdomain)
 {
   Mesh all = grid(n, TETRAHEDRON);

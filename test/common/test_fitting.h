@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the tests of the fitting stage do with meshes.
+// Operations on meshes for the tests of the fitting stage.
 
 #ifndef MIXED_MESH_3_TEST_FITTING_H
 #define MIXED_MESH_3_TEST_FITTING_H
@@ -39,7 +39,7 @@ inline bool is_same(const Mesh& a, const Mesh& b)
 
 using Polygon = std::vector<Vertex_index>;
 
-// From the smallest vertex on, with their orientation.
+// The polygons of the boundary from the smallest vertex on, with their orientation.
 inline std::set<Polygon> boundary_of(const Mesh& mesh)
 {
   std::set<Polygon> result;

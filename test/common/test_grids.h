@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Distorted grids, and what tests ask of a mesh.
+// Distorted grids, and conditions on a mesh for tests.
 
 #ifndef MIXED_MESH_3_TEST_GRIDS_H
 #define MIXED_MESH_3_TEST_GRIDS_H

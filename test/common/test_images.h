@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Images, and a mesh in one of them, that the tests of images start from.
+// Images, and a mesh in one of them, for the tests of images.
 
 #ifndef MIXED_MESH_3_TEST_IMAGES_H
 #define MIXED_MESH_3_TEST_IMAGES_H
@@ -28,7 +28,7 @@ using CGAL::Mixed_meshes_3::Voxel_image_3;
 
 using Mesh = CGAL::Mixed_mesh_3<CGAL::Mixed_meshes_3::Predicates_kernel>;
 
-// A rotation about no special axis, times sizes; `mirror` flips the first axis.
+// A rotation about a general axis, times sizes; `mirror` flips the first axis.
 inline Affine_map_3 oblique(const Vec3& sizes, const Vec3& origin, bool mirror)
 {
   const double a = 0.3, b = -0.5, c = 0.2;
@@ -57,7 +57,7 @@ inline double difference(const Affine_map_3& a, const Affine_map_3& b)
   return d;
 }
 
-// A linear function of the world: linear interpolation gives it exactly.
+// A linear function of the world, which linear interpolation reproduces exactly.
 inline double ramp(const Vec3& x) { return 100 + 0.7 * x[0] - 0.4 * x[1] + 0.9 * x[2]; }
 
 inline Voxel_image_3 ramp_image(const Affine_map_3& map, const std::array<std::size_t, 3>& size)
@@ -92,7 +92,7 @@ struct Scene
   explicit Scene(bool mirror)
   {
     image = ramp_image(oblique({1.1, 0.9, 1.3}, {0, 0, 0}, mirror), {61, 57, 49});
-    // the middle of the image to the origin
+    // The map takes the middle of the image to the origin.
     const Vec3 middle = CGAL::Mixed_meshes_3::transform(image.grid.index_to_world, Vec3(30, 28, 24));
     Affine_map_3 map = image.grid.index_to_world;
     for(int i = 0; i < 3; ++i)

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Octrees and lattice meshes that the tests of their stages start from; what integers say of them.
+// Octrees and lattice meshes for the tests of their stages, and checks of them in integers.
 
 #ifndef MIXED_MESH_3_TEST_LATTICE_H
 #define MIXED_MESH_3_TEST_LATTICE_H
@@ -103,11 +103,11 @@ inline bool is_positive(const std::vector<Lattice_point>& points, const Element_
 
 struct Faces
 {
-  std::vector<Face_vertices> boundary; // of one element only
-  std::size_t nonconforming = 0;       // of more than two, or of two with the same orientation
+  std::vector<Face_vertices> boundary; // faces of one element only
+  std::size_t nonconforming = 0;       // faces of more than two elements, or of two with the same orientation
 };
 
-// With a map, as plainly as possible.
+// Finds faces with a map, as plainly as possible.
 inline Faces faces_of(const Element_list& elements)
 {
   std::map<std::vector<Vertex_index>, std::vector<std::vector<Vertex_index>>> faces;

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Meshes that several tests start from.
+// Meshes for several tests.
 
 #ifndef MIXED_MESH_3_TEST_MESHES_H
 #define MIXED_MESH_3_TEST_MESHES_H
@@ -19,7 +19,8 @@
 #include <random>
 #include <vector>
 
-// A cell of hexahedra, or divided into elements of another kind. \param center its point, for pyramids
+// Adds a cell of hexahedra, or divided into elements of another kind. \param center point of the cell, for
+// pyramids
 template <class Mesh, class Center>
 void add_cell(Mesh& mesh, const std::array<CGAL::Mixed_meshes_3::Vertex_index, 8>& v,
               CGAL::Mixed_meshes_3::Element_kind kind, const Center& center)
@@ -32,16 +33,16 @@ void add_cell(Mesh& mesh, const std::array<CGAL::Mixed_meshes_3::Vertex_index, 8
     mesh.add_element(kind, {v[0], v[2], v[3], v[4], v[6], v[7]});
   } else if(kind == PYRAMID) {
     const Vertex_index apex = mesh.add_vertex(center());
-    for(const Element_face& f : reference_elements[HEXAHEDRON].faces) // seen from inside: reversed
+    for(const Element_face& f : reference_elements[HEXAHEDRON].faces) // reversed, because seen from inside
       mesh.add_element(kind, {v[f.vertices[3]], v[f.vertices[2]], v[f.vertices[1]], v[f.vertices[0]], apex});
-  } else { // around the diagonal, the same in each cell
+  } else { // around the diagonal, which is the same in each cell
     static constexpr int path[6][2] = {{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}};
     for(const auto& p : path)
       mesh.add_element(kind, {v[0], v[p[0]], v[p[1]], v[6]});
   }
 }
 
-// n^3 cells, of elements of one kind.
+// A grid of n^3 cells, of elements of one kind.
 // place: Mesh::Point_3(double, double, double), from coordinates in cells; called for each vertex once, in
 // the order of the vertices
 template <class Mesh, class Place>
@@ -99,7 +100,7 @@ Mesh four_kinds(double scale, const CGAL::Mixed_meshes_3::Vec3& origin, double p
   return mesh;
 }
 
-// Where a point of a displaced mesh is.
+// The position of a point of a displaced mesh.
 template <class Mesh, class Location>
 CGAL::Mixed_meshes_3::Vec3
 position(const Mesh& mesh, const std::vector<CGAL::Mixed_meshes_3::Vec3>& displacements, const Location& l)

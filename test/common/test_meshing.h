@@ -3,7 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the tests of make_mixed_mesh_3() have in common: what holds for any input, and what a visitor is told.
+// Common parts of the tests of make_mixed_mesh_3(): conditions that hold for any input, and a recording
+// visitor.
 
 #ifndef MIXED_MESH_3_TEST_MESHING_H
 #define MIXED_MESH_3_TEST_MESHING_H
@@ -42,7 +43,7 @@ using Point_3 = Test_point;
 using Surface = Test_surface;
 using Mesh = CGAL::Mixed_mesh_3<Kernel>;
 
-// All that a mesh is, in doubles.
+// The content of a mesh, in doubles.
 struct Content
 {
   std::vector<std::array<double, 3>> points;
@@ -74,13 +75,13 @@ Content content(const AnyMesh& mesh)
   return c;
 }
 
-// The mesh as the octree leaves it, its boundary outside the domain.
+// Criteria for the mesh as the octree makes it, its boundary outside the domain.
 inline Mixed_mesh_criteria_3 unfitted(std::size_t n)
 {
   return Mixed_mesh_criteria_3(n).fit_to_surface(false);
 }
 
-// What holds for any input: a valid mesh within the budget, or none.
+// Checks conditions that hold for any input: a valid mesh within the budget, or no mesh.
 template <class AnyMesh>
 void check(const AnyMesh& mesh, const Mixed_mesh_result_3& result, std::size_t budget)
 {
@@ -100,7 +101,7 @@ void check(const AnyMesh& mesh, const Mixed_mesh_result_3& result, std::size_t b
   BOOST_TEST(result.status != Status::BUDGET_NOT_FILLED || mesh.number_of_vertices() < 0.97 * double(budget));
 }
 
-// What CGAL::Parallel_if_available_tag stands for, as long as it lives.
+// Limit of the threads of CGAL::Parallel_if_available_tag, as long as the object lives.
 class Thread_limit
 {
 #ifdef CGAL_LINKED_WITH_TBB
@@ -123,8 +124,8 @@ Mixed_mesh_result_3 run(const Domain& domain, const Region& region, const Mixed_
   return result;
 }
 
-// Of a mesh that is not fitted: every boundary vertex is outside or on the surface, every other one inside,
-// unless the repair of pinched places or of narrow gaps made it so.
+// Checks a mesh that is not fitted: every boundary vertex is outside or on the surface, every other vertex
+// inside, except by the repair of pinched places or of narrow gaps.
 inline void check_sides(const Mesh& mesh, const Mixed_mesh_result_3& result,
                         const Polyhedral_mixed_mesh_domain_3& domain)
 {
@@ -145,7 +146,7 @@ inline Surface transformed(Surface s, const std::function<Point_3(const Point_3&
   return s;
 }
 
-// Notes what it is told, and stops when asked for the n-th time.
+// Visitor that notes its calls, and stops when asked for the n-th time.
 struct Recording_visitor
 {
   std::size_t stop_at = std::numeric_limits<std::size_t>::max();

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Surfaces and domains that several tests mesh.
+// Surfaces and domains for several tests.
 
 #ifndef MIXED_MESH_3_TEST_SURFACES_H
 #define MIXED_MESH_3_TEST_SURFACES_H
@@ -80,7 +80,7 @@ inline Test_surface sphere(const Test_point& center, double radius, int n)
   return s;
 }
 
-// A domain in the unit cube that is a function of points, positive inside; |f| bounds the distance to the
+// A domain in the unit cube given by a function of points, positive inside; |f| bounds the distance to the
 // surface from below.
 class Analytic_domain
 {
@@ -111,7 +111,7 @@ public:
   }
   CGAL::Bounded_side bounded_side(const Point_3& p, const Surface_part&) const { return bounded_side(p); }
 
-  // Only its distance matters: not for fitting.
+  // A point with the right distance only: not for fitting.
   Point_3 closest_point(const Point_3& p) const
   {
     return p + Test_kernel::Vector_3(std::abs(m_function(p)), 0, 0);
@@ -135,8 +135,8 @@ inline std::function<double(const Test_point&)> united(std::function<double(cons
   return [=](const Test_point& p) { return (std::max)(f(p), g(p)); };
 }
 
-// A label for each point, of no geometry at all: the hardest that the boundary stage can meet. Points
-// within `margin` of the border of the unit cube are outside.
+// A random label for each point, without any geometry: the hardest input of the boundary stage. Points within
+// `margin` of the border of the unit cube are outside.
 inline std::function<double(const Test_point&)> noise(unsigned seed, int share_inside, double margin)
 {
   return [=](const Test_point& p) {

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Numbers as messages of the programs show them: with a unit, and without a power of ten.
+// Numbers in messages of the programs: with a unit, and without a power of ten.
 
 #include "common/messages.h"
 

@@ -15,7 +15,7 @@
 
 namespace {
 
-// With control characters in the file, the line has none.
+// Checks that the message has no control characters if the file has some.
 template <class Read>
 void check(const std::string& path, const Read& read)
 {

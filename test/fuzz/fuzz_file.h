@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Bytes as a file, for readers that are given a path.
+// Bytes as a file, for readers that take a path.
 
 #ifndef MIXED_MESH_3_TEST_FUZZ_FUZZ_FILE_H
 #define MIXED_MESH_3_TEST_FUZZ_FUZZ_FILE_H
@@ -17,7 +17,7 @@
 
 #include <unistd.h>
 
-/// What libFuzzer calls with each input.
+/// The function that libFuzzer calls with each input.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 /// A file of this process, removed in the end.
@@ -53,7 +53,7 @@ inline void require(bool holds)
     std::abort();
 }
 
-/// A reader that refuses a file says why in one line, with its name in front.
+/// Requires that a reader that refuses a file says why in one line, with the file's name in front.
 inline void require_line(const std::string& path, const std::string& error)
 {
   require(error.compare(0, path.size() + 2, path + ": ") == 0 && error.size() > path.size() + 2

@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Landmarks, in the format that the first byte chooses: tag points of MNI, or a table. Fiducials are those of
-// fuzz_control_points.
+// Landmarks, in the format that the first byte chooses: tag points of MNI, or a table. fuzz_control_points
+// has fiducials.
 
 #include "fuzz_file.h"
 

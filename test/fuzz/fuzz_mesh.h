@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What readers of meshes must do with any bytes.
+// Conditions on readers of meshes for any bytes.
 
 #ifndef MIXED_MESH_3_TEST_FUZZ_FUZZ_MESH_H
 #define MIXED_MESH_3_TEST_FUZZ_FUZZ_MESH_H
@@ -15,7 +15,7 @@
 #include <CGAL/Mixed_mesh_3/IO/read_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/validation.h>
 
-/// Reads a mesh; what is read can be checked, in a time that the size of the file bounds.
+/// Reads a mesh; a mesh that is read can be checked, in a time that the size of the file bounds.
 inline int read_and_check(const Fuzz_file& file, const std::uint8_t* data, std::size_t size)
 {
   namespace mm3 = CGAL::Mixed_meshes_3;

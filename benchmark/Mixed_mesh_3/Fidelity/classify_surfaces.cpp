@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Says of each file of a surface what is wrong with it, by CGAL alone: a line "FILE<tab>KIND" each. KIND is
-// clean, flat, self-intersecting, open, not manifold, or unreadable.
+// Classifies the defect of each file of a surface, by CGAL alone: a line "FILE<tab>KIND" each. KIND is clean,
+// flat, self-intersecting, open, not manifold, or unreadable.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>

@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A closed surface with fewer vertices, for meshers that keep the triangles that they are given. Prints the
-// CPU seconds as JSON.
+// A closed surface with fewer vertices, for meshers that keep the given triangles. Prints the CPU seconds as
+// JSON.
 //
 //   coarsen_surface SURFACE.off COARSE.off VERTICES
 
@@ -29,7 +29,7 @@ int main(int argc, char** argv)
     return EXIT_FAILURE;
   }
   const std::clock_t start = std::clock();
-  // A closed surface of genus 0 has three edges for each vertex, less six.
+  // A closed surface of genus 0 has three edges for each vertex, minus six.
   SMS::edge_collapse(surface, SMS::Count_stop_predicate<Surface>(3 * std::stoul(argv[3])));
   const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
   surface.collect_garbage();

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One run of the mesher without files: from surfaces in memory to a checked mesh. Prints a line of JSON.
+// One run of the mesher without files, from surfaces in memory to a checked mesh. Prints a line of JSON.
 //
 //   benchmark_make_mixed_mesh_3 SURFACE.off REGION.off VERTICES [THREADS [optimize|relax|none]]
 //

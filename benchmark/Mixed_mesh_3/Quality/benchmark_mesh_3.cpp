@@ -6,7 +6,7 @@
 // The peer: CGAL's Mesh_3 on the same input, with as many vertices. Prints a line of JSON with the
 // measures of mesh_measures.h; `--help` tells the options.
 //
-// How it is tuned (lengths in the unit of the surface):
+// Tuning (lengths in the unit of the surface):
 // - Sizes bound the circumradii of boundary facets and of tetrahedra alike: by h in the region of interest,
 //   by min(h + growth d, largest) at the distance d from it. A search finds the h that gives the wanted
 //   number of vertices.
@@ -60,7 +60,7 @@ using Triangulation = CGAL::Mesh_triangulation_3<Domain>::type;
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
 using Mesh_criteria = CGAL::Mesh_criteria_3<Triangulation>;
 
-/// The defaults are for the bundled brain, in millimeters.
+/// Sizes, by default for the bundled brain, in millimeters.
 struct Sizes
 {
   double in_region = 0;
@@ -163,7 +163,7 @@ struct Result
   double cpu_seconds_of_refinement = 0, cpu_seconds_of_perturbation = 0, cpu_seconds_of_exudation = 0;
 };
 
-/// From surfaces in memory to a mesh: AABB trees are part of it.
+/// Makes a mesh from surfaces in memory; AABB trees are part of the measured time.
 Result make_mesh(const Surface& surface, const Surface& region_surface, const Sizes& sizes,
                  bool with_perturbation)
 {
@@ -205,7 +205,7 @@ double find_size_in_region(const Surface& surface, const Surface& region_surface
 {
   struct Trial
   {
-    double log_size, log_excess; // of vertices over those wanted
+    double log_size, log_excess; // of vertices over the wanted number
   };
   const auto make = [&](double log_size) {
     sizes.in_region = std::exp(log_size);
@@ -234,7 +234,7 @@ double find_size_in_region(const Surface& surface, const Surface& region_surface
   return std::exp(best.log_size);
 }
 
-/// About the center of its box.
+/// A surface scaled about the center of its box.
 Surface scaled(Surface surface, double factor)
 {
   const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(surface);

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Makes a mesh of mixed elements, or reads one of any mesher, and measures it. Prints a line of JSON;
+// Makes a mesh of mixed elements, or reads a mesh of any mesher, and measures it. Prints a line of JSON;
 // `--help` tells the options.
 
 #include "mesh_measures.h"
@@ -58,7 +58,7 @@ CGAL::Mixed_mesh_result_3 make_mesh(const CGAL::Polyhedral_mixed_mesh_domain_3& 
   return result;
 }
 
-// From surfaces in memory to a checked mesh.
+// Makes a checked mesh from surfaces in memory.
 nlohmann::ordered_json make_mesh(const Surface& surface, const Surface& region_surface, const Options& o,
                                  Mesh& mesh)
 {

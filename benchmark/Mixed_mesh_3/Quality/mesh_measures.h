@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Measures of a mesh against the surface it shall have and the region it shall be fine in. They know
-// nothing of how the mesh was made: the programs that compare meshers share them.
+// Measures of a mesh compared with its surface and with the region of finer elements. The measures are
+// independent of the way in which the mesh was made: programs that compare meshers share them.
 
 #ifndef MIXED_MESH_3_BENCHMARK_MESH_MEASURES_H
 #define MIXED_MESH_3_BENCHMARK_MESH_MEASURES_H
@@ -53,7 +53,7 @@ Point to_point(const P& p)
   return {q[0], q[1], q[2]};
 }
 
-/// A sample of a surface, and how far it is from the other surface.
+/// A sample of a surface, and its distance from the other surface.
 struct Sample
 {
   Point point;
@@ -76,8 +76,8 @@ inline std::array<Point, 3> triangle_points(const Surface& surface, Surface::Fac
           surface.point(surface.target(surface.next(h)))};
 }
 
-/// The vertices of a surface and a regular grid on each of its triangles, with `step` between points
-/// along the longest edge at most. \pre triangulated
+/// The vertices of a surface and a regular grid on each of its triangles, with `step` between points along
+/// the longest edge at most. \pre the surface is triangulated
 inline std::vector<Sample> samples(const Surface& surface, double step)
 {
   std::vector<Sample> result;
@@ -140,7 +140,7 @@ std::vector<Sample> boundary_vertices(const Mesh& mesh)
 }
 
 /// The smallest and the largest dihedral angle of all elements, in degrees. Faces that are not plane have
-/// an angle of their own at both ends of the edge; angles of inverted corners are above 180 degrees.
+/// different angles at the two ends of an edge; angles of inverted corners are above 180 degrees.
 template <class Mesh>
 std::array<double, 2> dihedral_angles(const Mesh& mesh)
 {
@@ -182,8 +182,8 @@ std::array<double, 2> dihedral_angles(const Mesh& mesh)
   return range;
 }
 
-/// Elements that are not proved valid, and what a solver has to do: the entries of the stiffness matrix, and
-/// the time of a factorization, with the lower 30 % of the boundary fixed.
+/// Elements that are not proved valid, and the work of a solver: the entries of the stiffness matrix, and the
+/// time of a factorization, with the lower 30 % of the boundary fixed.
 template <class Mesh>
 nlohmann::ordered_json measure_for_elasticity(const Mesh& mesh)
 {
@@ -203,7 +203,7 @@ nlohmann::ordered_json measure_for_elasticity(const Mesh& mesh)
   nlohmann::ordered_json line;
   line["elements not proved valid"] = invalid;
   line["nonzeros"] = 9 * (mesh.number_of_vertices() + 2 * std::size_t(end - pairs.begin()));
-  // with more it takes minutes, and more memory than most machines have
+  // Above this number a factorization takes minutes, and more memory than most machines have.
   constexpr std::size_t most_factored = 60000;
   if(invalid != 0 || mesh.number_of_vertices() > most_factored)
     return line;
@@ -254,7 +254,7 @@ the region's surface count as inside it.
 
 \param mesh a `CGAL::Mixed_mesh_3`
 \param surface, region_surface the domain's and the region's surface. \pre closed and triangulated
-\param step of the samples, in the unit of the surface; 1 is meant for millimeters
+\param step step of the samples, in the unit of the surface; 1 is meant for millimeters
 */
 template <class Mesh>
 nlohmann::ordered_json measure(const Mesh& mesh, const Surface& surface, const Surface& region_surface,
@@ -265,7 +265,7 @@ nlohmann::ordered_json measure(const Mesh& mesh, const Surface& surface, const S
   line["vertices"] = mesh.number_of_vertices();
   line["elements"] = mesh.number_of_elements();
 
-  // Where the vertices are.
+  // Numbers and places of vertices.
   const Side_of_surface side_of_region(region_surface);
   std::vector<char> is_in_region;
   for(const auto& p : mesh.points())

@@ -24,19 +24,20 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 
 namespace {
 
-// A disk of the boundary around the control points, about as large as the opening that they were measured in.
+// A disk of the boundary around the control points, about as large as the opening in which they were
+// measured.
 struct Opening_disk
 {
   Vector center{};
   double radius = 0;
 };
 
-// The outermost points are halfway to the border, where a bump has half its height; or as far from it as the
-// radius over which control points are averaged.
+// The disk around the control points. The outermost points are halfway to the border, where a bump has half
+// its height; or as far from the border as the radius over which control points are averaged.
 Opening_disk disk_around(const Mesh& mesh, const Options& o, const Outcome& outcome)
 {
   Opening_disk disk;
-  std::vector<Vector> points; // in the mesh
+  std::vector<Vector> points; // points in the mesh
   for(const auto& location : outcome.locations) {
     Vector p{};
     for(int i = 0; i < mesh.element(location.element).size(); ++i)
@@ -51,7 +52,7 @@ Opening_disk disk_around(const Mesh& mesh, const Options& o, const Outcome& outc
   return disk;
 }
 
-// The mean normal of the boundary there, and two directions perpendicular to it.
+// The mean normal of the boundary in the disk, and two directions perpendicular to the normal.
 std::array<Vector, 3> directions_at(const Mesh& mesh, const Opening_disk& disk)
 {
   Vector normal{};
@@ -62,7 +63,7 @@ std::array<Vector, 3> directions_at(const Mesh& mesh, const Opening_disk& disk)
        }))
       normal = normal + mm3::vector_area(mesh, face);
   }
-  if(!(norm(normal) > 0)) // of all of a closed boundary
+  if(!(norm(normal) > 0)) // the disk may be a whole closed boundary
     return {Vector{1, 0, 0}, Vector{0, 1, 0}, Vector{0, 0, 1}};
   normal = (1 / norm(normal)) * normal;
   Vector axis{};
@@ -91,7 +92,7 @@ void adapt(Mesh& mesh, const Boundary_patches& patches, const Options& o, Outcom
     for(std::size_t i = 0; i < cases.size() && (is_loaded || !is_free); ++i)
       cases[i][v] = height * directions[i];
   }
-  // Three hold rigid motions if nothing else does.
+  // Least number of loaded vertices: three hold rigid motions if no support does.
   constexpr std::size_t least_loaded = 3;
   if(loaded < least_loaded)
     throw std::runtime_error(
@@ -100,8 +101,9 @@ void adapt(Mesh& mesh, const Boundary_patches& patches, const Options& o, Outcom
       + " mm of the center of the control points can move; with --control-radius it is a "
         "larger distance");
   std::vector<mm3::Elastic_material> materials = materials_of_elements(mesh, outcome.subdomains);
-  // Standard elements lock if the material is nearly incompressible, those of the simulation do not: the
-  // energy of locking is none that they would have. 0.3 was best among 0, 0.3, 0.4 and 0.45; see the manual.
+  // Largest Poisson's ratio. Standard elements lock if the material is nearly incompressible, unlike elements
+  // of the simulation: their energy would be that of locking. 0.3 was best among 0, 0.3, 0.4 and 0.45; see
+  // the manual.
   constexpr double largest_poisson_ratio = 0.3;
   for(mm3::Elastic_material& m : materials)
     m.poisson_ratio = (std::min)(m.poisson_ratio, largest_poisson_ratio);

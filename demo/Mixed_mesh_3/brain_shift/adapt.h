@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The mesh adapted to what the opening of the skull may bring, by --adapt.
+// Adaptation of the mesh to the loads that the opening of the skull may cause, by --adapt.
 
 #ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_ADAPT_H
 #define MIXED_MESH_3_DEMO_BRAIN_SHIFT_ADAPT_H
@@ -14,8 +14,9 @@
 #include "common/types.h"
 
 /// Moves inner vertices of the mesh. The loads are unit bumps of the boundary around the control points, in
-/// the direction of its normal and in two tangential ones; what the run supports in any way is fixed.
-/// \throw std::runtime_error if there is nothing to adapt to
+/// the direction of its normal and in two tangential ones; vertices that the run supports in any way are
+/// fixed.
+/// \throw std::runtime_error if there are no loads for the adaptation
 void adapt(Mesh& mesh, const Boundary_patches& patches, const Options& options, Outcome& outcome);
 
 #endif // MIXED_MESH_3_DEMO_BRAIN_SHIFT_ADAPT_H

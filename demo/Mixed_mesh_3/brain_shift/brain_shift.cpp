@@ -3,10 +3,10 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Brain shift on the command line: from a mesh and some points with measured displacements to the
-// displacement of the whole, before and after a resection, and to the image as it looks then. Section 6.2 of
+// Brain shift on the command line: computes from a mesh and some points with measured displacements the
+// displacement of the whole, before and after a resection, and the image as it looks then. Section 6.2 of
 // Lobos, Bucki, Hitschfeld, Payan: "Mixed-element mesh for an intra-operative modeling of the brain tumor
-// extraction". Exit status: 0 all went well; 1 bad input, or no solution for it, or a file that cannot be
+// extraction". Exit status: 0 success; 1 bad input, or no solution for the input, or a file that cannot be
 // written; 2 wrong use.
 
 #include "brain_shift/options.h"
@@ -54,8 +54,8 @@ int run_command_line(int argc, char** argv)
 
 } // namespace
 
-// PETSc takes a tenth of a second to load. So it is in a program of its own, brain_shift_petsc, beside this
-// one.
+// The program with PETSc, brain_shift_petsc, is a separate program beside this one, because PETSc takes a
+// tenth of a second to load.
 #if MIXED_MESH_3_HAS_PETSC
 
 int main(int argc, char** argv)
@@ -85,7 +85,7 @@ bool asks_for_petsc(int argc, char** argv)
   return false;
 }
 
-// Returns if there is none.
+// Replaces this program by brain_shift_petsc. Returns if there is no such program.
 void become_program_with_petsc(char** argv)
 {
   std::error_code error;

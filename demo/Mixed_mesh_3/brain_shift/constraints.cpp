@@ -20,7 +20,7 @@ namespace {
 using Component = std::pair<mm3::Vertex_index, int>;
 using Terms = std::map<Component, double>;
 
-// A component of a displacement that others tell: the sum of `terms` and `value`.
+// A component of a displacement that other components determine: the sum of `terms` and `value`.
 struct Told_component
 {
   Terms terms;
@@ -30,13 +30,13 @@ struct Told_component
 
 class Elimination
 {
-  // Relative to the largest factor of an equation: what is rounding, and below what an equation follows from
-  // others.
+  // Limits relative to the largest factor of an equation: of rounding errors, and of factors below which an
+  // equation follows from others.
   static constexpr double rounding = 1e-12, dependence = 1e-10;
 
   const std::vector<std::vector<Vector>>& m_held_directions;
   std::map<Component, Told_component> m_told;
-  std::map<Component, std::set<Component>> m_users; // which told components have one in their terms
+  std::map<Component, std::set<Component>> m_users; // determined components with a component in their terms
 
 public:
   explicit Elimination(const std::vector<std::vector<Vector>>& held_directions)
@@ -48,7 +48,7 @@ public:
 
   bool is_fixed(mm3::Vertex_index v) const { return m_held_directions[v].size() == 3; }
 
-  // The sum of terms is to be the value.
+  // Adds the equation that the sum of terms is the value.
   void add(const Terms& equation, double value, bool is_control)
   {
     double scale = 0;
@@ -74,7 +74,7 @@ public:
   }
 
 private:
-  // Adds a component times a factor to a sum of those that are not told; returns what is known of it.
+  // Adds a component times a factor to a sum of undetermined components; returns the known part.
   double add_told(const Component& component, double factor, Terms& sum) const
   {
     if(is_fixed(component.first))
@@ -89,7 +89,7 @@ private:
     return factor * place->second.value;
   }
 
-  // Puts what tells a component in its place.
+  // Replaces a component by the components that determine it.
   void substitute(const Component& component, const Told_component& by)
   {
     const auto users = m_users.find(component);
@@ -108,7 +108,7 @@ private:
         sum += factor * f;
         if(std::abs(sum) > rounding * larger) {
           m_users[other].insert(user);
-        } else { // they cancel each other
+        } else { // the terms cancel each other
           told.terms.erase(other);
           m_users[other].erase(user);
         }

@@ -15,7 +15,7 @@
 
 #include <vector>
 
-/// Supports and control points as FEBio wants them.
+/// Supports and control points in the form of FEBio.
 struct Explicit_constraints
 {
   std::vector<CGAL::Mixed_meshes_3::Vertex_index> fixed_vertices;
@@ -23,8 +23,8 @@ struct Explicit_constraints
 };
 
 /// Solves the equations for displacements: Gauss-Jordan elimination, in each equation of the displacement
-/// with the largest factor. Equations that follow from others are left out. None contradicts the others: then
-/// there would have been no solution.
+/// with the largest factor. Equations that follow from others are left out. No equation contradicts the
+/// others: otherwise there would have been no solution.
 /// \par Complexity
 /// Nearly linear, if few equations have displacements in common
 Explicit_constraints solve_for_displacements(const Motion_constraints& constraints);

@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::size_t nowhere = std::size_t(-1);
 
-// For each vertex of the mesh before, its number in what is left.
+// The number of each vertex of the former mesh in the remaining mesh.
 std::vector<std::size_t> numbers_left(const Remaining_mesh& remaining, std::size_t number_before)
 {
   std::vector<std::size_t> numbers(number_before, nowhere);
@@ -49,7 +49,8 @@ Motion_constraints constraints_left(const Remaining_mesh& remaining, const Motio
   return left;
 }
 
-// The tissue's, less what the fluid takes; check_febio() has seen to it that there is mass.
+// The acceleration of the tissue, reduced by the buoyancy of the fluid; check_febio() has ensured that there
+// is mass.
 Vector acceleration_in_fluid(double density, const Options& o)
 {
   const double weight = o.fluid_density == 0 ? 1 : 1 - o.fluid_density * kg_per_mm3 / density;

@@ -18,10 +18,10 @@
 
 #include <vector>
 
-/// Writes the last simulation: that after the resection, if there is one.
-/// \param remaining the mesh of it
-/// \param facet_sets of that mesh
-/// \throw std::runtime_error a line naming the file and what went wrong
+/// Writes the last simulation: the one after the resection, if there is one.
+/// \param remaining mesh of the simulation
+/// \param facet_sets facet sets of that mesh
+/// \throw std::runtime_error a line naming the file and the error
 void write_febio(CGAL::Mixed_meshes_3::IO::Output_files& files, const Remaining_mesh& remaining,
                  std::vector<CGAL::Mixed_meshes_3::IO::Facet_set> facet_sets,
                  const CGAL::Mixed_meshes_3::IO::Subdomain_names& subdomain_names, const Options& options,

@@ -28,7 +28,7 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 
 namespace {
 
-// Whether points are in the image.
+// The box of an image, which tells whether points are inside.
 class Image_box
 {
   const mm3::Voxel_grid_3& m_grid;
@@ -69,7 +69,7 @@ std::size_t number_of_vertices_inside(const Mesh& mesh, const mm3::Voxel_grid_3&
                                    [&box](const auto& p) { return box.contains(mm3::to_vec3(p)); }));
 }
 
-// Why the mesh may not be in the image.
+// The reason why the mesh may not be in the image.
 std::string hint(const Mesh& mesh, const mm3::Voxel_grid_3& grid)
 {
   const Image_box box(grid);
@@ -110,8 +110,8 @@ bool are_same(const mm3::Voxel_grid_3& a, const mm3::Voxel_grid_3& b)
   return true;
 }
 
-// Labels of which most is resected, but not all: the cavity ends at faces of the mesh, or at a surface that
-// was smoothed, and both cut voxels off.
+// Labels most of whose voxels are resected, but not all: the cavity ends at faces of the mesh, or at a
+// surface that was smoothed, and both cut voxels off.
 std::vector<Rim_facts> find_rims(const mm3::Voxel_image_3& labels, const mm3::Voxel_image_3& mask)
 {
   std::map<float, Rim_facts> found;
@@ -129,7 +129,7 @@ std::vector<Rim_facts> find_rims(const mm3::Voxel_image_3& labels, const mm3::Vo
   return rims;
 }
 
-// The labels after the deformation; those of tissue that is removed are 0.
+// The labels after the deformation; labels of removed tissue are 0.
 mm3::Voxel_image_3 warp_labels(const mm3::Voxel_image_3& labels, const mm3::Warped_image_3& warped,
                                const Options& o, Outcome& outcome)
 {
@@ -155,7 +155,7 @@ mm3::Voxel_image_3 read_labels(const Options& o, const mm3::Voxel_grid_3& grid)
   require([&](std::string* error) { return mm3::IO::read_NIFTI(o.labels, labels, error); });
   if(!are_same(grid, labels.grid))
     throw std::runtime_error(o.labels + ": the label image does not have the voxels of " + o.image);
-  constexpr float largest = 1 << 24; // floats tell integers apart up to there
+  constexpr float largest = 1 << 24; // floats distinguish integers up to there
   for(float value : labels.values)
     if(value != std::floor(value) || std::abs(value) > largest)
       throw std::runtime_error(o.labels + ": " + rounded(double(value))
@@ -197,7 +197,7 @@ void write_images(mm3::IO::Output_files& files, const mm3::Voxel_image_3& image,
   warp.interpolation = o.interpolation;
   if(tumor.is_given())
     warp.resected_elements = is_removed;
-  if(tumor.surface != nullptr) // also what it cuts of the elements that are left
+  if(tumor.surface != nullptr) // also the parts that it cuts off the remaining elements
     warp.is_resected = [&tumor](const std::array<double, 3>& p) { return tumor.surface->contains(p); };
   const mm3::Warped_image_3 warped = log("warp image", [&] {
     return mm3::warp_image(image, mesh, outcome.last().displacements, warp);

@@ -19,16 +19,17 @@
 
 #include <vector>
 
-/// \throw std::runtime_error a line naming the file and the defect: it has to overlap the mesh, for one
+/// Reads the image. \throw std::runtime_error a line naming the file and the defect, for example if the image
+/// does not overlap the mesh
 CGAL::Mixed_meshes_3::Voxel_image_3 read_image(const Options& options, const Mesh& mesh, Outcome& outcome);
 
-/// \throw std::runtime_error a line naming the file and the defect: it has to have the voxels of the image,
-///        and integers
+/// Reads the labels. \throw std::runtime_error a line naming the file and the defect: the file must have the
+/// voxels of the image, and integers
 CGAL::Mixed_meshes_3::Voxel_image_3 read_labels(const Options& options,
                                                 const CGAL::Mixed_meshes_3::Voxel_grid_3& grid);
 
 /// Deforms the image with the mesh.
-/// \param labels empty if there are none
+/// \param labels labels; empty if there are none
 void write_images(CGAL::Mixed_meshes_3::IO::Output_files& files,
                   const CGAL::Mixed_meshes_3::Voxel_image_3& image,
                   const CGAL::Mixed_meshes_3::Voxel_image_3& labels, const Mesh& mesh, const Tumor& tumor,

@@ -14,7 +14,7 @@ namespace {
 
 using Errors = std::vector<std::optional<Vector>>;
 
-// Landmarks that are given move the mesh; the others are where their elements take them.
+// Errors at the targets. Given landmarks move the mesh; the other landmarks move with their elements.
 Errors errors_of_targets(Elasticity& elasticity, const Options& o, Outcome& outcome)
 {
   const Landmark_facts& landmarks = *outcome.landmarks;

@@ -25,7 +25,7 @@ Json describe(const std::optional<Error_summary>& s)
   return s ? Json{{"mean", s->mean}, {"median", s->median}, {"maximum", s->largest}} : Json();
 }
 
-// The lengths of the errors at one landmark; of those methods that have one.
+// The lengths of the errors at one landmark, of the methods that have an error.
 Json lengths_at(std::size_t i, const Landmark_facts& landmarks, Errors Landmark_facts::Errors::*which)
 {
   Json lengths = Json::object();
@@ -65,7 +65,7 @@ std::optional<Error_summary> summary_of_shift(const Landmark_facts& landmarks)
   return summary(errors, std::vector<bool>(errors.size(), true));
 }
 
-// In hundredths of a millimeter, which no image resolves.
+// Errors in hundredths of a millimeter, which no image resolves.
 std::string text_of(const std::optional<Error_summary>& s)
 {
   if(!s)

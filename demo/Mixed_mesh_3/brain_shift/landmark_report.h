@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the program tells of landmarks.
+// Report on landmarks.
 
 #ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_LANDMARK_REPORT_H
 #define MIXED_MESH_3_DEMO_BRAIN_SHIFT_LANDMARK_REPORT_H
@@ -15,7 +15,7 @@
 /// The errors of all methods, and of each landmark.
 Json describe_landmarks(const Options& options, const Landmark_facts& landmarks);
 
-/// A table of the methods on the standard output.
+/// Prints a table of the methods on the standard output.
 void print_landmarks(const Options& options, const Landmark_facts& landmarks);
 
 #endif // MIXED_MESH_3_DEMO_BRAIN_SHIFT_LANDMARK_REPORT_H

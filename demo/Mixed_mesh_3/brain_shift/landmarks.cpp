@@ -21,8 +21,8 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 
 namespace {
 
-// The number that was given when models were compared on public cases, which have 15 landmarks in the mean.
-// At least as many are left to be predicted, but four are needed for an affine map.
+// Number of given landmarks when models were compared on public cases, which have 15 landmarks in the mean.
+// At least as many are left to be predicted, but an affine map needs four.
 std::size_t default_number_given(std::size_t n)
 {
   constexpr std::size_t usual = 8, least = least_number_of_landmarks - 1;
@@ -42,7 +42,7 @@ std::vector<double> depths_of(const Mesh& mesh, const Landmark_facts& landmarks)
   return depths;
 }
 
-// The k landmarks nearest to the outside; of those at the same depth, the first ones in the file.
+// The k landmarks nearest to the outside; at the same depth, the first ones in the file.
 std::vector<bool> outermost(const std::vector<double>& depths, std::size_t k)
 {
   std::vector<std::size_t> order(depths.size());
@@ -60,7 +60,7 @@ struct Pairs
   Points before, after;
 };
 
-// The pairs of those landmarks that are given, or of those that are not.
+// The pairs of given landmarks, or of the others.
 Pairs pairs_of(const Landmark_facts& landmarks, bool are_given)
 {
   const auto n = std::count(landmarks.is_given.begin(), landmarks.is_given.end(), are_given);

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// In which elements points are.
+// Location of points in elements.
 
 #ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_LOCATE_H
 #define MIXED_MESH_3_DEMO_BRAIN_SHIFT_LOCATE_H
@@ -16,14 +16,14 @@
 #include <vector>
 
 /// Throws that a point is so far outside the mesh, in mm.
-/// \param file that the point comes from
+/// \param file file that the point comes from
 [[noreturn]] void refuse_outside(const Options& options, const std::string& file, const Control_point& point,
                                  double distance);
 
-/// Where points are.
-/// \param file that they come from
-/// \param warnings gets a line if they are plainly in another unit
-/// \throw std::runtime_error if one is too far outside
+/// Locates points.
+/// \param file file that the points come from
+/// \param warnings lines; a line is appended if the points are plainly in another unit
+/// \throw std::runtime_error if a point is too far outside
 Locations locate(const Mesh& mesh, const Options& options, const std::string& file,
                  const std::vector<Control_point>& points, std::vector<std::string>& warnings);
 

@@ -29,14 +29,15 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 
 namespace {
 
-// CMakeLists.txt defines it if nifti_clib was found; without, there are no images, and all else works.
+// Whether CMakeLists.txt found nifti_clib; without nifti_clib, there are no images, and everything else
+// works.
 #if MIXED_MESH_3_HAS_NIFTI
 constexpr bool has_nifti = true;
 #else
 constexpr bool has_nifti = false;
 #endif
 
-// Of brain_shift_petsc, which is the same program for --solver petsc.
+// Whether the program is brain_shift_petsc, which is the same program for --solver petsc.
 #if MIXED_MESH_3_HAS_PETSC
 constexpr bool has_petsc = true;
 #else
@@ -352,7 +353,7 @@ std::array<double, 3> vector_of(const char* option, const std::string& text)
   return v;
 }
 
-// Names of patches that an option does not know are taken for files.
+// Checks names of patches: names that an option does not know are names of files.
 void check_patches(const CLI::App& app, Options& o)
 {
   const auto check = [](const char* option, const std::vector<std::string>& patches, const char* foreign) {
@@ -370,7 +371,7 @@ void check_patches(const CLI::App& app, Options& o)
     o.fixed_below = 0;
 }
 
-// A label, and two or three numbers.
+// The material in a text: a label, and two or three numbers.
 Labeled_material material_of(const std::string& text, const mm3::Elastic_material& other)
 {
   const std::size_t end = text.rfind('=');
@@ -396,8 +397,8 @@ Labeled_material material_of(const std::string& text, const mm3::Elastic_materia
   return result;
 }
 
-// What FEBio's model could not say: contact is with a rigid body there, and a force by mass does not act on
-// what has none, nor from a height upwards.
+// Checks options that FEBio's model can not represent: contact is with a rigid body there, and a force by
+// mass does not act on tissue without mass, nor from a height upwards.
 void check_febio(const Options& o)
 {
   const auto refuse = [](const char* option, const std::string& why) {
@@ -424,9 +425,9 @@ void check_fiducials(const char* option, const std::string& before, const std::s
                                                      : "is for fiducials, .fcsv or .mrk.json, only");
 }
 
-// Landmarks are the control points if there are no others. Displacements depend on the product of the
-// compliance of control points and the stiffness of the tissue: the compliance that was found with 1 kPa is
-// divided by Young's modulus.
+// Checks options of points. Landmarks are the control points if there are no others. Displacements depend on
+// the product of the compliance of control points and the stiffness of the tissue: the compliance that was
+// found with 1 kPa is divided by Young's modulus.
 void check_points(const CLI::App& app, Options& o)
 {
   constexpr double compliance_at_1_kPa = 1;
@@ -444,7 +445,7 @@ void check_points(const CLI::App& app, Options& o)
   o.compliance = o.landmark_compliance;
 }
 
-// What the parser does not check.
+// Checks conditions that the parser does not check.
 void check_use(const CLI::App& app, Options& o)
 {
   check_points(app, o);
@@ -538,7 +539,7 @@ std::vector<std::string> outputs_of(const Options& o)
 
 void check_feasible(const Options& o)
 {
-  // while a temporary file is there to see whether a file can be written
+  // A temporary file exists while the program tests whether a file can be written.
   const Deferred_signals deferred({SIGINT, SIGTERM, SIGHUP}, Deferred_signals::Second::DEFERRED);
   std::vector<std::string> outputs = o.outputs;
   for(const std::string& path : o.outputs)

@@ -20,16 +20,16 @@
 #include <string>
 #include <vector>
 
-/// Patches with a name: the lower part of the height, and all of the boundary.
+/// Names of patches: the lower part of the height, and all of the boundary.
 inline constexpr const char *base_patch = "base", *skull_patch = "skull";
 
 /// The density of 1 g/cm^3, the unit of the options.
 inline constexpr double kg_per_mm3 = 1e-6;
 
-/// The label of a patch such as "label:3"; nothing if it is none.
+/// The label of a patch such as "label:3"; nothing if the patch is no label.
 std::optional<int> label_of(const std::string& patch);
 
-/// A material, and the label of its subdomain as it is on the command line.
+/// A material, and the label of its subdomain as given on the command line.
 struct Labeled_material
 {
   std::string label;
@@ -47,18 +47,18 @@ struct Options
   double density = 1.04, fluid_density = 1; // g/cm^3
   double fluid_level = std::numeric_limits<double>::infinity();
   double max_distance = 5, compliance = 0, landmark_compliance = 0, control_radius = 0;
-  std::size_t landmarks_given = 0; // the outermost ones; 0: as many as there should be
+  std::size_t landmarks_given = 0; // the outermost ones; 0: the default number
   bool corotational = false, leave_one_out = false, adapt = false;
-  CGAL::Mixed_meshes_3::Elastic_material material; // of subdomains without one of their own
+  CGAL::Mixed_meshes_3::Elastic_material material; // material of subdomains without one of their own
   CGAL::Mixed_meshes_3::Displacement_interpolation interpolation =
     CGAL::Mixed_meshes_3::Displacement_interpolation::RECOVERED;
   std::vector<CGAL::Mixed_meshes_3::IO::Field_format> field_formats;
   CGAL::Mixed_meshes_3::IO::Read_surface_options surface_options;
   bool quiet = false;
-  bool uses_petsc = false;                   // as solver
-  bool are_landmarks_control_points = false; // as there are no others
+  bool uses_petsc = false;                   // whether PETSc is the solver
+  bool are_landmarks_control_points = false; // whether there are no others
 
-  // of the texts
+  // Values of the texts above.
   std::array<double, 3> up_direction{}, acceleration{};
   std::vector<Labeled_material> materials;
 
@@ -68,7 +68,7 @@ struct Options
            || !openings.empty();
   }
 
-  // Whether a control point itself has just the displacement asked for.
+  // Whether a control point itself has exactly the requested displacement.
   bool is_exact() const { return compliance == 0 && control_radius == 0; }
 };
 

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the program found out, as its report and its messages need it: plain data.
+// Results of the program for its report and its messages: plain data.
 
 #ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_OUTCOME_H
 #define MIXED_MESH_3_DEMO_BRAIN_SHIFT_OUTCOME_H
@@ -26,7 +26,7 @@
 
 using Vector = CGAL::Mixed_meshes_3::Vec3;
 
-/// Where control points are in the mesh.
+/// Locations of control points in the mesh.
 using Locations = std::vector<CGAL::Mixed_meshes_3::Element_location_3>;
 
 struct Subdomain_facts
@@ -38,7 +38,7 @@ struct Subdomain_facts
   CGAL::Mixed_meshes_3::Elastic_material material;
 };
 
-/// A label of an image, most of which is resected.
+/// A label of an image, most of whose voxels are resected.
 struct Rim_facts
 {
   double label = 0;
@@ -51,8 +51,8 @@ struct Image_facts
   double volume_of_voxel = 0;
   int world = 0; // NIfTI's number
   double smallest = 0, largest = 0, share_inside = 0;
-  std::size_t voxels_of_tissue = 0, voxels_resected = 0, linear_elements = 0; // when it is warped
-  std::vector<Rim_facts> rims;                                                // if there are labels
+  std::size_t voxels_of_tissue = 0, voxels_resected = 0, linear_elements = 0; // numbers of the warped image
+  std::vector<Rim_facts> rims;                                                // empty without labels
 };
 
 enum class Support { FREE, TOUCHING, SLIDING, FIXED };
@@ -63,43 +63,44 @@ struct Supports
   std::vector<Support> of_vertices; // all of the mesh
 };
 
-/// What a control point does.
+/// The result at a control point.
 struct Control
 {
   bool is_used = false;
   Vector displacement{}, force{};
   double miss = 0;
-  std::optional<Vector> left_out; // its error if it is not used; not if the others do not hold the mesh
+  std::optional<Vector> left_out; // error if it is not used; none if the others do not hold the mesh
 };
 
-/// A displacement of the mesh, and what is to be said of it.
+/// A displacement of the mesh, and its measures.
 struct Shift
 {
-  std::vector<Vector> displacements; // of vertices
+  std::vector<Vector> displacements; // displacements of vertices
   double largest = 0;
-  Vector at{}; // the largest
+  Vector at{}; // place of the largest one
   double energy = 0;
   std::size_t inverted_elements = 0;
   std::vector<Control> controls;
   double largest_miss = 0, root_mean_square_miss = 0;
-  std::optional<double> left_out; // the root of the mean square
+  std::optional<double> left_out; // root of the mean square
   std::size_t closed_contacts = 0;
-  double contact_force = 0; // of all
-  // of finite rotations: before each step of Newton's, and at the end; of conjugate gradients, in all
+  double contact_force = 0; // sum of all
+  // Results of finite rotations: residuals before each step of Newton's method, and at the end; the number of
+  // all iterations of conjugate gradients.
   std::vector<double> residuals;
   int iterations = 0;
 };
 
-/// What holds and moves the vertices: the equations of supports and control points.
+/// Constraints that hold and move the vertices: the equations of supports and control points.
 struct Motion_constraints
 {
   using Weights = std::vector<std::pair<CGAL::Mixed_meshes_3::Vertex_index, double>>;
-  std::vector<std::vector<Vector>> held_directions; // of each vertex, orthonormal: no displacement in these
-  std::vector<Weights> weights;                     // of the vertices that each control point has the mean of
-  std::vector<Vector> means;                        // of displacements, at each control point
+  std::vector<std::vector<Vector>> held_directions; // orthonormal, for each vertex: no displacement there
+  std::vector<Weights> weights;                     // weights of the vertices averaged at each control point
+  std::vector<Vector> means;                        // mean displacements, at each control point
 };
 
-/// What is removed, and what is left.
+/// Numbers of the removed and of the remaining elements.
 struct Resection_facts
 {
   struct Piece
@@ -110,20 +111,20 @@ struct Resection_facts
   std::string status;
   std::size_t removed = 0, asked = 0, restored = 0, floating = 0, pinch = 0; // elements
   std::vector<Piece> floating_pieces;
-  double volume = 0, area = 0; // of the cavity
+  double volume = 0, area = 0; // volume and area of the cavity
   Mesh_facts left;
 };
 
-/// Points that were measured before and after, and what methods that predict them leave, in mm: the point
-/// after less where a method puts it.
+/// Points that were measured before and after, and the errors of methods that predict the points, in mm: the
+/// point after minus its predicted place.
 struct Landmark_facts
 {
   static constexpr const char* model = "model";
   struct Errors
   {
     std::string method;
-    std::vector<std::optional<Vector>> left_out; // by all other landmarks; not if they do not determine it
-    std::vector<std::optional<Vector>> given;    // by those that are given; not of these
+    std::vector<std::optional<Vector>> left_out; // errors by all other landmarks; none if undetermined
+    std::vector<std::optional<Vector>> given;    // errors by the given landmarks; not at these
   };
   std::vector<Control_point> points;
   Locations locations;
@@ -131,19 +132,19 @@ struct Landmark_facts
   std::size_t number_given = 0;
   std::vector<bool> is_given;
   std::vector<Errors> errors;                  // the model comes last
-  std::optional<std::vector<Vector>> of_shift; // by control points that are not the landmarks
+  std::optional<std::vector<Vector>> of_shift; // errors by control points that are not the landmarks
 };
 
-/// How PETSc solved.
+/// Statistics of PETSc.
 struct Petsc_facts
 {
-  int processes = 0, iterations = 0; // of the solution that took most
+  int processes = 0, iterations = 0; // largest number of iterations of a solution
 };
 
 struct Outcome
 {
   Mesh_facts mesh;
-  double volume = 0; // of the mesh
+  double volume = 0; // volume of the mesh
   std::vector<Subdomain_facts> subdomains;
   std::vector<Control_point> points;
   Locations locations;
@@ -156,7 +157,7 @@ struct Outcome
   Shift before; // the resection
   std::optional<Resection_facts> resection;
   std::optional<Shift> after;
-  Motion_constraints constraints; // of the last shift; if it is written as a model
+  Motion_constraints constraints; // constraints of the last shift; if it is written as a model
   std::vector<std::string> warnings;
   double seconds = 0;
   std::size_t peak_bytes = 0;

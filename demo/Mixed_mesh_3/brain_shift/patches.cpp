@@ -30,7 +30,7 @@ Vector center(const Mesh& mesh, const mm3::Face& face)
   return 1. / face.vertices().size() * sum;
 }
 
-// Which faces a patch has: those of elements of a label, or with their center inside a surface.
+// The faces of a patch: faces of elements of a label, or faces with their center inside a surface.
 Contains read_patch(const Mesh& mesh, const std::string& place, const Options& o,
                     std::vector<std::string>& warnings)
 {
@@ -46,7 +46,7 @@ void mark(const Mesh& mesh, const std::vector<std::string>& places, Patch patch,
 {
   for(const std::string& place : places) {
     if(place == base_patch)
-      continue; // by height, of vertices
+      continue; // defined by the height of vertices
     const Contains contains = place == skull_patch ? [](const mm3::Face&) { return true; }
                                                    : read_patch(mesh, place, o, warnings);
     bool is_empty = true;
@@ -64,7 +64,7 @@ void mark(const Mesh& mesh, const std::vector<std::string>& places, Patch patch,
 
 using Key = std::array<mm3::Vertex_index, 4>;
 
-// The same for faces with the same vertices.
+// A key that is the same for faces with the same vertices.
 Key key_of(const mm3::Face& face, const std::vector<Mesh::Vertex_index>& vertices_before)
 {
   Key key = face.vertices().padded();
@@ -90,7 +90,7 @@ Boundary_patches find_patches(const Mesh& mesh, const Options& o, std::vector<st
   mark(mesh, o.sliding_patches, Patch::SLIDING, o, warnings, patches);
   mark(mesh, o.touching_patches, Patch::TOUCHING, o, warnings, patches);
 
-  // What is stronger at a vertex comes later; an opening has to have all of its faces.
+  // Stronger patches at a vertex come later; an opening has to have all faces of the vertex.
   for(Patch patch : {Patch::OPENING, Patch::NONE, Patch::TOUCHING, Patch::SLIDING, Patch::FIXED})
     for(std::size_t i = 0; i < patches.faces.size(); ++i)
       if(patches.of_faces[i] == patch)

@@ -31,7 +31,7 @@ void refuse(const std::string& path, const std::string& defect)
 
 std::ifstream opened(const std::string& path)
 {
-  std::error_code ignored; // opening it says more
+  std::error_code ignored; // the attempt to open the file says more
   if(std::filesystem::is_directory(path, ignored))
     refuse(path, "is a directory");
   errno = 0;
@@ -59,7 +59,7 @@ std::vector<std::string_view> columns(std::string_view line, char separator)
   return result;
 }
 
-// The first of those that there are.
+// The first separator that a line has.
 static char separator_of(std::string_view line)
 {
   for(char c : {',', ';', '\t'})
@@ -109,7 +109,7 @@ static std::string joined(const std::vector<std::string>& headers)
   return result;
 }
 
-// The one of the headers that a line is.
+// The header that a line is.
 static std::string header_of(const std::vector<std::string_view>& cells, std::string_view line,
                              const std::vector<std::string>& headers, const Refuse_line& refuse_line)
 {
@@ -201,7 +201,7 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-// Versions of 3D Slicer write RAS, LPS, or 0 and 1 for them.
+// Whether a coordinate system is LPS. Versions of 3D Slicer write RAS, LPS, or 0 and 1 for these.
 bool is_lps(const std::string& path, const std::string& system)
 {
   const bool is_lps = system == "LPS" || system == "1";
@@ -220,7 +220,7 @@ std::vector<Fiducial> read_fcsv(const std::string& path, std::istream& file, boo
 {
   std::vector<Fiducial> points;
   std::string text;
-  std::size_t label = std::string::npos; // its column
+  std::size_t label = std::string::npos; // column of the label
   for(std::size_t number = 1; std::getline(file, text); ++number) {
     const std::string_view line = trimmed(text), system = "# CoordinateSystem =", names = "# columns =";
     if(line.substr(0, system.size()) == system)

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Points with given displacements: from a table of numbers, or from two lists of fiducials.
+// Points with given displacements, from a table of numbers, or from two lists of fiducials.
 
 #ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_READ_CONTROL_POINTS_H
 #define MIXED_MESH_3_DEMO_BRAIN_SHIFT_READ_CONTROL_POINTS_H
@@ -20,7 +20,7 @@
 struct Control_point
 {
   std::array<double, 3> position, displacement; // mm
-  std::size_t number;                           // of the line in the file, or of the point: from 1
+  std::size_t number;                           // number of the line in the file, or of the point: from 1
   const char* unit = "line";                    // or "point"
   double weight = 1;
   std::string name = {}; // empty: the file has none
@@ -30,7 +30,7 @@ struct Control_point
 
 namespace control_points {
 
-/// Throws a line that names a file and what is wrong with it.
+/// Throws a line that names a file and its defect.
 [[noreturn]] void refuse(const std::string& path, const std::string& defect);
 
 /// Throws if the file cannot be opened.
@@ -39,28 +39,31 @@ std::ifstream opened(const std::string& path);
 /// The text without blanks before and after it.
 std::string_view trimmed(std::string_view text);
 
-/// What is between separators, without the blanks around it. If these are blanks, several are one.
+/// The texts between separators, without the blanks around them. If separators are blanks, several blanks are
+/// one separator.
 std::vector<std::string_view> columns(std::string_view line, char separator = ',');
 
-/// As a message can show it: short, and nothing that a terminal would take for more than a character.
+/// A text as a message can show it: short, and with nothing that a terminal would take for more than a
+/// character.
 std::string quoted(std::string_view text);
 
-/// Reads a number, with a point whatever the locale; returns what is wrong with it, or nothing.
+/// Reads a number, with a point in any locale; returns the defect, or nothing.
 std::string read_number(std::string_view text, double& x);
 
-/// The same for a coordinate in mm: nothing in a body is a kilometer away.
+/// Reads a coordinate in mm: nothing in a body is a kilometer away.
 std::string read_coordinate(std::string_view text, double& x);
 
 std::array<double, 3> difference(const std::array<double, 3>& p, const std::array<double, 3>& q);
 
-/// Throws what is wrong with a line of a file.
+/// Throws the defect of a line of a file.
 using Refuse_line = std::function<void(const std::string&)>;
 
 /// Reads a table: one of the headers, then lines with as many columns. Blank lines, and those that start with
 /// #, are skipped. Columns are separated as in the header: by commas, semicolons, tabs or blanks.
-/// \param headers with commas
-/// \param add_row gets the cells of each line, its number from 1, and what to call if they are wrong
-/// \return the header that the table has
+/// \param headers headers with commas
+/// \param add_row function that gets the cells of each line, its number from 1, and the function to call in
+/// case of defects
+/// \return the header of the table
 /// \throw std::runtime_error a line naming the file, the line and the defect
 std::string read_table(
   const std::string& path, const std::vector<std::string>& headers,
@@ -69,10 +72,9 @@ std::string read_table(
 } // namespace control_points
 
 /*!
-Reads control points: a header `x,y,z,dx,dy,dz`, then a point and its displacement in each line, in mm. With
-one column more, `weight`, a positive number.
-Blank lines, and those that start with #, are skipped. Columns are separated as in the header: by commas,
-semicolons, tabs or blanks.
+Reads control points: a header `x,y,z,dx,dy,dz`, then a point and its displacement in each line, in mm. One
+more column, `weight`, may have a positive number. Blank lines, and those that start with #, are skipped.
+Columns are separated as in the header: by commas, semicolons, tabs or blanks.
 
 \throw std::runtime_error a line naming the file, the line and the defect
 */
@@ -83,7 +85,7 @@ bool is_fiducials(const std::string& path);
 
 /*!
 Reads control points from two lists of fiducials, before and after, paired in their order. The result is
-right, anterior, superior; lists that say they are LPS are converted.
+right, anterior, superior; lists in LPS are converted.
 
 \throw std::runtime_error a line naming the file and the defect
 */

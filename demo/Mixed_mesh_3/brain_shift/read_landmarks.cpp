@@ -18,8 +18,8 @@ using namespace control_points;
 
 namespace {
 
-// Coordinate i of a pair: of the point before for i < 3, and of the point after for the others, which become
-// the displacement when the pair is complete.
+// Sets coordinate i of a pair: of the point before for i < 3, and of the point after for the others, which
+// become the displacement when the pair is complete.
 void set_coordinate(Control_point& pair, std::size_t i, std::string_view text, const Refuse_line& refuse_line)
 {
   const std::string defect = read_coordinate(text, i < 3 ? pair.position[i] : pair.displacement[i - 3]);
@@ -48,8 +48,8 @@ std::vector<Control_point> read_landmark_table(const std::string& path)
   return pairs;
 }
 
-// Six coordinates; then, if there are, a weight and the numbers of structure and patient, which say nothing
-// here; and a label in quotes.
+// The pair of a line: six coordinates; then, optionally, a weight and the numbers of structure and patient,
+// which are ignored; and a label in quotes.
 Control_point pair_of_tag(std::string_view line, std::size_t number, const Refuse_line& refuse_line)
 {
   Control_point pair;
@@ -110,7 +110,7 @@ public:
       m_pairs.push_back(pair_of_tag(line, number, refuse_line));
   }
 
-  // Throws if points are missing: a file that was cut off is no shorter file.
+  // The pairs. Throws if points are missing: a file that was cut off is not a shorter file.
   std::vector<Control_point> pairs(const std::string& path) const
   {
     if(!m_has_title)
@@ -123,7 +123,7 @@ public:
   }
 
 private:
-  // What follows the words that come before the points, on their line.
+  // The rest of the line after the words that come before the points.
   std::string_view after_header(std::string_view line, const Refuse_line& refuse_line)
   {
     const std::size_t equal = (std::min)(line.find('='), line.size());

@@ -14,17 +14,17 @@
 #include <string>
 #include <vector>
 
-/// An affine map is determined by four points, and one is to be predicted.
+/// Least number of landmarks: an affine map is determined by four points, and one more has to be predicted.
 inline constexpr std::size_t least_number_of_landmarks = 5;
 
 /*!
 Reads landmarks, in mm. The format follows from the name of the file:
 - `.tag`: tag points of MNI, of two volumes, the first one before; coordinates are right, anterior, superior;
 - `.fcsv` or `.mrk.json`: fiducials of 3D Slicer, see `read_fiducials()`;
-- others: a table as of `control_points::read_table()`, with the header `x,y,z,x_after,y_after,z_after`, with
-  one column more, `name`, or with that of control points, `x,y,z,dx,dy,dz`.
+- others: a table as of `control_points::read_table()`, with the header `x,y,z,x_after,y_after,z_after`,
+optionally with one more column, `name`, or with the header of control points, `x,y,z,dx,dy,dz`.
 
-\param after the fiducials after; empty for the other formats
+\param after file of the fiducials after; empty for the other formats
 \throw std::runtime_error a line naming the file and the defect: there are at least
        `least_number_of_landmarks`, no two of them at the same place
 */

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Meshes that can be computed with.
+// Input of meshes that are valid for computations.
 
 #ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_READ_MESH_H
 #define MIXED_MESH_3_DEMO_BRAIN_SHIFT_READ_MESH_H
@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-/// \param warnings what is harmless is added to it
+/// Reads a mesh. \param warnings lines; a line is appended for each harmless defect
 /// \throw std::runtime_error a line naming the file and the defect
 Mesh read_mesh(const std::string& path, CGAL::Mixed_meshes_3::IO::Subdomain_names& subdomain_names,
                std::vector<std::string>& warnings);

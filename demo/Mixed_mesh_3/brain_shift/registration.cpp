@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Whether points extend in so many dimensions: more than 1e-6 of their extent in the longest one, so that
+// Whether points extend in a number of dimensions: more than 1e-6 of their extent in the longest one, so that
 // coordinates with a few digits decide, and not rounding.
 bool extend(const Points& points, int dimensions)
 {
@@ -121,8 +121,8 @@ Points registered_by_spline(const Points& before, const Points& after, const Poi
   return (terms * coefficients).transpose();
 }
 
-// With the inverse P of the system and the weights w of the spline through all points, the spline through the
-// others misses point i by w_i / P_ii: no system is solved for a point (Rippa 1999).
+// Errors of splines: with the inverse P of the system and the weights w of the spline through all points, the
+// spline through the others misses point i by w_i / P_ii: no system is solved for a point (Rippa 1999).
 Points spline_errors(const Points& before, const Points& after)
 {
   const MatrixXd inverse = spline_matrix(Scaled_coordinates(before).of(before)).partialPivLu().inverse();

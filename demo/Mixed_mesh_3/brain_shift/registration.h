@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Registrations by pairs of points alone, which a model is to be better than.
+// Registrations by pairs of points alone, which a model has to surpass.
 
 #ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_REGISTRATION_H
 #define MIXED_MESH_3_DEMO_BRAIN_SHIFT_REGISTRATION_H
@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-/// How points are registered. Rigid and affine registrations are least squares. A thin-plate spline goes
+/// The kinds of registrations. Rigid and affine registrations are least squares. A thin-plate spline goes
 /// through the points: an affine map plus a sum of radial functions |x - p|, which has the least bending
 /// energy in three dimensions (Bookstein 1989).
 enum class Registration { NONE, RIGID, AFFINE, THIN_PLATE_SPLINE };
@@ -28,16 +28,16 @@ const char* name_of(Registration registration);
 /// A point in each column, in mm.
 using Points = Eigen::Matrix3Xd;
 
-/// Where a registration puts points.
-/// \param before, after pairs of points that determine it
-/// \param points to be put
-/// \return nothing if the pairs do not determine it: those of a rigid registration must not lie on a line,
-///         and those of an affine one, or of a thin-plate spline, not in a plane
+/// The places to which a registration moves points.
+/// \param before, after pairs of points that determine the registration
+/// \param points points to be moved
+/// \return nothing if the pairs do not determine the registration: the pairs of a rigid registration must not
+/// lie on a line, and the pairs of an affine registration, or of a thin-plate spline, not in a plane
 std::optional<Points> registered(Registration registration, const Points& before, const Points& after,
                                  const Points& points);
 
-/// For each pair, the point after less where the registration by the other pairs puts the point before;
-/// nothing if they do not determine it.
+/// The error at each pair: the point after minus the place to which the registration by the other pairs moves
+/// the point before; nothing if the other pairs do not determine the registration.
 /// \par Complexity
 /// Quadratic in the number of pairs; cubic for thin-plate splines
 std::vector<std::optional<Eigen::Vector3d>> leave_one_out_errors(Registration registration,

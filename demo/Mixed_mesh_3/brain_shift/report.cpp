@@ -172,7 +172,7 @@ Json describe_rims(const std::vector<Rim_facts>& rims)
   return result;
 }
 
-// The largest displacement beside the largest one that was measured, which may be less.
+// The largest displacement in words, beside the largest measured one, which may be smaller.
 std::string largest_shift(const Shift& shift, const Options& o, const std::vector<Control_point>& points)
 {
   constexpr double notable = 1.1; // times as much; a difference of less than a tenth needs no reason
@@ -191,7 +191,7 @@ std::string largest_shift(const Shift& shift, const Options& o, const std::vecto
   return text + " at " + place(shift.at) + ", more than the " + rounded(measured) + " mm measured" + why;
 }
 
-// A line for each, if there are several.
+// Prints a line for each subdomain, if there are several.
 void print_subdomains(const std::vector<Subdomain_facts>& subdomains)
 {
   if(subdomains.size() < 2)

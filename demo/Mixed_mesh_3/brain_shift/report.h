@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the program tells: a file for programs, and some lines for people.
+// Output of the program: a file for programs, and some lines for people.
 
 #ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_REPORT_H
 #define MIXED_MESH_3_DEMO_BRAIN_SHIFT_REPORT_H
@@ -16,7 +16,7 @@
 /// The report.
 Json report(const Options& options, const Outcome& outcome, const Stage_log& log);
 
-/// A few lines on the standard output.
+/// Prints a few lines on the standard output.
 void print_summary(const Options& options, const Outcome& outcome, const Stage_log& log);
 
 #endif // MIXED_MESH_3_DEMO_BRAIN_SHIFT_REPORT_H

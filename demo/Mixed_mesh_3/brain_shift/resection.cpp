@@ -39,7 +39,7 @@ Closed_surface::Closed_surface(const std::string& path, const Options& o, const 
     return;
   const std::string text = path + ": beside " + o.mesh + ", it " + defect;
   if(!CGAL::do_overlap(box, box_of(points)))
-    throw std::runtime_error(text); // nothing could be resected
+    throw std::runtime_error(text); // no element could be resected
   warnings.push_back(text);
 }
 
@@ -88,7 +88,7 @@ std::vector<bool> resect(const Mesh& mesh, const Tumor& tumor, const Options& o,
   if(!r.floating.empty())
     outcome.warnings.push_back(name + ": tissue outside comes loose, and is removed: "
                                + counted(r.floating.size(), "piece", "pieces"));
-  // Of a surface these are expected: no face of the mesh lies on it.
+  // The numbers are expected for a surface: no face of the mesh lies on it.
   if(tumor.subdomain && r.number_of_restored_elements + r.number_of_pinch_elements != 0)
     outcome.warnings.push_back(
       name + ": what is left would touch itself at an edge or a vertex; so "

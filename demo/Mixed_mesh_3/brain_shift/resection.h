@@ -26,7 +26,7 @@ struct Tumor;
 class Closed_surface
 {
 public:
-  /// Reads the surface, and looks whether it is where the mesh is.
+  /// Reads the surface, and checks that it is where the mesh is.
   Closed_surface(const std::string& path, const Options& options, const Mesh& mesh, Surface_facts& facts,
                  std::vector<std::string>& warnings);
   ~Closed_surface();
@@ -40,27 +40,27 @@ private:
   std::unique_ptr<const Domain> m_domain;
 };
 
-/// What is resected: the inside of a surface, or a subdomain, or nothing.
+/// The resected tissue: the inside of a surface, or a subdomain, or nothing.
 struct Tumor
 {
-  std::unique_ptr<const Closed_surface> surface; // null if it is none
+  std::unique_ptr<const Closed_surface> surface; // null without a surface
   std::optional<CGAL::Mixed_meshes_3::Subdomain_index> subdomain;
 
   bool is_given() const { return surface != nullptr || subdomain; }
 };
 
-/// Which elements are removed with the tumor, true for each.
-/// \throw std::runtime_error if that leaves nothing to compute with
+/// The elements that are removed with the tumor, true for each.
+/// \throw std::runtime_error if no element is left to compute with
 std::vector<bool> resect(const Mesh& mesh, const Tumor& tumor, const Options& options, Outcome& outcome);
 
-/// What is left.
+/// The mesh that is left.
 struct Remaining_mesh
 {
   Mesh mesh;
-  std::vector<Mesh::Vertex_index> vertices; // their numbers before
+  std::vector<Mesh::Vertex_index> vertices; // former numbers of the vertices
 };
 
-/// Also says in `outcome` what is left, if there was a resection.
+/// The mesh that is left; also noted in `outcome`, if there was a resection.
 Remaining_mesh remaining_mesh(const Mesh& mesh, const std::vector<bool>& is_removed, Outcome& outcome);
 
 #endif // MIXED_MESH_3_DEMO_BRAIN_SHIFT_RESECTION_H

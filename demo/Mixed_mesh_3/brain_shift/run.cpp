@@ -45,10 +45,11 @@ struct Inputs
   mm3::IO::Subdomain_names subdomain_names;
   Tumor tumor;
   Boundary_patches patches;
-  mm3::Voxel_image_3 image, labels; // empty if there is none
+  mm3::Voxel_image_3 image, labels; // empty without a file
 };
 
-// A dense system of three equations for each is factored: with 2,000, as measured, in 3 s.
+// Prints a note for many points: a dense system with three equations for each point is factored: with 2,000
+// points, as measured, in 3 s.
 void tell_of_many_points(std::size_t n)
 {
   constexpr double many = 1000, measured = 2000, seconds = 3;
@@ -58,7 +59,7 @@ void tell_of_many_points(std::size_t n)
               << " s or more, which grows with the cube of their number\n";
 }
 
-// Landmarks are control points in their turn.
+// The number of points. Landmarks are control points in their turn.
 std::size_t number_of_points(const Outcome& outcome)
 {
   return (std::max)(outcome.points.size(), outcome.landmarks ? outcome.landmarks->points.size() : 0);
@@ -126,7 +127,7 @@ std::vector<double> flat(const std::vector<Vector>& vectors)
   return values;
 }
 
-// The mesh as it was, with displacements.
+// Writes the former mesh, with displacements.
 void write_meshes(mm3::IO::Output_files& files, const Inputs& inputs, const std::vector<bool>& is_removed,
                   const Options& o, const Outcome& outcome)
 {
@@ -161,7 +162,8 @@ void write_deformed_meshes(mm3::IO::Output_files& files, const Remaining_mesh& r
     write_mesh(files, path, deformed, with_sets);
 }
 
-// Coordinates are right, anterior and superior in mm, as those of the image and of control points are.
+// The data of the page. Coordinates are right, anterior and superior in mm, like those of the image and of
+// control points.
 Page_data page_data(const Inputs& inputs, const std::vector<bool>& is_removed, const Options& o,
                     const Outcome& outcome)
 {

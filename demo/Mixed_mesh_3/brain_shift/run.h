@@ -3,14 +3,14 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From the options to the files.
+// Run of the program, from the options to the files.
 
 #ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_RUN_H
 #define MIXED_MESH_3_DEMO_BRAIN_SHIFT_RUN_H
 
 #include "brain_shift/options.h"
 
-/// \throw std::runtime_error in a line, what is wrong with the input, or with a file
+/// Runs the program. \throw std::runtime_error in a line, the defect of the input, or of a file
 void run(const Options& options);
 
 #endif // MIXED_MESH_3_DEMO_BRAIN_SHIFT_RUN_H

@@ -36,7 +36,7 @@ void set_supports(Elasticity& elasticity, const Supports& supports)
   elasticity.touch_along_boundary([&](mm3::Vertex_index v) { return has(v, Support::TOUCHING); });
 }
 
-// Elements that the displacement inverts; their Jacobian is zero or negative somewhere.
+// Elements that the displacement inverts: their Jacobian is zero or negative somewhere.
 std::vector<std::size_t> find_inverted_elements(const Mesh& mesh, const std::vector<Vector>& displacements,
                                                 const std::vector<bool>& is_removed)
 {
@@ -49,7 +49,7 @@ std::vector<std::size_t> find_inverted_elements(const Mesh& mesh, const std::vec
   return inverted;
 }
 
-// The largest displacement.
+// Measures the largest displacement.
 void measure(const Mesh& mesh, Shift& shift)
 {
   mm3::Vertex_index farthest = 0;
@@ -65,7 +65,7 @@ void measure(const Mesh& mesh, Shift& shift)
   shift.at = mm3::to_vec3(mesh.point(farthest));
 }
 
-// \param is_used of each control point
+// \param is_used whether each control point is used
 void measure_controls(const Elasticity& elasticity, const Outcome& outcome, const std::vector<bool>& is_used,
                       bool leave_one_out, Shift& shift)
 {
@@ -124,7 +124,7 @@ Shift shift_of(const Elasticity& elasticity, const Options& o, const std::vector
     shift.contact_force += force;
   }
   measure_controls(elasticity, outcome, is_used, o.leave_one_out && !elasticity.is_iterative(), shift);
-  if(o.is_exact() && shift.largest_miss > 1e-6 * (1 + shift.largest)) // our fault
+  if(o.is_exact() && shift.largest_miss > 1e-6 * (1 + shift.largest)) // a defect of the program
     throw std::logic_error(when + ": control points are missed by up to " + rounded(shift.largest_miss)
                            + " mm");
   return shift;
@@ -138,14 +138,14 @@ void tell_of_solver([[maybe_unused]] Elasticity& elasticity, [[maybe_unused]] Ou
 #endif
 }
 
-// Tells what a factorization takes before it begins: afterwards there may be no memory to tell it. Numbers
+// Notes the memory of a factorization before it begins: afterwards there may be no memory for a note. Numbers
 // are those of the table in the manual: the factor of CHOLMOD grows with n^(4/3), that of PETSc with n.
 void tell_of_factor([[maybe_unused]] const Mesh& mesh, [[maybe_unused]] const Options& o,
                     [[maybe_unused]] Stage_log& log)
 {
 #if !MIXED_MESH_3_HAS_PETSC
-  constexpr double measured = 53799, bytes = 12e3, bytes_by_iteration = 5e3; // unknowns, and for each
-  constexpr double sure = 0.6; // of the estimate: so much is needed whatever the mesh is like
+  constexpr double measured = 53799, bytes = 12e3, bytes_by_iteration = 5e3; // unknowns, and bytes for each
+  constexpr double sure = 0.6; // share of the estimate that any mesh needs
   const double unknowns = 3 * double(mesh.number_of_vertices());
   const double needed = bytes * unknowns * std::cbrt(unknowns / measured);
   if(!o.quiet && needed > double(1 << 30))
@@ -156,7 +156,8 @@ void tell_of_factor([[maybe_unused]] const Mesh& mesh, [[maybe_unused]] const Op
 #endif
 }
 
-// With a compliance, means are those that come out: they give the same displacements, without the springs.
+// The constraints of a solution. With a compliance, means are the resulting ones: they give the same
+// displacements, without the springs.
 Motion_constraints constraints_of(const Elasticity& elasticity, std::vector<Vector> displacements,
                                   const Options& o)
 {
@@ -171,7 +172,8 @@ Motion_constraints constraints_of(const Elasticity& elasticity, std::vector<Vect
   return constraints;
 }
 
-// Errors of predictions by landmarks, but for those that the shift tells if landmarks are its control points.
+// Computes errors of predictions by landmarks, except errors known from the shift if landmarks are its
+// control points.
 void predict_landmarks(Elasticity& elasticity, const Options& o, Outcome& outcome)
 {
   measure_by_outermost(elasticity, o, outcome);
@@ -183,7 +185,7 @@ void predict_landmarks(Elasticity& elasticity, const Options& o, Outcome& outcom
   measure_left_out(elasticity, outcome);
 }
 
-// Errors at landmarks that the shift tells.
+// Measures errors at landmarks that are known from the shift.
 void measure_landmarks(const Elasticity& elasticity, const Options& o, Outcome& outcome)
 {
   if(o.are_landmarks_control_points)
@@ -192,11 +194,11 @@ void measure_landmarks(const Elasticity& elasticity, const Options& o, Outcome& 
     measure_shift(elasticity.mesh(), outcome);
 }
 
-// How the rest moves when elements are removed.
+// Solves after the removal of elements.
 void remove(Elasticity& elasticity, const std::vector<bool>& is_removed, const Options& o, Stage_log& log,
             Outcome& outcome)
 {
-  // Points in tissue that is removed move nothing.
+  // Control points in removed tissue move nothing.
   Controls left{o.control_points, {}, o.compliance};
   std::vector<bool> is_used;
   for(std::size_t i = 0; i < outcome.points.size(); ++i) {
@@ -230,7 +232,7 @@ std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_
   set_supports(elasticity, outcome.supports);
 
   tell_of_factor(mesh, o, log);
-  // Before surgery the mesh is factored; then each measurement is a matter of milliseconds.
+  // The mesh is factored before surgery; then each measurement takes milliseconds.
   log("factor", [&] { check(elasticity.factor(), o, controls); });
   elasticity.set_corotational(o.corotational);
   elasticity.set_gravity(o.acceleration);

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From control points to displacements.
+// Simulation, from control points to displacements.
 
 #ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_SIMULATE_H
 #define MIXED_MESH_3_DEMO_BRAIN_SHIFT_SIMULATE_H
@@ -18,8 +18,8 @@
 #include <vector>
 
 /// Computes the shift, and with a tumor its resection and the shift after it.
-/// \param patches of the boundary
-/// \return which elements are removed, true for each
+/// \param patches patches of the boundary
+/// \return the removed elements, true for each
 std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_patches& patches,
                            const Options& options, Stage_log& log, Outcome& outcome);
 

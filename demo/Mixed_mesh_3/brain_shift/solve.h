@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The elastic model with control points: steps that control points and landmarks have in common.
+// The elastic model with control points: steps common to control points and landmarks.
 
 #ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_SOLVE_H
 #define MIXED_MESH_3_DEMO_BRAIN_SHIFT_SOLVE_H
@@ -29,25 +29,26 @@ using Elasticity = CGAL::Linear_elasticity_3<Mesh>;
 /// Points with given displacements.
 struct Controls
 {
-  std::string file; // that they come from, for messages
+  std::string file; // file that the points come from, for messages
   std::vector<Control_point> points;
   double compliance; // mm/mN
 
   std::vector<Vector> displacements() const;
 };
 
-/// Throws what went wrong, if anything did.
+/// Throws the defect of a result, if there is one.
 /// \throw std::runtime_error a line naming the file and the defect
 void check(const CGAL::Linear_elasticity_result_3& result, const Options& options, const Controls& controls);
 
-/// \throw std::runtime_error as `check()`
+/// Sets the control points. \throw std::runtime_error like `check()`
 void set_control_points(Elasticity& elasticity, const Options& options, const Controls& controls);
 
-/// Whether what `Elasticity::solve()` returned is a solution: with finite rotations, one may invert elements.
+/// Whether the result of `Elasticity::solve()` is a solution: with finite rotations, a solution may invert
+/// elements.
 bool is_solution(const Elasticity& elasticity, const CGAL::Linear_elasticity_result_3& result);
 
 /// Solves for the displacements of the control points that are set.
-/// \throw std::runtime_error as `check()`
+/// \throw std::runtime_error like `check()`
 void solve(Elasticity& elasticity, const Options& options, const Controls& controls);
 
 /// The displacement of a point of the mesh.

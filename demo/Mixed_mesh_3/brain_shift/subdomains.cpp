@@ -20,7 +20,7 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 
 namespace {
 
-// What the mesh has instead of a label that it lacks; segmentations may have many.
+// A list of the subdomains of the mesh for a message on a missing label; segmentations may have many.
 std::string list(const std::vector<Subdomain_facts>& subdomains)
 {
   constexpr std::size_t many = 10;

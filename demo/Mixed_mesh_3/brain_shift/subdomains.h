@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The subdomains of a mesh, by their labels: those of --material and --tumor-label.
+// The subdomains of a mesh, by their labels, for --material and --tumor-label.
 
 #ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_SUBDOMAINS_H
 #define MIXED_MESH_3_DEMO_BRAIN_SHIFT_SUBDOMAINS_H
@@ -23,8 +23,8 @@ std::vector<Subdomain_facts> find_subdomains(const Mesh& mesh,
                                              const CGAL::Mixed_meshes_3::IO::Subdomain_names& names,
                                              const Options& options);
 
-/// That with a label of the command line.
-/// \throw std::runtime_error if there is none
+/// The subdomain with a label of the command line.
+/// \throw std::runtime_error if there is no such subdomain
 const Subdomain_facts& find_subdomain(const std::vector<Subdomain_facts>& subdomains,
                                       const std::string& label, const Options& options);
 

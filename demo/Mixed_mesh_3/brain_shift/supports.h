@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Which vertices of the boundary are fixed, slide, or touch the skull.
+// Vertices of the boundary that are fixed, slide, or touch the skull.
 
 #ifndef MIXED_MESH_3_DEMO_BRAIN_SHIFT_SUPPORTS_H
 #define MIXED_MESH_3_DEMO_BRAIN_SHIFT_SUPPORTS_H

@@ -14,7 +14,7 @@ namespace {
 
 volatile std::sig_atomic_t the_signal = 0;
 
-// Of the deadline, if there is one. A handler must not allocate: the line is there before.
+// The deadline, if there is one. The line is prepared before, because a handler must not allocate.
 volatile std::sig_atomic_t the_seconds = 0;
 int the_status = 0;
 std::string the_line;
@@ -64,7 +64,7 @@ void Deferred_signals::take() { the_signal = 0; }
 
 Signal_deadline::Signal_deadline(unsigned seconds, const std::string& line, int status)
 {
-  the_line = (isatty(STDERR_FILENO) ? "\r\033[K" : "") + line + '\n'; // over what is said of the progress
+  the_line = (isatty(STDERR_FILENO) ? "\r\033[K" : "") + line + '\n'; // replaces the progress line
   the_status = status;
   struct sigaction action = {};
   action.sa_handler = end_program;

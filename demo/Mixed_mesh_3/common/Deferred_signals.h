@@ -12,38 +12,38 @@
 
 #include <signal.h>
 
-/// Signals that shall not end the program as long as the object lives: what asks for its end can be put into
-/// order first. One that came, and was not taken, ends the program when the object is destroyed. Those that
-/// are ignored stay so. One object at a time.
+/// Signals that shall not end the program as long as the object lives, so that unfinished work can be put
+/// into order first. A signal that came, and was not taken, ends the program when the object is destroyed.
+/// Ignored signals stay ignored. One object at a time.
 class Deferred_signals
 {
 public:
   enum class Second { DEFERRED, ENDS };
 
-  /// \param signals what is deferred
+  /// \param signals deferred signals
   /// \param second whether a second signal of a kind ends the program at once
   Deferred_signals(const std::vector<int>& signals, Second second);
   ~Deferred_signals();
   Deferred_signals(const Deferred_signals&) = delete;
   Deferred_signals& operator=(const Deferred_signals&) = delete;
 
-  /// Whether one came.
+  /// Whether a signal came.
   static bool has_come();
-  /// The signal has been obeyed: it does not end the program any more.
+  /// Takes the signal, which does not end the program any more.
   static void take();
 
 private:
   std::vector<std::pair<int, struct sigaction>> m_former;
 };
 
-/// What a deferred signal starts: so many seconds after it the program ends, with a line on stderr, unless
-/// the object has been destroyed until then. What takes longer than one waits for cannot be put into order.
-/// One object at a time.
+/// A deadline that a deferred signal starts: after that number of seconds the program ends, with a line on
+/// stderr, unless the object has been destroyed until then. Work that takes longer than the user waits cannot
+/// be put into order. One object at a time.
 class Signal_deadline
 {
 public:
-  /// \param line is written as it is
-  /// \param status of the program
+  /// \param line line that is written as it is
+  /// \param status status of the program
   Signal_deadline(unsigned seconds, const std::string& line, int status);
   ~Signal_deadline();
   Signal_deadline(const Signal_deadline&) = delete;

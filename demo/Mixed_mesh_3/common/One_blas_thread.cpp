@@ -13,8 +13,8 @@
 
 namespace {
 
-// Functions of a library that get and set its number of threads. Which libraries there are is known when the
-// program runs, as Debian lets the user choose the BLAS.
+// Functions of a library that get and set its number of threads. The library is known only when the program
+// runs, as Debian lets the user choose the BLAS.
 struct Library
 {
   const char* get;

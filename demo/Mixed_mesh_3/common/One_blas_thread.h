@@ -7,12 +7,13 @@
 #define MIXED_MESH_3_DEMO_COMMON_ONE_BLAS_THREAD_H
 
 /// Guard under which the BLAS that CHOLMOD uses, and OpenMP, take one thread, whatever the environment says:
-/// several may add up in another order, and results differ in their last digits. At its end they take as many
-/// as before, because others in the process share them: NumPy in Python. Several guards may live at a time,
-/// in several threads; each ends in the thread in which it began.
+/// several threads may add up in another order, and results differ in their last digits. At the end of the
+/// guard, BLAS and OpenMP take as many threads as before, because others in the process share them: NumPy in
+/// Python. Several guards may live at a time, in several threads; each guard ends in the thread in which it
+/// began.
 class One_blas_thread
 {
-  int m_openmp_threads; // of this thread, or 0 without OpenMP
+  int m_openmp_threads; // number of this thread, or 0 without OpenMP
 
 public:
   One_blas_thread();

@@ -13,24 +13,24 @@
 #include <string>
 #include <thread>
 
-/// What the program does now, on stderr, until the object is destroyed. A thread of its own writes it, so
-/// that the seconds go on where one call takes minutes: on a terminal once a second, in one line; elsewhere,
-/// where lines stay, each half minute.
+/// The current activity of the program, on stderr, until the object is destroyed. A thread of its own writes
+/// the text, so that the seconds go on where one call takes minutes: on a terminal once a second, in one
+/// line; elsewhere, where lines stay, each half minute.
 class Progress
 {
 public:
   using Clock = std::chrono::steady_clock;
 
-  /// \param is_shown whether anything is written
-  /// \param start what seconds are counted from
+  /// \param is_shown whether the text is written
+  /// \param start time from which seconds are counted
   Progress(bool is_shown, Clock::time_point start);
   ~Progress();
 
-  /// From any thread.
+  /// Shows a text; may be called from any thread.
   void show(const std::string& text);
   /// Writes a line that stays.
   void note(const std::string& line);
-  /// Ends it; the line on the terminal disappears.
+  /// Ends the progress; the line on the terminal disappears.
   void finish();
 
 private:

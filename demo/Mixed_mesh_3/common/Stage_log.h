@@ -28,19 +28,19 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-/// What one stage took, over all its runs.
+/// The cost of one stage, over all its runs.
 struct Stage_cost
 {
   std::string name;
   double seconds = 0;         // wall clock
-  double cpu_seconds = 0;     // of all threads
+  double cpu_seconds = 0;     // time of all threads
   std::size_t peak_bytes = 0; // largest resident memory of the process during the stage
 };
 
-/// How a run is expected to go, for the share of it that is over.
+/// The expected course of a run, for the share of the run that is over.
 struct Work_plan
 {
-  double search = 0, fit = 0; // at their ends: shares of the seconds
+  double search = 0, fit = 0; // shares of the seconds at their ends
   std::size_t trials = 1, rounds = 1;
 };
 
@@ -50,7 +50,7 @@ class Stage_log : public CGAL::Mixed_meshes_3::Default_visitor
   using Clock = std::chrono::steady_clock;
 
 public:
-  /// \param show_progress whether to say on stderr, while stages run, how far they are
+  /// \param show_progress whether to show on stderr, while stages run, how far they are
   explicit Stage_log(bool show_progress) : m_show_progress(show_progress), m_progress(show_progress, m_start)
   {
   }
@@ -73,7 +73,7 @@ public:
     show("trial of " + std::to_string(number_of_vertices) + " of " + std::to_string(budget) + " vertices");
   }
 
-  /// Asked before each round of fitting, too.
+  /// Whether the run goes on. Asked before each round of fitting, too.
   bool go_on()
   {
     if(m_is_running)
@@ -81,10 +81,10 @@ public:
     return !m_is_over || !m_is_over();
   }
 
-  /// What makes `go_on()` false.
+  /// Sets the condition that makes `go_on()` false.
   void stop_when(std::function<bool()> is_over) { m_is_over = std::move(is_over); }
 
-  /// For progress to be shown as a share of the work, and as the time that is left.
+  /// Sets the expected work, for progress to be shown as a share of the work, and as the time that is left.
   void expect(const Work_plan& plan) { m_plan = plan; }
 
   /// Runs `f` as a stage of the given name, the one that fits the boundary; returns its result.
@@ -101,7 +101,7 @@ public:
     return (*this)(name, f);
   }
 
-  /// As above, any other stage.
+  /// Runs `f` as any other stage of the given name; returns its result.
   template <class F>
   auto operator()(const std::string& name, const F& f)
   {
@@ -118,13 +118,13 @@ public:
   const std::vector<Stage_cost>& costs() const { return m_costs; }
   double seconds() const { return seconds_since(m_start); }
 
-  /// Says what the stage that runs is doing; may be called in several threads.
+  /// Shows the activity of the current stage; may be called in several threads.
   void tell(const std::string& what) { m_progress.show(m_current + ", " + what); }
 
   /// Writes a line that stays.
   void note(const std::string& line) { m_progress.note("note: " + line); }
 
-  /// Replaces the progress line by what each stage took.
+  /// Replaces the progress line by the costs of the stages.
   void finish_progress()
   {
     m_progress.finish();
@@ -139,7 +139,7 @@ public:
   std::size_t peak_bytes() const { return (std::max)(m_peak, high_water_mark()); }
 
 private:
-  // With a tolerance, many meshes are made, each with another place or size of the octree.
+  // Shows a text. With a tolerance, many meshes are made, each with another place or size of the octree.
   void show(const std::string& what)
   {
     const double seconds = seconds_since(m_start), share = share_of_work();
@@ -152,7 +152,8 @@ private:
     m_progress.show(text + what);
   }
 
-  // Of a search or a fit that takes longer than expected, two steps are always left.
+  // The share of the work that is done. Two steps are always left for a search or a fit that takes longer
+  // than expected.
   double share_of_work() const
   {
     const auto done = [](std::size_t n, std::size_t expected) {

@@ -12,7 +12,8 @@
 
 #include <cstddef>
 
-/// As long as it lives, `CGAL::Parallel_if_available_tag` stands for so many threads, or one without TBB.
+/// Limit of threads: `CGAL::Parallel_if_available_tag` stands for that number as long as the object lives, or
+/// for one thread without TBB.
 class Thread_limit
 {
 #ifdef CGAL_LINKED_WITH_TBB

@@ -17,7 +17,7 @@
 
 namespace {
 
-// Without blanks around a number, the value of an option or one by itself.
+// A word without blanks around a number, which may be the value of an option or stand alone.
 std::string with_numbers_trimmed(const std::string& word)
 {
   const char* const blanks = " \t\n\r";

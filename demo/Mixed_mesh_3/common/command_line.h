@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the options of both programs have in common.
+// Options that both programs have in common.
 
 #ifndef MIXED_MESH_3_DEMO_COMMON_COMMAND_LINE_H
 #define MIXED_MESH_3_DEMO_COMMON_COMMAND_LINE_H
@@ -20,20 +20,21 @@
 /// Accepts numbers for which `is_valid` holds, NaN never.
 CLI::Validator number(const std::string& wanted, const std::function<bool(double)>& is_valid);
 
-/// Accepts whole numbers from 1 on, as they are written without a fraction or an exponent.
+/// Accepts whole numbers from 1 on, written without a fraction or an exponent.
 CLI::Validator count(std::size_t largest);
 
 /// The command line, as a shell takes it.
 std::string command_of(const char* name, int argc, const char* const* argv);
 
-/// Accepts Poisson's ratios: with larger ones, what is left of 1/2 drowns in rounding errors.
+/// Accepts Poisson's ratios: the difference of larger ones from 1/2 is lost in rounding errors.
 CLI::Validator poisson_ratio();
-/// Adds the options of programs that read surfaces: --space, and what is done with those of no solid.
+/// Adds the options of programs that read surfaces: --space, and the treatment of surfaces that enclose no
+/// solid.
 void add_surface_options(CLI::App& app, CGAL::Mixed_meshes_3::IO::Read_surface_options& options);
 
-/// Parses, then calls `check`, which throws a `CLI::ParseError` for wrong use that the parser does not see.
-/// What is wrong becomes one line.
-/// Returns the exit status if the program ends there: help, the version, or wrong use.
+/// Parses, then calls `check`, which throws a `CLI::ParseError` for wrong use that the parser does not
+/// detect. The defect becomes one line. Returns the exit status if the program ends there: help, the version,
+/// or wrong use.
 std::optional<int> parse(const char* name, CLI::App& app, int argc, char** argv,
                          const std::function<void()>& check);
 

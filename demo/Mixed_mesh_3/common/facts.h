@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the reports of both programs say of surfaces and meshes: plain data, without CGAL.
+// Facts of surfaces and meshes for the reports of both programs: plain data, without CGAL.
 
 #ifndef MIXED_MESH_3_DEMO_COMMON_FACTS_H
 #define MIXED_MESH_3_DEMO_COMMON_FACTS_H
@@ -18,13 +18,13 @@
 struct Surface_facts
 {
   std::string file;
-  std::size_t points = 0, polygons = 0; // in the file
+  std::size_t points = 0, polygons = 0; // numbers in the file
   std::size_t vertices = 0, triangles = 0, components = 0;
   double volume = 0;
   std::vector<std::string> repairs = {}; // lines
 };
 
-/// What the completion of a label did, in voxels.
+/// The result of the completion of a label, in voxels.
 struct Completion_facts
 {
   double closing_radius = 0; // in mm

@@ -15,7 +15,7 @@ std::string printable(const std::string& text)
   std::string result;
   for(std::size_t i = 0; i < text.size(); ++i) {
     const auto byte = [&](std::size_t j) { return j < text.size() ? (unsigned char)(text[j]) : 0; };
-    const bool is_second_set = byte(i) == 0xc2 && byte(i + 1) >= 0x80 && byte(i + 1) < 0xa0; // of UTF-8
+    const bool is_second_set = byte(i) == 0xc2 && byte(i + 1) >= 0x80 && byte(i + 1) < 0xa0; // in UTF-8
     if(byte(i) >= ' ' && byte(i) != 0x7f && !is_second_set) {
       result += text[i];
       continue;
@@ -44,7 +44,7 @@ std::string as_part_of(double ratio)
 
 std::string duration(double seconds)
 {
-  if(seconds < 0.9995) // else three digits of it would be a second
+  if(seconds < 0.9995) // else three digits would be a second
     return rounded(1000 * seconds) + " ms";
   return seconds < 300 ? rounded(seconds) + " s" : rounded(seconds / 60) + " min";
 }

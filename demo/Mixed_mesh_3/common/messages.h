@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How messages show numbers and points.
+// Text of numbers and points in messages.
 
 #ifndef MIXED_MESH_3_DEMO_COMMON_MESSAGES_H
 #define MIXED_MESH_3_DEMO_COMMON_MESSAGES_H
@@ -21,13 +21,13 @@ std::string rounded(double x);
 /// A share in percent, with one decimal.
 std::string percent(double share);
 
-/// A ratio before what it is of: in percent, "99.8 % of", or, where that says less, "12.3 times".
+/// A ratio in words before its reference: in percent, "99.8 % of", or, where that says less, "12.3 times".
 std::string as_part_of(double ratio);
 
 /// A time that was measured: in milliseconds, seconds, or minutes.
 std::string duration(double seconds);
 
-/// A volume with its unit: of lengths in mm, or in a unit that no file names.
+/// A volume with its unit: with lengths in mm, or in a unit that no file names.
 std::string volume_with_unit(double volume, bool is_in_mm);
 
 /// A number and what it counts.

@@ -12,7 +12,7 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-// That of some hundred points, if there are more.
+// The share of points inside, estimated by some hundred points, if there are more.
 double share_inside(const std::vector<Point>& points, const Point& factors,
                     const std::function<bool(const Point&)>& contains)
 {
@@ -42,7 +42,7 @@ std::string misfit(const std::vector<Point>& points, const CGAL::Bbox_3& domain,
 {
   if(points.empty())
     return "";
-  // A brain is 200 mm long: nothing in it that is meshed or measured is shorter than 0.7 mm, and little than
+  // A brain is 200 mm long: no meshed or measured part is shorter than 0.7 mm, and few parts are shorter than
   // 6 mm.
   constexpr double unit = 1000, least = 1. / 300, small = 1. / 30;
   const double ratio = extent(box_of(points)) / extent(domain);

@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
-/// Looks whether points that should be in a domain, at least in part, would fit much better with x and y
+/// Tests whether points that should be in a domain, at least in part, would fit much better with x and y
 /// negated, or in a unit 1,000 times as large or small.
-/// \param domain its bounding box
+/// \param domain bounding box of the domain
 /// \param contains whether a point is in the domain
-/// \return what is wrong, without the names of the two; empty if nothing is plain
+/// \return the defect, without the names of the two; empty if there is no plain defect
 std::string misfit(const std::vector<std::array<double, 3>>& points, const CGAL::Bbox_3& domain,
                    const std::function<bool(const std::array<double, 3>&)>& contains);
 

@@ -37,7 +37,7 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 struct Label_image::Data
 {
   mm3::Voxel_image_3 image;
-  std::map<float, mm3::Label_extent_3> extents; // of voxels of each value
+  std::map<float, mm3::Label_extent_3> extents; // extents of voxels of each value
 
   explicit Data(mm3::Voxel_image_3 read) : image(std::move(read)), extents(mm3::label_extents(image)) {}
 
@@ -60,7 +60,7 @@ mm3::Voxel_image_3 read(const std::string& path)
   return image;
 }
 
-constexpr double most_voxels = 100; // of a length: the box around the label grows by several times as many
+constexpr double most_voxels = 100; // voxels of a length: the box of the label grows by several times as many
 
 // Removes components of less than a voxel, which smoothing leaves of specks and of thin gaps, unless there
 // are no others.
@@ -77,7 +77,7 @@ std::size_t remove_specks(Surface& surface, double volume_of_voxel)
   return number;
 }
 
-// In foil: what the mesh generator takes for the surface.
+// The surface wrapped: the mesh generator takes the wrap as the surface.
 Surface wrapped(const Surface& surface, double diameter, const std::string& path,
                 std::vector<std::string>& repairs)
 {
@@ -130,7 +130,8 @@ Label_image Label_image::completed(const Voxel_selection& selection, const Voxel
   facts = {options.closing_radius,       done.number_of_voxels,         done.number_of_closed_voxels,
            done.number_of_filled_voxels, done.number_of_removed_voxels, done.number_of_removed_components};
 
-  // Of the values that are selected for what is filled in, the commonest one; for the rest, none that is.
+  // The value of filled voxels is the commonest of the values selected for filling; no value is taken from
+  // the rest.
   const std::pair<const float, mm3::Label_extent_3>* commonest = nullptr;
   for(const auto& value : m_data->extents)
     if(filling(value.first)

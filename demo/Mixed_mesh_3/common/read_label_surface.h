@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Closed surfaces out of segmentations; needs nifti_clib.
+// Closed surfaces from segmentations; needs nifti_clib.
 
 #ifndef MIXED_MESH_3_DEMO_COMMON_READ_LABEL_SURFACE_H
 #define MIXED_MESH_3_DEMO_COMMON_READ_LABEL_SURFACE_H
@@ -17,18 +17,18 @@
 #include <string>
 #include <vector>
 
-/// How the surface is made.
+/// The options for making a surface.
 struct Label_surface_options
 {
   std::optional<double> smoothing; // deviation in mm; default: the largest spacing of voxels
-  std::size_t vertices = 0;        // about how many the surface gets
-  double wrap_diameter = 0;        // in mm; 0: it is not wrapped
+  std::size_t vertices = 0;        // approximate number of vertices of the surface
+  double wrap_diameter = 0;        // in mm; 0: no wrap
 };
 
-/// How the voxels of a label are completed, in mm and ml.
+/// The options for completing the voxels of a label, in mm and ml.
 struct Label_completion
 {
-  std::optional<double> closing_radius; // by default none, or that of a hull
+  std::optional<double> closing_radius; // default: none, or that of a hull
   double least_volume = 0;
   bool fill_holes = false, keep_largest = false;
   bool is_hull = false; // closed, filled, and the largest component
@@ -48,21 +48,21 @@ public:
   Label_image(Label_image&&);
   ~Label_image();
 
-  /// The same image with the selected voxels completed: what they get has the commonest of the values that
+  /// The same image with the selected voxels completed: new voxels get the commonest of the values that
   /// `filling` selects, which are selected, too.
-  /// \throw std::runtime_error if nothing is left, or it takes too much memory
+  /// \throw std::runtime_error if no voxel is left, or completion takes too much memory
   Label_image completed(const Voxel_selection& selection, const Voxel_selection& filling,
                         const Label_completion& completion, Completion_facts& facts) const;
 
   std::size_t number_of_voxels(const Voxel_selection& selection) const;
   double volume_of_voxel() const;
 
-  /// All but 0, ascending.
-  /// \throw std::runtime_error if one is no whole number from 1 to 2,000,000,000, or there are none or more
-  ///        than 60,000
+  /// All labels but 0, ascending.
+  /// \throw std::runtime_error if a label is no whole number from 1 to 2,000,000,000, or there are none or
+  /// more than 60,000
   std::vector<int> labels() const;
 
-  /// \return empty if smoothing leaves nothing of the voxels
+  /// The surface of selected voxels. \return an empty surface if smoothing leaves nothing of the voxels
   /// \throw std::runtime_error as above, also if there are no such voxels
   Surface surface_of(const Voxel_selection& selection, const Label_surface_options& options,
                      Surface_facts& facts, std::vector<std::string>& warnings) const;

@@ -14,7 +14,7 @@ namespace IO = CGAL::Mixed_meshes_3::IO;
 
 namespace {
 
-// `read(surface, error, input)` is one of the library's functions.
+// Reads with `read(surface, error, input)`, which is one of the library's functions.
 template <class Read>
 Surface read_with(const Read& read, const std::string& path, const IO::Read_surface_options& options,
                   Surface_facts& facts, std::vector<std::string>& warnings)

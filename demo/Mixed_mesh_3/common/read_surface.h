@@ -19,12 +19,12 @@
 
 using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 
-/// \param warnings what was mended is added to it
+/// Reads a closed surface. \param warnings lines; repairs are appended
 /// \throw std::runtime_error a line naming the file and the defect
 Surface read_surface(const std::string& path, const CGAL::Mixed_meshes_3::IO::Read_surface_options& options,
                      Surface_facts& facts, std::vector<std::string>& warnings);
 
-/// The same for a surface that need not be closed; without a volume.
+/// Reads a surface that need not be closed; without a volume.
 Surface read_sheet(const std::string& path, const CGAL::Mixed_meshes_3::IO::Read_surface_options& options,
                    Surface_facts& facts, std::vector<std::string>& warnings);
 

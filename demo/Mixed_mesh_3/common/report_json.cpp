@@ -42,6 +42,6 @@ Json space_of(const mm3::IO::Read_surface_options& options)
 
 std::string text_of(const Json& report, int indent)
 {
-  // file names need not be UTF-8
+  // File names need not be UTF-8.
   return report.dump(indent, ' ', false, Json::error_handler_t::replace) + '\n';
 }

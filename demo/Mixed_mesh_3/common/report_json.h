@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the reports of both programs have in common.
+// Parts that the reports of both programs have in common.
 
 #ifndef MIXED_MESH_3_DEMO_COMMON_REPORT_JSON_H
 #define MIXED_MESH_3_DEMO_COMMON_REPORT_JSON_H
@@ -19,21 +19,21 @@
 
 using Json = nlohmann::ordered_json;
 
-/// The program and what it was built with.
+/// The program and the libraries that it was built with.
 Json describe_program(const char* name);
 
 /// Adds the number of elements of each kind.
 void add_kinds(const Mesh_facts& mesh, Json& report);
 
-/// What each stage took.
-/// \param unit of the times, as their keys say it: `seconds` or `ms`
-/// \param per_second how many of it are a second
+/// The costs of the stages.
+/// \param unit unit of the times, as in their keys: `seconds` or `ms`
+/// \param per_second number of units in a second
 Json describe_stages(const Stage_log& log, const std::string& unit, double per_second);
 
 double mebibytes(std::size_t bytes);
 
-/// As it is written to a file.
-/// \param indent of each level; -1: all in one line
+/// The text that is written to a file.
+/// \param indent indent of each level; -1: all in one line
 std::string text_of(const Json& report, int indent = 2);
 
 /// The space that surfaces are read in: "RAS" or "LPS"; null if files decide.

@@ -17,7 +17,7 @@
 
 namespace {
 
-// Unknown: infinite.
+// The available memory; infinite if unknown.
 double available_memory()
 {
   const double pages = double(sysconf(_SC_PHYS_PAGES)), page = double(sysconf(_SC_PAGE_SIZE));

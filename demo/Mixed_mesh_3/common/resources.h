@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Before anything takes time: what cannot be written, or does not fit into memory.
+// Checks before long computations: files that cannot be written, or data that do not fit into memory.
 
 #ifndef MIXED_MESH_3_DEMO_COMMON_RESOURCES_H
 #define MIXED_MESH_3_DEMO_COMMON_RESOURCES_H
@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-/// The files that a program is asked to write, each once, and none that it reads.
+/// The files that a program has to write, each of them once, and none of them an input.
 class Output_paths
 {
 public:
@@ -28,10 +28,10 @@ private:
   std::set<std::string> m_outputs;
 };
 
-/// Whether a file's name ends like that.
+/// Whether a file's name ends with some characters.
 bool ends_with(const std::string& path, const std::string& end);
 
-/// Calls `io(&error)`, a function of the library that reads or writes, and throws what it says is wrong.
+/// Calls `io(&error)`, a function of the library that reads or writes, and throws the error.
 template <class Io>
 void require(const Io& io)
 {
@@ -43,9 +43,9 @@ void require(const Io& io)
 /// A number of bytes, rounded up, as in "2 GiB".
 std::string gibibytes(double bytes);
 
-/// Throws if `needed` bytes are more than there are: physical memory, or the limit of the control group if
+/// Throws if `needed` bytes are more than available: physical memory, or the limit of the control group if
 /// that is less.
-/// \param what the beginning of the message: what would need them
+/// \param what beginning of the message: the object that needs the bytes
 void check_memory(const std::string& what, double needed);
 
 #endif // MIXED_MESH_3_DEMO_COMMON_RESOURCES_H

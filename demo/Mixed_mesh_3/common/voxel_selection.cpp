@@ -17,7 +17,7 @@
 
 namespace {
 
-// The whole text as a number that is not negative.
+// The number that a whole text is, if not negative.
 std::optional<double> label(const std::string& text)
 {
   unsigned value = 0;
@@ -87,7 +87,7 @@ Voxel_selection united(const std::vector<Voxel_selection>& selections)
   Voxel_selection all{{}, "of all labels"};
   for(const Voxel_selection& s : selections)
     all.ranges.insert(all.ranges.end(), s.ranges.begin(), s.ranges.end());
-  // labels one after the other are one range: a voxel is not compared with each of hundreds
+  // Successive labels are one range, so that a voxel is not compared with each of hundreds.
   std::sort(all.ranges.begin(), all.ranges.end());
   std::vector<std::pair<double, double>> joined;
   for(const auto& [first, last] : all.ranges)

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Which voxels of an image make a domain, as the command line says it.
+// Selection of the voxels of an image that make a domain, from the command line.
 
 #ifndef MIXED_MESH_3_DEMO_COMMON_VOXEL_SELECTION_H
 #define MIXED_MESH_3_DEMO_COMMON_VOXEL_SELECTION_H
@@ -16,7 +16,7 @@
 /// Whether a file is an image, by its name.
 bool is_image(const std::string& path);
 
-/// Which voxels of an image count: those with values in ranges; without, those that are not 0.
+/// Selected voxels of an image: voxels with values in ranges; without ranges, voxels that are not 0.
 struct Voxel_selection
 {
   std::vector<std::pair<double, double>> ranges; // first and last
@@ -25,9 +25,9 @@ struct Voxel_selection
   bool operator()(float value) const;
 };
 
-/// Labels as in `1-189,200`; none if the text is not like that.
+/// Labels as in `1-189,200`; none if the text has another form.
 std::optional<Voxel_selection> labels_selection(const std::string& text);
-/// As in `brain=1-189,tumor=200`, with their names; none if the text is not like that.
+/// Labels with names as in `brain=1-189,tumor=200`; none if the text has another form.
 std::optional<std::vector<std::pair<std::string, Voxel_selection>>> named_labels(const std::string& text);
 Voxel_selection threshold_selection(double threshold);
 /// All voxels of several selections of labels, which are whole numbers.

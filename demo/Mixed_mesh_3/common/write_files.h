@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Files that appear together, when all of them are complete; what fails is an exception.
+// Files that appear together, when all of them are complete; a failure is an exception.
 
 #ifndef MIXED_MESH_3_DEMO_COMMON_WRITE_FILES_H
 #define MIXED_MESH_3_DEMO_COMMON_WRITE_FILES_H

@@ -29,7 +29,7 @@ CGAL::Mixed_mesh_fit_result_3 run_algorithm_1(Mesh& mesh,
     return CGAL::fit_mixed_mesh_to_surface(mesh, domain, criteria, np.sparse_linear_solver(std::ref(solver)));
   };
   switch(o.solver) {
-  case Solver::CG: break; // the library's default, and how it sets it
+  case Solver::CG: break; // the library's default solver and parameters
   case Solver::LDLT: return fit_with(mm3::Simplicial_solver_traits());
   }
   return CGAL::fit_mixed_mesh_to_surface(mesh, domain, criteria, np);

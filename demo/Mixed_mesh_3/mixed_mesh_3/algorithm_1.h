@@ -15,7 +15,7 @@
 #include <CGAL/Mixed_mesh_fit_result_3.h>
 #include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
 
-/// \pre the program was built with Eigen, and with what solves
+/// Brings the boundary onto the surface by Algorithm 1. \pre the program was built with Eigen and the solver
 CGAL::Mixed_mesh_fit_result_3 run_algorithm_1(Mesh& mesh,
                                               const CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
                                               const Options& options, Stage_log& log);

@@ -32,7 +32,7 @@ Distance distance_of(const mm3::One_sided_distance& d)
   return {d.distance, d.error, {d.from.x(), d.from.y(), d.from.z()}, {d.to.x(), d.to.y(), d.to.z()}};
 }
 
-// Needs a boundary that is a closed manifold.
+// Measures the fidelity. \pre the boundary is a closed manifold
 Fidelity fidelity_of(const Mesh& mesh, const Surface& surface, double volume_of_surface)
 {
   const mm3::Hausdorff_distance distance = mm3::hausdorff_distance(mesh, surface);
@@ -51,7 +51,7 @@ Solid solid_of(const mm3::Solid_topology& t)
   return {t.number_of_bodies, t.number_of_handles, t.number_of_cavities, t.volume};
 }
 
-// The library does not know the unit of volumes; where the program does, the sentence names it.
+// A sentence with the unit of volumes, which the library does not know, where the program knows the unit.
 std::string with_unit(std::string sentence, const Options& options)
 {
   const std::string unknown = "cubic units";
@@ -61,7 +61,8 @@ std::string with_unit(std::string sentence, const Options& options)
            : sentence;
 }
 
-// Needs a boundary that is a closed manifold. Before it is fitted, the cells around it add some volume.
+// Compares the topology. \pre the boundary is a closed manifold. Before the boundary is fitted, the cells
+// around it add some volume.
 Topology topology_of(const Mesh& mesh, const Surface& surface, const Options& options,
                      CGAL::Mixed_mesh_status& status)
 {
@@ -124,7 +125,7 @@ void examine(const Mesh& mesh, const Surface& surface, const Options& options, S
     });
   add_warnings(options, outcome);
   if(options.tolerance > 0 && outcome.result.status == CGAL::Mixed_mesh_status::SUCCESS
-     && outcome.fidelity.distance() > options.tolerance) // between the points that the library looked at
+     && outcome.fidelity.distance() > options.tolerance) // between the points that the library tested
     outcome.result.status = CGAL::Mixed_mesh_status::TOLERANCE_NOT_REACHED;
   log("quality", [&] {
     outcome.after = aspect_ratios_of(mesh);

@@ -17,9 +17,9 @@
 Aspect_ratios aspect_ratios_of(const Mesh& mesh);
 
 /// Checks and measures the mesh that is to be written; a tolerance that is missed, or a topology or volume
-/// that is not the surface's, becomes the status.
+/// other than the surface's, becomes the status.
 /// \throw Invalid_mesh if a check fails
-/// \throw std::runtime_error if the volume is absurd
+/// \throw std::runtime_error if the volume is impossible
 void examine(const Mesh& mesh, const Surface& surface, const Options& options, Stage_log& log,
              Outcome& outcome);
 

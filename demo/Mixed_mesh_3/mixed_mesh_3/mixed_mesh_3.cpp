@@ -3,10 +3,10 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The command-line mesher: from a surface, a region of interest and a vertex budget to mesh files and a
-// report. Exit status: 0 all checks hold; 1 bad input, or no mesh for it, or a file that cannot be
-// written; 2 wrong use; 3 the mesh failed a check (nothing is written); 4 stopped,
-// what there was is written.
+// The command-line mesher: makes mesh files and a report from a surface, a region of interest and a vertex
+// budget. Exit status: 0 all checks hold; 1 bad input, or no mesh for the input, or a file that cannot be
+// written; 2 wrong use; 3 the mesh failed a check (nothing is written); 4 stopped, the mesh so far is
+// written.
 
 #include "common/messages.h"
 #include "mixed_mesh_3/options.h"

@@ -26,14 +26,14 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 
 namespace {
 
-// CMakeLists.txt defines it if Eigen was found: the paper's Algorithm 1 solves linear systems.
+// Whether CMakeLists.txt found Eigen: the paper's Algorithm 1 solves linear systems.
 #if MIXED_MESH_3_HAS_EIGEN
 constexpr bool has_eigen = true;
 #else
 constexpr bool has_eigen = false;
 #endif
 
-constexpr const char* automatic_vertices = "auto"; // of --vertices
+constexpr const char* automatic_vertices = "auto"; // value of --vertices
 constexpr std::size_t most_automatic_vertices = 200000;
 
 double weight_option(const std::string& option, const std::string& text)
@@ -58,7 +58,7 @@ void set_largest_arc(const std::string& text, Options& o)
                                  + text);
 }
 
-// A file whose name ends like a weight is that file.
+// The option of a region. A file whose name ends like a weight is that file.
 Region_option region_option(const std::string& text)
 {
   const std::size_t colon = text.rfind(':');
@@ -76,17 +76,17 @@ Voxel_selection labels_option(const std::string& option, const std::string& text
   return *labels;
 }
 
-// A name for files.
+// Whether a text is a name for files.
 bool is_name(const std::string& name)
 {
-  constexpr std::size_t longest = 24; // names of two are part of that of their interface
+  constexpr std::size_t longest = 24; // two names are parts of the name of an interface
   return name.size() <= longest && mm3::IO::is_facet_set_name(name);
 }
 
 const char* const what_a_name_is = "a name has up to 24 letters, digits, _ and -, a letter first, and is "
                                    "neither all, boundary, region or rest, nor begins as those of files";
 
-// The name is that of the file, without its ending, if there is none.
+// The option of a subdomain, whose name is that of the file, without its ending, if no name is given.
 Subdomain_option subdomain_option(const std::string& option, const std::string& text)
 {
   const std::size_t equals = text.find('=');
@@ -99,7 +99,7 @@ Subdomain_option subdomain_option(const std::string& option, const std::string& 
   return s;
 }
 
-// Labels of one domain, or with names.
+// Sets the labels of one domain, or of several with names.
 void set_labels(const std::string& text, Options& o)
 {
   const std::string option = "--labels " + text;
@@ -121,7 +121,7 @@ void set_labels(const std::string& text, Options& o)
   }
 }
 
-// Labels, and after a colon a weight.
+// The option of a region by labels, with a weight after a colon.
 Region_option region_of_labels(const std::string& text)
 {
   const std::string option = "--region-labels " + text;
@@ -130,7 +130,7 @@ Region_option region_of_labels(const std::string& text)
           labels_option(option, text.substr(0, colon))};
 }
 
-// An option that can be given several times; `add` takes one of its texts.
+// Adds an option that can be given several times; `add` takes one of its texts.
 CLI::Option* add_several(CLI::App& app, const char* name, const char* what,
                          const std::function<void(const std::string&)>& add)
 {
@@ -145,7 +145,7 @@ CLI::Option* add_several(CLI::App& app, const char* name, const char* what,
     ->allow_extra_args(false);
 }
 
-// The domain and regions out of a segmentation.
+// Adds the options for a domain and regions from a segmentation.
 void add_labels(CLI::App& app, Options& o)
 {
   const char* const group = "Options of images";
@@ -250,7 +250,7 @@ void add_files(CLI::App& app, Options& o)
     ->required()
     ->check(CLI::Validator(
       [](std::string& text) {
-        // of 32-bit indices in files
+        // The limit is that of 32-bit indices in files.
         return text == automatic_vertices ? std::string() : count(1000000000)(text);
       },
       ""))
@@ -347,7 +347,7 @@ void add_stages(CLI::App& app, Options& o)
     ->type_name("CHOICE");
 }
 
-// The options of the paper's way onto the surface; they need --no-optimize.
+// Adds the options of Algorithm 1, which need --no-optimize.
 void add_algorithm_1(CLI::App& app, Options& o, CLI::Option* no_optimize)
 {
   const std::map<std::string, Solver> solvers{{"cg", Solver::CG}, {"ldlt", Solver::LDLT}};
@@ -423,7 +423,7 @@ void set_up(CLI::App& app, Options& o)
              "  mixed_mesh_3 data/brain.off --region data/region.off --vertices 660 --output brain.vtu");
 }
 
-// One name for each; and what knows a single subdomain only.
+// Checks that names differ, and that options for a single subdomain are not used with several.
 void check_subdomains(const Options& o)
 {
   std::vector<std::string> names;
@@ -436,7 +436,7 @@ void check_subdomains(const Options& o)
     names.push_back(surrounding_name(o));
   for(const Subdomain_option& sheet : o.sheets)
     names.push_back(sheet.name);
-  for(auto name = names.begin(); name != names.end(); ++name) // files may not know upper from lower case
+  for(auto name = names.begin(); name != names.end(); ++name) // some formats ignore upper and lower case
     if(std::any_of(names.begin(), name, [&](const std::string& s) { return boost::iequals(s, *name); })
        || boost::iequals(*name, "outside"))
       throw CLI::ValidationError("--subdomain " + *name, "the name is taken, give NAME=FILE");
@@ -457,7 +457,7 @@ void check_sheets(const Options& o)
     throw CLI::ValidationError(o.no_optimize ? "--no-optimize" : "--mode paper", "knows no sheets");
 }
 
-// What options say together, and what this program was built without, is wrong use.
+// Checks combinations of options, and options that this program was built without: these are wrong use.
 void check_options(Options& o)
 {
   if(o.threads > 1 && !Thread_limit::has_threads)
@@ -488,7 +488,7 @@ void check_options(Options& o)
 
 bool Options::is_in_patient_space() const
 {
-  const auto silent = {".off", ".obj", ".stl", ".ply", ".vtp", ".vtk"}; // endings of files that do not say it
+  const auto silent = {".off", ".obj", ".stl", ".ply", ".vtp", ".vtk"}; // endings of files that do not tell
   return surface_options.space || std::none_of(silent.begin(), silent.end(), [this](const char* ending) {
            return boost::algorithm::iends_with(surface, ending);
          });
@@ -512,7 +512,7 @@ std::optional<int> parse_command_line(int argc, char** argv, Options& options)
 
 void check_feasible(const Options& o)
 {
-  // while a temporary file is there to see whether a file can be written
+  // A temporary file exists while the program tests whether a file can be written.
   const Deferred_signals deferred({SIGINT, SIGTERM, SIGHUP}, Deferred_signals::Second::DEFERRED);
   std::vector<std::string> inputs{o.surface};
   for(const Region_option& r : o.regions)
@@ -531,7 +531,7 @@ void check_feasible(const Options& o)
   for(const std::string& path : {o.report, o.page})
     if(!path.empty())
       outputs.add(path);
-  // More than measured with 100,000 and 200,000 vertices; a direct solver takes more.
+  // The number is more than measured with 100,000 and 200,000 vertices; a direct solver takes more.
   const double bytes_per_vertex = o.fit() == Fit::ALGORITHM_1 ? 3000 : o.tetrahedra ? 1500 : 1100;
   check_memory("--vertices " + std::to_string(o.vertices) + ":", double(o.vertices) * bytes_per_vertex);
   if(o.tetrahedra && o.vertices > 500000000u)

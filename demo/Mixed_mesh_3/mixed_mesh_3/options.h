@@ -22,24 +22,24 @@
 #include <string>
 #include <vector>
 
-/// How the boundary gets onto the surface.
+/// The way in which the boundary gets onto the surface.
 enum class Fit { NONE, OPTIMIZATION, ALGORITHM_1 };
-/// What solves the linear systems of Algorithm 1.
+/// The solver of the linear systems of Algorithm 1.
 enum class Solver { CG, LDLT };
 
-/// A closed surface of a region of interest, and how many times as much an error counts in it.
+/// A closed surface of a region of interest, and the factor by which an error counts more in the region.
 struct Region_option
 {
   std::string file;
   double weight;
-  Voxel_selection voxels = {}; // of an image
+  Voxel_selection voxels = {}; // voxels of an image
 };
 
 /// A part of the domain with a label of its own.
 struct Subdomain_option
 {
   std::string name, file;
-  Voxel_selection voxels = {}; // of an image
+  Voxel_selection voxels = {}; // voxels of an image
 };
 
 struct Options
@@ -47,19 +47,19 @@ struct Options
   using Templates = CGAL::Mixed_meshes_3::Transition_templates_choice;
 
   std::string surface, report, page;
-  std::string command; // with all options
+  std::string command; // the command with all options
   std::vector<Region_option> regions;
-  std::vector<Subdomain_option> subdomains; // inside the surface; those before count where they overlap
-  std::vector<Subdomain_option> labels;     // of an image, with names, instead of voxels
+  std::vector<Subdomain_option> subdomains; // inside the surface; earlier ones count where they overlap
+  std::vector<Subdomain_option> labels;     // labels of an image, with names, instead of voxels
   bool has_each_label = false;              // all labels of an image, instead
   std::vector<std::string> cavities;
   std::vector<Subdomain_option> sheets; // surfaces inside that need not enclose anything
-  Voxel_selection voxels;               // of an image, the domain
-  Label_completion completion;          // of the domain
+  Voxel_selection voxels;               // voxels of an image, the domain
+  Label_completion completion;          // completion of the domain
   std::optional<double> smoothing;
   std::vector<std::string> outputs;
   std::size_t vertices = 0;
-  bool fewest_vertices = false; // at most so many
+  bool fewest_vertices = false; // at most the number above
   int base_level = CGAL::Mixed_mesh_criteria_3::automatic;
   CGAL::Mixed_meshes_3::Boundary_mode mode = CGAL::Mixed_meshes_3::Boundary_mode::VERTEX_ORDER;
   CGAL::Mixed_meshes_3::Root_cell root = CGAL::Mixed_meshes_3::Root_cell::CUBE;
@@ -74,7 +74,7 @@ struct Options
   double sharp_angle = CGAL::Mixed_mesh_optimization_criteria_3::default_sharp_angle; // degrees; 0: none
   unsigned threads = 1;
 
-  // of Algorithm 1
+  // Options of Algorithm 1.
   int steps = CGAL::Mixed_mesh_fit_criteria_3().number_of_steps();
   int layers = CGAL::Mixed_mesh_fit_criteria_3::automatic;
   double poisson_ratio = CGAL::Mixed_mesh_fit_criteria_3().poisson_ratio();
@@ -83,14 +83,14 @@ struct Options
   double acceptable_quality = CGAL::Mixed_mesh_fit_criteria_3().acceptable_aspect_ratio();
   Solver solver = Solver::CG;
 
-  /// Whether the surface's file says where the patient is, in mm, or the user does.
+  /// Whether the surface's file, or the user, says that coordinates are those of the patient, in mm.
   bool is_in_patient_space() const;
 
   bool has_quality_bound() const { return fit() == Fit::OPTIMIZATION && largest_arc > 0; }
   Fit fit() const { return no_fit ? Fit::NONE : no_optimize ? Fit::ALGORITHM_1 : Fit::OPTIMIZATION; }
 };
 
-/// The subdomain around all others has the name of its file, if that is one.
+/// The name of the subdomain around all others: the name of its file, if that is a valid name.
 std::string surrounding_name(const Options& options);
 
 /// Returns the exit status if the program ends with its command line: help, the version, or wrong use.

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the mesher found out, as its report and its messages need it: plain data.
+// Results of the mesher for its report and its messages: plain data.
 
 #ifndef MIXED_MESH_3_DEMO_MIXED_MESH_3_OUTCOME_H
 #define MIXED_MESH_3_DEMO_MIXED_MESH_3_OUTCOME_H
@@ -31,7 +31,7 @@ struct Aspect_ratios
   std::vector<std::size_t> histogram;
 };
 
-/// Where the bins of the histogram end: the first one has all below 1.1, the last one all from 3 on.
+/// The ends of the bins of the histogram: the first bin has all values below 1.1, the last one all from 3 on.
 inline std::vector<double> histogram_edges()
 {
   std::vector<double> edges;
@@ -46,41 +46,41 @@ struct Shapes
   Table scaled_jacobian, smallest_dihedral_angle, largest_dihedral_angle, quad_warp;
 };
 
-/// From a surface, at its point that is farthest, to another one.
+/// The distance of a surface, at its farthest point, from another one.
 struct Distance
 {
   double distance = 0, error = 0;
   std::array<double, 3> from{}, to{};
 };
 
-/// How the boundary of the mesh lies to the surface.
+/// The distances of the boundary of the mesh and the surface.
 struct Fidelity
 {
   Distance from_mesh, from_surface;
   double volume_of_mesh = 0, volume_of_surface = 0;
   std::size_t vertices = 0;     // on the boundary
-  std::size_t vertices_off = 0; // of which are not on the surface
+  std::size_t vertices_off = 0; // vertices that are not on the surface
   std::size_t self_intersections = 0;
 
   double distance() const { return (std::max)(from_mesh.distance, from_surface.distance); }
   double ratio_of_volumes() const { return volume_of_mesh / volume_of_surface; }
 };
 
-// What a solid is made of.
+// The topology of a solid.
 struct Solid
 {
   std::size_t bodies = 0, handles = 0, cavities = 0;
   double volume = 0;
 };
 
-// Between the solids, at a place.
+// A difference between the solids, at a place.
 struct Difference
 {
   std::string sentence;
   std::array<double, 3> at;
 };
 
-// The solid of the surface beside that of the mesh.
+// The topology of the solid of the surface, and of that of the mesh.
 struct Topology
 {
   Solid surface, mesh;
@@ -88,9 +88,9 @@ struct Topology
   bool is_same = true;
 };
 
-// Beyond that, the volume of a body is not what it should be.
+// Largest relative difference of the volume of a body from its right volume.
 constexpr double volume_tolerance = 0.05;
-constexpr double on_surface = 1e-9; // of the diagonal of the surface's box
+constexpr double on_surface = 1e-9; // share of the diagonal of the surface's box
 
 /// A property of a valid mesh, or of a faithful one, in words.
 struct Check
@@ -107,11 +107,11 @@ struct Subdomain_outcome
   Surface_facts surface;
   std::size_t elements = 0;
   double volume = 0;
-  std::optional<double> volume_of_surface; // without the parts inside; none where surfaces cross
+  std::optional<double> volume_of_surface; // without inner parts; none where surfaces cross
   double mean_arc = 0, largest_arc = 0;
 };
 
-/// Between two subdomains, or one and the outside.
+/// The interface between two subdomains, or between a subdomain and the outside.
 struct Interface_outcome
 {
   std::string first, second;
@@ -126,11 +126,11 @@ struct Sheet_outcome
   std::string name;
   Surface_facts surface;
   std::size_t faces = 0, vertices = 0, vertices_off = 0, bad_edges = 0;
-  double largest_distance = 0;      // of a vertex from the sheet
-  double area = 0, area_inside = 0; // of the faces; of the sheet inside the domain
+  double largest_distance = 0;      // largest distance of a vertex from the sheet
+  double area = 0, area_inside = 0; // area of the faces; of the sheet inside the domain
 };
 
-/// What doubling the vertices of sheets did.
+/// The result of doubling the vertices of sheets.
 struct Slit_outcome
 {
   std::size_t faces = 0, faces_left = 0, vertices = 0;
@@ -139,26 +139,26 @@ struct Slit_outcome
 struct Outcome
 {
   Surface_facts surface;
-  std::optional<Completion_facts> completion; // of the image's label
+  std::optional<Completion_facts> completion; // completion of the image's label
   std::vector<Surface_facts> regions;
-  std::vector<Subdomain_outcome> subdomains; // if there are several
+  std::vector<Subdomain_outcome> subdomains; // empty for a single subdomain
   std::vector<Interface_outcome> interfaces;
-  bool has_lost_labels = false; // before there was a mesh
+  bool has_lost_labels = false; // lost before there was a mesh
   std::vector<Sheet_outcome> sheets;
   std::optional<Slit_outcome> slit;
   CGAL::Mixed_mesh_result_3 result;
   CGAL::Mixed_mesh_fit_result_3 algorithm_1;
-  bool is_stopped = false; // by a signal or the limit of time
+  bool is_stopped = false; // stopped by a signal or the limit of time
   Mesh_facts mesh;
   std::size_t elements_in_region = 0, boundary_faces = 0;
   std::optional<Aspect_ratios> before; // the boundary is fitted
   Aspect_ratios after;
-  std::size_t elements_above_bound = 0; // of the options, proved
+  std::size_t elements_above_bound = 0; // above the bound of the options, proved
   Shapes shapes;
   Fidelity fidelity;
   Topology topology;
-  std::vector<Check> checks;             // of validity: what does not hold is not written
-  std::vector<Check> checks_of_fidelity; // that the mesh is one of this surface
+  std::vector<Check> checks;             // checks of validity: a mesh that fails is not written
+  std::vector<Check> checks_of_fidelity; // whether the mesh represents this surface
   std::vector<std::string> warnings;
   double seconds = 0;
   std::size_t peak_bytes = 0;

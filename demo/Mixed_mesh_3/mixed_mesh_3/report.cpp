@@ -83,7 +83,7 @@ const char* row_name(std::size_t row)
   return row < mm3::number_of_element_kinds ? mm3::reference_elements[row].plural : "all";
 }
 
-// A number, or null for what has none: no element, or infinity.
+// A number, or null without a number: for no element, or infinity.
 Json value(const mm3::Quality_statistics& row, double x) { return row.count == 0 ? Json() : Json(x); }
 
 // The paper's Table 1.
@@ -137,7 +137,7 @@ Json describe_quality(const Options& o, const Outcome& outcome)
   quality["smallest dihedral angle"] = describe(shapes.smallest_dihedral_angle);
   quality["largest dihedral angle"] = describe(shapes.largest_dihedral_angle);
   quality["quad warp"] = describe(shapes.quad_warp);
-  quality["quad warp"].erase("tetrahedra"); // has no quadrilaterals
+  quality["quad warp"].erase("tetrahedra"); // tetrahedra have no quadrilaterals
   quality["quad warp"]["all"].erase("mean");
   return quality;
 }
@@ -273,7 +273,7 @@ void describe_sheets(const Outcome& outcome, Json& report)
                       {"vertices doubled", outcome.slit->vertices}};
 }
 
-// How the mesh came about.
+// Describes the method by which the mesh was made.
 void describe_method(const Options& o, const Outcome& outcome, Json& report)
 {
   const CGAL::Mixed_mesh_result_3& result = outcome.result;
@@ -321,7 +321,7 @@ std::string parts_in_words(const Options& o, const Outcome& outcome)
   return text.str();
 }
 
-// Those of validity hold, or there is no mesh.
+// The checks in words. Checks of validity hold, or there is no mesh.
 std::string checks_in_words(const Outcome& outcome)
 {
   std::string failed;

@@ -46,7 +46,7 @@ using Domain = CGAL::Labeled_polyhedral_mixed_mesh_domain_3;
 
 namespace {
 
-// The library looks at points of the surface in a grid of twice the tolerance.
+// Checks the tolerance: the library tests points of the surface in a grid of twice the tolerance.
 void check_tolerance(const Options& o, const Surface& surface)
 {
   constexpr double most = 1e7; // takes an hour
@@ -78,7 +78,7 @@ struct Part_of_image
   Subdomain_option option;
   mm3::Subdomain_index index;
   double number_of_voxels;
-  double share; // of the voxels of the domain
+  double share; // share of the voxels of the domain
 };
 
 // Surfaces of files, each image read once.
@@ -104,8 +104,8 @@ public:
                           : read_surface(file, m_options.surface_options, facts, m_warnings);
   }
 
-  // The image of the domain, completed as the options say.
-  // \param filling labels that get what is filled in
+  // The image of the domain, completed according to the options.
+  // \param filling labels for filled voxels
   const Label_image& domain(const Voxel_selection& voxels, const Voxel_selection& filling, Outcome& outcome)
   {
     const Label_image& whole = image(m_options.surface);
@@ -115,7 +115,7 @@ public:
     return *m_domain;
   }
 
-  // The domain, or what is around its parts, out of its image.
+  // The surface of the domain, or of the part around other parts, from its image.
   Subdomain whole(const Subdomain_option& s, const Label_image& image, mm3::Subdomain_index index)
   {
     return subdomain(s, index, [&](Surface_facts& facts) {
@@ -123,7 +123,8 @@ public:
     });
   }
 
-  // Parts of the domain out of its image, several at a time: the surface of one does not depend on others.
+  // Parts of the domain from its image, several at a time: the surface of a part does not depend on other
+  // parts.
   std::vector<Subdomain> parts(const Label_image& image, const std::vector<Part_of_image>& parts,
                                std::size_t number_of_parts)
   {
@@ -166,7 +167,7 @@ public:
     return subdomain(s, index, [&](Surface_facts& facts) { return (*this)(s.file, s.voxels, facts); });
   }
 
-  // Those of all labels of an image.
+  // The options of all labels of an image.
   std::vector<Subdomain_option> each_label(const std::string& file)
   {
     std::vector<Subdomain_option> labels;
@@ -184,16 +185,17 @@ private:
     return {s.name, index, std::move(surface), facts, std::nullopt};
   }
 
-  // \param share of the domain
-  // \param number_of_parts of the domain that have surfaces
+  // \param share share of the domain
+  // \param number_of_parts number of parts of the domain that have surfaces
   Surface surface_of(const Label_image& image, const std::string& file, const Voxel_selection& voxels,
                      Surface_facts& facts, std::vector<std::string>& warnings, double share = 1,
                      std::size_t number_of_parts = 1) const
   {
-    // several times as many as the mesh has at its boundary; of parts more, as they are finer
+    // The number is several times that of the mesh's boundary; for parts more, as parts are finer.
     const double finer = share < 1 ? 3 : 1, least = share < 1 ? 1000 : 2000;
     double vertices = (std::max)(finer * 20 * std::pow(share * double(m_options.vertices), 2. / 3), least);
-    // of many parts, those together: what is much finer than the mesh costs time only
+    // The number for many parts is bounded together: surfaces that are much finer than the mesh only cost
+    // time.
     constexpr double many = 2e4, times_budget = 2, least_of_one = 100;
     if(share < 1)
       vertices = (std::min)(vertices, (std::max)((std::max)(many, times_budget * double(m_options.vertices))
@@ -210,8 +212,8 @@ private:
   }
 };
 
-// The label with most voxels is around the others: its surface is that of all, so that no gaps are left where
-// others meet. Those of which smoothing leaves nothing are lost.
+// Reads the surfaces of labels. The label with most voxels is around the others: its surface is that of all,
+// so that there are no gaps where other labels meet. Labels of which smoothing leaves nothing are lost.
 std::vector<Subdomain> read_labels(const Options& o, Surface_reader& read, Outcome& outcome)
 {
   const std::vector<Subdomain_option> labels = o.has_each_label ? read.each_label(o.surface) : o.labels;
@@ -219,7 +221,7 @@ std::vector<Subdomain> read_labels(const Options& o, Surface_reader& read, Outco
     return o.has_each_label ? mm3::Subdomain_index(labels[i].voxels.ranges[0].first)
                             : mm3::Subdomain_index(i + 1);
   };
-  std::vector<std::pair<std::size_t, std::size_t>> sizes; // with the numbers
+  std::vector<std::pair<std::size_t, std::size_t>> sizes; // sizes with the numbers of labels
   std::vector<Voxel_selection> all;
   for(const Subdomain_option& label : labels) {
     sizes.emplace_back(read.image(o.surface).number_of_voxels(label.voxels), all.size());
@@ -294,7 +296,8 @@ Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
   return inputs;
 }
 
-// A region elsewhere is no region: where it is plain why, that is said.
+// Checks that regions meet the domain: a region elsewhere is no region; if the reason is plain, the message
+// gives the reason.
 void check_regions(const Domain& domain, const Inputs& inputs, const Options& o, Outcome& outcome)
 {
   std::vector<std::string> defects;
@@ -309,11 +312,11 @@ void check_regions(const Domain& domain, const Inputs& inputs, const Options& o,
     are_all_apart = are_all_apart && !CGAL::do_overlap(domain.bbox(), box_of(points));
   }
   if(are_all_apart && !defects.empty())
-    throw std::runtime_error(defects.front()); // it would be refused anyway
+    throw std::runtime_error(defects.front()); // the library would refuse the regions anyway
   outcome.warnings.insert(outcome.warnings.end(), defects.begin(), defects.end());
 }
 
-// None: everywhere.
+// The regions; without any, the region is everywhere.
 CGAL::Polyhedral_mixed_mesh_regions_3 make_regions(const std::vector<Surface>& surfaces, const Options& o,
                                                    Stage_log& log)
 {
@@ -326,7 +329,7 @@ CGAL::Polyhedral_mixed_mesh_regions_3 make_regions(const std::vector<Surface>& s
   return regions;
 }
 
-// Sees what the mesh is like before its boundary is fitted.
+// Visitor that measures the mesh before its boundary is fitted.
 struct Observer
 {
   Stage_log& log;
@@ -342,7 +345,7 @@ struct Observer
   void before_fitting(const Mesh& mesh) { before = aspect_ratios_of(mesh); }
 };
 
-// On the surface, if the library fits it.
+// Makes a mesh, with its boundary on the surface if the library fits it.
 Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3& regions, const Options& o,
                Stage_log& log, Outcome& outcome)
 {
@@ -356,7 +359,7 @@ Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3
                     .quality_bound(o.largest_arc)
                     .strict_quality_bound(o.is_arc_strict)
                     .sharp_angle(o.sharp_angle)
-                    .only_tetrahedra(o.tetrahedra) // what is fitted, checked and reported is what is written
+                    .only_tetrahedra(o.tetrahedra) // the tetrahedra are fitted, checked, reported and written
                     .keep_mesh_if_stopped(true)
                     .fewest_vertices(o.fewest_vertices);
   if(o.tolerance > 0)
@@ -370,8 +373,8 @@ Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3
   return mesh;
 }
 
-// Carries the boundary onto the surface as the paper does; the status becomes what the library would make of
-// it.
+// Brings the boundary onto the surface by the paper's method; the status becomes the corresponding status of
+// the library.
 void fit_by_algorithm_1(Mesh& mesh, const Domain& domain, const Options& o, Stage_log& log, Outcome& outcome)
 {
   using Status = CGAL::Mixed_mesh_fit_status;
@@ -394,7 +397,7 @@ void fit_by_algorithm_1(Mesh& mesh, const Domain& domain, const Options& o, Stag
     outcome.result.status = CGAL::Mixed_mesh_status::NOT_ALL_ARRIVED;
 }
 
-// As the brain goes with 660 to 50,000 vertices.
+// The work of a run, measured on the brain with 660 to 50,000 vertices.
 Work_plan plan_for(const Options& o)
 {
   if(o.fit() == Fit::NONE)
@@ -402,7 +405,7 @@ Work_plan plan_for(const Options& o)
   return {0.2, 0.9, 10, o.vertices <= 20000 ? 17u : 12u};
 }
 
-// On the surface, or as far as it goes until a signal or the limit of time.
+// Makes a mesh on the surface, or stops at a signal or the limit of time.
 Mesh make_mesh_until_stopped(const Domain& domain, const Inputs& inputs, const Options& o, Stage_log& log,
                              Outcome& outcome)
 {
@@ -418,7 +421,7 @@ Mesh make_mesh_until_stopped(const Domain& domain, const Inputs& inputs, const O
     outcome.warnings.push_back(
       "stopped by " + by + " after " + duration(log.seconds())
       + ": the mesh is what there was then, and its boundary may be off the surface");
-    Deferred_signals::take(); // another one stops what follows
+    Deferred_signals::take(); // another signal stops the following steps
   }
   return mesh;
 }
@@ -473,14 +476,14 @@ bool run(Options o)
                      + std::to_string(patience) + " s, nothing is written; --time-limit waits for one",
                    1);
   Mesh mesh = make_mesh_until_stopped(domain, inputs, o, log, outcome);
-  o.vertices = outcome.result.vertex_budget; // which --vertices auto has found
+  o.vertices = outcome.result.vertex_budget; // number found by --vertices auto
   const std::vector<std::string> warnings = outcome.warnings;
   examine(mesh, inputs.boundary, o, log, outcome);
   examine_subdomains(mesh, domain, inputs.subdomains, o, outcome);
   std::vector<mm3::IO::Facet_set> facet_sets = examine_sheets(mesh, domain, sheets, o, outcome);
   for(mm3::IO::Facet_set& set : interfaces_of(mesh, inputs.subdomains))
     facet_sets.push_back(std::move(set));
-  if(outcome.is_stopped) // others would blame the surface, or the options, for what was not finished
+  if(outcome.is_stopped) // others would blame surface or options for unfinished work
     outcome.warnings = warnings;
   deadline.reset();
   write_files(mesh, facet_sets, inputs.subdomains, o, log, outcome);

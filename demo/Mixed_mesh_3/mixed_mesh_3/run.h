@@ -3,16 +3,16 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From the options to the files.
+// Run of the mesher, from the options to the files.
 
 #ifndef MIXED_MESH_3_DEMO_MIXED_MESH_3_RUN_H
 #define MIXED_MESH_3_DEMO_MIXED_MESH_3_RUN_H
 
 #include "mixed_mesh_3/options.h"
 
-/// \throw Invalid_mesh if the mesh failed a check; nothing is written then
-/// \throw std::runtime_error in a line, what is wrong with the input, or with a file
-/// \return whether it went to its end, without being stopped
+/// Runs the mesher. \throw Invalid_mesh if the mesh failed a check; nothing is written then
+/// \throw std::runtime_error in a line, the defect of the input, or of a file
+/// \return whether the run was completed, without being stopped
 bool run(Options options);
 
 #endif // MIXED_MESH_3_DEMO_MIXED_MESH_3_RUN_H

@@ -38,7 +38,7 @@ void warn_of(const Sheet_outcome& s, const Options& o, std::vector<std::string>&
                        + " away");
 }
 
-// The sets become those of both sides.
+// Slits the mesh along the faces of sets, which become the faces of both sides.
 void slit_along(std::vector<mm3::IO::Facet_set>& sets, Mesh& mesh, Outcome& outcome)
 {
   std::vector<mm3::Face> faces;

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Sheets inside the domain, such as the falx: what they became in the mesh.
+// Sheets inside the domain, such as the falx, and their faces in the mesh.
 
 #ifndef MIXED_MESH_3_DEMO_MIXED_MESH_3_SHEETS_H
 #define MIXED_MESH_3_DEMO_MIXED_MESH_3_SHEETS_H
@@ -28,13 +28,13 @@ struct Sheet
   Surface_facts facts;
 };
 
-/// Reads those of the options, and adds them to the domain.
+/// Reads the sheets of the options, and adds the sheets to the domain.
 std::vector<Sheet> add_sheets(const Options& options, CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
                               std::vector<std::string>& warnings);
 
-/// Faces, areas and vertices of each sheet, with warnings for what is not as it should be. If the options say
-/// so, the mesh is slit along them then.
-/// \return the faces of each sheet; of a slit, both sides, `NAME_front` and `NAME_behind`
+/// Examines faces, areas and vertices of each sheet, with warnings for defects. If the options say so, the
+/// mesh is then slit along the sheets.
+/// \return the faces of each sheet; for a slit, both sides, `NAME_front` and `NAME_behind`
 std::vector<CGAL::Mixed_meshes_3::IO::Facet_set>
 examine_sheets(Mesh& mesh, const CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
                const std::vector<Sheet>& sheets, const Options& options, Outcome& outcome);

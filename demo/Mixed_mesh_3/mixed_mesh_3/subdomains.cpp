@@ -33,7 +33,7 @@ std::string name_of(const std::vector<Subdomain>& subdomains, mm3::Subdomain_ind
     ->name;
 }
 
-// A surface as a domain, and the side of vertices of others.
+// A surface as a domain, and the sides of the vertices of other surfaces.
 class Enclosed
 {
   Domain m_domain;
@@ -41,7 +41,7 @@ class Enclosed
 public:
   explicit Enclosed(const Surface& surface) { m_domain.add(surface, 1); }
 
-  // Whether there are vertices of the surface inside, and others.
+  // Whether there are vertices of a surface inside, and vertices outside.
   std::pair<bool, bool> has_inside_and_outside(const Surface& surface) const
   {
     bool has_inside = false, has_outside = false;
@@ -59,7 +59,7 @@ public:
   }
 };
 
-// Volumes without what earlier ones take. None where surfaces cross.
+// Volumes without the volumes of earlier subdomains. None where surfaces cross.
 std::vector<std::optional<double>> expected_volumes(const std::vector<Subdomain>& subdomains)
 {
   std::vector<std::optional<double>> volumes;
@@ -69,7 +69,7 @@ std::vector<std::optional<double>> expected_volumes(const std::vector<Subdomain>
     enclosed.emplace_back(mine);
     const bool are_labels = std::all_of(subdomains.begin(), subdomains.begin() + std::ptrdiff_t(i) + 1,
                                         [](const Subdomain& s) { return s.volume.has_value(); });
-    if(are_labels) { // do not overlap
+    if(are_labels) { // labels do not overlap
       volumes.push_back(subdomains[i].volume);
       continue;
     }
@@ -106,11 +106,11 @@ void warn_of(const Subdomain_outcome& s, const Options& o, std::vector<std::stri
 
 void warn_of(const std::vector<Interface_outcome>& interfaces, std::vector<std::string>& warnings)
 {
-  constexpr std::size_t most = 10; // of many labels, nearly all interfaces have some vertices off
+  constexpr std::size_t most = 10; // nearly all interfaces have such vertices with many labels
   const auto named = [](const Interface_outcome& i) {
     return "the interface between " + i.first + " and " + i.second;
   };
-  std::vector<const Interface_outcome*> off; // within; others are boundary vertices
+  std::vector<const Interface_outcome*> off; // inner ones; others have boundary vertices
   for(const Interface_outcome& i : interfaces) {
     if(!i.is_manifold)
       warnings.push_back(named(i) + " is no manifold: " + std::to_string(i.bad_edges) + " edges and "

@@ -44,7 +44,7 @@ std::string times_volume(double ratio, const Options& o)
          + (o.fit() == Fit::OPTIMIZATION && o.tolerance == 0 ? ", or --tolerance" : "");
 }
 
-// What the budget lacks, if that is known.
+// The number of vertices that the budget lacks in words, if that number is known.
 std::string needed_for_thin_parts(const CGAL::Mixed_mesh_result_3& result, const Options& o)
 {
   const std::size_t n = result.number_of_vertices_for_thin_parts;
@@ -58,7 +58,7 @@ std::string needed_for_thin_parts(const CGAL::Mixed_mesh_result_3& result, const
 
 std::string after_semicolon(const std::string& text) { return text.empty() ? text : "; " + text; }
 
-// The surface of an atlas, say, and not of an organ.
+// Whether a surface is full of gaps, like that of an atlas, and unlike that of an organ.
 bool is_full_of_gaps(const Topology& topology, const Options& o)
 {
   constexpr std::size_t many = 5;
@@ -67,7 +67,7 @@ bool is_full_of_gaps(const Topology& topology, const Options& o)
          && !topology.differences.empty();
 }
 
-// The largest ones: a surface may have thousands of specks.
+// Adds the largest differences: a surface may have thousands of specks.
 void add_differences(const Topology& topology, const Options& o, std::vector<std::string>& warnings)
 {
   const bool has_gaps = is_full_of_gaps(topology, o);
@@ -177,7 +177,7 @@ void add_warnings(const Options& o, Outcome& outcome)
                             : ""));
   if(o.tolerance > 0 && f.distance() > o.tolerance)
     warnings.push_back(missed_tolerance(f, o));
-  // Before the boundary is fitted, the cells around it add some volume; corners cut off take some.
+  // The cells around the boundary add some volume before it is fitted; corners cut off take some.
   const bool is_fitted = o.fit() != Fit::NONE;
   const double ratio = f.ratio_of_volumes();
   if(is_fitted ? std::abs(ratio - 1) > volume_tolerance : ratio < 0.9 || ratio > 4)

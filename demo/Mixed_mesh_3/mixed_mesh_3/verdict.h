@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the user should know of a mesh, or why there is none.
+// Warnings on a mesh for the user, or the reason why there is no mesh.
 
 #ifndef MIXED_MESH_3_DEMO_MIXED_MESH_3_VERDICT_H
 #define MIXED_MESH_3_DEMO_MIXED_MESH_3_VERDICT_H
@@ -15,23 +15,23 @@
 #include <stdexcept>
 #include <vector>
 
-/// The mesh failed a check: our fault, not the input's.
+/// The mesh failed a check: a defect of the program, not of the input.
 struct Invalid_mesh : std::runtime_error
 {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws where there is no mesh.
+/// Throws if there is no mesh.
 void refuse(const CGAL::Mixed_mesh_result_3& result, const Options& options);
 
-/// \param self_intersections pairs of faces of the boundary; 0 if that was not looked at
+/// \param self_intersections number of pairs of faces of the boundary; 0 if these were not searched for
 /// \throw Invalid_mesh if a check does not hold
 void require_all(const std::vector<Check>& checks, std::size_t self_intersections);
 
-/// Throws if a mesh that is fitted is no image of the surface: with less than half its volume, or half more.
+/// Throws if a fitted mesh does not represent the surface: with less than half its volume, or half more.
 void require_volume(const Options& options, const Outcome& outcome);
 
-/// Adds what the user should know of a mesh that is valid.
+/// Adds warnings on a valid mesh for the user.
 void add_warnings(const Options& options, Outcome& outcome);
 
 #endif // MIXED_MESH_3_DEMO_MIXED_MESH_3_VERDICT_H

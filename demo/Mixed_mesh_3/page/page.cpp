@@ -23,14 +23,14 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 
 namespace {
 
-// Numbers one after the other, little-endian, as base64: what the page makes typed arrays of.
+// Numbers one after the other, little-endian, as base64: the page makes typed arrays of them.
 class Packed_array
 {
   std::string m_text;
   std::uint32_t m_bits = 0;
-  int m_number_of_bytes = 0; // in `m_bits`
+  int m_number_of_bytes = 0; // bytes in `m_bits`
 
-  // The six bits of each character, the first ones the highest.
+  // Appends the six bits of each character, the first bits the highest.
   void put_characters(int count)
   {
     constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -75,7 +75,7 @@ public:
   }
 };
 
-// The table of element kinds: the page finds the faces to draw by it.
+// The table of element kinds, by which the page finds the faces to draw.
 Json describe_kinds()
 {
   Json kinds = Json::array();
@@ -91,7 +91,7 @@ Json describe_kinds()
   return kinds;
 }
 
-// Points relative to the middle of the mesh, as single precision is less of an error there.
+// Adds points relative to the middle of the mesh, where the rounding errors of single precision are smaller.
 void describe_points(const Mesh& mesh, Json& result)
 {
   CGAL::Bbox_3 box;
@@ -155,7 +155,7 @@ Json describe(const Mesh& mesh, const Page_data& data, Json report)
   return result;
 }
 
-// As text of a script element, which nothing in it can end: in JSON, `<` is in strings only.
+// The text of a script element, which no part of the text can end: in JSON, `<` is in strings only.
 std::string in_script(const Json& json)
 {
   std::string text;

@@ -17,7 +17,8 @@ struct Page_file
 
 inline constexpr int number_of_page_files = 6;
 
-/// The first one is the template: {{page.css}} is where that file comes, {{data}} where mesh and report do.
+/// The files; the first one is the template: {{page.css}} marks the place of that file, {{data}} the place of
+/// mesh and report.
 extern const Page_file page_files[number_of_page_files];
 
 #endif // MIXED_MESH_3_DEMO_PAGE_PAGE_FILES_H

@@ -20,17 +20,17 @@
 namespace CGAL {
 
 /// \ingroup PkgLinearElasticity3Ref
-/// How an operation of `Linear_elasticity_3` ended.
+/// The outcome of an operation of `Linear_elasticity_3`.
 enum class Linear_elasticity_status {
   SUCCESS,               ///< done
-  NO_ELEMENTS,           ///< nothing is there, or nothing is left
+  NO_ELEMENTS,           ///< there are no elements, or none are left
   INVERTED_ELEMENT,      ///< the Jacobian of `element` is not positive: at a point of the quadrature, in
                          ///< `factor()`;
                          ///< anywhere in the deformed element, in a corotational `solve()`
   FREE_RIGID_MOTION,     ///< `number_of_free_motions` are neither supported nor controlled, such as `motion`
   CONTROL_POINT_OUTSIDE, ///< `control_point` is `distance` outside the mesh
   CONTRADICTORY_CONTROL_POINTS, ///< the displacement of `control_point` cannot be had with the others
-  SOLVER_FAILED, ///< the system is not positive definite: elements hang together by hinges only
+  SOLVER_FAILED, ///< the system is not positive definite: elements are connected by hinges only
   NOT_CONVERGED  ///< no equilibrium of finite rotations was found, or none of contacts: the loads are too
                  ///< large, or it is unstable
 };
@@ -40,28 +40,28 @@ enum class Linear_elasticity_status {
 struct Rigid_motion_3
 {
   std::array<double, 3> translation{}; ///< mm
-  std::array<double, 3> rotation{};    ///< the axis, as long as the angle in radians
+  std::array<double, 3> rotation{};    ///< direction of the axis, with the angle in radians as length
   std::array<double, 3> center{};      ///< mm
 };
 
 /// \ingroup PkgLinearElasticity3Ref
-/// What an operation of `Linear_elasticity_3` did.
+/// The result of an operation of `Linear_elasticity_3`.
 struct Linear_elasticity_result_3
 {
-  /// How it ended; the other members belong to some of the statuses.
+  /// The outcome; the other members belong to some of the statuses.
   Linear_elasticity_status status = Linear_elasticity_status::SUCCESS;
   /// The number of the inverted element.
   std::size_t element = 0;
   std::size_t control_point = 0; ///< from 0
   double distance = 0;           ///< mm
-  /// How many rigid motions nothing holds.
+  /// The number of rigid motions that are free.
   int number_of_free_motions = 0;
-  Rigid_motion_3 motion; ///< one of them
+  Rigid_motion_3 motion; ///< one of the free motions
 
-  /// Whether it ended well.
+  /// Whether the operation was successful.
   bool is_success() const { return status == Linear_elasticity_status::SUCCESS; }
 
-  /// The status in a line. Control points are numbered from 1 in it, elements from 0.
+  /// The status in a line, in which control points are numbered from 1, elements from 0.
   std::string description() const
   {
     std::ostringstream out;

@@ -23,7 +23,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /// \ingroup PkgLinearElasticity3Ref
-/// A load case of `adapt_mixed_mesh_3()`: the displacements of some vertices, in mm. The others are free.
+/// A load case of `adapt_mixed_mesh_3()`: the displacements of some vertices, in mm. The other vertices are
+/// free.
 using Prescribed_displacements = std::map<Vertex_index, Vec3>;
 
 } // namespace Mixed_meshes_3
@@ -31,7 +32,8 @@ using Prescribed_displacements = std::map<Vertex_index, Vec3>;
 /*!
 \ingroup PkgLinearElasticity3Ref
 
-\brief How far a mesh is adapted to load cases. Each setter returns the object, so that calls can be chained.
+\brief Criteria for adapting a mesh to load cases. Each setter returns the object, so that calls can be
+chained.
 */
 class Mixed_mesh_adaptation_criteria_3
 {
@@ -39,8 +41,8 @@ class Mixed_mesh_adaptation_criteria_3
   int m_maximal_number_of_solves = 20;
 
 public:
-  /// The largest aspect-ratio coefficient (ARC) that an element may get; that of an element above the bound
-  /// does not grow above what it was at first. 0, or infinity: no bound. Default: 3.2, as in the
+  /// Sets the largest aspect-ratio coefficient (ARC) that an element may get; the ARC of an element above the
+  /// bound does not grow above its initial value. 0, or infinity: no bound. Default: 3.2, as in the
   /// optimization of the mesher. \pre 0, or at least 1
   Mixed_mesh_adaptation_criteria_3& quality_bound(double bound)
   {
@@ -48,11 +50,11 @@ public:
     m_quality_bound = bound == 0 ? std::numeric_limits<double>::infinity() : bound;
     return *this;
   }
-  /// Infinity if there is none.
+  /// The value set, or the default; infinity if there is no bound.
   double quality_bound() const { return m_quality_bound; }
 
-  /// The adaptation ends after three steps in a row each of which gains less than this share of what all
-  /// steps have gained. Default: 0.01. \pre in [0, 1]
+  /// Sets the least gain. The adaptation ends after three steps in a row each of which gains less than this
+  /// share of the gain of all steps. Default: 0.01. \pre in [0, 1]
   Mixed_mesh_adaptation_criteria_3& least_gain(double share)
   {
     CGAL_precondition(share >= 0 && share <= 1);
@@ -62,7 +64,7 @@ public:
   /// The value set, or the default.
   double least_gain() const { return m_least_gain; }
 
-  /// How often the load cases are solved at most, the first time on the mesh as it is. Default: 20.
+  /// Sets how often the load cases are solved at most, the first time on the initial mesh. Default: 20.
   /// \pre at least 1
   Mixed_mesh_adaptation_criteria_3& maximal_number_of_solves(int number)
   {

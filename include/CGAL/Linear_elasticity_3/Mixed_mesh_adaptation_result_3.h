@@ -16,14 +16,14 @@
 namespace CGAL {
 
 /// \ingroup PkgLinearElasticity3Ref
-/// How `adapt_mixed_mesh_3()` ended.
+/// The outcome of `adapt_mixed_mesh_3()`.
 enum class Mixed_mesh_adaptation_status {
   CONVERGED,        ///< steps gain next to nothing any more, or no vertex can move where it should
   SOLVES_EXHAUSTED, ///< steps still gain, but the maximal number of solves was reached
-  STOPPED,          ///< as far as it went: the visitor said so
+  STOPPED,          ///< incomplete: the visitor stopped the run
   NO_INNER_VERTEX,  ///< unchanged: no vertex may move
   NO_LOAD,          ///< unchanged: no load case strains the mesh
-  SOLVER_FAILED,    ///< unchanged: a load case leaves rigid motions free, or elements hang together by hinges
+  SOLVER_FAILED,    ///< unchanged: a load case leaves rigid motions free, or elements are connected by hinges
   INVALID_MESH,     ///< unchanged: an element is inverted
   EMPTY             ///< unchanged: there is no element
 };
@@ -46,24 +46,24 @@ inline const char* description(Mixed_mesh_adaptation_status status)
 }
 
 /// \ingroup PkgLinearElasticity3Ref
-/// What `adapt_mixed_mesh_3()` did.
+/// The result of `adapt_mixed_mesh_3()`.
 struct Mixed_mesh_adaptation_result_3
 {
-  /// How it ended.
+  /// The outcome.
   Mixed_mesh_adaptation_status status = Mixed_mesh_adaptation_status::EMPTY;
-  int number_of_steps = 0;                  ///< that were taken: each has lowered the functional
-  int number_of_solves = 0;                 ///< of all load cases: of steps tried, and of the mesh at first
-  std::size_t number_of_inner_vertices = 0; ///< that may move
-  /// Of standard elements, of each load case, in microjoules (mN mm).
+  int number_of_steps = 0;                  ///< accepted steps: each has lowered the functional
+  int number_of_solves = 0;                 ///< solves of all load cases: in steps, and on the initial mesh
+  std::size_t number_of_inner_vertices = 0; ///< vertices that may move
+  /// Energies of standard elements before the adaptation, of each load case, in microjoules (mN mm).
   std::vector<double> energies_before;
-  /// As above. Each may have grown if there are several; the sum of their ratios has not.
+  /// Energies after the adaptation. One of several energies may have grown; the sum of their ratios has not.
   std::vector<double> energies_after;
-  /// The largest aspect-ratio coefficient (ARC).
+  /// The largest aspect-ratio coefficient (ARC) before the adaptation.
   double worst_aspect_ratio_before = 0;
-  double worst_aspect_ratio_after = 0; ///< as above
+  double worst_aspect_ratio_after = 0; ///< after the adaptation
 
-  /// The mean ratio of energies after and before, over the load cases that strain the mesh: what was
-  /// minimized.
+  /// The mean ratio of energies after and before, over the load cases that strain the mesh: the minimized
+  /// functional.
   double functional = 1;
 };
 

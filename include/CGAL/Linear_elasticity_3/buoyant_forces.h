@@ -33,7 +33,7 @@ inline double share_below(std::array<double, 4> heights)
 {
   std::sort(heights.begin(), heights.end());
   const auto [a, b, c, d] = heights;
-  const auto cut = [](double below, double above) { return below / (below - above); }; // where 0 is
+  const auto cut = [](double below, double above) { return below / (below - above); }; // place of 0
   if(d <= 0)
     return 1;
   if(a >= 0)
@@ -42,12 +42,13 @@ inline double share_below(std::array<double, 4> heights)
     return cut(a, b) * cut(a, c) * cut(a, d);
   if(c <= 0)
     return 1 - cut(d, a) * cut(d, b) * cut(d, c);
-  // A prism, from the edge between the lower two: three tetrahedra.
+  // The part is a prism, from the edge between the lower two vertices: three tetrahedra.
   const double ac = cut(a, c), ad = cut(a, d), bc = cut(b, c), bd = cut(b, d);
   return ac * ad * (1 - bd) + ac * (1 - bc) * bd + bc * bd;
 }
 
-/// The share of each element's volume that is below a height, by the tetrahedra it is split into.
+/// The share of each element's volume that is below a height, by the tetrahedra that the element is split
+/// into.
 /// \param height `double(const Vec3&)`
 template <class Mesh, class Height>
 std::vector<double> shares_below(const Mesh& mesh, const Height& height)
@@ -62,7 +63,7 @@ std::vector<double> shares_below(const Mesh& mesh, const Height& height)
       p[i] = to_vec3(tetrahedra.point(tetrahedra.element(t)[i]));
       heights[i] = height(p[i]);
     }
-    // Tetrahedra of a warped element can be inside out; they count as what they are.
+    // Tetrahedra of a warped element can be inside out; their signed volumes count.
     const double volume = dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]);
     all[origins[t]] += volume;
     below[origins[t]] += share_below(heights) * volume;
@@ -77,20 +78,20 @@ std::vector<double> shares_below(const Mesh& mesh, const Height& height)
 /*!
 \ingroup PkgLinearElasticity3Ref
 
-What a fluid around a body takes from its weight: forces by volume for
+The part of the weight that a fluid around a body supports: forces by volume for
 `Linear_elasticity_3::set_body_forces()`, to be set beside `Linear_elasticity_3::set_gravity()`.
 
 Below the surface of the fluid each element loses the weight of the fluid that it displaces, so that the
 difference of the densities counts; above, all of the weight stays. An element that the surface cuts loses the
-share that is below. The fluid's pressure is also in the pores of tissue: that it would compress a solid is
-left out.
+share that is below. The fluid's pressure is also in the pores of tissue: the compression of a solid by the
+pressure is left out.
 
 \tparam Mesh a `Mixed_mesh_3`
-\param mesh the mesh
-\param acceleration of gravity, in mm/s^2
-\param fluid_density in kg/mm^3; 1e-6 is that of water
-\param level the height of the fluid's surface, in mm: the height of a point is its coordinate in the
-       direction opposite to the acceleration, so z if that is (0, 0, -9810)
+\param mesh mesh
+\param acceleration acceleration of gravity, in mm/s^2
+\param fluid_density density in kg/mm^3; 1e-6 is the density of water
+\param level height of the fluid's surface, in mm: the height of a point is its coordinate in the direction
+opposite to the acceleration, so z if that is (0, 0, -9810)
 \return the force by volume in mN/mm^3, of each element: minus the density of the fluid times the
         acceleration, times the share of the element that is below the level. Zeros if there is no
         acceleration

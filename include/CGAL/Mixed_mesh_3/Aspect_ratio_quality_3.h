@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The cost of an element that the fitting and the optimization work with: the aspect-ratio coefficient
-// of the paper, that of the corners, and the warp of the faces.
+// The cost of an element in the fitting and the optimization: the aspect-ratio coefficient of the paper, that
+// of the corners, and the warp of the faces.
 
 #ifndef CGAL_MIXED_MESH_3_ASPECT_RATIO_QUALITY_3_H
 #define CGAL_MIXED_MESH_3_ASPECT_RATIO_QUALITY_3_H
@@ -32,10 +32,10 @@ namespace Mixed_meshes_3 {
 
 \brief The aspect-ratio coefficient as the cost of an element, with a penalty for warped faces.
 
-For a tetrahedron the cost is its aspect-ratio coefficient (ARC, see `aspect_ratio_coefficient()`). For
-other kinds it is the largest of the ARC and of those of the corner tetrahedra, divided by the value they
-have in the ideal element, times `1 + warp_weight (1 - cos(warp))`, where warp is the largest angle between
-the normals of the two triangles of a quadrilateral face, along either diagonal.
+The cost of a tetrahedron is its aspect-ratio coefficient (ARC, see `aspect_ratio_coefficient()`). The cost of
+other kinds is the largest of the ARC and of those of the corner tetrahedra, divided by their value in the
+ideal element, times `1 + warp_weight (1 - cos(warp))`, where warp is the largest angle between the normals of
+the two triangles of a quadrilateral face, along either diagonal.
 
 \cgalModels{MixedMeshQuality_3}
 */
@@ -46,13 +46,13 @@ class Aspect_ratio_quality_3
   double m_acceptable = 7;
   double m_warp_weight = 30;
 
-  // Of the corner tetrahedra of the ideal elements: edges of length 1, height of the pyramid 1.
+  // ARC of the corner tetrahedra of the ideal elements: edges of length 1, height of the pyramid 1.
   static constexpr double ideal_corner[] = {1, 1.1932324, 1.2580589, 1.3000510};
   static_assert(std::size(ideal_corner) == number_of_element_kinds, "a value for each kind");
 
 public:
-  /// \param acceptable costs above it make Algorithm 1 stiffen an element; the paper's bound is 7
-  /// \param warp_weight how much a warped face counts; 0 for the plain measure
+  /// \param acceptable cost above which Algorithm 1 stiffens an element; the paper's bound is 7
+  /// \param warp_weight weight of a warped face; 0 for the plain measure
   explicit Aspect_ratio_quality_3(double acceptable = 7, double warp_weight = 30)
     : m_acceptable(acceptable), m_warp_weight(warp_weight)
   {
@@ -121,13 +121,13 @@ private:
     return Vec3{};
   }
 
-  // 1 - cos of the largest warp.
+  // Computes 1 - cos of the largest warp.
   template <bool with_gradient>
   static double warp(const Reference_element& reference, const Points& p, int v, Vec3& gradient)
   {
     using namespace internal;
-    // The smallest cosine is that with the smallest square, if signs are kept: one root suffices.
-    double least = 1, product = 1, squares = 1; // of the two normals; of their lengths
+    // The smallest cosine has the smallest square, if signs are kept: one root suffices.
+    double least = 1, product = 1, squares = 1; // product of the normals; of squared lengths
     int worst_face = -1, worst_diagonal = 0;
     for(int f = 0; f < reference.number_of_faces; ++f)
       if(reference.faces[f].size == 4)
@@ -149,11 +149,11 @@ private:
         const auto [n, m] = triangle_normals(face, worst_diagonal, p);
         const double ln = norm(n), lm = norm(m), cosine = 1 - worst;
         const Vec3 un = (1 / ln) * n, um = (1 / lm) * m;
-        // derivatives of the cosine by the two normals
+        // The derivatives of the cosine by the two normals.
         const Vec3 gn = (1 / ln) * (um - cosine * un), gm = (1 / lm) * (un - cosine * um);
         const auto at = [&](int i) { return int(face.vertices[(i + worst_diagonal) % 4]); };
         const Vec3 &a = p[at(0)], &b = p[at(1)], &c = p[at(2)], &d = p[at(3)];
-        // n = (b - a) x (c - a), m = (c - a) x (d - a)
+        // The normals are n = (b - a) x (c - a), m = (c - a) x (d - a).
         if(v == at(0))
           gradient = cross(gn, b - c) + cross(gm, c - d);
         else if(v == at(1))

@@ -40,9 +40,9 @@ struct Elastic_material
 
 /// \ingroup PkgLinearElasticity3Ref
 /// The materials of the elements of a mesh, by their subdomains, for `Linear_elasticity_3`.
-/// \param mesh the mesh
-/// \param materials that of each subdomain
-/// \param other that of subdomains that `materials` does not have
+/// \param mesh mesh
+/// \param materials material of each subdomain
+/// \param other material of subdomains that `materials` does not have
 template <class Mesh>
 std::vector<Elastic_material>
 materials_of_elements(const Mesh& mesh, const std::map<Subdomain_index, Elastic_material>& materials,

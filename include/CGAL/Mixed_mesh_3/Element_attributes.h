@@ -14,17 +14,17 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /// \ingroup PkgMixedMesh3Mesh
-/// What an element is part of: a material, for example a tumor. 0 is what is outside, as in CGAL's labeled
-/// domains.
+/// The label of the part that an element belongs to: a material, for example a tumor. 0 is the outside, as in
+/// CGAL's labeled domains.
 using Subdomain_index = int;
 
 /// \ingroup PkgMixedMesh3Mesh
-/// What is around an element beside a sheet, such as the falx: faces between elements of two compartments are
-/// on a sheet. 0: no matter which, as for most elements.
+/// The compartment around an element beside a sheet, such as the falx: faces between elements of two
+/// compartments are on a sheet. 0: any compartment, as for most elements.
 using Compartment_index = int;
 
 /// \ingroup PkgMixedMesh3Mesh
-/// What is known of an element besides its kind and vertices; every stage hands it on.
+/// The attributes of an element besides its kind and vertices; every stage passes them on.
 struct Element_attributes
 {
   Subdomain_index subdomain_index = 1; ///< positive

@@ -27,19 +27,20 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /// \ingroup PkgMixedMesh3Mesh
-/// An element as seen in a list: a kind and its vertices. Valid as long as the list is not changed.
+/// An element as seen in a list: a kind and its vertices. The view is valid as long as the list is not
+/// changed.
 class Element_view
 {
   const Vertex_index* m_vertices;
   Element_kind m_kind;
 
 public:
-  /// An element of a kind with the vertices that a pointer leads to.
+  /// Constructs an element of a kind from a pointer to its vertices.
   Element_view(Element_kind kind, const Vertex_index* vertices) : m_vertices(vertices), m_kind(kind) {}
 
   /// The kind.
   Element_kind kind() const { return m_kind; }
-  /// The row of its kind in the table: faces, edges, corners.
+  /// The row of the element's kind in the table: faces, edges, corners.
   const Reference_element& reference() const { return reference_elements[m_kind]; }
   /// The number of vertices.
   int size() const { return reference().number_of_vertices; }
@@ -47,7 +48,7 @@ public:
   Vertex_index operator[](int i) const { return m_vertices[i]; }
   /// The first vertex.
   const Vertex_index* begin() const { return m_vertices; }
-  /// Past the last vertex.
+  /// The end of the vertices.
   const Vertex_index* end() const { return m_vertices + size(); }
 };
 
@@ -74,13 +75,13 @@ class Element_list
 public:
   /// The number of elements.
   std::size_t size() const { return m_kinds.size(); }
-  /// Whether there is none.
+  /// Whether there is no element.
   bool empty() const { return m_kinds.empty(); }
 
   /// An element; valid until elements are added. \pre `e < size()`, not checked
   Element_view operator[](Element_index e) const { return {m_kinds[e], m_vertices.data() + m_offsets[e]}; }
 
-  /// Adds an element. \pre `vertices` points to as many as the kind has
+  /// Adds an element. \pre `vertices` points to as many vertices as the kind has
   void add(Element_kind kind, const Vertex_index* vertices)
   {
     check_size(1);
@@ -89,7 +90,7 @@ public:
     m_offsets.push_back(m_vertices.size());
   }
 
-  /// \pre `vertices` has as many entries as the kind has vertices
+  /// Adds an element. \pre `vertices` has as many entries as the kind has vertices
   template <class Vertices>
   auto add(Element_kind kind, const Vertices& vertices) -> decltype(std::data(vertices), void())
   {
@@ -97,7 +98,7 @@ public:
     add(kind, std::data(vertices));
   }
 
-  /// Adds an element.
+  /// Adds an element from a list of vertices.
   void add(Element_kind kind, std::initializer_list<Vertex_index> vertices)
   {
     add<std::initializer_list<Vertex_index>>(kind, vertices);
@@ -115,7 +116,7 @@ public:
     m_vertices.resize(m_vertices.size() + n * size);
   }
 
-  /// Takes memory for so many elements, with so many vertices altogether, counted once for each element.
+  /// Reserves memory for a number of elements, and of vertices, counted once for each element.
   void reserve(std::size_t elements, std::size_t vertices)
   {
     m_kinds.reserve(elements);
@@ -133,10 +134,10 @@ public:
   }
 
   /// \name Raw arrays
-  /// For writers and for renumbering: vertices of element `e` are
-  /// `connectivity()[offsets()[e]] ... connectivity()[offsets()[e + 1] - 1]`.
+  /// Arrays for writers and for renumbering: vertices of element `e` are `connectivity()[offsets()[e]] ...
+  /// connectivity()[offsets()[e + 1] - 1]`.
   /// @{
-  const std::vector<Element_kind>& kinds() const { return m_kinds; }           ///< one an element
+  const std::vector<Element_kind>& kinds() const { return m_kinds; }           ///< one for each element
   const std::vector<std::size_t>& offsets() const { return m_offsets; }        ///< one more than elements
   const std::vector<Vertex_index>& connectivity() const { return m_vertices; } ///< vertices of all elements
   std::vector<Vertex_index>& connectivity() { return m_vertices; }             ///< vertices of all elements

@@ -18,16 +18,16 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /// \ingroup PkgMixedMesh3Fields
-/// A point of a mesh: its element, and where it is there.
+/// The location of a point in a mesh: an element, and reference coordinates.
 struct Element_location_3
 {
   /// The element; -1 before a location is found.
   Element_index element = Element_index(-1);
-  std::array<double, 3> coordinates{}; ///< in the reference element
-  /// Values of the shape functions, in the order of the element's vertices: a field of the mesh is the sum
-  /// of its values at the vertices times these.
+  std::array<double, 3> coordinates{}; ///< reference coordinates
+  /// Values of the shape functions, in the order of the element's vertices: a field of the mesh is the sum of
+  /// its values at the vertices times these values.
   std::array<double, 8> weights{};
-  double distance = 0; ///< of the point asked for; 0 if it is in the element
+  double distance = 0; ///< distance of the given point; 0 if the point is in the element
 };
 
 } // namespace Mixed_meshes_3

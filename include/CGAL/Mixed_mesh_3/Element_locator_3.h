@@ -45,8 +45,8 @@ std::vector<Vec3> displaced_points(const Mesh& mesh, const Displacements& displa
   return points;
 }
 
-// The point of a triangle or bilinear quadrilateral nearest to the origin, as weights of its corners.
-// For fixed v the patch is a segment in u, and conversely: descends in u and v by turns.
+// The point of a triangle or bilinear quadrilateral nearest to the origin, as weights of its corners. The
+// patch is a segment in u for fixed v, and conversely: descends in u and v alternately.
 inline std::array<double, 4> nearest_weights_on_quadrilateral(const Vec3* p, double u, double v)
 {
   const auto on_segment = [](const Vec3& a, const Vec3& b) {
@@ -54,7 +54,7 @@ inline std::array<double, 4> nearest_weights_on_quadrilateral(const Vec3* p, dou
     const double length = dot(d, d);
     return length > 0 ? (std::max)(0., (std::min)(1., -dot(a, d) / length)) : 0.;
   };
-  constexpr int largest_number_of_turns = 200; // where they gain little, on warped faces
+  constexpr int largest_number_of_turns = 200; // limit for warped faces, where steps gain little
   constexpr double settled = 1e-14;            // some tens of roundings of weights, which are at most 1
   for(int i = 0; i < largest_number_of_turns; ++i) {
     const double new_u = on_segment((1 - v) * p[0] + v * p[3], (1 - v) * p[1] + v * p[2]);
@@ -100,7 +100,7 @@ inline std::array<double, 4> nearest_weights(const Vec3* p, int size)
 {
   if(size == 3)
     return nearest_weights_on_triangle(p);
-  // From each corner and from the middle: a warped patch may have several points that are locally nearest.
+  // The search starts at each corner and at the middle: a warped patch may have several local minima.
   std::array<double, 4> best{};
   double least = std::numeric_limits<double>::infinity();
   for(const auto& start : {std::array<double, 2>{0.5, 0.5}, {0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
@@ -119,14 +119,14 @@ inline std::array<double, 4> nearest_weights(const Vec3* p, int size)
 /*!
 \ingroup PkgMixedMesh3Fields
 
-\brief Finds the element of a mesh that contains a point, and the point's coordinates there.
+\brief Finds the element of a mesh that contains a point, and the point's coordinates in the element.
 
-For the mesh as it is, or displaced: by the shape functions, or by a `Recovered_displacement_3`. Of several
-elements that contain a point (on common faces, edges and vertices) it is the one with the smallest index.
-Points that are outside by less than 1e-9 in reference coordinates count as inside, so that none is lost
+The mesh may be as it is, or displaced: by the shape functions, or by a `Recovered_displacement_3`. If several
+elements contain a point (on common faces, edges and vertices), the result is the one with the smallest index.
+Points that are outside by less than 1e-9 in reference coordinates count as inside, so that no point is lost
 between elements.
 
-The mesh must outlive the locator and not change. Points are whatever has `p[0]`, `p[1]`, `p[2]`.
+The mesh must outlive the locator and not change. Points may be of any type that has `p[0]`, `p[1]`, `p[2]`.
 
 \tparam Mesh a `Mixed_mesh_3`
 */
@@ -154,17 +154,17 @@ class Element_locator_3
 
   const Mesh* m_mesh;
   std::vector<Vec3> m_points;
-  std::optional<Recovered_displacement_3<Mesh>> m_displacement; // none: by the shape functions
+  std::optional<Recovered_displacement_3<Mesh>> m_displacement; // none: shape functions
   std::vector<Face> m_boundary;
   // A uniform grid: the elements whose boxes meet cell c are
   // m_elements[m_ends[c]] ... m_elements[m_ends[c + 1] - 1], in ascending order.
-  Box m_box{{1, 1, 1}, {0, 0, 0}}; // of all elements; of none if there are none
+  Box m_box{{1, 1, 1}, {0, 0, 0}}; // box of all elements; of none if there are none
   Vec3 m_cells_per_unit{};
   std::array<std::size_t, 3> m_size{1, 1, 1};
   std::vector<std::size_t> m_ends;
   std::vector<Element_index> m_elements;
 
-  // The box of some vertices; wider by what counts as inside.
+  // The box of some vertices, widened by the tolerance inside which points count as inside.
   template <class Vertices>
   Box box(const Vertices& vertices, int size) const
   {
@@ -174,7 +174,7 @@ class Element_locator_3
         b.lower[k] = (std::min)(b.lower[k], m_points[vertices[i]][k]);
         b.upper[k] = (std::max)(b.upper[k], m_points[vertices[i]][k]);
       }
-    // ten times what counts as inside, in reference coordinates; a wider box costs time only
+    // The margin is ten times that tolerance, in reference coordinates; a wider box costs time only.
     const double margin = 1e-8 * norm(b.upper - b.lower);
     for(int k = 0; k < 3; ++k) {
       b.lower[k] -= margin;
@@ -190,7 +190,7 @@ class Element_locator_3
     return m_displacement ? m_displacement->bubbles(element) : std::nullopt;
   }
 
-  // Displacements that are not linear leave the box of the vertices.
+  // The box of an element: displacements that are not linear leave the box of the vertices.
   Box box_of_element(Element_index e) const
   {
     const Element_view element = m_mesh->element(e);
@@ -208,7 +208,7 @@ class Element_locator_3
     std::array<std::size_t, 3> c;
     for(int k = 0; k < 3; ++k) {
       const double x = (p[k] - m_box.lower[k]) * m_cells_per_unit[k];
-      // 1e9, more than there are cells in a row, so that the conversion does not overflow
+      // The limit 1e9 is more than the number of cells in a row, so that the conversion does not overflow.
       c[k] = x > 0 ? (std::min)(std::size_t((std::min)(x, 1e9)), m_size[k] - 1) : 0;
     }
     return c;
@@ -251,8 +251,8 @@ class Element_locator_3
       for(int k = 0; k < 3; ++k)
         extent[k] = m_box.upper[k] - m_box.lower[k];
     }
-    // About as many cubic cells as elements; not more than 1000 in a row, for meshes that are nearly flat.
-    // How many there are costs time or memory, and changes no result.
+    // There are about as many cubic cells as elements; not more than 1000 in a row, for meshes that are
+    // nearly flat. The number of cells costs time or memory, and changes no result.
     const double width = std::cbrt(extent[0] * extent[1] * extent[2] / double(n + 1));
     for(int k = 0; k < 3; ++k) {
       m_size[k] = width > 0 ? std::size_t((std::min)(extent[k] / width, 1000.)) + 1 : 1;
@@ -308,7 +308,7 @@ class Element_locator_3
   }
 
 public:
-  /// For the mesh as it is.
+  /// Constructs a locator of the mesh as it is.
   /// \par Complexity
   /// O(n log n) in the number of elements
   explicit Element_locator_3(const Mesh& mesh) : m_mesh(&mesh)
@@ -319,8 +319,8 @@ public:
     prepare();
   }
 
-  /// For the displaced mesh. \param mesh the mesh
-  /// \param displacements a vector for each vertex, with components `[0]`, `[1]`, `[2]`
+  /// Constructs a locator of the displaced mesh. \param mesh mesh
+  /// \param displacements vector for each vertex, with components `[0]`, `[1]`, `[2]`
   template <class Displacements>
   Element_locator_3(const Mesh& mesh, const Displacements& displacements)
     : m_mesh(&mesh), m_points(internal::displaced_points(mesh, displacements))
@@ -328,9 +328,9 @@ public:
     prepare();
   }
 
-  /// For the mesh displaced, the same field between vertices; without the elements that it has as removed.
-  /// What is located is a point of the mesh before: from here to there the field takes it, exactly so up to
-  /// rounding.
+  /// Constructs a locator of a mesh displaced by a field, which also holds between vertices; without the
+  /// elements that the field has as removed. The location of a point is a point of the mesh before the
+  /// displacement: the field moves that point to the given one, exactly up to rounding.
   /// \par Complexity
   /// O(n log n) in the number of elements
   explicit Element_locator_3(const Recovered_displacement_3<Mesh>& displacement)
@@ -359,13 +359,14 @@ public:
   }
 
   /*!
-  The element that contains a point, or else the point of the boundary nearest to it; of equally near ones
-  the one in the element with the smallest index. The boundary of a mesh with a `Recovered_displacement_3`
-  is taken to be made of the faces between displaced vertices, which it differs little from.
+  The element that contains a point, or else the point of the boundary nearest to the given point; of equally
+  near points the one in the element with the smallest index. The boundary of a mesh with a
+  `Recovered_displacement_3` is considered to consist of the faces between displaced vertices, from which it
+  differs little.
 
   \pre the mesh is not empty
   \par Complexity
-  As `locate()`, and linear in the number of boundary faces for a point outside
+  Complexity of `locate()`; also linear in the number of boundary faces for a point outside
   */
   template <class Point>
   Element_location_3 nearest(const Point& point) const
@@ -392,7 +393,7 @@ public:
       const double distance = norm(offset);
       if(!(distance < best.distance))
         continue;
-      // On a face only its own vertices count, with the weights of the face.
+      // Only the vertices of a face count for a point on the face, with the weights of the face.
       best = {};
       best.element = boundary_face.element();
       best.distance = distance;

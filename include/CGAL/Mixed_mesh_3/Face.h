@@ -33,14 +33,14 @@ inline constexpr Element_index no_element = Element_index(-1);
 } // namespace internal
 
 /// \ingroup PkgMixedMesh3Mesh
-/// The three or four vertices of a face: a range.
+/// The three or four vertices of a face, as a range.
 class Face_vertices
 {
   std::array<Vertex_index, 4> m_vertices;
   std::uint8_t m_size;
 
 public:
-  /// \pre three or four vertices
+  /// Constructs a face from its vertices. \pre there are three or four vertices
   Face_vertices(std::initializer_list<Vertex_index> vertices) : m_size(std::uint8_t(vertices.size()))
   {
     CGAL_precondition(m_size == 3 || m_size == 4);
@@ -48,18 +48,18 @@ public:
     std::copy(vertices.begin(), vertices.end(), m_vertices.begin());
   }
 
-  /// Three or four.
+  /// The number of vertices, three or four.
   int size() const { return m_size; }
   /// Vertex `i`. \pre `0 <= i < size()`, not checked
   Vertex_index operator[](int i) const { return m_vertices[std::size_t(i)]; }
-  /// As above, to be changed.
+  /// Vertex `i`, which may be changed.
   Vertex_index& operator[](int i) { return m_vertices[std::size_t(i)]; }
   /// The first vertex.
   const Vertex_index* begin() const { return m_vertices.data(); }
-  /// Past the last vertex.
+  /// The end of the vertices.
   const Vertex_index* end() const { return m_vertices.data() + m_size; }
 
-  /// All four; the fourth of a triangle is the same for all triangles, and larger than any index.
+  /// All four vertices; the fourth of a triangle is the same for all triangles, and larger than any index.
   const std::array<Vertex_index, 4>& padded() const { return m_vertices; }
 };
 
@@ -72,7 +72,7 @@ class Face
   Element_index m_element;
 
 public:
-  /// Face `local_index` of an element, in the order of `Reference_element::faces`.
+  /// Constructs face `local_index` of an element, in the order of `Reference_element::faces`.
   Face(const Element_list& elements, Element_index element, int local_index)
     : m_vertices{0, 0, 0}, m_local_index(std::uint8_t(local_index)), m_element(element)
   {
@@ -83,14 +83,14 @@ public:
                    : Face_vertices{e[f.vertices[0]], e[f.vertices[1]], e[f.vertices[2]], e[f.vertices[3]]};
   }
 
-  /// Its vertices, counter-clockwise seen from outside the element.
+  /// The vertices of the face, counter-clockwise seen from outside the element.
   const Face_vertices& vertices() const { return m_vertices; }
-  /// The element that it is a face of.
+  /// The element that the face belongs to.
   Element_index element() const { return m_element; }
-  /// The position in `Reference_element::faces` of its element.
+  /// The position of the face in `Reference_element::faces` of its element.
   int local_index() const { return m_local_index; }
 
-  /// In the order of the elements.
+  /// Compares faces in the order of the elements.
   bool operator<(const Face& f) const
   {
     return std::make_tuple(m_element, m_local_index) < std::make_tuple(f.m_element, f.m_local_index);

@@ -16,39 +16,39 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /// \ingroup PkgMixedMesh3Mesh
-/// A number of 32 bits that counts one kind of thing: it is made of integers and gives them back, but an
-/// index of another kind does not convert to it, so that `prescribe(element)` does not compile.
+/// A number of 32 bits that counts one kind of item: integers convert to the index and back, but an index of
+/// another kind does not convert, so that `prescribe(element)` does not compile.
 template <class Tag>
 class Index
 {
   std::uint32_t m_value;
 
 public:
-  /// Not initialized; `Index{}` is 0.
+  /// Constructs an index that is not initialized; `Index{}` is 0.
   Index() = default; // `Index{}` is 0
-  /// An index from its number.
+  /// Constructs an index from its number.
   constexpr Index(std::uint32_t value) : m_value(value) {}
-  /// An index of another kind does not convert.
+  /// Deleted: an index of another kind does not convert.
   template <class Other>
   Index(const Index<Other>&) = delete;
 
   /// The number.
   constexpr operator std::uint32_t() const { return m_value; }
 
-  /// The next one.
+  /// Moves to the next index.
   Index& operator++()
   {
     ++m_value;
     return *this;
   }
-  /// As above; the result is the old one.
+  /// Moves to the next index, and returns the old one.
   Index operator++(int)
   {
     const Index old = *this;
     ++m_value;
     return old;
   }
-  /// The one before.
+  /// Moves to the previous index.
   Index& operator--()
   {
     --m_value;

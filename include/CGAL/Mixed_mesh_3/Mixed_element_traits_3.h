@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The four element kinds as constant tables. Every algorithm loops over these tables; none
-// enumerates faces or edges by hand.
+// The four element kinds as constant tables. Every algorithm loops over these tables; no algorithm enumerates
+// faces or edges by hand.
 
 #ifndef CGAL_MIXED_MESH_3_MIXED_ELEMENT_TRAITS_3_H
 #define CGAL_MIXED_MESH_3_MIXED_ELEMENT_TRAITS_3_H
@@ -24,9 +24,9 @@ namespace Mixed_meshes_3 {
 /// cell data `kind` in the files written.
 enum Element_kind : std::uint8_t {
   TETRAHEDRON, ///< four vertices
-  PYRAMID,     ///< five: a quadrilateral and an apex
-  PRISM,       ///< six: two triangles
-  HEXAHEDRON   ///< eight
+  PYRAMID,     ///< five vertices: a quadrilateral and an apex
+  PRISM,       ///< six vertices: two triangles
+  HEXAHEDRON   ///< eight vertices
 };
 
 /// \ingroup PkgMixedMesh3Elements
@@ -41,9 +41,9 @@ inline constexpr Element_kind element_kinds[number_of_element_kinds] = {TETRAHED
 /// A face of an element: its local vertices, counter-clockwise seen from outside the element.
 struct Element_face
 {
-  /// Three or four.
+  /// The number of vertices, three or four.
   int size;
-  /// Local numbers; the fourth of a triangle says nothing.
+  /// Local numbers of the vertices; the fourth of a triangle has no meaning.
   std::uint8_t vertices[4];
 };
 
@@ -65,27 +65,27 @@ Vertex order (positive Jacobian; the order of Gmsh, Abaqus, Medit and FEBio):
 */
 struct Reference_element
 {
-  /// Singular.
+  /// The name in the singular.
   const char* name;
-  /// Plural.
+  /// The name in the plural.
   const char* plural;
-  /// From 4 to 8.
+  /// The number of vertices, from 4 to 8.
   int number_of_vertices;
-  /// From 6 to 12.
+  /// The number of edges, from 6 to 12.
   int number_of_edges;
   /// Local vertices of each edge.
   std::uint8_t edges[12][2];
-  /// From 4 to 6.
+  /// The number of faces, from 4 to 6.
   int number_of_faces;
-  /// The faces, in an order of ours: that of `Face::local_index()`.
+  /// The faces, in our own order, which is that of `Face::local_index()`.
   Element_face faces[6];
-  /// Corner tetrahedra: a vertex with its three neighbors (of the apex of a pyramid there are
-  /// four, so it has none of its own; the four at the base cover the pyramid).
+  /// The number of corner tetrahedra: a vertex with its three neighbors (the apex of a pyramid has four
+  /// neighbors, so it has no corner tetrahedron; the four at the base cover the pyramid).
   int number_of_corners;
   /// Local vertices of each corner tetrahedron, positively oriented.
   std::uint8_t corners[8][4];
-  /// Coordinates of the vertices of the reference element; the barycentric tetrahedron and
-  /// triangle, [-1,1] in the other directions, height 1 for the pyramid.
+  /// Coordinates of the vertices of the reference element: barycentric in tetrahedron and triangle, [-1,1] in
+  /// the other directions, height 1 for the pyramid.
   std::int8_t coordinates[8][3];
 };
 
@@ -149,7 +149,7 @@ static_assert(sizeof(reference_elements) / sizeof(reference_elements[0]) == numb
 
 namespace internal {
 
-/// The vertices of a tetrahedron in orders that keep its orientation, each of them first once.
+/// Orders of the vertices of a tetrahedron that keep its orientation; each vertex is first in one order.
 inline constexpr int even_permutations[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 0, 1, 3}, {3, 0, 2, 1}};
 
 } // namespace internal
@@ -169,7 +169,7 @@ struct Mixed_element_traits_3
 {
   /// The kind.
   static constexpr Element_kind kind = Kind;
-  /// Its row in the table.
+  /// The row of the kind in the table.
   static constexpr const Reference_element& reference = reference_elements[Kind];
   /// The number of vertices.
   static constexpr int number_of_vertices = reference_elements[Kind].number_of_vertices;
@@ -178,8 +178,8 @@ struct Mixed_element_traits_3
   /// Derivatives by the three reference coordinates, for each vertex.
   using Shape_gradients = std::array<std::array<double, 3>, number_of_vertices>;
 
-  /// Values of the shape functions at the point `(r,s,t)` of the reference element. They are 1 at
-  /// their vertex, 0 at the others, and sum to 1. Those of the pyramid are rational (Bedrosian,
+  /// Values of the shape functions at the point `(r,s,t)` of the reference element. Shape functions are 1 at
+  /// their vertex, 0 at the others, and sum to 1. The shape functions of the pyramid are rational (Bedrosian,
   /// 1992), so that they are linear on the triangular faces, and continuous at the apex.
   static Shape_values shape_functions(double r, double s, double t)
   {

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From the integer lattice of the octree to points: models of `OctreeCellTraits_3`.
+// Conversion from the integer lattice of the octree to points: models of `OctreeCellTraits_3`.
 
 #ifndef CGAL_MIXED_MESH_3_OCTREE_CELL_TRAITS_3_H
 #define CGAL_MIXED_MESH_3_OCTREE_CELL_TRAITS_3_H
@@ -32,8 +32,9 @@ namespace Mixed_meshes_3 {
 
 namespace internal {
 
-// Lattice coordinates shall be exact doubles, so that cells that share a vertex, an edge or a face
-// do so exactly: all are multiples of a power of two that is at least 2^-52 of the largest one.
+// The granularity of lattice coordinates, which shall be exact doubles, so that cells that share a vertex, an
+// edge or a face do so exactly: all coordinates are multiples of a power of two that is at least 2^-52 of the
+// largest one.
 inline double lattice_granularity(double largest_coordinate)
 {
   return std::ldexp(1., std::ilogb(largest_coordinate) - 51);
@@ -55,7 +56,7 @@ inline double lattice_unit(double root_side, double granularity)
 
 \brief Model of `OctreeCellTraits_3`: cells are boxes parallel to the axes.
 
-Every lattice point is an exact double, but where planes are given.
+Every lattice point is an exact double, unless planes are given.
 
 \cgalModels{OctreeCellTraits_3}
 */
@@ -74,7 +75,7 @@ public:
     Point_3 m_center;
 
   public:
-    /// A cell from its box and its center.
+    /// Constructs a cell from its box and its center.
     Cell(const Bbox_3& bbox, const Point_3& center) : m_bbox(bbox), m_center(center) {}
     const Bbox_3& bbox() const { return m_bbox; }
     const Point_3& center() const { return m_center; }
@@ -82,9 +83,9 @@ public:
     bool do_intersect(const Triangle_3& t) const { return CGAL::do_intersect(t, m_bbox); }
   };
 
-  /// An octree around `bbox`.
-  /// \param bbox what to cover. \pre its three extents are positive and finite
-  /// \param root a cube (default) or the box itself
+  /// Constructs an octree around `bbox`.
+  /// \param bbox box to be covered. \pre the three extents of the box are positive and finite
+  /// \param root cube (default) or the box itself
   explicit Axis_aligned_octree_cell_traits_3(const Bbox_3& bbox, Root_cell root = Root_cell::CUBE)
   {
     const double longest = (std::max)({bbox.x_span(), bbox.y_span(), bbox.z_span()});
@@ -100,7 +101,7 @@ public:
     for(int k = 0; k < 3; ++k) {
       const double extent = (bbox.max)(k) - (bbox.min)(k);
       const double center = (bbox.min)(k) + extent / 2;
-      // Without a margin, the rounded root may miss the box by a digit: then take a larger unit.
+      // The rounded root without a margin may miss the box by a digit: a larger unit is taken then.
       for(double side = root == Root_cell::CUBE ? cube_side : extent;; side *= 1 + std::ldexp(1., -18)) {
         m_unit[k] = internal::lattice_unit(side, granularity);
         m_origin[k] = std::floor((center - m_unit[k] * (internal::lattice_root_side / 2)) / granularity)
@@ -112,14 +113,14 @@ public:
   }
 
   /// Planes perpendicular to an axis: their positions on the lattice, from 0 on, and their coordinates; both
-  /// ascend.
+  /// are ascending.
   using Lattice_planes = std::vector<std::pair<std::uint32_t, double>>;
 
-  /// An octree with planes that are given, whose coordinates lattice points in them have exactly; between
-  /// and behind them, cells of a size are the same up to rounding.
+  /// Constructs an octree with given planes, whose coordinates lattice points in the planes have exactly;
+  /// between and behind the planes, cells of a size are the same up to rounding.
   /// \param axes \pre at least two planes for each axis
-  /// \param level of the coarsest cells between the planes
-  /// \param is_uniform whether there shall be no smaller ones
+  /// \param level level of the coarsest cells between the planes
+  /// \param is_uniform whether there shall be no smaller cells
   Axis_aligned_octree_cell_traits_3(const std::array<Lattice_planes, 3>& axes, int level, bool is_uniform)
     : m_planes(axes), m_level_on_surface(level), m_is_uniform(is_uniform)
   {
@@ -131,7 +132,7 @@ public:
     }
   }
 
-  /// Cells of this level and finer ones have all planes that were given; 0 if none were.
+  /// The level from which on cells have all planes that were given; 0 without planes.
   int level_on_surface() const { return m_level_on_surface; }
   /// Whether there shall be no cells smaller than those of `level_on_surface()`.
   bool is_uniform() const { return m_is_uniform; }
@@ -156,7 +157,8 @@ public:
   double length(std::uint32_t side) const { return side * (std::min)({m_unit[0], m_unit[1], m_unit[2]}); }
 
 private:
-  // A function that ascends, so that cells that share a vertex, an edge or a face do so exactly.
+  // The coordinate of a lattice plane, an ascending function, so that cells that share a vertex, an edge or a
+  // face do so exactly.
   double coordinate(int k, std::uint32_t i) const
   {
     const Lattice_planes& planes = m_planes[k];
@@ -202,7 +204,7 @@ public:
     Bbox_3 m_bbox;
 
   public:
-    /// A cell from its vertices, in the order of lattice coordinates, and its center.
+    /// Constructs a cell from its vertices, in the order of lattice coordinates, and its center.
     Cell(const std::array<Point_3, 8>& vertices, const Point_3& center)
       : m_vertices(vertices), m_center(center)
     {
@@ -225,14 +227,14 @@ public:
     }
   };
 
-  /// An octree around a range of points.
-  /// \param points a range of points, of any CGAL kernel, that do not all lie in a plane
-  /// \param axis the direction of the third axis of the cells; not zero
+  /// Constructs an octree around a range of points.
+  /// \param points range of points, of any CGAL kernel, that do not all lie in a plane
+  /// \param axis direction of the third axis of the cells; not zero
   template <class PointRange, class Vector>
   Rotated_octree_cell_traits_3(const PointRange& points, const Vector& axis)
   {
     set_frame(CGAL::to_double(axis.x()), CGAL::to_double(axis.y()), CGAL::to_double(axis.z()));
-    // the extent along the axes, in multiples of 1 / norm
+    // The extent along the axes is in multiples of 1 / norm.
     std::array<double, 3> lower, upper;
     lower.fill(std::numeric_limits<double>::infinity());
     upper.fill(-std::numeric_limits<double>::infinity());

@@ -6,7 +6,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Conjugate gradients with algebraic multigrid of PETSc, in the processes of mpirun. No other header includes
-// this one, which needs PETSc (real numbers) and MPI; the CMake target CGAL::Mixed_mesh_3_petsc has them.
+// this header, which needs PETSc (real numbers) and MPI; the CMake target CGAL::Mixed_mesh_3_petsc has both.
 
 #ifndef CGAL_MIXED_MESH_3_PETSC_SOLVER_TRAITS_H
 #define CGAL_MIXED_MESH_3_PETSC_SOLVER_TRAITS_H
@@ -39,13 +39,14 @@ namespace internal {
 static_assert(!PetscDefined(USE_COMPLEX) && sizeof(PetscScalar) == sizeof(double),
               "PETSc must be one of real numbers in double precision");
 
-/// In a single process; of several, one that cannot go on ends all.
+/// An error of PETSc in a single process; in several processes, a process that cannot go on ends all.
 struct Petsc_error : std::runtime_error
 {
   Petsc_error() : std::runtime_error("PETSc failed") {}
 };
 
-/// Of several processes, one that leaves alone would keep the others waiting.
+/// Calls `f` in one of several processes, and ends all processes if `f` throws: a process that leaves alone
+/// would keep the others waiting.
 template <class F>
 auto together(const F& f)
 {
@@ -66,14 +67,14 @@ inline void check_petsc(PetscErrorCode code)
     throw Petsc_error();
 }
 
-/// What the first process asks the others for.
+/// A command of the first process to the others.
 enum class Petsc_command { FACTOR, SOLVE, RELEASE, END };
 
 struct Petsc_message
 {
   Petsc_command command;
-  int system;         // its number
-  PetscInt size;      // of the matrix
+  int system;         // number of the system
+  PetscInt size;      // size of the matrix
   int block_size;     // unknowns of a node, which one process has
   int number_of_near; // vectors that the matrix nearly maps to zero
   double tolerance;
@@ -93,8 +94,8 @@ inline int petsc_size()
   return size;
 }
 
-/// Sends the message of the first process to all. Those that wait sleep, as the first may have much to do
-/// between.
+/// Sends the message of the first process to all processes. Waiting processes sleep, as the first process may
+/// have much to do between messages.
 inline void share(Petsc_message& message)
 {
   MPI_Request request;
@@ -150,7 +151,7 @@ struct Petsc_rows
   }
 
 private:
-  // Each row gets its columns in ascending order.
+  // Calls `add` for each entry; each row gets its columns in ascending order.
   template <class Add>
   static void for_each_entry(const Eigen::SparseMatrix<double>& lower, PetscInt first, PetscInt last,
                              const Add& add)
@@ -172,19 +173,19 @@ private:
   }
 };
 
-/// A matrix, its rows spread over the processes, and the solver for it. All processes call all functions, in
-/// the same order.
+/// A matrix whose rows are spread over the processes, and the solver for the matrix. All processes call all
+/// functions, in the same order.
 class Petsc_system
 {
   Petsc_message m_message;
-  std::vector<int> m_counts, m_starts; // unknowns of each process
+  std::vector<int> m_counts, m_starts; // numbers of unknowns of each process, and their starts
   Mat m_matrix = nullptr;
   KSP m_solver = nullptr;
   Vec m_right = nullptr, m_solution = nullptr;
 
 public:
-  /// \param lower the lower triangle, and \param near vectors that it nearly maps to zero, orthonormal;
-  /// both of the first process only
+  /// \param lower the lower triangle, and \param near orthonormal vectors that the matrix nearly maps to
+  /// zero; both in the first process only
   Petsc_system(const Petsc_message& message, const Eigen::SparseMatrix<double>* lower,
                const Eigen::MatrixXd* near)
     : m_message(message)
@@ -203,8 +204,8 @@ public:
   Petsc_system& operator=(const Petsc_system&) = delete;
   ~Petsc_system() { release(); }
 
-  /// \param b, x of all unknowns, in the first process only
-  /// \return whether it converged: the same in all processes
+  /// \param b, x vectors of all unknowns, in the first process only
+  /// \return whether the solver converged: the same in all processes
   bool solve(double tolerance, const double* b, double* x, int& number_of_iterations)
   {
     check_petsc(KSPSetTolerances(m_solver, tolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
@@ -220,7 +221,7 @@ public:
   }
 
 private:
-  // Contiguous rows, the unknowns of a node together.
+  // Distributes contiguous rows, the unknowns of a node together.
   void distribute(const Eigen::SparseMatrix<double>* lower)
   {
     const PetscInt nodes = m_message.size / m_message.block_size;
@@ -243,7 +244,7 @@ private:
     check_petsc(MatSetSizes(m_matrix, own, own, m_message.size, m_message.size));
     check_petsc(MatSetBlockSize(m_matrix, m_message.block_size));
     check_petsc(MatSetType(m_matrix, MATAIJ));
-    // one of both is for the type that the matrix has
+    // One of the two calls is for the type that the matrix has.
     check_petsc(
       MatSeqAIJSetPreallocationCSR(m_matrix, rows.starts.data(), rows.columns.data(), rows.values.data()));
     check_petsc(
@@ -276,7 +277,7 @@ private:
     check_petsc(KSPCreate(PETSC_COMM_WORLD, &m_solver));
     check_petsc(KSPSetOperators(m_solver, m_matrix, m_matrix));
     check_petsc(KSPSetType(m_solver, KSPCG));
-    check_petsc(KSPSetNormType(m_solver, KSP_NORM_NATURAL)); // of the error's energy
+    check_petsc(KSPSetNormType(m_solver, KSP_NORM_NATURAL)); // the norm is the energy of the error
     check_petsc(KSPSetTolerances(m_solver, m_message.tolerance, PETSC_DEFAULT, PETSC_DEFAULT,
                                  largest_number_of_iterations));
     PC preconditioner = nullptr;
@@ -321,9 +322,9 @@ private:
 \brief The processes that solve together with `Petsc_solver_traits`: PETSc and MPI, from construction to
 destruction.
 
-The first process runs the program: it has the mesh and the model, reads and writes. The others have nothing
-but their rows of matrices, and wait for work in `serve()` until the session of the first one ends, however
-it ends: by an exception, too. So a program for `mpirun` begins with
+The first process runs the program: it has the mesh and the model, reads and writes. The other processes have
+only their rows of matrices, and wait for work in `serve()` until the session of the first process ends,
+however it ends: by an exception, too. So a program for `mpirun` begins with
 
 \code
 CGAL::Mixed_meshes_3::Petsc_session session;
@@ -333,19 +334,19 @@ if(!session.is_first()) {
 }
 \endcode
 
-and is otherwise what it is without. One process alone, with or without `mpirun`, is as good.
+and is otherwise the same as without `mpirun`. A single process, with or without `mpirun`, works as well.
 
 Options of PETSc are taken from its environment variable `PETSC_OPTIONS`; one of them,
-`-mg_levels_ksp_max_it`, is 3 where PETSc would have 2. Signals are left alone. If PETSc
-fails in one of several processes, for want of memory for example, all of them end, with PETSc's message and
-another status than zero, as the others would wait forever. PETSc can be started once in a process.
+`-mg_levels_ksp_max_it`, is 3 where PETSc would have 2. Signals are left alone. If PETSc fails in one of
+several processes, for want of memory for example, all processes end, with PETSc's message and a status other
+than zero, as the others would wait forever. PETSc can be started once in a process.
 
-\pre there is one at a time, and it outlives all solvers
+\pre there is one session at a time, and the session outlives all solvers
 */
 class Petsc_session
 {
 public:
-  /// Starts MPI and PETSc. \throw std::runtime_error if that is not possible
+  /// Starts MPI and PETSc. \throw std::runtime_error if they cannot be started
   Petsc_session()
   {
     if(PetscInitializeNoArguments() != 0)
@@ -353,7 +354,8 @@ public:
     PetscPopSignalHandler();
     PetscPushErrorHandler(number_of_processes() == 1 ? PetscReturnErrorHandler : PetscMPIAbortErrorHandler,
                           nullptr);
-    // As fast on solids as PETSc's own 2, with fewer iterations, and so fewer sums over all processes.
+    // The value is as fast on solids as PETSc's own 2, with fewer iterations, and so fewer sums over all
+    // processes.
     const char* const smoothing_steps = "-mg_levels_ksp_max_it";
     PetscBool is_set = PETSC_FALSE;
     PetscOptionsHasName(nullptr, nullptr, smoothing_steps, &is_set);
@@ -361,12 +363,12 @@ public:
       PetscOptionsSetValue(nullptr, smoothing_steps, "3");
   }
 
-  /// There is one at a time.
+  /// Deleted: there is one session at a time.
   Petsc_session(const Petsc_session&) = delete;
-  /// There is one at a time.
+  /// Deleted: there is one session at a time.
   Petsc_session& operator=(const Petsc_session&) = delete;
 
-  /// Ends the other processes' `serve()`, too.
+  /// Ends the session, and the other processes' `serve()`, too.
   ~Petsc_session()
   {
     if(is_first()) {
@@ -380,10 +382,10 @@ public:
   /// Whether this process is the one that runs the program.
   bool is_first() const { return internal::petsc_rank() == 0; }
 
-  /// How many there are.
+  /// The number of processes.
   int number_of_processes() const { return internal::petsc_size(); }
 
-  /// Solves with the first process, until that ends its session. \pre it is another one
+  /// Solves with the first process, until that ends its session. \pre this process is not the first one
   void serve()
   {
     CGAL_precondition(!is_first());
@@ -414,16 +416,16 @@ public:
 \brief Solves symmetric positive definite systems with conjugate gradients of PETSc, preconditioned by its
 algebraic multigrid GAMG (smoothed aggregation), in all processes of a `Petsc_session`.
 
-For systems that no direct solver can factor: memory and time are linear in the number of unknowns, where the
-factor of a million vertices of a solid has thousands of entries a vertex. For small ones, and for many
-right-hand sides, direct solvers are faster.
+The solver is for systems that no direct solver can factor: memory and time are linear in the number of
+unknowns, where the factor of a million vertices of a solid has thousands of entries for each vertex. Direct
+solvers are faster for small systems, and for many right-hand sides.
 
 `factor()` gives each process a contiguous part of the rows, and sets up the preconditioner; it does not find
 out whether the matrix is positive definite, unless the diagonal tells. `linear_solver()` iterates until the
-energy norm of the error, as the preconditioner estimates it, is `tolerance()` times what it was at first.
-Solutions differ by so much with the number of processes; with the same number, they are the same.
+energy norm of the error, as the preconditioner estimates it, is `tolerance()` times the initial one.
+Solutions differ by as much with the number of processes; with the same number, solutions are the same.
 
-As with `Symmetric_solver_traits`, a copy is the same solver. PETSc's options apply (`-pc_type`,
+A copy is the same solver, as with `Symmetric_solver_traits`. PETSc's options apply (`-pc_type`,
 `-pc_gamg_threshold`, `-ksp_monitor`), by the environment variable `PETSC_OPTIONS`.
 
 \cgalModels{SparseLinearAlgebraWithFactorTraits_d}
@@ -432,7 +434,7 @@ As with `Symmetric_solver_traits`, a copy is the same solver. PETSc's options ap
 
 \par Complexity
 Linear, for each iteration and for the preconditioner. The number of iterations grows slowly, if at all, with
-that of the unknowns; it grows with Poisson's ratio. Memory: see the manual of Linear_elasticity_3.
+the number of unknowns; it grows with Poisson's ratio. Memory: see the manual of Linear_elasticity_3.
 */
 class Petsc_solver_traits
 {
@@ -444,20 +446,20 @@ public:
   /// The lower triangle of a symmetric matrix; the upper one is ignored.
   using Matrix = Simplicial_solver_traits::Matrix;
 
-  /// How exact solutions are: energy norm of the error, relative. Default: 1e-10.
+  /// The accuracy of solutions: energy norm of the error, relative. Default: 1e-10.
   double tolerance() const { return m_state->tolerance; }
-  /// Sets it, for the next solutions. \pre positive
+  /// Sets the tolerance for the next solutions. \pre `tolerance` is positive
   void set_tolerance(double tolerance)
   {
     CGAL_precondition(tolerance > 0);
     m_state->tolerance = tolerance;
   }
 
-  /// What the preconditioner needs to know of elasticity, for the next `factor()`: the coarse unknowns of
-  /// multigrid can represent these vectors. An optional member of solvers: `Linear_elasticity_3` calls it, if
-  /// there is one, with the rigid motions.
+  /// Sets the vectors that the coarse unknowns of multigrid have to represent, for the next `factor()`,
+  /// because the preconditioner needs them for elasticity. The function is an optional member of solvers:
+  /// `Linear_elasticity_3` calls it, if there is one, with the rigid motions.
   /// \param vectors columns that the matrix nearly maps to zero; they need not be independent
-  /// \param block_size how many unknowns, in a row, are those of one vertex
+  /// \param block_size number of consecutive unknowns that belong to one vertex
   void set_near_kernel(Eigen::MatrixXd vectors, int block_size)
   {
     m_state->near_kernel = orthonormal(std::move(vectors));
@@ -465,7 +467,7 @@ public:
   }
 
   /// Sets up the preconditioner.
-  /// \param matrix is not needed any more when the function returns
+  /// \param matrix matrix, which is not needed any more when the function returns
   /// \param denominator set to 1
   /// \return false if the diagonal is not positive, a number not finite, or PETSc fails
   bool factor(const Matrix& matrix, NT& denominator)
@@ -476,8 +478,8 @@ public:
 
   /// Solves with the matrix given to `factor()`.
   /// \param b the right-hand side
-  /// \param x the solution; what it was does not matter
-  /// \return whether it converged, within 1,000 iterations
+  /// \param x the solution; its value on entry does not matter
+  /// \return whether the solver converged, within 1,000 iterations
   bool linear_solver(const Vector& b, Vector& x) { return m_state->solve(b, x); }
 
   /// Sets up the preconditioner, then solves for one right-hand side.
@@ -486,23 +488,23 @@ public:
     return factor(a, denominator) && linear_solver(b, x);
   }
 
-  /// Of the last solution.
+  /// The number of iterations of the last solution.
   int number_of_iterations() const { return m_state->iterations; }
-  /// Of the solution that took most, of those since `factor()`.
+  /// The largest number of iterations of a solution since `factor()`.
   int largest_number_of_iterations() const { return m_state->most_iterations; }
 
-  /// Of the `Petsc_session`.
+  /// The number of processes of the `Petsc_session`.
   int number_of_processes() const { return internal::petsc_size(); }
 
 private:
   static Eigen::MatrixXd orthonormal(Eigen::MatrixXd vectors)
   {
-    constexpr double dependent = 1e-8; // what is left of a vector, relative
+    constexpr double dependent = 1e-8; // relative length of the rest of a dependent vector
     Eigen::Index n = 0;
     for(Eigen::Index c = 0; c < vectors.cols(); ++c) {
       Eigen::VectorXd v = vectors.col(c);
       const double length = v.norm();
-      for(int pass = 0; pass < 2; ++pass) // once more, as rounding errors are left
+      for(int pass = 0; pass < 2; ++pass) // a second pass, as rounding errors are left
         for(Eigen::Index i = 0; i < n; ++i)
           v -= vectors.col(i).dot(v) * vectors.col(i);
       if(v.norm() > dependent * length)
@@ -526,7 +528,7 @@ private:
       release();
       most_iterations = 0;
       const PetscInt n = PetscInt(lower.cols());
-      // What is amiss is found here, as it would end several processes.
+      // Invalid input is detected here, because it would end several processes.
       for(PetscInt j = 0; j < n; ++j)
         if(!(lower.coeff(j, j) > 0))
           return false;
@@ -534,7 +536,7 @@ private:
         if(!std::isfinite(lower.valuePtr()[k]))
           return false;
       const bool has_kernel = near_kernel.rows() == n && n % block_size == 0;
-      static int last_number = 0; // processes tell systems by it
+      static int last_number = 0; // number by which processes identify systems
       number = ++last_number;
       internal::Petsc_message message{
         internal::Petsc_command::FACTOR,          number,   n, has_kernel ? block_size : 1,
@@ -543,7 +545,7 @@ private:
       try {
         internal::together(
           [&] { system = std::make_unique<internal::Petsc_system>(message, &lower, &near_kernel); });
-      } catch(const internal::Petsc_error&) { // the only process there is
+      } catch(const internal::Petsc_error&) { // error of the only process
         return false;
       }
       return true;
@@ -553,7 +555,7 @@ private:
     {
       CGAL_precondition(system != nullptr);
       internal::Petsc_message message{internal::Petsc_command::SOLVE, number, 0, 0, 0, tolerance};
-      x.eigen_object().resize(b.size()); // what fails now keeps nobody waiting
+      x.eigen_object().resize(b.size()); // so that a failure from here on keeps no process waiting
       internal::share(message);
       try {
         const bool is_solved = internal::together(

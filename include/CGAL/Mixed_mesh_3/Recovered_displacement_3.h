@@ -30,24 +30,25 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /// \ingroup PkgMixedMesh3Fields
-/// How displacements between vertices are made from those of the vertices.
+/// The way in which displacements between vertices are computed from the displacements of the vertices.
 enum class Displacement_interpolation {
-  LINEAR,   ///< by the shape functions of the elements
-  RECOVERED ///< by these, and by the gradients of the displacement: see `Recovered_displacement_3`
+  LINEAR,   ///< shape functions of the elements
+  RECOVERED ///< shape functions and gradients of the displacement: see `Recovered_displacement_3`
 };
 
 /// \ingroup PkgMixedMesh3Fields
-/// How the gradient at a vertex is made.
+/// The way in which the gradient at a vertex is computed.
 enum class Gradient_recovery {
   AVERAGE, ///< mean of the elements' gradients at their centers, weighted by volume
-  /// That of the polynomial of degree 2 that fits the vertices around by least squares; `AVERAGE` if these do
-  /// not determine it. Exact for quadratic displacements.
+  /// The gradient of the polynomial of degree 2 that fits the vertices around by least squares; `AVERAGE` if
+  /// the vertices do not determine the polynomial. Exact for quadratic displacements.
   LEAST_SQUARES
 };
 
 namespace internal {
 
-// Where elements are tested for orientation: vertices, middles of edges, center. Not at a pyramid's apex.
+// Points where the orientation of elements is tested: vertices, middles of edges, center, but not a pyramid's
+// apex.
 template <Element_kind Kind, class F>
 bool all_of_test_points(const F& f)
 {
@@ -81,26 +82,25 @@ bool all_of_test_points(const F& f)
 \f[ u(x) = \sum_i N_i(x) \left( u_i + \frac12 G_i (x - x_i) \right) \f]
 
 with the shape functions \f$ N_i \f$ of the element and gradients \f$ G_i \f$ of the displacement at the
-vertices, which are recovered from the displacements of the vertices around. The field is continuous, it
-has the displacements given at the vertices, is linear where these are, and quadratic where these are and
-the gradients are exact.
-No unknown is added. See D. Kraaijpoel, T. van Leeuwen: "Raising the order of multivariate approximation
-schemes using supplementary derivative data", Procedia Computer Science 1, 2010.
+vertices, which are recovered from the displacements of the vertices around. The field is continuous, has the
+given displacements at the vertices, is linear where these are linear, and quadratic where these are quadratic
+and the gradients are exact. No unknown is added. See D. Kraaijpoel, T. van Leeuwen: "Raising the order of
+multivariate approximation schemes using supplementary derivative data", Procedia Computer Science 1, 2010.
 
-As \f$ \sum_i N_i x_i = x \f$, this is a sum over pairs of the element's vertices,
+The formula is a sum over pairs of the element's vertices, as \f$ \sum_i N_i x_i = x \f$,
 
 \f[ u(x) = \sum_i N_i u_i + \sum_{i<j} N_i N_j b_{ij}, \qquad b_{ij} = \frac12 (G_i - G_j) (x_j - x_i), \f]
 
 and so are the exceptions to the formula; all of them keep the field continuous, and linear fields linear:
 
 - *Subdomains* (see `Element_attributes`) may be of different stiffness, and the gradient jumps then. So a
-  vertex has a gradient for each subdomain around it, and the pair has the mean of its \f$ b_{ij} \f$ in the
-  subdomains that both vertices have.
+vertex has a gradient for each subdomain around it, and a pair has the mean of its \f$ b_{ij} \f$ in the
+subdomains that both vertices have.
 - *Removed elements* do not count.
-- *Orientation*: where an element would nearly be turned inside out by the field, pairs of its vertices
-  have \f$ b_{ij} = 0 \f$. That is where at a vertex, the middle of an edge or the center the determinant of
-  \f$ I + \nabla u \f$ is less than a quarter of what it is with shape functions only, which leaves room
-  for what happens between these points.
+- *Orientation*: where the field would nearly turn an element inside out, pairs of its vertices have \f$
+b_{ij} = 0 \f$. The criterion is that at a vertex, the middle of an edge or the center the determinant of \f$
+I + \nabla u \f$ is less than a quarter of its value with shape functions only, which leaves room for other
+places between these points.
 
 The mesh must outlive the object and not change.
 
@@ -118,7 +118,7 @@ private:
   std::vector<Vec3> m_displacements;
   std::vector<bool> m_is_removed;
   internal::Vertex_gradients m_gradients;
-  std::vector<bool> m_is_linear; // vertices: pairs of them have no bubble
+  std::vector<bool> m_is_linear; // vertices: a pair of them has no bubble
   std::size_t m_number_of_linear_elements = 0;
 
   template <class Displacements>
@@ -134,7 +134,7 @@ private:
 
   Vec3 position(Vertex_index v) const { return to_vec3(m_mesh->point(v)); }
 
-  // b_ij for any two vertices.
+  // The bubble b_ij of any two vertices.
   Vec3 bubble(Vertex_index v, Vertex_index w) const
   {
     Vec3 sum{};
@@ -157,7 +157,7 @@ private:
     return n == 0 ? sum : (0.5 / n) * sum;
   }
 
-  // Whether the element keeps its orientation where it is tested.
+  // Whether the element keeps its orientation at the test points.
   bool is_oriented(const Element_view& element) const
   {
     Vec3 before[8], after[8];
@@ -178,7 +178,8 @@ private:
     });
   }
 
-  // Bubbles that are taken from an element are also missing in its neighbors: again, until all is well.
+  // Finds elements without bubbles. Bubbles that are removed from an element are also missing in its
+  // neighbors, so the test is repeated until all elements are oriented.
   void find_linear_elements()
   {
     std::vector<bool> is_linear(m_mesh->number_of_elements(), false);
@@ -199,13 +200,13 @@ public:
   Recovers the gradients.
 
   \param mesh the mesh, before the displacement
-  \param displacements a vector for each vertex, with components `[0]`, `[1]`, `[2]`; those of vertices that
-         only removed elements have do not matter
+  \param displacements vector for each vertex, with components `[0]`, `[1]`, `[2]`; displacements of vertices
+  of removed elements only do not matter
   \param removed_elements true for each element that has been removed; empty: none
-  \param recovery how gradients are made
-  \pre a displacement for each vertex; `removed_elements` is empty or has a value for each element
+  \param recovery way in which gradients are computed
+  \pre there is a displacement for each vertex; `removed_elements` is empty or has a value for each element
   \par Complexity
-  Linear in the number of elements, if vertices have boundedly many
+  Linear in the number of elements, if the number of elements at a vertex is bounded
   */
   template <class Displacements>
   Recovered_displacement_3(const Mesh& mesh, const Displacements& displacements,
@@ -221,7 +222,7 @@ public:
     find_linear_elements();
   }
 
-  /// The displacement at a point of an element. Also of the boundary's point nearest to one outside.
+  /// The displacement at a point of an element, or at the boundary's point nearest to a point outside.
   Vec3 operator()(const Element_location_3& location) const
   {
     const Element_view element = m_mesh->element(location.element);
@@ -236,7 +237,8 @@ public:
     return u;
   }
 
-  /// Its gradient there. It jumps between elements. \pre not the apex of a pyramid
+  /// The gradient at a point of an element; the gradient jumps between elements. \pre not the apex of a
+  /// pyramid
   Gradient gradient(const Element_location_3& location) const
   {
     const Element_view element = m_mesh->element(location.element);
@@ -258,13 +260,14 @@ public:
   const Mesh& mesh() const { return *m_mesh; }
   /// Displacements of the vertices.
   const std::vector<Vec3>& displacements() const { return m_displacements; }
-  /// Whether the element is left out.
+  /// Whether the element is removed.
   bool is_removed(Element_index e) const { return !m_is_removed.empty() && m_is_removed[e]; }
-  /// Elements in which the displacement is that of the shape functions, or they would be turned inside out.
+  /// The number of elements with the displacement of the shape functions, because they would be turned inside
+  /// out.
   std::size_t number_of_linear_elements() const { return m_number_of_linear_elements; }
 
   /// \cond INTERNAL
-  // None if the displacement is that of the shape functions.
+  // The bubbles of an element; none if the displacement is that of the shape functions.
   std::optional<internal::Bubbles> bubbles(const Element_view& element) const
   {
     internal::Bubbles b{};

@@ -26,8 +26,8 @@ namespace Mixed_meshes_3 {
 
 \brief The reciprocal of the scaled Jacobian as the cost of an element.
 
-Angles alone count: a hexahedron with right angles has the cost 1 whatever its lengths, and the warp of
-faces counts only by the angles at its corners. See `scaled_jacobian`.
+Only angles count: a hexahedron with right angles has the cost 1 for any edge lengths, and the warp of faces
+counts only by the angles at its corners. See `scaled_jacobian`.
 
 \cgalModels{MixedMeshQuality_3}
 */
@@ -37,12 +37,12 @@ class Scaled_jacobian_quality_3
 
   double m_acceptable;
 
-  // The determinant of three edges over their lengths, in the ideal elements: all edges are equal.
+  // The determinant of three edges divided by their lengths, in the ideal elements: all edges are equal.
   static constexpr double ideal[] = {0.70710678118654752, 0.5, 0.86602540378443865, 1};
   static_assert(std::size(ideal) == number_of_element_kinds, "a value for each kind");
 
 public:
-  /// \param acceptable costs above it make Algorithm 1 stiffen an element; 5 is a scaled Jacobian of 0.2
+  /// \param acceptable cost above which Algorithm 1 stiffens an element; 5 is a scaled Jacobian of 0.2
   explicit Scaled_jacobian_quality_3(double acceptable = 5) : m_acceptable(acceptable) {}
 
   bool is_acceptable(double cost) const { return cost <= m_acceptable; }
@@ -65,10 +65,10 @@ public:
   }
 
 private:
-  // Three edges from a vertex, the first one; positive if they are right-handed in that order.
+  // The three edges from a vertex, which is the first one; positive if they are right-handed in that order.
   struct Corner
   {
-    double value; // their determinant over their lengths
+    double value; // determinant of the edges divided by their lengths
     std::array<int, 4> vertices;
   };
 
@@ -102,14 +102,14 @@ private:
     return smallest;
   }
 
-  // Of the value of a corner.
+  // The logarithmic gradient of the value of a corner.
   static Vec3 logarithmic_gradient(const Corner& corner, const Points& p, int v)
   {
     using namespace internal;
     const auto& k = corner.vertices;
     const Vec3 edges[3] = {p[k[1]] - p[k[0]], p[k[2]] - p[k[0]], p[k[3]] - p[k[0]]};
     const double six_volumes = determinant(edges[0], edges[1], edges[2]);
-    Vec3 sum{}; // of the gradients by the ends of the edges
+    Vec3 sum{}; // sum of the gradients by the ends of the edges
     for(int i = 0; i < 3; ++i) {
       const Vec3 gradient = (1 / six_volumes) * cross(edges[(i + 1) % 3], edges[(i + 2) % 3])
                             - (1 / dot(edges[i], edges[i])) * edges[i];

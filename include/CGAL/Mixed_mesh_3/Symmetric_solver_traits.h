@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Sparse solvers of Eigen and, if `CGAL_MIXED_MESH_3_USE_CHOLMOD` is defined, of SuiteSparse. The macro is
-// the user's word that the program is linked with CHOLMOD; the CMake target gives it if CHOLMOD was found.
+// Sparse solvers of Eigen and, if `CGAL_MIXED_MESH_3_USE_CHOLMOD` is defined, of SuiteSparse. The user
+// defines the macro if the program is linked with CHOLMOD; the CMake target defines it if CHOLMOD was found.
 
 #ifndef CGAL_MIXED_MESH_3_SYMMETRIC_SOLVER_TRAITS_H
 #define CGAL_MIXED_MESH_3_SYMMETRIC_SOLVER_TRAITS_H
@@ -39,11 +39,11 @@ namespace Mixed_meshes_3 {
 
 \brief Solves symmetric positive definite systems with a solver of Eigen.
 
-Where `CGAL::Eigen_solver_traits` starts again at each `factor()`, this class keeps the symbolic factorization
-as long as the pattern of the matrix is the same. An iterative solver starts from the `X` that it is given.
+The class keeps the symbolic factorization as long as the pattern of the matrix is the same, where
+`CGAL::Eigen_solver_traits` starts again at each `factor()`. An iterative solver starts from the given `X`.
 
-Solvers of Eigen cannot be copied. As with `CGAL::Eigen_solver_traits`, a copy is the same solver: the matrix
-that was factored last, by any of them, is that of all.
+Solvers of Eigen cannot be copied. A copy is the same solver, as with `CGAL::Eigen_solver_traits`: the matrix
+that was factored last, by any of the copies, is the matrix of all.
 
 \cgalModels{SparseLinearAlgebraWithFactorTraits_d}
 
@@ -62,11 +62,11 @@ public:
   /// The lower triangle of a symmetric matrix; the upper one is ignored.
   struct Matrix : CGAL::Eigen_sparse_symmetric_matrix<double>
   {
-    /// The matrix of CGAL that this one adds a constructor to.
+    /// The matrix of CGAL, the base of this class, which adds a constructor.
     using Base = CGAL::Eigen_sparse_symmetric_matrix<double>;
     using Base::Base;
 
-    /// The lower triangle in compressed columns, rows ascending.
+    /// Constructs a matrix from the lower triangle in compressed columns, rows ascending.
     Matrix(const std::vector<int>& starts, const std::vector<int>& rows, const std::vector<double>& values)
       : Base(int(starts.size() - 1))
     {
@@ -80,8 +80,8 @@ public:
   /// Eigen's solver, to set its parameters.
   EigenSolver& solver() { return m_state->solver; }
 
-  /// \param matrix must live as long as systems are solved with it
-  /// \param denominator set to 1
+  /// \param matrix matrix, which must live as long as systems are solved with it
+  /// \param denominator number that is set to 1
   /// \return whether the matrix is positive definite
   /// \throw std::bad_alloc if there is no memory for the factor, or if it has more entries than the solver's
   /// indices can count
@@ -106,7 +106,7 @@ public:
 
   /// Solves with the matrix given to `factor()`.
   /// \param b the right-hand side
-  /// \param x the solution; a guess of it on entry, if it has the dimension of `b`
+  /// \param x the solution; a first guess on entry, if it has the dimension of `b`
   bool linear_solver(const Vector& b, Vector& x)
   {
     CGAL_precondition(!m_state->starts.empty());
@@ -118,7 +118,8 @@ public:
     return solver().info() == Eigen::Success;
   }
 
-  /// Solves for several right-hand sides at once, the columns of `b`, which is faster than one by one.
+  /// Solves for several right-hand sides at once, the columns of `b`, which is faster than solving one by
+  /// one.
   bool linear_solver(const Eigen::MatrixXd& b, Eigen::MatrixXd& x)
   {
     CGAL_precondition(!m_state->starts.empty());
@@ -139,14 +140,14 @@ private:
   struct State
   {
     EigenSolver solver;
-    std::vector<int> starts, rows; // the pattern that it has analyzed
+    std::vector<int> starts, rows; // the pattern that has been analyzed
   };
 
   std::shared_ptr<State> m_state = std::make_shared<State>();
 };
 
 /// \ingroup PkgMixedMesh3Solvers
-/// Conjugate gradients with Jacobi's preconditioner. The fastest where few layers of vertices move.
+/// Conjugate gradients with Jacobi's preconditioner. The fastest solver where few layers of vertices move.
 using Conjugate_gradient_solver_traits =
   Symmetric_solver_traits<Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower>>;
 
@@ -157,7 +158,7 @@ using Simplicial_solver_traits = Symmetric_solver_traits<Eigen::SimplicialLDLT<E
 #ifdef CGAL_MIXED_MESH_3_USE_CHOLMOD
 namespace internal {
 
-// Says nothing: a matrix that is not positive definite is told by the status.
+// CHOLMOD without messages: the status tells whether a matrix is positive definite.
 class Quiet_cholmod : public Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>
 {
   using Base = Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>;
@@ -178,7 +179,8 @@ public:
   }
 
 private:
-  // Eigen would go on with a factor that is not there, or has more entries than its indices can count.
+  // Throws if there is no factor, or if the factor has more entries than its indices can count; Eigen would
+  // go on.
   void check_memory()
   {
     if(this->cholmod().status == CHOLMOD_OUT_OF_MEMORY || this->cholmod().status == CHOLMOD_TOO_LARGE)
@@ -192,7 +194,7 @@ private:
 /// The supernodal factorization of CHOLMOD. The fastest direct solver for large systems, with a good BLAS.
 using Cholmod_solver_traits = Symmetric_solver_traits<internal::Quiet_cholmod>;
 /// \ingroup PkgMixedMesh3Solvers
-/// The fastest direct solver there is.
+/// The fastest direct solver that is available.
 using Direct_solver_traits = Cholmod_solver_traits;
 #else
 using Direct_solver_traits = Simplicial_solver_traits;
@@ -210,7 +212,7 @@ struct Solve_columns
   }
 };
 
-/// Solves for the columns of `b`: at once if the solver can, else one by one.
+/// Solves for the columns of `b`: at once if the solver is able to, else one by one.
 template <class Solver>
 bool solve_columns(Solver& solver, const Eigen::MatrixXd& b, Eigen::MatrixXd& x)
 {

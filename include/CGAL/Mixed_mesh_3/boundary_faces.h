@@ -25,10 +25,10 @@ namespace Mixed_meshes_3 {
 /// \ingroup PkgMixedMesh3Validity
 /// The faces that belong to one element only, in the order of the elements.
 /// \param mesh the mesh
-/// \param is_candidate `bool(Vertex_index)`: looks at faces all of whose vertices satisfy it only;
-///        faster if few do
+/// \param is_candidate `bool(Vertex_index)`: looks only at faces all of whose vertices are candidates; faster
+/// if few vertices are
 /// \par Complexity
-/// Linear in the number of elements, if vertices have boundedly many
+/// Linear in the number of elements, if the number of elements at a vertex is bounded
 template <class Mesh, class Is_candidate>
 std::vector<Face> boundary_faces(const Mesh& mesh, const Is_candidate& is_candidate)
 {
@@ -42,7 +42,7 @@ std::vector<Face> boundary_faces(const Mesh& mesh, const Is_candidate& is_candid
 }
 
 /// \ingroup PkgMixedMesh3Validity
-/// As above, looking at all faces.
+/// Overload for all faces.
 template <class Mesh>
 std::vector<Face> boundary_faces(const Mesh& mesh)
 {
@@ -70,7 +70,7 @@ std::vector<Vertex_index> boundary_vertices(const Mesh& mesh)
 }
 
 /// \ingroup PkgMixedMesh3Validity
-/// The integral of the normal of unit length over a face, outwards: its length is the area of a planar face.
+/// The integral of the unit normal over a face, outwards: its length is the area of a planar face.
 template <class Mesh>
 Vec3 vector_area(const Mesh& mesh, const Face& face)
 {
@@ -81,7 +81,7 @@ Vec3 vector_area(const Mesh& mesh, const Face& face)
 }
 
 /// \ingroup PkgMixedMesh3Validity
-/// The area of a face; of a quadrilateral, the mean of its two triangulations.
+/// The area of a face; for a quadrilateral, the mean of its two triangulations.
 template <class Mesh>
 double area(const Mesh& mesh, const Face& face)
 {

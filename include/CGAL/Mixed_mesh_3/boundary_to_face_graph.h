@@ -29,7 +29,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Some elements of a mesh, with the numbers of its vertices: as much of a mesh as `boundary_faces()` needs.
+/// Some elements of a mesh, with the numbers of its vertices: the part of a mesh that `boundary_faces()`
+/// needs.
 struct Elements_of_subdomain
 {
   Element_list list;
@@ -86,14 +87,14 @@ bool boundary_to_face_graph(const Mesh& mesh, std::optional<Subdomain_index> ind
 
 \brief Adds the boundary of a mesh to a surface mesh.
 
-Its faces are triangles and quadrilaterals, oriented outwards. Vertices are those of the boundary, in the
+The faces are triangles and quadrilaterals, oriented outwards. The vertices are those of the boundary, in the
 order in which its faces have them.
 
 \tparam GeomTraits a model of `MixedMeshTraits_3`
 \tparam FaceGraph a model of `MutableFaceGraph`
 \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
 \param mesh a conforming mesh
-\param graph the boundary is added to it
+\param graph graph to which the boundary is added
 \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those below
 
 \cgalNamedParamsBegin
@@ -118,8 +119,8 @@ bool boundary_to_face_graph(const Mixed_mesh_3<GeomTraits>& mesh, FaceGraph& gra
 /*!
 \ingroup PkgMixedMesh3Validity
 
-As above, the boundary of one subdomain: oriented outwards, interfaces to other subdomains included. Nothing
-is added if no element has the label.
+Overload for the boundary of one subdomain: oriented outwards, interfaces to other subdomains included.
+Nothing is added if no element has the label.
 */
 template <class GeomTraits, class FaceGraph, class NamedParameters = parameters::Default_named_parameters>
 bool boundary_to_face_graph(const Mixed_mesh_3<GeomTraits>& mesh, Mixed_meshes_3::Subdomain_index index,

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From CGAL's Mesh_3.
+// Conversion of meshes of CGAL's Mesh_3.
 
 #ifndef CGAL_MIXED_MESH_3_CELLS_IN_COMPLEX_3_TO_MIXED_MESH_H
 #define CGAL_MIXED_MESH_3_CELLS_IN_COMPLEX_3_TO_MIXED_MESH_H
@@ -26,11 +26,11 @@ namespace CGAL {
 
 \brief Makes a mixed mesh of the tetrahedra of a complex, such as `make_mesh_3()` returns.
 
-What takes a `Mixed_mesh_3` can so be used for meshes of Mesh_3 and of Tetrahedral Remeshing:
+Functions of `Mixed_mesh_3` can then be used for meshes of Mesh_3 and of Tetrahedral Remeshing:
 `optimize_mixed_mesh_3()`, `find_defects()`, `jacobian_sign()`, elasticity, writers. Vertices are those of
 tetrahedra in the complex, in the order in which these have them, and lose their weights. The subdomain of a
-tetrahedron is its subdomain index in the complex if that is a positive integer, else 1; none is in the
-region.
+tetrahedron is its subdomain index in the complex if that is a positive integer, else 1; no tetrahedron is in
+the region.
 
 \tparam C3t3 a model of `MeshComplex_3InTriangulation_3`
 \tparam GeomTraits a model of `MixedMeshTraits_3`

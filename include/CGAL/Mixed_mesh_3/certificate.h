@@ -5,9 +5,9 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The proof that an element is not inverted anywhere: its Jacobian is positive on the whole element, not
-// at corners only. Bernstein coefficients bound a polynomial; where their signs do not decide, the domain
-// is subdivided. Interval arithmetic first, exact rationals when it is undecided.
+// The proof that an element is not inverted anywhere: its Jacobian is positive on the whole element, not at
+// corners only. Bernstein coefficients bound a polynomial; where their signs do not decide, the domain is
+// subdivided. Interval arithmetic comes first, exact rationals follow if it is undecided.
 
 #ifndef CGAL_MIXED_MESH_3_CERTIFICATE_H
 #define CGAL_MIXED_MESH_3_CERTIFICATE_H
@@ -32,23 +32,23 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /// \ingroup PkgMixedMesh3Validity
-/// What is known of the sign of the Jacobian of an element.
+/// The result of a test of the sign of the Jacobian of an element.
 enum class Jacobian_sign : std::uint8_t {
   POSITIVE,     ///< proved positive on the whole element
   NOT_POSITIVE, ///< zero or negative somewhere, proved
-  UNDECIDED     ///< its minimum is so near to zero that subdivision did not decide
+  UNDECIDED     ///< the minimum is so near to zero that subdivision did not decide
 };
 
 namespace internal {
 
 /*!
-A polynomial on the unit cube by its Bernstein coefficients: of degree 2 in each direction that it depends
-on, of degree 0 in the others.
+A polynomial on the unit cube by its Bernstein coefficients: of degree 2 in each direction that the polynomial
+depends on, of degree 0 in the others.
 */
 template <class NT>
 class Bernstein_polynomial
 {
-  std::array<NT, 27> m_coefficients; // those of degree 0 in a direction have index 0 there
+  std::array<NT, 27> m_coefficients; // index 0 in directions of degree 0
   std::array<int, 3> m_degrees;
 
   static constexpr int index(int i, int j, int k) { return i + 3 * j + 9 * k; }
@@ -56,7 +56,7 @@ class Bernstein_polynomial
 public:
   explicit Bernstein_polynomial(const std::array<int, 3>& degrees) : m_degrees(degrees)
   {
-    for(int i = 0; i <= degrees[0]; ++i) // the others are never read
+    for(int i = 0; i <= degrees[0]; ++i) // other coefficients are never read
       for(int j = 0; j <= degrees[1]; ++j)
         for(int k = 0; k <= degrees[2]; ++k)
           (*this)(i, j, k) = NT(0);
@@ -65,7 +65,7 @@ public:
   NT& operator()(int i, int j, int k) { return m_coefficients[index(i, j, k)]; }
   const NT& operator()(int i, int j, int k) const { return m_coefficients[index(i, j, k)]; }
 
-  /// The sign on the closed cube. The polynomial lies between its coefficients; those at the corners
+  /// The sign on the closed cube. The polynomial lies between its coefficients; coefficients at the corners
   /// are values.
   Jacobian_sign sign(int subdivisions) const
   {
@@ -97,7 +97,7 @@ public:
     return second == Jacobian_sign::POSITIVE ? first : second;
   }
 
-  /// A lower bound; \pre all coefficients of the degrees are given
+  /// A lower bound of the polynomial. \pre all coefficients of the degrees are given
   NT smallest_coefficient() const
   {
     NT smallest = m_coefficients[0];
@@ -149,15 +149,15 @@ NT scalar_product(const Vector<NT>& a, const Vector<NT>& b)
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// The product of two linear Bernstein polynomials i and j is the quadratic one i + j, times this.
+// The weight by which the product of two linear Bernstein polynomials i and j is the quadratic one i + j.
 inline double product_weight(int i_plus_j) { return i_plus_j == 1 ? 0.5 : 1; }
 
 /*!
 Calls `f(polynomial)` for polynomials on the unit cube that are positive iff the Jacobian of the element is.
 
 - hexahedron: the Jacobian itself, of degree (2, 2, 2);
-- prism: it is linear in the triangle's coordinates, hence positive iff it is along the three edges between
-  the triangles, where it is quadratic;
+- prism: the Jacobian is linear in the triangle's coordinates, hence positive iff it is positive along the
+three edges between the triangles, where it is quadratic;
 - pyramid: with the base \f$ B(u, v) \f$ and the apex \f$ a \f$, the Jacobian of the rational shape functions
   on the line from \f$ B(u, v) \f$ to the apex is \f$ det(B_u, B_v, a - B) \f$, of degree (2, 2).
 */
@@ -249,16 +249,16 @@ Jacobian_sign jacobian_sign_with(Element_kind kind, const std::array<std::array<
   return sign;
 }
 
-// Doubles with a bound on their error: decides all but the worst elements. A coefficient is a mean of
-// determinants of differences of coordinates, each at most `largest`: it is a sum of 6 products, with an
-// error of less than 16 roundings each.
+// Whether doubles with a bound on their error prove the sign, as for all but the worst elements. A
+// coefficient is a mean of determinants of differences of coordinates, each at most `largest`: it is a sum of
+// 6 products, with an error of less than 16 roundings each.
 inline bool is_clearly_positive(Element_kind kind, const std::array<std::array<double, 3>, 8>& points)
 {
   double largest = 0;
   for(int i = 1; i < reference_elements[kind].number_of_vertices; ++i)
     for(int k = 0; k < 3; ++k)
       largest = (std::max)(largest, std::abs(points[i][k] - points[0][k]));
-  largest *= 2; // between any two
+  largest *= 2; // difference of any two
   const double bound = largest * largest * largest * std::ldexp(96., -53);
   bool is_positive = bound > std::numeric_limits<double>::min() && std::isfinite(bound);
   for_each_jacobian_polynomial<double>(kind, points, [&](const Bernstein_polynomial<double>& jacobian) {
@@ -275,7 +275,7 @@ inline bool is_clearly_positive(Element_kind kind, const std::array<std::array<d
 The sign of the Jacobian on the whole element, exact on the coordinates as doubles.
 
 \param kind the kind
-\param points the positions of the vertices; the first ones are used. \pre finite
+\param points positions of the vertices; the first ones are used. \pre finite
 \par Complexity
 Constant: 64 determinants for a hexahedron; intervals and then rationals where doubles are not enough
 */
@@ -296,8 +296,8 @@ inline Jacobian_sign jacobian_sign(Element_kind kind, const std::array<std::arra
 
 /// \ingroup PkgMixedMesh3Validity
 /// The sign of the Jacobian of an element.
-/// \param element its kind and vertices
-/// \param position `std::array<double, 3>(Vertex_index)`: where a vertex is
+/// \param element kind and vertices of the element
+/// \param position `std::array<double, 3>(Vertex_index)`: position of a vertex
 template <class Position>
 Jacobian_sign jacobian_sign(const Element_view& element, const Position& position)
 {

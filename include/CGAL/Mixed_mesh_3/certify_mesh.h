@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// All checks of validity by one call: what the command-line mesher demands of each mesh that it writes.
+// All checks of validity in one call; the command-line mesher demands them of each mesh that it writes.
 
 #ifndef CGAL_MIXED_MESH_3_CERTIFY_MESH_H
 #define CGAL_MIXED_MESH_3_CERTIFY_MESH_H
@@ -25,16 +25,16 @@ namespace Mixed_meshes_3 {
 /// The outcome of `certify_mesh()`.
 struct Mesh_certificate
 {
-  /// A property of a valid mesh, in words, and whether the mesh has it.
+  /// A property of a valid mesh, in words, and the answer whether the mesh has the property.
   struct Check
   {
-    const char* name; ///< such as "conforming"
-    bool holds;       ///< whether it is proved
+    const char* name; ///< for example "conforming"
+    bool holds;       ///< whether the property is proved
   };
 
-  Mesh_defects defects; ///< as `find_defects()` finds them
-  /// Pairs of boundary triangles that intersect, see `number_of_boundary_self_intersections()`; 0 if there
-  /// are defects, as it is not looked for then.
+  Mesh_defects defects; ///< defects that `find_defects()` finds
+  /// The number of pairs of boundary triangles that intersect, see `number_of_boundary_self_intersections()`;
+  /// 0 if there are defects, as intersections are not searched for then.
   std::size_t number_of_self_intersections = 0;
 
   /// Whether all checks hold.
@@ -61,7 +61,7 @@ itself, the Jacobian of each element positive on the whole element, no vertex un
 
 All signs are exact on the coordinates as doubles. The command-line mesher writes no mesh that is not valid.
 
-\param mesh a `Mixed_mesh_3`, however it was made
+\param mesh `Mixed_mesh_3` of any origin
 \par Complexity
 O(n log n) for n elements, see `find_defects()`
 */

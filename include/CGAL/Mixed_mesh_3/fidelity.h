@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Whether a mesh is the solid that its surface bounds: bodies, cavities, handles, volume.
+// Comparison of a mesh with the solid that its surface bounds: bodies, cavities, handles, volume.
 
 #ifndef CGAL_MIXED_MESH_3_FIDELITY_H
 #define CGAL_MIXED_MESH_3_FIDELITY_H
@@ -40,10 +40,10 @@ struct Solid_topology
 {
   std::size_t number_of_bodies = 0;   ///< connected components of the solid (Betti number 0)
   std::size_t number_of_handles = 0;  ///< sum of the genera of the boundary's components (Betti number 1)
-  std::size_t number_of_cavities = 0; ///< voids that are closed (Betti number 2)
+  std::size_t number_of_cavities = 0; ///< closed voids (Betti number 2)
   double volume = 0;                  ///< in the cube of the unit of the points
 
-  /// Of the boundary: vertices minus edges plus faces.
+  /// The Euler characteristic of the boundary: vertices minus edges plus faces.
   std::ptrdiff_t euler_characteristic() const
   {
     return 2 * (std::ptrdiff_t(number_of_bodies + number_of_cavities) - std::ptrdiff_t(number_of_handles));
@@ -57,42 +57,42 @@ struct Solid_topology
 };
 
 /// \ingroup PkgMixedMesh3Validity
-/// In what a mesh can differ from the solid that it stands for.
+/// The kinds of differences between a mesh and the solid that the mesh represents.
 enum class Solid_difference_kind {
-  BODY_MISSING,    ///< nothing of it is meshed
-  BODY_ADDED,      ///< elements where the solid is not
-  BODIES_JOINED,   ///< several are one in the mesh
-  BODY_SPLIT,      ///< one is several in the mesh
-  CAVITY_FILLED,   ///< it has elements
-  CAVITY_OPENED,   ///< it is connected to the outside of the mesh, or to another void
+  BODY_MISSING,    ///< no part of a body is meshed
+  BODY_ADDED,      ///< there are elements where the solid is not
+  BODIES_JOINED,   ///< several bodies are one in the mesh
+  BODY_SPLIT,      ///< one body is several in the mesh
+  CAVITY_FILLED,   ///< a cavity has elements
+  CAVITY_OPENED,   ///< a cavity is connected to the outside of the mesh, or to another void
   CAVITY_ADDED,    ///< the mesh has a cavity where the solid has none
-  CAVITIES_JOINED, ///< several are one in the mesh
-  CAVITY_SPLIT,    ///< one is several in the mesh
+  CAVITIES_JOINED, ///< several cavities are one in the mesh
+  CAVITY_SPLIT,    ///< one cavity is several in the mesh
   HANDLES_LOST,    ///< a hole is filled, or a ring cut
   HANDLES_ADDED,   ///< a hole is made, or a gap bridged
-  VOLUME           ///< of a body, of a cavity or of all, beyond the tolerance
+  VOLUME           ///< the volume of a body, of a cavity or of all differs by more than the tolerance
 };
 
 /// \ingroup PkgMixedMesh3Validity
-/// A difference between a mesh and the solid that it stands for.
+/// A difference between a mesh and the solid that the mesh represents.
 struct Solid_difference
 {
-  /// What differs.
+  /// The kind of the difference.
   Solid_difference_kind kind;
-  Predicates_kernel::Point_3 point; ///< where it is, or one of several places
-  double volume;        ///< of the smaller of the bodies and cavities it is about: how much it matters
-  std::string sentence; ///< in English, with the point, without a full stop
+  Predicates_kernel::Point_3 point; ///< place of the difference, or one of several
+  double volume;        ///< volume of the smaller body or cavity concerned, a measure of importance
+  std::string sentence; ///< description in English, with the point, without a full stop
 };
 
 /// \ingroup PkgMixedMesh3Validity
-/// A mesh beside the solid that it stands for.
+/// The comparison of a mesh with the solid that the mesh represents.
 struct Solid_comparison
 {
-  Solid_topology surface;                    ///< of what the surface bounds
-  Solid_topology mesh;                       ///< of the mesh
-  std::vector<Solid_difference> differences; ///< first of topology, then of volume; largest volumes first
+  Solid_topology surface;                    ///< topology of the solid that the surface bounds
+  Solid_topology mesh;                       ///< topology of the mesh
+  std::vector<Solid_difference> differences; ///< topology first, then volume; largest volumes first
 
-  /// How many times the volume of the surface's solid the mesh has.
+  /// The ratio of the volume of the mesh to the volume of the surface's solid.
   double ratio_of_volumes() const { return mesh.volume / surface.volume; }
   /// Whether the same bodies, cavities and handles are in the same places.
   bool has_same_topology() const
@@ -103,7 +103,7 @@ struct Solid_comparison
 };
 
 /// \ingroup PkgMixedMesh3Validity
-/// What a comparison means for the status of a mesh.
+/// The status of a mesh that follows from a comparison.
 inline Mixed_mesh_status status_of(const Solid_comparison& comparison)
 {
   return !comparison.has_same_topology()   ? Mixed_mesh_status::TOPOLOGY_DIFFERS
@@ -124,7 +124,7 @@ inline Solid_topology topology_of(const Nested_shells& shells)
   return t;
 }
 
-/// Finds the differences between two solids, and words for them.
+/// Finds the differences between two solids, and describes them in words.
 class Solid_comparer
 {
   using Kind = Solid_difference_kind;
@@ -134,7 +134,7 @@ class Solid_comparer
   const Nested_shells& m_surface;
   const Nested_shells& m_mesh;
   const double m_volume_tolerance;
-  const std::vector<Region_location> m_in_mesh, m_in_surface; // of regions of the other
+  const std::vector<Region_location> m_in_mesh, m_in_surface; // regions of each in the other
   std::vector<Solid_difference> m_differences;
 
 public:
@@ -182,7 +182,7 @@ private:
     return " near (" + text(p.x(), 6) + ", " + text(p.y(), 6) + ", " + text(p.z(), 6) + ")";
   }
 
-  // Of the unit of length, nothing is known.
+  // The volume in words; nothing is known of the unit of length.
   static std::string of_volume(double volume) { return " of volume " + text(volume, 3) + " cubic units"; }
 
   static std::string counted(std::size_t n, const char* one, const char* many)
@@ -203,7 +203,7 @@ private:
     return least;
   }
 
-  // Where the first of some regions is nearest to another one.
+  // The point where the first of some regions is nearest to another one.
   static Point_3 smallest_gap(const Nested_shells& shells, const Regions& regions)
   {
     std::pair<Point_3, double> best = shells.gap(regions[1], regions[0]);
@@ -267,7 +267,7 @@ private:
     return sum;
   }
 
-  // Where most of the solid is missing or added.
+  // The point where most of the solid is missing or added.
   Point_3 largest_error(const Region_group& g) const
   {
     const Nested_shells::Sample* worst = &m_in_mesh[g.in_a.front()].elsewhere;
@@ -310,7 +310,7 @@ private:
         std::string(is_cavity ? "a cavity" : "a body") + near(p) + " has " + change(ratio) + " volume");
   }
 
-  // If there is but one body, that has been said.
+  // Compares the whole solids, unless there is only one body, which has been compared already.
   void compare_all(std::size_t number_of_pairs)
   {
     const Solid_topology surface = topology_of(m_surface), mesh = topology_of(m_mesh);
@@ -337,17 +337,17 @@ private:
 \brief Compares a mesh with the solid that a closed surface bounds: bodies, cavities, handles, volumes.
 
 The boundary of the mesh and the surface are cut into connected components, their *shells*. A shell inside an
-even number of others bounds a body, one inside an odd number a cavity; the orientation of faces does not
-matter. Handles are the genera of shells, by their Euler characteristics. So the numbers of both sides are
-exact. Which body of the mesh stands for which of the surface, and the same for cavities, is found by point
-location: points in the middle of chords, at right angles to each shell, about 2,000 for all, are located in
-the solid of the other side. A body, or cavity, belongs to the one that most of it is in. That is reliable for
-what is thicker than the surface and the boundary of the mesh are apart; bodies that are nowhere so thick may
-be called missing and added instead.
+even number of others bounds a body, a shell inside an odd number bounds a cavity; the orientation of faces
+does not matter. Handles are the genera of shells, by their Euler characteristics. So the numbers of both
+sides are exact. The correspondence of bodies, and of cavities, of the mesh and of the surface is found by
+point location: points in the middle of chords, at right angles to each shell, about 2,000 for all, are
+located in the solid of the other side. A body, or cavity, belongs to the body or cavity that most of it is
+in. The correspondence is reliable for parts that are thicker than the distance between the surface and the
+boundary of the mesh; bodies that are nowhere so thick may be called missing and added instead.
 
-Equal numbers do not hide differences: a body that is missing here and another one that falls into two are
-both told. What is not seen is a part of a body that is lost without a change of topology, unless the volume
-tells; see `hausdorff_distance()`, and knots: a ring that is tied differently has the same handles.
+Equal numbers do not hide differences: a missing body and another body that falls into two are both reported.
+Not detected are the loss of a part of a body without a change of topology, unless the volume tells (see
+`hausdorff_distance()`), and knots: a ring that is tied differently has the same handles.
 
 Quadrilaterals on the boundary are split into two triangles, through their vertex of smallest index.
 
@@ -357,8 +357,8 @@ Quadrilaterals on the boundary are split into two triangles, through their verte
        (`Mesh_defects::closed_manifold_boundary()`)
 \param surface the surface. \pre triangulated, closed, not empty, and free of self-intersections; shells may
        touch in vertices
-\param volume_tolerance by how much the volumes of the solids, and of the bodies and cavities that belong to
-       each other, may differ, relative to those of the surface
+\param volume_tolerance tolerated difference of the volumes of the solids, and of the bodies and cavities that
+belong to each other, relative to the volumes of the surface
 \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those below
 
 \cgalNamedParamsBegin

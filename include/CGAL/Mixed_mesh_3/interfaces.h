@@ -29,21 +29,22 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /// \ingroup PkgMixedMesh3Validity
-/// Where two subdomains of a mesh meet, or one of them and the outside.
+/// The interface of two subdomains of a mesh, or of a subdomain and the outside.
 struct Subdomain_interface
 {
-  Subdomain_index first = 1;  ///< positive, less than the other one
+  Subdomain_index first = 1;  ///< positive, less than the second one
   Subdomain_index second = 0; ///< 0: the outside
-  std::vector<Face> faces;    ///< of the elements of the first, in the order of the elements
-  /// Sum of the areas of the faces, in the square of the mesh's unit.
+  std::vector<Face> faces;    ///< faces of elements of the first subdomain, in the order of the elements
+  /// The sum of the areas of the faces, in the square of the mesh's unit.
   double area = 0;
-  /// Edges that are not between two faces of the interface, although no third subdomain meets there.
+  /// The number of edges that are not between two faces of the interface, although no third subdomain meets
+  /// there.
   std::size_t number_of_bad_edges = 0;
-  /// Vertices with more than one fan of the faces of the interface around.
+  /// The number of vertices with more than one fan of faces of the interface.
   std::size_t number_of_bad_vertices = 0;
 
-  /// Whether the interface is an oriented 2-manifold whose border is where three subdomains meet, the outside
-  /// being one of them.
+  /// Whether the interface is an oriented 2-manifold whose border is where three subdomains meet, which may
+  /// include the outside.
   bool is_manifold() const { return number_of_bad_edges == 0 && number_of_bad_vertices == 0; }
 };
 
@@ -53,7 +54,7 @@ class Interface_checker
 {
   using Edge = std::pair<Vertex_index, Vertex_index>;
 
-  std::map<Edge, std::size_t> m_faces_at_edges; // of all interfaces
+  std::map<Edge, std::size_t> m_faces_at_edges; // number of faces of all interfaces at each edge
 
   static Edge edge(const Face_vertices& v, int i) { return std::minmax(v[i], v[(i + 1) % v.size()]); }
 
@@ -68,7 +69,7 @@ public:
 
   void operator()(Subdomain_interface& one) const
   {
-    std::map<Edge, std::array<int, 2>> edges; // how often in each direction
+    std::map<Edge, std::array<int, 2>> edges; // number of uses in each direction
     std::vector<Face_vertices> polygons;
     for(const Face& face : one.faces) {
       const Face_vertices& v = polygons.emplace_back(face.vertices());
@@ -89,8 +90,8 @@ public:
 /*!
 \ingroup PkgMixedMesh3Validity
 
-The interfaces between the subdomains of a mesh, and those to the outside, which are the boundary; by their
-subdomains.
+The interfaces between the subdomains of a mesh, and the interfaces to the outside, which are the boundary;
+sorted by their subdomains.
 
 \param mesh a conforming mesh
 \par Complexity
@@ -124,8 +125,8 @@ std::vector<Subdomain_interface> find_interfaces(const Mesh& mesh)
 /*!
 \ingroup PkgMixedMesh3Validity
 
-How many vertices of an interface are farther from its surface than a share of the diagonal of the domain's
-box.
+The number of vertices of an interface that are farther from its surface than a share of the diagonal of the
+domain's box.
 
 \tparam Domain a model of `MixedMeshLabeledDomain_3`
 */

@@ -32,10 +32,10 @@ namespace CGAL {
 /*!
 \ingroup PkgMixedMesh3Validity
 
-\brief Items of a linear cell complex whose volumes hold what a mesh knows of its elements.
+\brief Items of a linear cell complex whose volumes store the attributes of the elements of a mesh.
 
-With these, or others whose 3-attributes have `Mixed_meshes_3::Element_attributes` as information, labels go
-from mesh to complex and back.
+Labels go from mesh to complex and back with these items, or others whose 3-attributes have
+`Mixed_meshes_3::Element_attributes` as information.
 
 \cgalModels{LinearCellComplexItems}
 */
@@ -45,7 +45,7 @@ struct Mixed_mesh_linear_cell_complex_items_3
   template <class LCC>
   struct Dart_wrapper
   {
-    /// The point of a vertex, nothing for edges and faces, and what is known of an element.
+    /// The point of a vertex, nothing for edges and faces, and the attributes of an element.
     using Attributes = std::tuple<Cell_attribute_with_point<LCC>, void, void,
                                   Cell_attribute<LCC, Mixed_meshes_3::Element_attributes>>;
   };
@@ -54,7 +54,7 @@ struct Mixed_mesh_linear_cell_complex_items_3
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Whether volumes of a complex hold `Element_attributes`.
+/// Whether volumes of a complex store `Element_attributes`.
 template <class Attribute, class = void>
 struct Holds_element_attributes : std::false_type
 {
@@ -68,15 +68,16 @@ template <class LCC>
 inline constexpr bool holds_element_attributes =
   Holds_element_attributes<typename LCC::template Attribute_type<3>::type>::value;
 
-/// The face that numbers an element: a quadrilateral of a pyramid, a triangle of a prism. It is the one that
-/// has vertex 0, and 1 as its last one.
+/// The face that numbers an element: a quadrilateral of a pyramid, a triangle of a prism. The face has vertex
+/// 0, and 1 as its last vertex.
 inline int base_face(Element_kind kind)
 {
   constexpr int faces[number_of_element_kinds] = {3, 0, 0, 4};
   return faces[kind];
 }
 
-/// The kind of a volume with so many faces, triangles among them, and vertices; none if it is not an element.
+/// The kind of a volume with given numbers of faces, of triangles among them, and of vertices; none if the
+/// volume is not an element.
 inline std::pair<Element_kind, bool> kind_of_volume(int faces, int triangles, std::size_t vertices)
 {
   for(const Element_kind kind : element_kinds) {
@@ -98,13 +99,14 @@ inline std::pair<Element_kind, bool> kind_of_volume(int faces, int triangles, st
 
 \brief Adds the elements of a mesh to a linear cell complex, as volumes.
 
-Elements with a face in common are sewn there. A vertex at which the mesh is pinched becomes several. Labels
-are handed over if the complex has a place for them, as with `Mixed_mesh_linear_cell_complex_items_3`.
+Elements with a face in common are sewn at the face. A vertex at which the mesh is pinched becomes several
+vertices. Labels are passed on if the complex has a place for them, as with
+`Mixed_mesh_linear_cell_complex_items_3`.
 
 \tparam GeomTraits a model of `MixedMeshTraits_3`
 \tparam LCC `Linear_cell_complex_for_combinatorial_map` of dimensions 3, 3
 \param mesh a conforming mesh
-\param lcc the elements are added to it
+\param lcc complex to which the elements are added
 \par Complexity
 O(n log n) for n elements
 */
@@ -114,13 +116,14 @@ void mixed_mesh_to_linear_cell_complex(const Mixed_mesh_3<GeomTraits>& mesh, LCC
   using namespace Mixed_meshes_3;
   using Dart = std::decay_t<decltype(lcc.create_dart())>;
   const bool was_automatic = lcc.are_attributes_automatically_managed();
-  lcc.set_automatic_attributes_management(false); // vertices are the same wherever it is sewn
+  lcc.set_automatic_attributes_management(false); // vertices are the same wherever elements are sewn
   std::vector<decltype(lcc.create_vertex_attribute(typename LCC::Point()))> vertices;
   for(const auto& p : mesh.points())
     vertices.push_back(lcc.create_vertex_attribute(
       typename LCC::Point(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()))));
 
-  // By its vertices in order, a dart of a face that no second element has had yet, from the smallest vertex.
+  // Open faces by their vertices in order: a dart of a face that no second element has had yet, from the
+  // smallest vertex.
   std::map<std::vector<Vertex_index>, Dart> open_faces;
   for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
     const Element_view element = mesh.element(Element_index(e));
@@ -130,7 +133,7 @@ void mixed_mesh_to_linear_cell_complex(const Mixed_mesh_3<GeomTraits>& mesh, LCC
     for(int i = 0; i < element.reference().number_of_faces; ++i) {
       const int f = i == 0 ? base : i <= base ? i - 1 : i;
       const Face face(mesh.elements(), Element_index(e), f);
-      // Clockwise seen from outside, as in volumes that the complex makes itself.
+      // The order is clockwise seen from outside, as in volumes that the complex makes itself.
       std::vector<Vertex_index> v(face.vertices().begin(), face.vertices().end());
       std::reverse(v.begin() + 1, v.end());
       std::vector<Dart> darts;
@@ -152,7 +155,7 @@ void mixed_mesh_to_linear_cell_complex(const Mixed_mesh_3<GeomTraits>& mesh, LCC
       std::vector<Vertex_index> key = v;
       std::sort(key.begin(), key.end());
       const auto [other, is_new] = open_faces.try_emplace(key, darts[smallest]);
-      if(!is_new) { // seen from the other side: the dart that ends at the smallest vertex
+      if(!is_new) { // seen from the other side: the dart ends at the smallest vertex
         lcc.template sew<3>(darts[(smallest + v.size() - 1) % v.size()], other->second);
         open_faces.erase(other);
       }
@@ -161,7 +164,7 @@ void mixed_mesh_to_linear_cell_complex(const Mixed_mesh_3<GeomTraits>& mesh, LCC
       lcc.template set_attribute<3>(first,
                                     lcc.template create_attribute<3>(mesh.attributes(Element_index(e))));
   }
-  lcc.correct_invalid_attributes(); // a vertex at which the mesh is pinched becomes several
+  lcc.correct_invalid_attributes(); // a vertex at which the mesh is pinched becomes several vertices
   if(was_automatic)
     lcc.set_automatic_attributes_management(true);
 }
@@ -171,16 +174,16 @@ void mixed_mesh_to_linear_cell_complex(const Mixed_mesh_3<GeomTraits>& mesh, LCC
 
 \brief Makes a mixed mesh of the volumes of a linear cell complex.
 
-Each volume becomes an element with the orientation that the complex gives it: positive are those whose faces
-are clockwise seen from outside, as in what `make_hexahedron()` of the complex makes of the points in the
-figure of its manual. Labels are taken over if the complex has them, as with
-`Mixed_mesh_linear_cell_complex_items_3`.
-`Mixed_meshes_3::find_defects()` tells whether the mesh is valid.
+Each volume becomes an element with the orientation that the complex gives the volume: positive are volumes
+whose faces are clockwise seen from outside, like the volume that `make_hexahedron()` of the complex makes of
+the points in the figure of its manual. Labels are taken over if the complex has them, as with
+`Mixed_mesh_linear_cell_complex_items_3`. `Mixed_meshes_3::find_defects()` tells whether the mesh is valid.
 
 \tparam LCC `Linear_cell_complex_for_combinatorial_map` of dimensions 3, 3
 \tparam GeomTraits a model of `MixedMeshTraits_3`
 \param lcc the complex
-\param mesh the result; cleared first. Vertices in the order of the complex, those without a volume left out
+\param mesh the result; cleared first. Vertices are in the order of the complex, without those that have no
+volume
 \return whether each volume is a tetrahedron, pyramid, prism or hexahedron, closed; if not, `mesh` is empty
 \par Complexity
 O(n log n) for n volumes
@@ -200,7 +203,7 @@ bool linear_cell_complex_to_mixed_mesh(const LCC& lcc, Mixed_mesh_3<GeomTraits>&
     } while(next != dart && n < 5);
     return n;
   };
-  // Of vertices: where they are in the complex, then in the mesh.
+  // Indices of vertices: first in the complex, then in the mesh.
   std::map<const typename LCC::Point*, Vertex_index> indices;
   for(auto a = lcc.vertex_attributes().begin(); a != lcc.vertex_attributes().end(); ++a)
     indices.emplace(&lcc.point_of_vertex_attribute(a), Mixed_meshes_3::internal::no_vertex);

@@ -14,7 +14,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /// \ingroup PkgMixedMesh3Octree
-/// Across what neighboring leaves may differ by one level only.
+/// The adjacency across which leaves may differ by one level only.
 enum class Adjacency {
   FACE = 1,  ///< a face
   EDGE = 2,  ///< a face or an edge
@@ -22,10 +22,10 @@ enum class Adjacency {
 };
 
 /// \ingroup PkgMixedMesh3Octree
-/// How cells with hanging vertices are decomposed.
+/// The way in which cells with hanging vertices are decomposed.
 enum class Transition_templates_choice {
   FEWEST_VERTICES, ///< 118 of 144 templates need no vertex at the cell's center
-  CENTERED         ///< every such cell is coned from its center
+  CENTERED         ///< every such cell is a cone from its center
 };
 
 /// \ingroup PkgMixedMesh3Octree
@@ -36,18 +36,19 @@ enum class Root_cell {
 };
 
 /// \ingroup PkgMixedMesh3Mesh
-/// What is split before all else: cells as large as a wall is thick, or half as large as a gap is wide.
+/// The time at which cells as large as a wall is thick, or half as large as a gap is wide, are split before
+/// others.
 enum class Thin_parts {
-  WHERE_NEEDED, ///< if the mesh has another topology than the surface otherwise, loses parts or volume
+  WHERE_NEEDED, ///< split first if the mesh would have another topology, or lose parts or volume
   FIRST,        ///< always
   LIKE_OTHERS   ///< never
 };
 
 /// \ingroup PkgMixedMesh3Octree
-/// How elements at the surface are split.
+/// The way in which elements at the surface are split.
 enum class Boundary_mode {
-  VERTEX_ORDER, ///< by one order of all vertices: inserts none, keeps pyramids
-  PAPER         ///< section 5.2 of the paper: all to tetrahedra, diagonals propagate
+  VERTEX_ORDER, ///< one order of all vertices: inserts no vertex, keeps pyramids
+  PAPER         ///< section 5.2 of the paper: only tetrahedra, diagonals propagate
 };
 
 } // namespace Mixed_meshes_3

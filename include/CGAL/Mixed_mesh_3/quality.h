@@ -29,7 +29,7 @@ namespace Mixed_meshes_3 {
 
 namespace internal {
 
-/// What computes a measure from kind and points, as a function object on the elements of any mesh.
+/// A measure from kind and points, as a function object on the elements of any mesh.
 template <double (*measure)(Element_kind, const Element_points&)>
 struct Element_measure
 {
@@ -92,8 +92,8 @@ The smallest, over the corners, of the determinant of the three edges divided by
 value for the ideal element: the regular tetrahedron, the pyramid and the prism of equal edges, the cube.
 
 - tetrahedron: over its four corners;
-- pyramid: of the tetrahedra at the four corners of its base, over their four corners; a value `1 + x`
-  becomes `1 - x`. Unlike Verdict's, it is not cut off at 0;
+- pyramid: over the four corners of the tetrahedra at the four corners of its base; a value `1 + x` becomes `1
+- x`. Unlike Verdict's, the value is not cut off at 0;
 - prism, hexahedron: over all corners; Verdict has the center of the hexahedron too.
 */
 inline constexpr internal::Element_measure<internal::scaled_jacobian> scaled_jacobian{};
@@ -104,8 +104,9 @@ inline constexpr internal::Element_measure<internal::scaled_jacobian> scaled_jac
 Smallest angle, in degrees, between two faces at an edge, inside the element. The normal of a quadrilateral
 is its vector area (half the cross product of its diagonals), its mean normal.
 
-Angles are in `[0, 360]`; those of an element with a re-entrant edge, or turned inside out, exceed 180. A
-face without area counts as 180 degrees. Why they matter: Shewchuk, "What is a good linear finite element?"
+Angles are in `[0, 360]`; angles of an element with a re-entrant edge, or turned inside out, exceed 180. A
+face without area counts as 180 degrees. On the importance of angles, see Shewchuk, "What is a good linear
+finite element?"
 */
 inline constexpr internal::Element_measure<internal::smallest_dihedral_angle> smallest_dihedral_angle{};
 
@@ -132,18 +133,18 @@ struct Quality_statistics
   double minimum = 0;
   /// The largest value.
   double maximum = 0;
-  double share = 0; ///< of elements with a value in the interval asked for
+  double share = 0; ///< share of elements with a value in the given interval
 };
 
 /// \ingroup PkgMixedMesh3Validity
-/// A row for each kind of element, by `Element_kind`, and one for all elements, the last.
+/// A row for each kind of element, by `Element_kind`, and a last row for all elements.
 using Quality_table = std::array<Quality_statistics, number_of_element_kinds + 1>;
 
 /// \ingroup PkgMixedMesh3Validity
 /// The values of a measure for each kind, and for all elements.
 /// \param mesh the mesh
 /// \param measure `double(const Mesh&, std::size_t)`, such as `scaled_jacobian`
-/// \param lowest, highest the closed interval of acceptable values, for the share of elements in it
+/// \param lowest, highest closed interval of acceptable values, for the share of elements in the interval
 template <class Mesh, class Measure>
 Quality_table quality_statistics(const Mesh& mesh, const Measure& measure,
                                  double lowest = -std::numeric_limits<double>::infinity(),
@@ -179,11 +180,11 @@ Quality_table quality_statistics(const Mesh& mesh)
 
 /// \ingroup PkgMixedMesh3Validity
 /// Counts the elements by the value of a measure. No element is left out: there is a bin below the first
-/// edge, one for each interval between two edges, which contains its lower edge, and one from the last
+/// edge, a bin for each interval between two edges, which contains its lower edge, and a bin from the last
 /// edge on.
 /// \param mesh the mesh
 /// \param measure `double(const Mesh&, std::size_t)`, such as `aspect_ratio_coefficient`
-/// \param edges the values that separate bins. \pre sorted
+/// \param edges values that separate bins. \pre sorted
 /// \return the counts: one more than there are edges
 template <class Mesh, class Measure>
 std::vector<std::size_t> histogram(const Mesh& mesh, const Measure& measure, const std::vector<double>& edges)

@@ -6,7 +6,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The proof that the aspect-ratio coefficient of an element is within a bound. The squares of both sides are
-// rational functions of the coordinates: interval arithmetic first, exact rationals when it is undecided.
+// rational functions of the coordinates: interval arithmetic comes first, exact rationals follow if it is
+// undecided.
 
 #ifndef CGAL_MIXED_MESH_3_QUALITY_BOUND_H
 #define CGAL_MIXED_MESH_3_QUALITY_BOUND_H
@@ -39,14 +40,14 @@ namespace internal {
 Whether the aspect-ratio coefficient (ARC) of an element is at most `bound`: the formulas of `aspect_ratio.h`,
 squared, as products instead of roots and, for sums of vertices, without the division by their number.
 
-\tparam NT `Exact_rational`, which decides, or intervals, which may not
+\tparam NT `Exact_rational`, which decides, or intervals, which may be undecided
 */
 template <class NT>
 class Aspect_ratio_test
 {
   using Vector_ = Vector<NT>;
 
-  std::array<Vector_, 8> m_points; // relative to the first one
+  std::array<Vector_, 8> m_points; // relative to the first point
   NT m_squared_bound;
 
   const Vector_& at(int i) const { return m_points[std::size_t(i)]; }
@@ -63,7 +64,7 @@ class Aspect_ratio_test
   static NT squared(const Vector_& v) { return scalar_product(v, v); }
 
   // Whether the longest and the shortest of three lengths, whose squares are given, have a ratio of at most
-  // the bound, and none is 0.
+  // the bound, and no length is 0.
   Uncertain<bool> are_alike(const NT& a, const NT& b, const NT& c) const
   {
     Uncertain<bool> result(true);
@@ -77,7 +78,7 @@ class Aspect_ratio_test
     return result;
   }
 
-  // (s / 6)^(3/2) <= bound f d / 6, with the sum s of squared edges, the factor f and six volumes d.
+  // Tests (s / 6)^(3/2) <= bound f d / 6, with the sum s of squared edges, the factor f and six volumes d.
   Uncertain<bool> tetrahedron() const
   {
     NT s(0);
@@ -90,12 +91,12 @@ class Aspect_ratio_test
            & Uncertain<bool>(s * s * s <= 6 * factor * factor * m_squared_bound * d * d);
   }
 
-  // Twice the segments between midpoints of opposite edges, and the height over the mean plane.
+  // Tests twice the segments between midpoints of opposite edges, and the height over the mean plane.
   Uncertain<bool> pyramid() const
   {
     const Vector_ normal = cross_product(difference(at(2), at(0)), difference(at(3), at(1)));
     const Vector_ base = sum({0, 1, 2, 3}), apex = sum({4, 4, 4, 4});
-    const NT area = squared(normal), height = scalar_product(normal, difference(apex, base)); // 4 times it
+    const NT area = squared(normal), height = scalar_product(normal, difference(apex, base)); // times 4
     const Uncertain<bool> is_upright = Uncertain<bool>(area > 0) & Uncertain<bool>(height > 0);
     if(!certainly(is_upright))
       return is_upright;
@@ -103,7 +104,7 @@ class Aspect_ratio_test
                      squared(difference(sum({1, 2}), sum({3, 0}))), height * height / (4 * area));
   }
 
-  // Twice the midpoint segments of each quadrilateral, and the height of the mean triangle over it.
+  // Tests twice the midpoint segments of each quadrilateral, and the height of the mean triangle over it.
   Uncertain<bool> prism() const
   {
     Uncertain<bool> result(true);
@@ -120,7 +121,7 @@ class Aspect_ratio_test
     return result;
   }
 
-  // Four times the segments between centers of opposite faces.
+  // Tests four times the segments between centers of opposite faces.
   Uncertain<bool> hexahedron() const
   {
     return are_alike(squared(difference(sum({0, 3, 4, 7}), sum({1, 2, 5, 6}))),
@@ -155,14 +156,14 @@ public:
 \ingroup PkgMixedMesh3Validity
 
 Whether the aspect-ratio coefficient (ARC) of an element is at most a bound: proved, exact on the coordinates
-and on the bound as doubles. The number 8.47867 in the ARC of a tetrahedron is the decimal one.
+and on the bound as doubles. The number 8.47867 in the ARC of a tetrahedron is the exact decimal number.
 
-Like `aspect_ratio_coefficient`, this says nothing of the Jacobian of a prism or a hexahedron, which
+Like `aspect_ratio_coefficient`, this function says nothing of the Jacobian of a prism or a hexahedron, as
 `jacobian_sign()` does.
 
 \param kind the kind
-\param points the positions of the vertices; the first ones are used. \pre finite
-\param bound the largest ARC. \pre finite, at least 1
+\param points positions of the vertices; the first ones are used. \pre finite
+\param bound largest ARC. \pre finite, at least 1
 \par Complexity
 Constant: a few products of intervals; rationals where the ARC is within some 1e-13 of the bound
 */
@@ -193,8 +194,8 @@ bool is_aspect_ratio_at_most(const Mesh& mesh, Element_index e, double bound)
 }
 
 /// \ingroup PkgMixedMesh3Validity
-/// How many elements have an aspect-ratio coefficient (ARC) above `bound`: proved for these, and for the
-/// others that they have none.
+/// The number of elements with an aspect-ratio coefficient (ARC) above `bound`: proved for these elements,
+/// and the opposite is proved for the others.
 /// \par Complexity
 /// Linear in the number of elements
 template <class Mesh>
@@ -209,16 +210,16 @@ std::size_t number_of_elements_above(const Mesh& mesh, double bound)
 /*!
 \ingroup PkgMixedMesh3Validity
 
-Between which angles, in degrees, all dihedral angles of a tetrahedron are whose aspect-ratio coefficient
-(ARC) is at most a bound. Both are attained; the manual has the proof.
+The bounds, in degrees, of all dihedral angles of a tetrahedron whose aspect-ratio coefficient (ARC) is at
+most a bound. Both bounds are attained; the manual has the proof.
 
-\param bound the largest ARC. \pre at least 1
+\param bound largest ARC. \pre at least 1
 \return the smallest and the largest angle: 12.94 and 154.44 for 3.2
 */
 inline std::array<double, 2> dihedral_angle_bounds(double bound)
 {
   CGAL_precondition(bound >= 1);
-  // ARC >= 3 (3 - cos x) / (f sin x) for the angle x, so that f ARC sin x + 3 cos x >= 9
+  // The inequality ARC >= 3 (3 - cos x) / (f sin x) for the angle x gives f ARC sin x + 3 cos x >= 9.
   const double sine = internal::tetrahedron_arc_factor * bound, cosine = 3;
   const double from = std::asin((std::min)(9 / std::hypot(sine, cosine), 1.)),
                shift = std::atan2(cosine, sine);

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Resection: which elements are removed with a tumor, and the mesh that is left.
+// Resection: the elements that are removed with a tumor, and the mesh that is left.
 
 #ifndef CGAL_MIXED_MESH_3_RESECT_H
 #define CGAL_MIXED_MESH_3_RESECT_H
@@ -33,11 +33,11 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /// \ingroup PkgMixedMesh3Resection
-/// How `resect()` ended.
+/// The outcome of `resect()`.
 enum class Resection_status {
-  SUCCESS,              ///< something is removed, and the boundary of what is left is a closed 2-manifold
-  NOTHING_REMOVED,      ///< no element was asked for that is still there: no centroid is inside
-  EVERYTHING_RESTORED,  ///< all elements asked for had to stay: each would leave a pinched vertex
+  SUCCESS,              ///< elements are removed, and the boundary of the rest is a closed 2-manifold
+  NOTHING_REMOVED,      ///< no requested element is still there: no centroid is inside
+  EVERYTHING_RESTORED,  ///< all requested elements had to stay: each would leave a pinched vertex
   EVERYTHING_REMOVED,   ///< no element is left
   BOUNDARY_NOT_MANIFOLD ///< pinched vertices remain: the boundary of the mesh was not a manifold before
 };
@@ -58,12 +58,12 @@ inline const char* description(Resection_status status)
 }
 
 /// \ingroup PkgMixedMesh3Resection
-/// What `resect()` shall know and do besides.
+/// Further input and options of `resect()`.
 struct Resection_options
 {
-  /// Elements removed by earlier resections, true for each; empty: none. They stay removed.
+  /// The elements removed by earlier resections, true for each; empty: none. Removed elements stay removed.
   std::vector<bool> already_removed;
-  /// Whether pieces that come loose stay. They hang on by nothing then: each moves on its own.
+  /// Whether pieces that come loose stay. Each loose piece moves on its own then.
   bool keep_floating_pieces = false;
 };
 
@@ -71,29 +71,29 @@ struct Resection_options
 /// A piece that comes loose: elements connected across faces.
 struct Floating_piece_3
 {
-  std::vector<Element_index> elements; ///< in increasing order
+  std::vector<Element_index> elements; ///< elements in increasing order
   double volume = 0;                   ///< in the cube of the mesh's unit: mm^3
 };
 
 /// \ingroup PkgMixedMesh3Resection
-/// What `resect()` removes: of the elements not removed before, those asked for, less
+/// The removed elements of `resect()`: of the elements not removed before, the requested ones, minus
 /// `number_of_restored_elements`, plus `number_of_floating_elements` plus `number_of_pinch_elements`.
 struct Resection_3
 {
-  /// How it ended.
+  /// The outcome.
   Resection_status status = Resection_status::NOTHING_REMOVED;
-  std::vector<bool> is_removed;                ///< for each element, those removed before too
-  std::size_t number_of_asked_elements = 0;    ///< asked for, and not removed before
-  std::size_t number_of_restored_elements = 0; ///< of which stay: without them a vertex would be pinched
-  /// Removed in addition, as they came loose; 0 if such pieces are kept.
+  std::vector<bool> is_removed;                ///< elements to remove, including elements removed before
+  std::size_t number_of_asked_elements = 0;    ///< requested elements that were not removed before
+  std::size_t number_of_restored_elements = 0; ///< elements that stay: without them a vertex would be pinched
+  /// The number of elements removed in addition, as they came loose; 0 if loose pieces are kept.
   std::size_t number_of_floating_elements = 0;
   std::size_t number_of_pinch_elements = 0;   ///< removed in addition: with them a vertex would be pinched
-  std::size_t number_of_pinched_vertices = 0; ///< that remain
+  std::size_t number_of_pinched_vertices = 0; ///< pinched vertices that remain
   /// The pieces that came loose, removed or kept: of each connected part of the mesh all but the largest.
   std::vector<Floating_piece_3> floating;
-  double volume = 0; ///< removed by this resection, in the cube of the mesh's unit: mm^3
+  double volume = 0; ///< volume of this resection, in the cube of the mesh's unit: mm^3
 
-  /// Whether there is something left to compute with.
+  /// Whether some element is left to compute with.
   bool has_mesh() const
   {
     return status != Resection_status::EVERYTHING_REMOVED
@@ -103,7 +103,7 @@ struct Resection_3
 
 namespace internal {
 
-// What has parts of a surface is a model of `MixedMeshDomain_3`; what has none is a surface.
+// A model of `MixedMeshDomain_3` has parts of a surface; a surface has none.
 template <class Tumor, class = void>
 struct Is_domain : std::false_type
 {
@@ -114,7 +114,8 @@ struct Is_domain<Tumor, std::void_t<typename Tumor::Surface_part>> : std::true_t
 {
 };
 
-// The concept wants a part of the surface with the point. Ours find the side of a point sooner without.
+// The side of a point. The concept demands a part of the surface with the point; our domains are faster
+// without.
 template <class Domain, class = void>
 struct Side_of_domain
 {
@@ -138,19 +139,19 @@ struct Side_of_domain<Domain, std::void_t<decltype(std::declval<const Domain&>()
 
 \brief Removes elements from a mesh, such that what is left can be computed with.
 
-An element that hangs on by a vertex or an edge is a hinge: elasticity is singular there. So the boundary of
-what is left is a closed oriented 2-manifold, if that of the mesh was. For this some elements stay although
-they were asked for, and some others go: few, `internal::Resection_repair` says which. Pieces that come
-loose are reported, and removed by default.
+An element that is connected by a vertex or an edge only is a hinge: elasticity is singular there. So the
+boundary of the remaining mesh is a closed oriented 2-manifold, if that of the mesh was. To this end a few
+requested elements stay, and a few other elements are removed: `internal::Resection_repair` says which. Pieces
+that come loose are reported, and removed by default.
 
-The same input gives the same result. The mesh is not changed: `remaining_mesh()` makes that which is left.
+The same input gives the same result. The mesh is not changed: `remaining_mesh()` makes the mesh that is left.
 
 \tparam Mesh a `Mixed_mesh_3`
 \param mesh the mesh. \pre conforming, of positive elements, its boundary a closed 2-manifold
-\param is_asked the elements to remove, true for each. \pre one for each element
-\param options what has been removed before, and whether loose pieces stay. \pre its set is empty, or has one
-       for each element
-\return what is removed, and why
+\param is_asked true for each element to remove. \pre one value for each element
+\param options elements removed before, and whether loose pieces stay. \pre `already_removed` is empty, or has
+one value for each element
+\return the removed elements, and the reasons
 \par Complexity
 Linear in the number of elements, plus a tenth of a millisecond for each pinched vertex
 */
@@ -166,7 +167,7 @@ Resection_3 resect(const Mesh& mesh, const std::vector<bool>& is_asked,
   Resection_3 result;
   result.is_removed = options.already_removed;
   result.is_removed.resize(n, false);
-  std::size_t number_of_elements_left = 0; // if everything goes as asked
+  std::size_t number_of_elements_left = 0; // number if all requested elements are removed
   std::vector<State> states(n, State::KEPT);
   std::vector<double> volumes(n);
   for(std::size_t e = 0; e < n; ++e) {
@@ -215,17 +216,17 @@ Resection_3 resect(const Mesh& mesh, const std::vector<bool>& is_asked,
 /*!
 \ingroup PkgMixedMesh3Resection
 
-\brief Removes the elements in a tumor: those whose centroid, the mean of their vertices, is inside.
+\brief Removes the elements in a tumor: elements whose centroid, the mean of their vertices, is inside.
 
-A centroid on the surface is not inside. The answer is exact on the centroid, rounded to double, as far as
-that of the domain is.
+A centroid on the surface is not inside. The answer is exact on the centroid, rounded to double, as far as the
+answer of the domain is.
 
 \tparam Mesh a `Mixed_mesh_3`
 \tparam Tumor a model of `MixedMeshDomain_3`, of which the inside test is used only, or a model of
         `FaceListGraph` with points of any CGAL kernel
-\param mesh the mesh, as above
-\param tumor what to remove, in the coordinates of the mesh. \pre a surface is closed and triangulated
-\param options as above
+\param mesh mesh as above
+\param tumor tumor in the coordinates of the mesh. \pre a surface is closed and triangulated
+\param options options as above
 \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those below
 
 \cgalNamedParamsBegin
@@ -236,9 +237,9 @@ that of the domain is.
   \cgalParamNEnd
 \cgalNamedParamsEnd
 
-\return what is removed, and why
+\return the removed elements, and the reasons
 \par Complexity
-As above, plus an inside test for each element
+Complexity as above, plus an inside test for each element
 */
 template <class Mesh, class Tumor, class NamedParameters = parameters::Default_named_parameters>
 Resection_3 resect(const Mesh& mesh, const Tumor& tumor,
@@ -268,7 +269,7 @@ Resection_3 resect(const Mesh& mesh, const Tumor& tumor,
 /*!
 \ingroup PkgMixedMesh3Resection
 
-\brief The mesh that is left: without the elements removed, and without the vertices that only they had.
+\brief The mesh that is left: without the removed elements, and without vertices of removed elements only.
 
 Elements and vertices keep their order, elements their attributes.
 

@@ -30,7 +30,7 @@ namespace Mixed_meshes_3 {
 
 namespace internal {
 
-/// The faces between compartments, from both sides: first that of the smaller compartment.
+/// The faces between compartments, from both sides: first the side of the smaller compartment.
 template <class Mesh>
 std::vector<std::pair<Face, Face>> faces_between_compartments(const Mesh& mesh)
 {
@@ -53,16 +53,16 @@ std::vector<std::pair<Face, Face>> faces_between_compartments(const Mesh& mesh)
 /*!
 \ingroup PkgMixedMesh3Validity
 
-The faces between two elements of different compartments: those on sheets. Seen from the element of the
-smaller compartment; in the order of the elements.
+The faces between two elements of different compartments, which are the faces on sheets, seen from the element
+of the smaller compartment; in the order of the elements.
 
 A mesh has compartments if its domain has sheets, see `Labeled_polyhedral_mixed_mesh_domain_3::add_sheet()`.
-All functions of this package that make a mesh out of another one keep them, and flips of tetrahedra the faces
-between them. A face between subdomains is on their interface, and not on a sheet.
+All functions of this package that make a mesh out of another mesh keep compartments, and flips of tetrahedra
+keep the faces between them. A face between subdomains is on their interface, and not on a sheet.
 
 \param mesh a conforming mesh
 \par Complexity
-Linear in the number of elements, if vertices have boundedly many
+Linear in the number of elements, if the number of elements at a vertex is bounded
 */
 template <class Mesh>
 std::vector<Face> find_sheet_faces(const Mesh& mesh)
@@ -74,29 +74,29 @@ std::vector<Face> find_sheet_faces(const Mesh& mesh)
 }
 
 /// \ingroup PkgMixedMesh3Validity
-/// What a mesh has of a sheet.
+/// The faces of a mesh on a sheet.
 struct Sheet_in_mesh
 {
-  std::vector<Face> faces; ///< of the elements in front of it
-  /// Sum of the areas of the faces, in the square of the mesh's unit.
+  std::vector<Face> faces; ///< faces of the elements in front of the sheet
+  /// The sum of the areas of the faces, in the square of the mesh's unit.
   double area = 0;
-  /// Vertices of the faces.
+  /// The number of vertices of the faces.
   std::size_t number_of_vertices = 0;
-  std::size_t number_of_vertices_off = 0; ///< that are not on the sheet
-  double largest_distance = 0;            ///< of a vertex from the sheet
-  std::size_t number_of_bad_edges = 0;    ///< of more than two of the faces
+  std::size_t number_of_vertices_off = 0; ///< vertices that are not on the sheet
+  double largest_distance = 0;            ///< largest distance of a vertex from the sheet
+  std::size_t number_of_bad_edges = 0;    ///< edges of more than two of the faces
 };
 
 /*!
 \ingroup PkgMixedMesh3Validity
 
-What a mesh has of each sheet of its domain. A face belongs to the sheet that is nearest to its vertices.
+The faces of a mesh on each sheet of its domain. A face belongs to the sheet that is nearest to its vertices.
 
 \tparam Domain a model of `MixedMeshDomainWithSheets_3`
 \param mesh a mesh of the domain
 \param domain the domain, with its sheets
-\param share_of_diagonal how far from the sheet a vertex may be to be on it, as a share of the diagonal of the
-       domain's box
+\param share_of_diagonal largest distance from the sheet of a vertex that counts as on the sheet, as a share
+of the diagonal of the domain's box
 */
 template <class Mesh, class Domain>
 std::vector<Sheet_in_mesh> find_sheets(const Mesh& mesh, const Domain& domain,
@@ -112,7 +112,7 @@ std::vector<Sheet_in_mesh> find_sheets(const Mesh& mesh, const Domain& domain,
   std::vector<Sheet_in_mesh> sheets(domain.sheets().size());
   if(sheets.empty())
     return sheets;
-  const auto height = [&](const Face& face, std::size_t i) { // of the middle of its element
+  const auto height = [&](const Face& face, std::size_t i) { // height of the middle of the element
     const Element_view element = mesh.element(face.element());
     Vec3 sum{};
     for(Vertex_index v : element)
@@ -155,8 +155,9 @@ std::vector<Sheet_in_mesh> find_sheets(const Mesh& mesh, const Domain& domain,
 }
 
 /// \ingroup PkgMixedMesh3Validity
-/// The area of a sheet inside a domain, by so many samples, about.
-/// \tparam Domain with `subdomain_index(point)` for any point, as `Labeled_polyhedral_mixed_mesh_domain_3`
+/// The area of a sheet inside a domain, by approximately the given number of samples.
+/// \tparam Domain class with `subdomain_index(point)` for any point, such as
+/// `Labeled_polyhedral_mixed_mesh_domain_3`
 template <class Sheet, class Domain>
 double area_inside(const Sheet& sheet, const Domain& domain, std::size_t number_of_samples = 20000)
 {

@@ -28,20 +28,20 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /// \ingroup PkgMixedMesh3Validity
-/// What `split_along_faces()` did.
+/// The result of `split_along_faces()`.
 struct Slit
 {
-  /// The faces of the slit, from both sides; in the order of the first ones.
+  /// The faces of the slit, from both sides; in the order of the first faces.
   std::vector<std::pair<Face, Face>> faces;
-  std::vector<Vertex_index> origins; ///< for each vertex that was added, the one that it is a copy of
-  /// Faces that stay closed: all of their vertices are at the rim; or parts of the slit would meet in an edge
-  /// or a vertex only, and the boundary would be no manifold there.
+  std::vector<Vertex_index> origins; ///< vertex of which each added vertex is a copy
+  /// The number of faces that stay closed: all of their vertices are at the rim; or parts of the slit would
+  /// meet in an edge or a vertex only, where the boundary would not be manifold.
   std::size_t number_of_faces_left = 0;
 };
 
 namespace internal {
 
-/// The vertices of a mesh as they are when some of its faces are slit.
+/// The vertices of a mesh when some of its faces are slit.
 template <class Mesh>
 class Slit_vertices
 {
@@ -49,8 +49,8 @@ class Slit_vertices
 
   const Mesh& m_mesh;
   std::map<Key, std::pair<Face, Face>> m_faces;
-  std::vector<Element_index> m_elements; // at vertices of the slit
-  Element_list m_new_elements;           // those, with the new vertices
+  std::vector<Element_index> m_elements; // elements at vertices of the slit
+  Element_list m_new_elements;           // copies of the elements with the new vertices
   std::vector<Vertex_index> m_origins;
 
 public:
@@ -76,7 +76,7 @@ public:
   const std::vector<Vertex_index>& origins() const { return m_origins; }
   const std::map<Key, std::pair<Face, Face>>& faces() const { return m_faces; }
 
-  /// All elements of the mesh that is slit.
+  /// All elements of the mesh with the slit.
   Element_list elements() const
   {
     Element_list all;
@@ -112,11 +112,11 @@ private:
     return vertices_of(faces);
   }
 
-  // A vertex stays one where its elements hang together by faces that are not slit; of other elements, the
-  // later ones get copies.
+  // Opens the slit. A vertex stays single where its elements are connected by faces that are not slit; of
+  // other elements, the later ones get copies.
   void open()
   {
-    using Corner = std::pair<Vertex_index, std::size_t>; // a vertex of one of the elements
+    using Corner = std::pair<Vertex_index, std::size_t>; // a vertex, and an element that has it
     const auto is_slit = is_of(vertices());
     Element_list around;
     std::map<Corner, std::size_t> corners;
@@ -144,10 +144,10 @@ private:
     });
 
     m_origins.clear();
-    std::vector<Vertex_index> numbers(corners.size(), no_vertex); // of roots
+    std::vector<Vertex_index> numbers(corners.size(), no_vertex); // numbers of roots
     Vertex_index last = no_vertex;
     std::map<Corner, Vertex_index> renamed;
-    for(const auto& [corner, c] : corners) { // by vertex, then by element
+    for(const auto& [corner, c] : corners) { // sorted by vertex, then by element
       Vertex_index& number = numbers[root(c)];
       if(number == no_vertex) {
         number = corner.first;
@@ -171,7 +171,7 @@ private:
     }
   }
 
-  // Where the boundary would be no manifold. \return whether there were such faces
+  // Removes faces where the boundary would not be manifold. \return whether there were such faces
   bool leave_out_pinching()
   {
     Mesh slit;
@@ -216,20 +216,20 @@ private:
 /*!
 \ingroup PkgMixedMesh3Validity
 
-Slits a mesh along faces between its elements: their vertices are doubled, so that both sides can come
-apart, or slide along each other. Vertices at the rim of the faces, where the elements around hang together
-yet, stay single, but on the boundary of the mesh: there the slit is open. A vertex where sheets meet gets
-as many copies as there are parts around.
+Slits a mesh along faces between its elements: the vertices of the faces are doubled, so that both sides can
+come apart, or slide along each other. Vertices at the rim of the faces, where the elements around are still
+connected, stay single, except on the boundary of the mesh: the slit is open there. A vertex where sheets meet
+gets as many copies as there are parts around.
 
-All vertices keep their numbers, and all elements theirs; copies are at the end, at the same places as what
-they are copies of. Conforming but for the slit, and no element changes its shape. The boundary is a manifold
-if it was one: where it would not be, faces stay closed.
+All vertices and elements keep their numbers; copies are at the end, at the same places as their originals.
+The mesh is conforming except for the slit, and no element changes its shape. The boundary is a manifold if it
+was one: where it would not be, faces stay closed.
 
 \param mesh a conforming mesh; vertices are added
-\param faces of the mesh, from either side, such as those of `find_sheet_faces()`. Those on the boundary are
-       ignored
+\param faces faces of the mesh, from either side, such as those of `find_sheet_faces()`. Faces on the boundary
+are ignored
 \par Complexity
-O(n log n) for n elements, some times
+O(n log n) for n elements, several times
 */
 template <class Mesh>
 Slit split_along_faces(Mesh& mesh, const std::vector<Face>& faces)

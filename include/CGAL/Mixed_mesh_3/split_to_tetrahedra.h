@@ -22,18 +22,17 @@ namespace Mixed_meshes_3 {
 /*!
 \ingroup PkgMixedMesh3Validity
 
-\brief Splits all elements of a mesh into tetrahedra, for programs that know nothing else.
+\brief Splits all elements of a mesh into tetrahedra, for programs that know no other elements.
 
 Every quadrilateral is split by the diagonal through its vertex of smallest index, and every element
 is a cone from its vertex of smallest index. Both elements at a face therefore split it in the same
 way, and the result is conforming; no vertex is added. A pyramid becomes 2 tetrahedra, a prism 3, a
 hexahedron 6.
 
-Tetrahedra stand in the order of the elements they come from. They have the attributes of their
-element.
+Tetrahedra are in the order of the elements that they come from, and have the attributes of these elements.
 
-The union is the same where quadrilaterals are planar. Where they are warped, the surface follows the
-diagonals, and tetrahedra of a valid but badly shaped element can have a negative volume.
+The union is the same where quadrilaterals are planar. Where quadrilaterals are warped, the surface follows
+the diagonals, and tetrahedra of a valid but badly shaped element can have a negative volume.
 
 \param mesh the mesh.
 \param origins if not null, receives for each tetrahedron the element of `mesh` it comes from.

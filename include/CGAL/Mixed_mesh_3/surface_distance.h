@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How well the boundary of a mesh represents a surface.
+// Distance between the boundary of a mesh and a surface.
 
 #ifndef CGAL_MIXED_MESH_3_SURFACE_DISTANCE_H
 #define CGAL_MIXED_MESH_3_SURFACE_DISTANCE_H
@@ -58,7 +58,7 @@ Triangle_soup surface_triangles(const FaceListGraph& surface, const NamedParamet
   return soup;
 }
 
-/// Length of the diagonal of the box of the triangles; a soup may have points of its own.
+/// The length of the diagonal of the box of the triangles; a soup may have points without triangles.
 inline double diagonal(const Triangle_soup& soup)
 {
   Bbox_3 b;
@@ -71,13 +71,13 @@ inline double diagonal(const Triangle_soup& soup)
 } // namespace internal
 
 /// \ingroup PkgMixedMesh3Validity
-/// How far the boundary of a mesh and a surface are from each other.
+/// The distance between the boundary of a mesh and a surface.
 struct Hausdorff_distance
 {
   One_sided_distance from_mesh;    ///< the point of the boundary that is farthest from the surface
   One_sided_distance from_surface; ///< the point of the surface that is farthest from the boundary
 
-  /// The larger one of both.
+  /// The larger one of both distances.
   double distance() const { return (std::max)(from_mesh.distance, from_surface.distance); }
 };
 
@@ -86,16 +86,16 @@ struct Hausdorff_distance
 
 \brief Computes the Hausdorff distance between the boundary of a mesh and a surface, both ways.
 
-Not sampled: a bound on the error is proved, up to rounding. Quadrilaterals on the boundary are split into
-two triangles, through their vertex of smallest index.
+The distance is not sampled: a bound on the error is proved, up to rounding. Quadrilaterals on the boundary
+are split into two triangles, through their vertex of smallest index.
 
 \tparam Mesh a `Mixed_mesh_3`
 \tparam FaceListGraph a model of `FaceListGraph`, with points of any CGAL kernel
 \param mesh the mesh. \pre not empty
 \param surface the surface. \pre triangulated, and not empty
-\param relative_error how much a distance may be too small, relative to the diagonal of the box of
-       `surface`. Where large triangles coincide with thousands of small ones the error can be larger;
-       `One_sided_distance::error` tells.
+\param relative_error largest error by which a distance may be too small, relative to the diagonal of the box
+of `surface`. Where large triangles coincide with thousands of small ones, the error can be larger;
+`One_sided_distance::error` tells.
 \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those below
 
 \cgalNamedParamsBegin
@@ -158,8 +158,8 @@ std::size_t number_of_vertices_off_surface(const Mesh& mesh, const FaceListGraph
 
 /// \ingroup PkgMixedMesh3Validity
 /// Number of pairs of triangles of the boundary that intersect other than in a common edge or vertex, by
-/// exact predicates. A degenerate triangle counts as a pair with itself; where the boundary is not a
-/// manifold, what touches counts as well.
+/// exact predicates. A degenerate triangle counts as a pair with itself; where the boundary is not manifold,
+/// triangles that touch count as well.
 /// \param mesh the mesh. \pre not empty
 template <class Mesh>
 std::size_t number_of_boundary_self_intersections(const Mesh& mesh)

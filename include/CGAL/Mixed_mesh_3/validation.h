@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Checkers of the results of the stages. They know nothing of how these were made.
+// Checkers of the results of the stages, independent of the way in which the results were made.
 
 #ifndef CGAL_MIXED_MESH_3_VALIDATION_H
 #define CGAL_MIXED_MESH_3_VALIDATION_H
@@ -42,7 +42,7 @@ namespace Mixed_meshes_3 {
 inline bool is_balanced(const internal::Octree& octree, Adjacency adjacency)
 {
   using internal::Octree;
-  // A leaf finds a coarser neighbor by looking for one of its own size.
+  // A leaf finds a coarser neighbor by looking for a neighbor of its own size.
   const auto directions = internal::neighbor_directions(adjacency);
   for(Octree::Node_index n = 0; n < octree.size(); ++n)
     if(octree.is_leaf(n))
@@ -55,22 +55,22 @@ inline bool is_balanced(const internal::Octree& octree, Adjacency adjacency)
 }
 
 /// \ingroup PkgMixedMesh3Validity
-/// What is wrong with a mesh: all zero if nothing is.
+/// The defects of a mesh: all zero if there is none.
 struct Mesh_defects
 {
-  std::size_t nonconforming_faces = 0;        ///< in more than two elements, or twice with one orientation,
+  std::size_t nonconforming_faces = 0;        ///< of more than two elements, or twice with one orientation,
                                               ///< or a quadrilateral against triangles
-  std::size_t nonmanifold_boundary_edges = 0; ///< not once in each direction
-  std::size_t nonmanifold_boundary_vertices = 0; ///< with more than one fan of boundary faces
+  std::size_t nonmanifold_boundary_edges = 0; ///< edges that are not once in each direction
+  std::size_t nonmanifold_boundary_vertices = 0; ///< vertices with more than one fan of boundary faces
   std::size_t nonpositive_corners = 0;  ///< corner tetrahedra whose orientation is not positive, exactly
-  std::size_t nonpositive_elements = 0; ///< whose Jacobian is not positive everywhere, exactly
-  std::size_t undecided_elements = 0;   ///< of which that could be neither proved nor disproved
+  std::size_t nonpositive_elements = 0; ///< elements whose Jacobian is not positive everywhere, exactly
+  std::size_t undecided_elements = 0;   ///< elements that could be neither proved nor disproved
   /// Vertices of no element.
   std::size_t unused_vertices = 0;
-  std::size_t duplicate_vertices = 0; ///< with the coordinates of an earlier one
+  std::size_t duplicate_vertices = 0; ///< vertices with the coordinates of an earlier one
   /// Vertices with a coordinate that is infinite or no number.
   std::size_t nonfinite_vertices = 0;
-  std::size_t invalid_elements = 0; ///< a vertex that does not exist, or the same one twice
+  std::size_t invalid_elements = 0; ///< elements with a vertex that does not exist, or the same vertex twice
 
   /// Whether two elements have a vertex, an edge, a face or nothing in common.
   bool conforming() const { return nonconforming_faces == 0 && invalid_elements == 0; }
@@ -79,7 +79,7 @@ struct Mesh_defects
   {
     return nonmanifold_boundary_edges == 0 && nonmanifold_boundary_vertices == 0 && invalid_elements == 0;
   }
-  /// Whether the Jacobian of each element is proved positive all over it.
+  /// Whether the Jacobian of each element is proved positive on the whole element.
   bool positive() const
   {
     return nonpositive_corners == 0 && nonpositive_elements == 0 && undecided_elements == 0
@@ -116,7 +116,8 @@ void find_invalid_elements(const Mesh& mesh, Mesh_defects& defects)
 template <class Mesh>
 void find_bad_vertices(const Mesh& mesh, Mesh_defects& defects)
 {
-  // Equal coordinates have equal hashes: sort numbers, compare points only where they collide.
+  // Equal coordinates have equal hashes: numbers are sorted, and points are compared only where hashes are
+  // equal.
   std::vector<std::pair<std::uint64_t, Vertex_index>> hashes;
   hashes.reserve(mesh.number_of_vertices());
   for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v) {
@@ -124,7 +125,7 @@ void find_bad_vertices(const Mesh& mesh, Mesh_defects& defects)
     defects.nonfinite_vertices += !(std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]));
     std::uint64_t hash = 0;
     for(double x : p) {
-      x += 0.; // -0 is 0
+      x += 0.; // -0 becomes 0
       std::uint64_t bits;
       std::memcpy(&bits, &x, sizeof bits);
       hash = (hash ^ bits) * 0x9E3779B97F4A7C15u;
@@ -144,8 +145,8 @@ void find_bad_vertices(const Mesh& mesh, Mesh_defects& defects)
   }
 }
 
-// The Jacobian at a corner is the determinant of its tetrahedron: where it is positive everywhere, corners
-// need no look.
+// Finds elements that are not positive. The Jacobian at a corner is the determinant of its tetrahedron: where
+// the Jacobian is positive everywhere, corners need not be tested.
 template <class Mesh>
 void find_nonpositive_elements(const Mesh& mesh, Mesh_defects& defects)
 {
@@ -188,7 +189,7 @@ void find_nonconforming_faces(const Mesh& mesh, Mesh_defects& defects)
     else if(group.size() > 2 || !are_opposite(group[0].vertices(), group[1].vertices()))
       ++defects.nonconforming_faces;
   });
-  // A quadrilateral against two triangles leaves all three on the "boundary".
+  // A quadrilateral against two triangles leaves all three faces on the "boundary".
   std::vector<std::array<Vertex_index, 4>> triangles;
   for(const Face_vertices& p : boundary)
     if(p.size() == 3) {
@@ -217,10 +218,10 @@ void find_nonconforming_faces(const Mesh& mesh, Mesh_defects& defects)
 /*!
 \ingroup PkgMixedMesh3Validity
 
-Looks for all defects that a finite-element solver would stumble over.
+Finds all defects that a finite-element solver would fail on.
 
-Signs are exact on the coordinates as doubles, and those of Jacobians hold on whole elements: a mesh
-without defects has no inverted element.
+Signs are exact on the coordinates as doubles, and signs of Jacobians hold on whole elements: a mesh without
+defects has no inverted element.
 
 \par Complexity
 O(n log n) for n elements; about 120 bytes per hexahedron
@@ -240,8 +241,8 @@ Mesh_defects find_defects(const Mesh& mesh)
 }
 
 /// \ingroup PkgMixedMesh3Validity
-/// Looks for defects in what the transition stage hands on; positions are those of the lattice. Its elements
-/// end where the octree does: the boundary need not be a manifold, nor is every vertex used.
+/// Finds defects in the result of the transition stage; positions are those of the lattice. The elements end
+/// where the octree ends: the boundary need not be a manifold, nor is every vertex used.
 inline Mesh_defects find_defects(const internal::Lattice_mesh& lattice)
 {
   std::vector<Predicates_kernel::Point_3> points;

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Images of voxels, and where their voxels are in space. What a file format makes of them is in IO.
+// Images of voxels, and the positions of their voxels in space. File formats are in IO.
 
 #ifndef CGAL_MIXED_MESH_IMAGE_3_VOXEL_IMAGE_3_H
 #define CGAL_MIXED_MESH_IMAGE_3_VOXEL_IMAGE_3_H
@@ -62,22 +62,22 @@ inline Affine_map_3 inverse(const Affine_map_3& m)
 }
 
 /// \ingroup PkgMixedMeshImage3Ref
-/// The voxels of an image: how many there are, and where.
+/// The voxels of an image: their numbers, and their positions.
 struct Voxel_grid_3
 {
   /// Voxels along each axis of the image.
   std::array<std::size_t, 3> size{};
-  /// From indices to millimeters in the image's world: x to the right, y to the front, z upwards. The
+  /// The map from indices to millimeters in the image's world: x to the right, y to the front, z upwards. The
   /// index of a voxel is its center.
   Affine_map_3 index_to_world{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-  /// What the world is, in NIfTI's numbers: 0 unknown, 1 the scanner's, 2 that of another image,
-  /// 3 Talairach's, 4 MNI's.
+  /// The kind of the world, in NIfTI's numbers: 0 unknown, 1 the scanner's, 2 that of another image, 3
+  /// Talairach's, 4 MNI's.
   int world = 1;
 
   /// The number of voxels.
   std::size_t number_of_voxels() const { return size[0] * size[1] * size[2]; }
 
-  /// Where voxel `(i,j,k)` is in the array of voxels: `i` runs fastest.
+  /// The position of voxel `(i,j,k)` in the array of voxels: `i` runs fastest.
   std::size_t offset(std::size_t i, std::size_t j, std::size_t k) const
   {
     return i + size[0] * (j + size[1] * k);
@@ -112,11 +112,11 @@ enum class Voxel_type : std::int16_t {
 };
 
 /// \ingroup PkgMixedMeshImage3Ref
-/// An image with a number in each voxel, and how a file holds it: as `type`, where the value of a voxel
-/// is `slope` times the number stored plus `intercept`.
+/// An image with a number in each voxel, and its representation in a file: as `type`, where the value of a
+/// voxel is `slope` times the stored number plus `intercept`.
 struct Voxel_image_3
 {
-  /// The voxels and their place.
+  /// The voxels and their positions.
   Voxel_grid_3 grid;
   std::vector<float> values; ///< at `grid.offset(i, j, k)`
   /// The type of values in the file.
@@ -126,11 +126,11 @@ struct Voxel_image_3
 };
 
 /// \ingroup PkgMixedMeshImage3Ref
-/// A vector in each voxel, in millimeters: what is at the center `x` of the voxel has its counterpart
-/// at `x` plus the vector.
+/// A vector in each voxel, in millimeters: the point at the center `x` of the voxel has its counterpart at
+/// `x` plus the vector.
 struct Displacement_field_3
 {
-  /// The voxels and their place.
+  /// The voxels and their positions.
   Voxel_grid_3 grid;
   std::vector<std::array<float, 3>> vectors; ///< at `grid.offset(i, j, k)`
   std::vector<std::uint8_t> is_in_mesh;      ///< whether the voxel's center is in the mesh
@@ -139,11 +139,11 @@ struct Displacement_field_3
 /*!
 \ingroup PkgMixedMesh3Fields
 
-The value of an image at a point, linear in each index between the centers of voxels; outside the image it
-is the value at the nearest point of it.
+The value of an image at a point, linear in each index between the centers of voxels; outside the image the
+value at the nearest point of the image.
 
-\param image the image
-\param p the point, in indices
+\param image image
+\param p point, in indices
 */
 inline float interpolate(const Voxel_image_3& image, const std::array<double, 3>& p)
 {
@@ -171,8 +171,8 @@ inline float interpolate(const Voxel_image_3& image, const std::array<double, 3>
 }
 
 /// \ingroup PkgMixedMeshImage3Ref
-/// The value of the voxel nearest to a point, in indices; of equally near ones that of larger index. Outside
-/// the image it is the value of the voxel nearest to it.
+/// The value of the voxel nearest to a point, in indices; of equally near voxels, that of larger index.
+/// Outside the image the value of the nearest voxel.
 inline float nearest_value(const Voxel_image_3& image, const std::array<double, 3>& p)
 {
   std::size_t voxel[3];

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From the voxels that an atlas or a segmentation has to those of a solid organ.
+// Conversion of the voxels of an atlas or a segmentation to those of a solid organ.
 
 #ifndef CGAL_MIXED_MESH_IMAGE_3_COMPLETE_LABEL_H
 #define CGAL_MIXED_MESH_IMAGE_3_COMPLETE_LABEL_H
@@ -32,36 +32,36 @@ namespace Mixed_meshes_3 {
 struct Label_completion_options
 {
   /// The radius of the ball of the morphological closing, in millimeters: gaps, grooves and openings that
-  /// this ball does not fit into get the label; 0: none.
+  /// this ball does not fit into get the label; 0: no closing.
   double closing_radius = 0;
   /// Whether the label gets the voxels that it encloses.
   bool fill_holes = false;
-  /// Whether only the largest connected component keeps the label; of equal ones, the first.
+  /// Whether only the largest connected component keeps the label; of equally large components, the first.
   bool keep_largest = false;
   /// The least volume, in cubic millimeters, of a connected component that keeps the label.
   double least_volume = 0;
 };
 
 /// \ingroup PkgMixedMeshImage3Ref
-/// The steps that make a solid organ out of an atlas or a parcellation of it: a closing by 13 % of the edge
-/// of a cube of the label's volume, 15 mm for a brain; holes filled; the largest component. Gaps between
+/// The steps that make a solid organ from an atlas or a parcellation of the organ: a closing by 13 % of the
+/// edge of a cube of the label's volume, 15 mm for a brain; holes filled; the largest component. Gaps between
 /// regions are closed then, also where the ventricles of a cortex are open below; the volume of a brain is 1
 /// % more than with 10 mm.
-/// \param volume that of the label, in cubic millimeters
+/// \param volume volume of the label, in cubic millimeters
 inline Label_completion_options hull_completion(double volume)
 {
   return {std::round(1.3 * std::cbrt(volume)) / 10, true, true, 0};
 }
 
 /// \ingroup PkgMixedMeshImage3Ref
-/// What `complete_label()` did, in voxels.
+/// The result of `complete_label()`, in voxels.
 struct Label_completion_result
 {
-  std::size_t number_of_voxels = 0;             ///< that had the label
-  std::size_t number_of_closed_voxels = 0;      ///< that got it by closing
-  std::size_t number_of_filled_voxels = 0;      ///< that got it as they were enclosed
-  std::size_t number_of_removed_voxels = 0;     ///< that lost it, with their components
-  std::size_t number_of_removed_components = 0; ///< of them
+  std::size_t number_of_voxels = 0;             ///< voxels that had the label
+  std::size_t number_of_closed_voxels = 0;      ///< voxels that got the label by closing
+  std::size_t number_of_filled_voxels = 0;      ///< voxels that got the label as they were enclosed
+  std::size_t number_of_removed_voxels = 0;     ///< voxels that lost the label, with their components
+  std::size_t number_of_removed_components = 0; ///< components of these voxels
 };
 
 namespace internal {
@@ -71,12 +71,13 @@ inline std::size_t number_with_label(const Labeled_box& box)
   return std::size_t(std::count(box.has_label.begin(), box.has_label.end(), 1));
 }
 
-/// Gives the label to the voxels that no ball covers which avoids it. Distances are those between centers.
-/// \param margin of the box, which is larger than the radius: closing adds nothing there
+/// Gives the label to the voxels that are not covered by any ball that avoids the label. Distances are
+/// distances between centers.
+/// \param margin margin of the box, which is larger than the radius: closing adds nothing there
 inline void close_label(Labeled_box& box, double radius, const std::array<double, 3>& spacing,
                         const std::array<std::size_t, 3>& margin)
 {
-  constexpr double rounding = 1e-6; // relative, of an affine map in single precision
+  constexpr double rounding = 1e-6; // relative rounding of an affine map in single precision
   const double most = radius * radius * (1 + rounding);
   const std::vector<float> to_label = squared_distances(box, 1, spacing);
   Labeled_box dilated = box;
@@ -98,7 +99,7 @@ inline void fill_holes(Labeled_box& box)
     box.has_label[v] = components.numbers[v] != 0;
 }
 
-/// Takes the label from all components but the largest one, or from those with fewer voxels.
+/// Removes the label from all components but the largest one, or from components with fewer voxels.
 /// \return the number of these components
 inline std::size_t remove_components(Labeled_box& box, bool keep_largest, double least_number_of_voxels)
 {
@@ -128,17 +129,17 @@ inline std::size_t remove_components(Labeled_box& box, bool keep_largest, double
 \brief The voxels of a label, with gaps closed, holes filled, and small components removed.
 
 An atlas has gaps between its regions, and a segmentation has specks: their surface is not that of an organ.
-The steps, each of them optional: a morphological closing by a ball, by exact Euclidean distances between the
-centers of voxels (Felzenszwalb and Huttenlocher, 2012), whatever the spacing along each axis is, as if the
-image went on without label; holes filled; the largest component, or those of a least volume, kept. Connected
-is what the surface of `make_label_surface()` connects: voxels whose centers share an edge of Kuhn's
+The steps, each of them optional, are: a morphological closing by a ball, by exact Euclidean distances between
+the centers of voxels (Felzenszwalb and Huttenlocher, 2012), for any spacing along each axis, as if the image
+went on without label; holes filled; the largest component, or components of a least volume, kept. Two voxels
+are connected if the surface of `make_label_surface()` connects them: if their centers share an edge of Kuhn's
 tetrahedra.
 
 \tparam HasLabel `bool(float)`
-\param image a segmentation; its axes are perpendicular, or nearly: distances are measured along them
+\param image segmentation whose axes are perpendicular, or nearly: distances are measured along the axes
 \param has_label whether voxels of a value have the label
-\param options the steps
-\param result what was done, if it is given
+\param options steps to be done
+\param result the result, if given
 
 \return an image of the same grid: 1 in voxels that have the label afterwards, 0 in others
 \pre lengths and volumes of the options are finite and not negative, the determinant of
@@ -158,12 +159,12 @@ Voxel_image_3 complete_label(const Voxel_image_3& image, const HasLabel& has_lab
   CGAL_precondition(determinant(image.grid.index_to_world) != 0);
   const std::array<double, 3> spacing = voxel_spacing(image.grid);
   std::array<std::size_t, 3> margin;
-  for(int i = 0; i < 3; ++i) // balls beyond the label, and a voxel at the border
+  for(int i = 0; i < 3; ++i) // covers balls beyond the label, and a voxel at the border
     margin[i] = std::size_t(std::ceil(options.closing_radius / spacing[i])) + 2;
   Labeled_box box = box_of_label(image, has_label, margin, whole_extent(image.grid));
   Label_completion_result done;
   std::size_t number = done.number_of_voxels = number_with_label(box);
-  // By how many more voxels have the label than before.
+  // The growth of the number of voxels that have the label.
   const auto growth = [&box, &number] {
     const std::size_t before = number;
     return (number = number_with_label(box)) - before;

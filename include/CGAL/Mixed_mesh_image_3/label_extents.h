@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// All labels of an image, found in one pass: how many voxels each has, and where.
+// All labels of an image, found in one pass: the number of voxels of each label, and their box.
 
 #ifndef CGAL_MIXED_MESH_IMAGE_3_LABEL_EXTENTS_H
 #define CGAL_MIXED_MESH_IMAGE_3_LABEL_EXTENTS_H
@@ -25,18 +25,18 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /// \ingroup PkgMixedMeshImage3Ref
-/// The box of voxels around some of them: `first[i] <= index < last[i]` along each axis. By default, it is
-/// empty.
+/// The box of voxels around some voxels: `first[i] <= index < last[i]` along each axis. By default, the box
+/// is empty.
 struct Label_extent_3
 {
-  std::size_t number_of_voxels = 0; ///< that have the label
+  std::size_t number_of_voxels = 0; ///< voxels that have the label
   /// The smallest indices.
   std::array<std::size_t, 3> first{std::numeric_limits<std::size_t>::max(),
                                    std::numeric_limits<std::size_t>::max(),
                                    std::numeric_limits<std::size_t>::max()};
   std::array<std::size_t, 3> last{}; ///< the largest indices plus one
 
-  /// Grows to hold another one, of other voxels.
+  /// Extends the box by another one, of other voxels.
   void add(const Label_extent_3& other)
   {
     number_of_voxels += other.number_of_voxels;
@@ -55,7 +55,7 @@ inline Label_extent_3 whole_extent(const Voxel_grid_3& grid)
 }
 
 /// \ingroup PkgMixedMeshImage3Ref
-/// \brief The extents of all values of an image, but of those that are no number: one pass for all labels.
+/// \brief The extents of all values of an image, except values that are no number: one pass for all labels.
 /// \par Complexity
 /// Linear in the number of voxels, if there are few values, or neighbors are often equal
 inline std::map<float, Label_extent_3> label_extents(const Voxel_image_3& image)
@@ -67,7 +67,7 @@ inline std::map<float, Label_extent_3> label_extents(const Voxel_image_3& image)
   const auto extent_of = [&](float value) -> Label_extent_3& {
     std::uint32_t bits;
     std::memcpy(&bits, &value, sizeof(bits));
-    constexpr std::uint32_t golden_ratio = 2654435769u; // of 2^32: Knuth's multiplicative hash
+    constexpr std::uint32_t golden_ratio = 2654435769u; // share of 2^32: Knuth's multiplicative hash
     Extents::value_type*& entry = recent[bits * golden_ratio >> 20];
     if(entry == nullptr || entry->first != value)
       entry = &*extents.try_emplace(value).first;

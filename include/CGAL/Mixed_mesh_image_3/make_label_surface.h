@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From a segmentation to a closed surface: a level of the label's indicator, smoothed.
+// Conversion of a segmentation to a closed surface: a level of the label's indicator, smoothed.
 
 #ifndef CGAL_MIXED_MESH_IMAGE_3_MAKE_LABEL_SURFACE_H
 #define CGAL_MIXED_MESH_IMAGE_3_MAKE_LABEL_SURFACE_H
@@ -34,27 +34,28 @@ namespace Mixed_meshes_3 {
 \brief The closed surface around the voxels that have a label.
 
 The indicator of these voxels, 1 in them and 0 elsewhere and outside the image, is smoothed by a Gaussian. The
-surface is a level of it, by marching tetrahedra: each cube between eight centers of voxels is split into six
-tetrahedra (Kuhn). So the surface is a closed oriented 2-manifold that does not cut itself, for every image.
+surface is a level of the indicator, by marching tetrahedra: each cube between eight centers of voxels is
+split into six tetrahedra (Kuhn). So the surface is a closed oriented 2-manifold that does not cut itself, for
+every image.
 
-The level is that which has as many centers of voxels inside as have the label, nearly one half: volume is
-kept, where one half would take a layer of \f$ \sigma^2 / R \f$ from a ball of radius \f$ R \f$, and all of a
-small one. What is small or thin beside the rest of the label gets smaller, or is lost. Without voxels that
-have the label, the surface is empty.
+The level is chosen such that as many centers of voxels are inside as have the label; it is nearly one half.
+So the volume is kept, where one half would remove a layer of \f$ \sigma^2 / R \f$ from a ball of radius \f$ R
+\f$, and the whole of a small one. Small or thin parts beside the rest of the label get smaller, or are lost.
+Without voxels that have the label, the surface is empty.
 
 \tparam HasLabel `bool(float)`
 \tparam Surface_mesh_ a `CGAL::Surface_mesh` with points that can be made of three `double`
-\param image a segmentation. Its `index_to_world` may be oblique, or mirror
+\param image segmentation. Its `index_to_world` may be oblique, or mirror
 \param has_label whether voxels of a value have the label
-\param smoothing the standard deviation of the Gaussian, in millimeters; without (0), the surface has the
-       steps of the voxels. The largest spacing of voxels is a good choice
+\param smoothing standard deviation of the Gaussian, in millimeters; with 0, the surface has the steps of the
+voxels. The largest spacing of voxels is a good choice
 \param surface the result, in millimeters, outward oriented; cleared first
-\param number_of_vertices how many the surface will be simplified to, if that is known. Where it
-       would have some 20 times as many, every second voxel's center along each index is enough, if
-       `smoothing` is about a voxel (wherever the surface crosses an edge between two, it is off by at most
-       a tenth of a voxel then): a quarter of the vertices, and of the time that the simplification takes
-\param extent a box of voxels that holds all that have the label: what is outside is not looked at. Of many
-       labels, `label_extents()` finds those of all at once. By default, it is the whole image
+\param number_of_vertices number to which the surface will be simplified, if that is known. If the surface
+would have some 20 times as many, every second voxel's center along each index is enough, if `smoothing` is
+about a voxel (wherever the surface crosses an edge between two centers, the error is at most a tenth of a
+voxel then): a quarter of the vertices, and of the time that the simplification takes
+\param extent box of voxels that contains all voxels with the label: voxels outside the box are not examined.
+If there are many labels, `label_extents()` finds all boxes at once. By default, the box is the whole image
 \tparam ConcurrencyTag enables sequential versus parallel smoothing. The result does not depend on it.
         Possible values are `Sequential_tag`, `Parallel_tag`, and `Parallel_if_available_tag`
 \pre `smoothing >= 0`, the determinant of `image.grid.index_to_world` is not 0
@@ -77,7 +78,7 @@ void make_label_surface(const Voxel_image_3& image, const HasLabel& has_label, d
                                                              internal::number_of_threads<ConcurrencyTag>());
   if(indicator.values.empty())
     return;
-  constexpr std::size_t many_crossings = 8; // of edges along the axes: there are more vertices
+  constexpr std::size_t many_crossings = 8; // crossings of edges along the axes: there are more vertices
   if(number_of_vertices > 0 && *std::min_element(deviations.begin(), deviations.end()) >= 0.9
      && internal::number_of_crossings(indicator) > many_crossings * number_of_vertices)
     indicator = internal::every_second(indicator);

@@ -5,7 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Surfaces out of images have several vertices for each voxel: far more than a mesh can follow.
+// Simplification of surfaces from images, which have several vertices for each voxel: far more than a mesh
+// can follow.
 
 #ifndef CGAL_MIXED_MESH_IMAGE_3_SIMPLIFY_CLOSED_SURFACE_H
 #define CGAL_MIXED_MESH_IMAGE_3_SIMPLIFY_CLOSED_SURFACE_H
@@ -59,7 +60,7 @@ class Surface_simplifier
 
   static constexpr const char* is_kept_name = "e:CGAL::Mixed_meshes_3::is_kept";
   static constexpr int attempts = 8, factor = 4;
-  // How many times the vertices that are wanted the collapse by volume and shape starts from.
+  // Multiple of the wanted number of vertices from which the collapse by volume and shape starts.
   static constexpr std::size_t start = 16;
 
   Surface& m_surface;
@@ -80,7 +81,7 @@ public:
   }
 
 private:
-  // In steps, so that what is tried again is not the whole way.
+  // Approaches the number in steps, so that a repeated attempt is not the whole way.
   template <class Reach>
   void approach(std::size_t wanted, const Reach& reach)
   {
@@ -91,15 +92,15 @@ private:
       next /= factor;
   }
 
-  // None, if there is no such map before.
+  // Adds the map of kept edges, with no edge kept if there was no such map before.
   Is_kept add_kept_edges()
   {
     return m_surface.template add_property_map<Edge_index, bool>(is_kept_name, false).first;
   }
 
-  // By quadrics. Where faces cut each other afterwards, edges are kept, and it is tried again; if that does
-  // not help, the surface stays as it is.
-  // \return whether it helped
+  // Collapses edges by quadrics. If faces cut each other afterwards, edges are kept, and the collapse is
+  // repeated; if that does not help, the surface stays as it is.
+  // \return whether the surface was coarsened
   bool coarsen(std::size_t number_of_vertices)
   {
     Is_kept is_kept = add_kept_edges();
@@ -142,7 +143,7 @@ private:
         opposite.push_back(number[m_surface.opposite(h)]);
     const auto number_of_fixed = std::size_t(std::count(is_fixed.begin(), is_fixed.end(), true));
     Quadric_collapses collapses(std::move(points), triangles, std::move(opposite), std::move(is_fixed));
-    // those that stay come on top: the others would have to make up for them
+    // The fixed vertices are added to the number: otherwise the others would have to compensate for them.
     collapses(number_of_vertices + number_of_fixed);
     return surface_of(collapses.result(), origin);
   }
@@ -163,7 +164,7 @@ private:
     return surface;
   }
 
-  // Where faces cut each other afterwards, edges are kept, and it is tried again.
+  // Collapses edges. If faces cut each other afterwards, edges are kept, and the collapse is repeated.
   bool reach(std::size_t number_of_vertices)
   {
     for(int i = 0; i < attempts; ++i) {
@@ -187,8 +188,8 @@ private:
     namespace SMS = Surface_mesh_simplification;
     using Placement = SMS::Constrained_placement<SMS::LindstromTurk_placement<Surface>, Is_kept>;
     const Is_kept is_kept = surface.template add_property_map<Edge_index, bool>(is_kept_name, false).first;
-    // a face that would turn over would lie on another one
-    std::size_t kept = 0; // those come on top
+    // The filter prevents a face that would turn over from lying on another one.
+    std::size_t kept = 0; // added to the number
     for(Edge_index e : surface.edges())
       kept += is_kept[e];
     SMS::edge_collapse(surface, Stop_at_number_of_edges{3 * number_of_vertices + kept},
@@ -197,8 +198,9 @@ private:
                          .filter(SMS::Bounded_normal_change_filter<>()));
   }
 
-  // \param share of the faces' size, which is looked at around them, too
-  // \return whether there are any that were not kept before
+  // Keeps edges at crossing faces. \param share share of the faces' size to which edges around them are kept,
+  // too
+  // \return whether there are any edges that were not kept before
   bool keep_edges_around(const std::vector<std::pair<Face_index, Face_index>>& crossing,
                          const Surface& simplified, double share)
   {
@@ -227,18 +229,19 @@ private:
 /*!
 \ingroup PkgMixedMeshImage3Ref
 
-\brief Simplifies a surface to a number of vertices, about, by the collapse of the edges that change its
-volume and shape least (Lindstrom, Turk: Fast and memory efficient polygonal simplification, 1998).
+\brief Simplifies a surface to approximately a number of vertices, by the collapse of the edges that change
+its volume and shape least (Lindstrom, Turk: Fast and memory efficient polygonal simplification, 1998).
 
-Of a surface with more than sixteen times as many, edges are collapsed down to that number by quadric errors
-first (Garland, Heckbert: Surface simplification using quadric error metrics, 1997), which takes much less
-time and moves the surface much less than the rest does.
+If a surface has more than sixteen times as many vertices, edges are collapsed down to that number by quadric
+errors first (Garland, Heckbert: Surface simplification using quadric error metrics, 1997), which takes much
+less time and moves the surface much less than the other collapses.
 
-The topology stays. Where the result would cut itself, edges are kept as they are; if that does not help, the
-surface gets more vertices, up to those it has. So what does not cut itself at the start does not in the end.
+The topology is kept. Where the result would cut itself, edges are kept as they are; if that does not help,
+the surface gets more vertices, up to their initial number. So a surface that does not cut itself at the start
+does not cut itself in the end.
 
-\param surface a closed triangulated surface that does not cut itself
-\param number_of_vertices how many vertices are wanted
+\param surface closed triangulated surface that does not cut itself
+\param number_of_vertices wanted number of vertices
 \par Complexity
 \f$ O(n \log n) \f$
 */

@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The image as it looks after the deformation: section 6.2 of Lobos, Bucki, Hitschfeld, Payan:
-// "Mixed-element mesh for an intra-operative modeling of the brain tumor extraction".
+// The image after the deformation: section 6.2 of Lobos, Bucki, Hitschfeld, Payan: "Mixed-element mesh for an
+// intra-operative modeling of the brain tumor extraction".
 
 #ifndef CGAL_MIXED_MESH_IMAGE_3_WARP_IMAGE_H
 #define CGAL_MIXED_MESH_IMAGE_3_WARP_IMAGE_H
@@ -41,47 +41,48 @@ namespace Mixed_meshes_3 {
 /// The value of an image between the centers of voxels.
 enum class Image_interpolation {
   LINEAR, ///< `interpolate()`
-  NEAREST ///< `nearest_value()`: for labels, between which there is nothing
+  NEAREST ///< `nearest_value()`: for labels, which have no values in between
 };
 
 /// \ingroup PkgMixedMeshImage3Ref
-/// How `warp_image()` and `resample_image()` make images.
+/// The options of `warp_image()` and `resample_image()`.
 struct Warp_options
 {
-  /// Outside the mesh a voxel has the displacement of the voxel of the mesh nearest to it, times a factor
-  /// that falls smoothly to zero over this distance, in millimeters. 0: nothing outside moves. Default:
-  /// twice the largest displacement of a vertex; below 1.5 times, space outside can fold. The field is
-  /// continuous up to a voxel, except at points that are equally near to different parts of the mesh.
+  /// The distance in millimeters over which displacements fade outside the mesh: a voxel outside has the
+  /// displacement of the nearest voxel of the mesh, times a factor that falls smoothly to zero over this
+  /// distance. 0: no voxel outside moves. Default: twice the largest displacement of a vertex; below 1.5
+  /// times, space outside can fold. The field is continuous up to a voxel, except at points that are equally
+  /// near to different parts of the mesh.
   std::optional<double> fade_distance;
-  /// How displacements between the vertices are made from those of the vertices.
+  /// The way in which displacements between vertices are computed from the displacements of the vertices.
   Displacement_interpolation interpolation = Displacement_interpolation::RECOVERED;
-  /// How values between the voxels of the image are made from theirs.
+  /// The way in which values between the voxels of the image are computed from the values of voxels.
   Image_interpolation image_interpolation = Image_interpolation::LINEAR;
   /// Elements that have been removed, true for each; empty: none. The displacements of vertices that only
-  /// they have do not matter.
+  /// removed elements have do not matter.
   std::vector<bool> resected_elements;
-  /// Which points before the deformation have been removed, in millimeters; empty: none.
+  /// The test whether a point, in millimeters before the deformation, has been removed; empty: none.
   std::function<bool(const std::array<double, 3>&)> is_resected;
   /// The value of the warped image where tissue has been removed.
   float resected_value = 0;
 };
 
 /// \ingroup PkgMixedMeshImage3Ref
-/// What the image becomes; all on the grid of the image.
+/// The results of `warp_image()`; all on the grid of the image.
 struct Warped_image_3
 {
   /// The warped image.
   Voxel_image_3 image;
-  Displacement_field_3 forward;  ///< at points before the deformation: where they go
-  Displacement_field_3 backward; ///< at points after the deformation: where they come from
+  Displacement_field_3 forward;  ///< at points before the deformation: the displacement of the point
+  Displacement_field_3 backward; ///< at points after the deformation: the vector to the former place
   Voxel_image_3 mask;            ///< after the deformation: 0 outside, 1 tissue, 2 resected
-  /// With `RECOVERED`: see `Recovered_displacement_3::number_of_linear_elements()`.
+  /// The value of `Recovered_displacement_3::number_of_linear_elements()`, with `RECOVERED`.
   std::size_t number_of_linear_elements = 0;
 };
 
 namespace internal {
 
-/// A mesh and its displacement, in the indices of a grid; checked.
+/// A mesh and its displacement, in the indices of a grid; input is checked.
 struct Mesh_in_grid : Displaced_vertices
 {
   double largest_displacement = 0;
@@ -161,7 +162,7 @@ private:
   }
 };
 
-// The field at the voxels that are in the mesh (before or after the deformation), and near it.
+// The field at the voxels that are in the mesh (before or after the deformation), and near the mesh.
 template <class Bubbles_of>
 Displacement_field_3 displacement_field(const Voxel_grid_3& grid, const Element_list& elements,
                                         const Mesh_in_grid& mesh, const Bubbles_of& bubbles_of,
@@ -179,8 +180,8 @@ Displacement_field_3 displacement_field(const Voxel_grid_3& grid, const Element_
   return field;
 }
 
-// Calls `visit(offset, p)` for the voxels, with the point in indices to which a field takes them; or
-// `visit_fixed(offset)` for those that stay.
+// Calls `visit(offset, p)` for the voxels, with the point in indices to which a field moves the voxel; or
+// `visit_fixed(offset)` for voxels that stay.
 template <class Visitor, class Visitor_of_fixed>
 void for_each_displaced_voxel(const Displacement_field_3& field, const Visitor& visit,
                               const Visitor_of_fixed& visit_fixed)
@@ -208,14 +209,15 @@ void for_each_displaced_voxel(const Displacement_field_3& field, const Visitor& 
 /*!
 \ingroup PkgMixedMeshImage3Ref
 
-Resamples an image: the value of a voxel of the result is the image's where the field takes the voxel,
-linear between voxels or that of the nearest one. Voxels that stay keep their value exactly.
+Resamples an image: the value of a voxel of the result is the image's value at the point to which the field
+moves the voxel, linear between voxels or the value of the nearest voxel. Voxels that stay keep their value
+exactly.
 
-With the backward field it deforms an image as the mesh; with the forward field it undoes that.
+The backward field deforms an image like the mesh; the forward field undoes the deformation.
 
-\param image the image
-\param field where voxels of the result come from. \pre on the same grid
-\param interpolation between voxels
+\param image image
+\param field field that leads from voxels of the result to their origin. \pre on the same grid
+\param interpolation interpolation between voxels
 \return the image, of the same type
 \par Complexity
 Linear in the number of voxels
@@ -240,23 +242,23 @@ inline Voxel_image_3 resample_image(const Voxel_image_3& image, const Displaceme
 
 \brief Deforms an image with a mesh.
 
-For each voxel, the element of the deformed mesh that contains its center tells which point of the tissue
-is there now; the value is the image's there, linear between voxels by default. Outside the mesh see
-`Warp_options::fade_distance`. The mesh and the image are in the same world: millimeters, x to the right,
-y to the front, z upwards.
+The element of the deformed mesh that contains the center of a voxel tells the point of the tissue that is now
+at the center; the value is the image's value at that point, linear between voxels by default. For points
+outside the mesh see `Warp_options::fade_distance`. The mesh and the image are in the same world: millimeters,
+x to the right, y to the front, z upwards.
 
-In the mesh the fields are those of the elements at the centers of the voxels, up to the rounding to
-floats, and inverse to each other; outside they agree at the surface only. Voxels of resected tissue are
-those, after the deformation, that would show tissue removed: points of tissue of which `is_resected` holds,
-and points outside the remaining mesh that come from a resected element.
+The fields in the mesh are those of the elements at the centers of the voxels, up to the rounding to floats,
+and inverse to each other; outside, they agree at the surface only. Voxels of resected tissue are voxels that
+would show removed tissue after the deformation: points of tissue for which `is_resected` holds, and points
+outside the remaining mesh that come from a resected element.
 
 \tparam Mesh a `Mixed_mesh_3`
 \tparam Displacements an array with components `[0]`, `[1]`, `[2]` for each vertex
 \param image the image before the deformation
 \param mesh the mesh before the deformation
-\param displacements of its vertices, in millimeters
-\param options what has been removed, and what happens outside
-\pre a displacement for each vertex
+\param displacements displacements of the vertices, in millimeters
+\param options removed elements and points, and treatment of the outside
+\pre there is a displacement for each vertex
 \return the image, both fields, and the mask
 \throw std::runtime_error a line, if the image and the mesh do not overlap, or if a displacement is not finite
 \par Complexity

@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The license of a package under the GPL, in the way of CGAL: who has none for commercial use can be told,
-// by a warning or an error, that the GPL holds.
+// The license of a package under the GPL, in the way of CGAL: users without a license for commercial use can
+// be told, by a warning or an error, that the GPL holds.
 
 #ifndef CGAL_LICENSE_LINEAR_ELASTICITY_3_H
 #define CGAL_LICENSE_LINEAR_ELASTICITY_3_H

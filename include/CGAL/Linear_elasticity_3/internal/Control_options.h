@@ -19,14 +19,14 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The vertices whose displacements a control point has the weighted mean of.
+/// The weights of the vertices whose weighted mean displacement is that of a control point.
 using Control_weights = std::vector<std::pair<Vertex_index, double>>;
 
-/// How control points act; see `Linear_elasticity_3::set_control_points()`.
+/// The options of control points; see `Linear_elasticity_3::set_control_points()`.
 struct Control_options
 {
   double largest_distance = 0, compliance = 0, radius = 0;
-  std::vector<double> weights; // of the points; empty: 1
+  std::vector<double> weights; // weights of the points; empty: 1
 };
 
 } // namespace internal

@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The control points of an elastic body: in which elements they are, which vertices each has the mean of, and
-// the constraints that this makes.
+// The control points of an elastic body: the elements that contain them, the vertices whose mean displacement
+// is that of a point, and the resulting constraints.
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_CONTROL_POINTS_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_CONTROL_POINTS_H
@@ -40,16 +40,16 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Those elements that are left, and which of them contains a point.
+/// The elements that are left, and the location of points in them.
 class Located_elements
 {
   using Kernel = CGAL::Simple_cartesian<double>; // points are in doubles
   using Mesh = Mixed_mesh_3<Kernel>;
 
-  std::vector<Element_index> m_elements; // their numbers in the whole mesh
-  Mesh m_mesh;                           // of them, with all vertices
+  std::vector<Element_index> m_elements; // numbers of the elements in the whole mesh
+  Mesh m_mesh;                           // mesh of the elements, with all vertices
   Element_locator_3<Mesh> m_locator;     // refers to m_mesh
-  std::vector<double> m_areas;           // of the vertices of its boundary, when needed
+  std::vector<double> m_areas;           // areas of the vertices of the boundary, when needed
 
 public:
   Located_elements(const Element_list& elements, const std::vector<Vec3>& points,
@@ -58,14 +58,14 @@ public:
   {
   }
 
-  // The locator would stay with the mesh of the other one.
+  // The class is not copyable: the locator would refer to the mesh of the other object.
   Located_elements(const Located_elements&) = delete;
   Located_elements& operator=(const Located_elements&) = delete;
 
-  /// The nearest point of what is left. Its element has another number here than in the whole mesh.
+  /// The nearest point of the remaining mesh. Its element has a number other than in the whole mesh.
   Element_location_3 nearest(const Vec3& p) const { return m_locator.nearest(p); }
 
-  /// The number in the whole mesh.
+  /// The number of an element in the whole mesh.
   Element_index element(const Element_location_3& location) const { return m_elements[location.element]; }
 
   Control_weights weights(const Element_location_3& location) const
@@ -78,7 +78,7 @@ public:
     return weights;
   }
 
-  /// The weights of the boundary around a point, by area; unchanged if there are too few vertices.
+  /// Spreads weights over the boundary around a point, by area; unchanged if there are too few vertices.
   void spread(const std::vector<Vec3>& points, const Vec3& p, double radius, Control_weights& weights)
   {
     if(m_areas.empty())
@@ -118,20 +118,20 @@ class Control_points
   using Result = Linear_elasticity_result_3;
   using Status = Linear_elasticity_status;
 
-  // On the heap: it cannot be moved.
-  std::unique_ptr<Located_elements> m_located; // when needed
+  // A pointer, as the object cannot be moved.
+  std::unique_ptr<Located_elements> m_located; // null until needed
   Control_options m_options;
   std::vector<Vec3> m_positions;
-  std::vector<Element_index> m_elements; // that contain them
+  std::vector<Element_index> m_elements; // elements that contain the points
   std::optional<Control_constraints> m_constraints;
 
 public:
   const std::vector<Vec3>& positions() const { return m_positions; }
   const Control_options& options() const { return m_options; }
 
-  /// To be called when elements have been removed.
+  /// Forgets the located elements. To be called when elements have been removed.
   void forget_elements() { m_located.reset(); }
-  /// To be called before the body is factored.
+  /// Forgets the constraints. To be called before the body is factored.
   void forget_constraints() { m_constraints.reset(); }
 
   void clear(const Control_options& options)
@@ -142,7 +142,7 @@ public:
     m_constraints.reset();
   }
 
-  /// Whether they act on what is left of the body only.
+  /// Whether the points act on the remaining body only.
   bool are_on(const Elastic_body& body) const
   {
     return (!m_constraints || m_constraints->is_on(body.supports().kept_vertices()))
@@ -150,7 +150,7 @@ public:
                            [&](Element_index e) { return body.stiffness().is_removed(e); });
   }
 
-  /// Places control points where there are none. There are none either if that fails.
+  /// Places control points where there are none. There are no control points either if placing fails.
   /// \pre the body is factored
   Result place(Elastic_body& body, std::vector<Vec3> positions)
   {
@@ -181,10 +181,10 @@ public:
     return result;
   }
 
-  /// The constraints, also if there is no control point. \pre the body is factored
+  /// Prepares the constraints, also if there is no control point. \pre the body is factored
   Result prepare(Elastic_body& body) { return m_constraints ? Result() : constrain(body, {}); }
 
-  /// \pre `place()` or `prepare()` was successful
+  /// The constraints. \pre `place()` or `prepare()` was successful
   const Control_constraints& constraints() const { return *m_constraints; }
   bool has_constraints() const { return m_constraints.has_value(); }
 

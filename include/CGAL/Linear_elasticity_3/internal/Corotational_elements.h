@@ -7,9 +7,8 @@
 //
 // Corotational elements: linear elasticity in a frame that turns with each element. C. A. Felippa, B. Haugen:
 // "A unified formulation of small-strain corotational finite elements: I. Theory", Comput. Methods Appl.
-// Mech.
-// Engrg 194, 2005; the rotation as in M. Mueller, M. Gross: "Interactive virtual materials", Graphics
-// Interface, 2004, but with the forces that are the exact gradient of the energy.
+// Mech. Engrg 194, 2005; the rotation as in M. Mueller, M. Gross: "Interactive virtual materials", Graphics
+// Interface, 2004, but with forces that are the exact gradient of the energy.
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_COROTATIONAL_ELEMENTS_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_COROTATIONAL_ELEMENTS_H
@@ -35,25 +34,24 @@ namespace internal {
 /*!
 An element of nodes \f$ X_a \f$ at \f$ x_a = X_a + u_a \f$ has the mean gradient of deformation
 \f$ F = \sum_a x_a g_a^T \f$, with the mean gradients \f$ g_a \f$ of its shape functions. With the polar
-decomposition \f$ F = R U \f$, its energy is the linear one of the displacements without the rotation,
+decomposition \f$ F = R U \f$, its energy is the linear energy of the displacements without the rotation,
 
     W = 1/2 v^T K v,   v_a = R^T x_a - X_a
 
-where K is the matrix of Linear_elasticity_3, with the same treatment of dilatation: that of a patch is the
-mean
-of those of its elements. The rotation depends on the displacements, which gives the forces
+where K is the matrix of Linear_elasticity_3, with the same treatment of dilatation: the dilatation of a patch
+is the mean of the dilatations of its elements. The rotation depends on the displacements, which gives the
+forces
 
     f_a = R (q_a - h x g_a),   q = K v,   h = (tr(U) 1 - U)^-1 sum_a R^T x_a x q_a
 
-and, differentiated once more, the product with the tangent stiffness. The energy does not change when all is
-turned; so forces have no moment, and a rigid motion has none of them.
+and, differentiated once more, the product with the tangent stiffness. The energy does not change when the
+whole body is turned; so forces have no moment, and a rigid motion causes no forces.
 
-In a step of Newton's that turns elements, these are stretched by what the step has of second order, and the
-forces of that would make the tangent far too stiff for the next one. So the tangent takes the forces that the
-step should have made, to first order, as if they were unknowns of their own: D. Magisano, L. Leonetti,
-G. Garcea: "How to improve efficiency and robustness of the Newton method in geometrically non-linear
-structural problem discretized via displacement-based finite elements", Comput. Methods Appl. Mech. Engrg 313,
-2017.
+A step of Newton's method that turns elements stretches them by its second-order part, and the resulting
+forces would make the tangent far too stiff for the next step. So the tangent takes the forces that the step
+should have made, to first order, as if they were unknowns of their own: D. Magisano, L. Leonetti, G. Garcea:
+"How to improve efficiency and robustness of the Newton method in geometrically non-linear structural problem
+discretized via displacement-based finite elements", Comput. Methods Appl. Mech. Engrg 313, 2017.
 */
 class Corotational_elements
 {
@@ -63,18 +61,19 @@ class Corotational_elements
   struct Element
   {
     Element_index number;
-    Eigen::Index first_node; // of the columns
-    std::size_t first_entry; // of the matrices
+    Eigen::Index first_node; // first of the columns
+    std::size_t first_entry; // first of the matrices
     double volume;
     Polar_rotation frame;
-    Eigen::Vector3d couple; // h, of the forces that are expected
+    Eigen::Vector3d couple; // h of the expected forces
   };
 
-  // Elements of one dilatation: those of a patch, or one alone, which has its dilatation in its matrix.
+  // Elements with a common dilatation: the elements of a patch, or a single one, whose dilatation is in its
+  // matrix.
   struct Group
   {
     std::size_t first, last; // elements
-    double modulus;          // the bulk modulus of the mean dilatation by the volume
+    double modulus;          // bulk modulus of the mean dilatation, divided by the volume
   };
 
   const Element_list* m_elements;
@@ -82,14 +81,14 @@ class Corotational_elements
   std::vector<Group> m_groups;
   Vectors m_positions, m_gradients; // X, g
   Vectors m_turned, m_forces;       // R^T x, q
-  Vectors m_expected_forces;        // what the last step made of q, to first order
+  Vectors m_expected_forces;        // forces q after the last step, to first order
   std::vector<double> m_matrices;   // K of each element
   double m_energy = 0;
   Vector m_internal_forces;
 
   using Nodes = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 8>;
 
-  // How an element moves in its frame, and how that turns.
+  // Change of the displacements of an element in its frame, and of the frame.
   struct Change
   {
     Nodes displacements;
@@ -110,7 +109,7 @@ class Corotational_elements
 public:
   /// \pre the stiffness is assembled, and no element is inverted
   /// \par Complexity
-  /// Linear in time and memory: 4.6 kB a hexahedron, 1.2 kB a tetrahedron
+  /// Linear in time and memory: 4.6 kB for each hexahedron, 1.2 kB for each tetrahedron
   explicit Corotational_elements(const Elastic_stiffness& stiffness) : m_elements(&stiffness.elements())
   {
     std::vector<bool> is_in_patch(m_elements->size(), false);
@@ -141,15 +140,15 @@ public:
     m_forces = m_expected_forces = Vectors::Zero(3, number_of_nodes);
   }
 
-  /// Of the displacements that `move()` was given.
+  /// The energy of the displacements given to `move()`.
   double energy() const { return m_energy; }
   /// The gradient of the energy: the forces on all vertices that hold these displacements.
   const Vector& forces() const { return m_internal_forces; }
 
   /// Finds the rotations, the energy and the forces.
   /// \param u three components of each vertex
-  /// \param is_positive whether the tangent leaves out what depends on the forces, so that it has no negative
-  ///        curvature
+  /// \param is_positive whether the tangent omits the part that depends on the forces, so that it has no
+  /// negative curvature
   void move(const Vector& u, bool is_positive = false)
   {
     find_forces(u);
@@ -159,8 +158,8 @@ public:
     find_couples();
   }
 
-  /// As `move()`, but with the tangent of the forces that a step is expected to make.
-  /// \param step from the last displacements
+  /// Finds the same as `move()`, but with the tangent of the forces that a step is expected to make.
+  /// \param step difference from the last displacements
   void move_by(const Vector& step, const Vector& u)
   {
     for_each_change(step, [this](const Element& element, const Change&, const Nodes& forces) {
@@ -170,7 +169,7 @@ public:
     find_couples();
   }
 
-  /// The tangent stiffness at these displacements times others.
+  /// The tangent stiffness at these displacements times other displacements.
   Vector product(const Vector& p) const
   {
     Vector f = Vector::Zero(p.size());
@@ -209,7 +208,7 @@ private:
     m_frames.push_back(element);
   }
 
-  // What an element's vertices have.
+  // The displacements of the vertices of an element.
   Nodes gather(const Vector& u, const Element& element) const
   {
     const Element_view view = (*m_elements)[element.number];
@@ -219,7 +218,7 @@ private:
     return result;
   }
 
-  // K v
+  // The product K v.
   Nodes stiffness_times(const Element& element, const Nodes& v) const
   {
     const Eigen::Index n = v.size();
@@ -238,7 +237,7 @@ private:
     return sum;
   }
 
-  // sum_a g_a . v_a times the volume: the integral of the divergence.
+  // The sum of g_a . v_a over a, times the volume: the integral of the divergence.
   double dilatation(const Element& element, const Nodes& v) const
   {
     return element.volume * nodes(m_gradients, element).cwiseProduct(v).sum();
@@ -295,7 +294,7 @@ private:
                        * moment(nodes(m_turned, element), nodes(m_expected_forces, element));
   }
 
-  // f(element, its change, the change of its forces in its frame)
+  // Calls f(element, its change, the change of its forces in its frame).
   template <class Function>
   void for_each_change(const Vector& p, const Function& f) const
   {
@@ -315,7 +314,7 @@ private:
     }
   }
 
-  // Returns the change of the integral of the dilatation.
+  // Finds the change of an element. Returns the change of the integral of the dilatation.
   double change(const Element& element, const Vector& p, Change& change) const
   {
     const Nodes in_frame = element.frame.rotation.transpose() * gather(p, element);
@@ -327,7 +326,7 @@ private:
     return dilatation(element, change.displacements);
   }
 
-  // The derivative of `add_forces()`.
+  // Adds the derivative of `add_forces()`.
   void add_changes(const Element& element, const Change& change, const Nodes& dq, Vector& f) const
   {
     const auto q = nodes(m_expected_forces, element), y = nodes(m_turned, element),

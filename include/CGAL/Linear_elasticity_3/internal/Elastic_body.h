@@ -43,7 +43,7 @@ class Elastic_body
   Eigen::VectorXd m_force, m_load, m_loaded;
 
 public:
-  /// \param elements kept by reference: must outlive the object
+  /// \param elements elements, kept by reference: they must outlive the object
   Elastic_body(const Element_list& elements, std::vector<Vec3> points,
                std::vector<Elastic_material> materials, std::unique_ptr<Elasticity_solver> solver)
     : m_stiffness(elements, std::move(points), std::move(materials)),
@@ -53,12 +53,12 @@ public:
 
   const Elastic_stiffness& stiffness() const { return m_stiffness; }
   const Elastic_supports& supports() const { return m_supports; }
-  /// To be changed before `assemble()`.
+  /// The supports, to be changed before `assemble()`.
   Elastic_supports& supports() { return m_supports; }
   const Projected_system& system() const { return m_system; }
   Elasticity_solver& solver() { return m_system.solver(); }
 
-  /// \param forces one for all elements, or one for each
+  /// \param forces one force for all elements, or one for each
   void set_body_forces(std::vector<Vec3> forces)
   {
     m_body_forces = std::move(forces);
@@ -91,17 +91,17 @@ public:
     m_supports.find_parts(m_stiffness);
   }
 
-  /// Removes elements from the stiffness; what is factored stays. \pre assembled
+  /// Removes elements from the stiffness; the factorization stays. \pre assembled
   void subtract(const std::vector<bool>& is_removed) { m_stiffness.subtract(is_removed); }
 
-  /// To be called when elements have been removed.
+  /// Finds the connected parts. To be called when elements have been removed.
   void find_parts()
   {
     m_supports.find_parts(m_stiffness);
     m_is_loaded = false;
   }
 
-  /// \return whether it is possible; else the body is no longer assembled
+  /// Factors the system. \return whether this is possible; else the body is no longer assembled
   bool factor()
   {
     m_is_loaded = false;
@@ -111,7 +111,7 @@ public:
     return false;
   }
 
-  /// Solves for several forces on all vertices.
+  /// Solves for several columns of forces on all vertices.
   bool solve(const Eigen::MatrixXd& forces, Eigen::MatrixXd& displacements)
   {
     return m_system.solve(m_supports, forces, displacements);
@@ -153,11 +153,11 @@ public:
     return true;
   }
 
-  /// \name What `solve_loads()` finds
+  /// \name Results of `solve_loads()`
   /// @{
   /// Body forces.
   const Eigen::VectorXd& force() const { return m_force; }
-  /// These, and what displacements of supports cause: the right-hand side.
+  /// The right-hand side: the body forces and the effect of displacements of supports.
   const Eigen::VectorXd& load() const { return m_load; }
   /// The displacements.
   const Eigen::VectorXd& loaded() const { return m_loaded; }

@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The stiffness of an elastic body on the elements of a mixed mesh: that of the elements, and of patches of
-// them that have one dilatation; assembled once, then elements are subtracted.
+// The stiffness of an elastic body on the elements of a mixed mesh: the stiffness of elements, and of patches
+// of elements with a common dilatation; assembled once, then elements are subtracted.
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTIC_STIFFNESS_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTIC_STIFFNESS_H
@@ -44,15 +44,15 @@ class Elastic_stiffness
   const Element_list* m_elements;
   std::vector<Vec3> m_points;
   std::vector<Elastic_material> m_materials; // one for all, or one for each element
-  std::vector<bool> m_is_removed;            // of each element
+  std::vector<bool> m_is_removed;            // one value for each element
   Patches m_patches;
-  std::vector<std::size_t> m_patch_of;       // of each element
-  std::optional<Elasticity_system> m_system; // of all vertices
+  std::vector<std::size_t> m_patch_of;       // patch of each element
+  std::optional<Elasticity_system> m_system; // system of all vertices
 
 public:
-  /// \param elements kept by reference: must outlive the object
-  /// \param points of all vertices
-  /// \param materials one for all elements, or one for each
+  /// \param elements elements, kept by reference: they must outlive the object
+  /// \param points positions of all vertices
+  /// \param materials one material for all elements, or one for each
   Elastic_stiffness(const Element_list& elements, std::vector<Vec3> points,
                     std::vector<Elastic_material> materials)
     : m_elements(&elements), m_points(std::move(points)), m_materials(std::move(materials)),
@@ -68,15 +68,15 @@ public:
   const std::vector<Vec3>& points() const { return m_points; }
   std::size_t number_of_vertices() const { return m_points.size(); }
 
-  /// Of an element that is not in a patch, and of one that is.
+  /// The treatment of dilatation for an element that is not in a patch, and for one that is.
   Dilatation dilatation(Element_index e) const
   {
     return m_patch_of[e] == no_patch ? Dilatation::MEAN : Dilatation::PATCH;
   }
-  /// What is left of each. \pre assembled
+  /// The remaining elements of each patch. \pre assembled
   const Patches& patches() const { return m_patches; }
 
-  /// That of the mean dilatation of a patch. \pre not empty
+  /// The bulk modulus of the mean dilatation of a patch. \pre the patch is not empty
   double mean_bulk_modulus(const std::vector<Element_index>& patch) const
   {
     const Elastic_material& m = material(patch.front());
@@ -119,7 +119,7 @@ public:
   bool is_assembled() const { return m_system.has_value(); }
   void clear() { m_system.reset(); }
 
-  /// \pre no element is inverted
+  /// Assembles the stiffness. \pre no element is inverted
   void assemble()
   {
     const auto is_together = [this](Element_index e, Element_index f) {
@@ -144,7 +144,7 @@ public:
       add_patch(i, 1);
   }
 
-  /// Removes elements; patches that lose some of theirs become those of the others. \pre assembled
+  /// Removes elements; patches that lose elements become patches of their other elements. \pre assembled
   void subtract(const std::vector<bool>& is_removed)
   {
     std::vector<std::size_t> changed_patches;
@@ -169,15 +169,15 @@ public:
     }
   }
 
-  /// The matrix K, of all vertices: those without an element have zeros. \pre assembled
+  /// The matrix K of all vertices: vertices without an element have zeros. \pre assembled
   const Elasticity_system& system() const
   {
     CGAL_precondition(is_assembled());
     return *m_system;
   }
 
-  /// K u. The columns of a vertex are three, two and one entry on the diagonal, then three rows a neighbor,
-  /// the same in each. \pre assembled
+  /// The product K u. The columns of a vertex are three, two and one entry on the diagonal, then three rows
+  /// for each neighbor, which are the same in each column. \pre assembled
   Eigen::VectorXd product(const Eigen::VectorXd& u) const
   {
     CGAL_precondition(is_assembled());
@@ -209,8 +209,8 @@ public:
     return f;
   }
 
-  /// Adds the forces on the vertices that forces by volume and an acceleration of the mass make.
-  /// \param forces_by_volume one for all elements, or one for each
+  /// Adds the forces on the vertices that result from forces by volume and an acceleration of the mass.
+  /// \param forces_by_volume one force for all elements, or one for each
   void add_body_forces(const std::vector<Vec3>& forces_by_volume, const Vec3& acceleration,
                        Eigen::VectorXd& force) const
   {

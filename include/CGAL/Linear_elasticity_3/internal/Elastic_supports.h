@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What holds the vertices of an elastic body, or stops them; the connected parts of the body, and which
-// motions of these are free.
+// Supports and contacts of the vertices of an elastic body; the connected parts of the body, and the free
+// motions of the parts.
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTIC_SUPPORTS_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTIC_SUPPORTS_H
@@ -40,20 +40,20 @@ struct Elastic_part
 };
 
 /// A vertex that a wall stops, without friction, when its displacement in the direction of the normal is the
-/// gap. The wall holds it then, as long as it pushes.
+/// gap. The wall then holds the vertex, as long as the wall pushes.
 struct Contact
 {
-  Vec3 normal; // of length 1, to the outside
+  Vec3 normal; // length 1, to the outside
   double gap;  // mm
   bool is_closed;
 };
 
 class Elastic_supports
 {
-  std::vector<Support> m_permanent; // of each vertex, without contacts
-  std::vector<Support> m_supports;  // with those that are closed
+  std::vector<Support> m_permanent; // support of each vertex, without contacts
+  std::vector<Support> m_supports;  // supports with closed contacts
   std::map<Vertex_index, Contact> m_contacts;
-  std::vector<bool> m_is_kept; // of each vertex, whether an element is left
+  std::vector<bool> m_is_kept; // whether an element is left at each vertex
   std::vector<Elastic_part> m_parts;
 
 public:
@@ -81,20 +81,20 @@ public:
     m_contacts[v] = {(1 / norm(normal)) * normal, gap, gap <= 0};
   }
 
-  /// \pre prescribed
+  /// Sets the displacement of a vertex. \pre the vertex is prescribed
   void set_displacement(Vertex_index v, const Vec3& displacement)
   {
     CGAL_precondition(m_permanent[v].size == 3);
     m_permanent[v].displacement = m_supports[v].displacement = displacement;
   }
 
-  /// Contacts that are closed included.
+  /// The supports of vertices, including closed contacts.
   const std::vector<Support>& of_vertices() const { return m_supports; }
 
   const std::map<Vertex_index, Contact>& contacts() const { return m_contacts; }
 
-  /// The direction in which a wall with that normal holds a vertex: orthogonal to those of other supports;
-  /// zero if these hold it anyway.
+  /// The direction in which a wall with that normal holds a vertex: orthogonal to the directions of other
+  /// supports; zero if these hold the vertex anyway.
   Vec3 direction_of_contact(Vertex_index v, const Vec3& normal) const
   {
     Support support = m_permanent[v];
@@ -103,23 +103,23 @@ public:
     return support.size > size ? support.directions[std::size_t(size)] : Vec3{};
   }
 
-  /// Whether other contacts are closed than at first.
+  /// Whether other contacts are closed than initially.
   bool are_contacts_changed() const
   {
     return std::any_of(m_contacts.begin(), m_contacts.end(),
                        [](const auto& c) { return c.second.is_closed != (c.second.gap <= 0); });
   }
-  /// `find_parts()` is to be called afterwards.
+  /// Resets the contacts. `find_parts()` has to be called afterwards.
   void reset_contacts()
   {
     for(auto& [v, contact] : m_contacts)
       contact.is_closed = contact.gap <= 0;
   }
 
-  /// `find_parts()` is to be called afterwards.
+  /// Closes or opens a contact. `find_parts()` has to be called afterwards.
   void set_closed(Vertex_index v, bool is_closed) { m_contacts.at(v).is_closed = is_closed; }
 
-  /// To be called when elements have been removed, or supports or contacts changed.
+  /// Finds the parts. To be called when elements have been removed, or supports or contacts changed.
   void find_parts(const Elastic_stiffness& stiffness)
   {
     apply_contacts();
@@ -137,7 +137,7 @@ public:
 
   const std::vector<Elastic_part>& parts() const { return m_parts; }
 
-  /// Of each part.
+  /// The number of free motions of each part.
   std::vector<std::size_t> numbers_of_free_motions() const
   {
     std::vector<std::size_t> n;
@@ -148,20 +148,20 @@ public:
 
   const std::vector<bool>& kept_vertices() const { return m_is_kept; }
   bool is_kept(Vertex_index v) const { return m_is_kept[v]; }
-  /// Whether it may move in some direction when its contacts are open.
+  /// Whether a vertex may move in some direction when its contacts are open.
   bool may_be_free(Vertex_index v) const { return m_is_kept[v] && m_permanent[v].size < 3; }
   /// Whether a vertex may move in some direction.
   bool is_free(Vertex_index v) const { return m_is_kept[v] && m_supports[v].size < 3; }
-  /// Whether it may in all.
+  /// Whether a vertex may move in all directions.
   bool is_unsupported(Vertex_index v) const { return m_supports[v].size == 0 && m_is_kept[v]; }
 
-  /// The component in directions that are free; nothing if no element is left.
+  /// The component of a vector in free directions; zero if no element is left.
   Vec3 free_part(Vertex_index v, const Vec3& u) const
   {
     return m_is_kept[v] ? m_supports[v].free_part(u) : Vec3{};
   }
 
-  /// As above, for three components of each vertex.
+  /// The components in free directions of a vector of three components for each vertex.
   Eigen::VectorXd free_part(Eigen::VectorXd f) const
   {
     for(Vertex_index v = 0; v < m_supports.size(); ++v) {

@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The solver of sparse systems as the method of elasticity calls it, whatever class it is. That a call is
-// virtual costs nothing beside a factorization or a solution, and lets the method be compiled once.
+// The solver of sparse systems as the method of elasticity calls it, whatever its class is. The cost of a
+// virtual call is nothing beside a factorization or a solution, and the method can be compiled once.
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTICITY_SOLVER_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_ELASTICITY_SOLVER_H
@@ -32,29 +32,30 @@ class Elasticity_solver
 {
 public:
   Elasticity_solver() = default;
-  // Solvers of the concept need not be movable, and refer to their matrix.
+  // The class is not copyable: solvers of the concept need not be movable, and refer to their matrix.
   Elasticity_solver(const Elasticity_solver&) = delete;
   Elasticity_solver& operator=(const Elasticity_solver&) = delete;
   virtual ~Elasticity_solver() = default;
 
   virtual bool has_matrix() const = 0;
   virtual void clear_matrix() = 0;
-  /// The lower triangle in compressed columns, rows ascending.
+  /// Sets the lower triangle in compressed columns, rows ascending.
   virtual void set_matrix(const std::vector<int>& starts, const std::vector<int>& rows,
                           const std::vector<double>& values) = 0;
 
-  /// Whether the solver wants to know what the matrix nearly maps to zero: those that iterate.
+  /// Whether the solver takes the vectors that the matrix nearly maps to zero, as iterative solvers do.
   virtual bool wants_near_kernel() const = 0;
-  /// Columns that the matrix nearly maps to zero, three unknowns a vertex. \pre `wants_near_kernel()`
+  /// Sets columns that the matrix nearly maps to zero, three unknowns for each vertex. \pre
+  /// `wants_near_kernel()`
   virtual void set_near_kernel(Eigen::MatrixXd vectors) = 0;
 
-  /// \return whether the matrix is positive definite. \pre `has_matrix()`
+  /// Factors the matrix. \return whether the matrix is positive definite. \pre `has_matrix()`
   virtual bool factor() = 0;
-  /// Solves for the columns of `b`. \pre factored
+  /// Solves for the columns of `b`. \pre the matrix is factored
   virtual bool solve(const Eigen::MatrixXd& b, Eigen::MatrixXd& x) = 0;
 };
 
-/// For solvers that have such a function: those that iterate.
+/// The call of `set_near_kernel()`, for solvers that have such a function: iterative ones.
 struct Set_near_kernel
 {
   template <class Solver>
@@ -65,7 +66,7 @@ struct Set_near_kernel
   }
 };
 
-/// \tparam SolverTraits a model of `SparseLinearAlgebraWithFactorTraits_d`; it need not be movable
+/// \tparam SolverTraits a model of `SparseLinearAlgebraWithFactorTraits_d`, which need not be movable
 template <class SolverTraits>
 class Elasticity_solver_adaptor final : public Elasticity_solver
 {

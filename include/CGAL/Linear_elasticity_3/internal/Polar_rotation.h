@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The rotation in a gradient of deformation, and how it turns when the gradient changes.
+// The rotation in a gradient of deformation, and its change when the gradient changes.
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_POLAR_ROTATION_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_POLAR_ROTATION_H
@@ -36,8 +36,8 @@ struct Polar_rotation
 
   Polar_rotation() = default;
 
-  /// By Newton's iteration (N. J. Higham: "Computing the polar decomposition - with applications", SIAM J.
-  /// Sci. Stat. Comput. 7, 1986), for what is inverted or nearly flat by singular values.
+  /// Decomposes by Newton's iteration (N. J. Higham: "Computing the polar decomposition - with applications",
+  /// SIAM J. Sci. Stat. Comput. 7, 1986), and inverted or nearly flat gradients by singular values.
   explicit Polar_rotation(const Eigen::Matrix3d& f)
   {
     constexpr double flat = 1e-3, converged = 1e-15;
@@ -60,7 +60,7 @@ struct Polar_rotation
   }
 
 private:
-  // The axis of the smallest stretch is turned inside out, if one is.
+  // Decomposes by singular values. The axis of the smallest stretch is turned inside out, if one is.
   void decompose_flat(const Eigen::Matrix3d& f)
   {
     constexpr double smallest_sum = 0.01; // two stretches without a sum leave the rotation undetermined

@@ -39,8 +39,8 @@ namespace internal {
 class Projected_system
 {
   std::unique_ptr<Elasticity_solver> m_solver;
-  std::vector<Vertex_index> m_unknowns; // the vertices of the system that is factored
-  std::vector<Free_motion> m_motions;   // of the parts when it was factored
+  std::vector<Vertex_index> m_unknowns; // vertices of the factored system
+  std::vector<Free_motion> m_motions;   // free motions of the parts at the factorization
 
 public:
   explicit Projected_system(std::unique_ptr<Elasticity_solver> solver) : m_solver(std::move(solver)) {}
@@ -50,25 +50,26 @@ public:
   /// The rigid motions that supports left free when the system was factored.
   const std::vector<Free_motion>& free_motions() const { return m_motions; }
 
-  /// Forgets the matrix, and with it which vertices are the unknowns.
+  /// Forgets the matrix, and with it the unknowns.
   void clear() { m_solver->clear_matrix(); }
 
-  /// K on the directions that are free, P K P, with something positive on those that are not. As springs hold
-  /// just as many unknowns as there are motions free, they bear nothing if the loads are in equilibrium.
+  /// Factors K on the free directions, P K P, with positive entries on the other directions. As springs hold
+  /// exactly as many unknowns as there are free motions, springs bear no forces if the loads are in
+  /// equilibrium.
   /// \return whether the system is not singular
   bool factor(const Elastic_stiffness& stiffness, const Elastic_supports& supports)
   {
     const Elasticity_system& all = stiffness.system();
     const double largest = *std::max_element(all.values().begin(), all.values().end());
     const std::vector<double> springs = find_springs(stiffness, supports);
-    if(!m_solver->has_matrix()) { // else the numbers stay, so that the symbolic factorization does
+    if(!m_solver->has_matrix()) { // else the numbers stay, for the symbolic factorization
       m_unknowns.clear();
       for(Vertex_index v = 0; v < stiffness.number_of_vertices(); ++v)
         if(supports.may_be_free(v))
           m_unknowns.push_back(v);
     }
     if(m_unknowns.empty())
-      return true; // CGAL's matrices are not
+      return true; // CGAL's matrices are not empty
     set_matrix(stiffness, supports, springs, largest);
     if(m_solver->wants_near_kernel())
       m_solver->set_near_kernel(rigid_motions(stiffness.points(), supports));
@@ -123,7 +124,7 @@ private:
     return motions;
   }
 
-  // What is to be added to the diagonal; and the motions that are held by it.
+  // The entries that are added to the diagonal; also finds the motions that these hold.
   std::vector<double> find_springs(const Elastic_stiffness& stiffness, const Elastic_supports& supports)
   {
     const Elasticity_system& all = stiffness.system();
@@ -138,8 +139,8 @@ private:
     return springs;
   }
 
-  // As many unknowns of a part as motions are free, such that holding these holds the part: rows of the
-  // matrix of modes, by elimination with pivots.
+  // Unknowns of a part, as many as motions are free, such that holding these unknowns holds the part: rows of
+  // the matrix of modes, by elimination with pivots.
   static std::vector<std::size_t> springs_for(const Elastic_part& part, const std::vector<Vec3>& points,
                                               const Elastic_supports& supports)
   {
@@ -177,7 +178,7 @@ private:
     return chosen;
   }
 
-  // Parts of the matrix are gone when it is factored, which takes the most memory.
+  // Sets the matrix. Temporary parts are freed before the matrix is factored, which takes the most memory.
   void set_matrix(const Elastic_stiffness& stiffness, const Elastic_supports& supports,
                   const std::vector<double>& springs, double largest)
   {
@@ -188,7 +189,8 @@ private:
     m_solver->set_matrix(starts, rows, values);
   }
 
-  // The rows and columns of the unknowns, with springs: the lower triangle in compressed columns.
+  // Reduces the matrix to the rows and columns of the unknowns, with springs: the lower triangle in
+  // compressed columns.
   void reduce(const Elasticity_system& all, std::size_t number_of_vertices,
               const std::vector<double>& springs, std::vector<int>& starts, std::vector<int>& rows,
               std::vector<double>& values) const
@@ -213,7 +215,7 @@ private:
   }
 
   // Replaces each block (v, w) by P_v (v, w) P_w, for vertices that slide or have no element any more, and
-  // adds `scale` where that leaves nothing.
+  // adds `scale` where nothing is left of a block.
   void project(const Elastic_supports& supports, const std::vector<int>& starts, const std::vector<int>& rows,
                std::vector<double>& values, double scale) const
   {
@@ -229,7 +231,7 @@ private:
     for(std::size_t j = 0; j < m_unknowns.size(); ++j) {
       const Vertex_index v = m_unknowns[j];
       const int* column = &starts[3 * j];
-      // the columns are three, two and one entry on the diagonal, then three rows a neighbor
+      // The columns are three, two and one entry on the diagonal, then three rows for each neighbor.
       const int neighbors = (column[1] - column[0] - 3) / 3;
       for(int i = -1; i < neighbors; ++i) {
         const Vertex_index w = i < 0 ? v : m_unknowns[std::size_t(rows[column[0] + 3 + 3 * i]) / 3];
@@ -255,8 +257,8 @@ private:
     }
   }
 
-  // Hinges make a matrix that is singular but for rounding, so that it may have been factored. Forces of no
-  // pattern move them without bound.
+  // Whether the matrix is singular except for rounding, as hinges make it, so that it may have been factored.
+  // Forces without a pattern move hinges without bound.
   bool is_nearly_singular(double scale)
   {
     constexpr double largest_condition = 1e13; // some hundred roundings from 1 / epsilon

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the boundary of a mesh gives to each of its vertices: a normal, an area.
+// Shares of the vertices in the boundary of a mesh: a normal, an area.
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_BOUNDARY_MEASURES_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_BOUNDARY_MEASURES_H
@@ -23,7 +23,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Elements and the number of their vertices: what `boundary_faces()` asks of a mesh.
+/// Elements and the number of their vertices: the part of a mesh that `boundary_faces()` needs.
 class Elements_of_vertices
 {
   const Element_list& m_elements;
@@ -39,7 +39,7 @@ public:
 };
 
 /// The integral of the normal times the vertex's shape function, zero inside: a flow orthogonal to these
-/// keeps the volume.
+/// vectors keeps the volume.
 inline std::vector<Vec3> boundary_vertex_normals(const Element_list& elements,
                                                  const std::vector<Vec3>& points)
 {
@@ -58,7 +58,7 @@ inline std::vector<Vec3> boundary_vertex_normals(const Element_list& elements,
   return normals;
 }
 
-/// The equal shares of the areas of the faces around each vertex, zero inside.
+/// The sum of the equal shares of the areas of the faces around each vertex, zero inside.
 template <class Mesh>
 std::vector<double> boundary_vertex_areas(const Mesh& mesh)
 {

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Which contacts of an elastic body with a wall are closed.
+// Selection of the closed contacts of an elastic body with a wall.
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_CONTACT_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_CONTACT_H
@@ -27,7 +27,7 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /// The force that a closed contact needs: positive if the wall pushes.
-/// \param reaction of all supports, three components for each vertex: internal forces less loads
+/// \param reaction forces of all supports, three components for each vertex: internal forces minus loads
 inline double contact_force(const Elastic_supports& supports, Vertex_index v, const Contact& contact,
                             const Eigen::VectorXd& reaction)
 {
@@ -40,20 +40,20 @@ inline double contact_force(const Elastic_supports& supports, Vertex_index v, co
 /*!
 The next step of the primal-dual active set strategy (Hintermueller, Ito, Kunisch: "The primal-dual active set
 strategy as a semismooth Newton method", 2002): contacts that would have to pull open, vertices beyond their
-wall close. When nothing changes, that is the only solution, as the energy is convex.
+wall close. When nothing changes, the state is the only solution, as the energy is convex.
 
-\param displacements the equilibrium with the contacts as they are
-\param reaction of all supports: internal forces less loads
-\param scale of forces
-\param tolerance relative, of forces and displacements
-\param all_at_once else only the contact that is worst changes, so that what comes around in circles ends
+\param displacements the equilibrium with the current contacts
+\param reaction forces of all supports: internal forces minus loads
+\param scale scale of forces
+\param tolerance relative tolerance of forces and displacements
+\param all_at_once whether all contacts may change; else only the worst contact changes, so that cycles end
 \return whether a contact has changed
 */
 inline bool update_contacts(Elastic_supports& supports, const Eigen::VectorXd& displacements,
                             const Eigen::VectorXd& reaction, double scale, double tolerance, bool all_at_once)
 {
   const double size = displacements.lpNorm<Eigen::Infinity>();
-  std::vector<std::pair<Vertex_index, double>> wrong; // and by how much, relative
+  std::vector<std::pair<Vertex_index, double>> wrong; // vertices and their relative errors
   for(const auto& [v, contact] : supports.contacts()) {
     if(!supports.is_kept(v) || supports.direction_of_contact(v, contact.normal) == Vec3{})
       continue;

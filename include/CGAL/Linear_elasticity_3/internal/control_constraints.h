@@ -5,7 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Given displacements at points of an elastic body, as constraints on a system that is factored without them.
+// Given displacements at points of an elastic body, as constraints on a system that is factored without the
+// constraints.
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_CONTROL_CONSTRAINTS_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_CONTROL_CONSTRAINTS_H
@@ -40,15 +41,16 @@ struct Control_solution
 };
 
 /*!
-With the stiffness K, the weights B of the control points, their compliances C (diagonal) and the free rigid
-motions R (K R = 0), displacements u and the forces s on the control points satisfy
+The displacements u and the forces s on the control points satisfy, with the stiffness K, the weights B of the
+control points, their compliances C (diagonal) and the free rigid motions R (K R = 0),
 
     K u = f + B^T s,   B u + C s = d,   R^T (f + B^T s) = 0.
 
-K is held by as many springs as there are free motions, which bear nothing as loads are in equilibrium: so
-u = K^-1 f + W s + R c with W = K^-1 B^T, and what remains is a dense system for s and c, with S = B W and
-G = B R. It is solved as if by augmented Lagrangians, with S + g G G^T for S, which is positive definite but
-for constraints that depend on others. These are left out, and must be satisfied by themselves.
+K is held by as many springs as there are free motions; springs bear no forces as loads are in equilibrium: so
+u = K^-1 f + W s + R c with W = K^-1 B^T, and a dense system for s and c remains, with S = B W and G = B R.
+The dense system is solved as by augmented Lagrangians, with S + g G G^T for S, which is positive definite
+except for constraints that depend on others. These constraints are left out, and must be satisfied by
+themselves.
 */
 class Control_constraints
 {
@@ -56,26 +58,26 @@ class Control_constraints
   using Vector = Eigen::VectorXd;
   using Index = Eigen::Index;
 
-  // Relative. A constraint with a smaller pivot depends on others and is left out; it must be satisfied by
-  // itself within `miss` of the largest displacement.
+  // Relative bounds. A constraint with a pivot below `dependence` depends on others and is left out; it must
+  // be satisfied by itself within `miss` of the largest displacement.
   static constexpr double dependence = 1e-10, miss = 1e-6;
   static constexpr Index columns_at_once = 24; // eight points: bounds the memory
 
   std::vector<Control_weights> m_weights;
-  Vector m_compliances; // three for each control point
+  Vector m_compliances; // three compliances for each control point
   bool m_is_solved = true;
   Matrix m_response, m_motions; // W, R
   Matrix m_g, m_kernel;         // G; combinations of motions that the control points do not hold
   double m_augmentation = 0;    // g
   std::vector<Index> m_independent;
-  // Of the augmented S, rows and columns m_independent. Factors that are not computed are not there, as they
-  // could not be moved: they have members without a value.
+  // Factor of the rows and columns m_independent of the augmented S. Factors that are not computed do not
+  // exist, because they could not be moved: their members have no value.
   std::optional<Eigen::LLT<Matrix>> m_factor;
   Matrix m_g_independent, m_eliminated;
   std::optional<Eigen::LDLT<Matrix>> m_schur;
 
 public:
-  /// \param compliances of each control point: all zero, or all positive
+  /// \param compliances compliance of each control point: all zero, or all positive
   /// \param solve `bool(forces, displacements)`: K^-1, for several columns
   Control_constraints(std::vector<Control_weights> weights, const std::vector<double>& compliances,
                       const std::vector<Free_motion>& motions, const std::vector<Vec3>& points,
@@ -111,10 +113,10 @@ public:
   bool is_solved() const { return m_is_solved; }
   /// Whether the points give way to forces.
   bool is_compliant() const { return m_compliances.size() > 0 && m_compliances[0] > 0; }
-  /// Three for each control point; all zero, or all positive.
+  /// The compliances, three for each control point; all zero, or all positive.
   const Vector& compliances() const { return m_compliances; }
 
-  /// B u, for each column.
+  /// The product B u, for each column.
   Matrix at_points(const Matrix& u) const
   {
     Matrix at = Matrix::Zero(3 * Index(m_weights.size()), u.cols());
@@ -125,7 +127,7 @@ public:
   }
 
   /// \param loaded the solution for the load without control points
-  /// \param load the right-hand side f of that
+  /// \param load the right-hand side f of that solution
   /// \param wanted displacements of the control points
   Linear_elasticity_result_3 solve(const Vector& loaded, const Vector& load, const Vector& wanted,
                                    const std::vector<Free_motion>& motions, Control_solution& solution) const
@@ -168,10 +170,10 @@ public:
     return result;
   }
 
-  /// Vertices whose displacements control points have the weighted means of; of each point.
+  /// The vertices, and their weights, whose weighted mean displacement is that of each control point.
   const std::vector<Control_weights>& weights() const { return m_weights; }
 
-  /// Whether the control points move vertices of a set only.
+  /// Whether the control points move only vertices of a set.
   bool is_on(const std::vector<bool>& vertices) const
   {
     for(const Control_weights& weights : m_weights)
@@ -181,7 +183,7 @@ public:
     return true;
   }
 
-  /// Whether displacements are those wanted, up to rounding. \pre no compliance
+  /// Whether the displacements are the wanted ones, up to rounding. \pre there is no compliance
   bool is_satisfied(const Vector& u, const Vector& wanted) const
   {
     return wanted.size() == 0 || (at_points(u) - wanted).lpNorm<Eigen::Infinity>() <= tolerance(u, wanted);
@@ -196,12 +198,12 @@ public:
   }
 
   /*!
-  What each control point would miss if it were not among them. Forces are affine in what is wanted, s = P d +
-  ..., so that the displacement that point p has without a force of its own is d_p - P_pp^-1 s_p: as for any
-  linear smoother, nothing is solved anew (Craven, Wahba 1979).
+  The displacement that each control point would miss if it were not among them. Forces are affine in the
+  wanted displacements, s = P d + ..., so that the displacement that point p has without a force of its own is
+  d_p - P_pp^-1 s_p: as for any linear smoother, no system is solved again (Craven, Wahba 1979).
 
-  \param forces of the solution
-  \return three for each point; infinite where the others would not hold the body
+  \param forces forces of the solution
+  \return three components for each point; infinite where the others would not hold the body
   */
   Vector leave_one_out(const Vector& forces) const
   {
@@ -213,7 +215,7 @@ public:
     const Matrix held = m_g.transpose() * m_g;
     if(motions > 0)
       s += m_augmentation * m_g * m_g.transpose();
-    // so that points which depend on others share their forces
+    // The addition lets points that depend on others share their forces.
     const double smallest = dependence * s.diagonal().maxCoeff();
     s.diagonal().array() += smallest;
     Matrix p = Eigen::LLT<Matrix>(s).solve(Matrix::Identity(n, n));
@@ -253,7 +255,7 @@ private:
     return y;
   }
 
-  // S + C.
+  // The matrix S + C.
   Matrix flexibility() const
   {
     Matrix s = at_points(m_response);
@@ -292,8 +294,9 @@ private:
     }
   }
 
-  // Cholesky's factorization, which as a rule shows that all constraints are independent; else of those that
-  // are. That is what takes the time of many control points: the cube of their number.
+  // Factors by Cholesky's factorization, which as a rule shows that all constraints are independent; else
+  // factors the independent ones. The factorization takes most of the time of many control points: the cube
+  // of their number.
   void factor_independent(Matrix s)
   {
     const Index n = s.rows();
@@ -318,7 +321,8 @@ private:
       m_factor.emplace(independent);
   }
 
-  // By Cholesky's factorization with pivots, as long as these are not negligible.
+  // Finds independent constraints by Cholesky's factorization with pivots, as long as pivots are not
+  // negligible.
   void find_independent(Matrix s, double bound)
   {
     const Index n = s.rows();

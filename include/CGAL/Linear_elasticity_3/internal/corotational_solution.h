@@ -29,24 +29,25 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// What the next solution starts from.
+/// The start of the next solution.
 struct Corotational_state
 {
-  Eigen::VectorXd displacements, force; // of all vertices; body forces on them
-  std::vector<double> residuals;        // before each step of Newton's, those that went astray included
-  int number_of_iterations = 0;         // of conjugate gradients
+  Eigen::VectorXd displacements, force; // displacements of all vertices; body forces
+  std::vector<double> residuals;        // before each step of Newton's method, failed ones included
+  int number_of_iterations = 0;         // iterations of conjugate gradients
 };
 
 /*!
 Newton's method. Each step is solved by conjugate gradients in the space of displacements that supports and
 control points allow, with the factor of the linear stiffness as the preconditioner, as after a removal
 (`solve_after_removal()`). Steps are whole: with the forces that `Corotational_elements` expects in its
-tangent,
-a search along them for less energy would only be in the way. That is for large rotations of slender bodies.
+tangent, a line search for less energy would only hinder convergence. Whole steps are for large rotations of
+slender bodies.
 
-Large strains are another matter: an element that is pressed has negative curvature. If Newton's method goes
-astray, steps are made with the positive part of the tangent, as in Gauss and Newton's method, as far as the
-potential falls; near the solution, with all of it. Loads come at once if that converges, else in parts.
+Large strains need another method: an element under pressure has negative curvature. If Newton's method
+diverges, steps are made with the positive part of the tangent, as in the Gauss-Newton method, as far as the
+potential falls; near the solution, with the whole tangent. Loads are applied at once if that converges, else
+in parts.
 */
 class Corotational_solution
 {
@@ -54,25 +55,25 @@ class Corotational_solution
   using Result = Linear_elasticity_result_3;
   using Status = Linear_elasticity_status;
 
-  // Two to six steps are usual, with five to fifteen iterations each; with 50 to 80 in a bar bent by 90
-  // degrees.
+  // Limits of steps and iterations. Two to six steps are usual, with five to fifteen iterations each; with 50
+  // to 80 in a bar bent by 90 degrees.
   static constexpr int largest_number_of_steps = 15, largest_number_of_descents = 40,
                        largest_number_of_iterations = 1000;
-  static constexpr double smallest_part = 1. / 64; // of the loads
-  // Of all steps together, times the number of vertices: with 20,000, it takes a minute or two until it is
-  // given up. Bars bent by 90 degrees take half of it.
+  static constexpr double smallest_part = 1. / 64; // share of the loads
+  // Limit of the iterations of all steps together, times the number of vertices: with 20,000, the limit is
+  // reached after a minute or two. Bars bent by 90 degrees take half of the limit.
   static constexpr double largest_work = 2e7;
-  // The residual that is enough before all of the loads are there, and what rounding leaves of it; relative.
+  // The sufficient residual before all of the loads are applied, and the residual due to rounding; relative.
   static constexpr double rough = 0.03, rounding = 1e-9;
 
   Elastic_body& m_body;
   const Control_constraints& m_constraints;
   Corotational_elements& m_elements;
   Corotational_state& m_state;
-  Control_solution m_step; // of the preconditioner
+  Control_solution m_step; // step of the preconditioner
 
 public:
-  /// \param body factored, and `solve_loads()` called since
+  /// \param body body that is factored, and for which `solve_loads()` has been called since
   Corotational_solution(Elastic_body& body, const Control_constraints& constraints,
                         Corotational_elements& elements, Corotational_state& state)
     : m_body(body), m_constraints(constraints), m_elements(elements), m_state(state)
@@ -80,8 +81,8 @@ public:
   }
 
   /// \param wanted displacements of the control points
-  /// \param tolerance of the error in the energy norm, relative to that of the solution
-  /// \param solution unchanged if it fails
+  /// \param tolerance bound of the error in the energy norm, relative to that of the solution
+  /// \param solution the solution; unchanged in case of failure
   Result solve(const Vector& wanted, double tolerance, Control_solution& solution)
   {
     m_state.residuals.clear();
@@ -127,7 +128,7 @@ private:
     return result;
   }
 
-  // Displacements in the directions that supports hold: those of u, or those that supports have.
+  // Displacements in the directions that supports hold: those of u, or those that supports prescribe.
   Vector supported(const Vector& u) const
   {
     const auto& of_vertices = m_body.supports().of_vertices();
@@ -142,13 +143,13 @@ private:
     return result;
   }
 
-  // Of control points that give way.
+  // Forces of control points with compliance.
   Vector spring_forces(const Vector& points, const Vector& u) const
   {
     return (points - m_constraints.at_points(u)).cwiseQuotient(m_constraints.compliances());
   }
 
-  // Forces that are not in equilibrium, but for those of exact control points.
+  // Forces that are not in equilibrium, without the forces of exact control points.
   Vector residual(const Vector& force, const Vector& points, const Vector& u) const
   {
     Vector r = force - m_elements.forces();
@@ -165,7 +166,8 @@ private:
     return m_body.supports().free_part(std::move(q));
   }
 
-  // The linear solution for forces, and displacements of control points. Is in m_step.
+  // Finds the linear solution for forces, and displacements of control points, and stores the solution in
+  // m_step.
   Result solve_linear(const Vector& force, const Vector& points)
   {
     Eigen::MatrixXd z;
@@ -174,12 +176,12 @@ private:
     return m_constraints.solve(z.col(0), force, points, m_body.system().free_motions(), m_step);
   }
 
-  // The same for a residual. What control points take of it is taken from it, so that rounding errors do not
-  // grow.
+  // Finds the linear solution for a residual. The forces of the control points are subtracted from the
+  // residual, so that rounding errors do not grow.
   bool precondition(Vector& r)
   {
     const Result result = solve_linear(r, Vector::Zero(m_step.forces.size()));
-    // what control points miss is rounding, when nothing but that is left of the residual
+    // The error at control points is due to rounding, if the rest of the residual is due to rounding.
     if(!result.is_success() && result.status != Status::CONTRADICTORY_CONTROL_POINTS)
       return false;
     if(!m_constraints.is_compliant()) {
@@ -191,7 +193,7 @@ private:
 
   // Adds conjugate gradients' solution of the tangent system for a residual to a displacement.
   // \pre r is preconditioned, m_step has the result
-  // \param bound of r . z
+  // \param bound bound of r . z
   // \return whether there was no negative curvature
   bool add_newton_step(Vector r, double bound, Vector& step)
   {
@@ -202,7 +204,7 @@ private:
       const double curvature = p.dot(q), alpha = rz / curvature;
       if(!(curvature > 0) || !std::isfinite(alpha)) {
         if(i == 0)
-          step += p; // a direction in which the potential falls, at least
+          step += p; // at least a direction in which the potential falls
         return false;
       }
       step += alpha * p;
@@ -227,7 +229,7 @@ private:
   Result find_equilibrium(const Vector& force, const Vector& points, const Vector& supports, double tolerance,
                           Vector& u)
   {
-    constexpr double accuracy = 1e-3; // of the first step
+    constexpr double accuracy = 1e-3; // accuracy of the first step
     m_elements.move(u);
     if(const Result result = predict(force, points, supports, accuracy, u); !result.is_success())
       return result;
@@ -241,12 +243,12 @@ private:
 
   enum class Method { NEWTON, DESCENT };
 
-  // \pre supports and control points are satisfied
+  // Iterates to the solution. \pre supports and control points are satisfied
   bool converge(Method method, const Vector& force, const Vector& points, double tolerance, Vector& u)
   {
-    // What is left of a large step is stretch, not rotation, and would not let the next converge.
+    // The rest of a large step is stretch, not rotation, and would keep the next step from converging.
     constexpr double accuracy_of_large_steps = 1e-3, accuracy = 0.05, large = 0.2;
-    double last = 0; // residual
+    double last = 0; // last residual
     for(int step = 0;
         step < (method == Method::NEWTON ? largest_number_of_steps : largest_number_of_descents); ++step) {
       Vector r = residual(force, points, u);
@@ -257,7 +259,7 @@ private:
       m_state.residuals.push_back(now);
       if(!(rz > bound))
         return std::isfinite(rz);
-      const bool is_astray = step > 0 && now > last && last < 1; // from far, it comes on detours
+      const bool is_astray = step > 0 && now > last && last < 1; // from far away, the residual may grow first
       if(method == Method::NEWTON && is_astray)
         return false;
       last = now;
@@ -278,12 +280,12 @@ private:
     return false;
   }
 
-  // Along a step, as far as the potential falls enough.
+  // Moves along a step, as far as the potential falls enough.
   bool descend(const Vector& force, const Vector& points, const Vector& d, double slope, Vector& u)
   {
     constexpr double enough = 1e-4, shortest = 1e-4;
     const double before = potential(force, points, u);
-    const double error = 1e-13 * (m_elements.energy() + std::abs(force.dot(u))); // of rounding
+    const double error = 1e-13 * (m_elements.energy() + std::abs(force.dot(u))); // rounding error
     const Vector from = u;
     for(double length = 1; length > shortest; length /= 2) {
       u = from + length * d;
@@ -302,7 +304,8 @@ private:
     return result;
   }
 
-  // To displacements that satisfy supports and control points, by the tangent at the last ones.
+  // Predicts displacements that satisfy supports and control points, by the tangent at the last
+  // displacements.
   Result predict(const Vector& force, const Vector& points, const Vector& supports, double accuracy,
                  Vector& u)
   {
@@ -317,7 +320,8 @@ private:
     if(!result.is_success())
       return result;
     d += m_step.displacements;
-    // No better than the linear solution at the first time, when the tangent is the stiffness itself.
+    // The result is no better than the linear solution at the first time, when the tangent is the stiffness
+    // itself.
     r = m_body.supports().free_part(residual(force, points, u) - tangent_times(d));
     if(!precondition(r))
       return failed(Status::SOLVER_FAILED);

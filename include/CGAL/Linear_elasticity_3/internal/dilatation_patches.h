@@ -5,9 +5,9 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Tetrahedra, pyramids and prisms in patches of which each has one dilatation, against volumetric locking:
-// E. A. de Souza Neto, F. M. Andrade Pires, D. R. J. Owen: "F-bar-based linear triangles and tetrahedra for
-// finite strain analysis of nearly incompressible solids. Part I", Int. J. Numer. Meth. Engng 62, 2005.
+// Patches of tetrahedra, pyramids and prisms with a common dilatation, against volumetric locking: E. A. de
+// Souza Neto, F. M. Andrade Pires, D. R. J. Owen: "F-bar-based linear triangles and tetrahedra for finite
+// strain analysis of nearly incompressible solids. Part I", Int. J. Numer. Meth. Engng 62, 2005.
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_DILATATION_PATCHES_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_DILATATION_PATCHES_H
@@ -30,7 +30,7 @@ namespace internal {
 
 using Patches = std::vector<std::vector<Element_index>>;
 
-/// What makes a patch of elements of a kind.
+/// The form of a patch of elements of a kind.
 enum class Patch_form { STAR_OF_VERTEX, PAIR, NONE };
 
 inline Patch_form patch_form(Element_kind kind)
@@ -46,17 +46,17 @@ inline Patch_form patch_form(Element_kind kind)
 
 /*!
 A partition of the tetrahedra and pyramids: stars of vertices, the largest first, as far as their elements are
-not taken yet. What is left in smaller stars joins the smallest patch around it. A linear tetrahedron alone
-has a third of the displacements that its constraint of volume takes; a patch of `wanted_size` or more has
-enough. Pyramids are those of cells divided from their centers: a vertex more for six of them, so that each
-alone has little more than a tetrahedron.
+not taken yet. The rest of smaller stars joins the smallest patch around it. A single linear tetrahedron has a
+third of the displacements that its constraint of volume needs; a patch of `wanted_size` or more has enough.
+Pyramids are those of cells divided from their centers: one more vertex for six pyramids, so that a single
+pyramid has little more displacements than a tetrahedron.
 
-Then prisms in pairs with a common quadrilateral: a prism alone has half of the displacements that a
-hexahedron has for its constraint, and bent in the plane of its triangles it locks as these do. What finds no
-partner is in no patch.
+Then prisms are taken in pairs with a common quadrilateral: a single prism has half of the displacements that
+a hexahedron has for its constraint, and locks like tetrahedra if bent in the plane of its triangles. A prism
+without a partner is in no patch.
 
-\param is_together `bool(e, f)`: whether two elements may have one dilatation: they are of one material. For
-       `e == f`, whether it may be in a patch at all
+\param is_together `bool(e, f)`: whether two elements may have a common dilatation: they are of one material.
+For `e == f`, whether the element may be in a patch at all
 \par Complexity
 Linear
 */
@@ -95,7 +95,7 @@ Patches dilatation_patches(const Element_list& elements, std::size_t number_of_v
           left.push_back(e);
       if(left.empty())
         continue;
-      if(left.size() < size) { // some have been taken since: later, among its equals
+      if(left.size() < size) { // some have been taken: later, among stars of equal size
         vertices_by_size[left.size()].push_back(v);
         continue;
       }
@@ -111,7 +111,7 @@ Patches dilatation_patches(const Element_list& elements, std::size_t number_of_v
       }
       for(Element_index e : left)
         join(e, patch);
-      vertices_by_size[size].push_back(v); // for what is left of it in other materials
+      vertices_by_size[size].push_back(v); // again for remaining elements of other materials
     }
 
   for_each_face(elements, number_of_vertices, [&](const auto& faces) {

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The solution after elements have been removed, with the factor of the system as it was before.
+// The solution after elements have been removed, with the factor of the former system.
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_REMOVAL_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_REMOVAL_H
@@ -30,20 +30,22 @@ Conjugate gradients in the space of displacements that are zero at the control p
 M. E. Hribar, J. Nocedal: "On the solution of equality constrained quadratic programming problems arising in
 optimization", SIAM J. Sci. Comput. 23, 2001).
 
-\param body factored before the removal, and `solve_loads()` called since
-\param constraints without compliance
+\param body body that was factored before the removal, and for which `solve_loads()` has been called since
+\param constraints constraints without compliance
 \param wanted displacements of the control points
-\param tolerance of the error in the energy norm, relative to that of the solution
-\param solution for the former stiffness, where they start; that for the new one, if they converge
-\param number_of_iterations done
-\return whether they converge. If not, the system should be factored
+\param tolerance bound of the error in the energy norm, relative to that of the solution
+\param solution solution for the former stiffness, where the iterations start; the solution for the new
+stiffness, if the iterations converge
+\param number_of_iterations number of iterations done
+\return whether the iterations converge. If not, the system should be factored
 */
 inline bool solve_after_removal(Elastic_body& body, const Control_constraints& constraints,
                                 const Eigen::VectorXd& wanted, double tolerance, Control_solution& solution,
                                 int& number_of_iterations)
 {
-  // When to factor instead, which takes as long as some hundreds of iterations. Ten to fifteen are usual; if
-  // the residual rises so often in a row, nothing but rounding errors may be left of it.
+  // Limits beyond which the system is factored instead, which takes as long as some hundreds of iterations.
+  // Ten to fifteen iterations are usual; if the residual rises so often in a row, it may consist of rounding
+  // errors only.
   constexpr int largest_number_of_iterations = 100, largest_number_of_rises = 20;
   const Elastic_stiffness& stiffness = body.stiffness();
   const Elastic_supports& supports = body.supports();
@@ -68,7 +70,7 @@ inline bool solve_after_removal(Elastic_body& body, const Control_constraints& c
   double rz = r.dot(p);
   const double bound = tolerance * tolerance * u.dot(stiffness.product(u));
   double least = rz;
-  int rises = 0; // since rounding errors may be all that is left
+  int rises = 0; // successive rises of the residual, which may be rounding errors
   for(number_of_iterations = 0; number_of_iterations < largest_number_of_iterations; ++number_of_iterations) {
     if(!(rz > bound))
       return constraints.is_satisfied(u, wanted);

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Which rigid motions the supports of a body leave free.
+// Rigid motions that the supports of a body leave free.
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_RIGID_MODES_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_RIGID_MODES_H
@@ -28,14 +28,14 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// What holds a vertex: orthonormal directions in which its displacement is given, and that displacement.
+/// The support of a vertex: orthonormal directions in which its displacement is given, and that displacement.
 struct Support
 {
   int size = 0;
   std::array<Vec3, 3> directions{};
   Vec3 displacement{}; // zero in the other directions
 
-  /// Holds the vertex in one direction more, unless it is held there already.
+  /// Holds the vertex in one more direction, unless it is held in that direction already.
   void add(Vec3 d)
   {
     const double length = norm(d);
@@ -104,14 +104,15 @@ connected_vertices(const Element_list& elements, std::size_t number_of_vertices,
 /*!
 A basis of the rigid motions of a body that its supports allow.
 
-The motions that a support forbids have a component in its directions; the squares of these make a 6x6 matrix,
-whose kernel is what is free. Rotations are scaled by the size of the body, so that all entries are lengths.
+The motions that a support forbids have a component in its directions; the squares of these components make a
+6x6 matrix, whose kernel is the set of free motions. Rotations are scaled by the size of the body, so that all
+entries are lengths.
 */
 inline std::vector<Rigid_mode> free_rigid_modes(const std::vector<Vertex_index>& vertices,
                                                 const std::vector<Vec3>& points,
                                                 const std::vector<Support>& supports)
 {
-  constexpr double tolerance = 1e-11; // of the kernel, relative to the trace
+  constexpr double tolerance = 1e-11; // tolerance of the kernel, relative to the trace
   Vec3 center{};
   for(Vertex_index v : vertices)
     center = center + (1 / double(vertices.size())) * points[v];

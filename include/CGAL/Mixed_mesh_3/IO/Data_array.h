@@ -19,14 +19,14 @@ namespace Mixed_meshes_3 {
 namespace IO {
 
 /// \ingroup PkgMixedMesh3IO
-/// Values at the vertices or at the elements, to be written with a mesh. Does not own the values:
+/// Values at the vertices or at the elements, to be written with a mesh. The array does not own the values:
 /// they must stay until the mesh is written.
 struct Data_array
 {
   /// The name in the file.
   std::string name;
   const std::vector<double>* values; ///< the components of the first vertex or element, and so on
-  /// How many values there are for each vertex or element.
+  /// The number of values for each vertex or element.
   int number_of_components = 1;
 
   /// Whether there are values for `n` vertices or elements.

@@ -24,13 +24,14 @@ namespace IO {
 /*!
 \ingroup PkgMixedMesh3IO
 
-\brief Faces of elements with a name, to be written with a mesh: where a boundary condition holds, or an
-interface between tissues.
+\brief Named faces of elements, to be written with a mesh: where a boundary condition holds, or an interface
+between tissues.
 
-The name has letters, digits, `_` and `-`, a letter first, 60 of them at most. It is that of no other set, in
-upper or lower case, and of nothing else in the files: not `all`, `boundary`, `region`, `rest`, and does not
-begin with `region_`, `rest_` or `subdomain_`. Each face is there once. A face between two elements is given
-as a face of one of them, and has the orientation from there outwards. A set without faces is not written.
+The name has letters, digits, `_` and `-`, a letter first, and at most 60 characters. It is not the name of
+another set, in upper or lower case, nor of anything else in the files: not `all`, `boundary`, `region`,
+`rest`, and does not begin with `region_`, `rest_` or `subdomain_`. Each face is in the set once. A face
+between two elements is given as a face of one of them, and has the orientation from there outwards. A set
+without faces is not written.
 */
 struct Facet_set
 {
@@ -44,7 +45,7 @@ namespace internal {
 
 inline bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-/// Not all programs distinguish upper and lower case.
+/// A name in upper case, because not all programs distinguish upper and lower case.
 inline std::string in_upper_case(std::string name)
 {
   for(char& c : name)
@@ -55,7 +56,7 @@ inline std::string in_upper_case(std::string name)
 } // namespace internal
 
 /// \ingroup PkgMixedMesh3IO
-/// Whether all formats can have it beside the names that writers give: see `Facet_set`.
+/// Whether all formats can have a name beside the names that writers give: see `Facet_set`.
 inline bool is_facet_set_name(const std::string& name)
 {
   using internal::is_letter;

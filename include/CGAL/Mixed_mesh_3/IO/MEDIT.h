@@ -31,9 +31,9 @@ namespace IO {
 \brief Writes a mesh in the format of Medit (`.mesh`), as text.
 
 References: of subdomain 1, 1 for the elements in the region and 2 for the others; 3 for the boundary faces
-(which are counter-clockwise seen from outside); from 4 on for the same of other subdomains, as they occur; 0
-for the vertices. The numbers of facet sets follow, in their order; a face of several sets, here, has that of
-the first.
+(which are counter-clockwise seen from outside); from 4 on the references of other subdomains, as they occur;
+0 for the vertices. The numbers of facet sets follow, in their order; a face of several sets has the number of
+the first one.
 
 \note Gmsh 4.8 drops prisms and pyramids when it reads this format.
 

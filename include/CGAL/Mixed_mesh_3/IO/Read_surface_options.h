@@ -17,7 +17,7 @@ namespace Mixed_meshes_3 {
 namespace IO {
 
 /// \ingroup PkgMixedMesh3IO
-/// Which way the axes x, y and z point in a patient: to the right, anterior and superior (RAS: images,
+/// The directions of the axes x, y and z in a patient: to the right, anterior and superior (RAS: images,
 /// FreeSurfer, GIFTI), or to the left, posterior and superior (LPS: DICOM, ITK, and 3D Slicer's files).
 enum class Anatomical_space {
   RAS, ///< x to the right, y to the front, z up
@@ -25,19 +25,19 @@ enum class Anatomical_space {
 };
 
 /// \ingroup PkgMixedMesh3IO
-/// How a surface file is read.
+/// The options for reading a surface file.
 struct Read_surface_options
 {
-  /// The space of the coordinates in the file. By default, what its header says, or RAS. Formats that define
-  /// it (FreeSurfer, GIFTI) ignore this.
+  /// The space of the coordinates in the file. By default, the space that its header names, or RAS. Formats
+  /// that define the space (FreeSurfer, GIFTI) ignore this option.
   std::optional<Anatomical_space> space;
 
-  /// Refuse what is not the surface of a solid as it is: what has holes, cuts itself, or is no manifold. By
-  /// default, it is repaired.
+  /// Whether to refuse a surface that is not the surface of a solid as it is: that has holes, cuts itself, or
+  /// is not manifold. By default, the surface is repaired.
   bool is_strict = false;
 
-  /// If not 0, the surface is wrapped, with defects or without, and not repaired: openings narrower than this
-  /// are closed, and details smaller than a thirtieth of it are lost.
+  /// The diameter with which the surface is wrapped if not 0, with defects or without, and not repaired:
+  /// openings narrower than the diameter are closed, and details smaller than a thirtieth of it are lost.
   double wrap_diameter = 0;
 };
 

@@ -22,10 +22,10 @@ namespace IO {
 /*!
 \ingroup PkgMixedMesh3IO
 
-\brief What subdomains are called in files: "tumor", say.
+\brief Names of subdomains in files, for example "tumor".
 
-Names have the form of those of a `Facet_set`, and no subdomain or facet set has that of another one. Names of
-subdomains that a mesh lacks are not written. Subdomains need not have one.
+Names have the form of those of a `Facet_set`, and each name belongs to one subdomain or facet set only. Names
+of subdomains that a mesh lacks are not written. Subdomains need not have names.
 */
 using Subdomain_names = std::map<Subdomain_index, std::string>;
 

@@ -19,17 +19,17 @@ namespace Mixed_meshes_3 {
 namespace IO {
 
 /// \ingroup PkgMixedMesh3IO
-/// What a surface file held, and what had to be mended.
+/// The content of a surface file, and the repairs.
 struct Surface_input
 {
   /// Points of the surface.
-  std::size_t number_of_points = 0, number_of_polygons = 0; ///< in the file
+  std::size_t number_of_points = 0, number_of_polygons = 0; ///< numbers in the file
   /// Connected parts of the surface.
   std::size_t number_of_components = 0;
-  double volume = 0;                 ///< enclosed, in the cube of the unit
-  std::vector<std::string> warnings; ///< a line each, without the file's name
-  std::vector<std::string> repairs;  ///< those warnings that tell of another surface than the file has
-  double wrap_diameter = 0; ///< if not 0, the surface was refused, and can be wrapped with this diameter
+  double volume = 0;                 ///< enclosed volume, in the cube of the unit
+  std::vector<std::string> warnings; ///< one line each, without the file's name
+  std::vector<std::string> repairs;  ///< warnings of a surface other than that of the file
+  double wrap_diameter = 0;          ///< diameter with which a refused surface can be wrapped; 0: none
 };
 
 } // namespace IO

@@ -29,14 +29,14 @@ namespace IO {
 
 namespace internal {
 
-/// What is read: predicates on it are exact.
+/// The surface that is read: predicates on it are exact.
 using Surface = CGAL::Surface_mesh<Predicates_kernel::Point_3>;
 
 /// Reads a surface and mends it, or refuses.
 void read_surface(const std::string& path, const Read_surface_options& options, Surface& mesh,
                   Surface_input& input);
 
-/// Mends a surface, or refuses; the name stands for it in what is said.
+/// Mends a surface, or refuses; the name represents the surface in messages.
 void make_surface(const std::string& name, const Read_surface_options& options, Surface_soup soup,
                   Surface& mesh, Surface_input& input);
 
@@ -44,7 +44,7 @@ void make_surface(const std::string& name, const Read_surface_options& options, 
 void read_sheet(const std::string& path, const Read_surface_options& options, Surface& mesh,
                 Surface_input& input);
 
-/// What both functions below do, with one of those above.
+/// Implementation of the two functions below, with one of the functions above.
 template <class Read, class Mesh>
 bool read_surface_as(const Read& read, const std::string& path, const Read_surface_options& options,
                      Mesh& mesh, std::string* error, Surface_input* input)
@@ -72,16 +72,15 @@ bool read_surface_as(const Read& read, const std::string& path, const Read_surfa
 /*!
 \ingroup PkgMixedMesh3IO
 
-Reads a closed surface, and mends what is harmless: faces that do not have the same points where they meet,
-duplicate faces, unused points, polygons (triangulated), faces whose vertices are on a line, inconsistent or
+Reads a closed surface, and mends harmless defects: faces that do not have the same points where they meet,
 inward orientation. A surface may touch itself in points and edges: it gets a vertex for each sheet there.
 Points are merged only where the surface is not closed as given. Coordinates below 2^-60 of the extent
 become zero.
 
-Then, unless that is not wanted, it repairs what is left: holes are filled that are a small part of the
-surface, and faces that cut each other, or have edges in common with more than one other, become the
-boundary of the solid that they enclose: of what they wind around outwards. What cannot be repaired is
-refused, or wrapped.
+Then, unless `is_strict` is set, the function repairs other defects: holes that are a small part of the
+surface are filled, and faces that cut each other, or have edges in common with more than one other, become
+the boundary of the solid that they enclose, around which they wind outwards. A surface that cannot be
+repaired is refused, or wrapped.
 
 | file | format |
 |------|--------|
@@ -91,17 +90,17 @@ refused, or wrapped.
 | others | binary triangles of FreeSurfer (`lh.pial`), in the scanner's coordinates if they name the volume |
 
 Arrays compressed by zlib can be read if `CGAL_USE_ZLIB` is defined and zlib is linked. A header or comment
-with `SPACE=LPS`, which 3D Slicer writes, is obeyed: x and y are negated, so that the result is in RAS.
+with `SPACE=LPS`, as 3D Slicer writes it, is obeyed: x and y are negated, so that the result is in RAS.
 
 \tparam Mesh a model of `MutableFaceGraph` and `FaceListGraph` with an internal vertex point map, for
         example `Surface_mesh` or `Polyhedron_3`
-\param path the file; its format follows from the extension
-\param options what the file does not say
+\param path file; its format follows from the extension
+\param options information that the file lacks
 \param mesh the result: triangulated, closed, not self-intersecting, oriented outwards
 \param error if not null, receives a line that names the file and the defect, if the file cannot be read or is
-       not the surface of a solid
-\param input if not null, receives what was read, with a warning for everything mended
-\return whether all went well; if not, `mesh` is as it was
+not the surface of a solid
+\param input if not null, receives a description of the input, with a warning for every repair
+\return whether the surface was read; if not, `mesh` is unchanged
 \par Complexity
 O((n + k) log(n + k)) for n faces, of which k pairs cut each other
 */
@@ -114,7 +113,7 @@ template <class Mesh>
 }
 
 /// \ingroup PkgMixedMesh3IO
-/// The same with default options.
+/// Overload with default options.
 template <class Mesh>
 [[nodiscard]] bool read_closed_surface(const std::string& path, Mesh& mesh, std::string* error = nullptr,
                                        Surface_input* input = nullptr)
@@ -127,13 +126,13 @@ template <class Mesh>
 
 Makes a closed surface of arrays, as `read_closed_surface()` does of a file.
 
-\param points a range of ranges of three coordinates
-\param polygons a range of ranges of indices of points
-\param name stands for the surface in `error`
-\param options,mesh,error,input as there
-\return whether all went well; if not, `mesh` is as it was
+\param points range of ranges of three coordinates
+\param polygons range of ranges of indices of points
+\param name name of the surface in `error`
+\param options,mesh,error,input parameters of `read_closed_surface()`
+\return whether the surface was made; if not, `mesh` is unchanged
 \par Complexity
-As there
+Complexity of `read_closed_surface()`
 */
 template <class Points, class Polygons, class Mesh>
 [[nodiscard]] bool make_closed_surface(const Points& points, const Polygons& polygons,
@@ -160,8 +159,8 @@ template <class Points, class Polygons, class Mesh>
 \ingroup PkgMixedMesh3IO
 
 Reads a sheet for `Mixed_mesh_sheet_3`: a surface with or without a border, an oriented 2-manifold that does
-not cut itself. Formats, parameters and what is mended as for `read_closed_surface()`; the orientation is
-that of the file, where its faces agree. No volume is given.
+not cut itself. Formats, parameters and repairs are those of `read_closed_surface()`; the orientation is that
+of the file, where its faces agree. No volume is given.
 
 \par Complexity
 O(n log n)

@@ -49,14 +49,14 @@ inline Mesh_input read_mesh_input(const std::string& file, const std::string& ex
 /*!
 \ingroup PkgMixedMesh3IO
 
-Reads a mesh, as the function below does, and the names of its subdomains: of VTK's and Gmsh's (4.1) formats,
-as `write_mixed_mesh()` writes them. Names that it would not write are left out.
+Reads a mesh, as the function below does, and the names of its subdomains: from VTK's and Gmsh's (4.1)
+formats, as `write_mixed_mesh()` writes them. Names that `write_mixed_mesh()` would not write are left out.
 
-\param file the file
-\param mesh the result; as it was if the file cannot be read or has no element
-\param subdomain_names the names that the file has
+\param file file name
+\param mesh the result; unchanged if the file cannot be read or has no element
+\param subdomain_names names that the file has
 \param error if not null, receives then a line that names the file and the defect
-\return whether all went well
+\return whether the mesh was read
 */
 template <class Mesh>
 [[nodiscard]] bool read_mixed_mesh(const std::string& file, Mesh& mesh, Subdomain_names& subdomain_names,
@@ -103,7 +103,7 @@ template <class Mesh>
 /*!
 \ingroup PkgMixedMesh3IO
 
-Reads a mesh of linear hexahedra, prisms, pyramids and tetrahedra, in the format that the extension tells.
+Reads a mesh of linear hexahedra, prisms, pyramids and tetrahedra, in the format of the extension.
 
 | extension       | format |
 |-----------------|--------|
@@ -115,23 +115,24 @@ Reads a mesh of linear hexahedra, prisms, pyramids and tetrahedra, in the format
 
 Data of VTK that are compressed by zlib can be read if `CGAL_USE_ZLIB` is defined and zlib is linked.
 
-What `write_mixed_mesh()` writes in these formats is read back as it was, except vertices that are on no
-element and no boundary face, which it does not write to Gmsh 4.1. All vertices in the file are kept, and none
-are merged: vertices and elements have the order of the file or, in Gmsh's formats, of the numbers that the
-file gives them. Elements of lower dimension are skipped. An element is in the region if the cell data
-`in_region` (VTK) are not 0, or if it is in a physical volume called "region" (Gmsh); cell data `subdomain`,
-and names such as "subdomain_2_rest", tell the subdomain, a positive integer; without them it is 1. In the
-other formats it is the reference (Medit), the first attribute (TetGen) or the material (Netgen), and no
-element is in the region. `write_mixed_mesh()` sorts the elements of a `.vtu` file by kind.
+A mesh that `write_mixed_mesh()` writes in these formats is read back as it was, except vertices that are on
+no element and no boundary face, which `write_mixed_mesh()` does not write to Gmsh 4.1. All vertices in the
+file are kept, and none are merged: vertices and elements have the order of the file or, in Gmsh's formats, of
+the numbers that the file gives them. Elements of lower dimension are skipped. An element is in the region if
+the cell data `in_region` (VTK) are not 0, or if it is in a physical volume called "region" (Gmsh); cell data
+`subdomain`, and names such as "subdomain_2_rest", tell the subdomain, a positive integer; without them the
+subdomain is 1. The subdomain in the other formats is the reference (Medit), the first attribute (TetGen) or
+the material (Netgen), and no element is in the region. `write_mixed_mesh()` sorts the elements of a `.vtu`
+file by kind.
 
-The file is checked, and coordinates are finite and at most 1e30, but not the mesh: elements may be inverted,
-or not fit together; see `find_defects()`.
+The file is checked, and coordinates are finite and at most 1e30, but the mesh is not checked: elements may be
+inverted, or not fit together; see `find_defects()`.
 
 \tparam Mesh a `Mixed_mesh_3`
-\param file the file
-\param mesh the result; as it was if the file cannot be read or has no element
+\param file file name
+\param mesh the result; unchanged if the file cannot be read or has no element
 \param error if not null, receives then a line that names the file and the defect
-\return whether all went well
+\return whether the mesh was read
 \par Complexity
 O(n log n); memory for the file and twice the mesh
 */

@@ -19,9 +19,9 @@ namespace CGAL {
 
 /// \ingroup PkgMixedMesh3IO
 /// Writes a mesh as `Mixed_meshes_3::IO::write_MEDIT()` does; `Mixed_meshes_3::IO::read_mixed_mesh()` reads
-/// it.
-/// \param out the stream; its state tells whether all went well
-/// \param mesh the mesh
+/// the mesh.
+/// \param out stream, whose state tells whether the mesh was written
+/// \param mesh mesh
 template <class GeomTraits>
 std::ostream& operator<<(std::ostream& out, const Mixed_mesh_3<GeomTraits>& mesh)
 {

@@ -15,18 +15,18 @@ namespace Mixed_meshes_3 {
 namespace IO {
 
 /// \ingroup PkgMixedMeshImage3Ref
-/// Files that hold a field of displacements. All have floats in millimeters, one vector for each voxel;
-/// programs differ in what they take for the first two directions.
+/// Formats of files of a field of displacements. All have floats in millimeters, one vector for each voxel;
+/// programs differ in the first two directions.
 enum class Field_format {
-  NIFTI, ///< NIfTI, `NIFTI_INTENT_DISPVECT`: to the right, front, top (RAS), as NIfTI has it; nibabel, FSL
-  ITK,   ///< NIfTI, `NIFTI_INTENT_VECTOR`: to the left, back, top (LPS), as ITK has it; ANTs, plastimatch
+  NIFTI, ///< NIfTI, `NIFTI_INTENT_DISPVECT`: right, front, top (RAS), as NIfTI has it; nibabel, FSL
+  ITK,   ///< NIfTI, `NIFTI_INTENT_VECTOR`: left, back, top (LPS), as ITK has it; ANTs, plastimatch
   NRRD   ///< NRRD in the space left-posterior-superior (LPS): 3D Slicer, ITK
 };
 
 /// \ingroup PkgMixedMeshImage3Ref
 /// The end of the name of a field's file, after `_forward` or `_backward`.
-/// \param format of the field
-/// \param extension of the image it belongs to: `.nii` or `.nii.gz`
+/// \param format format of the field
+/// \param extension extension of the image that the field belongs to: `.nii` or `.nii.gz`
 inline std::string end_of_field_name(Field_format format, const std::string& extension = ".nii.gz")
 {
   switch(format) {

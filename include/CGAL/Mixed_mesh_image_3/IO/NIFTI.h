@@ -6,8 +6,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // NIfTI images. Headers are interpreted by nifti_clib (Debian: libnifti2-dev, zlib1g-dev; link nifti2, znz
-// and z). Files are read and written here: nifti_clib turns what is not a number into 0 without a word,
-// prints, and does not tell when the disk is full.
+// and z). Files are read and written here, because nifti_clib turns values that are no number into 0 without
+// a message, prints, and does not tell when the disk is full.
 
 #ifndef CGAL_MIXED_MESH_IMAGE_3_IO_NIFTI_H
 #define CGAL_MIXED_MESH_IMAGE_3_IO_NIFTI_H
@@ -83,7 +83,7 @@ class Input_file
   {
     int error = Z_OK;
     gzerror(m_file.get(), &error);
-    if(error != Z_OK && error != Z_BUF_ERROR) // which is the end of the file
+    if(error != Z_OK && error != Z_BUF_ERROR) // not the end of the file
       refuse(m_path, "is damaged: its compressed data are not valid");
     return error;
   }
@@ -100,7 +100,7 @@ public:
     gzbuffer(m_file.get(), 1 << 17);
   }
 
-  // Whether there were so many bytes.
+  // Reads bytes. Returns whether there were enough bytes.
   bool read(void* bytes, std::size_t size)
   {
     for(char* p = static_cast<char*>(bytes); size != 0;) {
@@ -114,7 +114,7 @@ public:
     return true;
   }
 
-  // Whether the file goes on as it should after what was read: compressed data end with a checksum.
+  // Whether the file has the right end after the bytes that were read: compressed data end with a checksum.
   bool has_end()
   {
     char next;
@@ -127,7 +127,7 @@ public:
     return position >= 0 && gzseek(m_file.get(), z_off_t(position), SEEK_SET) == z_off_t(position);
   }
 
-  // No more than that can be in the file: deflate shrinks to no less than 1/1032.
+  // An upper bound of the bytes in the file: deflate compresses to no less than 1/1032.
   double largest_size() const
   {
     std::error_code error;
@@ -142,8 +142,8 @@ struct Free_nifti_image
 };
 using Nifti_header = std::unique_ptr<nifti_image, Free_nifti_image>;
 
-// What is wrong with a header, after bytes have been swapped if need be; or empty. What passes makes
-// nifti_clib neither print nor overflow.
+// The defect of a header, after bytes have been swapped if necessary; or empty. For a header without a
+// defect, nifti_clib neither prints nor overflows.
 template <class Header>
 std::string header_defect(const Header& header)
 {
@@ -168,7 +168,7 @@ std::string header_defect(const Header& header)
   return std::string();
 }
 
-// A value of a header that is refused, with its name there.
+// The message for a refused value of a header, with the name of its field.
 template <class Number>
 std::string field_defect(const std::string& field, Number value, const std::string& expected)
 {
@@ -188,8 +188,8 @@ std::string finite_field_defect(const std::string& field, const Number* values, 
   return std::string();
 }
 
-// As above for the numbers that say where voxels are, in the file and in the world, and what they mean:
-// nifti_clib replaces those that are not finite or not possible by others. The file has at most
+// The defect of the numbers for the positions of voxels, in the file and in the world, and for their meaning:
+// nifti_clib replaces numbers that are not finite or not possible by others. The file has at most
 // `largest_size` bytes.
 template <class Header>
 std::string header_number_defect(const Header& header, double largest_size)
@@ -221,7 +221,7 @@ std::string header_number_defect(const Header& header, double largest_size)
   }
   if(!defect.empty() || header.sform_code > 0)
     return defect;
-  // Voxels' sizes count; and a rotation, whose quaternion is rounded to floats, more or less.
+  // The sizes of voxels count; and a rotation, whose quaternion is rounded to floats, within a tolerance.
   for(int i = 1; i <= (std::min)(int(header.dim[0]), 3); ++i)
     if(!(header.pixdim[i] > 0))
       return field_defect("pixdim[" + std::to_string(i) + ']', header.pixdim[i], "a size greater than 0");
@@ -277,7 +277,7 @@ inline Nifti_header read_header(const std::string& path, Input_file& file)
   });
 }
 
-// The grid of an image: sform, else qform, else the voxels' sizes. Lengths become millimeters.
+// The grid of an image: sform, else qform, else the sizes of voxels. Lengths become millimeters.
 inline Voxel_grid_3 read_grid(const std::string& path, const nifti_image& header)
 {
   Voxel_grid_3 grid;
@@ -304,7 +304,7 @@ inline Voxel_grid_3 read_grid(const std::string& path, const nifti_image& header
   return grid;
 }
 
-// The numbers as they are in the file, in this machine's byte order.
+// The numbers as stored in the file, in this machine's byte order.
 inline std::vector<char> read_voxel_bytes(const std::string& path, Input_file& file,
                                           const nifti_image& header)
 {
@@ -312,7 +312,7 @@ inline std::vector<char> read_voxel_bytes(const std::string& path, Input_file& f
   const std::string truncated = "is truncated: " + std::to_string(header.nx) + " x "
                                 + std::to_string(header.ny) + " x " + std::to_string(header.nz)
                                 + " voxels expected";
-  if(count * header.nbyper > file.largest_size()) // before memory is asked for
+  if(count * header.nbyper > file.largest_size()) // before memory is allocated
     refuse(path, truncated);
   std::vector<char> bytes(std::size_t(count) * std::size_t(header.nbyper));
   if(!file.skip_to(header.iname_offset) || !file.read(bytes.data(), bytes.size()) || !file.has_end())
@@ -322,7 +322,7 @@ inline std::vector<char> read_voxel_bytes(const std::string& path, Input_file& f
   return bytes;
 }
 
-// Compressed, or not, on the way to a stream. Without a time, so that the same data give the same bytes.
+// Output to a stream, compressed or not; without a time, so that the same data give the same bytes.
 class Compressed_output
 {
   std::ostream& m_stream;
@@ -344,7 +344,7 @@ public:
   Compressed_output(std::ostream& stream, bool is_compressed)
     : m_stream(stream), m_is_compressed(is_compressed)
   {
-    // The fastest level: fields of floats hardly become smaller by more. 16 + 15: gzip.
+    // The level is the fastest one: fields of floats are hardly compressed better by others. 16 + 15: gzip.
     if(m_is_compressed)
       m_is_good = deflateInit2(&m_state, Z_BEST_SPEED, Z_DEFLATED, 16 + 15, 9, Z_DEFAULT_STRATEGY) == Z_OK;
   }
@@ -381,7 +381,7 @@ public:
   }
 };
 
-// Without dimensions beyond the third, and without type.
+// Makes a header without dimensions beyond the third, and without type.
 inline nifti_1_header make_header(const Voxel_grid_3& grid)
 {
   nifti_1_header h{};
@@ -405,7 +405,7 @@ inline nifti_1_header make_header(const Voxel_grid_3& grid)
   map.m[3][3] = 1;
   h.sform_code = short(grid.world);
 
-  // The qform is written as well, for readers that look at it only, if it can say the same: axes at
+  // The qform is written as well, for readers that use only the qform, if it can represent the map: axes at
   // right angles.
   double b, c, d, x, y, z, dx, dy, dz, factor;
   nifti_dmat44_to_quatern(map, &b, &c, &d, &x, &y, &z, &dx, &dy, &dz, &factor);
@@ -430,7 +430,7 @@ inline nifti_1_header make_header(const Voxel_grid_3& grid)
   return h;
 }
 
-// Why nothing can be written, or empty.
+// The reason why nothing can be written, or empty.
 inline std::string image_output_error(const std::string& path, const Voxel_grid_3& grid, std::size_t count)
 {
   if(!ends_with(path, ".nii") && !ends_with(path, ".nii.gz"))
@@ -443,7 +443,7 @@ inline std::string image_output_error(const std::string& path, const Voxel_grid_
   return std::string();
 }
 
-// Numbers are converted in blocks on their way to the file.
+// Writes numbers, which are converted in blocks on their way to the file.
 template <class T>
 void write_as(Compressed_output& output, const Voxel_image_3& image, double slope)
 {
@@ -466,9 +466,9 @@ void write_as(Compressed_output& output, const Voxel_image_3& image, double slop
   }
 }
 
-/// A vector image of five dimensions.
-/// \param intent says what the vectors are, and by that their coordinate system
-/// \param signs of the components, from the directions of the image's world
+/// Writes a vector image of five dimensions.
+/// \param intent meaning of the vectors, and by that their coordinate system
+/// \param signs signs of the components, relative to the directions of the image's world
 [[nodiscard]] inline bool write_NIFTI_field(Output_files& files, const std::string& path,
                                             const Displacement_field_3& field, int intent,
                                             const std::array<float, 3>& signs, std::string* error)
@@ -543,16 +543,16 @@ inline Voxel_image_3 read_image(const std::string& path)
 
 Reads a NIfTI image (`.nii`, `.nii.gz`; NIfTI-1 and NIfTI-2, either byte order).
 
-Positions are those of the sform, else of the qform, else the voxels' sizes times the indices; in
+Positions are those of the sform, else of the qform, else the sizes of voxels times the indices; in
 millimeters, whatever the unit of the file. The file's slope and intercept are applied. Values are floats:
-integers beyond 2^24 lose digits. Not for several threads at once.
+integers beyond 2^24 lose digits. The function must not be called by several threads at once.
 
-\param path the file
-\param image the result; as it was if the file cannot be read, is truncated or damaged, does not have three
-       dimensions, has a number in its header that is not finite or not possible (the line names the field),
-       or has voxels that are not finite real numbers
+\param path file name
+\param image the result; unchanged if the file cannot be read, is truncated or damaged, does not have three
+dimensions, has a number in its header that is not finite or not possible (the line names the field), or has
+voxels that are not finite real numbers
 \param error if not null, receives then a line that names the file and the defect
-\return whether all went well
+\return whether the image was read
 */
 [[nodiscard]] inline bool read_NIFTI(const std::string& path, Voxel_image_3& image,
                                      std::string* error = nullptr)
@@ -565,14 +565,14 @@ integers beyond 2^24 lose digits. Not for several threads at once.
 
 Writes an image to one of several files that shall appear together.
 
-As NIfTI-1, in the image's type: integers are rounded, and cut off at the ends of their range. Positions
-are written as sform, and as qform if the axes are at right angles.
+The format is NIfTI-1, with the image's type: integers are rounded, and cut off at the ends of their range.
+Positions are written as sform, and as qform if the axes are at right angles.
 
-\param files the files
-\param path the file, once committed: `.nii` or `.nii.gz`
-\param image the image
-\param error if not null, receives a line that names the file and says what went wrong
-\return whether all went well
+\param files files
+\param path file name, once committed: `.nii` or `.nii.gz`
+\param image image
+\param error if not null, receives a line that names the file and the error
+\return whether the image was written
 */
 [[nodiscard]] inline bool write_NIFTI(Output_files& files, const std::string& path,
                                       const Voxel_image_3& image, std::string* error = nullptr)
@@ -602,7 +602,7 @@ are written as sform, and as qform if the axes are at right angles.
 }
 
 /// \ingroup PkgMixedMeshImage3Ref
-/// As above, a field: a vector image (five dimensions, `NIFTI_INTENT_DISPVECT`) of floats in millimeters,
+/// Writes a field: a vector image (five dimensions, `NIFTI_INTENT_DISPVECT`) of floats in millimeters,
 /// components in the directions of the image's world: right, front, up.
 [[nodiscard]] inline bool write_NIFTI(Output_files& files, const std::string& path,
                                       const Displacement_field_3& field, std::string* error = nullptr)

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What warp_image() returns, as files that other programs read.
+// Output of the result of warp_image() to files that other programs read.
 
 #ifndef CGAL_MIXED_MESH_IMAGE_3_IO_WRITE_WARPED_IMAGE_H
 #define CGAL_MIXED_MESH_IMAGE_3_IO_WRITE_WARPED_IMAGE_H
@@ -32,7 +32,7 @@ namespace IO {
 
 namespace internal {
 
-/// What is to the right and to the front is to the left and to the back with the other sign.
+/// The signs that convert right and front to left and back.
 inline constexpr std::array<float, 3> signs_of_LPS = {-1, -1, 1};
 
 /// The header of a field as NRRD: text, up to and with the empty line.
@@ -74,15 +74,15 @@ inline std::string NRRD_header(const Voxel_grid_3& grid, bool is_compressed)
 
 Writes a field as NRRD to one of several files that shall appear together.
 
-Floats in millimeters, the components of a voxel side by side, space and components left-posterior-superior:
-what 3D Slicer and ITK take for a transform.
+The file has floats in millimeters, the components of a voxel side by side, space and components
+left-posterior-superior: the transform of 3D Slicer and ITK.
 
-\param files the files
-\param path the file, once committed: `.nrrd`
-\param field the field
-\param is_compressed whether by gzip
-\param error if not null, receives a line that names the file and says what went wrong
-\return whether all went well
+\param files files
+\param path file name, once committed: `.nrrd`
+\param field field
+\param is_compressed whether to compress by gzip
+\param error if not null, receives a line that names the file and the error
+\return whether the field was written
 */
 [[nodiscard]] inline bool write_NRRD(Output_files& files, const std::string& path,
                                      const Displacement_field_3& field, bool is_compressed = true,
@@ -114,7 +114,7 @@ what 3D Slicer and ITK take for a transform.
 }
 
 /// \ingroup PkgMixedMeshImage3Ref
-/// Writes a field in one of the formats that other programs read; parameters as above, and `.nii` or
+/// Writes a field in one of the formats that other programs read; parameters as above, with `.nii` or
 /// `.nii.gz` for NIfTI.
 [[nodiscard]] inline bool write_displacement_field(Output_files& files, const std::string& path,
                                                    const Displacement_field_3& field, Field_format format,
@@ -133,9 +133,9 @@ what 3D Slicer and ITK take for a transform.
 /*!
 \ingroup PkgMixedMeshImage3Ref
 
-Writes what `warp_image()` returns, beside each other: for `brain.nii.gz`
+Writes the result of `warp_image()` to files beside each other: for `brain.nii.gz`
 
-| file | what it is |
+| file | content |
 |------|------------|
 | `brain.nii.gz` | the warped image |
 | `brain_mask.nii.gz` | 0 outside, 1 tissue, 2 resected: after the deformation |
@@ -145,17 +145,17 @@ and for each format of fields, with `.nii.gz` (`Field_format::NIFTI`), `_itk.nii
 
 | file | what it is |
 |------|------------|
-| `brain_forward.nii.gz` | the field at points before the deformation: where they go |
-| `brain_backward.nii.gz` | the field at points after it: where they come from |
+| `brain_forward.nii.gz` | the field at points before the deformation: vectors to their new places |
+| `brain_backward.nii.gz` | the field at points after the deformation: vectors to their former places |
 
-Programs that resample an image by a field want the backward one; the forward one moves points.
+Programs that resample an image by a field need the backward field; the forward field moves points.
 
-\param files the files
-\param path the file of the image, once committed: `.nii` or `.nii.gz`
-\param warped what to write
-\param field_formats of the fields, which are large: twelve bytes a voxel before compression
-\param error if not null, receives a line that names the file and says what went wrong
-\return whether all went well
+\param files files
+\param path name of the file of the image, once committed: `.nii` or `.nii.gz`
+\param warped the result of `warp_image()`
+\param field_formats formats of the fields, which are large: twelve bytes for each voxel before compression
+\param error if not null, receives a line that names the file and the error
+\return whether the files were written
 */
 [[nodiscard]] inline bool write_warped_image(Output_files& files, const std::string& path,
                                              const Warped_image_3& warped,

@@ -22,30 +22,30 @@ namespace internal {
 /*!
 The surface where a function on a grid, linear in tetrahedra, has a value (Doi, Koide 1991). Each cube of the
 grid is split into six tetrahedra around one diagonal, all cubes alike, so that the tetrahedra are conforming
-(Kuhn). In each, the surface is empty, a triangle, or two: closed, but at the border of the grid, and a
-2-manifold, whatever the values are.
+(Kuhn). The surface in each tetrahedron is empty, a triangle, or two: closed, except at the border of the
+grid, and a 2-manifold, whatever the values are.
 */
 class Marching_tetrahedra
 {
   using Size = std::array<std::size_t, 3>;
 
-  // Vertices are kept that far from the ends of an edge, so that no triangle vanishes: an error of one
+  // The least distance of vertices from the ends of an edge, so that no triangle vanishes: an error of one
   // hundredth of a voxel.
   static constexpr double least_share = 0.01;
 
   const Size m_size;
   const std::vector<float>& m_values;
   const float m_level;
-  // Vertices on edges from a slice of the grid and from the next one, by the edge's first end in the slice
-  // and its direction: eight times as many as ends. A map of all edges took more time than all the rest.
+  // Vertices on edges from a slice of the grid and from the next slice, by the edge's first end in the slice
+  // and its direction: eight times as many as ends. A map of all edges took more time than everything else.
   std::array<std::vector<std::uint32_t>, 2> m_vertices;
   std::uint32_t m_number_of_vertices = 0;
 
   static constexpr std::uint32_t no_vertex = std::uint32_t(-1);
 
 public:
-  /// \param size,values of the grid; the first index runs fastest
-  /// \param level what is larger is inside
+  /// \param size,values size and values of the grid; the first index runs fastest
+  /// \param level value above which points are inside
   Marching_tetrahedra(const Size& size, const std::vector<float>& values, float level)
     : m_size(size), m_values(values), m_level(level)
   {
@@ -80,13 +80,13 @@ private:
   }
 
   /// Calls `f(cube, inside)` for each cube along the first index with corners inside and outside; bit c of
-  /// `inside` is that of corner c.
+  /// `inside` tells whether corner c is inside.
   template <class F>
   void for_each_crossed_cube_of_row(std::size_t j, std::size_t k, const F& f) const
   {
     const float* const rows[4] = {&m_values[offset({0, j, k})], &m_values[offset({0, j + 1, k})],
                                   &m_values[offset({0, j, k + 1})], &m_values[offset({0, j + 1, k + 1})]};
-    const auto column = [&](std::size_t i) { // those of even numbers
+    const auto column = [&](std::size_t i) { // corners of even numbers
       return int(rows[0][i] > m_level) | int(rows[1][i] > m_level) << 2 | int(rows[2][i] > m_level) << 4
              | int(rows[3][i] > m_level) << 6;
     };
@@ -102,14 +102,15 @@ private:
   template <class AddPoint, class AddTriangle>
   void march(const Size& cube, int inside, const AddPoint& add_point, const AddTriangle& add_triangle)
   {
-    // From corner 0 to corner 7 along the axes in each order; positively oriented if that is an even one.
+    // The tetrahedra lead from corner 0 to corner 7 along the axes in each order, which are positively
+    // oriented if the order is an even permutation.
     constexpr int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
     for(int o = 0; o < 6; ++o) {
       const int first = 1 << orders[o][0], second = first | 1 << orders[o][1];
       std::array<int, 4> tetrahedron{0, first, second, 7};
       if(o >= 3)
         std::swap(tetrahedron[1], tetrahedron[2]);
-      // those inside come first
+      // The corners inside come first.
       const auto is_in = [&](int c) { return (inside >> c & 1) != 0; };
       const int number = int(std::count_if(tetrahedron.begin(), tetrahedron.end(), is_in));
       if(number == 0 || number == 4)
@@ -129,7 +130,7 @@ private:
     }
   }
 
-  // Puts those that are inside first, by an even number of swaps.
+  // Puts the corners inside first, by an even number of swaps.
   template <class IsIn>
   static void sort(std::array<int, 4>& t, const IsIn& is_in)
   {
@@ -140,7 +141,7 @@ private:
           std::swap(t[j], t[j - 1]);
           is_odd = !is_odd;
         }
-    if(is_odd) // two of a kind, at one of the ends
+    if(is_odd) // swaps two corners of the same kind
       std::swap(t[is_in(t[1]) ? 0 : 2], t[is_in(t[1]) ? 1 : 3]);
   }
 

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Garland and Heckbert: Surface simplification using quadric error metrics (1997).
+// Collapses by quadrics: Garland and Heckbert: Surface simplification using quadric error metrics (1997).
 
 #ifndef CGAL_MIXED_MESH_IMAGE_3_INTERNAL_QUADRIC_COLLAPSES_H
 #define CGAL_MIXED_MESH_IMAGE_3_INTERNAL_QUADRIC_COLLAPSES_H
@@ -40,7 +40,7 @@ struct Plane_quadric
     c += q.c;
   }
 
-  /// The plane through a point; the weight is the length of its normal.
+  /// The quadric of the plane through a point; the weight is the length of the normal.
   static Plane_quadric of_plane(const Vec3& point, const Vec3& normal)
   {
     const double length = norm(normal);
@@ -61,10 +61,10 @@ struct Plane_quadric
     return (std::max)(dot(a, p) + 2 * dot(b, p) + c, 0.);
   }
 
-  /// Where it is least; in directions in which it hardly changes, near to a point.
+  /// The minimum of the quadric; near a given point in directions in which the quadric hardly changes.
   Vec3 minimum_near(const Vec3& p) const
   {
-    constexpr double share = 1e-3; // of the weights that pull there: keeps the system well-conditioned
+    constexpr double share = 1e-3; // share of weights for that point: keeps the system well-conditioned
     const double pull = share * sum_of_weights();
     if(!(pull > 0))
       return p;
@@ -79,14 +79,15 @@ struct Plane_quadric
 };
 
 /*!
-Collapses edges of a closed triangulated surface, those first that move it least from the planes of its
-triangles.
+Collapses edges of a closed triangulated surface, edges first that move the surface least from the planes of
+its triangles.
 
-Arrays of numbers, and a cost of few operations: some 50 times as fast as the collapse by volume and shape,
-which it leaves some multiple of the vertices. The topology stays (the link condition), and no triangle turns
-over; that triangles which are no neighbors do not cut each other is for the caller to check.
+The method uses arrays of numbers, and a cost of few operations: it is some 50 times as fast as the collapse
+by volume and shape, for which it leaves a multiple of the vertices. The topology is kept (the link
+condition), and no triangle turns over; the caller has to check that triangles that are no neighbors do not
+cut each other.
 
-Edges are halfedges in pairs. Halfedge `3 t + i` goes from corner `i` of triangle `t` to the next one.
+Edges are half-edges in pairs. Half-edge `3 t + i` goes from corner `i` of triangle `t` to the next corner.
 */
 class Quadric_collapses
 {
@@ -102,7 +103,7 @@ private:
     double cost;
     Index halfedge, version;
 
-    // The halfedge decides between equal costs, so that the order does not depend on the queue.
+    // The half-edge decides between equal costs, so that the order does not depend on the queue.
     bool operator>(const Candidate& other) const
     {
       return cost > other.cost || (cost == other.cost && halfedge > other.halfedge);
@@ -110,18 +111,18 @@ private:
   };
 
   std::vector<Vec3> m_points;
-  std::vector<Index> m_source;   // of each halfedge; none if its triangle is gone
-  std::vector<Index> m_opposite; // of each halfedge
-  std::vector<Index> m_outgoing; // one of each vertex
-  std::vector<Index> m_version;  // of each vertex: grows when it moves
+  std::vector<Index> m_source;   // source of each half-edge; none if its triangle is removed
+  std::vector<Index> m_opposite; // opposite of each half-edge
+  std::vector<Index> m_outgoing; // a half-edge of each vertex
+  std::vector<Index> m_version;  // version of each vertex: grows when the vertex moves
   std::vector<Plane_quadric> m_quadrics;
-  std::vector<bool> m_is_fixed; // each vertex
+  std::vector<bool> m_is_fixed; // one value for each vertex
   std::size_t m_number_of_vertices;
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> m_queue;
 
 public:
-  /// \param opposite of each halfedge
-  /// \param is_fixed for each vertex whether it stays where it is
+  /// \param opposite opposite half-edge of each half-edge
+  /// \param is_fixed whether each vertex stays where it is
   Quadric_collapses(std::vector<Vec3> points, const std::vector<Triangle>& triangles,
                     std::vector<Index> opposite, std::vector<bool> is_fixed)
     : m_points(std::move(points)), m_opposite(std::move(opposite)), m_outgoing(m_points.size(), none),
@@ -139,7 +140,7 @@ public:
     }
   }
 
-  /// Until there are so many vertices, or no edge can be collapsed.
+  /// Collapses edges until the number of vertices is reached, or no edge can be collapsed.
   void operator()(std::size_t number_of_vertices)
   {
     for(Index h = 0; h < m_source.size(); ++h)
@@ -157,7 +158,7 @@ public:
     }
   }
 
-  /// What is left: numbered as before, without gaps.
+  /// The remaining surface: in the former order, without gaps.
   std::pair<std::vector<Vec3>, std::vector<Triangle>> result() const
   {
     std::pair<std::vector<Vec3>, std::vector<Triangle>> left;
@@ -179,7 +180,7 @@ private:
   Index target(Index h) const { return m_source[next(h)]; }
   Index version_of(Index h) const { return m_version[m_source[h]] + m_version[target(h)]; }
 
-  /// Calls `f` for each halfedge from a vertex.
+  /// Calls `f` for each half-edge from a vertex.
   template <class F>
   void for_each_outgoing(Index v, const F& f) const
   {
@@ -206,7 +207,8 @@ private:
   {
     if(m_is_fixed[m_source[h]] || m_is_fixed[target(h)])
       return;
-    // where the surface is plane, all places are as good: short edges first keep triangles compact
+    // The weight of the length is for plane parts of the surface, where all places are equally good: short
+    // edges first keep triangles compact.
     constexpr double weight_of_length = 1e-5;
     const Plane_quadric quadric = quadric_of(h);
     const Vec3 &p = m_points[m_source[h]], &q = m_points[target(h)];
@@ -220,7 +222,8 @@ private:
     return keeps_topology(h) && keeps_sides(h, point) && keeps_sides(m_opposite[h], point);
   }
 
-  // The link condition: the ends have two common neighbors, opposite to the edge, of more than three edges.
+  // Whether the link condition holds: the ends have two common neighbors, opposite to the edge, with more
+  // than three edges.
   bool keeps_topology(Index h) const
   {
     const Index u = m_source[h], v = target(h);
@@ -237,10 +240,10 @@ private:
            && has_more_than_three(m_source[previous(m_opposite[h])]);
   }
 
-  // Whether triangles at the source, but those at the edge, keep their side and do not become needles.
+  // Whether triangles at the source, except those at the edge, keep their side and do not become needles.
   bool keeps_sides(Index edge, const Vec3& point) const
   {
-    constexpr double least_cosine = 0.2, least_shape = 0.05; // of angles; 0.29 is equilateral
+    constexpr double least_cosine = 0.2, least_shape = 0.05; // cosine of angles; shape, 0.29 if equilateral
     bool is_kept = true;
     for_each_outgoing(m_source[edge], [&](Index h) {
       if(!is_kept || h == edge || h == next(m_opposite[edge]))
@@ -259,7 +262,7 @@ private:
     return is_kept;
   }
 
-  // The source becomes the target, which moves to the point.
+  // Collapses an edge: the source is merged into the target, which moves to the point.
   void collapse(Index h, const Vec3& point)
   {
     const Index o = m_opposite[h], u = m_source[h], v = target(h);
@@ -279,7 +282,7 @@ private:
     m_outgoing[u] = none;
     m_points[v] = point;
     m_quadrics[v] = quadric;
-    m_version[v] += m_version[u] + 1; // more than those of all edges to both
+    m_version[v] += m_version[u] + 1; // more than those of all edges to both vertices
     --m_number_of_vertices;
     for_each_outgoing(v,
                       [this](Index outgoing) { add_candidate((std::min)(outgoing, m_opposite[outgoing])); });

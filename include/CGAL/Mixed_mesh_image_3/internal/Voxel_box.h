@@ -34,14 +34,14 @@ struct Voxel_box
   }
 };
 
-/// Voxels of a label in the box around them; empty if no voxel has it.
+/// Voxels of a label in the box around the label; empty if no voxel has the label.
 struct Labeled_box : Voxel_box
 {
   std::vector<std::uint8_t> has_label;
 };
 
-/// \param margin voxels without label on each side of those that have it, along each axis
-/// \param extent what is looked at
+/// \param margin number of voxels without label on each side of the label, along each axis
+/// \param extent box that is examined
 template <class HasLabel>
 Labeled_box box_of_label(const Voxel_image_3& image, const HasLabel& has_label,
                          const std::array<std::size_t, 3>& margin, const Label_extent_3& extent)

@@ -28,8 +28,8 @@ class Parabola_envelope
 {
   struct Parabola
   {
-    double apex, height; // the place, and the value there
-    double begin;        // the place from which on it is the lowest one
+    double apex, height; // the place of the apex, and its value
+    double begin;        // the place from which on the parabola is the lowest
   };
 
   std::vector<Parabola> m_parabolas;
@@ -38,7 +38,7 @@ public:
   void clear() { m_parabolas.clear(); }
   bool is_empty() const { return m_parabolas.empty(); }
 
-  /// \pre the apex is behind those before
+  /// Adds a parabola. \pre the apex is behind the apices before
   void add(double apex, double height)
   {
     double begin = -std::numeric_limits<double>::infinity();
@@ -68,8 +68,8 @@ public:
   }
 };
 
-/// The squared distance of each voxel of a box to the nearest one of a value, between centers; infinite if no
-/// voxel has it.
+/// The squared distance of each voxel of a box to the nearest voxel of a value, between centers; infinite if
+/// no voxel has the value.
 inline std::vector<float> squared_distances(const Labeled_box& box, std::uint8_t value,
                                             const std::array<double, 3>& spacing)
 {

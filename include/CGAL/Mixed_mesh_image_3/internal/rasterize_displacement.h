@@ -50,16 +50,16 @@ inline Voxel_range voxel_range(const Voxel_grid_3& grid, const Vec3& lower, cons
   return range;
 }
 
-/// Points of an element one after the other in a row, each found from those before.
+/// Points of an element one after the other in a row, each found from the points before.
 template <class Map>
 class Row_of_locations
 {
   const Map& m_map;
-  std::array<Vec3, 3> m_last{}; // the nearest first
+  std::array<Vec3, 3> m_last{}; // the last points, the nearest first
   int m_number_of_last = 0;
-  std::array<Vec3, 3> m_inverse_rows{}; // of the derivative, at one of these or before
+  std::array<Vec3, 3> m_inverse_rows{}; // inverse of the derivative, at one of the last points or before
 
-  // From the polynomial through those before.
+  // The prediction from the polynomial through the last points.
   Vec3 prediction(const Vec3& start, const Vec3& step) const
   {
     switch(m_number_of_last) {
@@ -73,14 +73,16 @@ class Row_of_locations
 public:
   explicit Row_of_locations(const Map& map) : m_map(map) {}
 
-  /// What comes is not next to what was.
+  /// Forgets the last points: the next point is not next to them.
   void interrupt() { m_number_of_last = 0; }
 
-  /// \param p the point  \param start where it is if the map is affine  \param step to the next point then
+  /// \param p point
+  /// \param start reference coordinates if the map is affine
+  /// \param step difference to the next point's
   std::optional<Vec3> locate(const Vec3& p, const Vec3& start, const Vec3& step)
   {
-    // The error of reference coordinates is about the square of the last step: fields are floats. That of
-    // the simplified iteration is a part of it, a half for elements that are much curved.
+    // The error of reference coordinates is about the square of the last step: fields are floats. The error
+    // of the simplified iteration is a part of the last step, a half for strongly curved elements.
     constexpr double accuracy = 1e-4, simplified_accuracy = 1e-6;
     if(m_map.is_affine())
       return m_map.inverse(p, start, accuracy);
@@ -103,11 +105,11 @@ public:
 /*!
 Calls `visit(offset, p, r)` for the voxels whose centers p are in an element, with reference coordinates.
 
-Row by row: where a row is in all half-spaces that contain the element, the map is inverted, each voxel
-starting from the result for the one before.
-\param map an `Isoparametric_map_3`, to indices of the grid
-\param range where the element is
-\param is_wanted `bool(offset)`: whether to look at a voxel
+The voxels are visited row by row: where a row is in all half-spaces that contain the element, the map is
+inverted, each voxel starting from the result for the voxel before.
+\param map `Isoparametric_map_3` to indices of the grid
+\param range voxels near the element
+\param is_wanted `bool(offset)`: whether to visit a voxel
 */
 template <class Map, class Is_wanted, class Visitor>
 void for_each_voxel(const Map& map, const Voxel_range& range, const Voxel_grid_3& grid,
@@ -148,7 +150,7 @@ void for_each_voxel(const Map& map, const Voxel_range& range, const Voxel_grid_3
     }
 }
 
-/// The linear part of a map.
+/// A vector transformed by the linear part of a map.
 inline Vec3 transform_vector(const Affine_map_3& map, const Vec3& v)
 {
   Vec3 result;
@@ -157,11 +159,12 @@ inline Vec3 transform_vector(const Affine_map_3& map, const Vec3& v)
   return result;
 }
 
-/// Where an element is: the voxels in the box of its vertices, and as far as bubbles carry others from there.
+/// The voxels near an element: the voxels in the box of its vertices, extended by the displacement by
+/// bubbles.
 inline Voxel_range voxel_range(const Voxel_grid_3& grid, Element_kind kind, const Vec3* points,
                                const Vec3& extent = Vec3{})
 {
-  constexpr double margin = 1e-7; // more than counts as inside
+  constexpr double margin = 1e-7; // more than the tolerance of points inside
   Vec3 lower = points[0], upper = points[0];
   for(int i = 1; i < reference_elements[kind].number_of_vertices; ++i)
     for(int k = 0; k < 3; ++k) {
@@ -179,15 +182,15 @@ struct Displaced_vertices
 };
 
 /*!
-The field of the displacement on the voxels in the mesh, or of what leads back.
+The field of the displacement on the voxels in the mesh, or the field that leads back.
 
-\param elements the elements
-\param is_used `bool(Element_index)`: elements to leave out
-\param vertices in indices of the field's grid
-\param bubbles_of `std::optional<Bubbles>(Element_view)`: of the displacement between vertices, in millimeters
-\param is_forward whether the field is to be the displacement, or what leads back
-\param field vectors of the voxels in an element are set (the first of several elements), and their
-       `is_in_mesh`
+\param elements elements of the mesh
+\param is_used `bool(Element_index)`: whether an element is used
+\param vertices vertices in indices of the field's grid
+\param bubbles_of `std::optional<Bubbles>(Element_view)`: bubbles of the displacement, in millimeters
+\param is_forward whether the field is to be the displacement, or the field that leads back
+\param field field; the vectors of voxels in an element are set (the first of several elements), and their
+`is_in_mesh`
 */
 template <class Is_used, class Bubbles_of>
 void rasterize_displacement(const Element_list& elements, const Is_used& is_used,
@@ -242,7 +245,7 @@ void rasterize_displacement(const Element_list& elements, const Is_used& is_used
 }
 
 /*!
-For each line of values g, the place q with the least `(spacing (i - q))^2 + g(q)`: the lower envelope of
+The place q with the least `(spacing (i - q))^2 + g(q)`, for each line of values g: the lower envelope of
 parabolas (Felzenszwalb, Huttenlocher: "Distance transforms of sampled functions", 2012).
 */
 class Lower_envelope
@@ -263,7 +266,7 @@ public:
 
   bool is_empty() const { return m_places.empty(); }
 
-  // Places in ascending order.
+  // Adds a parabola, in ascending order of places.
   void add(std::ptrdiff_t place, double value)
   {
     double start = -std::numeric_limits<double>::infinity();
@@ -340,7 +343,7 @@ inline void fade_displacement(double distance, Displacement_field_3& field)
   if(!(distance > 0) || range.is_empty())
     return;
 
-  // For each voxel the nearest one in the mesh: in its row, then in its plane, then anywhere.
+  // The nearest voxel in the mesh of each voxel: in its row, then in its plane, then anywhere.
   struct Nearest
   {
     float squared_distance;
@@ -372,7 +375,7 @@ inline void fade_displacement(double distance, Displacement_field_3& field)
       }
     }
   const auto sweep = [&](int axis) {
-    const int other = 3 - axis; // of j and k
+    const int other = 3 - axis; // the other one of j and k
     const std::ptrdiff_t stride = axis == 1 ? n[0] : n[0] * n[1];
     Lower_envelope envelope(spacing[axis]);
     std::vector<Nearest> line(static_cast<std::size_t>(n[axis]));
@@ -382,7 +385,7 @@ inline void fade_displacement(double distance, Displacement_field_3& field)
         for(std::ptrdiff_t a = 0; a < n[axis]; ++a)
           line[std::size_t(a)] = first[a * stride];
         const auto value = [&line](std::ptrdiff_t a) { return line[std::size_t(a)].squared_distance; };
-        // Between voxels of the mesh nothing changes, and what is there is not nearest to others.
+        // Voxels between voxels of the mesh do not change, and are not nearest to others.
         envelope.clear();
         for(std::ptrdiff_t a = 0; a < n[axis]; ++a)
           if(value(a) < far

@@ -30,17 +30,17 @@ namespace internal {
 struct Indicator : Voxel_box
 {
   std::vector<float> values; // none if no voxel has the label
-  float level = 0.5f;        // as many values are above it as voxels have the label, but for equal ones
-  std::size_t step = 1;      // of the box, in voxels of the image
+  float level = 0.5f;        // number of values above: that of voxels with the label, except for equal ones
+  std::size_t step = 1;      // step of the box, in voxels of the image
 };
 
-/// How many edges of the grid cross the level.
+/// The number of edges of the grid that cross the level.
 inline std::size_t number_of_crossings(const Indicator& indicator)
 {
   const std::array<std::size_t, 3> strides = indicator.strides();
   std::size_t sum = 0;
   for(std::size_t i = 0; i < indicator.values.size(); ++i)
-    for(int axis = 0; axis < 3; ++axis) // beyond a border, there are zeros as on it
+    for(int axis = 0; axis < 3; ++axis) // beyond a border, there are zeros as on the border
       sum += i + strides[axis] < indicator.values.size()
              && (indicator.values[i] > indicator.level)
                   != (indicator.values[i + strides[axis]] > indicator.level);
@@ -53,7 +53,7 @@ inline Indicator every_second(const Indicator& fine)
   Indicator coarse{{fine.first, {}}, {}, fine.level, 2 * fine.step};
   std::size_t number = 1;
   for(int i = 0; i < 3; ++i) {
-    coarse.size[i] = (fine.size[i] + 1) / 2 + 1; // the last one is beyond
+    coarse.size[i] = (fine.size[i] + 1) / 2 + 1; // the last value is beyond
     number *= coarse.size[i];
   }
   coarse.values.assign(number, 0.f);
@@ -67,7 +67,7 @@ inline Indicator every_second(const Indicator& fine)
 /// Half of the kernel of a Gaussian, from the middle on; its sum over both sides is 1.
 inline std::vector<float> gaussian_kernel(double deviation)
 {
-  constexpr double width = 3; // what is beyond that many deviations does not matter: 0.3 %
+  constexpr double width = 3; // values beyond that many deviations are negligible: 0.3 %
   std::vector<double> kernel{1};
   for(int i = 1; i <= int(std::ceil(width * deviation)); ++i)
     kernel.push_back(std::exp(-0.5 * (i / deviation) * (i / deviation)));
@@ -80,15 +80,15 @@ inline std::vector<float> gaussian_kernel(double deviation)
   return result;
 }
 
-/// Convolution along an axis, with 0 outside. What is added, and in which order, depends neither on the
-/// threads nor on the blocks.
+/// Convolution along an axis, with 0 outside. The order of the sums depends neither on the threads nor on the
+/// blocks.
 inline void convolve(Indicator& indicator, int axis, const std::vector<float>& kernel, unsigned threads)
 {
   const std::size_t last = kernel.size() - 1;
   if(last == 0)
-    return; // it is 1
-  // A block is a bundle of lines beside each other: a loop over all its values is one over what is
-  // contiguous.
+    return; // the kernel is 1
+  // A block is a bundle of lines beside each other: a loop over all its values is a loop over contiguous
+  // memory.
   const std::array<std::size_t, 3> strides = indicator.strides();
   const std::size_t n = indicator.size[axis], stride = strides[axis],
                     width = axis == 0 ? 1 : indicator.size[0], padding = last * width;
@@ -106,7 +106,7 @@ inline void convolve(Indicator& indicator, int axis, const std::vector<float>& k
     for(std::size_t i = 0; i < n; ++i)
       std::copy_n(sums.data() + i * width, width, values + i * stride);
   };
-  // Of rows, a slice of them is a task; of lines along another axis, those that start in one row.
+  // A task is a slice of rows; or, for lines along another axis, the lines that start in one row.
   const int other = axis == 2 ? 1 : 2;
   const std::size_t rows = axis == 0 ? indicator.size[1] : 1;
   parallel_for(
@@ -119,10 +119,11 @@ inline void convolve(Indicator& indicator, int axis, const std::vector<float>& k
     1);
 }
 
-/// A level that so many values are above; fewer, if there are equal ones. \pre less than there are
+/// A level with the given number of values above it, or fewer if there are equal values. \pre there are more
+/// values
 inline float level_above(const std::vector<float>& values, std::size_t number)
 {
-  // most values are 0, or nearly: those that matter are found among the others, if there are enough
+  // Most values are 0, or nearly: candidates are found among the other values, if there are enough.
   constexpr float low = 0.2f;
   std::vector<float> candidates;
   std::copy_if(values.begin(), values.end(), std::back_inserter(candidates),
@@ -135,8 +136,8 @@ inline float level_above(const std::vector<float>& values, std::size_t number)
 }
 
 /// The indicator of a label in the box around it, smoothed.
-/// \param deviations of the Gaussian, in voxels along each axis
-/// \param extent around all voxels that have the label
+/// \param deviations deviations of the Gaussian, in voxels along each axis
+/// \param extent box around all voxels that have the label
 template <class HasLabel>
 Indicator smooth_indicator(const Voxel_image_3& image, const HasLabel& has_label,
                            const std::array<double, 3>& deviations, const Label_extent_3& extent,
@@ -146,7 +147,7 @@ Indicator smooth_indicator(const Voxel_image_3& image, const HasLabel& has_label
   std::array<std::size_t, 3> margin;
   for(int i = 0; i < 3; ++i) {
     kernels[i] = gaussian_kernel(deviations[i]);
-    margin[i] = kernels[i].size(); // one more than what is reached
+    margin[i] = kernels[i].size(); // one more than the reach of the kernel
   }
   const Labeled_box box = box_of_label(image, has_label, margin, extent);
   Indicator indicator{box, {box.has_label.begin(), box.has_label.end()}};

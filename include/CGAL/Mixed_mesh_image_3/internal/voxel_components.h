@@ -22,13 +22,14 @@ namespace internal {
 /// The connected components of the voxels of a box, with label and without.
 struct Voxel_components
 {
-  std::vector<std::uint32_t> numbers; ///< of the component of each voxel; 0 is outside
-  std::vector<std::size_t> sizes;     ///< of each component, in voxels
+  std::vector<std::uint32_t> numbers; ///< component of each voxel; 0 is outside
+  std::vector<std::size_t> sizes;     ///< size of each component, in voxels
   std::vector<std::uint8_t> has_label;
 };
 
-/// Voxels are neighbors if an edge of Kuhn's tetrahedra connects their centers, as in the surface that
-/// marching tetrahedra make: without smoothing, its components are the borders of these.
+/// The connected components. Voxels are neighbors if an edge of Kuhn's tetrahedra connects their centers, as
+/// in the surface of marching tetrahedra: without smoothing, the components of the surface are the borders of
+/// these components.
 /// \pre no voxel at the border of the box has the label
 inline Voxel_components voxel_components(const Labeled_box& box)
 {
@@ -47,7 +48,7 @@ inline Voxel_components voxel_components(const Labeled_box& box)
     components.has_label.push_back(has_label);
     return std::uint32_t(components.sizes.size() - 1);
   };
-  // A step over the border leads to another voxel of the border, or beyond all: nothing is found there.
+  // A step over the border leads to another voxel of the border, or beyond the box: no voxel is found there.
   const auto grow = [&](std::uint32_t number) {
     while(!found.empty()) {
       const std::size_t voxel = found.back();

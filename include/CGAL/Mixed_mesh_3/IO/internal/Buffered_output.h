@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What all writers share: buffered text and binary output.
+// Buffered text and binary output, which all writers share.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_BUFFERED_OUTPUT_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_BUFFERED_OUTPUT_H
@@ -30,8 +30,8 @@ namespace IO {
 
 namespace internal {
 
-// Collects small pieces and hands them to the stream in blocks. Numbers do not depend on the
-// locale, and doubles have as many digits as it takes to read the same double back.
+// Collects small pieces and passes them to the stream in blocks. Numbers do not depend on the locale, and
+// doubles have as many digits as needed to read the same double back.
 class Buffered_output
 {
   std::ostream& m_stream;
@@ -95,7 +95,7 @@ public:
     return *this;
   }
 
-  // Returns whether everything arrived.
+  // Returns whether the stream took everything.
   bool finish()
   {
     empty_buffer();
@@ -123,7 +123,7 @@ inline std::string escaped_for_XML(const std::string& text)
   return result;
 }
 
-// Vertices numbered from 1, as all text formats want them.
+// Writes vertices, numbered from 1 as in all text formats.
 template <class Vertices>
 void write_vertices(Buffered_output& out, const Vertices& vertices, char separator)
 {

@@ -27,9 +27,9 @@ namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
 
-/// What is written to it becomes an array as VTK's `vtkZLibDataCompressor` makes it: blocks, each compressed
-/// by zlib, after a header of words of 64 bits: the number of blocks, the size of one, the size of the last
-/// one if that is smaller, or 0, and the size of each when compressed.
+/// A stream buffer whose content becomes an array as VTK's `vtkZLibDataCompressor` makes it: blocks, each
+/// compressed by zlib, after a header of words of 64 bits: the number of blocks, the size of a block, the
+/// size of the last block if that is smaller, or 0, and the compressed size of each block.
 class Compressed_blocks : public std::streambuf
 {
   static constexpr std::size_t block_size = 1 << 16;
@@ -38,7 +38,7 @@ class Compressed_blocks : public std::streambuf
   std::vector<std::uint64_t> m_sizes;
 
 public:
-  /// All of the array. \pre called once, after the last byte was written
+  /// Returns the whole array. \pre called once, after the last byte was written
   std::string take()
   {
     const std::uint64_t last_size = m_block.size();
@@ -76,11 +76,11 @@ private:
     uLongf size = compressBound(uLong(m_block.size()));
     const std::size_t begin = m_compressed.size();
     m_compressed.resize(begin + size);
-    // the fastest level: coordinates, and what is measured, hardly become smaller by more
+    // The level is the fastest one: higher levels hardly compress coordinates and measures better.
     if(compress2(reinterpret_cast<Bytef*>(&m_compressed[begin]), &size,
                  reinterpret_cast<const Bytef*>(m_block.data()), uLong(m_block.size()), Z_BEST_SPEED)
        != Z_OK)
-      throw std::bad_alloc(); // nothing else goes wrong with enough room
+      throw std::bad_alloc(); // the only possible failure with enough room
     m_compressed.resize(begin + size);
     m_sizes.push_back(size);
     m_block.clear();

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What formats write as a block: elements of one kind with the same attributes.
+// Blocks that formats write: elements of one kind with the same attributes.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_ELEMENT_BLOCKS_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_ELEMENT_BLOCKS_H
@@ -45,7 +45,7 @@ struct Part
            + (attributes.is_in_region ? "region" : "rest");
   }
 
-  /// The inverse of `name()`.
+  /// Returns the part with a name: the inverse of `name()`.
   static std::optional<Part> named(std::string_view name)
   {
     Part part;
@@ -74,14 +74,14 @@ private:
   }
 };
 
-/// Where a format wants a number for a part or for the boundary: 1 and 2 are region and rest of subdomain 1,
+/// The number of the boundary in formats with numbers for parts: 1 and 2 are region and rest of subdomain 1,
 /// 3 is the boundary; further parts follow as they occur, from 4.
 constexpr int boundary_tag = 3;
 
 /// Elements of one kind in one part.
 struct Element_block
 {
-  std::size_t part; ///< in `Element_blocks::parts()`
+  std::size_t part; ///< index in `Element_blocks::parts()`
   Element_kind kind;
   std::vector<Element_index>::const_iterator first, last;
 
@@ -93,7 +93,7 @@ struct Element_block
 
 /// All elements of a mesh in blocks: by part, then by kind, then in the order of the mesh.
 /// \par Complexity
-/// O(n log n), four bytes an element
+/// O(n log n), four bytes for each element
 class Element_blocks
 {
   std::vector<Part> m_parts;
@@ -128,13 +128,13 @@ public:
   Element_blocks(const Element_blocks&) = delete; // blocks refer to the order
   Element_blocks& operator=(const Element_blocks&) = delete;
 
-  /// Those that have elements, ascending.
+  /// The parts that have elements, ascending.
   const std::vector<Part>& parts() const { return m_parts; }
   const std::vector<Element_block>& blocks() const { return m_blocks; }
   auto begin() const { return m_blocks.begin(); }
   auto end() const { return m_blocks.end(); }
 
-  /// Of each subdomain with elements that has a name: the name, and its parts.
+  /// The name and the parts of each named subdomain with elements.
   std::vector<std::pair<std::string, std::vector<std::size_t>>>
   named_parts(const Subdomain_names& names) const
   {
@@ -161,7 +161,7 @@ public:
     return boundary_tag + 1 + int(std::ptrdiff_t(part) - parts_of_first);
   }
 
-  /// The first number that no part has, and not the boundary: facet sets follow.
+  /// The first number that is neither a part's nor the boundary's: facet sets follow.
   int first_free_tag() const
   {
     int first = boundary_tag + 1;
@@ -171,8 +171,8 @@ public:
   }
 };
 
-/// All elements by kind, then in the order of the mesh: what reads a block of one kind at a time reads few.
-/// Calls `visit(e)`.
+/// Calls `visit(e)` for all elements by kind, then in the order of the mesh: programs that read a block of
+/// one kind at a time then read few blocks.
 template <class Mesh, class Visitor>
 void for_each_element_by_kind(const Mesh& mesh, const Visitor& visit)
 {

@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the readers of meshes share: a file in memory, the words in it, and what they make of it. A file may
-// hold anything: memory is asked for only after its size is found to fit the size of the file.
+// Input that the readers of meshes share: a file in memory, its words, and the mesh made of them. A file may
+// have any content: memory is allocated only after its size is found to fit the size of the file.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_MESH_INPUT_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_MESH_INPUT_H
@@ -38,7 +38,7 @@ namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
 
-/// A mesh as it is in a file: indices are in range, all else is to be checked.
+/// A mesh as given in a file: indices are in range, all other conditions have to be checked.
 struct Mesh_input
 {
   std::vector<Mixed_meshes_3::Vec3> points;
@@ -50,7 +50,7 @@ struct Mesh_input
 // Vertices and elements are counted in 32 bits, with one value to spare.
 constexpr std::uint64_t largest_mesh_size = 0xfffffffe;
 
-// Of eight lengths the product is a double: squares of what is computed in elements, and of their inverses.
+// The product of eight lengths has to be a double: squares of quantities of elements, and of their inverses.
 constexpr double largest_coordinate = 1e30;
 
 /// A part of a file for a message: short, and on one line.
@@ -63,7 +63,7 @@ inline std::string in_quotes(std::string_view text)
   return result + (text.size() > longest ? "...\"" : "\"");
 }
 
-/// The bytes of a file, or the first of them.
+/// The bytes of a file, or its first bytes.
 inline std::string read_mesh_file(const std::string& path, std::uintmax_t largest = UINTMAX_MAX)
 {
   namespace fs = std::filesystem;
@@ -91,7 +91,7 @@ inline std::string read_mesh_file(const std::string& path, std::uintmax_t larges
 
 inline bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-/// The number that is a whole word; in every locale, and not beyond the range of its type.
+/// Parses a number that is a whole word, in every locale, and not beyond the range of its type.
 template <class Number>
 bool parse_number(std::string_view word, Number& number)
 {
@@ -110,7 +110,7 @@ class Text_input
 public:
   explicit Text_input(std::string_view text) : m_text(text) {}
 
-  /// What has not been taken yet.
+  /// The part of the text that has not been taken yet.
   std::string_view rest() const { return m_text; }
 
   void skip(std::size_t n) { m_text.remove_prefix(n); }
@@ -123,7 +123,7 @@ public:
     skip(n);
   }
 
-  /// Skips what is left of a line; false if that is more than space.
+  /// Skips the rest of a line; false if the rest is more than space.
   bool skip_end_of_line()
   {
     std::size_t n = 0;
@@ -146,7 +146,7 @@ public:
     return result;
   }
 
-  /// The next bytes as they are in memory; false if there are not enough.
+  /// Takes the next bytes as they are in memory; false if there are not enough bytes.
   template <class Value>
   bool binary(Value& value)
   {

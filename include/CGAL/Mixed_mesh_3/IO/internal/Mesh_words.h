@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A mesh as words: what the readers of plain text formats share.
+// A mesh as words, for the readers of plain text formats.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_MESH_WORDS_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_MESH_WORDS_H
@@ -39,7 +39,7 @@ public:
 
   [[noreturn]] void refuse(const std::string& defect) const { internal::refuse(m_path, defect); }
 
-  /// The next one.
+  /// The next word.
   std::string_view word()
   {
     m_in.skip_space();
@@ -75,7 +75,7 @@ public:
            + (std::is_integral_v<Number> ? "an integer" : "a number") + " is expected");
   }
 
-  /// A number of things of so many numbers each.
+  /// A number of items that consist of several numbers each.
   std::size_t count(std::size_t numbers)
   {
     const auto n = number<std::int64_t>();
@@ -106,7 +106,7 @@ public:
     return result;
   }
 
-  /// The label of an element: that of a file, or 1 if that is not a positive integer.
+  /// The label of an element: the label of the file, or 1 if that is not a positive integer.
   Element_attributes attributes()
   {
     constexpr double largest = (std::numeric_limits<Subdomain_index>::max)();

@@ -39,7 +39,7 @@ inline std::string system_message(int error_number)
   return error_number != 0 ? std::generic_category().message(error_number) : "unknown error";
 }
 
-// What a path leads to: other than `weakly_canonical()`, also where a link leads to nothing yet.
+// The target of a path: unlike `weakly_canonical()`, also where a link leads to no file yet.
 inline std::filesystem::path follow_links(std::filesystem::path path)
 {
   namespace fs = std::filesystem;
@@ -48,13 +48,14 @@ inline std::filesystem::path follow_links(std::filesystem::path path)
     const fs::path next = fs::read_symlink(path, error);
     if(error)
       break;
-    path = path.parent_path() / next; // which is `next` if that is absolute
+    path = path.parent_path() / next; // `next` if that is absolute
   }
   const fs::path target = fs::weakly_canonical(path, error);
   return error || target.empty() ? path : target;
 }
 
-// A name beside a file that no other has: short, or the file's could not be as long as the system allows.
+// A name beside a file that no other file has: short, so that the file's name may be as long as the system
+// allows.
 inline std::filesystem::path hidden_name_beside(const std::filesystem::path& path)
 {
   std::random_device random; // names are not part of the output
@@ -70,7 +71,7 @@ inline void copy_owner(const std::filesystem::path& from, const std::filesystem:
   struct stat status;
   if(::stat(from.c_str(), &status) == 0 && ::chown(to.c_str(), status.st_uid, status.st_gid) != 0
      && ::chown(to.c_str(), uid_t(-1), status.st_gid) != 0)
-    return; // not the user's to give
+    return; // the user may not give the file away
 #else
   (void)from, (void)to;
 #endif
@@ -100,16 +101,17 @@ public:
   bool is_stopped() const { return m_is_stopped; }
 };
 
-// Where to write: symbolic links are followed, so that they stay. A device or pipe is written to; a
-// file is replaced by a new one, with its owner and mode, when that is complete.
+// An output file: symbolic links are followed, so that they stay. A device or pipe is written to; a file is
+// replaced by a new one, with its owner and mode, when the new file is complete.
 class Output_file
 {
-  std::filesystem::path m_target, m_temporary, m_aside; // the last one: what was there before
+  std::filesystem::path m_target, m_temporary, m_aside; // the last one: the former file
   std::filesystem::perms m_permissions = std::filesystem::perms::unknown;
   std::string m_error;
   bool m_is_direct = false, m_is_in_place = false;
 
-  // Mode "x" creates the file or fails, so that nobody else's file is hit.
+  // Creates the temporary file with mode "x", which creates a file or fails, so that no other file is
+  // overwritten.
   bool create_temporary()
   {
     for(int i = 0; i < 10; ++i) {
@@ -126,8 +128,8 @@ class Output_file
     return false;
   }
 
-  // A second name for what is there: so the first one is never without a file. Some file systems do not
-  // have that; then it gets another name.
+  // Gives the existing file a second name, so that the first name always has a file. Some file systems do not
+  // have second names; the file is renamed then.
   std::string put_aside()
   {
     namespace fs = std::filesystem;
@@ -150,7 +152,7 @@ public:
     namespace fs = std::filesystem;
     std::error_code error;
     const fs::file_status status = fs::status(m_target, error);
-    if(status.type() == fs::file_type::none) // a name that is too long, links that go round
+    if(status.type() == fs::file_type::none) // for example a name that is too long, or a circle of links
       m_error = "cannot be written: " + error.message();
     else if(fs::is_directory(status))
       m_error = "is a directory";
@@ -163,7 +165,7 @@ public:
     }
     if(!fs::exists(status))
       return;
-    // At once, so that what nobody else may read cannot be read in between.
+    // The mode is set at once, so that a file that nobody else may read cannot be read in between.
     m_permissions = status.permissions();
     copy_owner(m_target, m_temporary);
     fs::permissions(m_temporary, m_permissions | fs::perms::owner_write, error);
@@ -179,7 +181,7 @@ public:
       std::filesystem::remove(m_temporary, ignored);
   }
 
-  // Why nothing can be written, or empty.
+  // The reason why nothing can be written, or empty.
   const std::string& error() const { return m_error; }
 
   // Calls `write(stream)`; the result is empty if all of it is in the temporary file.
@@ -202,8 +204,8 @@ public:
     return std::string();
   }
 
-  // Gives the temporary file its name; the result is empty if that went well. With `can_be_undone`, what was
-  // there stays beside it until `finish()`.
+  // Gives the temporary file its name; the result is empty if successful. With `can_be_undone`, the former
+  // file stays beside it until `finish()`.
   std::string commit(bool can_be_undone)
   {
     if(m_is_direct)
@@ -224,7 +226,7 @@ public:
     return std::string();
   }
 
-  // Brings back what was there before `commit(true)`; the result is empty if that went well.
+  // Restores the file that was there before `commit(true)`; the result is empty if successful.
   std::string undo()
   {
     std::error_code error;
@@ -235,14 +237,15 @@ public:
     m_is_in_place = false;
     if(error)
       return "what was there is now in " + m_aside.string() + ": " + error.message();
-    // Two names of one file are not renamed to each other; this is when it had not been replaced.
+    // Two names of one file are not renamed to each other; this is the case if the file had not been
+    // replaced.
     if(!m_aside.empty())
       std::filesystem::remove(m_aside, error);
     m_aside.clear();
     return std::string();
   }
 
-  // Removes what was there before.
+  // Removes the former file.
   void finish()
   {
     std::error_code ignored;

@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the readers of surfaces share: points and polygons as a file has them, the words and bytes in it. A
-// file may hold anything: memory is asked for only after its size is found to fit the size of the file.
+// Input that the readers of surfaces share: points and polygons of a file, its words and bytes. A file may
+// have any content: memory is allocated only after its size is found to fit the size of the file.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_SURFACE_SOUP_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_SURFACE_SOUP_H
@@ -37,13 +37,13 @@ namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
 
-/// A surface as it is in a file. Indices may be out of range: no_vertex, if they were negative.
+/// A surface as given in a file. Indices may be out of range: `no_vertex` if they were negative.
 struct Surface_soup
 {
   std::vector<Mixed_meshes_3::Vec3> points;
   std::vector<std::vector<std::size_t>> polygons;
-  std::optional<Anatomical_space> space; // if the file says so
-  bool is_RAS = false;                   // by definition of the format
+  std::optional<Anatomical_space> space; // space named in the file
+  bool is_RAS = false;                   // defined by the format
   bool repeats_points = false;           // each polygon has its own
   std::vector<std::string> warnings;
 };
@@ -55,14 +55,14 @@ inline std::string not_finite(std::size_t vertex)
   return "vertex " + std::to_string(vertex) + " has a coordinate that is not a finite number";
 }
 
-/// An index of any type; one that cannot be becomes `no_vertex`.
+/// An index of any type; an invalid one becomes `no_vertex`.
 template <class Number>
 std::size_t vertex_index(Number index)
 {
   return index >= 0 && index < Number(1e18) ? std::size_t(index) : no_vertex;
 }
 
-/// What 3D Slicer writes into headers and comments: SPACE=LPS, or SPACE=RAS.
+/// The space in headers and comments of 3D Slicer: SPACE=LPS, or SPACE=RAS.
 inline std::optional<Anatomical_space> space_named_in(std::string_view text)
 {
   const std::size_t key = text.find("SPACE=");
@@ -74,7 +74,7 @@ inline std::optional<Anatomical_space> space_named_in(std::string_view text)
   return std::nullopt;
 }
 
-/// Triangles of a strip, all oriented as the first.
+/// Adds the triangles of a strip, all oriented like the first triangle.
 template <class Index>
 void add_strip(const Index* strip, std::size_t size, Surface_soup& soup)
 {
@@ -97,7 +97,7 @@ class Surface_text
   }
 
 public:
-  /// \param comment where it stands, the rest of the line is skipped; 0: there are no comments
+  /// \param comment character after which the rest of the line is skipped; 0: there are no comments
   Surface_text(const std::string& path, std::string_view text, char comment = 0)
     : m_path(path), m_text(text), m_in(text), m_comment(comment)
   {
@@ -112,7 +112,7 @@ public:
     internal::refuse(m_path, "line " + std::to_string(line()) + ": " + defect);
   }
 
-  /// Skips what is left of a line, with its end.
+  /// Skips the rest of a line, with its end.
   std::string_view rest_of_line()
   {
     const std::size_t n = (std::min)(rest().find('\n'), rest().size());
@@ -147,7 +147,7 @@ public:
     return result;
   }
 
-  /// A number that may be infinite or no number: that is for who knows which vertex it is of.
+  /// Parses a number that may be infinite or no number: the caller, who knows the vertex, has to check it.
   double parse_coordinate(std::string_view word) const
   {
     double x = 0;
@@ -168,7 +168,7 @@ public:
 
   double coordinate() { return parse_coordinate(word("a coordinate")); }
 
-  /// What was just read: while its line is known.
+  /// Checks the number that was just read, while its line is known.
   double finite_coordinate(double x, std::size_t vertex) const
   {
     if(!std::isfinite(x))
@@ -195,7 +195,7 @@ public:
 
   std::size_t index() { return vertex_index(parse_integer<std::int64_t>(word("a vertex of a face"))); }
 
-  /// The number of things of which each takes so many bytes at least.
+  /// The number of items that take at least `bytes_each` bytes each.
   std::size_t count(const char* what, std::size_t bytes_each)
   {
     const std::string_view text = word(what);
@@ -262,7 +262,7 @@ public:
     return p;
   }
 
-  /// Refuses if there are not so many values of that size.
+  /// Refuses the file if there are fewer values of that size.
   void require(std::uint64_t count, std::size_t bytes_each) const
   {
     if(count > rest().size() / bytes_each)

@@ -37,13 +37,13 @@ namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
 
-/// Reads the arrays of a file of VTK in XML; what they mean is for the readers of the types of data.
+/// Reads the arrays of a file of VTK in XML; the readers of the types of data interpret the arrays.
 class VTK_XML_reader
 {
 protected:
   struct Array
   {
-    std::string_view section, name; // the name of the element around; all of "Points" have that name
+    std::string_view section, name; // the name of the element around; all arrays of "Points" have that name
     XML_tag tag;
     std::string_view text;
   };
@@ -53,7 +53,7 @@ protected:
     XML_tag tag;
     std::vector<Array> arrays;
 
-    // The first of that name; null if there is none.
+    // The first array of a name; null if there is none.
     const Array* array(std::string_view section, std::string_view name) const
     {
       const auto found = std::find_if(arrays.begin(), arrays.end(),
@@ -67,7 +67,7 @@ private:
 
   const std::string& m_path;
   const std::string& m_bytes;
-  Piece m_file; // what is in no piece
+  Piece m_file; // arrays that are in no piece
   std::vector<Piece> m_pieces;
   std::size_t m_header_size = 4;
   bool m_is_native = true, m_is_compressed = false, m_is_base64 = false;
@@ -141,7 +141,7 @@ private:
     m_has_appended = true;
   }
 
-  // Wherever a file was cut off, that is missing.
+  // Checks the end of the file, which is missing wherever the file was cut off.
   void check_end() const
   {
     const std::string_view end = "</VTKFile>", bytes = m_bytes;
@@ -289,7 +289,7 @@ private:
       if(!in.read(values.data(), count * sizeof(T)))
         refuse_array(array, "is damaged: it is no valid base64");
     }
-    // So that many arrays cannot be made of the same bytes.
+    // The check prevents many arrays from being made of the same bytes.
     m_bytes_read += text.size() - in.encoded_size();
     if(m_bytes_read > m_bytes.size())
       refuse("is damaged: its arrays overlap");
@@ -348,7 +348,7 @@ protected:
 
   bool has_strings(const Array& array) const { return type_of(array) == "String"; }
 
-  // How many bytes an array of strings has; 0 if they are compressed, which is not for us.
+  // The number of bytes of an array of strings; 0 if the strings are compressed, which is not supported.
   std::uint64_t size_of_text(const Array& array) const
   {
     std::uint64_t size = 0;
@@ -370,7 +370,8 @@ protected:
     return header_word(array, in);
   }
 
-  // `Value`: double, or std::int64_t for integers only; those beyond its range become negative.
+  // Reads the values of an array. `Value`: double, or std::int64_t for integers only; integers beyond its
+  // range become negative.
   template <class Value>
   std::vector<Value> values(const Piece& piece, const char* section, const char* name, std::uint64_t count)
   {

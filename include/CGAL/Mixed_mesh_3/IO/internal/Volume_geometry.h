@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Where a volume of FreeSurfer is in the scanner. Coordinates of its surfaces ("surface RAS", "tkregister")
-// have their origin in the middle of the volume, and axes along its edges.
+// Position of a volume of FreeSurfer in the scanner. Coordinates of its surfaces ("surface RAS",
+// "tkregister") have their origin in the middle of the volume, and axes along its edges.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_VOLUME_GEOMETRY_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_VOLUME_GEOMETRY_H
@@ -24,11 +24,11 @@ namespace internal {
 
 struct Volume_geometry
 {
-  // Of the axes of columns, rows and slices, in the scanner, and the center; as those of FreeSurfer's own
-  // volumes unless a file says otherwise.
+  // Axes of columns, rows and slices, in the scanner, and the center; those of FreeSurfer's own volumes
+  // unless a file says otherwise.
   Mixed_meshes_3::Vec3 x_ras{-1, 0, 0}, y_ras{0, 0, -1}, z_ras{0, 1, 0}, c_ras{0, 0, 0};
 
-  /// Whether the axes are orthogonal, of unit length, and all is finite.
+  /// Whether the axes are orthogonal, of unit length, and all values are finite.
   bool is_rigid() const
   {
     const Mixed_meshes_3::Vec3* const axes[] = {&x_ras, &y_ras, &z_ras};
@@ -41,7 +41,8 @@ struct Volume_geometry
     return is;
   }
 
-  /// From surface RAS, whose axes are those of columns, reversed, of slices, and of rows, reversed.
+  /// Conversion from surface RAS, whose axes are those of columns, reversed, of slices, and of rows,
+  /// reversed.
   Mixed_meshes_3::Vec3 to_scanner(const Mixed_meshes_3::Vec3& p) const
   {
     return c_ras - p[0] * x_ras + p[1] * z_ras - p[2] * y_ras;

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What readers of XML share: tags, text, and bytes as base64.
+// Parser that readers of XML share: tags, text, and bytes as base64.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_XML_INPUT_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_XML_INPUT_H
@@ -34,7 +34,7 @@ struct XML_tag
   bool is_start = false, is_end = false; // both for <name/>
 };
 
-// As much of XML as VTK and GIFTI use. Characters written as entities are left as they are.
+// Reader of the part of XML that VTK and GIFTI use. Characters written as entities are left as they are.
 class XML_input
 {
   const std::string& m_path;
@@ -60,7 +60,7 @@ public:
 
   std::size_t position() const { return m_position; } // after the last tag
 
-  // The text between the last tag and the next, or that of the section CDATA there.
+  // The text between the last tag and the next one, or the text of a section CDATA in between.
   std::string_view text() const
   {
     const std::string_view cdata = "<![CDATA[";
@@ -142,14 +142,14 @@ public:
   }
 };
 
-// The bytes of binary values. VTK ends the base64 of a header and starts anew for the values, others go on:
-// both can be read, as padding just makes four characters give fewer bytes.
+// The bytes of binary values. VTK ends the base64 of a header and starts anew for the values, other programs
+// do not: both can be read, as four characters with padding just give fewer bytes.
 class Encoded_bytes
 {
   std::string_view m_text;
   bool m_is_base64;
   unsigned char m_decoded[3] = {};
-  int m_begin = 0, m_end = 0; // of the decoded bytes not taken yet
+  int m_begin = 0, m_end = 0; // range of the decoded bytes not taken yet
 
   static int base64_digit(char c)
   {
@@ -188,20 +188,20 @@ class Encoded_bytes
   }
 
 public:
-  // Deflate shrinks to no less than that.
+  // The largest compression of deflate.
   static constexpr std::size_t largest_compression = 1032;
 
   Encoded_bytes(std::string_view text, bool is_base64) : m_text(text), m_is_base64(is_base64) {}
 
   std::size_t encoded_size() const { return m_text.size(); }
 
-  // There are not more bytes than that.
+  // An upper bound of the number of bytes.
   std::size_t largest_size() const
   {
     return m_is_base64 ? m_text.size() / 4 * 3 + std::size_t(m_end - m_begin) : m_text.size();
   }
 
-  // All bytes; nothing if they are not valid.
+  // The rest of the bytes; nothing if they are not valid.
   std::optional<std::string> rest()
   {
     std::string bytes;
@@ -215,7 +215,7 @@ public:
     return bytes;
   }
 
-  // Whether there were so many bytes.
+  // Reads bytes. Returns whether there were enough bytes.
   bool read(void* bytes, std::size_t size)
   {
     if(size > largest_size())

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What other programs call the kinds of elements, and how they order the vertices.
+// Names of the kinds of elements in other programs, and their orders of the vertices.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_ELEMENT_NAMES_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_ELEMENT_NAMES_H
@@ -21,9 +21,8 @@ namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
 
-/// Gmsh, Abaqus, Medit and FEBio order vertices as we do. VTK's linear wedge is the mirror image of our
-/// prism:
-/// `vtk_order` lists, for each VTK position, the vertex of ours to write there.
+/// Names and orders of a kind. Gmsh, Abaqus, Medit and FEBio order vertices as we do. VTK's linear wedge is
+/// the mirror image of our prism: `vtk_order` lists, for each VTK position, our vertex to be written there.
 struct Element_names
 {
   int vtk_type;
@@ -32,7 +31,7 @@ struct Element_names
   const char* medit_keyword;
   const char* abaqus_type;
   const char* febio_type;
-  std::uint8_t abaqus_faces[6]; ///< for each of our faces, Abaqus's number of it
+  std::uint8_t abaqus_faces[6]; ///< Abaqus's number of each of our faces
 };
 
 inline constexpr Element_names element_names[] = {

@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How readers and writers say what is wrong: within, by an exception or a line of text; to the caller, by
-// `false` and the line where it was asked for.
+// Errors of readers and writers: internally, an exception or a line of text; for the caller, `false` and the
+// line if it was asked for.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_ERRORS_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_ERRORS_H
@@ -24,7 +24,7 @@ namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
 
-/// A file's name on one line, whatever is in it.
+/// A file's name on one line, whatever characters it has.
 inline std::string printable(std::string path)
 {
   for(char& c : path)
@@ -45,7 +45,7 @@ inline std::string with_path(const std::string& path, const std::string& defect)
   return defect.empty() ? defect : printable(path) + ": " + defect;
 }
 
-/// Whether there is no defect; hands it over otherwise.
+/// Whether there is no defect; passes a defect on otherwise.
 inline bool is_success(const std::string& defect, std::string* error)
 {
   if(!defect.empty() && error != nullptr)
@@ -53,7 +53,7 @@ inline bool is_success(const std::string& defect, std::string* error)
   return defect.empty();
 }
 
-/// Whether `read()` ends without an exception; hands over what it says otherwise.
+/// Whether `read()` ends without an exception; passes its message on otherwise.
 template <class Read>
 bool is_read(const std::string& path, std::string* error, const Read& read)
 {
@@ -65,9 +65,9 @@ bool is_read(const std::string& path, std::string* error, const Read& read)
     return is_success(too_large, error);
   } catch(const std::length_error&) {
     return is_success(too_large, error);
-  } catch(const std::filesystem::filesystem_error& e) { // names that are too long, links that go round
+  } catch(const std::filesystem::filesystem_error& e) { // names that are too long, circles of links
     return is_success(path + ": cannot be opened: " + e.code().message(), error);
-  } catch(const std::runtime_error& e) { // ours
+  } catch(const std::runtime_error& e) { // our own
     return is_success(e.what(), error);
   } catch(const std::exception& e) { // an assertion of CGAL
     return is_success(printable(path + ": " + e.what()), error);

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Facet sets as writers need them: checked, on tetrahedra, as patches that no two sets share.
+// Facet sets for writers: checked, on tetrahedra, as patches that no two sets share.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_FACET_SETS_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_FACET_SETS_H
@@ -30,7 +30,7 @@ namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
 
-/// What is wrong with names of subdomains, beside facet sets; empty if nothing is.
+/// The defect of names of subdomains, beside facet sets; empty if there is none.
 inline std::string subdomain_name_defect(const Subdomain_names& subdomain_names,
                                          const std::vector<Facet_set>& sets)
 {
@@ -44,7 +44,7 @@ inline std::string subdomain_name_defect(const Subdomain_names& subdomain_names,
   return std::string();
 }
 
-/// Whether they are faces of the mesh, each there once.
+/// Whether faces are faces of the mesh, each of them once.
 template <class Mesh>
 bool are_faces_of(const Mesh& mesh, std::vector<Face> faces)
 {
@@ -60,8 +60,8 @@ bool are_faces_of(const Mesh& mesh, std::vector<Face> faces)
   return std::adjacent_find(faces.begin(), faces.end()) == faces.end();
 }
 
-/// What is wrong with sets; empty if nothing is.
-/// \param is_disjoint whether no face may be in two of them
+/// The defect of facet sets; empty if there is none.
+/// \param is_disjoint whether no face may be in two sets
 template <class Mesh>
 std::string facet_set_defect(const Mesh& mesh, const std::vector<Facet_set>& sets, bool is_disjoint)
 {
@@ -82,8 +82,8 @@ std::string facet_set_defect(const Mesh& mesh, const std::vector<Facet_set>& set
   return std::string();
 }
 
-/// The faces of tetrahedra that faces of the elements they come from are split into.
-/// \param origins of the tetrahedra, ascending
+/// The facet sets of tetrahedra into which the elements of given facet sets are split.
+/// \param origins origins of the tetrahedra, ascending
 template <class Mesh>
 std::vector<Facet_set> split_facet_sets(const Mesh& tetrahedra, const std::vector<Element_index>& origins,
                                         const std::vector<Facet_set>& sets)
@@ -115,7 +115,7 @@ struct Face_patch
   bool is_on_boundary;
 };
 
-/// The boundary faces and those of sets as patches: each face is in one.
+/// The boundary faces and the faces of sets as patches: each face is in one patch.
 /// \par Complexity
 /// O(n log n)
 class Face_patches
@@ -126,7 +126,7 @@ class Face_patches
   int m_first_tag;
 
 public:
-  /// \param first_tag the number of the first set, and of the first patch beside the boundary
+  /// \param first_tag number of the first set, and of the first patch beside the boundary
   template <class Mesh>
   Face_patches(const Mesh& mesh, const std::vector<Facet_set>& sets, int first_tag)
     : m_faces(boundary_faces(mesh)), m_first_tag(first_tag)
@@ -157,14 +157,15 @@ public:
       m_patch_of.push_back(sets_of.empty() ? 0 : patches.at(key_of(i)));
   }
 
-  /// The boundary faces in the order of the elements, then the others in that order.
+  /// The boundary faces in the order of the elements, then the other faces in that order.
   const std::vector<Face>& faces() const { return m_faces; }
   std::size_t patch_of(std::size_t face) const { return m_patch_of[face]; }
-  /// The first is the boundary without sets.
+  /// The patches, of which the first is the boundary without sets.
   const std::vector<Face_patch>& patches() const { return m_patches; }
   int set_tag(std::size_t set) const { return m_first_tag + int(set); }
   int tag(std::size_t patch) const { return patch == 0 ? boundary_tag : m_first_tag + int(patch) - 1; }
-  /// The number of a face where it can have one only: that of its first set, else of the boundary.
+  /// The number of a face in formats with one number for each face: the number of its first set, else of the
+  /// boundary.
   int only_tag(std::size_t face) const
   {
     const Face_patch& patch = m_patches[m_patch_of[face]];

@@ -31,11 +31,11 @@ namespace internal {
 /// The first bytes of a file of triangles.
 constexpr std::string_view freesurfer_magic = "\xff\xff\xfe";
 
-/// The lines "key = value" after the faces; false if they are not there, or say that they are not valid.
+/// Reads the lines "key = value" after the faces; false if they are missing, or say that they are not valid.
 inline bool read_volume_geometry(std::string_view tail, Volume_geometry& geometry)
 {
   bool is_valid = false, has_center = false;
-  tail.remove_prefix((std::min)(tail.find("valid"), tail.size())); // after numbers that say what follows
+  tail.remove_prefix((std::min)(tail.find("valid"), tail.size())); // numbers before them tell the content
   while(!tail.empty()) {
     const std::size_t n = (std::min)(tail.find('\n'), tail.size() - 1);
     const std::string_view line = tail.substr(0, n);

@@ -70,7 +70,7 @@ class GIFTI_reader
     XML_input in(m_path, m_bytes);
     XML_tag tag;
     std::vector<std::string_view> open; // the names of the elements around
-    std::string_view name;              // of metadata
+    std::string_view name;              // name of metadata
     bool has_root = false;
     while(in.next(tag)) {
       if(!has_root && tag.name != "GIFTI")
@@ -223,7 +223,7 @@ class GIFTI_reader
       add(x[row * i], x[row * i + column], x[row * i + 2 * column]);
   }
 
-  // The entries VolGeomX_R, ... that FreeSurfer writes.
+  // Reads the entries VolGeomX_R, ... that FreeSurfer writes.
   static bool read_volume_geometry(const Array& array, Volume_geometry& geometry)
   {
     for(const auto& [axis, name] :
@@ -251,7 +251,8 @@ class GIFTI_reader
     }
   }
 
-  // Data in the space of the scanner stay; a matrix, or FreeSurfer's words on the volume, lead there.
+  // Moves points to the space of the scanner, if they are not there: by a matrix, or by FreeSurfer's
+  // description of the volume.
   void move_to_scanner(const Array& array, std::vector<Vec3>& points) const
   {
     constexpr std::string_view scanner = "NIFTI_XFORM_SCANNER_ANAT";

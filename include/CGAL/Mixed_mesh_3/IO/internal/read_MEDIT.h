@@ -27,8 +27,8 @@ namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
 
-/// Reads what a `.mesh` file holds; what is neither a vertex nor an element is skipped. Positive references
-/// of elements are their subdomains.
+/// Reads the vertices and elements of a `.mesh` file, and skips everything else. Positive references of
+/// elements are their subdomains.
 inline Mesh_input read_MEDIT(const std::string& path, const std::string& bytes)
 {
   Mesh_words in(path, bytes);

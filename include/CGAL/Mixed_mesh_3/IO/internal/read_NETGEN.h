@@ -27,7 +27,7 @@ namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
 
-/// Netgen's elements are mirror images of ours: for each of our kinds, what to swap.
+/// Swaps vertices of an element, because Netgen's elements are mirror images of ours.
 inline void mirror(Element_kind kind, std::array<Vertex_index, 8>& v)
 {
   switch(kind) {
@@ -44,7 +44,7 @@ inline void mirror(Element_kind kind, std::array<Vertex_index, 8>& v)
   }
 }
 
-/// Reads what a `.vol` file holds, materials as subdomains. Vertices come after the elements in it.
+/// Reads a `.vol` file, materials as subdomains. Vertices come after the elements in the file.
 inline Mesh_input read_NETGEN(const std::string& path, const std::string& bytes)
 {
   Mesh_words in(path, bytes);

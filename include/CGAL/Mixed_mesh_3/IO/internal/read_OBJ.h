@@ -30,7 +30,7 @@ inline Surface_soup read_OBJ(const std::string& path, const std::string& bytes)
 {
   Surface_soup soup;
   Surface_text in(path, bytes);
-  std::string joined; // lines that end with a backslash go on
+  std::string joined; // joins lines that end with a backslash
   while(!in.rest().empty()) {
     const Surface_text at = in; // for messages
     std::string_view line = in.rest_of_line();
@@ -61,7 +61,8 @@ inline Surface_soup read_OBJ(const std::string& path, const std::string& bytes)
     } else if(key == "f") {
       std::vector<std::size_t> polygon;
       for(std::string_view word = words.word(); !word.empty(); word = words.word()) {
-        // of vertex, texture and normal the first; from 1 on, or counted from the last one back
+        // The first of vertex, texture and normal counts; it is from 1 on, or counted from the last vertex
+        // back.
         const auto v = at.parse_integer<std::int64_t>(word.substr(0, word.find('/')));
         polygon.push_back(vertex_index(v > 0 ? v - 1 : v < 0 ? std::int64_t(soup.points.size()) + v : -1));
       }

@@ -26,13 +26,13 @@ namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
 
-/// What the first word of an OFF file says of its vertices; normals, colors and texture come after
+/// The header, whose first word tells the data of the vertices; normals, colors and texture come after
 /// coordinates.
 struct OFF_header
 {
   bool has_texture = false, has_colors = false, has_normals = false, is_homogeneous = false;
 
-  /// Whether the word is that of a file of points in space.
+  /// Whether the word is the header of a file of points in space.
   bool parse(std::string_view word)
   {
     const auto starts = [&word](std::string_view prefix) {

@@ -54,7 +54,7 @@ struct PLY_property
 {
   std::string_view name;
   PLY_type type;
-  std::optional<PLY_type> count_type; // of a list
+  std::optional<PLY_type> count_type; // type of the length of a list
 };
 
 struct PLY_element
@@ -64,7 +64,7 @@ struct PLY_element
   std::vector<PLY_property> properties;
 };
 
-/// Values one after another; all types are parts of the doubles.
+/// Values one after another; the values of all types are doubles, too.
 class PLY_text_input
 {
   Surface_text& m_in;

@@ -25,7 +25,7 @@ namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
 
-/// Whether two words are the same but for upper and lower case.
+/// Whether two words are the same except for upper and lower case.
 inline bool is_word(std::string_view word, std::string_view lower)
 {
   if(word.size() != lower.size())
@@ -47,11 +47,11 @@ inline void add_polygon_of_last(std::size_t n, Surface_soup& soup)
 inline void read_text_STL(const std::string& path, std::string_view bytes, Surface_soup& soup)
 {
   Surface_text in(path, bytes);
-  std::size_t vertices = 0; // of the facet
+  std::size_t vertices = 0; // vertices of the facet
   bool is_in_facet = false, is_ended = false;
   for(std::string_view word = in.word_or_end(); !word.empty(); word = in.word_or_end()) {
     const bool is_end_of_solid = is_word(word, "endsolid");
-    if(is_word(word, "solid") || is_end_of_solid) { // a name of any words follows
+    if(is_word(word, "solid") || is_end_of_solid) { // the name that follows may have any words
       const std::string_view name = in.rest_of_line();
       if(!soup.space)
         soup.space = space_named_in(name);
@@ -99,7 +99,7 @@ inline Surface_soup read_STL(const std::string& path, const std::string& bytes)
 {
   Surface_soup soup;
   soup.repeats_points = true;
-  // Headers of binary files may start with "solid", too: their size tells.
+  // Headers of binary files may start with "solid", too: the size of the file tells.
   const std::string_view all = bytes;
   const bool starts_like_text = is_word(Text_input(all).word(), "solid");
   bool has_binary_size = false;

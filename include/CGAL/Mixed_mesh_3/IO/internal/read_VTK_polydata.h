@@ -74,7 +74,7 @@ class VTK_polydata_reader
       m_in.refuse("unknown type " + in_quotes(name));
   }
 
-  // The values after the line that announces them; `Value`: double or std::int64_t.
+  // The values after the line that announces the values; `Value`: double or std::int64_t.
   template <class Value>
   std::vector<Value> values(std::string_view type, std::size_t count)
   {
@@ -125,7 +125,7 @@ class VTK_polydata_reader
     const std::size_t n = m_in.count("the number of cells", 1), size = m_in.count("the size of cells", 1);
     Surface_text ahead = m_in;
     ahead.rest_of_line();
-    if(ahead.rest().substr(0, 7) == "OFFSETS") // from version 5 on; n is one more than that of the cells
+    if(ahead.rest().substr(0, 7) == "OFFSETS") // from version 5 on; n is one more than the number of cells
       read_cells_by_offsets(n, size, add);
     else
       read_cells_by_sizes(n, values<std::int64_t>("int", size), add);
@@ -160,7 +160,7 @@ class VTK_polydata_reader
     }
   }
 
-  // Arrays of data before the points.
+  // Skips arrays of data before the points.
   void skip_field()
   {
     m_in.word("the name of a field");
@@ -185,7 +185,7 @@ class VTK_polydata_reader
     }
   }
 
-  // Up to an empty line.
+  // Skips lines up to an empty line.
   void skip_metadata()
   {
     m_in.rest_of_line();

@@ -52,7 +52,7 @@ class VTP_reader : VTK_XML_reader
 
   void read_piece(const Piece& piece, Surface_soup& soup)
   {
-    const std::size_t first = soup.points.size(); // points of the pieces before
+    const std::size_t first = soup.points.size(); // number of points of the pieces before
     const std::uint64_t n = number(piece.tag, "NumberOfPoints");
     if(n > largest_mesh_size)
       refuse("has more than 2^32 points");
@@ -75,7 +75,7 @@ public:
   {
     Surface_soup soup;
     if(file().array("FieldData", "SPACE")
-       != nullptr) { // of 3D Slicer: three letters, and the end of the text
+       != nullptr) { // 3D Slicer writes three letters, and the end of the text
       std::string text = "SPACE=";
       for(std::int64_t c : values<std::int64_t>(file(), "FieldData", "SPACE", 4))
         text += char(c);

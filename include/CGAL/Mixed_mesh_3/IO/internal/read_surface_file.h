@@ -42,7 +42,7 @@ constexpr Surface_format surface_formats[] = {{".off", read_OFF},  {".obj", read
                                               {".vtp", read_VTP},  {".vtk", read_VTK_polydata},
                                               {".gii", read_GIFTI}};
 
-/// No extension that is known: a surface of FreeSurfer, or nothing that can be read.
+/// Refuses a file without a known extension: a surface of FreeSurfer, or a file that cannot be read.
 [[noreturn]] inline void refuse_format(const std::string& path, std::string_view extension,
                                        std::string_view start)
 {

@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What `read_closed_surface()` and `read_sheet()` do: the file, the topology, what can be mended, the
-// orientation.
+// Implementation of `read_closed_surface()` and `read_sheet()`: the file, the topology, repairs of harmless
+// defects, the orientation.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_READ_SURFACE_IMPL_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_READ_SURFACE_IMPL_H
@@ -62,7 +62,7 @@ namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
 
-// What stands in a file may be anything: indices first, then numbers.
+// Checks indices, then numbers: a file may have any content.
 inline void check_indices(const std::string& path, const Surface_soup& soup)
 {
   if(soup.points.empty() || soup.polygons.empty())
@@ -76,8 +76,8 @@ inline void check_indices(const std::string& path, const Surface_soup& soup)
   }
 }
 
-// Refuses coordinates of which volumes and squared volumes of cells 2^20 times smaller over- or underflow.
-// Beside ordinary ones, tiny coordinates are zeros with an error: they become zero, or products of them would
+// Refuses coordinates for which volumes and squared volumes of cells 2^20 times smaller over- or underflow.
+// Tiny coordinates beside ordinary ones are zeros with an error: they become zero, or products of them would
 // underflow in predicates, and their inverses be infinite.
 inline void check_coordinates(const std::string& path, Surface_soup& soup)
 {
@@ -110,7 +110,7 @@ inline void check_coordinates(const std::string& path, Surface_soup& soup)
 // Whether all points are in one plane, up to rounding.
 inline bool is_flat(const std::vector<Surface::Point>& points)
 {
-  // from the first to the farthest, then away from that line, then from the plane
+  // The directions lead from the first point to the farthest, then away from that line, then from the plane.
   const Vec3 origin = to_vec3(points.front());
   Vec3 along{}, across{};
   double extent = 0, width = 0, height = 0;
@@ -148,14 +148,14 @@ struct Triangle_view
   }
 };
 
-// The place of a face, in the coordinates of the file; its number is ours, not the file's.
+// The place of a face, in the coordinates of the file; the number of a face is ours, not the file's.
 inline std::string place_of(Surface::Face_index face, const Surface& mesh)
 {
   return place_text(Triangle_view(face, mesh).points[0]);
 }
 
-// Whether two faces meet in nothing but a point or an edge that both have, of vertices that are different
-// there: the surface touches itself.
+// Whether two faces meet only in a point or an edge that both have, of vertices that are different there: the
+// surface touches itself.
 inline bool is_contact(Surface::Face_index f, Surface::Face_index g, const Surface& mesh)
 {
   using Segment = Predicates_kernel::Segment_3;
@@ -183,14 +183,14 @@ inline bool is_contact(Surface::Face_index f, Surface::Face_index g, const Surfa
          || CGAL::coplanar_orientation(source, target, r, s) == CGAL::NEGATIVE;
 }
 
-// Two faces at an edge, by the points opposite to it.
+// Two faces at an edge, with the points opposite to the edge.
 struct Edge_sheet
 {
   Surface::Point source, target, left, right;
   Surface::Face_index face;
 };
 
-// Whether a point is met between left and right, when turning around the edge.
+// Whether a turn around the edge from left to right meets a point.
 inline bool is_between(const Edge_sheet& s, const Surface::Point& p)
 {
   const auto turn = [&s](const Surface::Point& a, const Surface::Point& b) {
@@ -203,8 +203,8 @@ inline bool is_between(const Edge_sheet& s, const Surface::Point& p)
   }
 }
 
-// Where sheets of the surface have an edge in common, they touch there or go through each other: then the
-// edges of both are the same all along, and faces meet nowhere else. Pairs of faces of both.
+// Pairs of faces of two sheets of the surface that go through each other at a common edge, where sheets may
+// also just touch: the edges of both are the same all along then, and faces meet nowhere else.
 inline std::vector<Face_pair> crossings_at_edges(const Surface& mesh)
 {
   const auto upwards = [&mesh](Surface::Edge_index e) {
@@ -234,7 +234,7 @@ inline std::vector<Face_pair> crossings_at_edges(const Surface& mesh)
   return crossings;
 }
 
-// Removes triangles whose vertices are on a line; returns what is wrong if that was not possible.
+// Removes triangles whose vertices are on a line; returns the defect if they could not be removed.
 inline std::string remove_degenerate_faces(Surface& mesh, Surface_input& input)
 {
   namespace PMP = CGAL::Polygon_mesh_processing;
@@ -298,7 +298,7 @@ inline std::string describe(const std::vector<Face_pair>& crossings, const Surfa
   return text;
 }
 
-// Seen from a vertex: far from the origin, the digits would be lost.
+// The volume with points relative to a vertex: far from the origin, digits would be lost.
 inline double enclosed_volume(const Surface& mesh)
 {
   const Surface::Point origin = mesh.point(*vertices(mesh).first);
@@ -315,9 +315,9 @@ struct Component_counts
   std::size_t all = 0, cavities = 0, reversed = 0;
 };
 
-// Orients the components such that the solid is on their inner side. One that cuts another is not inside it.
-// PMP::orient_to_bound_a_volume() looks at one vertex of a component only; where components touch, that
-// vertex may be in both.
+// Orients the components such that the solid is on their inner side. A component that cuts another one is not
+// inside it. PMP::orient_to_bound_a_volume() looks at one vertex of a component only; where components touch,
+// that vertex may be in both.
 inline Component_counts orient_components(Surface& mesh, const std::vector<Face_pair>& crossings = {})
 {
   namespace PMP = CGAL::Polygon_mesh_processing;
@@ -387,8 +387,9 @@ inline Component_counts orient_components(Surface& mesh, const std::vector<Face_
   return counts;
 }
 
-// Polygons that have the same vertices in the same order, forwards or backwards, but for the first of them;
-// returns their number. CGAL's function compares points, and asserts that those of a polygon differ.
+// Removes polygons that have the same vertices as another one in the same order, forwards or backwards,
+// except the first of them; returns their number. CGAL's function compares points, and asserts that points of
+// a polygon differ.
 inline std::size_t remove_repeated(Polygons& polygons)
 {
   std::set<std::vector<std::size_t>> met;
@@ -403,7 +404,7 @@ inline std::size_t remove_repeated(Polygons& polygons)
   return before - polygons.size();
 }
 
-// Polygons with a vertex twice, polygons twice, and unused points.
+// Removes polygons with a vertex twice, repeated polygons, and unused points.
 inline void remove_superfluous(Points& points, Polygons& polygons, Surface_input& input)
 {
   namespace PMP = CGAL::Polygon_mesh_processing;
@@ -425,8 +426,8 @@ inline void remove_superfluous(Points& points, Polygons& polygons, Surface_input
     input.warnings.push_back("ignored " + counted(unused, "unused point", "unused points"));
 }
 
-// Merges points at edges of one face only; returns how many are left out. Where a surface is closed as given,
-// points at the same place are of sheets that touch.
+// Merges points at edges of one face only; returns the number of removed points. If a surface is closed as
+// given, points at the same place belong to sheets that touch.
 inline std::size_t merge_border_points(Points& points, Polygons& polygons)
 {
   std::vector<std::array<std::size_t, 2>> edges;
@@ -445,7 +446,7 @@ inline std::size_t merge_border_points(Points& points, Polygons& polygons)
   std::sort(border.begin(), border.end(), [&points](std::size_t a, std::size_t b) {
     return points[a] != points[b] ? points[a] < points[b] : a < b;
   });
-  std::vector<std::size_t> place(points.size()); // the first point there, then its new index
+  std::vector<std::size_t> place(points.size()); // first point at each place, then its new index
   std::iota(place.begin(), place.end(), std::size_t(0));
   for(std::size_t i = 1; i < border.size(); ++i)
     if(points[border[i]] == points[border[i - 1]])
@@ -467,8 +468,8 @@ inline std::size_t merge_border_points(Points& points, Polygons& polygons)
   return merged;
 }
 
-// Gives bodies that have edges in common their own vertices there: each body is what hangs together by edges
-// of two faces. Nothing is done where a body would not be closed then.
+// Gives bodies that have edges in common their own vertices there: each body consists of faces connected by
+// edges of two faces. Nothing is changed if a body would not be closed then.
 inline void separate_bodies(Points& points, Polygons& polygons)
 {
   using Edge = std::array<std::size_t, 3>; // two vertices and the face
@@ -512,7 +513,7 @@ inline void separate_bodies(Points& points, Polygons& polygons)
   });
   if(!can_be_closed)
     return;
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> copies; // of a vertex, for a body
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> copies; // copies of a vertex for a body
   std::set<std::size_t> taken;
   for(std::size_t f = 0; f < polygons.size(); ++f)
     for(std::size_t& v : polygons[f])
@@ -526,7 +527,7 @@ inline void separate_bodies(Points& points, Polygons& polygons)
       }
 }
 
-// To RAS, in which all else is.
+// Converts points to RAS, the space of all other data.
 inline void set_space(Surface_soup& soup, const Read_surface_options& options)
 {
   const Anatomical_space space = soup.is_RAS
@@ -540,13 +541,14 @@ inline void set_space(Surface_soup& soup, const Read_surface_options& options)
                           + ": x and y are negated, the result is in RAS");
 }
 
-// Makes a mesh of faces that are closed, and a manifold but for points. Returns whether it is oriented.
+// Makes a mesh of faces that are closed, and a manifold except at points. Returns whether the mesh is
+// oriented.
 inline bool make_mesh(Points& points, Polygons& polygons, bool is_oriented, Surface& mesh,
                       Surface_input& input)
 {
   namespace PMP = CGAL::Polygon_mesh_processing;
   if(!PMP::is_polygon_soup_a_polygon_mesh(polygons)) {
-    // Duplicates pinched points, and those of edges that it has to cut, as in a Moebius band.
+    // Pinched points are duplicated, and points of edges that have to be cut, as in a Moebius band.
     const std::size_t n = points.size();
     PMP::orient_polygon_soup(points, polygons);
     if(count_edges(polygons).open != 0 || !PMP::is_polygon_soup_a_polygon_mesh(polygons))
@@ -612,7 +614,7 @@ inline Component_counts make_solid(const Read_surface_options& options, Points p
   if(!triangulate(polygons, mesh, input))
     throw Surface_defect{"its polygons cannot be triangulated"};
 
-  // Rounding the points where faces cut each other can make others cut.
+  // Rounding the points where faces cut each other may make other faces cut.
   constexpr int most_passes = 5;
   for(int pass = 0;; ++pass) {
     std::string defect = remove_degenerate_faces(mesh, input);
@@ -643,7 +645,7 @@ inline Component_counts make_solid(const Read_surface_options& options, Points p
   }
 }
 
-// The faces of a soup, without what is superfluous.
+// Takes the faces of a soup, without superfluous ones.
 inline void take_faces(const std::string& path, const Read_surface_options& options, Surface_soup soup,
                        Points& points, Polygons& polygons, Surface_input& input)
 {

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What is not harmless in a surface: repaired, with a line that says so, or refused.
+// Harmful defects of a surface: repaired, with a line that says so, or refused.
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_REPAIR_SURFACE_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_REPAIR_SURFACE_H
@@ -103,14 +103,14 @@ inline std::string place_text(const Predicates_kernel::Point_3& point)
   return "(" + number_text(p[0]) + ", " + number_text(p[1]) + ", " + number_text(p[2]) + ")";
 }
 
-/// Ends a reading.
+/// A defect that ends a reading.
 struct Surface_defect
 {
   std::string text;
-  double wrap_diameter = 0; ///< that would help
+  double wrap_diameter = 0; ///< diameter with which a wrap is possible
 };
 
-// A defect that is to be repaired ends the reading if that is not wanted.
+// Checks whether repairs are allowed; if not, the defect ends the reading.
 inline void check_repair(const Read_surface_options& options, const Surface_defect& defect)
 {
   if(options.is_strict)
@@ -123,7 +123,7 @@ inline void note_repair(const std::string& text, Surface_input& input)
   input.repairs.push_back(text);
 }
 
-// Such that it has little area, if a polygon is not convex.
+// Triangulates polygons such that the area is small, if a polygon is not convex.
 inline Triangles triangulated(const Points& points, const Polygons& polygons)
 {
   Triangles triangles;
@@ -187,7 +187,7 @@ inline std::string percent(double share)
   return text.str();
 }
 
-// Where nothing else is known: a fiftieth of the diagonal.
+// The diameter of a wrap if nothing else is known: a fiftieth of the diagonal.
 inline double wrap_diameter_for(const Points& points)
 {
   const Bbox_3 b = CGAL::bbox_3(points.begin(), points.end());
@@ -203,7 +203,7 @@ inline repair::Solid_reading read_solid_or_refuse(const std::string& defect, con
   return reading;
 }
 
-// Undirected edges of polygons, with the polygons at each.
+// Undirected edges of polygons, with the polygons at each edge.
 using Edge_polygons = std::map<std::array<std::size_t, 2>, std::vector<std::size_t>>;
 
 inline Edge_polygons edges_of(const Polygons& polygons)
@@ -217,7 +217,7 @@ inline Edge_polygons edges_of(const Polygons& polygons)
   return edges;
 }
 
-// Numbers the parts of polygons that hang together by edges of at most so many; returns how many they are.
+// Numbers the components of polygons connected by edges of at most `most` polygons; returns their number.
 inline std::size_t find_parts(const Polygons& polygons, const Edge_polygons& edges, std::size_t most,
                               std::vector<std::size_t>& part)
 {
@@ -249,7 +249,7 @@ inline std::vector<Polygons> parts_of(const Polygons& polygons)
   return parts;
 }
 
-// Drops faces that stand out of a surface: parts with a border, beside edges of more than two faces.
+// Drops faces that stand out of a surface: components with a border, beside edges of more than two faces.
 // Returns the number of dropped faces; 0 if they are more than a quarter of the area, or the surface has
 // other borders.
 inline std::size_t drop_fins(const Points& points, Polygons& polygons)
@@ -277,8 +277,8 @@ inline std::size_t drop_fins(const Points& points, Polygons& polygons)
   return dropped;
 }
 
-// Replaces parts of a surface that are no oriented manifold, or cut themselves, by what bounds the solid that
-// they enclose. Without a defect, the repair goes on, and nothing is said.
+// Replaces components of a surface that are not oriented manifolds, or cut themselves, by the boundary of the
+// solid that they enclose. Without a defect, the repair goes on without a message.
 inline void bound(const Read_surface_options& options, const std::string& defect, Points& points,
                   Polygons& polygons, Surface_input& input)
 {
@@ -286,7 +286,7 @@ inline void bound(const Read_surface_options& options, const std::string& defect
     check_repair(options, {defect});
   repair::Solid_reading all;
   double volume_of_all = 0;
-  const bool is_manifold = count_edges(polygons).crowded == 0; // parts may cut each other
+  const bool is_manifold = count_edges(polygons).crowded == 0; // components may cut each other
   for(const Polygons& part : is_manifold ? std::vector<Polygons>{polygons} : parts_of(polygons)) {
     repair::Solid_reading reading;
     const Edge_counts edges = count_edges(part);
@@ -333,9 +333,9 @@ inline std::string not_closed(std::size_t border_edges)
 inline void close(const Read_surface_options& options, Points& points, Polygons& polygons,
                   Surface_input& input)
 {
-  constexpr double all_of_it = 0.99;     // of the area
-  constexpr double largest_share = 0.25; // of the area, that is invented
-  constexpr double margin = 1.1;         // of what a wrap has to close
+  constexpr double all_of_it = 0.99;     // share of the area
+  constexpr double largest_share = 0.25; // share of the area that is invented
+  constexpr double margin = 1.1;         // factor of the width that a wrap has to close
   const Edge_counts edges = count_edges(polygons);
   const std::string defect = not_closed(edges.open);
   if(edges.crowded != 0) {
@@ -351,7 +351,7 @@ inline void close(const Read_surface_options& options, Points& points, Polygons&
   }
   Triangles triangles = triangulated(points, polygons);
   {
-    // Faces may meet without having the same edges.
+    // Faces may meet without equal edges.
     repair::Solid_reading reading = read_solid_or_refuse(defect, points, triangles);
     if(area(reading.points, reading.triangles) > all_of_it * area(points, triangles)) {
       check_repair(options, {defect, wrap_diameter_for(points)});
@@ -394,7 +394,7 @@ inline void close(const Read_surface_options& options, Points& points, Polygons&
 // Replaces a surface by its wrap.
 inline void wrap_faces(const std::string& path, double diameter, Points& points, Polygons& polygons)
 {
-  // about as many triangles as the smaller of them need; a wrap of 10^6 takes a minute
+  // The number of triangles is about what smaller details need; a wrap of 10^6 takes a minute.
   constexpr double most = 1e6;
   Triangles triangles = triangulated(points, polygons);
   const double number = 10 * area(points, triangles) / (diameter * diameter);

@@ -22,7 +22,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// How many threads `CGAL::Sequential_tag` or `CGAL::Parallel_tag` stand for: those that TBB may use.
+/// Number of threads that `CGAL::Sequential_tag` or `CGAL::Parallel_tag` stands for: those that TBB may use.
 template <class ConcurrencyTag>
 unsigned number_of_threads()
 {
@@ -36,7 +36,7 @@ unsigned number_of_threads()
   return 1;
 }
 
-/// Criteria carry that number from the function with the tag to the stages.
+/// Number of threads that criteria carry from the function with the tag to the stages.
 struct Concurrency
 {
   template <class ConcurrencyTag, class Criteria>

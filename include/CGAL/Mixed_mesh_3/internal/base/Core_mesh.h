@@ -23,10 +23,10 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The mesh that the method works on, whatever the kernel of the user's is: its coordinates are doubles.
+/// The mesh that the method works on, whatever the kernel of the user is; the coordinates are doubles.
 using Core_mesh = Mixed_mesh_3<Predicates_kernel>;
 
-/// A mesh of any kernel as one in doubles: itself, or a copy.
+/// A mesh of any kernel as a mesh in doubles: the mesh itself, or a copy.
 template <class Mesh>
 decltype(auto) as_core_mesh(const Mesh& mesh)
 {
@@ -43,8 +43,8 @@ decltype(auto) as_core_mesh(const Mesh& mesh)
   }
 }
 
-/// Returns `f(core_mesh)` for a mesh of any kernel, which becomes what `f` has made of it. Coordinates are
-/// rounded to doubles; those that do not change stay as they are.
+/// Returns `f(core_mesh)` for a mesh of any kernel, which becomes what `f` has made of `core_mesh`.
+/// Coordinates are rounded to doubles; coordinates that do not change keep their value.
 template <class Mesh, class Function>
 auto with_core_mesh(Mesh& mesh, const Function& f)
 {

@@ -17,7 +17,8 @@ namespace Mixed_meshes_3 {
 
 /// \ingroup PkgMixedMesh3Domains
 /// The kernel that decides geometry: exact predicates on doubles, whatever kernel the user has. Domains and
-/// regions are asked about its points. Its header comes with each of theirs.
+/// regions are asked about points of this kernel. The headers of domains and regions include the header of
+/// the kernel.
 using Predicates_kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 } // namespace Mixed_meshes_3

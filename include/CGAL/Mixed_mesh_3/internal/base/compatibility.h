@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What has another name in each CGAL version.
+// Names that differ between versions of CGAL.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_BASE_COMPATIBILITY_H
 #define CGAL_MIXED_MESH_3_INTERNAL_BASE_COMPATIBILITY_H
@@ -31,22 +31,22 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 #if CGAL_VERSION_NR >= 1060000000
-/// Of an AABB tree of the triangles in a container.
+/// Traits of an AABB tree of the triangles in a container.
 template <class Kernel, class Iterator>
 using AABB_triangle_traits = CGAL::AABB_traits_3<Kernel, CGAL::AABB_triangle_primitive_3<Kernel, Iterator>>;
 
-/// What a variant holds, if it is of that type.
+/// Returns the value that a variant holds, if the value is of that type.
 template <class T, class Variant>
 const T* alternative(const Variant& variant)
 {
   return std::get_if<T>(&variant);
 }
 #else
-/// Of an AABB tree of the triangles in a container.
+/// Traits of an AABB tree of the triangles in a container.
 template <class Kernel, class Iterator>
 using AABB_triangle_traits = CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Iterator>>;
 
-/// What a variant holds, if it is of that type.
+/// Returns the value that a variant holds, if the value is of that type.
 template <class T, class Variant>
 const T* alternative(const Variant& variant)
 {

@@ -5,9 +5,9 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The package is header-only. What has no template parameter can be compiled once instead, into the library
-// Mixed_mesh_3_compiled: users of it define CGAL_MIXED_MESH_3_COMPILED, and the headers of the definitions,
-// *_impl.h, are included by src/Mixed_mesh_3/*.cpp only.
+// The package is header-only. Functions without a template parameter can be compiled once instead, into the
+// library Mixed_mesh_3_compiled: users of the library define CGAL_MIXED_MESH_3_COMPILED, and the headers of
+// the definitions, *_impl.h, are included by src/Mixed_mesh_3/*.cpp only.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_BASE_COMPILED_H
 #define CGAL_MIXED_MESH_3_INTERNAL_BASE_COMPILED_H

@@ -47,10 +47,10 @@ struct Is_domain_with_sheets<T, std::void_t<decltype(std::declval<const T&>().sh
 /// The position of a subdomain in the order of a domain: where there is a choice, the earlier one counts.
 using Subdomain_rank = std::uint16_t;
 
-/// What is outside comes last.
+/// The rank of the outside, which comes last.
 inline constexpr Subdomain_rank outside_rank = Subdomain_rank(-1);
 
-/// The subdomains in their order; the only one of a domain without labels is 1.
+/// The subdomains in their order; the only subdomain of a domain without labels is 1.
 template <class Domain>
 std::vector<Subdomain_index> subdomain_indices(const Domain& domain)
 {
@@ -60,7 +60,7 @@ std::vector<Subdomain_index> subdomain_indices(const Domain& domain)
     return {1};
 }
 
-/// The rank of a subdomain; of what is none of them, that of the outside.
+/// The rank of a subdomain; the rank of the outside for an index that is no subdomain's.
 inline Subdomain_rank rank_of(const std::vector<Subdomain_index>& indices, Subdomain_index index)
 {
   const auto found = std::find(indices.begin(), indices.end(), index);

@@ -24,14 +24,14 @@ namespace internal {
 /// Calls `f(i)` for all i below `n`. Calls must be independent: each writes its own result, so that
 /// the outcome does not depend on the number of threads. `f` must not throw.
 /// \param threads 1: one after the other
-/// \param worth_a_thread how many calls take much longer than a thread takes to start
+/// \param worth_a_thread number of calls that take much longer than a thread takes to start
 template <class F>
 void parallel_for(std::size_t n, [[maybe_unused]] unsigned threads, const F& f,
                   [[maybe_unused]] std::size_t worth_a_thread = 512)
 {
 #ifdef CGAL_LINKED_WITH_TBB
   if(threads > 1 && n >= 2 * worth_a_thread) {
-    constexpr std::size_t blocks_per_thread = 8; // so that none waits long for the last one
+    constexpr std::size_t blocks_per_thread = 8; // so that no thread waits long for the last block
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, worth_a_thread / blocks_per_thread + 1),
                       [&](const auto& range) {
                         for(std::size_t i = range.begin(); i < range.end(); ++i)

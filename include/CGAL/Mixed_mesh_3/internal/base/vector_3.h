@@ -28,21 +28,21 @@ class Lazy_exact_nt;
 namespace Mixed_meshes_3 {
 
 /// \ingroup PkgMixedMesh3Elements
-/// A vector, or a position, in doubles: displacements, forces, vertices of elements. It is an array, `v[0]`
-/// to `v[2]`. A type of our own, so that its operators are found by argument-dependent lookup. Its header
-/// comes with those that use it.
+/// A vector, or a position, in doubles: displacements, forces, vertices of elements. The type is an array,
+/// `v[0]` to `v[2]`, and a type of our own, so that argument-dependent lookup finds the operators. Headers
+/// that use the type include its header.
 struct Vec3 : std::array<double, 3>
 {
   /// `Vec3{}` is zero; without braces the coordinates are undefined.
   Vec3() = default;
-  /// Its coordinates.
+  /// Constructs a vector from coordinates.
   constexpr Vec3(double x, double y, double z) : std::array<double, 3>{x, y, z} {}
   /// Converts an array.
   constexpr Vec3(const std::array<double, 3>& a) : std::array<double, 3>(a) {}
 };
 
 /// \cond not public
-// A lazy number rounds to a double that depends on what was asked of it before, unless it is made exact.
+// A lazy number that is not made exact rounds to a double that depends on the earlier uses of the number.
 template <class FT>
 double rounded(const FT& x)
 {
@@ -67,7 +67,7 @@ Vec3 to_vec3(const Point& p)
 
 namespace internal {
 
-/// As above, of whatever has components `[0]`, `[1]`, `[2]`.
+/// The components `[0]`, `[1]`, `[2]` of a triple of any type, rounded to double.
 template <class Triple>
 Vec3 components(const Triple& p)
 {

@@ -5,7 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The boundary stage as a whole: order the vertices, split, look for pinched places, relabel, again.
+// The boundary stage as a whole: orders the vertices, splits elements, looks for pinched places, relabels,
+// and repeats.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_BOUNDARY_STAGE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_BOUNDARY_STAGE_H
@@ -43,20 +44,20 @@ namespace Mixed_meshes_3 {
 
 namespace internal {
 
-/// What the boundary stage made of a lattice mesh: elements replaced by pieces.
+/// The result of the boundary stage for a lattice mesh: elements replaced by pieces.
 struct Boundary_pieces
 {
   Element_list pieces;
-  std::vector<Element_index> origins;          ///< for each piece, the element it comes from; sorted
-  std::vector<Subdomain_rank> subdomains;      ///< for each piece
-  std::vector<Compartment_index> compartments; ///< for each piece; empty without sheets
-  std::vector<std::uint8_t> is_replaced;       ///< for each element, whether its pieces stand for it
-  std::vector<std::uint8_t> is_used;           ///< for each vertex, whether the result has it
-  std::size_t number_of_vertices = 0;          ///< of the result
+  std::vector<Element_index> origins;          ///< element that each piece comes from; sorted
+  std::vector<Subdomain_rank> subdomains;      ///< subdomain of each piece
+  std::vector<Compartment_index> compartments; ///< compartment of each piece; empty without sheets
+  std::vector<std::uint8_t> is_replaced;       ///< whether pieces replace the element, for each element
+  std::vector<std::uint8_t> is_used;           ///< whether the result has the vertex, for each vertex
+  std::size_t number_of_vertices = 0;          ///< number of vertices of the result
   std::size_t number_of_relabeled_vertices = 0;
   std::size_t number_of_inserted_vertices = 0;
   std::size_t number_of_lost_sheets = 0;
-  Manifold_defects defects; ///< that relabeling could not repair
+  Manifold_defects defects; ///< defects that relabeling could not repair
 };
 
 template <class Sheets>
@@ -69,15 +70,16 @@ class Boundary_stage : private Boundary_pieces
   const std::size_t m_number_of_subdomains;
   const Boundary_mode m_mode;
   const unsigned m_threads;
-  // Interface vertices are not inside of the subdomain of some element: on the boundary, or between two.
+  // Whether a vertex is an interface vertex: not inside the subdomain of some element, but on the boundary or
+  // between two.
   std::vector<std::uint8_t> m_is_on_interface;
-  bool m_has_vertices_on_surface = false; // before they move
+  bool m_has_vertices_on_surface = false; // before vertices move
   Sheets m_sheets;
   std::vector<std::uint8_t> m_is_on_sheet;
   std::vector<Element_index> m_outer; // elements outside, or with interface or sheet vertices
-  std::vector<double> m_distances;    // of vertices, where asked for
+  std::vector<double> m_distances;    // distances of vertices, where asked for
   std::vector<std::uint32_t> m_ranks;
-  std::map<Vertex_index, std::map<Subdomain_rank, int>> m_around; // pieces of each subdomain, of several
+  std::map<Vertex_index, std::map<Subdomain_rank, int>> m_around; // pieces of each subdomain, if several
 
   static constexpr std::uint32_t last_rank = std::uint32_t(-1);
 
@@ -120,14 +122,14 @@ private:
     return is_on_interface(v) || (v < m_is_on_sheet.size() && m_is_on_sheet[v]);
   }
 
-  // As if it were inside, where elements are split: it is on the surface already.
+  // Whether a vertex is on the surface already: it counts as inside where elements are split.
   bool is_on_surface(Vertex_index v) const
   {
     return m_number_of_subdomains == 1 && m_mode == Boundary_mode::VERTEX_ORDER && m_sheets.is_none()
            && v < m_mesh.sides.size() && m_mesh.sides[v] == ON_BOUNDARY;
   }
 
-  // Whether an element without vertices outside is inside: some are on the surface, or all.
+  // Whether an element without vertices outside is inside: some or all of its vertices are on the surface.
   bool is_whole(Element_index e) const
   {
     const Element_view element = m_mesh.elements[e];
@@ -149,7 +151,7 @@ private:
     return std::all_of(element.begin(), element.end(), [this](Vertex_index v) { return is_on_interface(v); });
   }
 
-  // That of the vertices which comes first.
+  // The first one of the subdomains of the vertices.
   Subdomain_rank subdomain(const Element_view& element) const
   {
     Subdomain_rank first = outside_rank;
@@ -186,8 +188,8 @@ private:
     }
   }
 
-  // The order: interface vertices first, nearest to the surface first, ties by lattice position; then sheet
-  // vertices.
+  // Ranks the vertices: interface vertices first, the nearest to the surface first, ties by lattice position;
+  // then sheet vertices.
   void rank_vertices()
   {
     std::vector<Vertex_index> vertices;
@@ -210,8 +212,8 @@ private:
     CGAL_assertion(is_order_total());
   }
 
-  // Whether no two vertices at which elements are split have the same rank: each diagonal then is that of one
-  // of them only.
+  // Whether no two vertices at which elements are split have the same rank: each diagonal then belongs to
+  // only one of its ends.
   bool is_order_total() const
   {
     std::vector<std::uint32_t> ranks;
@@ -282,8 +284,9 @@ private:
     subdomains.push_back(mine);
   }
 
-  // A piece all of whose vertices an earlier subdomain has too would be flat once they are on its surface: it
-  // joins that one, in whose inside its vertices may be then.
+  // Joins flat pieces to an earlier subdomain. A piece all of whose vertices an earlier subdomain has too
+  // would be flat once the vertices are on the surface of that subdomain; after the join, the vertices may be
+  // inside.
   void join_flat_pieces()
   {
     m_around.clear();
@@ -328,11 +331,11 @@ private:
   struct Boundary_polygons
   {
     Polygons whole;
-    std::map<Subdomain_rank, Polygons> of_subdomains;                            // if there are several
-    std::map<std::pair<Subdomain_rank, Subdomain_rank>, Polygons> of_interfaces; // the earlier one first
+    std::map<Subdomain_rank, Polygons> of_subdomains;                            // empty for a single one
+    std::map<std::pair<Subdomain_rank, Subdomain_rank>, Polygons> of_interfaces; // earlier first
   };
 
-  // All are between interface vertices.
+  // Polygons of the boundary and of interfaces, which are all between interface vertices.
   Boundary_polygons boundary_polygons() const
   {
     struct Piece_face
@@ -347,7 +350,7 @@ private:
         const Face_vertices vertices = Face(pieces, Element_index(i), f).vertices();
         if(std::all_of(vertices.begin(), vertices.end(),
                        [this](Vertex_index v) { return is_on_interface(v); })) {
-          const bool is_quad = vertices.size() == 4; // of elements that stay whole
+          const bool is_quad = vertices.size() == 4; // face of an element that stays whole
           faces.push_back({{vertices[0], vertices[1], vertices[2], is_quad ? vertices[3] : no_vertex},
                            vertices,
                            subdomains[i]});
@@ -371,7 +374,7 @@ private:
     return result;
   }
 
-  // Of the ends of bad edges, those nearer to the surface.
+  // The nearer end of each bad edge, seen from the surface, and the bad vertices.
   std::vector<Vertex_index> pinched_vertices(const Manifold_defects& defects) const
   {
     std::vector<Vertex_index> pinched = defects.vertices;
@@ -382,8 +385,9 @@ private:
     return pinched;
   }
 
-  // Labels pinched vertices: those of the boundary inside, those of a subdomain or of an interface with the
-  // subdomain before it. Those on the rim can not be inside: there, what is around them is labeled.
+  // Labels pinched vertices: vertices of the boundary get inside, vertices of a subdomain or an interface get
+  // the subdomain before it. Vertices on the rim can not be inside: the vertices around them are labeled
+  // instead.
   bool relabel()
   {
     const Boundary_polygons polygons = boundary_polygons();
@@ -407,7 +411,7 @@ private:
     return changed || relabel_around(on_rim);
   }
 
-  // With the first subdomain at one of the vertices.
+  // Labels the vertices around with the first subdomain at one of the given vertices.
   bool relabel_around(const std::set<Vertex_index>& vertices)
   {
     bool changed = false;
@@ -455,19 +459,19 @@ private:
 };
 
 /*!
-Runs the boundary stage. The result keeps exactly the elements that have a vertex inside, in pieces
-where they have others too, so that all boundary vertices are outside (or on) the surface. Pinched
-boundary vertices are labeled inside until the boundary is a closed oriented 2-manifold; \c defects
-tells what remains: it can only be where a leaf around the vertex has no elements, at the border of the
-root cell or beside dead leaves.
+Runs the boundary stage. The result keeps exactly the elements that have a vertex inside, in pieces if they
+have other vertices too, so that all boundary vertices are outside (or on) the surface. Pinched boundary
+vertices are labeled inside until the boundary is a closed oriented 2-manifold; \c defects tells what remains:
+defects can only be where a leaf around the vertex has no elements, at the border of the root cell or beside
+dead leaves.
 
-So it is for each subdomain of a labeled domain, as if what comes after it were outside: an element belongs to
-the first subdomain that one of its vertices is inside of.
+The same holds for each subdomain of a labeled domain, as if the subdomains after it were outside: an element
+belongs to the first subdomain that has one of its vertices inside.
 
 Elements at sheets are split too, and their pieces get compartments; the vertices of the result are the same.
 
-\param mesh the labels of pinched vertices change; in the paper's mode vertices are added
-\param mode the paper's knows one subdomain only: several are split by the vertex order
+\param mesh lattice mesh; the labels of pinched vertices change, and the paper's mode adds vertices
+\param mode way to split; the paper's mode knows one subdomain only: several are split by the vertex order
 \par Complexity
 O(n + m log m) for n elements, m of them at the surface, plus m closest-point queries
 */

@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Sheets inside the domain, such as the falx: which vertices of the lattice shall be on them, and which
-// faces.
+// Sheets inside the domain, such as the falx: the vertices and the faces of the lattice that shall be on
+// sheets.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_SHEET_LAYER_H
 #define CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_SHEET_LAYER_H
@@ -39,7 +39,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// What a boundary stage without sheets asks for.
+/// Replacement for sheets in a boundary stage without sheets.
 struct No_sheets
 {
   bool is_none() const { return true; }
@@ -51,21 +51,22 @@ struct No_sheets
 };
 
 /*!
-The vertices behind a sheet that an edge connects to one in front of it become *sheet vertices*. All elements
-that have one are split to tetrahedra by the order of the vertices, so that each edge between front and behind
-ends at a sheet vertex: the faces between a tetrahedron with a vertex in front and one without have sheet
-vertices only. These are the *sheet faces*. Behind is what is less than some share of a cell in front, so that
-sheet vertices are not far to either side of the sheet. The order of the vertices makes diagonals; those from
-front to behind, which are at the boundary, have sheet vertices at their ends too.
+A vertex behind a sheet that an edge connects to a vertex in front of the sheet becomes a *sheet vertex*. All
+elements with a sheet vertex are split to tetrahedra by the order of the vertices, so that each edge between
+front and behind ends at a sheet vertex: the faces between a tetrahedron with a vertex in front and a
+tetrahedron without have sheet vertices only. These faces are the *sheet faces*. A vertex less than some share
+of a cell in front counts as behind, so that sheet vertices are not far from the sheet on either side. The
+order of the vertices makes diagonals; diagonals from front to behind, which are at the boundary, have sheet
+vertices at their ends too.
 
-Where the sheet ends inside the domain, vertices beyond its rim are no sheet vertices, and the sheet faces
-end.
+The sheet faces end where the sheet ends inside the domain: vertices beyond its rim are no sheet vertices.
 
-Where sheet faces touch each other but along edges, or have a face of the boundary between them, which would
-have no area, a vertex counts as one in front, and if edges still touch, it is no sheet vertex. A tetrahedron
-may have four sheet vertices, where cells of two sizes meet or at the boundary: flips remove it.
+Where sheet faces touch each other other than along edges, or have a face of the boundary between them, which
+would have no area, a vertex counts as in front, and if edges still touch, the vertex is no sheet vertex. A
+tetrahedron may have four sheet vertices, where cells of two sizes meet or at the boundary: flips remove the
+tetrahedron.
 
-Where two sheets meet, each has faces of its own.
+Each of two sheets that meet has faces of its own.
 
 */
 class Sheet_layer
@@ -75,21 +76,21 @@ class Sheet_layer
 
   struct Place
   {
-    double height;      // above what counts as behind, negative there
-    bool is_snapped;    // behind, but in front of the sheet, near it
+    double height;      // height above the limit of behind, negative behind
+    bool is_snapped;    // counts as behind, but is in front of the sheet, near it
     bool is_at_rim;     // the closest point is on the border of the sheet
-    bool is_beyond_rim; // and farther from it, along the sheet, than what counts as near
-    bool ends_outside;  // that point is not inside the domain, nor is the vertex
+    bool is_beyond_rim; // at the rim, and farther from it, along the sheet, than `near_rim`
+    bool ends_outside;  // the closest point is not inside the domain, nor is the vertex
     Vec3 closest;
   };
 
   struct Sheet
   {
     std::size_t number;
-    std::vector<Element_index> elements; // near it, ascending
+    std::vector<Element_index> elements; // elements near the sheet, ascending
     std::map<Vertex_index, Place> places;
-    std::set<Vertex_index> raised, dropped; // counts as one in front; can not be on the sheet
-    std::set<Vertex_index> at_diagonals;    // sheet vertices for the sake of an edge of pieces
+    std::set<Vertex_index> raised, dropped; // vertices that count as in front; that can not be on the sheet
+    std::set<Vertex_index> at_diagonals;    // sheet vertices because of an edge of pieces
     std::map<Edge, bool> is_crossed;
     std::set<Vertex_index> vertices;
   };
@@ -101,7 +102,8 @@ class Sheet_layer
   std::size_t m_number_of_lost = 0;
   int m_round = 0;
 
-  // In cells. Half a cell would be best for a sheet parallel to the axes, 0.29 for one as oblique as can be.
+  // Limits in cells. Half a cell would be best for a sheet parallel to the axes, 0.29 for the most oblique
+  // sheet.
   static constexpr double snapping = 0.35;
   static constexpr double near_rim = 0.5;
   static constexpr int rounds_of_raising = 8;
@@ -125,8 +127,8 @@ public:
                        [v](const Sheet& s) { return s.vertices.count(v) > 0; });
   }
 
-  /// How far behind: those that are least come first in the order of the vertices, so that no tetrahedron has
-  /// sheet vertices only, where sheet and cells are even.
+  /// Depth behind the sheet: vertices with the least depth come first in the order of the vertices, so that
+  /// no tetrahedron has sheet vertices only, where sheet and cells are even.
   double depth(Vertex_index v) const
   {
     double least = std::numeric_limits<double>::infinity();
@@ -136,8 +138,8 @@ public:
     return least;
   }
 
-  /// Looks at the pieces that the elements were split into.
-  /// \return whether sheet vertices have changed: then elements are to be split anew
+  /// Checks the pieces that the elements were split into.
+  /// \return whether sheet vertices have changed: then elements have to be split again
   bool mend(const Element_list& pieces)
   {
     bool has_changed = false;
@@ -159,7 +161,7 @@ public:
       m_number_of_lost += of_one.empty();
       all.insert(of_one.begin(), of_one.end());
     }
-    // elements around inner vertices too, so that flips have more freedom
+    // Elements around inner vertices are included too, so that flips have more freedom.
     for(bool all_around : {true, false}) {
       m_compartments = find_compartments(pieces, all, all_around);
       const std::set<Triangle> lost = faces_within_compartments(pieces, all);
@@ -174,9 +176,10 @@ public:
     return true;
   }
 
-  /// Of each piece; those of sheet faces differ, and are positive. \pre `mend()` has returned `false`
+  /// The compartment of each piece; the two at a sheet face differ, and are positive. \pre `mend()` has
+  /// returned `false`
   std::vector<Compartment_index> compartments() const { return m_compartments; }
-  /// Sheets without faces.
+  /// The number of sheets without faces.
   std::size_t number_of_lost() const { return m_number_of_lost; }
 
 private:
@@ -211,7 +214,7 @@ private:
     }
   }
 
-  // What is behind a raised vertex may be farther from the sheet.
+  // Adds the elements at raised vertices: vertices behind a raised vertex may be farther from the sheet.
   void add_elements_at_raised(Sheet& s) const
   {
     std::vector<Element_index> all;
@@ -226,7 +229,7 @@ private:
     std::set_union(known.begin(), known.end(), all.begin(), all.end(), std::back_inserter(s.elements));
   }
 
-  // Only such elements become part of the mesh.
+  // Whether an element has a vertex inside: only such elements become part of the mesh.
   bool has_inside_vertex(const Element_view& element) const
   {
     return std::any_of(element.begin(), element.end(),
@@ -257,7 +260,7 @@ private:
     const auto& part = m_located.surface_part(leaf);
     if(m_located.domain().bounded_side(q, part) != ON_BOUNDED_SIDE)
       return false;
-    // to rounding, it may be on the surface
+    // The point may be on the surface, up to rounding.
     return norm(to_vec3(m_located.domain().closest_point(q, part)) - p) > 1e-6 * m_located.edge_length(leaf);
   }
 
@@ -284,7 +287,8 @@ private:
         s.vertices.insert(v);
   }
 
-  // As interface vertices come first in the order, diagonals at them may lead from front to behind.
+  // Adds sheet vertices at diagonals: as interface vertices come first in the order, diagonals at interface
+  // vertices may lead from front to behind.
   bool add_ends_of_diagonals(Sheet& s, const Element_list& pieces) const
   {
     const std::size_t before = s.at_diagonals.size();
@@ -330,7 +334,7 @@ private:
     return known->second;
   }
 
-  // All of its vertices on the sheet, one of the two vertices opposite in front.
+  // Faces with all vertices on the sheet, and exactly one of the two opposite vertices in front.
   std::set<Triangle> sheet_faces(Sheet& s, const Element_list& pieces) const
   {
     std::set<Triangle> faces;
@@ -369,7 +373,7 @@ private:
     });
   }
 
-  // Of boundary faces that would have no area, and where the sheet faces are no manifold.
+  // Vertices of boundary faces that would have no area, and vertices where the sheet faces are not manifold.
   std::set<Vertex_index> bad_vertices(Sheet& s, const std::set<Triangle>& faces,
                                       const Element_list& pieces) const
   {
@@ -390,7 +394,7 @@ private:
         bad.insert(v);
     const auto is_used = [&](Vertex_index v) { return used.count(v) > 0; };
     for_each_face(pieces, m_mesh.vertices.size(), is_used, [&](const auto& group) {
-      if(group.size() == 1 && m_round <= rounds_of_raising) { // else some vertex will not arrive
+      if(group.size() == 1 && m_round <= rounds_of_raising) { // later, some vertex will not arrive
         const Triangle t = triangle(group[0].vertices());
         bad.insert(highest(s, {t.begin(), t.end()}));
       }
@@ -433,8 +437,8 @@ private:
     find_vertices(s);
   }
 
-  // Connected by faces that are not on a sheet, among the pieces with a face on a sheet, and, if asked for,
-  // those around a vertex that the sheet goes all around.
+  // Compartments: pieces connected by faces that are not on a sheet, among the pieces with a face on a sheet,
+  // and, if asked for, the pieces around a vertex that the sheet surrounds.
   std::vector<Compartment_index> find_compartments(const Element_list& pieces,
                                                    const std::set<Triangle>& faces, bool all_around) const
   {
@@ -497,7 +501,7 @@ private:
     return false;
   }
 
-  // With the same compartment on both sides: where they are connected around the rim.
+  // Sheet faces with the same compartment on both sides, where the sides are connected around the rim.
   std::set<Triangle> faces_within_compartments(const Element_list& pieces,
                                                const std::set<Triangle>& faces) const
   {

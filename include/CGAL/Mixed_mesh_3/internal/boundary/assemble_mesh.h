@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From lattice to points: the last stage.
+// Conversion of lattice points to points: the last stage.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_ASSEMBLE_MESH_H
 #define CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_ASSEMBLE_MESH_H
@@ -26,7 +26,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Puts kept elements and pieces together, numbers the vertices in the order of their first use.
+/// Joins kept elements and pieces, and numbers the vertices in the order of their first use.
 template <class Mesh>
 void assemble_mesh(const Located_octree& octree, const Lattice_mesh& lattice, const Boundary_pieces& boundary,
                    Mesh& mesh)

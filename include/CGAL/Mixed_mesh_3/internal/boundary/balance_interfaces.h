@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Interfaces between subdomains start on both sides of their surfaces, as near as can be.
+// Balance of interfaces between subdomains: they start on both sides of their surfaces, as near as possible.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_BALANCE_INTERFACES_H
 #define CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_BALANCE_INTERFACES_H
@@ -30,27 +30,27 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-Vertices of a subdomain that are next to its surface go over to the subdomain behind it: so they will be
-vertices of the interface, and have a shorter way to it than those behind, whose way would squeeze the
-elements of small parts (as vertices near to an isosurface are warped: Labelle, Shewchuk: Isosurface stuffing,
-2007). Only where there are two subdomains around the vertex and not the outside, and beside a vertex that
-stays: what is thin is not lost.
+Vertices of a subdomain that are next to its surface go over to the subdomain behind the surface: so they
+become vertices of the interface, and have a shorter way to the surface than the vertices behind, whose way
+would squeeze the elements of small parts (as vertices near to an isosurface are warped: Labelle, Shewchuk:
+Isosurface stuffing, 2007). A vertex goes over only if there are two subdomains and not the outside around it,
+and if a vertex beside it stays: thin parts are not lost.
 
 \par Complexity
 Linear in the number of elements; a closest-point query for each vertex beside another subdomain
 */
 inline void balance_interfaces(const Located_octree& located, Lattice_mesh& mesh, unsigned threads)
 {
-  // Of the shortest edge. At half of it, vertices would have as far to go as those behind them, but what is
-  // narrow would lose more of its volume.
+  // Share of the shortest edge. At half of the edge, vertices would have as far to go as the vertices behind
+  // them, but narrow parts would lose more of their volume.
   constexpr double near = 0.3;
   const std::vector<Subdomain_index>& indices = located.domain().subdomain_indices();
   if(indices.size() < 2)
     return;
   struct Vertex
   {
-    Subdomain_rank behind = 0; // 0: none yet; nobody is behind all
-    bool is_candidate = true;  // no other one but that
+    Subdomain_rank behind = 0; // 0: none yet; no subdomain is behind all
+    bool is_candidate = true;  // no other subdomain is beside the vertex
     double shortest = std::numeric_limits<double>::infinity();
   };
   std::vector<Vertex> vertices(mesh.vertices.size());

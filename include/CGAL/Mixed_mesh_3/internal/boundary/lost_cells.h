@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What octree meshes lose: parts of the domain that no octree vertex is inside of.
+// Losses of octree meshes: parts of the domain that have no octree vertex inside.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_LOST_CELLS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_LOST_CELLS_H

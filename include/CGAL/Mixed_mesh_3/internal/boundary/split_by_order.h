@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The boundary stage: keeps the elements that have a vertex inside the domain, and makes those that
-// also have one outside ready to follow the surface.
+// The boundary stage: keeps the elements that have a vertex inside the domain, and prepares those that also
+// have a vertex outside to follow the surface.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_SPLIT_BY_ORDER_H
 #define CGAL_MIXED_MESH_3_INTERNAL_BOUNDARY_SPLIT_BY_ORDER_H
@@ -55,7 +55,7 @@ void split_element(const Element_view& element, const Rank& rank, const Is_insid
     }
     if(has_apex)
       continue;
-    // faces are oriented outwards, pieces see their base from inside
+    // Faces are oriented outwards; pieces see their base from inside.
     if(face.size == 3) {
       add(TETRAHEDRON, {v[0], v[2], v[1], apex});
     } else if(is_all_inside) {

@@ -29,12 +29,12 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-Splits by parity: the diagonal of a square joins its two even corners, so that cubes of one size
-become five tetrahedra each and agree. Elsewhere the diagonal that is there decides:
+Splits by parity: the diagonal of a square joins its two even corners, so that cubes of one size become five
+tetrahedra each and agree. Elsewhere an existing diagonal decides:
 
 - a pyramid becomes two tetrahedra;
-- a prism becomes a pyramid and a tetrahedron, or three tetrahedra, and adds as few diagonals of its
-  own as possible (none if two of them meet), which its neighbors then see;
+- a prism becomes a pyramid and a tetrahedron, or three tetrahedra, and adds as few diagonals as possible
+(none if two of its diagonals meet), which its neighbors then see;
 - a hexahedron, and a prism whose three diagonals do not meet, get a vertex at their center.
 */
 template <class Meets_surface>
@@ -117,21 +117,22 @@ private:
       m_is_touched[v] = 1;
   }
 
-  // Most elements are away from the surface: the flags spare them the search.
+  // Whether a quadrilateral has a diagonal. Most elements are away from the surface: the flags avoid the
+  // search.
   bool has_diagonal(const Quadrilateral& q) const
   {
     return std::all_of(q.begin(), q.end(), [&](Vertex_index v) { return m_is_touched[v]; })
            && m_diagonals.count(sorted(q)) != 0;
   }
 
-  // \pre has_diagonal(q)
+  // Whether the diagonal of a quadrilateral ends at a vertex. \pre has_diagonal(q)
   bool diagonal_ends_at(const Quadrilateral& q, Vertex_index v) const
   {
     const int i = position(q, v), j = position(q, m_diagonals.at(sorted(q)));
     return (i - j) % 2 == 0;
   }
 
-  // Even with respect to the shortest edge of the quadrilateral; ties by lattice position.
+  // The corner that is even with respect to the shortest edge of the quadrilateral; ties by lattice position.
   Vertex_index even_corner(const Quadrilateral& q) const
   {
     std::uint32_t step = Octree::root_side;
@@ -149,7 +150,7 @@ private:
                              [&](Vertex_index a, Vertex_index b) { return key(a) < key(b); });
   }
 
-  // The number of diagonals still missing to make the element the cone of `apex`, or -1.
+  // The number of diagonals that are missing for the element to be the cone of `apex`, or -1.
   int missing_diagonals(const Element_view& element, Vertex_index apex) const
   {
     int missing = 0;
@@ -210,7 +211,7 @@ private:
     }
   }
 
-  // Where the six diagonals make a tetrahedron.
+  // Splits a hexahedron into five where the six diagonals form a tetrahedron.
   template <class Add>
   bool split_into_five(Element_index e, const Add& add) const
   {

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From the reference element to an element, and back.
+// Map from the reference element to an element, and its inverse.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_ISOPARAMETRIC_MAP_3_H
 #define CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_ISOPARAMETRIC_MAP_3_H
@@ -27,7 +27,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-// The reference element is where `a + b . (r,s,t) >= 0` for all of these, one for each face.
+// The reference element is the set where `a + b . (r,s,t) >= 0` for all half-spaces, one for each face.
 struct Half_space
 {
   double a;
@@ -47,7 +47,7 @@ inline constexpr Half_spaces reference_half_spaces[number_of_element_kinds] = {
   {5, {{0, {1, 0, 0}}, {0, {0, 1, 0}}, {1, {-1, -1, 0}}, {1, {0, 0, 1}}, {1, {0, 0, -1}}}},
   {6, {{1, {1, 0, 0}}, {1, {-1, 0, 0}}, {1, {0, 1, 0}}, {1, {0, -1, 0}}, {1, {0, 0, 1}}, {1, {0, 0, -1}}}}};
 
-/// How far a point is inside the reference element; negative outside.
+/// Depth of a point inside the reference element; negative outside.
 inline double depth(Element_kind kind, const Vec3& r)
 {
   const Half_spaces& faces = reference_half_spaces[kind];
@@ -57,7 +57,7 @@ inline double depth(Element_kind kind, const Vec3& r)
   return least;
 }
 
-/// Reference coordinates of points found by iteration, and of points on faces, are off by less.
+/// Bound of the error of reference coordinates of points found by iteration, and of points on faces.
 inline constexpr double reference_tolerance = 1e-9;
 
 /*!
@@ -66,8 +66,8 @@ function), which is several times cheaper than summing shape functions:
 
 \f[ x = c_0 + c_1 r + c_2 s + c_3 t + \sum_k c_{4+k} m_k(r,s,t) \f]
 
-with no m for the tetrahedron, `rs/(1-t)` for the pyramid, `rt, st` for the prism, and `rs, st, tr, rst`
-for the hexahedron: at most 1 each in the reference element.
+where the tetrahedron has no m, the pyramid has `rs/(1-t)`, the prism has `rt, st`, and the hexahedron has
+`rs, st, tr, rst`: the absolute value of each is at most 1 in the reference element.
 */
 template <Element_kind Kind>
 struct Element_field
@@ -89,7 +89,7 @@ struct Element_field
       }
       c = {mean[0], mean[1] - mean[0], mean[2] - mean[0], half[0], half[1] - half[0], half[2] - half[0]};
     } else {
-      // The products of signs of the vertices are orthogonal.
+      // The products of the signs of the vertices are orthogonal.
       constexpr int n = Kind == PYRAMID ? 4 : 8;
       c.fill(Vec3{});
       for(int i = 0; i < n; ++i) {
@@ -141,13 +141,13 @@ struct Element_field
     }
   }
 
-  /// As above, with the value.
+  /// Value and derivatives by r, s and t. \pre not the pyramid's apex
   std::pair<Vec3, std::array<Vec3, 3>> value_and_derivatives(const Vec3& r) const
   {
     return {(*this)(r), derivatives(r)};
   }
 
-  /// A bound for what the part that is not linear contributes to `dot(v, x)` in the element.
+  /// A bound for the contribution of the nonlinear part to `dot(v, x)` in the element.
   double deviation(const Vec3& v) const
   {
     double sum = 0;
@@ -157,7 +157,8 @@ struct Element_field
   }
 };
 
-/// The rows of the inverse of the matrix with columns `m`; infinite or not a number if it has none.
+/// The rows of the inverse of the matrix with columns `m`; infinite or not a number if the matrix is
+/// singular.
 inline std::array<Vec3, 3> inverse_rows(const std::array<Vec3, 3>& m)
 {
   const Vec3 yz = cross(m[1], m[2]);
@@ -175,7 +176,7 @@ The map from the reference element to an element, with its inverse.
 
 Positions are relative to the first vertex, so that no digits are lost far from the origin.
 
-\tparam Field of positions: `Element_field`, or one made of it
+\tparam Field field of positions: `Element_field`, or a class derived from `Element_field`
 */
 template <Element_kind Kind, class Field = Element_field<Kind>>
 class Isoparametric_map_3
@@ -183,8 +184,8 @@ class Isoparametric_map_3
   Vec3 m_origin;
   Field m_field;
   std::array<Vec3, 3> m_linear; // inverse of the linear part
-  // Each half-space of the reference element, for the coordinates that `m_linear` gives instead of the
-  // true ones, and made wider by as much as the remaining part can contribute there.
+  // Each half-space of the reference element, for the coordinates that `m_linear` gives instead of the true
+  // ones, and made wider by the bound for the remaining part.
   Half_spaces m_half_spaces;
   bool m_is_affine = true;
 
@@ -197,8 +198,9 @@ class Isoparametric_map_3
     return Field(local, parameters...);
   }
 
-  // Where Newton's iteration may go: not far from the reference element, nor to the pyramid's apex,
-  // where the map has no derivative. Towards the apex it is the same at all scales.
+  // Restricts the points of Newton's iteration to places not far from the reference element, and away from
+  // the apex of the pyramid, where the map has no derivative. Toward the apex the restriction is the same at
+  // all scales.
   static Vec3 restricted(Vec3 r)
   {
     if constexpr(Kind == PYRAMID) {
@@ -215,8 +217,8 @@ class Isoparametric_map_3
     return r;
   }
 
-  // Outside the element the polynomial may come back to points that it has in the element: where its
-  // orientation is another.
+  // Outside the element the polynomial may return to points that it also has in the element: the orientation
+  // there is the opposite one.
   bool is_beyond_fold(const Vec3& r) const
   {
     if(depth(Kind, r) >= -reference_tolerance)
@@ -227,7 +229,7 @@ class Isoparametric_map_3
 
 public:
   /// \param p positions of the element's vertices
-  /// \param parameters what the field is made of besides
+  /// \param parameters further arguments of the constructor of the field
   template <class... Parameters>
   explicit Isoparametric_map_3(const Vec3* p, const Parameters&... parameters)
     : m_origin(p[0]), m_field(local_field(p, parameters...)),
@@ -247,7 +249,7 @@ public:
 
   Vec3 operator()(const Vec3& r) const { return m_origin + m_field(r); }
 
-  /// Reference coordinates of a point if the map were linear, and of a vector.
+  /// Reference coordinates of a point, and of a vector, for the linear part of the map only.
   Vec3 linear_inverse(const Vec3& p) const { return product(m_linear, p - m_origin - m_field.c[0]); }
   Vec3 linear_inverse_of_vector(const Vec3& v) const { return product(m_linear, v); }
 
@@ -265,8 +267,8 @@ public:
   /*!
   Newton's iteration for the reference coordinates of a point.
   \param p the point
-  \param r where to start; the result
-  \param accuracy the last step is shorter than that; the error is about its square
+  \param r start of the iteration; the result
+  \param accuracy bound of the length of the last step; the error is about its square
   \return whether the iteration came to an end
   */
   bool improve(const Vec3& p, Vec3& r, double accuracy) const
@@ -278,11 +280,12 @@ public:
       const Vec3 step = product(inverse_rows(derivatives), x - value);
       const double height = r[2];
       r = restricted(r + step);
-      // Not across the apex: only the direction from there counts, and that would be the opposite one.
+      // A step must not cross the apex: only the direction from the apex counts, and would be the opposite
+      // one.
       if(Kind == PYRAMID && 1 - r[2] < 0.01 * (1 - height))
         r = restricted({r[0], r[1], 1 - 0.01 * (1 - height)});
       const double length = (std::max)({std::abs(step[0]), std::abs(step[1]), std::abs(step[2])});
-      // The nearer to a pyramid's apex, the faster the derivative changes.
+      // The derivative changes faster the nearer the point is to the apex of a pyramid.
       if(length < (Kind == PYRAMID ? accuracy * (std::max)(1e-4, 1 - r[2]) : accuracy))
         return true;
       if(!(length < 1e6)) // a singular derivative
@@ -298,12 +301,12 @@ public:
   }
 
   /*!
-  Simplified Newton's iteration, which is cheaper by a half: with the derivative of a place nearby.
+  Simplified Newton's iteration, with the derivative at a place nearby, which halves the cost.
   \param rows `inverse_derivatives()` there
   \param p the point
-  \param r where to start; the result
-  \param accuracy the last step is shorter than that; the error is a small part of it
-  \return whether that is so after a few steps, in the element
+  \param r start of the iteration; the result
+  \param accuracy bound of the length of the last step; the error is a small part of it
+  \return whether the last of a few steps is that short, and the result is in the element
   */
   bool improve(const std::array<Vec3, 3>& rows, const Vec3& p, Vec3& r, double accuracy) const
   {
@@ -320,14 +323,15 @@ public:
   /*!
   The reference coordinates of a point, if it is in the element.
   \param p the point
-  \param start where to start looking, for example the result for a point nearby
-  \param accuracy see `improve()`
+  \param start first guess, for example the result for a point nearby
+  \param accuracy bound as in `improve()`
   */
   std::optional<Vec3> inverse(const Vec3& p, const Vec3& start, double accuracy = 1e-8) const
   {
     Vec3 r = start;
     if(!m_is_affine && (!improve(p, r, accuracy) || is_beyond_fold(r))) {
-      // Too far from where Newton's method works: from other places. None will do if the point is outside.
+      // The start is too far away for Newton's method: other starts are tried. None converges for a point
+      // outside.
       const Reference_element& reference = reference_elements[Kind];
       Vec3 center{};
       for(int i = 0; i < reference.number_of_vertices; ++i)

@@ -26,8 +26,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// A vector for each pair of vertices of an element, the pair (i, j) with i < j at `pair_index(i, j)`: as
-/// many as the kind has pairs.
+/// A vector for each pair of vertices of an element, the pair (i, j) with i < j at `pair_index(i, j)`: the
+/// number of vectors in use is the number of pairs of the kind.
 using Bubbles = std::array<Vec3, 28>;
 
 constexpr int pair_index(int i, int j) { return j * (j - 1) / 2 + i; }
@@ -37,14 +37,14 @@ constexpr int number_of_pairs(Element_kind kind)
   return pair_index(0, reference_elements[kind].number_of_vertices);
 }
 
-/// The sum of the products of two different shape functions is at most that: it is (1 - the sum of their
-/// squares) / 2, and largest where all are the same.
+/// The largest sum of the products of two different shape functions: the sum is (1 - the sum of their
+/// squares) / 2, and is largest where all shape functions are equal.
 constexpr double largest_sum_of_products(Element_kind kind)
 {
   return 0.5 * (1 - 1. / reference_elements[kind].number_of_vertices);
 }
 
-/// How far bubbles carry points of an element, at most, in each direction.
+/// The largest displacement of points of an element by bubbles, in each direction.
 inline Vec3 bubble_extent(Element_kind kind, const Bubbles& bubbles)
 {
   Vec3 largest{};
@@ -59,7 +59,7 @@ A field given at the vertices, and by bubbles at pairs of them:
 
 \f[ x = \sum_i N_i p_i + \sum_{i < j} N_i N_j b_{ij} \f]
 
-On a face it depends on what belongs to the vertices of the face only, so that it is continuous.
+The field on a face depends only on the vertices of the face and on their pairs: so the field is continuous.
 */
 template <Element_kind Kind>
 class Quadratic_field : public Element_field<Kind>
@@ -73,7 +73,7 @@ public:
     std::copy_n(bubbles.begin(), m_bubbles.size(), m_bubbles.begin());
   }
 
-  /// A bound for what the part that is not linear contributes to `dot(v, x)` in the element.
+  /// A bound for the contribution of the nonlinear part to `dot(v, x)` in the element.
   double deviation(const Vec3& v) const
   {
     double largest = 0;
@@ -105,7 +105,7 @@ public:
     std::pair<Vec3, std::array<Vec3, 3>> result{Element_field<Kind>::operator()(r),
                                                 Element_field<Kind>::derivatives(r)};
     for(int i = 0; i < n; ++i) {
-      Vec3 sum{}; // what bubbles add to what belongs to N_i
+      Vec3 sum{}; // factor of N_i in the sum over the bubbles
       for(int j = 0; j < i; ++j)
         sum = sum + w[j] * m_bubbles[pair_index(j, i)];
       result.first = result.first + w[i] * sum;

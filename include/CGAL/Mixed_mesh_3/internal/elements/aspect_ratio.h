@@ -6,7 +6,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The paper's aspect-ratio coefficient (ARC; Lobos, Bucki, Hitschfeld, Payan: section 4), with its gradient:
-// the one formula of it.
+// the only place with its formula.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_ASPECT_RATIO_H
 #define CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_ASPECT_RATIO_H
@@ -26,7 +26,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-// The paper's, so that the ARC of the regular tetrahedron is 1, nearly: it should be 6 sqrt(2).
+// The factor of the paper, with which the ARC of the regular tetrahedron is nearly 1: the exact factor is 6
+// sqrt(2).
 inline constexpr double tetrahedron_arc_factor = 8.47867;
 
 // A length and its derivative by the position of one vertex.
@@ -36,7 +37,7 @@ struct Length
   Vec3 gradient;
 };
 
-// The square of the ARC of the tetrahedron of four points: without roots.
+// The square of the ARC of the tetrahedron of four points, computed without roots.
 inline double squared_tetrahedron_arc(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
 {
   const Vec3 ab = b - a, ac = c - a, ad = d - a, bc = c - b, bd = d - b, cd = d - c;
@@ -53,7 +54,7 @@ inline Vec3 tetrahedron_arc_gradient(const Vec3& x, const Vec3& u, const Vec3& v
 {
   const Vec3 xu = u - x, xv = v - x, xw = w - x, uv = v - u, uw = w - u, vw = w - v;
   const double sum = dot(xu, xu) + dot(xv, xv) + dot(xw, xw) + dot(uv, uv) + dot(uw, uw) + dot(vw, vw);
-  const Vec3 area = cross(uw, uv); // of the face opposite to x, inwards, times 2
+  const Vec3 area = cross(uw, uv); // vector area of the face opposite to x, inwards, times 2
   return (-3 / sum) * (xu + xv + xw) - (1 / determinant(xu, xv, xw)) * area;
 }
 
@@ -61,7 +62,7 @@ inline Vec3 tetrahedron_arc_gradient(const Vec3& x, const Vec3& u, const Vec3& v
 struct Extreme_lengths
 {
   Length longest, shortest;
-  /// At least 1; infinity where an element is flat.
+  /// The ratio, at least 1; infinity where an element is flat.
   double ratio() const
   {
     return shortest.value > 0 ? longest.value / shortest.value : std::numeric_limits<double>::infinity();
@@ -76,7 +77,7 @@ struct Extreme_lengths
   }
 };
 
-// The means of some vertices, and the weight that vertex v has in it.
+// The mean of some vertices, and the weight of vertex v in the mean.
 template <int n>
 struct Mean
 {
@@ -106,7 +107,7 @@ Length segment(const Mean<n>& a, const Mean<n>& b)
     return {length, {}};
 }
 
-// Of the apex over the base's mean plane.
+// Height of the apex over the mean plane of the base.
 inline Length pyramid_height(const Element_points& p, int v)
 {
   const Vec3 a = p[2] - p[0], b = p[3] - p[1], n = cross(a, b);
@@ -122,7 +123,7 @@ inline Length pyramid_height(const Element_points& p, int v)
   return {height, (v >= 2 ? 1. : -1.) * turn - 0.25 * unit};
 }
 
-// Of c over ab.
+// Height of c over ab.
 inline Length triangle_height(const Mean<2>& a, const Mean<2>& b, const Mean<2>& c)
 {
   const Vec3 u = b.point - a.point, w = c.point - a.point, n = cross(u, w);
@@ -146,7 +147,7 @@ Extreme_lengths extreme_lengths(Element_kind kind, const Element_points& p, int 
   };
   switch(kind) {
   case HEXAHEDRON: {
-    const auto& faces = reference_elements[kind].faces; // opposite ones side by side
+    const auto& faces = reference_elements[kind].faces; // opposite faces are side by side
     for(int i = 0; i < 6; i += 2)
       add_segment(e, faces[i + 1].vertices, faces[i].vertices);
     break;
@@ -181,8 +182,8 @@ Extreme_lengths extreme_lengths(Element_kind kind, const Element_points& p, int 
   return e;
 }
 
-/// The paper's aspect-ratio coefficient (ARC): infinity where a length is 0, and for a tetrahedron or pyramid
-/// that is inverted; lengths in prisms and hexahedra have no sign.
+/// The paper's aspect-ratio coefficient (ARC): infinity where a length is 0, and for an inverted tetrahedron
+/// or pyramid; lengths in prisms and hexahedra have no sign.
 inline double aspect_ratio_coefficient(Element_kind kind, const Element_points& p)
 {
   return kind == TETRAHEDRON ? std::sqrt(squared_tetrahedron_arc(p[0], p[1], p[2], p[3]))

@@ -29,8 +29,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-// A quadrilateral as a bilinear patch: its flux is the mean of the two triangulations'. Seen from a vertex:
-// far from the origin, the digits would be lost.
+// Volume with each quadrilateral as a bilinear patch, whose flux is the mean of the fluxes of the two
+// triangulations. Points are relative to a vertex, because digits would be lost far from the origin.
 inline double volume(Element_kind kind, const Element_points& p)
 {
   const Reference_element& reference = reference_elements[kind];
@@ -79,7 +79,7 @@ inline double scaled_jacobian(Element_kind kind, const Element_points& p)
   case TETRAHEDRON: return smallest(scaled_jacobian_of_tetrahedron);
   case PYRAMID: {
     const double scaled = smallest(scaled_jacobian_of_tetrahedron) * std::sqrt(2.);
-    return (std::min)(scaled, 2 - scaled); // some pyramids not so regular reach 1.14
+    return (std::min)(scaled, 2 - scaled); // some irregular pyramids reach 1.14
   }
   case PRISM: return smallest(of_edges) * 2 / std::sqrt(3.);
   case HEXAHEDRON: return smallest(of_edges);
@@ -105,7 +105,7 @@ inline Angle_range dihedral_angles(Element_kind kind, const Element_points& p)
 {
   const Reference_element& reference = reference_elements[kind];
   std::array<Vec3, 6> normals;
-  std::uint8_t face_left_of[8][8]; // of the edge from one vertex to another, seen from outside
+  std::uint8_t face_left_of[8][8]; // face at the edge from one vertex to another, seen from outside
   for(int f = 0; f < reference.number_of_faces; ++f) {
     const Element_face& face = reference.faces[f];
     normals[f] = face_normal(face, p);
@@ -136,8 +136,8 @@ inline double largest_dihedral_angle(Element_kind kind, const Element_points& p)
   return dihedral_angles(kind, p).largest;
 }
 
-// The normals, not of unit length, of the two triangles of a quadrilateral on either side of a diagonal: 0 is
-// that through its first vertex, 1 the other one.
+// The normals, not of unit length, of the two triangles of a quadrilateral on either side of a diagonal:
+// diagonal 0 goes through the first vertex, diagonal 1 is the other one.
 inline std::array<Vec3, 2> triangle_normals(const Element_face& face, int diagonal, const Element_points& p)
 {
   const auto at = [&](int i) -> const Vec3& { return p[face.vertices[(i + diagonal) % 4]]; };

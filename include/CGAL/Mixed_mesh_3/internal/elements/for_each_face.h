@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The one place where faces are found: which faces of the elements are the same.
+// Identification of faces that elements have in common: the only place where faces are found.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_FOR_EACH_FACE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_FOR_EACH_FACE_H
@@ -26,7 +26,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-// Three or four numbers: cheaper than std::sort.
+// Sorts three or four numbers, faster than std::sort does.
 inline void sort_vertices(std::array<Vertex_index, 4>& v)
 {
   const auto order = [&v](std::size_t i, std::size_t j) {
@@ -39,7 +39,7 @@ inline void sort_vertices(std::array<Vertex_index, 4>& v)
 /// The faces of all elements, sorted so that those with the same vertices are side by side.
 class Face_table
 {
-  // Within a bucket by the smallest vertex.
+  // A face in the bucket of its smallest vertex.
   struct Entry
   {
     std::uint64_t second_and_third;
@@ -54,7 +54,7 @@ class Face_table
   };
 
 public:
-  /// Faces with the same vertices: one on the boundary, two inside, in a conforming mesh.
+  /// Faces with the same vertices: in a conforming mesh, one face on the boundary and two faces inside.
   class Group
   {
     const Element_list& m_elements;
@@ -73,7 +73,7 @@ public:
     Face operator[](std::size_t i) const { return Face(m_elements, element(i), local_index(i)); }
   };
 
-  /// See `for_each_face()`.
+  /// Calls the visitor as described at `for_each_face()`.
   template <class Is_candidate, class Visitor>
   static void visit(const Element_list& elements, std::size_t number_of_vertices,
                     const Is_candidate& is_candidate, const Visitor& visit)
@@ -119,7 +119,7 @@ public:
 /// Calls `visit(group)` with a `Face_table::Group` for each set of vertices that is a face, among the faces
 /// all of whose vertices satisfy `is_candidate`.
 /// \par Complexity
-/// Linear in the number of elements, if vertices have boundedly many; 24 bytes per face
+/// Linear in the number of elements, if the number of elements at a vertex is bounded; 24 bytes per face
 template <class Is_candidate, class Visitor>
 void for_each_face(const Element_list& elements, std::size_t number_of_vertices,
                    const Is_candidate& is_candidate, const Visitor& visit)
@@ -127,7 +127,7 @@ void for_each_face(const Element_list& elements, std::size_t number_of_vertices,
   Face_table::visit(elements, number_of_vertices, is_candidate, visit);
 }
 
-/// As above, for all faces.
+/// Overload for all faces.
 template <class Visitor>
 void for_each_face(const Element_list& elements, std::size_t number_of_vertices, const Visitor& visit)
 {

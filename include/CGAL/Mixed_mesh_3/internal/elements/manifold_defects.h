@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The boundary of a set of elements as a surface: is it a closed 2-manifold, and where is it not.
+// Defects of the boundary of a set of elements: the places where the boundary is not a closed 2-manifold.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_MANIFOLD_DEFECTS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_MANIFOLD_DEFECTS_H
@@ -26,16 +26,16 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Where a set of oriented polygons is not a closed oriented 2-manifold.
+/// The places where a set of oriented polygons is not a closed oriented 2-manifold.
 struct Manifold_defects
 {
-  std::vector<std::array<Vertex_index, 2>> edges; ///< not once in each direction
-  std::vector<Vertex_index> vertices;             ///< with more than one fan of polygons around
+  std::vector<std::array<Vertex_index, 2>> edges; ///< edges that are not once in each direction
+  std::vector<Vertex_index> vertices;             ///< vertices with more than one fan of polygons
   bool empty() const { return edges.empty() && vertices.empty(); }
 };
 
 /// Whether the polygons around a vertex are connected by the edges at it.
-/// \param links the vertices after and before it, for each polygon
+/// \param links the vertices after and before the vertex, for each polygon
 inline bool is_one_fan(std::vector<std::array<Vertex_index, 2>> links)
 {
   std::vector<Vertex_index> reached{links.back()[0], links.back()[1]};
@@ -51,9 +51,9 @@ inline bool is_one_fan(std::vector<std::array<Vertex_index, 2>> links)
   return links.empty();
 }
 
-/// Vertices with more than one fan of polygons around, in a set of polygons that may have a border; ordered.
+/// Vertices with more than one fan of polygons, in a set of polygons that may have a border; ordered.
 /// \par Complexity
-/// O(n log n) for n polygons of which few are around each vertex
+/// O(n log n) for n polygons, if the number of polygons around each vertex is small
 inline std::vector<Vertex_index> vertices_with_several_fans(const std::vector<Face_vertices>& polygons)
 {
   std::map<Vertex_index, std::vector<std::array<Vertex_index, 2>>> links;
@@ -73,7 +73,7 @@ inline Manifold_defects manifold_defects(const std::vector<Face_vertices>& polyg
 {
   Manifold_defects defects;
 
-  // Each edge once in each direction.
+  // Each edge must be present once in each direction.
   std::vector<std::array<Vertex_index, 3>> edges; // smaller, larger, is reversed
   for(const Face_vertices& p : polygons)
     for(int i = 0; i < p.size(); ++i) {
@@ -88,7 +88,7 @@ inline Manifold_defects manifold_defects(const std::vector<Face_vertices>& polyg
       defects.edges.push_back({edges[i][0], edges[i][1]});
   }
 
-  // Around each vertex, the links (predecessor to successor in each polygon) form one cycle.
+  // The links around each vertex (predecessor to successor in each polygon) must form one cycle.
   struct Link
   {
     Vertex_index vertex, from, to;

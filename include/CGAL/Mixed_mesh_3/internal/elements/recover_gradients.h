@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Gradients at vertices from values at vertices. By least squares as in Zhang, Naga: "A new finite element
+// Gradients at vertices from values at vertices, by least squares as in Zhang, Naga: "A new finite element
 // gradient recovery method: superconvergence property", SIAM Journal on Scientific Computing 26, 2005.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_RECOVER_GRADIENTS_H
@@ -40,7 +40,7 @@ inline Vec3 product_of_columns(const Gradient& g, const Vec3& v)
   return v[0] * g[0] + (v[1] * g[1] + v[2] * g[2]);
 }
 
-/// From derivatives by reference coordinates, of a field and of the position, the field's gradient.
+/// The gradient of a field from the derivatives of field and position by reference coordinates.
 inline Gradient gradient_in_space(const std::array<Vec3, 3>& field, const std::array<Vec3, 3>& position)
 {
   const std::array<Vec3, 3> inverse = inverse_rows(position);
@@ -86,7 +86,7 @@ class Quadratic_fit
   std::vector<Vec3> m_values;
   std::array<double, n> m_scales{};
 
-  // Of x, y, z, their squares and their products: the length of each column.
+  // Divides the columns of x, y, z, their squares and their products by their lengths.
   bool normalize()
   {
     for(std::size_t c = 0; c < n; ++c) {
@@ -102,11 +102,12 @@ class Quadratic_fit
     return true;
   }
 
-  // Makes column c zero below the diagonal, if it is not nearly so from there on.
+  // Makes column c zero below the diagonal, unless the column is nearly zero from the diagonal on.
   bool reflect(std::size_t c)
   {
-    // What is left of a column of length 1 by those before it. On two parallel planes nothing is left of the
-    // square of the distance, on three that are equally far from each other 0.2; a tenth is between these.
+    // Least length of the part of a column of length 1 that is independent of the columns before it. On two
+    // parallel planes nothing is left of the square of the distance, on three planes at equal distances 0.2;
+    // a tenth is between these.
     constexpr double least_pivot = 0.1;
     double square = 0;
     for(std::size_t r = c; r < m_rows.size(); ++r)
@@ -148,7 +149,7 @@ public:
     m_values.push_back(value);
   }
 
-  /// At the origin, if the points determine the polynomial well. To be called once.
+  /// The gradient at the origin, if the points determine the polynomial well. To be called once.
   std::optional<Gradient> gradient()
   {
     if(m_rows.size() < n || !normalize())
@@ -166,7 +167,7 @@ public:
   }
 };
 
-/// Recovers gradients at vertices from values there; the elements of each subdomain by themselves.
+/// Recovers gradients at vertices from values at vertices, for the elements of each subdomain separately.
 /// \tparam Is_used `bool(Element_index)`
 template <class Mesh, class Is_used>
 class Gradient_recoverer
@@ -207,7 +208,7 @@ class Gradient_recoverer
                        });
   }
 
-  // Those of inverted elements, which files may have, do not count.
+  // Gradients of inverted elements, which files may have, do not count.
   void find_central_gradients()
   {
     m_volumes.assign(m_mesh.number_of_elements(), 0);
@@ -247,7 +248,7 @@ class Gradient_recoverer
     return m_fit.gradient();
   }
 
-  // By the vertices around, or these and those around them.
+  // The gradient fitted to the vertices around, or to the two rings of vertices around.
   std::optional<Gradient> fitted(Vertex_index v, Subdomain_index subdomain)
   {
     m_ring.clear();
@@ -303,14 +304,15 @@ public:
   };
 
 private:
-  std::vector<std::size_t> m_ends{0}; // entries of vertex v: from m_ends[v] to m_ends[v + 1]
-  std::vector<Entry> m_entries;       // of a vertex, by subdomain
+  std::vector<std::size_t> m_ends{0}; // entries of vertex v: m_ends[v] to m_ends[v + 1]
+  std::vector<Entry> m_entries;       // entries of each vertex, sorted by subdomain
 
 public:
   const Entry* begin(Vertex_index v) const { return m_entries.data() + m_ends[v]; }
   const Entry* end(Vertex_index v) const { return m_entries.data() + m_ends[v + 1]; }
 
-  /// \param is_used `bool(Element_index)`  \param values at the vertices
+  /// \param is_used `bool(Element_index)`
+  /// \param values values at the vertices
   template <class Mesh, class Is_used>
   Vertex_gradients(const Mesh& mesh, const Is_used& is_used, const std::vector<Vec3>& values,
                    bool use_least_squares)

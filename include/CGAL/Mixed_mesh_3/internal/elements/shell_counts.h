@@ -30,15 +30,14 @@ struct Shells_of_vertices
 {
   static constexpr std::size_t unused = std::size_t(-1);
 
-  Shell_counts counts;               ///< without cavities
-  std::vector<std::size_t> shell_of; ///< for each vertex, or unused
+  Shell_counts counts;               ///< number of shells, without cavities
+  std::vector<std::size_t> shell_of; ///< shell of each vertex, or unused
 };
 
-/// \param polygons ranges of vertex indices; each edge belongs to two of them, or the Euler characteristic
-/// means
-///        nothing
+/// \param polygons ranges of vertex indices; if some edge does not belong to two polygons, the Euler
+/// characteristic means nothing
 /// \par Complexity
-/// Linear, nearly
+/// Nearly linear
 template <class Polygons>
 Shells_of_vertices find_shells(const Polygons& polygons, std::size_t number_of_vertices)
 {
@@ -77,13 +76,13 @@ Shells_of_vertices find_shells(const Polygons& polygons, std::size_t number_of_v
 }
 
 /// Signed volumes of shells, positive where polygons are seen counterclockwise from outside.
-/// \param point of a vertex, `Vec3`
+/// \param point `Vec3` of a vertex
 template <class Polygons, class Point>
 std::vector<double> volumes_of_shells(const Shells_of_vertices& shells, const Polygons& polygons,
                                       const Point& point)
 {
   std::vector<double> volumes(shells.counts.number_of_shells, 0);
-  std::vector<Vec3> origins(volumes.size()); // on the shell: rounding is relative to its size
+  std::vector<Vec3> origins(volumes.size()); // on the shells: rounding errors are relative to their size
   std::vector<std::uint8_t> has_origin(volumes.size(), 0);
   for(const auto& polygon : polygons) {
     const auto v = polygon.begin();
@@ -99,7 +98,7 @@ std::vector<double> volumes_of_shells(const Shells_of_vertices& shells, const Po
   return volumes;
 }
 
-/// The shells of the boundary of a mesh. \pre it is a manifold, except where it is pinched
+/// The shells of the boundary of a mesh. \pre the boundary is a manifold, except where it is pinched
 template <class Mesh>
 Shell_counts shells_of_boundary(const Mesh& mesh)
 {

@@ -5,8 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The sparse system of linear elasticity for the nodes that are free, those with a prescribed displacement
-// eliminated.
+// The sparse system of linear elasticity for the free nodes, with prescribed displacements eliminated.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FEM_ELASTICITY_SYSTEM_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FEM_ELASTICITY_SYSTEM_H
@@ -41,17 +40,17 @@ class Elasticity_system
   const Element_list* m_elements;
   std::vector<Element_index> m_active;     // elements with a free node
   std::vector<Vertex_index> m_free;        // the free nodes
-  std::vector<Vertex_index> m_unknowns;    // number of each node among the free ones, or no_vertex
-  std::vector<std::size_t> m_block_starts; // neighbors of larger number, the node itself not included
+  std::vector<Vertex_index> m_unknowns;    // number among the free nodes, or no_vertex
+  std::vector<std::size_t> m_block_starts; // of the neighbors of larger number, without the node itself
   std::vector<int> m_neighbors;
   std::vector<int> m_starts, m_rows;
   std::vector<double> m_values, m_right_hand_side;
-  Element_stiffness m_element_stiffness; // of the element being added
+  Element_stiffness m_element_stiffness; // stiffness of the element being added
 
 public:
   /// \param elements kept by reference: must outlive the system
-  /// \param is_free of each vertex, whether its displacement is unknown
-  /// \param patches sets of nodes, besides those of the elements, that `add_patch()` will get
+  /// \param is_free whether the displacement of each vertex is unknown
+  /// \param patches sets of nodes, besides those of the elements, that will be passed to `add_patch()`
   Elasticity_system(const Element_list& elements, const std::vector<bool>& is_free,
                     const std::vector<std::vector<Vertex_index>>& patches = {})
     : m_elements(&elements), m_unknowns(is_free.size(), no_vertex)
@@ -85,10 +84,9 @@ public:
     std::fill(m_right_hand_side.begin(), m_right_hand_side.end(), 0.);
   }
 
-  /// Adds an element. An element added before becomes stiffer by that, or softer if Young's modulus is
-  /// negative.
+  /// Adds an element. An element added before becomes stiffer, or softer if Young's modulus is negative.
   /// \param points positions of all nodes
-  /// \param displacements of all nodes; those of the free ones are ignored
+  /// \param displacements displacements of all nodes; those of the free nodes are ignored
   /// \pre the element has a free node
   void add(Element_index e, const Elastic_material& material, const std::vector<Vec3>& points,
            const std::vector<Vec3>& displacements, Dilatation dilatation = Dilatation::POINTWISE)
@@ -104,9 +102,9 @@ public:
   }
 
   /// Adds resistance to the mean dilatation over several elements.
-  /// \param nodes of the elements
+  /// \param nodes nodes of the elements
   /// \param gradients the integral of the divergence by the displacement of each node
-  /// \param factor bulk modulus by volume
+  /// \param factor bulk modulus divided by volume
   void add_patch(const std::vector<Vertex_index>& nodes, const std::vector<Vec3>& gradients, double factor,
                  const std::vector<Vec3>& displacements)
   {
@@ -141,7 +139,7 @@ private:
       ends[i + 1] += ends[i];
     std::vector<int> all(ends.back());
     for_each_pair([&](Vertex_index i, int j) { all[ends[i]++] = j; });
-    // now ends[i] is where the neighbors of i end; several elements may have found the same ones
+    // Now ends[i] is the end of the neighbors of i; several elements may have found the same neighbors.
     starts.assign(1, 0);
     for(std::size_t i = 0, first = 0; i < m_free.size(); first = ends[i], ++i) {
       std::sort(all.begin() + std::ptrdiff_t(first), all.begin() + std::ptrdiff_t(ends[i]));
@@ -151,7 +149,8 @@ private:
     }
   }
 
-  // Column 3 i + k: the rest of the diagonal block from the diagonal on, then three rows a neighbor.
+  // Builds the pattern. Column 3 i + k: the rest of the diagonal block from the diagonal on, then three rows
+  // for each neighbor.
   void build_pattern()
   {
     m_starts.assign(1, 0);
@@ -178,7 +177,7 @@ private:
     return {{{m[0][0], m[1][0], m[2][0]}, {m[0][1], m[1][1], m[2][1]}, {m[0][2], m[1][2], m[2][2]}}};
   }
 
-  // The block of nodes v and w, and of w and v.
+  // Adds the block of nodes v and w, and of w and v.
   void add(Vertex_index v, Vertex_index w, const Matrix_3x3& block, const std::vector<Vec3>& displacements)
   {
     const Vertex_index i = m_unknowns[v], j = m_unknowns[w];
@@ -200,7 +199,7 @@ private:
       m_right_hand_side[3 * std::size_t(i) + std::size_t(k)] -= force[k];
   }
 
-  // \pre i >= j
+  // Adds a block of unknowns. \pre i >= j
   void add_block(Vertex_index i, Vertex_index j, const Matrix_3x3& block)
   {
     if(i == j) {
@@ -220,7 +219,7 @@ private:
   }
 };
 
-/// A symmetric matrix as any model of CGAL's concept takes it, of its lower triangle in compressed columns.
+/// A symmetric matrix of any model of CGAL's concept, from its lower triangle in compressed columns.
 template <class Matrix>
 Matrix make_matrix(const std::vector<int>& starts, const std::vector<int>& rows,
                    const std::vector<double>& values)
@@ -235,15 +234,15 @@ Matrix make_matrix(const std::vector<int>& starts, const std::vector<int>& rows,
       for(int k = starts[j]; k < starts[j + 1]; ++k) {
         const int i = rows[k];
         matrix.set_coef(i, j, values[k], true);
-        if(i != j) // ignored by classes of symmetric matrices
+        if(i != j) // classes of symmetric matrices ignore these
           matrix.set_coef(j, i, values[k], true);
       }
     return matrix;
   }
 }
 
-/// The class of a solver's matrices. Of a class that has none, the first line of what the compiler says is
-/// the sentence here.
+/// The class of a solver's matrices. For a class without matrices, the first line of the compiler's message
+/// is the sentence here.
 template <class Solver, class = void>
 struct Matrix_of_solver
 {

@@ -29,14 +29,14 @@ using Matrix_3x3 = std::array<Vec3, 3>; // rows
 /// The blocks of pairs of nodes `[a][b]`, `b <= a`; the others are their transposes.
 using Element_stiffness = std::array<std::array<Matrix_3x3, 8>, 8>;
 
-/// What resists a change of volume: the dilatation at each point of the quadrature, or its mean over the
-/// element (Nagtegaal, Parks, Rice, 1974; Hughes' B-bar), or for an element of a patch some pointwise and the
-/// rest by the mean over the patch, which is added apart. Only pointwise, all kinds lock if the material is
-/// nearly incompressible.
+/// The resistance to a change of volume: by the dilatation at each point of the quadrature, or by its mean
+/// over the element (Nagtegaal, Parks, Rice, 1974; Hughes' B-bar), or for an element of a patch partly
+/// pointwise and partly by the mean over the patch, which is added separately. With the pointwise dilatation
+/// only, all kinds lock if the material is nearly incompressible.
 enum class Dilatation { POINTWISE, MEAN, PATCH };
 
-/// The share of the bulk modulus that is pointwise in a patch: as much as does not lock. Without any, the
-/// elements of a patch could change their volumes against each other too easily.
+/// The share of the bulk modulus that is pointwise in a patch: the largest share that does not lock. Without
+/// a pointwise share, the elements of a patch could change their volumes against each other too easily.
 inline double pointwise_share(const Elastic_material& material)
 {
   constexpr double largest_multiple_of_mu = 2;
@@ -51,11 +51,11 @@ inline void compute_element_stiffness(Element_kind kind, const std::array<Vec3, 
 {
   const int n = reference_elements[kind].number_of_vertices;
   double volume = 0;
-  std::array<Vec3, 8> divergence{}; // its integral, by the displacement of each node
+  std::array<Vec3, 8> divergence{}; // integral of the divergence, by the displacement of each node
   for(int a = 0; a < n; ++a)
     for(int b = 0; b <= a; ++b)
       stiffness[a][b] = Matrix_3x3{};
-  // first the integrals of the dyadic products of gradients, which do not depend on the material
+  // The integrals of the dyadic products of gradients come first, as they do not depend on the material.
   for(int q = 0; q < quadrature_rule(kind).number_of_points; ++q) {
     const Strain_operator s = strain_operator(kind, points, q);
     volume += s.volume;

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Where the four kinds of elements are integrated, and their strain there. In the words of finite elements a
+// Quadrature of the four kinds of elements, and the strain at its points. In the terms of finite elements a
 // vertex is a node.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FEM_QUADRATURE_H
@@ -27,12 +27,12 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The points where a stiffness is integrated: weights, and the shape functions and their gradients there.
+/// The quadrature points of a stiffness: weights, and the shape functions and their gradients.
 struct Quadrature_rule
 {
   int number_of_points = 0;
   std::array<double, 8> weights{};
-  std::array<std::array<double, 8>, 8> values{};  // of the shape functions, by point and by node
+  std::array<std::array<double, 8>, 8> values{};  // shape functions, by point and by node
   std::array<std::array<Vec3, 8>, 8> gradients{}; // in reference coordinates, by point and by node
 };
 
@@ -54,8 +54,8 @@ Quadrature_rule make_quadrature_rule()
   if constexpr(kind == TETRAHEDRON) {
     add(0.25, 0.25, 0.25, 1. / 6); // gradients are constant
   } else if constexpr(kind == PYRAMID) {
-    // Conical product: (r, s) shrink towards the apex, and heights are Gauss-Jacobi points for the weight
-    // (1 - t)^2 on [0,1].
+    // Conical product: (r, s) shrink toward the apex, and heights are Gauss-Jacobi points for the weight (1 -
+    // t)^2 on [0,1].
     const double offset = std::sqrt(10.) / 15, weight_offset = std::sqrt(10.) / 48;
     for(int k : {-1, 1}) {
       const double t = 1. / 3 + k * offset, weight = 1. / 6 - k * weight_offset;
@@ -95,12 +95,12 @@ The strain operator at a point of an element. The B-matrix of node `a` consists 
 */
 struct Strain_operator
 {
-  std::array<Vec3, 8> gradients; // of the shape functions, in space
-  double volume;                 // that the point stands for
+  std::array<Vec3, 8> gradients; // gradients of the shape functions, in space
+  double volume;                 // volume that the point stands for
 };
 
-/// \param points positions of the nodes; they may be relative to any of them
-/// \param q a point of the quadrature rule. \pre the Jacobian is not zero there
+/// \param points positions of the nodes, possibly relative to one of them
+/// \param q point of the quadrature rule. \pre the Jacobian is not zero at the point
 inline Strain_operator strain_operator(Element_kind kind, const std::array<Vec3, 8>& points, int q)
 {
   const Quadrature_rule& rule = quadrature_rule(kind);

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The optimization with its two promises: no element above the quality bound, and no faces that cut each
+// The optimization with its two guarantees: no element above the quality bound, and no faces that cut each
 // other.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_BOUNDED_OPTIMIZATION_H
@@ -34,19 +34,19 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-Runs the optimization as often as it takes, each time from the start, and takes the result within the bound
-that has most of the boundary on the surface:
+Runs the optimization as often as needed, each time from the start, and takes the result within the bound in
+which most of the boundary has arrived:
 
-- *freely*: on the way to the surface, elements may get worse than the bound, and better again; those that are
-  above the bound in the end are mended, at last by boundary vertices that leave the surface. If all of the
-  boundary arrives, and no element is above the bound in the end, as for most surfaces, that is the result;
-- *calmly*: the same, but for what draws the boundary to places that are too far;
-- *within the bound*, which no step leaves;
-- where faces cut each other in the end, once more, with their vertices *held* where they are, and each time
-  more of those around them; at last all of the boundary, which does not cut itself then if it did not at the
-  start.
+- *freely*: on the way to the surface, elements may get worse than the bound, and better again; elements above
+the bound in the end are mended, as a last resort by boundary vertices that leave the surface. If all of the
+boundary arrives, and no element is above the bound in the end, as for most surfaces, this result is taken;
+- *without attraction*: the same, but places that are too far do not draw the boundary;
+- *within the bound*, which no step exceeds;
+- where faces cut each other in the end, once more, with their vertices *held*, and each time more of the
+vertices around them; in the end all of the boundary, which then does not cut itself if it did not at the
+start.
 
-If no element is above the bound at the start, none is in the end; else none is worse than the worst of the
+The end has no element above the bound if the start has none; else none is worse than the worst one at the
 start.
 
 \tparam Quality a model of `MixedMeshQuality_3`
@@ -65,19 +65,19 @@ class Bounded_optimization
   const bool m_has_subdomains;  // or sheets
   const double m_tolerated_off; // share of the boundary vertices
   const Sharp_edges m_sharp_edges;
-  const double m_edge_length; // mean, of the boundary; any if there are no sharp edges
+  const double m_edge_length; // mean of the boundary; any value if there are no sharp edges
   const Sharp_features m_features;
-  std::vector<std::uint8_t> m_is_held; // for each vertex
+  std::vector<std::uint8_t> m_is_held; // one value for each vertex
 
-  // Between subdomains; of the length of sharp edges.
+  // Tolerated share of vertices between subdomains that have not arrived; tolerated loss of the length of
+  // sharp edges.
   static constexpr double tolerated_off_interfaces = 0.01, tolerated_loss = 0.02;
 
-  // How many rings of faces around those that cut each other are held in addition, time after time.
+  // Number of rings of faces around crossing faces that are held in addition, in successive attempts.
   static constexpr int rings[] = {0, 1, 2, 4, 8};
 
 public:
-  /// \param tolerated_off a share of the boundary vertices: if no more are off the surface, no other run is
-  ///        needed
+  /// \param tolerated_off share of the boundary vertices: if no more have not arrived, no other run is needed
   Bounded_optimization(Core_mesh& mesh, const Any_surface& domain, const Criteria& criteria,
                        const Quality& quality, double tolerated_off)
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality),
@@ -104,8 +104,8 @@ private:
   {
     Core_mesh mesh;
     Result result;
-    bool is_within = false; // the bound, and the boundary does not cut itself
-    bool is_drawn = false;  // to places that are too far
+    bool is_within = false; // within the bound, and the boundary does not cut itself
+    bool is_drawn = false;  // places that are too far draw the boundary
   };
 
   Result optimize(const std::function<bool()>& go_on)
@@ -115,7 +115,7 @@ private:
       return best.is_within ? take(best) : stopped(best.result);
     if(best.is_within && (is_fitted(best.result) || !has_bound())) // no other run would do better
       return take(best);
-    // What draws the boundary to places that are too far may be in the way, if anything does.
+    // The attraction of the boundary to places that are too far may be what keeps vertices from arriving.
     if(best.is_drawn) {
       Outcome calm = optimize_freely(true, go_on);
       if(calm.result.status == Status::STOPPED)
@@ -144,7 +144,7 @@ private:
     return outcome.result;
   }
 
-  // Elements may get worse than the bound on the way.
+  // Optimizes with elements that may get worse than the bound on the way.
   Outcome optimize_freely(bool is_calm, const std::function<bool()>& go_on) const
   {
     Outcome outcome;
@@ -160,7 +160,7 @@ private:
     return outcome;
   }
 
-  // The mesh is the start: what had arrived has come back.
+  // The result of a stopped run. The mesh is the start: vertices that had arrived have come back.
   static Result stopped(Result result)
   {
     result.number_of_arrived_vertices = result.number_of_flips = result.number_of_bisections =
@@ -168,7 +168,7 @@ private:
     return result;
   }
 
-  // Vertices, and sharp edges where they are lost, of that length.
+  // The number of vertices that have not arrived, plus the lost length of sharp edges in lengths of edges.
   double number_off(const Result& r) const
   {
     const double lost = r.length_of_sharp_edges - r.length_of_sharp_edges_kept;
@@ -176,8 +176,8 @@ private:
            + (lost > 0 ? lost / m_edge_length : 0);
   }
 
-  // Between subdomains and on sheets a few vertices are often held back from both sides: another run would
-  // rarely help.
+  // Whether the boundary is fitted well enough. Between subdomains and on sheets a few vertices are often
+  // kept from arriving from both sides: another run would rarely help.
   bool is_fitted(const Result& r) const
   {
     const double tolerated = m_tolerated_off * double(r.number_of_boundary_vertices);
@@ -185,12 +185,12 @@ private:
            && number_off(r) <= tolerated + tolerated_loss * r.length_of_sharp_edges / m_edge_length;
   }
 
-  // Within the bound, and until no faces cut each other.
+  // Optimizes within the bound, and repeats until no faces cut each other.
   Result optimize_within(Core_mesh& mesh, const std::function<bool()>& go_on)
   {
     for(std::size_t i = 0;; ++i) {
       mesh = m_mesh;
-      const Fitting_mode mode{true, true}; // where that is hard, drawing the boundary would make it harder
+      const Fitting_mode mode{true, true}; // the attraction would make a hard case harder
       const Fitting_outcome fitted = optimize_surface(mesh, m_domain, m_criteria, m_quality, mode, m_features,
                                                       m_is_held, go_on);
       const Result& result = fitted.result;
@@ -204,7 +204,7 @@ private:
     }
   }
 
-  // Of the boundary.
+  // Mean edge length of the boundary.
   double mean_edge_length() const
   {
     double sum = 0;
@@ -228,7 +228,7 @@ private:
   void hold(const std::vector<Vertex_index>& vertices, int number_of_rings)
   {
     for(Vertex_index v : vertices)
-      if(v < m_is_held.size()) // the others are between them
+      if(v < m_is_held.size()) // new vertices are between these
         m_is_held[v] = 1;
     for(int ring = 0; ring < number_of_rings; ++ring) {
       const std::vector<std::uint8_t> is_inner = m_is_held;
@@ -261,7 +261,7 @@ private:
   }
 };
 
-/// Runs it, for any quality.
+/// Runs the optimization, for any quality.
 template <class Quality>
 Mixed_mesh_optimization_result_3 optimize_bounded(Core_mesh& mesh, const Any_surface& surface,
                                                   const Mixed_mesh_optimization_criteria_3& criteria,

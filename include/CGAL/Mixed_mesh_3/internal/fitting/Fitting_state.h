@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The state that the passes of the optimization share: the mesh, what draws its boundary, and who has
-// arrived.
+// The state that the passes of the optimization share: the mesh, the attraction of its boundary, and the
+// vertices that have arrived.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_FITTING_STATE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_FITTING_STATE_H
@@ -40,29 +40,30 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The quality bound of the criteria, a little less: a cost within it in doubles is within the bound exactly.
-/// The relative error of the cost of an element near to the default bound is some 1e-13.
+/// The quality bound of the criteria, slightly reduced: a cost within the reduced bound in doubles is within
+/// the bound exactly. The relative error of the cost of an element near to the default bound is some 1e-13.
 inline double bound_for_doubles(const Mixed_mesh_optimization_criteria_3& criteria)
 {
   return (1 - 1e-10) * criteria.quality_bound();
 }
 
-/// Which liberties a run of the optimization takes.
+/// The liberties that a run of the optimization takes.
 struct Fitting_mode
 {
-  /// Every step keeps the quality bound. Else elements may exceed it on the way, and are mended in the end.
+  /// Whether every step keeps the quality bound. Otherwise elements may exceed the bound on the way, and are
+  /// mended in the end.
   bool keeps_bound = false;
-  /// Boundary vertices are not drawn to places that are too far, which are measured only; edges are bisected
-  /// late.
+  /// Whether boundary vertices are not drawn to places that are too far, which are only measured; edges are
+  /// bisected late.
   bool is_calm = false;
 };
 
 /*!
-Vertices of the boundary are *underway* until they have *arrived* on the surface; those that are *held* stay
-where they are. Interfaces between subdomains are brought onto their surfaces like the boundary.
+Vertices of the boundary are *underway* until they have *arrived* on the surface; *held* vertices stay where
+they are. Interfaces between subdomains are brought onto their surfaces like the boundary.
 
-The passes are functions of this state. They change elements only by the moves, and call `update_boundary()`
-after they have changed faces of the boundary.
+The passes are functions of this state. A pass changes elements only by the moves, and calls
+`update_boundary()` after it has changed faces of the boundary.
 
 \tparam Quality a model of `MixedMeshQuality_3`
 */
@@ -74,12 +75,12 @@ struct Fitting_state
   using Flipper = Tetrahedron_flipper<Quality>;
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  // Costs are ratios, 1 for the ideal element: no limit of a cost has a unit. Such limits decide how soon and
-  // how far bad elements are tolerated, never whether a mesh is valid: that each move proves. Once the
-  // boundary has arrived, nothing gets worse than this one, for the sake of the tolerance for example.
+  // Largest acceptable cost once the boundary has arrived, for the sake of the tolerance for example. Costs
+  // are ratios, 1 for the ideal element: no limit of a cost has a unit. Such limits decide how soon and how
+  // far bad elements are tolerated, never whether a mesh is valid: each move proves validity.
   static constexpr double acceptable_in_the_end = 3;
-  static constexpr int sweeps_to_follow = 2; // of inner vertices, after the boundary has moved
-  // No half of a bisected tetrahedron may cost more.
+  static constexpr int sweeps_to_follow = 2; // sweeps over inner vertices, after the boundary has moved
+  // Largest cost of a half of a bisected tetrahedron.
   static constexpr double worst_half = 3.2;
 
   const Any_surface& domain;
@@ -88,7 +89,7 @@ struct Fitting_state
   Fitting_mode mode;
   Strata strata;
   Surface_projection project;
-  Interface_faces boundary; // interfaces, too
+  Interface_faces boundary; // and of interfaces
   Working_mesh mesh;
   const Optimization_effort effort;
   Moves moves;
@@ -97,14 +98,14 @@ struct Fitting_state
   const std::vector<Surface_sample> samples;
   Surface_attraction<Surface_projection> attraction;
   const Sharp_features* features = nullptr;
-  std::vector<std::pair<Vertex_index, Vec3>> underway; // with their targets
+  std::vector<std::pair<Vertex_index, Vec3>> underway; // vertices with their targets
   std::vector<std::uint8_t> is_arrived;
   std::vector<std::uint8_t> is_held;
-  // Positions at which no faces cut each other: at the start, then the last time that was seen; and which
-  // vertices had arrived. New vertices are given those between the ends of their edges.
+  // Positions at which no faces cut each other, at the start or at the last such test, and the vertices that
+  // had arrived. New vertices get positions between the ends of their edges.
   std::vector<Vec3> simple_points;
   std::vector<std::uint8_t> simple_is_arrived;
-  std::vector<Vec3> feature_places; // where vertices start to look for their targets, if there are features
+  std::vector<Vec3> feature_places; // starts of the search for targets, if there are features
   Mixed_mesh_optimization_result_3 result;
 
   Fitting_state(const Core_mesh& start, const Any_surface& surface, const Criteria& c, const Quality& q,
@@ -138,21 +139,21 @@ struct Fitting_state
 
   Subdomain_index first_subdomain(Stratum of_face) const { return strata.interfaces(of_face)[0].first; }
 
-  /// After faces of the boundary have changed.
+  /// Updates the boundary after its faces have changed.
   void update_boundary()
   {
     boundary = mesh.interface_faces(strata);
     attract_boundary();
   }
 
-  /// All distances will be measured again.
+  /// Sets the boundary of the attraction: all distances will be measured again.
   void attract_boundary()
   {
     attraction.set_boundary(without_sheets(), [this](Stratum s) { return tolerances(first_subdomain(s)); });
   }
 
-  /// Room for vertices that the mesh has more than before.
-  /// \param have_arrived whether they are on the surface
+  /// Makes room for vertices that the mesh has more than before.
+  /// \param have_arrived whether the new vertices are on the surface
   void add_vertices(bool have_arrived)
   {
     is_arrived.resize(mesh.points.size(), have_arrived);
@@ -161,7 +162,7 @@ struct Fitting_state
     moves.add_vertices();
   }
 
-  /// The boundary vertices underway go on.
+  /// Moves the boundary vertices that are underway.
   void advance(double acceptable)
   {
     underway.erase(std::remove_if(underway.begin(), underway.end(),
@@ -169,7 +170,8 @@ struct Fitting_state
                    underway.end());
   }
 
-  /// A vertex that does not reach its target may reach the surface where it has come near to it.
+  /// Chooses new targets: a vertex that does not reach its target may reach the surface where it has come
+  /// near.
   void choose_new_targets()
   {
     for(auto& [v, target] : underway)
@@ -177,7 +179,7 @@ struct Fitting_state
   }
 
   /// Moves a vertex to its target, or a part of the way.
-  /// \return whether it has arrived
+  /// \return whether the vertex has arrived
   bool move_to(Vertex_index v, const Vec3& target, double acceptable)
   {
     if(moves.try_move(v, target, acceptable)) {
@@ -205,7 +207,7 @@ struct Fitting_state
     return off;
   }
 
-  /// A vertex gives up the sharp edge or corner that it was to be on.
+  /// Releases a vertex from the sharp edge or corner that it was to be on.
   void leave_feature(Vertex_index v)
   {
     mesh.strata[v] = boundary_stratum;
@@ -225,7 +227,7 @@ struct Fitting_state
   /// The vertices of faces of the boundary that cut each other, ascending.
   std::vector<Vertex_index> crossing_vertices() const
   {
-    // interfaces can not cut anything where no element is inverted
+    // Interfaces can not cut anything if no element is inverted.
     std::vector<Face> faces;
     for(std::size_t f = 0; f < boundary.faces.size(); ++f)
       if(strata.is_on_boundary(boundary.strata[f]))
@@ -233,7 +235,8 @@ struct Fitting_state
     return vertices_of_self_intersections(mesh.points, faces);
   }
 
-  /// \return the number of vertices of faces that cut each other; if it is 0, all positions are remembered
+  /// Remembers all positions if no faces cut each other. \return the number of vertices of faces that cut
+  /// each other
   std::size_t remember_if_simple()
   {
     const std::size_t crossing = crossing_vertices().size();
@@ -244,7 +247,7 @@ struct Fitting_state
     return crossing;
   }
 
-  /// Positions, and what has been achieved with them.
+  /// Positions, and the progress that was achieved with them.
   struct Snapshot
   {
     std::vector<Vec3> points;
@@ -259,7 +262,7 @@ struct Fitting_state
     return {mesh.points, is_arrived, underway, result.number_of_arrived_vertices, moves.freedom()};
   }
 
-  /// \pre the elements are those of the snapshot
+  /// Restores a snapshot. \pre the elements are those of the snapshot
   void restore(const Snapshot& s)
   {
     mesh.points = s.points;
@@ -272,7 +275,7 @@ struct Fitting_state
   }
 
 private:
-  // The faces that are on a surface. Distant places of a surface do not draw sheets.
+  // The faces of the boundary without sheets. Distant places of a surface do not draw sheets.
   Interface_faces without_sheets() const
   {
     if(!domain.has_sheets())
@@ -301,14 +304,15 @@ private:
     return means;
   }
 
-  // At the start; 0 where there is none.
+  // Mean edge length at the start; 0 where there is none.
   double mean_edge_length(Subdomain_index first) const
   {
     const auto found = mean_edge_lengths.find(first);
     return found == mean_edge_lengths.end() ? 0 : found->second;
   }
 
-  // A distance of less than a tenth of an edge is the curvature of the surface: no sliding brings it nearer.
+  // Tolerances, at least a tenth of an edge: a smaller distance is due to the curvature of the surface, and
+  // no sliding reduces such a distance.
   Surface_tolerances enlarged_tolerances() const
   {
     Surface_tolerances t(domain, criteria.tolerance(), mesh.points.size());
@@ -316,7 +320,8 @@ private:
     return t;
   }
 
-  // Much closer samples than the boundary's vertices could not draw these to different places.
+  // Samples of the surface. Samples much closer than the boundary's vertices could not draw these to
+  // different places.
   std::vector<Surface_sample> surface_samples() const
   {
     if(!(criteria.tolerance() > 0))

@@ -17,29 +17,30 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-How much is done for each vertex: the less the more there are. Of many vertices most are inside, where much
-time gains little. In pairs: at the fourth power of the costs, which serves all elements, and at the eighth,
-which serves the worst ones: vertices whose elements are all better than what is good enough stay then.
+Effort for each vertex: the more vertices, the less effort. Most of many vertices are inside, where much time
+gains little. Pairs are for the fourth power of the costs, which serves all elements, and the eighth, which
+serves the worst ones: vertices whose elements are all better than `good_enough` stay.
 */
 struct Optimization_effort
 {
   double good_enough_to_arrive = 1.02, good_enough[2] = {1.02, 1.4};
-  double notable_gain = 3e-3; ///< that wakes the neighbors of a vertex, as a share of its sum
-  double first_step = 0.1;    ///< as a share of the shortest edge
-  double step_growth = 1.5;   ///< of steps that succeed
-  int sweeps[2] = {8, 8};     ///< of a round, if rounds are few
+  double notable_gain = 3e-3; ///< gain that wakes the neighbors of a vertex, as a share of its sum
+  double first_step = 0.1;    ///< first step, as a share of the shortest edge
+  double step_growth = 1.5;   ///< growth of steps that succeed
+  int sweeps[2] = {8, 8};     ///< sweeps of a round, if rounds are few
   bool moves_by_colors = false;
-  int layers = 0;                ///< of elements at the boundary: beyond, an octree is good as it is; 0: all
-  bool samples_coarsely = false; ///< of the distance to the surface
+  int layers = 0;                ///< layers of elements at the boundary; beyond, the octree stays; 0: all
+  bool samples_coarsely = false; ///< samples of the distance to the surface
   double share_of_late_bisections = 0.3;
 
-  // With 50,000 vertices, the thresholds of smaller meshes would take a third more time, for a mean
-  // aspect-ratio coefficient of 1.378 instead of 1.381; shorter steps and more sweeps a quarter more moves,
-  // for 1.389 instead of 1.390. With 100,000, a notable gain of 0.02 a fifth fewer, for 1.343 instead of
-  // 1.340.
+  // Number of vertices above which thresholds are larger. With 50,000 vertices, the thresholds of smaller
+  // meshes would take a third more time, for a mean aspect-ratio coefficient of 1.378 instead of 1.381;
+  // shorter steps and more sweeps would take a quarter more moves, for 1.389 instead of 1.390. With 100,000,
+  // a notable gain of 0.02 would take a fifth fewer moves, for 1.343 instead of 1.340.
   static constexpr std::size_t many = 20000;
-  // With 200,000, what is above takes 2.2 times as long, for a mean of 1.343 instead of 1.379: half of the
-  // moves were in the fourth layer and beyond, or gained less than a tenth of what others did.
+  // Number of vertices above which the effort is least. With 200,000, the values above would take 2.2 times
+  // as long, for a mean of 1.343 instead of 1.379: half of the moves were in the fourth layer and beyond, or
+  // gained less than a tenth of what others did.
   static constexpr std::size_t very_many = 100000;
 
   explicit Optimization_effort(std::size_t number_of_vertices)

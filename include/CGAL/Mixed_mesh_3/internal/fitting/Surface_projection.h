@@ -25,8 +25,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Points of the surfaces of a domain near given ones: the closest ones, where a stratum is on one interface.
-/// For several threads at once where `is_concurrent()`.
+/// Points of the surfaces of a domain near given points: the closest ones, if a stratum is on one interface.
+/// Several threads may project at once where `is_concurrent()`.
 class Surface_projection
 {
   using Point_3 = Any_surface::Point_3;
@@ -35,27 +35,27 @@ class Surface_projection
   const Strata* m_strata;
   const Sharp_features* m_features = nullptr;
   int m_maximal_number_of_cycles = 20;
-  // On the surface of each interface, by its first subdomain and whether it is to the outside, what was found
-  // last: one query is near to the one before, mostly. Of several subdomains.
+  // The last point found on the surface of each interface, by its first subdomain and whether the interface
+  // is to the outside: a query is mostly near to the one before. For several subdomains only.
   mutable std::map<std::pair<Subdomain_index, bool>, Vec3> m_last;
 
   static constexpr double accuracy = 1e-9;      // in diagonals of the domain
-  static constexpr double least_progress = 0.7; // surfaces that do not meet there are given up soon
+  static constexpr double least_progress = 0.7; // the search ends soon where surfaces do not meet
 
   static Point_3 point(const Vec3& p) { return Point_3(p[0], p[1], p[2]); }
 
 public:
-  /// \param strata to be kept by the caller
+  /// \param strata strata, to be kept by the caller
   Surface_projection(const Any_surface& domain, const Strata& strata) : m_domain(&domain), m_strata(&strata)
   {
   }
 
-  /// Strata from `first_sharp_stratum` on are on those polylines, or at those corners, then. To be kept by
-  /// the caller.
+  /// Sets the features: strata from `first_sharp_stratum` on are on their polylines, or at their corners,
+  /// then. The caller has to keep the features.
   void set_features(const Sharp_features& features) { m_features = &features; }
 
-  /// Where several interfaces meet, one cycle of projections does from now on: what is found is near the
-  /// place where they do, rather than there. For estimates.
+  /// Limits projections to one cycle where several interfaces meet: the point found is then near the place
+  /// where the interfaces meet, rather than there. For estimates.
   void set_approximate() { m_maximal_number_of_cycles = 1; }
 
   Vec3 operator()(const Vec3& p, Stratum stratum) const
@@ -68,7 +68,7 @@ public:
     return interfaces.size() == 1 ? closest(p, interfaces[0]) : junction(p, interfaces);
   }
 
-  /// Faster if `hint`, a point of the same stratum, is near.
+  /// Projects a point; faster if `hint`, a point of the same stratum, is near.
   Vec3 operator()(const Vec3& p, const Vec3& hint, Stratum stratum) const
   {
     if(stratum >= first_sharp_stratum)
@@ -85,7 +85,7 @@ public:
     return stratum >= first_sharp_stratum || m_strata->interfaces(stratum).size() < 2;
   }
 
-  /// Whether what the projection gave is on all interfaces: where several meet, it need not be.
+  /// Whether a projected point is on all interfaces: where several interfaces meet, the point need not be.
   bool is_reached(const Vec3& p, Stratum stratum) const
   {
     if(stratum >= first_sharp_stratum || !m_domain->is_labeled())
@@ -125,7 +125,7 @@ private:
 
   Vec3 closest(const Vec3& p, const Vec3& hint, const Interface& i) const
   {
-    if(i.is_sheet()) // a hint is on one of them only
+    if(i.is_sheet()) // the hint is on one of the sheets only
       return m_domain->sheets().size() > 1
                ? closest(p, i)
                : to_vec3(m_domain->sheets().front()->closest_point(point(p), point(hint)));
@@ -144,9 +144,9 @@ private:
     return nearest;
   }
 
-  // Alternating projections. Between two planes each cycle is shorter than the one before by the square of
-  // the cosine of their angle, so that one cycle tells where they lead. Where surfaces do not meet nearby,
-  // the mean of the closest points on each.
+  // Common point of several surfaces, by alternating projections. Between two planes each cycle is shorter
+  // than the one before by the square of the cosine of their angle, so that one cycle tells the limit. If
+  // surfaces do not meet nearby, the result is the mean of the closest points on each surface.
   Vec3 junction(const Vec3& start, const std::vector<Interface>& interfaces) const
   {
     Vec3 p = closest(start, interfaces[0]);
@@ -163,7 +163,7 @@ private:
       last = there;
       const Vec3 back = closest(q, interfaces[0]);
       const double ratio = norm(back - q) / there, share = 1 - ratio * ratio;
-      // steep angles only: where surfaces touch, it would lead far away
+      // The extrapolation is for steep angles only: it would lead far away where surfaces touch.
       p = closest(share > 0.05 ? p + (1 / share) * (back - p) : back, interfaces[0]);
     }
     if(m_maximal_number_of_cycles == 1)

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How far from the mesh the surfaces of a domain may be, and points of them where that is measured.
+// Tolerated distances of the surfaces of a domain from the mesh, and samples of the surfaces for measurement.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_TOLERANCES_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_TOLERANCES_H
@@ -39,7 +39,7 @@ struct Surface_sample
 };
 
 /*!
-One tolerance for the surface around all; those of subdomains within are smaller, as a tumor or a ventricle
+One tolerance for the outer surface; the tolerances of inner subdomains are smaller, as a tumor or a ventricle
 may be no larger than what a brain may lack at its furrows. The volume that a convex body with n vertices
 loses is in proportion to its area times \f$ n^{-2/3} \f$, and area by volume is four by the mean chord
 (Cauchy): the tolerance is a multiple of the mean chord times \f$ n^{-2/3} \f$.
@@ -50,9 +50,10 @@ class Surface_tolerances
   std::size_t m_number_of_vertices;
   std::map<Subdomain_index, double> m_smaller;
 
-  // With less, the parts of a brain would take cells that its surface and the region lack.
+  // Multiple of the mean chord: with a smaller one, the parts of a brain would take cells that its surface
+  // and the region lack.
   static constexpr double share_of_chord = 3;
-  // About ten samples of a face are enough; a few subdomains have fewer.
+  // Number of samples: about ten samples of a face are enough; a few subdomains have fewer.
   static constexpr std::size_t samples_per_vertex = 20, least_samples = 50000;
 
 public:
@@ -66,7 +67,7 @@ public:
                                                      * std::pow(double(number_of_vertices), -2. / 3));
   }
 
-  /// Smaller tolerances become at least that much, `double(Subdomain_index)`.
+  /// Enlarges smaller tolerances to at least `double(Subdomain_index)`.
   template <class Least>
   void enlarge(const Least& least)
   {
@@ -81,11 +82,11 @@ public:
     return found == m_smaller.end() ? m_tolerance : found->second;
   }
 
-  /// How much more a distance counts than at the surface around all.
+  /// Weight of a distance, relative to a distance at the outer surface.
   double weight(Subdomain_index first) const { return m_tolerance > 0 ? m_tolerance / (*this)(first) : 1; }
 
-  /// \param least_spacing `double(Subdomain_index)`: closer samples would not serve; else, they are at a
-  ///        distance of twice the tolerance, as closer ones are rarely farther off
+  /// \param least_spacing `double(Subdomain_index)`: closer samples would not serve; else, samples are at a
+  ///        distance of twice the tolerance, as closer samples are rarely farther from the mesh
   template <class Spacing>
   std::vector<Surface_sample> samples(const Any_surface& domain, const Spacing& least_spacing) const
   {
@@ -100,7 +101,7 @@ public:
       for(Subdomain_index index : indices)
         add(domain.surface_samples((std::max)(2 * (*this)(index), least_spacing(index)), index),
             (*this)(index));
-      // queries about one after the other are faster where they are near
+      // Queries in succession are faster where they are near to each other.
       if(indices.size() > 2) {
         sort_along_curve(result);
         thin_out(result);
@@ -112,7 +113,7 @@ public:
   }
 
 private:
-  // Of many subdomains: evenly, as they are sorted along a curve.
+  // Thins out the samples of many subdomains, evenly, as the samples are sorted along a curve.
   void thin_out(std::vector<Surface_sample>& samples) const
   {
     const std::size_t most = samples_per_vertex * m_number_of_vertices + least_samples,

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Which vertices of a mesh may move at the same time.
+// Coloring of the vertices of a mesh: vertices of one color may move at the same time.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_VERTEX_COLORING_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_VERTEX_COLORING_H
@@ -23,22 +23,22 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Colors of vertices, such that those of an element differ: the first that is free, in the order of the
-/// elements, so that they depend on the mesh only. Elements that are new are looked at only.
+/// Colors of vertices, such that the vertices of an element differ: the first free color, in the order of the
+/// elements, so that the colors depend on the mesh only. Only new elements are examined.
 class Vertex_coloring
 {
   using Color = std::uint32_t;
 
-  std::vector<Color> m_colors;                       // of each vertex
-  std::vector<std::vector<Vertex_index>> m_vertices; // of each color, ascending
-  std::vector<std::size_t> m_last_seen;              // of each color: when a vertex could not have it
+  std::vector<Color> m_colors;                       // color of each vertex
+  std::vector<std::vector<Vertex_index>> m_vertices; // vertices of each color, ascending
+  std::vector<std::size_t> m_last_seen;              // last search in which each color was taken
   std::size_t m_number_of_elements = 0, m_number_of_searches = 0;
 
   static constexpr Color none = Color(-1);
 
 public:
   /// \par Complexity
-  /// Proportional to the number of vertices, and of neighbors of those that get a color
+  /// Proportional to the number of vertices, and of neighbors of the vertices that get a color
   void update(const Working_mesh& mesh)
   {
     if(m_number_of_elements == mesh.elements.size())
@@ -58,7 +58,7 @@ public:
         m_vertices[m_colors[v]].push_back(v);
   }
 
-  /// The vertices of each color, ascending. Those without elements have none.
+  /// The vertices of each color, ascending. Vertices without elements have no color.
   const std::vector<std::vector<Vertex_index>>& vertices() const { return m_vertices; }
 
 private:

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Moves vertices, one by one, to where the elements around them are best.
+// Optimization of vertices: each vertex moves to where the elements around it are best.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_VERTEX_OPTIMIZER_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_VERTEX_OPTIMIZER_H
@@ -33,7 +33,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// A mark that several threads may set at the same time, but only one reads then.
+/// A mark that several threads may set at the same time, but that only one thread reads later.
 class Shared_mark
 {
   std::atomic<bool> m_is_set;
@@ -50,7 +50,8 @@ public:
   operator bool() const { return m_is_set.load(std::memory_order_relaxed); }
 };
 
-/// What draws a boundary vertex to a place: `weight` times the squared distance adds to what is minimized.
+/// The attraction of a boundary vertex to a place: `weight` times the squared distance is added to the
+/// energy.
 struct Attraction
 {
   Vec3 place{};
@@ -58,18 +59,18 @@ struct Attraction
 };
 
 /*!
-Descends, vertex after vertex, on the sum of the powers of the costs of the elements around it. A move is made
-only if that sum falls, none of these elements gets a cost above the bound (or, where one has, above the worst
-one), and all are proved positive: neither validity nor the bound is ever left.
+Descends, vertex after vertex, on the sum of the powers of the costs of the elements around a vertex. A move
+is made only if the sum falls, none of these elements gets a cost above the bound (or, if one is above
+already, above the worst one), and all are proved positive: validity and the bound are always kept.
 
 Boundary vertices slide on the surface, and only where an element is bad (free sliding would lose volume) or
 an attraction draws them.
 
-By default vertices move in the order of their numbers; or by colors: those of one color share no element, so
-that several threads move them, with the same result as one.
+Vertices move in the order of their numbers by default; or by colors: vertices of one color share no element,
+so that several threads move them, with the same result as one thread.
 
 \tparam Quality a model of `MixedMeshQuality_3`
-\tparam Project as `Surface_projection`
+\tparam Project projection like `Surface_projection`
 */
 template <class Quality, class Project>
 class Vertex_optimizer
@@ -79,14 +80,14 @@ class Vertex_optimizer
   const Project& m_project;
   const double m_worth_sliding;
   double m_bound;
-  std::vector<double> m_radii;          // of the next trial step of each vertex; 0: not known
-  std::vector<Shared_mark> m_is_active; // whether it may have something to gain
+  std::vector<double> m_radii;          // next trial step of each vertex; 0: not known
+  std::vector<Shared_mark> m_is_active; // whether a move may gain something
   std::vector<std::uint8_t> m_is_fixed;
   std::vector<std::uint8_t> m_is_loose;  // boundary vertices that need not stay on the surface
-  std::vector<std::uint8_t> m_is_inside; // where only bad elements count
+  std::vector<std::uint8_t> m_is_inside; // vertices where only bad elements count
   std::vector<Attraction> m_attractions; // one for each vertex, or none
-  std::vector<double> m_costs;           // of each element; negative: not known
-  std::vector<double> m_trial_costs;     // of those around a vertex that is moved: none moves beside it
+  std::vector<double> m_costs;           // cost of each element; negative: not known
+  std::vector<double> m_trial_costs;     // costs around a vertex that is moved: none moves beside it
   Vertex_coloring m_coloring;
   unsigned m_threads = 0; // 0: without colors
   double m_power = 4;
@@ -94,13 +95,13 @@ class Vertex_optimizer
   double m_notable_gain = 3e-3, m_first_step = 0.1, m_growth = 1.5;
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  // Steps grow and shrink by how they succeed.
+  // Steps grow when they succeed, and shrink when they fail.
   static constexpr double shrinkage = 0.4, smallest_step = 0.01;
   static constexpr std::size_t moves_worth_a_thread = 64;
 
 public:
-  /// \param worth_sliding boundary vertices slide if an element has a larger cost
-  /// \param bound no element gets a larger cost
+  /// \param worth_sliding cost of an element above which boundary vertices slide
+  /// \param bound largest cost that an element may get
   Vertex_optimizer(Working_mesh& mesh, const Quality& quality, const Project& project, double worth_sliding,
                    double bound)
     : m_mesh(mesh), m_quality(quality), m_project(project), m_worth_sliding(worth_sliding), m_bound(bound),
@@ -111,22 +112,23 @@ public:
       m_is_fixed[v] = mesh.is_on_boundary(v);
   }
 
-  /// From now on, no element gets a larger cost.
+  /// Sets the largest cost that an element may get from now on.
   void set_bound(double cost) { m_bound = cost; }
 
-  /// The gain that wakes the neighbors of a vertex, as a share of its sum. Default: 0.003.
+  /// Sets the gain that wakes the neighbors of a vertex, as a share of its sum. Default: 0.003.
   void set_notable_gain(double share) { m_notable_gain = share; }
 
-  /// The first trial step of a vertex, as a share of the shortest edge, and by what one that succeeds grows.
-  /// Default: 0.1, 1.5.
+  /// Sets the first trial step of a vertex, as a share of the shortest edge, and the growth of a step that
+  /// succeeds. Default: 0.1, 1.5.
   void set_steps(double first, double growth)
   {
     m_first_step = first;
     m_growth = growth;
   }
 
-  /// Vertices that are more than `layers` layers of elements away from the boundary, and not in tetrahedra
-  /// only, stay where no element has a larger cost: they are those of an octree, which is good as it is.
+  /// Sets the cost that is good enough inside: vertices that are more than `layers` layers of elements away
+  /// from the boundary, and not in tetrahedra only, stay where no element has a larger cost. They are
+  /// vertices of an octree, which is good enough.
   void set_good_enough_inside(double cost, int layers)
   {
     m_good_enough_inside = cost;
@@ -147,10 +149,10 @@ public:
           m_is_inside[v] = !is_near[v];
   }
 
-  /// From now on, vertices move by colors.
+  /// Moves vertices by colors from now on.
   void use_colors(unsigned threads) { m_threads = threads; }
 
-  /// Vertices that the mesh has more than before are free to move.
+  /// Makes vertices that the mesh has more than before free to move.
   void add_vertices()
   {
     m_radii.resize(m_mesh.points.size(), 0);
@@ -160,29 +162,29 @@ public:
     m_is_inside.resize(m_mesh.points.size(), 0);
   }
 
-  /// Boundary vertices are fixed until they are on the surface.
+  /// Releases a boundary vertex: boundary vertices are fixed until they are on the surface.
   void release(Vertex_index v) { m_is_fixed[v] = m_is_loose[v] = 0; }
   void fix(Vertex_index v) { m_is_fixed[v] = 1; }
-  /// From now on it may move off the surface, until it is released.
+  /// Lets a vertex move off the surface, until it is released.
   void loosen(Vertex_index v)
   {
     m_is_fixed[v] = 0;
     m_is_loose[v] = 1;
   }
 
-  /// Steps that failed have become short: the next ones are long again.
+  /// Makes the next steps long again: steps that failed have become short.
   void reset_steps() { std::fill(m_radii.begin(), m_radii.end(), 0); }
 
-  /// To be called when positions were changed from outside.
+  /// Forgets costs. To be called when positions were changed from outside.
   void forget_costs() { m_costs.clear(); }
-  /// To be called when elements were changed to what they were before.
+  /// Forgets elements. To be called when elements were changed to what they were before.
   void forget_elements()
   {
     m_costs.clear();
     m_coloring = Vertex_coloring();
   }
 
-  /// Which vertices are fixed, and which need not stay on the surface.
+  /// The vertices that are fixed, and those that need not stay on the surface.
   struct Freedom
   {
     std::vector<std::uint8_t> is_fixed, is_loose;
@@ -213,8 +215,8 @@ public:
         activate_around(v);
   }
 
-  /// Sweeps over the active vertices, until none is or often enough.
-  /// \param good_enough vertices stay where no element has a larger cost
+  /// Sweeps over the active vertices, until none is active or the number of sweeps is reached.
+  /// \param good_enough cost: vertices stay if no element has a larger cost
   void run(double power, double good_enough, int sweeps)
   {
     m_power = power;
@@ -239,7 +241,7 @@ public:
   }
 
   /// Moves a vertex if all elements around it stay positive, and none gets worse than `acceptable` and the
-  /// bound, or than the worst of them is.
+  /// bound, or than the worst of these elements is.
   bool try_move(Vertex_index v, const Vec3& p, double acceptable)
   {
     double limit = (std::min)(acceptable, m_bound);
@@ -265,7 +267,7 @@ public:
   }
 
 private:
-  // \return whether a vertex moved
+  // Moves each active vertex once. \return whether a vertex moved
   bool sweep()
   {
     bool moved = false;
@@ -305,7 +307,7 @@ private:
     return m_quality(m_mesh.elements[e].kind, m_mesh.relative_points(m_mesh.elements[e]));
   }
 
-  // Flips add elements.
+  // The cost of an element, which may be new: flips add elements.
   double known_cost(Element_index e)
   {
     if(e >= m_costs.size())
@@ -315,7 +317,7 @@ private:
     return m_costs[e];
   }
 
-  // The trial position is the new one.
+  // Accepts the trial position as the new position.
   void accept(Vertex_index v)
   {
     CGAL_assertion(is_valid(v));
@@ -329,7 +331,7 @@ private:
                        [&](Element_index e) { return m_mesh.is_positive(m_mesh.elements[e]); });
   }
 
-  // Of the attraction; where there is none the weight is 0.
+  // The attraction of a vertex; the weight is 0 if there is none.
   Attraction attraction(Vertex_index v) const
   {
     return v < m_attractions.size() ? m_attractions[v] : Attraction();
@@ -346,7 +348,7 @@ private:
   struct Star_element
   {
     Element_kind kind;
-    std::uint8_t size, position; // of that vertex
+    std::uint8_t size, position; // position of the moved vertex
     std::array<std::array<double, 3>, 8> points;
 
     Element_points relative_points() const

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The first pass: the boundary arrives on the surface, as far as validity and quality allow.
+// The first pass: the boundary vertices arrive on the surface, as far as validity and quality allow.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_ARRIVE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_ARRIVE_H
@@ -25,7 +25,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Boundary vertices that are not held get targets on the surface.
+/// Sets targets on the surface for boundary vertices that are not held.
 template <class Quality>
 void set_targets(Fitting_state<Quality>& s)
 {
@@ -36,7 +36,7 @@ void set_targets(Fitting_state<Quality>& s)
     const Vertex_index v = targets.vertices[i];
     if(s.is_held[v])
       continue;
-    // a vertex that is on the surface stays, even if its faces are folded
+    // A vertex that is on the surface stays, even if its faces are folded.
     const Vec3& p = s.mesh.points[v];
     const Vec3 q = s.project(p, targets.positions[i], s.mesh.strata[v]);
     const bool is_there = norm(q - p) <= 1e-14 * (norm(p) + norm(targets.positions[i] - p));
@@ -44,7 +44,7 @@ void set_targets(Fitting_state<Quality>& s)
   }
 }
 
-/// The vertices stay where they are, and are underway no more.
+/// Makes vertices held: they stay where they are, and are no longer underway.
 template <class Quality>
 void leave_behind(Fitting_state<Quality>& s, const std::vector<Vertex_index>& vertices)
 {
@@ -57,21 +57,21 @@ void leave_behind(Fitting_state<Quality>& s, const std::vector<Vertex_index>& ve
                    s.underway.end());
 }
 
-/// Each boundary vertex goes to its target, all the way or a part of it, as far as validity and quality
-/// allow; then the inner vertices give way, and the next round follows.
-/// \return whether it was not stopped
+/// Moves each boundary vertex to its target, all the way or a part of the way, as far as validity and quality
+/// allow; then the inner vertices are optimized, and the next round follows.
+/// \return whether the pass was not stopped
 template <class Quality>
 bool arrive(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
 {
-  // While the boundary arrives, elements may become that bad; in each round more, as a vertex that does not
-  // arrive gently shall arrive nevertheless: from 4, 15 rounds lead to 100. A smaller limit leaves more
-  // vertices off the surface, a larger one worse elements.
+  // Largest costs while the boundary arrives. The cost grows in each round, so that a vertex that does not
+  // arrive with good elements arrives with worse ones: from 4, 15 rounds lead to 100. With a smaller limit
+  // fewer vertices arrive, with a larger one elements are worse.
   constexpr double acceptable_at_first = 4, acceptable_growth = 1.25, acceptable_at_most = 100;
   constexpr int rounds = 40, rounds_for_features = 25, rounds_until_new_target = 8, rounds_until_check = 2;
 
   set_targets(s);
-  // Small steps are checked: vertices whose faces would cut others are left behind. Not without a bound:
-  // where elements may get that bad, too many would.
+  // Small steps are checked: vertices whose faces would cut others are held. There is no check without a
+  // bound: where elements may get that bad, too many vertices would be held.
   const bool is_careful = s.mode.is_calm && s.has_bound() && s.crossing_vertices().empty();
   auto simple = s.snapshot();
   double acceptable = acceptable_at_first;

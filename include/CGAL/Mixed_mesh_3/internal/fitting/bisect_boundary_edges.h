@@ -5,7 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One more vertex on the surface for one vertex: an octree has no cheaper one.
+// Bisection of boundary edges: each bisection adds one vertex on the surface; an octree has no cheaper
+// vertex.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_BISECT_BOUNDARY_EDGES_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_BISECT_BOUNDARY_EDGES_H
@@ -26,9 +27,9 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Splits the tetrahedra around an edge in two, by a new vertex at `p`, if the new ones are positive and cost
-/// at most `worst`. The new vertex is the last one, of the given stratum.
-/// \return whether it did so
+/// Splits the tetrahedra around an edge in two, by a new vertex at `p`, if the new tetrahedra are positive
+/// and cost at most `worst`. The new vertex is the last one, with the given stratum.
+/// \return whether the edge was bisected
 template <class Quality>
 bool bisect_edge(Working_mesh& mesh, const Quality& quality, Vertex_index a, Vertex_index b, const Vec3& p,
                  Stratum stratum, double worst)
@@ -62,23 +63,23 @@ bool bisect_edge(Working_mesh& mesh, const Quality& quality, Vertex_index a, Ver
 }
 
 /*!
-Bisects edges of a triangulated boundary, those with the largest gain first, and puts their middles on the
+Bisects edges of a triangulated boundary, the edges with the largest gain first, and puts their middles on the
 surface.
 
-\tparam Gain `double(a, b, apexes, stratum)`: what bisecting the edge ab gains, between triangles of the
-       stratum with these apexes; 0: nothing
-\tparam Project as `Surface_projection`
+\tparam Gain `double(a, b, apexes, stratum)`: the gain of bisecting the edge ab, between triangles of the
+stratum with these apexes; 0: no gain
+\tparam Project projection like `Surface_projection`
 */
 template <class Quality, class Project, class Gain>
 class Boundary_bisector
 {
-  using Edge = std::pair<Vertex_index, Vertex_index>; // the smaller one first
+  using Edge = std::pair<Vertex_index, Vertex_index>; // smaller vertex first
 
   struct Triangles
   {
-    std::array<Vertex_index, 2> apexes; // of two of them
+    std::array<Vertex_index, 2> apexes; // apexes of two of the triangles
     Stratum stratum;
-    bool are_alone; // no more than two, both of the stratum
+    bool are_alone; // no more than two triangles, both of the stratum
   };
 
   Working_mesh& m_mesh;
@@ -86,8 +87,8 @@ class Boundary_bisector
   const Project& m_project;
   const Gain& m_gain;
   const double m_worst;
-  std::map<Edge, Triangles> m_triangles;                // at each edge
-  std::priority_queue<std::pair<double, Edge>> m_queue; // by gain
+  std::map<Edge, Triangles> m_triangles;                // triangles at each edge
+  std::priority_queue<std::pair<double, Edge>> m_queue; // edges by gain
 
   static Edge edge(Vertex_index a, Vertex_index b) { return std::minmax(a, b); }
 
@@ -124,8 +125,9 @@ class Boundary_bisector
   }
 
 public:
-  /// \param boundary triangles, with their strata: edges between two of the same stratum are bisected
-  /// \param worst no tetrahedron may cost more
+  /// \param boundary triangles with their strata: edges between two triangles of the same stratum are
+  /// bisected
+  /// \param worst largest cost of a tetrahedron
   Boundary_bisector(Working_mesh& mesh, const Quality& quality, const Project& project, const Gain& gain,
                     const Interface_faces& boundary, double worst)
     : m_mesh(mesh), m_quality(quality), m_project(project), m_gain(gain), m_worst(worst)

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Which edges of the boundary shall become the sharp edges of the surface.
+// Paths of edges of the boundary that shall become the sharp edges of the surface.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_FEATURE_PATHS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_FEATURE_PATHS_H
@@ -35,11 +35,11 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-Each corner takes the boundary vertex that will be nearest, and each polyline, the longest first, the shortest
-path between those of its ends, where the length of an edge counts the more, the farther it is from the
-polyline. Paths have no vertex in common but at corners, and no edge past a vertex of a path joins two others
-of it: on the polyline it would fold. A path may lead through the middle of an edge too, that is bisected
-then.
+Each corner takes the boundary vertex that will be nearest, and each polyline, the longest first, takes the
+shortest path between the vertices of its ends, where the length of an edge counts the more, the farther the
+edge is from the polyline. Paths have no vertex in common but at corners, and no edge joins two vertices of a
+path past a vertex between them: such an edge would fold on the polyline. A path may lead through the middle
+of an edge too, which is bisected then.
 
 Vertices of paths get the strata of their polylines and corners, edges are noted in
 `Working_mesh::sharp_edges`.
@@ -48,32 +48,33 @@ template <class Quality>
 class Feature_paths
 {
   using Edge = Working_mesh::Edge;
-  using Node = Edge; // a vertex, twice, or the middle of an edge
+  using Node = Edge; // a vertex, twice, or an edge for its middle
 
   Working_mesh& m_mesh;
   const Quality& m_quality;
   const Sharp_features& m_features;
   const double m_worst;
   std::size_t m_bisections_left;
-  std::vector<Vec3> m_places; // of boundary vertices, where they will be
+  std::vector<Vec3> m_places; // future places of boundary vertices
   std::vector<double> m_sizes;
   std::vector<std::uint8_t> m_is_free;
-  std::vector<std::vector<Vertex_index>> m_neighbors;   // on the boundary
-  std::map<Edge, std::array<Vertex_index, 2>> m_apexes; // of the triangles at each edge
+  std::vector<std::vector<Vertex_index>> m_neighbors;   // neighbors on the boundary
+  std::map<Edge, std::array<Vertex_index, 2>> m_apexes; // apexes of the triangles at each edge
   std::set<Edge> m_whole;                               // edges that can not be bisected
-  std::vector<Vertex_index> m_corners;                  // that of each corner, or none
+  std::vector<Vertex_index> m_corners;                  // vertex of each corner, or none
   std::vector<Edge> m_bisected;
 
-  // Edges as far from the polyline as they are long count that many times as much, about; and middles more
-  // than vertices. Farther than so many sizes there is no path, and no corner takes a vertex.
+  // Weights of the length of edges: edges as far from the polyline as they are long count about `aversion`
+  // times as much, and middles count more than vertices. Limits in sizes: farther away there is no path, and
+  // no corner takes a vertex.
   static constexpr double aversion = 8, price_of_bisection = 1.8, reach = 2.5, reach_of_corners = 2;
   static constexpr int trials = 20;
 
 public:
-  /// \param boundary its faces
-  /// \param places of all vertices
-  /// \param is_blocked vertices that paths do not use
-  /// \param worst halves of bisected tetrahedra cost at most that
+  /// \param boundary faces of the boundary
+  /// \param places future places of all vertices
+  /// \param is_blocked whether paths must not use a vertex
+  /// \param worst largest cost of halves of bisected tetrahedra
   Feature_paths(Working_mesh& mesh, const Quality& quality, const Sharp_features& features,
                 const Interface_faces& boundary, std::vector<Vec3> places,
                 const std::vector<std::uint8_t>& is_blocked, double worst, std::size_t bisections)
@@ -86,7 +87,7 @@ public:
       for(int i = 0; i < v.size(); ++i) {
         const Vertex_index a = v[i], b = v[(i + 1) % v.size()];
         m_is_free[a] = !is_blocked[a];
-        m_neighbors[a].push_back(b); // the other face has it the other way round
+        m_neighbors[a].push_back(b); // the other face has the opposite direction
         std::array<Vertex_index, 2>& apexes =
           m_apexes.try_emplace(edge(a, b), std::array<Vertex_index, 2>{no_vertex, no_vertex}).first->second;
         apexes[apexes[0] == no_vertex ? 0 : 1] = v[(i + 2) % v.size()];
@@ -117,7 +118,7 @@ public:
 
   /// Edges that were bisected, in the order of their middles, which are the last vertices.
   const std::vector<Edge>& bisected() const { return m_bisected; }
-  /// Where the vertices shall be; on paths they are in order.
+  /// Future places of the vertices; the vertices of paths are in order.
   const std::vector<Vec3>& places() const { return m_places; }
 
 private:
@@ -138,7 +139,7 @@ private:
     for(Vertex_index v = 0; v < m_neighbors.size(); ++v)
       if(m_is_free[v])
         for(std::size_t c = 0; c < corners.size(); ++c) {
-          // several vertices may have the same place
+          // Several vertices may have the same place.
           const double d = norm(m_places[v] - corners[c]) + 0.1 * norm(m_mesh.points[v] - corners[c]);
           if(d < reach_of_corners * m_sizes[v] && m_neighbors[v].size() >= degrees[c])
             pairs.emplace_back(d, c, v);
@@ -182,12 +183,13 @@ private:
     }
   }
 
-  // Vertices and middles of edges that are joined by an edge, or would be after bisections; not across paths.
+  // Visits vertices and middles of edges that are joined by an edge, or would be after bisections; not across
+  // paths.
   template <class Visit>
   void for_each_neighbor(const Node& n, const Visit& visit) const
   {
     const auto middle = [&](Vertex_index a, Vertex_index b) {
-      // of a quadrilateral it may be a diagonal
+      // The edge may be a diagonal of a quadrilateral.
       if(m_bisections_left > 0 && m_apexes.count(edge(a, b)) > 0 && m_whole.count(edge(a, b)) == 0
          && !m_mesh.is_sharp(a, b))
         visit(edge(a, b));
@@ -196,7 +198,7 @@ private:
       for(Vertex_index u : m_neighbors[n.first]) {
         visit({u, u});
         for(Vertex_index w : m_apexes.at(edge(n.first, u)))
-          if(w > u) // each once
+          if(w > u) // each pair once
             middle(u, w);
       }
     } else {
@@ -216,7 +218,7 @@ private:
     struct State
     {
       double cost = std::numeric_limits<double>::infinity();
-      double distance = 0; // from the polyline
+      double distance = 0; // distance from the polyline
       Node from;
     };
     std::map<Node, State> states;
@@ -242,7 +244,7 @@ private:
         if(is_vertex(m) && !m_is_free[m.first] && m != end)
           return;
         if(m == end && n == start && m_mesh.is_sharp(first, last))
-          return; // of another polyline between the same corners
+          return; // an edge of another polyline between the same corners
         const auto [found, is_new] = states.try_emplace(m);
         State& next = found->second;
         if(is_new)
@@ -275,7 +277,7 @@ private:
     return path;
   }
 
-  // \return whether all middles are vertices now
+  // Bisects the edges of a path. \return whether all middles are vertices now
   bool bisect(std::vector<Node>& path)
   {
     for(Node& n : path) {
@@ -320,8 +322,8 @@ private:
     }
   }
 
-  // A triangle with two sharp edges that go on nearly straight would be a needle: the third edge gets a
-  // vertex that is free to move away.
+  // Bisects the third edge of triangles with two sharp edges that continue each other nearly straight: the
+  // triangle would be a needle; the new vertex is free to move away.
   void cut_short_cuts()
   {
     constexpr double straight = -0.5; // cosine of the angle between the two edges
@@ -347,7 +349,7 @@ private:
     return std::find(m_neighbors[a].begin(), m_neighbors[a].end(), b) != m_neighbors[a].end();
   }
 
-  // Goes as far as possible at a time, unless the polyline takes a longer way.
+  // Removes short cuts: goes as far as possible at a time, unless the polyline takes a longer way.
   std::vector<Node> without_short_cuts(const std::vector<Node>& path, const Feature_polyline& polyline) const
   {
     constexpr double longer_way = 1.5;
@@ -373,7 +375,7 @@ private:
                                   : polyline.closest(m_places[path[i].first]).length;
   }
 
-  // Those of the closest points, moved apart until they are in order.
+  // Arc lengths of the closest points, moved apart until they are in order.
   std::vector<double> ascending_lengths(const std::vector<Node>& path, const Feature_polyline& polyline) const
   {
     constexpr int rounds = 100;

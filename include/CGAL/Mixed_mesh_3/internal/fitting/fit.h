@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Algorithm 1 as a whole: targets, relaxation, new targets for what stays behind.
+// Algorithm 1 as a whole: targets, relaxation, new targets for vertices that are held.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_FIT_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_FIT_H
@@ -29,8 +29,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Targets, and Algorithm 1; vertices that stay behind get new targets, those nearest to where they have
-/// come.
+/// Computes targets and runs Algorithm 1; vertices that are held in the end get new targets, nearest to where
+/// they have come.
 template <class Quality, class Solver, class Go_on>
 Mixed_mesh_fit_result_3 fit(Core_mesh& mesh, const Any_surface& domain, const Quality& quality,
                             const Mixed_mesh_fit_criteria_3& criteria, Solver& solver, const Go_on& go_on)

@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Sharp edges of the surface: paths of edges of the boundary are laid along them, given up where they do not
-// fit, and measured in the end.
+// Sharp edges of the surface: paths of edges of the boundary are laid along sharp edges, given up where paths
+// do not fit, and measured in the end.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_FOLLOW_SHARP_EDGES_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_FOLLOW_SHARP_EDGES_H
@@ -48,8 +48,9 @@ void lay_feature_paths(Fitting_state<Quality>& s)
   s.update_boundary();
 }
 
-/// Vertices that do not reach their sharp edge shall be on the surface at least.
-/// \param beside also vertices that have reached theirs, where one beside them does not reach the surface
+/// Gives up features that vertices do not reach: these vertices shall be on the surface at least.
+/// \param beside whether to include vertices that have reached their sharp edge, if a neighbor does not
+/// arrive
 template <class Quality>
 void give_up_features(Fitting_state<Quality>& s, bool beside)
 {
@@ -64,7 +65,7 @@ void give_up_features(Fitting_state<Quality>& s, bool beside)
   s.choose_new_targets();
 }
 
-/// The arc length of a vertex along its polyline, or at the corner that it is on.
+/// Arc length of a vertex along its polyline, or of the corner that the vertex is on.
 template <class Quality>
 double arc_length(const Fitting_state<Quality>& s, Vertex_index v, const Feature_polyline& polyline)
 {
@@ -94,7 +95,7 @@ double length_kept(const Fitting_state<Quality>& s, const Working_mesh::Edge& ed
   return kept;
 }
 
-/// The result says what of the sharp edges and corners the mesh has kept.
+/// Measures the sharp edges and corners that the mesh has kept, for the result.
 template <class Quality>
 void measure_features(Fitting_state<Quality>& s)
 {

@@ -5,7 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The main pass: moves and flips alternate, edges are bisected, and far places draw the boundary.
+// The main pass: moves and flips alternate, edges are bisected, and places that are too far draw the
+// boundary.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_IMPROVE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_IMPROVE_H
@@ -22,27 +23,27 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Moves and flips alternate, first for all elements, then for the worst ones.
-/// \return whether it was not stopped
+/// Improves elements by moves and flips in turn, first all elements, then the worst ones.
+/// \return whether the pass was not stopped
 template <class Quality>
 bool improve(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
 {
   using Criteria = Mixed_mesh_optimization_criteria_3;
   struct Phase
   {
-    double power, worth_flipping, weight; // of what draws
+    double power, worth_flipping, weight; // weight of the attraction
   };
   constexpr Phase phases[2] = {{4, 1.2, 1}, {8, 1.4, 16}};
   constexpr double share_of_first_phase = 0.6;
-  constexpr double acceptable = 10; // to those that arrive late
+  constexpr double acceptable = 10; // cost for vertices that arrive late
 
   const bool has_tolerance = s.criteria.tolerance() > 0 && !s.mode.is_calm;
   const int rounds = (has_tolerance || s.features ? s.criteria : Criteria(s.criteria).tolerance(0))
                        .number_of_rounds_for(s.mesh.points.size());
   const int second_phase = int(share_of_first_phase * rounds + 0.5);
   const int first_bisection = s.mode.is_calm ? second_phase : 0,
-            last_bisection = s.mode.is_calm ? second_phase : rounds / 4; // of what is far yet
-  // many short rounds, so that boundary vertices can follow what draws them
+            last_bisection = s.mode.is_calm ? second_phase : rounds / 4; // edges that are still far
+  // Many short rounds let boundary vertices follow the places that draw them.
   const bool is_patient = rounds > 6;
   const int rounds_to_flip = is_patient ? 3 : 1;
   typename Fitting_state<Quality>::Flipper flipper(s.mesh, s.quality, s.bound_on_way());

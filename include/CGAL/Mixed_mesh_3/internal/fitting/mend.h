@@ -20,12 +20,12 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// A round of steps at a power at which the worst elements count, within the bound in the end.
+/// Runs a round of steps with a power at which the worst elements count, within the bound in the end.
 template <class Quality>
 void improve_worst(Fitting_state<Quality>& s, typename Fitting_state<Quality>::Flipper& flipper, int round)
 {
   constexpr int rounds_until_flips = 3;
-  constexpr double power = 16, goal = 0.8; // of the bound
+  constexpr double power = 16, goal = 0.8; // share of the bound
   const double bound = s.bound_in_the_end();
   if(s.criteria.flips() && round % rounds_until_flips == 0)
     s.result.number_of_flips += s.flip(flipper, power, goal * bound);
@@ -35,7 +35,7 @@ void improve_worst(Fitting_state<Quality>& s, typename Fitting_state<Quality>::F
   s.advance(bound);
 }
 
-/// A boundary vertex may leave the surface, and comes back where it can.
+/// Lets a boundary vertex leave the surface; the vertex comes back if it can.
 template <class Quality>
 void leave_surface(Fitting_state<Quality>& s, Vertex_index v)
 {
@@ -48,16 +48,17 @@ void leave_surface(Fitting_state<Quality>& s, Vertex_index v)
 }
 
 // Rounds of improving the worst elements: with all boundary vertices on the surface, then, if there are sharp
-// edges, without those, then with vertices off the surface.
+// edges, without features, then with vertices that leave the surface.
 constexpr int mending_rounds_on_surface = 6, mending_rounds_of_features = 6, mending_rounds_off_surface = 18;
 
-/// Elements above the bound get better at the cost of those around them; where that does not help, boundary
-/// vertices leave the surface, and come back where it has helped.
+/// Improves elements above the bound at the cost of the elements around them; where that does not suffice,
+/// boundary vertices leave the surface, and come back where it has sufficed.
 /// \return whether a vertex was moved
 template <class Quality>
 bool mend(Fitting_state<Quality>& s)
 {
-  // Of all vertices: a mesh with a larger share of vertices of such elements is not worth it.
+  // Largest share of all vertices: a mesh with a larger share of vertices of bad elements is not worth
+  // mending.
   constexpr double worth_mending = 0.1, worth_mending_features = 0.3;
   const double bound = s.bound_in_the_end();
   std::vector<Vertex_index> bad = s.moves.vertices_above(bound);

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One vertex of the boundary less, where it can not get to the surface but one beside it has.
+// Removal of a vertex of the boundary that can not arrive while a vertex beside it has arrived.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_MERGE_BOUNDARY_VERTICES_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_MERGE_BOUNDARY_VERTICES_H
@@ -28,7 +28,7 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-Merges a vertex of the boundary with the end of one of its edges there, as `Edge_collapser` does.
+Merges a vertex of the boundary with the other end of one of its boundary edges, as `Edge_collapser` does.
 
 \tparam Quality a model of `MixedMeshQuality_3`
 */
@@ -41,19 +41,20 @@ class Boundary_vertex_merger
   Edge_collapser<Quality> m_collapser;
   const double m_worst;
 
-  static constexpr double far_share = 0.6; // of an edge
+  static constexpr double far_share = 0.6; // share of an edge
 
 public:
-  /// \param worst no element gets a larger cost
+  /// \param worst largest cost that an element may get
   Boundary_vertex_merger(Working_mesh& mesh, const Quality& quality, double worst)
     : m_mesh(mesh), m_collapser(mesh, quality), m_worst(worst)
   {
   }
 
-  /// \param place of the surface near the vertex, from which the new faces shall not be far: not farther than
-  ///        the vertex is, or than a share of an edge
-  /// \param is_candidate whether the vertex may be merged with that one
-  /// \return the vertex with which it was merged, where the worst new element is best; `no_vertex`: none
+  /// \param place place of the surface near the vertex, from which the new faces shall not be far: not
+  /// farther than the vertex is, or than a share of an edge
+  /// \param is_candidate whether the vertex may be merged with a given vertex
+  /// \return the vertex with which the vertex was merged, where the worst new element is best; `no_vertex`:
+  /// none
   template <class Is_candidate>
   Vertex_index operator()(Vertex_index v, const Vec3& place, const Is_candidate& is_candidate)
   {
@@ -61,7 +62,7 @@ public:
       return no_vertex;
     const std::vector<Face_key> faces = m_collapser.boundary_faces_at(v);
     Vertex_index best = no_vertex;
-    double least = std::nextafter(m_worst, std::numeric_limits<double>::infinity()); // of which it is less
+    double least = std::nextafter(m_worst, std::numeric_limits<double>::infinity()); // the first cost is less
     for(Vertex_index w : m_collapser.ends_of_edges(v, faces))
       if(is_candidate(w) && m_collapser.keeps_topology(v, w, faces) && is_near(place, v, w, faces)) {
         const double worst = m_collapser.worst_after(v, w, least);
@@ -88,7 +89,7 @@ private:
     const Kernel::Point_3 p(place[0], place[1], place[2]);
     return std::any_of(faces.begin(), faces.end(), [&](const Face_key& face) {
       if(std::find(face.begin(), face.end(), w) != face.end())
-        return false; // it vanishes
+        return false; // the element vanishes
       std::vector<Kernel::Point_3> q;
       for(Vertex_index u : face)
         if(u != v && u != no_vertex)

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The pass that merges boundary vertices that can not get to the surface with those beside them.
+// The pass that merges boundary vertices that can not arrive with vertices beside them.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_MERGE_VERTICES_OFF_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_MERGE_VERTICES_OFF_H
@@ -26,12 +26,13 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-// Pairs of a vertex and the one that it shall not be merged with, or of a vertex and itself if it shall not
-// move.
+// Pairs of a vertex and the vertex that it shall not be merged with, or of a vertex and itself if the vertex
+// shall not move.
 using Failed_merges = std::set<Working_mesh::Edge>;
 
-/// Merges each vertex off the surface with one beside it; the others are underway then.
-/// \return the pairs
+/// Merges each vertex that has not arrived with a vertex beside it; vertices that are not merged become
+/// underway.
+/// \return the merged pairs
 template <class Quality>
 std::vector<Working_mesh::Edge> merge_with_neighbors(Fitting_state<Quality>& s,
                                                      Boundary_vertex_merger<Quality>& merger,
@@ -61,14 +62,14 @@ std::vector<Working_mesh::Edge> merge_with_neighbors(Fitting_state<Quality>& s,
   return merged;
 }
 
-/// If elements are above the bound after a round of merges, or faces cut each other, all goes back, and other
-/// merges are tried.
-/// \return whether it was not stopped
+/// Merges vertices in rounds. If elements are above the bound after a round, or faces cut each other, the
+/// round is undone, and other merges are tried.
+/// \return whether the pass was not stopped
 template <class Quality>
 bool merge_vertices_off(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
 {
   constexpr int rounds = 24;
-  // A merge that makes elements so many times worse than the bound would not be mended.
+  // A merge that makes elements worse than that multiple of the bound would not be mended.
   constexpr double worth_merging = 100;
   const double bound = s.bound_in_the_end();
   Boundary_vertex_merger<Quality> merger(s.mesh, s.quality, worth_merging * bound);
@@ -77,7 +78,7 @@ bool merge_vertices_off(Fitting_state<Quality>& s, const std::function<bool()>& 
   s.moves.attract({});
   s.moves.set_bound(bound);
   if(!s.moves.vertices_above(bound).empty())
-    return true; // they would not get better
+    return true; // merges would not improve elements
   for(int round = 0; round < rounds && !s.vertices_off().empty(); ++round) {
     if(!go_on())
       return false;

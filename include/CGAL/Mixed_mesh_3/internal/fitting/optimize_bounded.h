@@ -24,9 +24,8 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /// Runs `Bounded_optimization`; the cost of an element is its aspect-ratio coefficient.
-/// \param go_on asked before each round
-/// \param tolerated_off the share of the boundary vertices that may stay off the surface without a further
-///        run
+/// \param go_on function that is asked before each round
+/// \param tolerated_off share of the boundary vertices that may have not arrived without a further run
 Mixed_mesh_optimization_result_3 optimize_bounded(Core_mesh& mesh, const Any_surface& surface,
                                                   const Mixed_mesh_optimization_criteria_3& criteria,
                                                   const Aspect_ratio_quality_3& quality,

@@ -29,16 +29,16 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// What a run of the optimization has achieved; the mesh itself is changed.
+/// The outcome of a run of the optimization; the mesh itself is changed.
 struct Fitting_outcome
 {
   Mixed_mesh_optimization_result_3 result;
-  std::vector<Vertex_index> crossing; ///< vertices of boundary faces that cut each other in the end
-  bool is_calm;                       ///< by its mode, or as much of the boundary did not arrive
+  std::vector<Vertex_index> crossing; ///< vertices of boundary faces that cut each other
+  bool is_calm;                       ///< no attraction: by the mode, or as too much did not arrive
 };
 
-/// The passes that finish a boundary that does not cut itself.
-/// \return whether they were not stopped
+/// Runs the passes that finish a boundary that does not cut itself.
+/// \return whether the passes were not stopped
 template <class Quality>
 bool finish(Fitting_state<Quality>& s, std::vector<Vertex_index>& crossing,
             const std::function<bool()>& go_on)
@@ -68,7 +68,7 @@ void set_status(Fitting_state<Quality>& s, bool is_stopped)
 Runs all passes once.
 
 \param features sharp edges that paths of the boundary's edges are to follow; may be empty
-\param is_held boundary vertices that stay where they are, for each vertex whether it does
+\param is_held whether each boundary vertex stays where it is
 */
 template <class Quality>
 Fitting_outcome optimize_surface(Core_mesh& mesh, const Any_surface& domain,
@@ -76,11 +76,12 @@ Fitting_outcome optimize_surface(Core_mesh& mesh, const Any_surface& domain,
                                  const Fitting_mode& mode, const Sharp_features& features,
                                  const std::vector<std::uint8_t>& is_held, const std::function<bool()>& go_on)
 {
-  // Of the boundary vertices: where more have not arrived after the first pass, those that draw the others
-  // would be in their way, and take most of the time.
+  // Share of the boundary vertices: if more have not arrived after the first pass, the vertices that draw
+  // others would be in their way, and take most of the time.
   constexpr double max_share_underway = 0.02;
-  // Of the boundary vertices: where faces of more of them cut each other after the first pass (four surfaces
-  // of CGAL's demos, 10 % and more), a run within the bound is better, and takes a third of the time.
+  // Share of the boundary vertices: if faces of more of them cut each other after the first pass (four
+  // surfaces of CGAL's demos, 10 % and more), a run within the bound is better, and takes a third of the
+  // time.
   constexpr double max_share_crossing = 0.07;
 
   Fitting_state<Quality> s(mesh, domain, criteria, quality, mode);

@@ -7,9 +7,9 @@
 //
 // Algorithm 1 of Lobos, Bucki, Hitschfeld, Payan: "Mixed-element mesh for an intra-operative modeling of the
 // brain tumor extraction", section 5.4. Boundary vertices go to their targets step by step, an elastic medium
-// moves the inner ones; a step with elements of bad quality is done again with these stiffened.
-// Beyond the paper: a step that inverts an element is never accepted, but halved; where that does not help,
-// the vertices that cause it stay behind.
+// moves the inner vertices; a step with elements of bad quality is repeated with these elements stiffened.
+// Beyond the paper: a step that inverts an element is never accepted, but halved; if that does not suffice,
+// the vertices that cause the inversion are held.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_RELAX_TO_SURFACE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_RELAX_TO_SURFACE_H
@@ -53,7 +53,7 @@ public:
   bool is_acceptable(double cost) const { return cost <= m_acceptable; }
 };
 
-/// How many elements each vertex is away from the vertices of a set.
+/// The distance of each vertex, in elements, from the vertices of a set.
 inline std::vector<int> layers_from(const std::vector<Vertex_index>& vertices, const Element_list& elements,
                                     std::size_t number_of_vertices)
 {
@@ -98,7 +98,7 @@ class Surface_relaxation
 
   static constexpr std::size_t large_mesh = 3000; // vertices
   static constexpr int layers_of_large_mesh = 4;
-  static constexpr int maximal_number_of_halvings = 4; // of one step
+  static constexpr int maximal_number_of_halvings = 4; // halvings of one step
 
   const Element_list& m_elements;
   const Surface_targets& m_targets;
@@ -107,19 +107,19 @@ class Surface_relaxation
   Solver& m_solver;
   const Go_on& m_go_on;
   Elasticity_system m_system;
-  typename Solver::Vector m_solution;     // of the last solve: where an iterative solver starts
-  std::vector<Element_index> m_moving;    // elements with a vertex that may move
-  std::vector<std::uint8_t> m_is_elastic; // for each of those, whether it has a vertex that the system moves
-  std::vector<double> m_sizes, m_stiffness, m_costs; // for each element
+  typename Solver::Vector m_solution;                // last solution: the start of an iterative solver
+  std::vector<Element_index> m_moving;               // elements with a vertex that may move
+  std::vector<std::uint8_t> m_is_elastic;            // whether the system moves a vertex of each of these
+  std::vector<double> m_sizes, m_stiffness, m_costs; // one value for each element
   std::vector<Vec3>& m_points;
-  std::vector<Vec3> m_sources; // of each target, where its vertex starts
+  std::vector<Vec3> m_sources; // start of the vertex of each target
   std::vector<Vec3> m_candidate, m_displacements;
-  std::vector<std::uint8_t> m_is_frozen; // for each target
-  std::vector<Element_index> m_inverted; // in the last candidate
+  std::vector<std::uint8_t> m_is_frozen; // one value for each target
+  std::vector<Element_index> m_inverted; // elements inverted in the last candidate
   Mixed_mesh_fit_result_3 m_result;
 
 public:
-  /// All arguments are kept by reference. \param points changed
+  /// Keeps all arguments by reference. \param points positions, which are changed
   Surface_relaxation(const Element_list& elements, const Surface_targets& targets, const Criteria& criteria,
                      const Quality& quality, Solver& solver, const Go_on& go_on, std::vector<Vec3>& points)
     : m_elements(elements), m_targets(targets), m_criteria(criteria), m_quality(quality), m_solver(solver),
@@ -149,8 +149,8 @@ public:
     m_result.number_of_folded_faces = targets.number_of_folded_faces;
   }
 
-  /// \pre no element is inverted; nor will one be
-  /// \param before the result of earlier attempts, to count on from
+  /// Runs the relaxation. \pre no element is inverted; no element will be
+  /// \param before result of earlier attempts, whose counts are continued
   Mixed_mesh_fit_result_3 operator()(const Mixed_mesh_fit_result_3& before)
   {
     m_result.number_of_solves = before.number_of_solves;
@@ -194,7 +194,8 @@ private:
     return relative_points(m_elements[e], position_in(points));
   }
 
-  // On the very coordinates, which differences would round.
+  // Whether an element is inverted, tested on the coordinates themselves, because differences would be
+  // rounded.
   bool is_inverted(Element_index e, const std::vector<Vec3>& points) const
   {
     return jacobian_sign(m_elements[e], position_in(points)) != Jacobian_sign::POSITIVE;
@@ -210,7 +211,7 @@ private:
     return n;
   }
 
-  // From where vertices are to their targets, but for those that stay behind.
+  // Moves vertices from where they are to their targets, except for held vertices.
   Outcome go_to_targets()
   {
     const double longest_step = 1. / m_criteria.number_of_steps(),
@@ -228,13 +229,13 @@ private:
         step /= 2;
         ++m_result.number_of_halvings;
       } else if(!freeze()) {
-        return Outcome::ACCEPTED; // all that could move has
+        return Outcome::ACCEPTED; // all vertices that could move have moved
       }
     }
     return Outcome::ACCEPTED;
   }
 
-  // The loop of Algorithm 1 for one step, to the given fraction of the way.
+  // Runs the loop of Algorithm 1 for one step, to the given fraction of the way.
   Outcome try_step(double fraction)
   {
     m_candidate = m_points;
@@ -262,7 +263,7 @@ private:
         if(inverted)
           m_inverted.push_back(e);
         costs[e] = m_quality(m_elements[e].kind(), element_points(e, m_candidate));
-        // an element that was worse before needs no more stiffness
+        // An element that was worse before needs no more stiffness.
         const bool is_bad = inverted || (!m_quality.is_acceptable(costs[e]) && costs[e] > m_costs[e]);
         if(is_bad && m_is_elastic[i]
            && m_stiffness[e] * m_criteria.stiffness_factor() <= m_criteria.maximal_stiffness()) {
@@ -309,7 +310,7 @@ private:
     return true;
   }
 
-  // Vertices that stayed behind go the rest of the way one by one, where that inverts no element.
+  // Moves held vertices the rest of the way one by one, where that inverts no element.
   void move_directly()
   {
     std::vector<std::size_t> late;
@@ -340,7 +341,8 @@ private:
     return true;
   }
 
-  // Boundary vertices of inverted elements stay behind from now on; those around them if these do already.
+  // Holds the boundary vertices of inverted elements from now on, or the vertices around them if these are
+  // held already.
   bool freeze()
   {
     std::vector<std::uint8_t> mark(m_points.size(), 0);

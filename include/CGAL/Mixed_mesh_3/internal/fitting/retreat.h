@@ -20,8 +20,9 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Faces between vertices on the surface may meet where the surface comes near to itself. Their vertices go
-/// back towards where no faces met, on the surface if they were there already, until none meet.
+/// Moves vertices of faces that cut each other back, because faces between vertices on the surface may meet
+/// where the surface comes near to itself. The vertices go back toward places where no faces met, on the
+/// surface if they were there already, until no faces meet.
 /// \return the vertices of faces that still cut each other, ascending
 template <class Quality>
 std::vector<Vertex_index> retreat_from_self_intersections(Fitting_state<Quality>& s)

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The pass that brings single vertices to the surface at last.
+// The last pass, which brings single vertices to the surface.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_RETURN_TO_SURFACE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_RETURN_TO_SURFACE_H
@@ -21,7 +21,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Vertices that have stayed off the surface go there, where their faces cut no others then.
+/// Moves vertices that have not arrived to the surface, if their faces then cut no others.
 /// \pre the boundary does not cut itself
 template <class Quality>
 void return_to_surface(Fitting_state<Quality>& s)

@@ -5,7 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Where the boundary of a mesh is far from the surface, and where its vertices should slide to come nearer.
+// Attraction of the boundary of a mesh to places of the surface that are far: its vertices slide to come
+// nearer.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_ATTRACTION_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_ATTRACTION_H
@@ -34,10 +35,10 @@ namespace internal {
 /*!
 Measures the distance between boundary and surface at sample points of both, and tells each boundary vertex
 where to slide: samples that are too far draw the boundary face nearest to them, and so its vertices, as in
-the iterative-closest-point method. The farther a sample is, the more it counts; and what has drawn in vain
-draws stronger.
+the iterative-closest-point method. The farther a sample is, the more it counts; a sample that has drawn in
+vain draws more strongly.
 
-\tparam Project as `Surface_projection`
+\tparam Project projection like `Surface_projection`
 */
 template <class Project>
 class Surface_attraction
@@ -49,35 +50,35 @@ class Surface_attraction
   const std::vector<Surface_sample>& m_samples;
   const unsigned m_threads;
   std::vector<double> m_tolerances_of_triangles;
-  std::vector<Triangle> m_triangles; // of the boundary
-  std::vector<Stratum> m_strata;     // theirs
-  std::vector<double> m_stiffness;   // of each vertex: how often it was drawn in vain
-  std::vector<Vec3> m_shifts;        // of each vertex, the mean of what draws it, weighted
+  std::vector<Triangle> m_triangles; // triangles of the boundary
+  std::vector<Stratum> m_strata;     // strata of the triangles
+  std::vector<double> m_stiffness;   // factor of each vertex: grows when drawn in vain
+  std::vector<Vec3> m_shifts;        // weighted mean of the shifts of each vertex
   std::vector<double> m_weights;
-  std::vector<std::pair<double, Vec3>> m_far_points; // with their distances
-  std::vector<double> m_farthest;                    // of each triangle, the distance of its farthest sample
+  std::vector<std::pair<double, Vec3>> m_far_points; // points with their distances
+  std::vector<double> m_farthest;                    // distance of the farthest sample of each triangle
   double m_largest_distance = 0;
-  double m_most_steps = 8; // of samples along the edge of a triangle
-  // Most samples are near: they need not be measured again until the boundary next to them has moved so far
-  // that they might draw.
-  std::vector<Vec3> m_last_points;        // of the vertices
-  std::vector<double> m_moved;            // each vertex, since the last measurement
-  std::vector<double> m_slack_of_samples; // how far the boundary may move until the sample draws
+  double m_most_steps = 8; // largest number of steps along the edge of a triangle
+  // Most samples are near: a sample need not be measured again until the boundary next to it has moved so far
+  // that the sample might draw.
+  std::vector<Vec3> m_last_points;        // last positions of the vertices
+  std::vector<double> m_moved;            // way of each vertex since the last measurement
+  std::vector<double> m_slack_of_samples; // distance that the boundary may move until the sample draws
   std::vector<std::size_t> m_nearest;     // triangle of each sample
   std::vector<double> m_slack_of_triangles;
-  std::vector<int> m_steps_of_triangles; // of the grid of samples
+  std::vector<int> m_steps_of_triangles; // steps of the grid of samples
 
-  // Of barycentric coordinates: a place on an edge does not draw the vertex opposite to it.
+  // Rounding of barycentric coordinates: a place on an edge does not draw the vertex opposite to the edge.
   static constexpr double nearly_0 = 1e-9;
-  // Samples nearer than this share of the tolerance draw nothing.
+  // Share of the tolerance below which samples draw nothing.
   static constexpr double tolerated_share = 0.35;
-  // Samples one after the other, each of which is a hint for the next, and so for one thread.
+  // Number of successive samples for one thread, each of which is a hint for the next one.
   static constexpr std::size_t samples_in_turn = 1024;
-  // In the unit of costs to the fourth power, at a shift as long as the edges around the vertex.
+  // Weights in the unit of costs to the fourth power, at a shift as long as the edges around the vertex.
   static constexpr double weight = 100, stiffening = 1.5, stiffest = 300;
 
 public:
-  /// \param samples of the surface; may be empty
+  /// \param samples samples of the surface; may be empty
   Surface_attraction(const Working_mesh& mesh, const Project& project,
                      const std::vector<Surface_sample>& samples, unsigned threads = 1)
     : m_mesh(mesh), m_project(project), m_samples(samples), m_threads(threads),
@@ -85,7 +86,7 @@ public:
   {
   }
 
-  /// \param tolerance `double(Stratum)`: of a face
+  /// \param tolerance `double(Stratum)`: tolerance of a face
   template <class Tolerance>
   void set_boundary(const Interface_faces& boundary, const Tolerance& tolerance)
   {
@@ -108,16 +109,16 @@ public:
     m_steps_of_triangles.assign(m_triangles.size(), 0);
   }
 
-  /// Samples of the boundary at the middles of edges only.
+  /// Samples the boundary at the middles of edges only.
   void sample_coarsely() { m_most_steps = 2; }
 
-  /// An upper bound, at the last measurement.
+  /// The largest distance at the last measurement, as an upper bound.
   double largest_distance() const { return m_largest_distance; }
-  /// Points of the surface, at the last measurement, farther from the boundary than the tolerance, and those
-  /// next to places of the boundary that are; with their distances, in tolerances.
+  /// Points of the surface that were farther from the boundary than the tolerance at the last measurement,
+  /// and points next to places of the boundary that were; with their distances, in tolerances.
   const std::vector<std::pair<double, Vec3>>& far_points() const { return m_far_points; }
 
-  /// For the longest edge of each triangle that has farther samples than the tolerance: the largest distance.
+  /// The largest distance at the longest edge of each triangle that has samples farther than the tolerance.
   std::map<std::pair<Vertex_index, Vertex_index>, double> far_edges() const
   {
     std::map<std::pair<Vertex_index, Vertex_index>, double> edges;
@@ -152,8 +153,8 @@ public:
     measure_from_boundary();
   }
 
-  /// What draws the vertices, by the last measurement.
-  /// \param scale of the weights; 1 where costs to the fourth power are minimized
+  /// The attractions of the vertices, by the last measurement.
+  /// \param scale factor of the weights; 1 where costs to the fourth power are minimized
   std::vector<Attraction> attractions(double scale)
   {
     std::vector<Attraction> result(m_mesh.points.size());
@@ -185,7 +186,7 @@ private:
 
   static double threshold(double tolerance) { return tolerated_share * tolerance; }
 
-  // Whether what was at a distance of the threshold minus the slack is still nearer than the threshold.
+  // Whether a sample at a distance of the threshold minus the slack is still nearer than the threshold.
   bool is_near(double& slack, const Triangle& t, double tolerance)
   {
     slack -= (std::max)({m_moved[t[0]], m_moved[t[1]], m_moved[t[2]]});
@@ -195,7 +196,8 @@ private:
     return true;
   }
 
-  // The point of the triangle with barycentric coordinates b should be at `where`, a point of the surface.
+  // Adds a sample: the point of the triangle with barycentric coordinates b should be at `where` on the
+  // surface.
   void add(std::size_t number, const std::array<double, 3>& b, const Vec3& shift, const Vec3& where,
            double share, double tolerance)
   {
@@ -236,7 +238,7 @@ private:
                    for(std::size_t k = first; k < (std::min)(first + samples_in_turn, asked.size()); ++k) {
                      const Vec3& s = m_samples[asked[k]].point;
                      std::size_t& nearest = m_nearest[asked[k]];
-                     // the triangle of the last time
+                     // The triangle is the nearest one of the last measurement.
                      const Triangle_tree::Closest closest = tree.closest(s, tree.closest(s, nearest));
                      nearest = closest.triangle;
                      found[k] = closest.point;
@@ -263,7 +265,7 @@ private:
             dot(normal, cross(a, b)) / area};
   }
 
-  // On a grid, the finer the larger the triangle is.
+  // Number of steps of the grid on a triangle, which is finer the larger the triangle is.
   int number_of_steps(const Triangle& t, double tolerance) const
   {
     double longest = 0;
@@ -290,7 +292,7 @@ private:
 
   void measure_from_boundary()
   {
-    std::vector<std::size_t> asked, starts{0}; // triangles, and where what was found for each begins
+    std::vector<std::size_t> asked, starts{0}; // triangles, and starts of the points found for each
     for(std::size_t k = 0; k < m_triangles.size(); ++k) {
       const Triangle& t = m_triangles[k];
       const double tolerance = m_tolerances_of_triangles[k];
@@ -313,7 +315,7 @@ private:
     for(std::size_t i = 0; i < asked.size(); ++i) {
       const std::size_t k = asked[i];
       const double tolerance = m_tolerances_of_triangles[k],
-                   share = 4. / number_of_samples(m_steps_of_triangles[k]); // as if it were four samples
+                   share = 4. / number_of_samples(m_steps_of_triangles[k]); // weighted like four samples
       auto q = found.cbegin() + std::ptrdiff_t(starts[i]);
       for_each_sample(k, [&](const std::array<double, 3>& b, const Vec3& p) {
         m_slack_of_triangles[k] = (std::min)(m_slack_of_triangles[k], threshold(tolerance) - norm(*q - p));

@@ -5,9 +5,9 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Where each boundary vertex shall go: the closest point of the surface, moved along the surface until no
+// Targets of the boundary vertices: the closest point of the surface, moved along the surface until no
 // boundary face would fold. A folded face inverts its element whatever the inner vertices do, so that no
-// stiffness can cure it.
+// stiffness can prevent the inversion.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_TARGETS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_SURFACE_TARGETS_H
@@ -29,30 +29,31 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// What `surface_targets()` found.
+/// The result of `surface_targets()`.
 struct Surface_targets
 {
   std::vector<Vertex_index> vertices;        ///< the boundary vertices, ascending
-  std::vector<Vec3> positions;               ///< of each its target, on the surface
-  std::size_t number_of_folded_faces = 0;    ///< that sliding could not unfold
-  std::vector<Vertex_index> folded_vertices; ///< of these faces
+  std::vector<Vec3> positions;               ///< target of each vertex, on the surface
+  std::size_t number_of_folded_faces = 0;    ///< faces that sliding could not unfold
+  std::vector<Vertex_index> folded_vertices; ///< vertices of these faces
 };
 
 /*!
-The boundary as triangles, to see where targets fold. A quadrilateral gives its four corner triangles: none
-may be folded.
+The boundary as triangles, to detect folds of targets. A quadrilateral gives its four corner triangles: no
+corner triangle may be folded.
 
 A target triangle is folded when its normal turns away from the normal of the boundary there, which is that of
-the *mesh* before it moves, averaged over the faces around the vertices. The surface's own normals serve
-less: between the banks of a furrow narrower than a face they say nothing about it. Neither does
-the normal of the single face before it moves: on a staircase it may be at a right angle to the surface.
+the *mesh* before it moves, averaged over the faces around the vertices. The surface's own normals are less
+suitable: between the banks of a furrow narrower than a face the normals say nothing about the face. The
+normal of the single face before it moves is not suitable either: on a staircase the face may be at a right
+angle to the surface.
 */
 class Boundary_folds
 {
   std::vector<std::array<std::size_t, 3>> m_triangles; // positions in `Surface_targets::vertices`
-  std::vector<Vec3> m_normals;                         // of each triangle, where the boundary faces it
+  std::vector<Vec3> m_normals;                         // normal of the boundary at each triangle
 
-  // Twice the area, as a vector.
+  // The area vector, times 2.
   static Vec3 area(const std::vector<Vec3>& p, const std::array<std::size_t, 3>& t)
   {
     return cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]);
@@ -65,12 +66,12 @@ class Boundary_folds
   }
 
 public:
-  /// What to reach: 1 is an equilateral target triangle that faces outwards, 0 one without area or at a right
-  /// angle. Sliding costs fidelity: with 0.5 a brain of 10,000 vertices loses 0.6 % of its volume more than
-  /// with 0.3; with 0.1 its worst elements have three times the aspect-ratio coefficient.
+  /// Least quality to reach: 1 is an equilateral target triangle that faces outwards, 0 one without area or
+  /// at a right angle. Sliding costs fidelity: with 0.5 a brain of 10,000 vertices loses 0.6 % of its volume
+  /// more than with 0.3; with 0.1 its worst elements have three times the aspect-ratio coefficient.
   static constexpr double least_quality = 0.3;
 
-  /// \param polygons the boundary, in positions of `points`
+  /// \param polygons faces of the boundary, in positions of `points`
   Boundary_folds(const std::vector<Face_vertices>& polygons, const std::vector<Vec3>& points)
   {
     std::vector<Vec3> vertex_normals(points.size(), Vec3{});
@@ -86,7 +87,7 @@ public:
       m_normals.push_back(unit(vertex_normals[t[0]] + (vertex_normals[t[1]] + vertex_normals[t[2]])));
   }
 
-  /// Marks the vertices of triangles below a quality, and counts these.
+  /// Marks the vertices of triangles below a quality, and counts these triangles.
   std::size_t find(const std::vector<Vec3>& targets, double quality,
                    std::vector<std::uint8_t>& is_marked) const
   {
@@ -99,7 +100,7 @@ public:
         const Vec3 edge = targets[t[k]] - targets[t[(k + 1) % 3]];
         squared_lengths += dot(edge, edge);
       }
-      // 2 sqrt(3) times twice the area over the sum of squares is 1 for the equilateral triangle
+      // The factor 2 sqrt(3) makes twice the area over the sum of squares 1 for the equilateral triangle.
       if(3.4641016 * dot(area(targets, t), m_normals[i]) > quality * squared_lengths)
         continue;
       ++count;
@@ -133,10 +134,10 @@ The target of each boundary vertex.
 
 \param boundary the boundary faces
 \param points positions of all vertices
-\param closest as `Surface_projection`
-\param strata of all vertices
-\param starts of all vertices, the points to be projected, if these are others
-\param maximal_number_of_rounds of sliding
+\param closest projection like `Surface_projection`
+\param strata strata of all vertices
+\param starts points of all vertices to be projected, if these are not their positions
+\param maximal_number_of_rounds number of rounds of sliding
 
 \par Complexity
 One query per boundary vertex, and one for each vertex of a folded face in each round
@@ -148,7 +149,7 @@ Surface_targets surface_targets(const std::vector<Face>& boundary, const std::ve
 {
   constexpr int rounds_until_wider = 10;
 
-  // Number the boundary vertices.
+  // Numbers of the boundary vertices.
   Surface_targets result;
   std::vector<Vertex_index> numbers(points.size(), no_vertex);
   result.vertices = vertices_of(boundary);
@@ -166,7 +167,7 @@ Surface_targets surface_targets(const std::vector<Face>& boundary, const std::ve
   for(Vertex_index v : result.vertices)
     sources.push_back(points[v]);
 
-  // Project; the target of a neighbor is a good start of the search.
+  // Projection; the target of a neighbor is a good start of the search.
   std::vector<Vec3>& targets = result.positions;
   for(std::size_t i = 0; i < n; ++i) {
     const Vec3& p = starts.empty() ? sources[i] : starts[result.vertices[i]];
@@ -175,7 +176,7 @@ Surface_targets surface_targets(const std::vector<Face>& boundary, const std::ve
     targets.push_back(j < i && strata[result.vertices[j]] == s ? closest(p, targets[j], s) : closest(p, s));
   }
 
-  // Unfold. Where that takes long, the neighbors must give way too.
+  // Unfolding. Where unfolding takes long, the neighbors must give way too.
   const Boundary_folds folds(polygons, sources);
   std::vector<std::uint8_t> is_folded(n), slides;
   std::vector<int> rounds(n, 0);

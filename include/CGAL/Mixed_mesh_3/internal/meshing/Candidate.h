@@ -28,7 +28,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// What is done about gaps that are narrower than the cells beside them.
+/// The treatment of gaps that are narrower than the cells beside them.
 enum class Gap_rule : std::uint8_t {
   NONE,
   NORMALS, ///< `widen_gaps()`
@@ -39,17 +39,17 @@ enum class Gap_rule : std::uint8_t {
 struct Candidate
 {
   std::size_t number_of_vertices = 0;
-  bool is_stopped = false; // by the visitor
+  bool is_stopped = false; // the visitor stopped the run
   Lattice_mesh mesh;
   Boundary_pieces boundary;
 
-  bool is_topology_wrong = false; // only if that was looked at
+  bool is_topology_wrong = false; // known only if the topology was examined
 
   bool is_manifold() const { return boundary.defects.empty(); }
   bool is_good() const { return is_manifold() && !is_topology_wrong; }
 };
 
-/// The stages that follow the octree. To be called in the stage `OCTREE`.
+/// Runs the stages that follow the octree. To be called in the stage `OCTREE`.
 inline Candidate make_candidate(const Located_octree& octree, const Mixed_mesh_criteria_3& criteria,
                                 Any_visitor& visitor, Gap_rule gap_rule = Gap_rule::NONE)
 {

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Gaps that are narrower than the cells become wide enough for them, at the expense of the solid beside them.
+// Widening of gaps that are narrower than the cells, at the expense of the solid beside them.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_GAP_WIDENER_H
 #define CGAL_MIXED_MESH_3_INTERNAL_MESHING_GAP_WIDENER_H
@@ -32,17 +32,18 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-Takes the label of vertices inside away, where a gap lies between them and others.
+Removes the label of vertices inside, where a gap lies between them and other vertices inside.
 
-Vertices that are not inside become boundary vertices if an element joins them with one inside. So a gap needs
-two layers of them, one for each of its sheets. Two vertices inside, between which there is a gap,
+Vertices that are not inside become boundary vertices if an element joins them with a vertex inside. So a gap
+needs two layers of such vertices, one for each of its sheets. Two vertices inside, between which there is a
+gap,
 
-- shall not be of one element: both lose their label;
-- shall not be of elements with a common vertex that is not inside: the one whose sheet is farther from that
-  vertex loses its label, and the other sheet gets that vertex.
+- shall not belong to one element: both lose their label;
+- shall not belong to elements with a common vertex that is not inside: the vertex whose sheet is farther from
+the common vertex loses its label, and the other sheet gets the common vertex.
 
-Whether there is a gap is asked of the line between them, which is followed in steps as long as the surface is
-far.
+The line between the two vertices tells whether there is a gap: the line is followed in steps as long as the
+surface is far away.
 */
 class Gap_widener
 {
@@ -52,11 +53,11 @@ class Gap_widener
   Lattice_mesh& m_mesh;
   std::vector<Vec3> m_points, m_closest;          // of vertices of cells that meet the surface
   std::vector<double> m_distances;                // negative elsewhere
-  std::vector<Vertex_index> m_taken;              // whose labels were taken away
-  std::unordered_map<std::uint64_t, bool> m_gaps; // found between pairs of vertices, or not
+  std::vector<Vertex_index> m_taken;              // vertices whose labels were removed
+  std::unordered_map<std::uint64_t, bool> m_gaps; // whether pairs of vertices have a gap between them
   Point_3 m_hint;
 
-  static constexpr double smallest_step = 1. / 64; // of a line: narrower gaps may hide in it
+  static constexpr double smallest_step = 1. / 64; // step on a line: narrower gaps may be missed
   static constexpr int most_rounds = 3;
   static constexpr std::size_t smallest_wall = 9; // vertices that stay if they would be lost together
 
@@ -123,10 +124,10 @@ private:
       take_label(v);
   }
 
-  // \return whether labels were taken away
+  // Removes labels. \return whether labels were removed
   bool part_vertices()
   {
-    // Vertices inside of the elements around vertices that are not.
+    // Vertices inside of the elements around each vertex that is not inside.
     std::vector<std::vector<Vertex_index>> all_around(m_mesh.vertices.size());
     for(Element_index e = 0; e < m_mesh.elements.size(); ++e)
       for(Vertex_index v : m_mesh.elements[e])
@@ -159,7 +160,8 @@ private:
     m_taken.push_back(v);
   }
 
-  // A wall that would have no vertex inside any more keeps its labels. Corners, of few vertices, do not.
+  // Returns the labels of a wall that would have no vertex inside any more, but not those of corners, which
+  // have few vertices.
   void return_labels()
   {
     const std::size_t n = m_mesh.vertices.size();
@@ -193,7 +195,8 @@ private:
 
   static double cosine(const Vec3& a, const Vec3& b) { return dot(a, b) / norm(b); }
 
-  // Of two vertices inside; many have several elements or vertices in common.
+  // Whether there is a gap between two vertices inside; many pairs have several elements or vertices in
+  // common.
   bool has_gap_between(Vertex_index a, Vertex_index b)
   {
     if(a < b)
@@ -223,8 +226,8 @@ private:
   }
 };
 
-/// As `widen_gaps()`, by lines instead of normals: rims of gaps are found, too, but walls between gaps may be
-/// lost.
+/// Widens gaps like `widen_gaps()`, by lines instead of normals: rims of gaps are found, too, but walls
+/// between gaps may be lost.
 inline void widen_gaps_by_lines(const Located_octree& octree, Lattice_mesh& mesh)
 {
   Gap_widener(octree, mesh)();

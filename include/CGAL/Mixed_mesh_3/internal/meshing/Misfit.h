@@ -25,13 +25,13 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// How a mesh differs from its domain, in what can be told at once: not by much if numbers are equal, and
-/// surely if they are not. `compare_with_surface()` tells all.
+/// The difference of a mesh from its domain, as far as simple numbers tell: equal numbers make a large
+/// difference unlikely, different numbers prove one. `compare_with_surface()` is complete.
 class Misfit
 {
   bool m_is_mesh = true;
   std::size_t m_topology = 0, m_number_of_lost_cells = 0, m_number_off = 0;
-  double m_volume = 0, m_distance = 0; // beyond what is tolerated, relatively
+  double m_volume = 0, m_distance = 0; // relative excess over the tolerated values
   std::optional<Shell_counts> m_shells_of_domain, m_shells;
 
   static constexpr double tolerated_volume = 0.05;
@@ -44,9 +44,9 @@ public:
     return m;
   }
 
-  /// \param mesh its boundary is a manifold, except where it is pinched
+  /// \param mesh mesh whose boundary is a manifold, except where it is pinched
   /// \param is_fitted whether its volume should be that of the domain
-  /// \param distance from the surface beyond the tolerance that was asked for, relatively
+  /// \param distance relative excess of the distance from the surface over the tolerance
   Misfit(const Core_mesh& mesh, const Any_domain& domain, bool is_fitted, std::size_t number_of_lost_cells,
          std::size_t number_off, double distance)
     : m_number_of_lost_cells(number_of_lost_cells), m_number_off(number_off),
@@ -69,11 +69,12 @@ public:
     return m_is_mesh && m_topology == 0 && m_number_of_lost_cells == 0 && m_volume == 0;
   }
 
-  /// What the domain tells of its surface, and what the boundary of the mesh is like then.
+  /// The shells of the domain's surface, as the domain tells, and the shells of the boundary of the mesh.
   const std::optional<Shell_counts>& shells_of_domain() const { return m_shells_of_domain; }
   const std::optional<Shell_counts>& shells() const { return m_shells; }
 
-  /// Whether, besides, all boundary vertices are on the surface, and it is within the tolerance.
+  /// Whether there is no misfit, all boundary vertices are on the surface, and the boundary is within the
+  /// tolerance.
   bool is_right() const { return is_none() && m_number_off == 0 && m_distance == 0; }
   bool is_of_distance_only() const { return is_none() && m_number_off == 0; }
 

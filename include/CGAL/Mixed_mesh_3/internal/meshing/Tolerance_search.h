@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Towards a tolerance: which cells outside the region have to be split, so that the boundary comes near
-// enough to the surface.
+// Search for the cells outside the region that have to be split, so that the boundary comes near enough to
+// the surface.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_TOLERANCE_SEARCH_H
 #define CGAL_MIXED_MESH_3_INTERNAL_MESHING_TOLERANCE_SEARCH_H
@@ -43,19 +43,21 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Splits cells of the base level where the boundary would be too far from the surface, and again.
+/// Splits cells of the base level where the boundary would be too far from the surface, in several rounds.
 class Tolerance_search
 {
-  // Rounds of splitting (six make cells 64 times smaller), the share of the budget they may take (the rest is
-  // for the region). Places farther than the first of these multiples of the tolerance are split for: nearer
-  // ones the sliding of boundary vertices reaches. The others follow where that takes too much.
+  // Rounds of splitting (six make cells 64 times smaller), and the share of the budget that they may take
+  // (the rest is for the region). Cells are split at places farther than the first of these multiples of the
+  // tolerance: the sliding of boundary vertices reaches nearer places. The other multiples are tried where
+  // the first one takes too much.
   static constexpr int rounds = 6;
   static constexpr double largest_share = 0.5, largest_share_of_parts = 0.7,
                           largest_share_of_subdomains = 0.75;
   static constexpr double multiples[] = {1.6, 2, 2.5, 3}, multiples_of_wish[] = {2.5, 3.2, 4};
-  static constexpr int number_of_trials = 5; // of a search for such a multiple
-  // Of sliding. Between subdomains, where folds are no defects, the first few bring most; of 189 of them most
-  // boundary vertices are where three or more meet, and all rounds would take nearly all of the time.
+  static constexpr int number_of_trials = 5; // trials of a search for such a multiple
+  // Rounds of sliding. Between subdomains, where folds are no defects, the first few rounds gain most; with
+  // 189 subdomains most boundary vertices are where three or more meet, and all rounds would take nearly all
+  // of the time.
   static constexpr int rounds_of_sliding = 100, rounds_between_subdomains = 5;
 
   const Located_octree& m_root;
@@ -64,9 +66,9 @@ class Tolerance_search
   Mixed_mesh_result_3& m_result;
   const bool m_has_subdomains;
   std::vector<Surface_sample> m_samples;
-  std::vector<std::vector<Vec3>> m_far_points; // of the surface, where cells are split: the farthest first
-  bool m_is_stopped = false;                   // by the visitor
-  bool m_only_parts = false;                   // not the surface around all
+  std::vector<std::vector<Vec3>> m_far_points; // on the surface, where cells are split: the farthest first
+  bool m_is_stopped = false;                   // the visitor stopped the search
+  bool m_only_parts = false;                   // small parts only, not the outer surface
   bool m_is_full = false;                      // there is no room for more splits
 
 public:
@@ -80,10 +82,10 @@ public:
 
   bool is_stopped() const { return m_is_stopped; }
 
-  /// To be called in the stage `OCTREE`.
+  /// Runs the search. To be called in the stage `OCTREE`.
   void run()
   {
-    if(m_has_subdomains) { // first what is small
+    if(m_has_subdomains) { // small parts come first
       m_only_parts = true;
       run(largest_share_of_parts);
       m_only_parts = m_is_full = false;
@@ -94,8 +96,8 @@ public:
 
   bool has_far_points() const { return !m_far_points.empty(); }
 
-  /// One level more around each far point, round by round.
-  /// \param share of each round's points, the farthest
+  /// Splits the cell around each far point once, round by round.
+  /// \param share share of the points of each round; the farthest points are used
   void split_far_cells(Located_octree& octree, double share = 1) const
   {
     for(const std::vector<Vec3>& points : m_far_points) {
@@ -120,7 +122,7 @@ private:
     const double limit = share * double(m_criteria.maximal_number_of_vertices());
     m_samples = tolerances().samples(m_root.domain(),
                                      [this](Subdomain_index) { return m_result.tolerance / 2; });
-    // where cells are split anyway, but maybe not as much as small parts need it
+    // Cells in the region are split anyway, but maybe not as much as small parts need.
     const bool spares_region = !m_has_subdomains || !(m_only_parts || m_root.is_region_everywhere());
     const auto is_in_region = [&](const Surface_sample& s) {
       return spares_region && m_root.region().depth({s.point[0], s.point[1], s.point[2]}) >= 0;
@@ -128,7 +130,7 @@ private:
     m_samples.erase(std::remove_if(m_samples.begin(), m_samples.end(), is_in_region), m_samples.end());
     Located_octree octree = m_root;
     Candidate candidate = try_base_octree(octree);
-    // after how many rounds
+    // The best number of rounds.
     std::size_t best = m_far_points.size(), least_defects = std::size_t(-1);
     for(int round = 0; !is_stopped_by(candidate) && candidate.number_of_vertices > 0; ++round) {
       if(double(candidate.number_of_vertices) > limit)
@@ -173,14 +175,15 @@ private:
 
   struct Estimate
   {
-    std::vector<std::pair<double, Vec3>> far_points; // of the surface, with their distances in tolerances
+    std::vector<std::pair<double, Vec3>> far_points; // on the surface, with distances in tolerances
     std::vector<Vec3>
-      defects; // where the boundary folds or cuts itself: the surface is too fine for the cells
+      defects; // places where the boundary folds or cuts itself: the surface is too fine for the cells
     std::size_t number_of_defects;
   };
 
-  // From the boundary with its vertices on the surface, where the optimization will bring them nearly. Where
-  // its faces are folded or cut each other, it would have to leave vertices behind.
+  // Estimates the boundary with its vertices on the surface, to which the optimization will nearly bring
+  // them. Where its faces are folded or cut each other, the optimization could not bring all vertices to the
+  // surface.
   Estimate estimate_boundary(const Located_octree& octree, const Candidate& candidate) const
   {
     Core_mesh mesh;
@@ -203,7 +206,7 @@ private:
     });
     attraction.measure();
     Estimate estimate{attraction.far_points(), {}, 0};
-    // interfaces fold where a part is small, at first: that splits lead to more of that says nothing
+    // Interfaces fold at first where a part is small: an increase of their folds by splits means nothing.
     if(m_has_subdomains)
       return estimate;
     const std::vector<Vertex_index> crossing = vertices_of_self_intersections(projected.points,
@@ -215,7 +218,7 @@ private:
     return estimate;
   }
 
-  // Splits cells at all defects, and at as many far points as fit into the limit, the farthest ones.
+  // Splits cells at all defects, and at as many far points as fit into the limit, the farthest points first.
   // \return whether more might be split
   bool split(const Estimate& estimate, double limit, Located_octree& octree, Candidate& candidate)
   {
@@ -250,8 +253,8 @@ private:
     return false;
   }
 
-  // The tolerances of small subdomains are so small that all of their surface may be far: how far is too far
-  // is searched for, by bisection.
+  // Splits cells of subdomains. The tolerances of small subdomains are so small that all of their surface may
+  // be far: the multiple beyond which points count as far is found by bisection.
   template <class Try>
   bool split_subdomains(const Estimate& estimate, const Try& try_beyond, Located_octree& octree,
                         Candidate& candidate)
@@ -278,7 +281,7 @@ private:
       return false;
     m_far_points.push_back(std::move(best));
     octree = m_root;
-    candidate = try_base_octree(octree); // the last trial may have been too much
+    candidate = try_base_octree(octree); // the last trial may have had too many vertices
     return true;
   }
 };

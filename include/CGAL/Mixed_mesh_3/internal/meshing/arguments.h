@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the entry functions take: models of the concepts, or surfaces, of which they make models.
+// Arguments of the entry functions: models of the concepts, or surfaces, from which models are made.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_ARGUMENTS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_MESHING_ARGUMENTS_H
@@ -29,7 +29,7 @@ template <class T, class = void>
 struct Is_face_graph : std::false_type
 {
 };
-// `boost::graph_traits` of what is no graph does not compile: a function tells.
+// A function is tested, because `boost::graph_traits` of a type that is no graph does not compile.
 template <class T>
 struct Is_face_graph<T, std::void_t<decltype(faces(std::declval<const T&>()))>> : std::true_type
 {
@@ -57,7 +57,7 @@ struct Is_region_model<
 {
 };
 
-/// Whether the coordinates of a model's points convert to double, as those of an exact kernel do not.
+/// Whether the coordinates of a model's points convert to double; the coordinates of an exact kernel do not.
 template <class T>
 constexpr bool has_points_of_doubles()
 {
@@ -67,7 +67,7 @@ constexpr bool has_points_of_doubles()
     return true;
 }
 
-/// What is given, or a `Model` made of it if that is a surface.
+/// Returns the argument, or a `Model` made of the argument if it is a surface.
 template <class Model, class T, class NamedParameters>
 decltype(auto) as_model(const T& given, [[maybe_unused]] const NamedParameters& np)
 {
@@ -115,7 +115,7 @@ decltype(auto) as_region(const T& region, const NamedParameters& np)
   return as_model<Polyhedral_mixed_mesh_region_3>(region, np);
 }
 
-/// Calls `f(visitor)` with the visitor among the named parameters, or the default one.
+/// Calls `f(visitor)` with the visitor among the named parameters, or the default visitor.
 template <class NamedParameters, class Function>
 decltype(auto) with_visitor(const NamedParameters& np, const Function& f)
 {

@@ -19,12 +19,12 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-// Cells of 1/8 of the domain; see the manual, "Choosing parameters".
+// Level of cells of 1/8 of the domain; see the manual, "Choosing parameters".
 inline constexpr int default_base_level = 3;
 inline constexpr int coarsest_automatic_base_level = 1;
 inline constexpr int finest_automatic_base_level = 6;
-// A judgment: what is lost is reported in any case. With less tolerated, more domains get a finer base level,
-// and the region has fewer vertices.
+// Share chosen by judgment: lost cells are reported in any case. With a smaller share, more domains get a
+// finer base level, and the region has fewer vertices.
 inline constexpr double tolerated_share_of_lost_cells = 0.05;
 /// The level that the criteria give, or the default.
 inline int first_base_level(const Mixed_mesh_criteria_3& criteria)
@@ -33,13 +33,15 @@ inline int first_base_level(const Mixed_mesh_criteria_3& criteria)
                                                                    : default_base_level;
 }
 
-/// Refines what meets the domain to a level, unless there would be far more cells than vertices are allowed.
-/// \return whether it did so
+/// Refines cells that meet the domain to a level, unless there would be far more cells than vertices are
+/// allowed.
+/// \return whether the cells were refined
 inline bool refine_to_level(Located_octree& octree, int base_level, std::size_t budget)
 {
   constexpr std::size_t far_above_budget = 1000000;
   for(int level = 0; level < base_level; ++level) {
-    // Cells inside have their smallest corners inside, and eight children each: a lower bound.
+    // Cells inside have their smallest corners inside, and eight children each: a lower bound of the number
+    // of vertices.
     if(8 * octree.number_of_cells_inside() > (std::max)(budget, far_above_budget))
       return false;
     octree.refine(octree.leaves_to_refine(level, false));

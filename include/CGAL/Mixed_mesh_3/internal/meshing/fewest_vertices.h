@@ -28,10 +28,10 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-constexpr std::size_t least_budget = 60; // with fewer, brains are no brains
+constexpr std::size_t least_budget = 60; // the shape of a brain is lost with fewer vertices
 
-/// Whether a mesh is within the tolerance, and has topology and volume of the domain. Between the points
-/// where the distance is measured it is larger by up to a tenth.
+/// Whether a mesh is within the tolerance, and has topology and volume of the domain. The distance between
+/// the points where it is measured is larger by up to a tenth.
 inline bool is_as_wanted(const Mixed_mesh_result_3& r)
 {
   constexpr double share = 0.9;
@@ -39,8 +39,8 @@ inline bool is_as_wanted(const Mixed_mesh_result_3& r)
          && r.optimization.largest_distance <= share * r.tolerance;
 }
 
-/// The budget that is tried first: a quarter of the one whose wish for a tolerance by default is that of the
-/// criteria, which is about what a brain takes.
+/// The budget that is tried first: a quarter of the budget whose default tolerance is the tolerance of the
+/// criteria; a brain needs about that quarter.
 inline std::size_t first_budget(const Located_octree& root, const Mixed_mesh_criteria_3& criteria)
 {
   constexpr double share = 0.25;
@@ -50,9 +50,9 @@ inline std::size_t first_budget(const Located_octree& root, const Mixed_mesh_cri
 }
 
 /*!
-Makes meshes with more and more vertices until one is as wanted, or with fewer and fewer until one is not, and
-with budgets in between, until the fewest that suffice are known to a tenth. The mesh with them is taken; if
-even the largest budget does not suffice, the mesh with that.
+Makes meshes with more and more vertices until a mesh is as wanted, or with fewer and fewer until a mesh is
+not, and with budgets in between, until the fewest vertices that suffice are known to a tenth. The mesh with
+the fewest vertices is taken; if even the largest budget does not suffice, the mesh of that budget is taken.
 
 \par Complexity
 Some five to ten meshes

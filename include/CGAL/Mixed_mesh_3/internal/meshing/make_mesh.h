@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The octree becomes a mesh whose boundary is on the surface, with a result that says how it is.
+// Conversion of the octree to a mesh whose boundary is on the surface, with a result that describes the mesh.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_MAKE_MESH_H
 #define CGAL_MIXED_MESH_3_INTERNAL_MESHING_MAKE_MESH_H
@@ -28,7 +28,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The leaf of each vertex tells it; a query is asked only where the leaf meets the region's surface.
+/// Number of vertices in the region. The leaf of each vertex tells whether the vertex is in the region; a
+/// query is made only where the leaf meets the region's surface.
 inline std::size_t count_vertices_in_region(const Meshing_state& s)
 {
   std::size_t count = 0;
@@ -38,7 +39,7 @@ inline std::size_t count_vertices_in_region(const Meshing_state& s)
   return count;
 }
 
-/// The result says what the octree is like, and what is wrong with its mesh on the lattice.
+/// Describes the octree, and the defects of its mesh on the lattice, in the result.
 inline void describe_octree(Meshing_state& s)
 {
   const Octree& octree = s.octree.octree();
@@ -74,7 +75,7 @@ inline void describe_octree(Meshing_state& s)
   }
 }
 
-/// Sheets are marked in the best mesh only, as they add no vertex.
+/// Marks sheets in the best mesh only, as they add no vertex.
 inline void mark_sheets(Meshing_state& s)
 {
   if(!s.root.domain().has_sheets())
@@ -87,7 +88,7 @@ inline void mark_sheets(Meshing_state& s)
     s.result.status = worse(s.result.status, Mixed_mesh_status::PARTS_LOST);
 }
 
-/// The boundary is brought onto the surface, with the vertices that the budget has left.
+/// Brings the boundary onto the surface, with the vertices that the budget has left.
 inline void optimize_boundary(Meshing_state& s, Core_mesh& mesh)
 {
   s.visitor.before_fitting(mesh);
@@ -112,7 +113,7 @@ inline void optimize_boundary(Meshing_state& s, Core_mesh& mesh)
     mesh.clear();
 }
 
-/// Cells without elements are lost, except those that the boundary has come near to.
+/// Notes lost cells: cells without elements, except those that the boundary has come near to.
 inline void note_lost_cells(Meshing_state& s, const Core_mesh& mesh)
 {
   const std::vector<Octree::Node_index> lost = s.criteria.fit_to_surface()
@@ -126,8 +127,8 @@ inline void note_lost_cells(Meshing_state& s, const Core_mesh& mesh)
     s.result.status = worse(s.result.status, Mixed_mesh_status::PARTS_LOST);
 }
 
-/// A budget counts as filled if the mesh has most of it: of the whole one, or of the part that is not left
-/// over for a later optimization.
+/// Notes the share of the budget that is filled. The budget counts as filled if the mesh has most of the
+/// vertices of the whole budget, or of the part that is not reserved for a later optimization.
 inline void note_share_filled(Meshing_state& s, std::size_t n)
 {
   const std::size_t whole = s.criteria.fit_to_surface() ? s.criteria.maximal_number_of_vertices()

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Walls and gaps that are thinner than the cells beside them.
+// Resolution of walls and gaps that are thinner than the cells beside them.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_RESOLVE_THIN_PARTS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_MESHING_RESOLVE_THIN_PARTS_H
@@ -26,9 +26,9 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Finds an octree that resolves walls and gaps, the start for filling the budget. Where the topology is
-/// wrong, it has more and more cells for a wall or a gap, until the topology is right; where only the volume
-/// is wrong, as many as the budget has room for.
+/// Finds an octree that resolves walls and gaps, the start for filling the budget. If the topology is wrong,
+/// the number of cells for a wall or a gap grows until the topology is right; if only the volume is wrong,
+/// the number is as large as the budget has room for.
 inline void resolve_thin_parts(Meshing_state& s, bool is_for_volume)
 {
   // Safety factors on the cells per wall thickness: some walls need fewer than theory asks for. For the
@@ -68,7 +68,7 @@ inline void resolve_thin_parts(Meshing_state& s, bool is_for_volume)
   }
 }
 
-/// The run is stopped before the mesh is made: the mesh on the lattice may be kept.
+/// Stops the run before the mesh is made: the mesh on the lattice may be kept.
 inline bool stop_at(Meshing_state& s, Meshing_state::Snapshot snapshot)
 {
   s.restore(std::move(snapshot));
@@ -76,8 +76,8 @@ inline bool stop_at(Meshing_state& s, Meshing_state::Snapshot snapshot)
   return false;
 }
 
-/// Fitting does not change the topology. Where the topology is wrong on the lattice, the budget is spent on
-/// thin parts first; if it does not suffice, a finer mesh is coarsened to it.
+/// Spends the budget on thin parts first if the topology is wrong on the lattice, because fitting does not
+/// change the topology; if the budget does not suffice, a finer mesh is coarsened to the budget.
 /// \return whether the mesh is made
 inline bool resolve_topology(Meshing_state& s, Core_mesh& mesh, Misfit& misfit)
 {
@@ -121,7 +121,7 @@ inline bool resolve_topology(Meshing_state& s, Core_mesh& mesh, Misfit& misfit)
   return true;
 }
 
-/// Makes the mesh once more, if it has lost a part, or too much of its volume; then from a finer one.
+/// Makes the mesh once more, if a part, or too much of its volume, is lost; then from a finer mesh.
 inline void improve_thin_parts(Meshing_state& s, Core_mesh& mesh, Misfit& misfit)
 {
   const bool can_be_better = s.result.status == Mixed_mesh_status::EMPTY

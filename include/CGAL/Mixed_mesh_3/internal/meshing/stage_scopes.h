@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Who begins a stage ends it.
+// Scopes of stages: the object that begins a stage ends the stage.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_STAGE_SCOPES_H
 #define CGAL_MIXED_MESH_3_INTERNAL_MESHING_STAGE_SCOPES_H
@@ -19,7 +19,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// A stage, as long as the object lives.
+/// A stage that lasts as long as the object lives.
 class Stage_scope
 {
   Any_visitor& m_visitor;
@@ -35,7 +35,7 @@ public:
   Stage_scope& operator=(const Stage_scope&) = delete;
 };
 
-/// A pause of a stage, for others in between: stages are not nested.
+/// A pause of a stage for other stages in between: stages are not nested.
 class Stage_pause
 {
   Any_visitor& m_visitor;

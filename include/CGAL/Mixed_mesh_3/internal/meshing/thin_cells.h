@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Where the octree is too coarse for the topology: cells as large as a wall is thick, or a gap is wide.
+// Cells that are too coarse for the topology: as large as a wall is thick, or a gap is wide.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_THIN_CELLS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_MESHING_THIN_CELLS_H
@@ -31,14 +31,15 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-Tells whether two sheets of the surface are too near to each other for a cell: from the point of the surface
-that is nearest to a point of the cell, a line at right angles to it leads to the other side of the surface
-soon.
+Function object that tells whether two sheets of the surface are too near to each other for a cell: a line
+from the point of the surface that is nearest to a point of the cell, at right angles to the surface, soon
+leads to the other side of the surface.
 
-A wall needs an octree vertex inside, everywhere: along the axis that is most at right angles to it, vertices
-are at a distance of the side of a cell, and so thick it has to be. A gap needs two layers of vertices that
-are not inside, one for each of its sheets, but may take them from the solid: vertices that are not deep are
-not labeled inside there. Boundary vertices begin a little inside then, and are carried outwards.
+A wall needs an octree vertex inside, everywhere: along the axis that is most at right angles to the wall,
+vertices are at a distance of the side of a cell, and the wall has to have that thickness. A gap needs two
+layers of vertices that are not inside, one for each of its sheets, but may take such vertices from the solid:
+vertices that are not deep are not labeled inside there. Boundary vertices then begin a little inside, and are
+moved outwards.
 */
 class Thin_cell_finder
 {
@@ -47,23 +48,23 @@ class Thin_cell_finder
 
   const Located_octree& m_octree;
   const double m_strictness;
-  std::map<Lattice_point, bool> m_is_thin_at; // corners of leaves, which four have in common, mostly
+  std::map<Lattice_point, bool> m_is_thin_at; // corners of leaves are mostly common to four leaves
 
   static constexpr double cells_in_wall = 1, cells_in_gap = 1;
-  // In sides of cells: which gaps are widened, and how much at most on each side.
+  // Limits in sides of cells: width of gaps that are widened, and largest widening on each side.
   static constexpr double wide_gap = 2.5, widening = 1;
-  // Points of a line that are looked at: what is thinner may hide between.
+  // Points of a line that are tested: thinner parts may be missed between the points.
   static constexpr double shares_of_line[] = {0.25, 0.5, 0.75, 1};
 
 public:
-  /// \param strictness how many times as many cells as should suffice are asked for
+  /// \param strictness factor for the theoretical number of cells that should suffice
   Thin_cell_finder(const Located_octree& octree, double strictness)
     : m_octree(octree), m_strictness(strictness)
   {
   }
 
   /// Whether a leaf that meets the surface is too large, seen from its corners and its center.
-  /// \pre all leaves asked for are of one level
+  /// \pre all tested leaves have the same level
   bool operator()(Node_index n)
   {
     const Octree& octree = m_octree.octree();
@@ -83,8 +84,8 @@ public:
     return false;
   }
 
-  /// Whether a vertex inside is so near to a gap that it should not be labeled inside.
-  /// \param hint a point of the surface; becomes the closest one
+  /// Whether a vertex inside is so near to a gap that the vertex should not be labeled inside.
+  /// \param hint point of the surface; becomes the closest one
   bool is_beside_gap(const Lattice_point& lattice_point, Node_index leaf, Point_3& hint) const
   {
     const Vec3 p = to_vec3(m_octree.point(lattice_point)), q = closest(p, hint);
@@ -109,7 +110,8 @@ private:
     return to_vec3(hint);
   }
 
-  // At the point of the surface that is nearest to a point of the leaf, to both sides.
+  // Whether a part is thin at the point of the surface that is nearest to a point of the leaf, on either
+  // side.
   bool is_thin(Node_index n, const Lattice_point& lattice_point, Point_3& hint) const
   {
     const auto point = m_octree.point(lattice_point);
@@ -124,7 +126,7 @@ private:
            || is_reached(q, -1 * outwards, cells_in_wall * m_strictness * edge, ON_UNBOUNDED_SIDE);
   }
 
-  // Whether a line of some length leads to a side.
+  // Whether a line of some length reaches a side.
   bool is_reached(const Vec3& q, const Vec3& direction, double length, Bounded_side side) const
   {
     return std::any_of(std::begin(shares_of_line), std::end(shares_of_line), [&](double share) {
@@ -144,7 +146,7 @@ inline std::vector<Octree::Node_index> thin_cells(const Located_octree& octree, 
   return leaves;
 }
 
-/// Takes the label of vertices inside that are next to narrow gaps away.
+/// Removes the label of vertices inside that are next to narrow gaps.
 inline void widen_gaps(const Located_octree& octree, Lattice_mesh& mesh)
 {
   const Thin_cell_finder finder(octree, 1);
@@ -154,28 +156,28 @@ inline void widen_gaps(const Located_octree& octree, Lattice_mesh& mesh)
       mesh.sides[v] = ON_UNBOUNDED_SIDE;
 }
 
-/// What came of splitting cells for walls and gaps.
+/// The result of splitting cells for walls and gaps.
 struct Thin_cell_splits
 {
   bool is_complete = true;            ///< whether the budget sufficed
-  std::size_t number_of_vertices = 0; ///< about, once all are split; at most some hundred times the budget
+  std::size_t number_of_vertices = 0; ///< about, once all are split; at most some hundred budgets
 };
 
 /*!
-Splits what is too large for walls and gaps, the largest cells first, level by level, as long as the mesh fits
-the budget.
+Splits cells that are too large for walls and gaps, the largest cells first, level by level, as long as the
+mesh fits the budget.
 
-\param number_of_vertices `std::size_t(octree)`: of its mesh
+\param number_of_vertices `std::size_t(octree)`: the number of vertices of the mesh of an octree
 \par Complexity
-A dozen queries for closest points and more for each leaf at the surface
+A dozen or more queries for closest points for each leaf at the surface
 */
 template <class Count>
 Thin_cell_splits split_thin_cells(Located_octree& octree, double strictness, std::size_t budget,
                                   const Count& number_of_vertices)
 {
-  constexpr double cells_for_a_vertex = 4;   // at most, nearly: more are not meshed in vain
+  constexpr double cells_for_a_vertex = 4;   // approximate maximum: meshes of more cells would be in vain
   constexpr double cells_of_estimate = 16;   // times the budget
-  constexpr double vertices_of_a_cell = 1.4; // at the surface
+  constexpr double vertices_of_a_cell = 1.4; // vertices for each cell at the surface
   Thin_cell_splits result;
   Located_octree trial = octree;
   for(int level = 0; level < Octree::max_level; ++level) {

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What of the domain a fitted mesh has lost: cells without elements, unless its boundary came near.
+// Parts of the domain that a fitted mesh has lost: cells without elements, unless the boundary is near.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_UNREACHED_CELLS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_MESHING_UNREACHED_CELLS_H
@@ -27,11 +27,11 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The leaves of `lost` of which a part of the surface is farther from the boundary of the mesh than `size`,
-/// and than the leaf is wide: a tip on which a vertex has arrived is not lost, though the octree has small
-/// cells there. The points looked at are those of the surface nearest to corners and center. One query to the
-/// domain each, and one to a tree of the faces of the boundary.
-/// \param size what is smaller is not missed
+/// The leaves of `lost` with a part of the surface that is farther from the boundary of the mesh than `size`,
+/// and than the width of the leaf: a tip on which a vertex has arrived is not lost, though the octree has
+/// small cells there. The tested points are the points of the surface nearest to corners and center. Each
+/// point takes one query to the domain, and one to a tree of the faces of the boundary.
+/// \param size size below which parts do not count as missing
 inline std::vector<Octree::Node_index> unreached_cells(const Located_octree& octree,
                                                        const std::vector<Octree::Node_index>& lost,
                                                        const Core_mesh& mesh, double size)

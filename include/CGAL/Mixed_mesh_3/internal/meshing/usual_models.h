@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The models that nearly all users have, as oracles in the library: programs that link it do not compile
-// them.
+// Oracles of the models that nearly all users have, compiled into the library: programs that link the library
+// do not compile these oracles.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_USUAL_MODELS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_MESHING_USUAL_MODELS_H

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The boundary while its edges are collapsed: what a new triangle would cut is found beside it.
+// The boundary while its edges are collapsed: the triangles that a new triangle would cut are found near it.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MOVES_BOUNDARY_TRIANGLES_H
 #define CGAL_MIXED_MESH_3_INTERNAL_MOVES_BOUNDARY_TRIANGLES_H
@@ -31,7 +31,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Triangles, those at each vertex, and those in each cell of a grid. Positions do not change.
+/// Triangles, with lists of those at each vertex and those in each cell of a grid. Positions do not change.
 class Boundary_triangles
 {
 public:
@@ -45,11 +45,11 @@ private:
   std::vector<Triangle> m_triangles;
   std::vector<std::vector<Number>> m_at_vertex;
   std::unordered_map<std::uint64_t, std::vector<Number>> m_in_cell;
-  double m_side = 1; // of the cells of the grid
+  double m_side = 1; // side of the cells of the grid
   Vec3 m_origin{0, 0, 0};
 
 public:
-  /// \param number_at_most triangles there will be in the end, about
+  /// \param number_at_most approximate number of triangles in the end
   /// \pre the faces are triangles
   Boundary_triangles(const std::vector<Vec3>& positions, const std::vector<Face>& faces,
                      std::size_t number_at_most)
@@ -85,8 +85,8 @@ public:
     return triangles;
   }
 
-  /// Whether triangles would meet in more than vertices and edges they share, if all of v got w instead.
-  /// Exact.
+  /// Whether triangles would meet in more than vertices and edges they share, if w replaced v in all
+  /// triangles. The test is exact.
   bool would_cross(Vertex_index v, Vertex_index w) const
   {
     std::vector<Triangle> fan;
@@ -111,7 +111,7 @@ public:
     });
   }
 
-  /// All triangles of v get w instead, those of both vanish.
+  /// Replaces v by w in all triangles of v; triangles of both are removed.
   void collapse(Vertex_index v, Vertex_index w)
   {
     const std::vector<Number> at_v = m_at_vertex[v];

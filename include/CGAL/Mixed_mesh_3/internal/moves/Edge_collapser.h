@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A vertex less: all of its elements get the other end of one of its edges instead.
+// Edge collapses: a vertex is removed, and all of its elements get the other end of one of its edges instead.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MOVES_EDGE_COLLAPSER_H
 #define CGAL_MIXED_MESH_3_INTERNAL_MOVES_EDGE_COLLAPSER_H
@@ -26,13 +26,14 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-Collapses edges, where that keeps the topology and all elements stay positive and good enough: what may be
-done is asked first, so that nothing has to be undone.
+Collapses edges if the topology is kept and all elements stay positive and good enough: conditions are checked
+first, so that nothing has to be undone.
 
-The tetrahedra at an edge vw vanish, and all other elements of v get w instead. The topology stays if the
-links of both vertices have in common what is the link of the edge, and nothing else (Dey, Edelsbrunner, Guha,
-Nekhayev: Topology preserving edge contraction, 1999), in the mesh as on the boundary of the subdomain of v,
-of which all of its elements have to be. The elements at the edge must be tetrahedra. There must be no sheets.
+The tetrahedra at an edge vw are removed, and w replaces v in all other elements of v. The topology is kept if
+the links of both vertices have exactly the link of the edge in common (link condition; Dey, Edelsbrunner,
+Guha, Nekhayev: Topology preserving edge contraction, 1999), in the mesh and on the boundary of the subdomain
+of v, to which all elements of v have to belong. The elements at the edge must be tetrahedra. There must be no
+sheets.
 
 \tparam Quality a model of `MixedMeshQuality_3`
 */
@@ -41,14 +42,14 @@ class Edge_collapser
 {
   Working_mesh& m_mesh;
   const Quality& m_quality;
-  // Kept for their memory.
+  // Vectors kept as members to reuse their memory.
   std::vector<Vertex_index> m_around_v, m_around_w, m_around_edge;
   std::vector<std::array<Vertex_index, 4>> m_at_edge;
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
 public:
-  /// The vertices of a face, sorted, `no_vertex` for what a triangle lacks.
+  /// The vertices of a face, sorted, with `no_vertex` as the fourth vertex of a triangle.
   using Face_key = std::array<Vertex_index, 4>;
 
   Edge_collapser(Working_mesh& mesh, const Quality& quality) : m_mesh(mesh), m_quality(quality) {}
@@ -60,7 +61,7 @@ public:
                        [&](Element_index e) { return subdomain(e) == subdomain(around.front()); });
   }
 
-  /// The faces at a vertex that one element of a subdomain has alone, sorted.
+  /// The faces at a vertex that belong to only one element of a subdomain, sorted.
   std::vector<Face_key> boundary_faces_at(Vertex_index v, Subdomain_index index) const
   {
     std::vector<Face_key> all, alone;
@@ -86,14 +87,15 @@ public:
     return alone;
   }
 
-  /// Those of the subdomain of the vertex.
+  /// The boundary faces of the subdomain of the vertex.
   /// \pre `is_in_one_subdomain(v)`
   std::vector<Face_key> boundary_faces_at(Vertex_index v) const
   {
     return boundary_faces_at(v, subdomain(m_mesh.incident[v].front()));
   }
 
-  /// The vertices that share a boundary edge with a vertex of these faces, if it is between two triangles.
+  /// The vertices that share a boundary edge with a vertex of these faces, if the edge is between two
+  /// triangles.
   static std::vector<Vertex_index> ends_of_edges(Vertex_index v, const std::vector<Face_key>& faces)
   {
     std::vector<Vertex_index> ends = neighbors(v, faces);
@@ -109,7 +111,7 @@ public:
     return ends;
   }
 
-  /// Whether the types of the mesh and of its boundary stay.
+  /// Whether the topological types of the mesh and of its boundary are kept.
   /// \pre `is_in_one_subdomain(v)`
   /// \param faces_at_v `boundary_faces_at(v)`; if there are any, w is one of `ends_of_edges()`
   bool keeps_topology(Vertex_index v, Vertex_index w, const std::vector<Face_key>& faces_at_v)
@@ -120,7 +122,8 @@ public:
                                            boundary_faces_at(w, subdomain(m_mesh.incident[v].front()))));
   }
 
-  /// The largest cost of the new elements, infinity if it is above `most` or one is not positive.
+  /// The largest cost of the new elements; infinity if the cost is above `most` or an element is not
+  /// positive.
   double worst_after(Vertex_index v, Vertex_index w, double most) const
   {
     double worst = 0;
@@ -134,7 +137,7 @@ public:
     return worst;
   }
 
-  /// Removes v.
+  /// Collapses the edge vw and removes v.
   void operator()(Vertex_index v, Vertex_index w)
   {
     const std::vector<Element_index> around = m_mesh.incident[v];
@@ -158,7 +161,7 @@ private:
 
   Subdomain_index subdomain(Element_index e) const { return m_mesh.elements[e].attributes.subdomain_index; }
 
-  // The other vertices of boundary faces.
+  // The other vertices of boundary faces of v.
   static std::vector<Vertex_index> neighbors(Vertex_index v, const std::vector<Face_key>& faces)
   {
     std::vector<Vertex_index> all;
@@ -203,7 +206,7 @@ private:
       sort_uniquely(*vertices);
     if(common(m_around_v, m_around_w) != m_around_edge)
       return false;
-    // What elements have in common is around the edge then: two vertices at least, if it counts.
+    // Common vertices of elements are in the link of the edge then: only two or more of them matter.
     const std::vector<std::vector<Vertex_index>> of_v = shares_around_edge(v, w),
                                                  of_w = shares_around_edge(w, v);
     for(const std::vector<Vertex_index>& a : of_v)
@@ -221,7 +224,8 @@ private:
     return true;
   }
 
-  // For each element of v without w that has two vertices around the edge or more: these, sorted.
+  // The sorted vertices in the link of the edge, for each element of v without w that has two or more of
+  // them.
   std::vector<std::vector<Vertex_index>> shares_around_edge(Vertex_index v, Vertex_index w) const
   {
     std::vector<std::vector<Vertex_index>> shares;

@@ -5,7 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Which surfaces a vertex is to be on: that of the domain, or, between several subdomains, one or more.
+// Surfaces that a vertex has to be on: the surface of the domain, or, between several subdomains, one or
+// more.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MOVES_STRATA_H
 #define CGAL_MIXED_MESH_3_INTERNAL_MOVES_STRATA_H
@@ -31,16 +32,16 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The number of a set of interfaces: vertices on the same ones have the same.
+/// The number of a set of interfaces: vertices on the same interfaces have the same number.
 using Stratum = std::uint32_t;
 
-/// Of vertices that may be anywhere, and of those on the boundary of a domain without labels.
+/// The strata of vertices that may be anywhere, and of vertices on the boundary of a domain without labels.
 inline constexpr Stratum free_stratum = 0, boundary_stratum = 1;
 
-/// Of vertices on sharp edges: from here on the numbers of polylines, then those of corners.
+/// The first stratum on sharp edges: the numbers of polylines, then those of corners, follow from here on.
 inline constexpr Stratum first_sharp_stratum = Stratum(1) << 31;
 
-/// Between a subdomain and a later one, or the outside, 0; or all sheets.
+/// An interface between a subdomain and a later one, or the outside, 0; or all sheets.
 struct Interface
 {
   Subdomain_index first, second;
@@ -48,7 +49,7 @@ struct Interface
   bool is_sheet() const { return first == 0; }
 };
 
-/// A rank of what is neither inside nor outside.
+/// The rank of sheets, which are neither inside nor outside.
 inline constexpr Subdomain_rank sheet_rank = outside_rank - 1;
 
 /// Faces on interfaces, seen from their first subdomains, and their strata.
@@ -62,16 +63,16 @@ struct Interface_faces
 The strata of the boundary of a mesh, and, if its domain is labeled, of the interfaces between subdomains.
 
 Where subdomains \f$ a_1, \dots, a_n \f$ meet, in the order of the domain and the outside last, the interface
-of any two is on the surface of the first of them: it is enough to be on those of \f$ a_i \f$ and
-\f$ a_{i+1} \f$ for all i.
+of any two is on the surface of the first of them: a vertex on the interfaces of \f$ a_i \f$ and \f$ a_{i+1}
+\f$ for all i is on all of them.
 */
 class Strata
 {
-  std::vector<Subdomain_index> m_order; // of a labeled domain
+  std::vector<Subdomain_index> m_order; // subdomains of a labeled domain, in order
   bool m_has_sheets;
   std::vector<std::vector<Interface>> m_interfaces = {{}, {{1, 0}}};
   std::map<std::vector<Subdomain_rank>, Stratum> m_numbers; // by the ranks of the subdomains that meet
-  std::vector<std::vector<Subdomain_rank>> m_ranks = {{}, {0, outside_rank}}; // those of each stratum
+  std::vector<std::vector<Subdomain_rank>> m_ranks = {{}, {0, outside_rank}}; // ranks of each stratum
 
 public:
   explicit Strata(const Any_surface& domain) : m_has_sheets(domain.has_sheets())
@@ -80,7 +81,7 @@ public:
       m_order = domain.subdomain_indices();
   }
 
-  /// Those that its vertices are to be on.
+  /// The interfaces that the vertices of a stratum have to be on.
   const std::vector<Interface>& interfaces(Stratum s) const { return m_interfaces[s]; }
   /// Whether a face is on the boundary of the domain.
   bool is_on_boundary(Stratum of_face) const
@@ -90,8 +91,8 @@ public:
   /// Whether a face is on a sheet.
   bool is_on_sheet(Stratum of_face) const { return m_interfaces[of_face].back().is_sheet(); }
 
-  /// The faces on the boundary and on interfaces, among those all of whose vertices are candidates; not in
-  /// the order of the elements.
+  /// The faces on the boundary and on interfaces, among the faces all of whose vertices are candidates; not
+  /// in the order of the elements.
   template <class Is_candidate>
   Interface_faces faces(const Element_list& elements, const std::vector<Element_attributes>& attributes,
                         std::size_t number_of_vertices, const Is_candidate& is_candidate)
@@ -117,7 +118,7 @@ public:
     return result;
   }
 
-  /// All of them, in the order of the elements.
+  /// All faces on the boundary and on interfaces, in the order of the elements.
   template <class Mesh>
   Interface_faces sorted_faces(const Mesh& mesh)
   {
@@ -135,7 +136,7 @@ public:
     return sorted;
   }
 
-  /// The strata of vertices, from those of their faces.
+  /// The strata of vertices, from the strata of their faces.
   std::vector<Stratum> of_vertices(std::size_t number_of_vertices, const Interface_faces& faces)
   {
     std::vector<Stratum> result(number_of_vertices, free_stratum);
@@ -157,7 +158,7 @@ public:
   }
 
 private:
-  // What the domain does not know is as its last subdomain.
+  // The rank of a subdomain; a subdomain that the domain does not know has the rank of the last one.
   Subdomain_rank rank(const Element_attributes& attributes) const
   {
     if(m_order.empty())
@@ -165,7 +166,7 @@ private:
     return (std::min)(rank_of(m_order, attributes.subdomain_index), Subdomain_rank(m_order.size() - 1));
   }
 
-  // \pre the ranks ascend
+  // The number of the stratum of some ranks. \pre the ranks ascend
   Stratum number(const std::vector<Subdomain_rank>& ranks)
   {
     if(m_order.empty())

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A mixed mesh while vertices move and tetrahedra are flipped: with the elements around each vertex, and
+// A mixed mesh while vertices move and tetrahedra are flipped, with the elements around each vertex, and
 // elements that can be removed.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MOVES_WORKING_MESH_H
@@ -35,7 +35,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Whether elements name vertices that exist, at finite positions, and none is inverted.
+/// Whether the vertices of elements exist, at finite positions, and no element is inverted.
 template <class Mesh>
 bool is_valid_start(const Mesh& mesh)
 {
@@ -52,7 +52,7 @@ bool is_valid_start(const Mesh& mesh)
   return true;
 }
 
-/// The costs of elements are raised to powers of 4 and 8, mostly.
+/// The power of a cost; the exponents are 4 and 8, mostly.
 inline double power(double q, double exponent)
 {
   const double q2 = q * q, q4 = q2 * q2;
@@ -78,13 +78,13 @@ struct Working_mesh
 
   std::vector<Vec3> points;
   std::vector<Element> elements;
-  std::vector<std::vector<Element_index>> incident;   ///< for each vertex, its elements, in any fixed order
-  std::vector<Stratum> strata;                        ///< of the vertices
-  using Edge = std::pair<Vertex_index, Vertex_index>; ///< the smaller one first
-  std::map<Edge, Stratum> sharp_edges;                ///< edges of the boundary along sharp ones
+  std::vector<std::vector<Element_index>> incident;   ///< elements of each vertex, in any fixed order
+  std::vector<Stratum> strata;                        ///< strata of the vertices
+  using Edge = std::pair<Vertex_index, Vertex_index>; ///< smaller vertex first
+  std::map<Edge, Stratum> sharp_edges;                ///< edges of the boundary along sharp edges
   std::vector<Vertex_index> merged;                   ///< vertices that no element has any more
 
-  /// \param strata_of_vertices on which surfaces they are to be
+  /// \param strata_of_vertices strata that the vertices have to be on
   template <class Mesh>
   Working_mesh(const Mesh& mesh, std::vector<Stratum> strata_of_vertices)
     : incident(mesh.number_of_vertices()), strata(std::move(strata_of_vertices))
@@ -101,11 +101,11 @@ struct Working_mesh
     }
   }
 
-  /// Or on an interface.
+  /// Whether a vertex is on the boundary, or on an interface.
   bool is_on_boundary(Vertex_index v) const { return strata[v] != free_stratum; }
 
-  /// What changes when elements on the boundary are removed: not in the order of the elements, and with those
-  /// in the numbers of `element_list()`.
+  /// The faces of the boundary and of interfaces, for use after boundary elements have been removed: not in
+  /// the order of the elements, and with the numbers of elements in `element_list()`.
   Interface_faces interface_faces(Strata& all) const
   {
     return all.faces(element_list(), attributes(), points.size(),
@@ -120,7 +120,7 @@ struct Working_mesh
     return Vertex_index(points.size() - 1);
   }
 
-  /// \pre it has no elements
+  /// Removes the last vertex. \pre the vertex has no elements
   void remove_last_vertex()
   {
     points.pop_back();
@@ -162,7 +162,7 @@ struct Working_mesh
     });
   }
 
-  /// Where a vertex is, as a function object.
+  /// Function object that returns the position of a vertex.
   auto position() const
   {
     return [this](Vertex_index v) -> const Vec3& { return points[v]; };
@@ -174,13 +174,13 @@ struct Working_mesh
     return internal::relative_points(element, position());
   }
 
-  /// Whether the Jacobian is proved positive on the whole element.
+  /// Whether the Jacobian is proved to be positive on the whole element.
   bool is_positive(const Element_view& element) const
   {
     return jacobian_sign(element, position()) == Jacobian_sign::POSITIVE;
   }
 
-  /// Writes back what has changed.
+  /// Writes changes back to a mesh.
   template <class Mesh>
   void store(Mesh& mesh) const
   {
@@ -201,7 +201,7 @@ struct Working_mesh
       store_without_merged(mesh, std::move(new_points));
   }
 
-  /// The elements that are not removed.
+  /// Elements that are not removed.
   Element_list element_list() const
   {
     Element_list list;
@@ -211,7 +211,7 @@ struct Working_mesh
     return list;
   }
 
-  /// Theirs.
+  /// Attributes of the elements that are not removed.
   std::vector<Element_attributes> attributes() const
   {
     std::vector<Element_attributes> list;

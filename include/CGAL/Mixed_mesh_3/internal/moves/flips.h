@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Replaces tetrahedra by others between the same vertices, where these are better: 2-3 flips, the removal of
-// an edge with its ring of tetrahedra, and the removal of flat tetrahedra that lie on the boundary.
+// Replacement of tetrahedra by better ones between the same vertices: 2-3 flips, the removal of an edge with
+// its ring of tetrahedra, and the removal of flat tetrahedra that lie on the boundary.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MOVES_FLIPS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_MOVES_FLIPS_H
@@ -29,11 +29,11 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-Flips tetrahedra where the sum of the powers of their costs falls, and none gets a cost above the bound, or,
-where one has, above the worst one. The new ones fill what the old ones did,
-and are positive by exact orientation, so conformity and validity stay; the boundary does not change, but
-where flat tetrahedra with two faces on it are removed, and where an edge in a flat place is flipped, if there
-are sharp edges.
+Flips tetrahedra if the sum of the powers of their costs falls, and none gets a cost above the bound, or, if
+one is above the bound already, above the worst one. The new tetrahedra fill the space of the old ones, and
+are positive by exact orientation, so conformity and validity are kept; the boundary changes only where flat
+tetrahedra with two faces on it are removed, and where an edge in a flat place is flipped, if there are sharp
+edges.
 
 \tparam Quality a model of `MixedMeshQuality_3`
 */
@@ -50,20 +50,20 @@ class Tetrahedron_flipper
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr int largest_ring = 7;
-  // Of tetrahedra on the boundary, those are removed that cost more and can not be flipped.
+  // Cost above which tetrahedra on the boundary are removed if they can not be flipped.
   static constexpr double worth_removing = 3;
-  // Flips that gain less are not worth the trouble, and might go round in circles.
+  // Least relative gain: flips that gain less are not worth the time, and might go round in circles.
   static constexpr double least_gain = 1e-6;
 
 public:
-  /// \param bound no tetrahedron gets a larger cost
+  /// \param bound largest cost that a tetrahedron may get
   Tetrahedron_flipper(Working_mesh& mesh, const Quality& quality, double bound)
     : m_mesh(mesh), m_quality(quality), m_bound(bound)
   {
   }
 
-  /// Tries all tetrahedra of a cost above `worst`; the new ones too. Calls `changed(v)` for the vertices
-  /// of new and removed ones, and returns the number of flips.
+  /// Tries all tetrahedra of a cost above `worst`, including new ones. Calls `changed(v)` for the vertices of
+  /// new and removed tetrahedra, and returns the number of flips.
   template <class Changed>
   std::size_t run(double exponent, double worst, const Changed& changed)
   {
@@ -87,7 +87,8 @@ public:
     return flips;
   }
 
-  /// Of tetrahedra from the boundary or from their subdomain, and of edges from flat places of the boundary.
+  /// The number of tetrahedra removed from the boundary or from their subdomain, and of edges removed from
+  /// flat places of the boundary.
   std::size_t number_of_removals() const { return m_number_of_removals; }
 
 private:
@@ -101,7 +102,7 @@ private:
     return power(m_quality(TETRAHEDRON, m_mesh.relative_points(Element_view(TETRAHEDRON, v))), m_power);
   }
 
-  // Of a new one: infinity if it is above `most`.
+  // The cost of a new tetrahedron: infinity if it is above `most`.
   double cost(const Tetrahedron& t, double most) const
   {
     const double c = cost(t.data());
@@ -115,7 +116,7 @@ private:
     for(Element_index e : old) {
       const Element_attributes& a = m_mesh.elements[e].attributes;
       if(a.subdomain_index != attributes.subdomain_index || are_beside_sheet(a, attributes))
-        return false; // an interface stays, and a sheet
+        return false; // interfaces and sheets stay
       attributes.compartment = (std::max)(attributes.compartment, a.compartment);
       attributes.is_in_region = attributes.is_in_region || a.is_in_region;
     }
@@ -138,7 +139,7 @@ private:
     return true;
   }
 
-  // Whether a face of an element of no compartment would be on a sheet if it had these attributes.
+  // Whether a face of an element without compartment would be on a sheet if the element had these attributes.
   bool would_meet_sheet(Element_index e, const Element_attributes& attributes) const
   {
     if(m_mesh.elements[e].attributes.compartment != 0)
@@ -164,9 +165,9 @@ private:
     return false;
   }
 
-  // The tetrahedra around an edge, and their vertices off it, in order such that (a, b, r[i], r[i + 1])
-  // is positive. Empty unless all its elements are tetrahedra, and the edge is inside or can be flipped on
-  // the boundary: then the ring is open.
+  // The tetrahedra around an edge, and their other vertices, in order such that (a, b, r[i], r[i + 1]) is
+  // positive. Empty unless all elements of the edge are tetrahedra, and the edge is inside or can be flipped
+  // on the boundary: the ring of a boundary edge is open.
   std::vector<Vertex_index> ring_of(Vertex_index a, Vertex_index b,
                                     std::vector<Element_index>& elements) const
   {
@@ -178,7 +179,7 @@ private:
         continue;
       if(element.kind != TETRAHEDRON || links.size() == std::size_t(largest_ring))
         return {};
-      // (a, b, c, d) with the sign of the element
+      // The permutation (a, b, c, d) has the sign of the element.
       const int i = element.position(a);
       int k = 0;
       while(k == i || k == j)
@@ -204,12 +205,12 @@ private:
     return {};
   }
 
-  // Of an edge in a flat place of the boundary, beside which there are sharp edges. Between its ends there
-  // will be an edge of the boundary instead.
+  // The ring of an edge in a flat place of the boundary, beside which there are sharp edges. An edge of the
+  // boundary between the ends of the ring will replace the edge.
   std::vector<Vertex_index> open_ring(Vertex_index a, Vertex_index b,
                                       const std::vector<std::array<Vertex_index, 2>>& links) const
   {
-    constexpr double flat = 1e-9; // volume by the third power of the longest edge
+    constexpr double flat = 1e-9; // volume divided by the third power of the longest edge
     if(m_mesh.sharp_edges.empty() || m_mesh.is_sharp(a, b) || links.size() >= std::size_t(largest_ring))
       return {};
     const auto first = std::find_if(links.begin(), links.end(), [&](const auto& l) {
@@ -239,7 +240,8 @@ private:
     return ring;
   }
 
-  // The best triangulation of the ring (Klincsek), each triangle with a tetrahedron to either end.
+  // Removes an edge by the best triangulation of its ring (Klincsek); each triangle gets a tetrahedron to
+  // either end of the edge.
   bool remove_edge(Vertex_index a, Vertex_index b)
   {
     std::vector<Element_index> old;
@@ -291,13 +293,13 @@ private:
     return true;
   }
 
-  // Whether there is neither an interface nor a sheet between them.
+  // Whether there is neither an interface nor a sheet between two elements.
   static bool are_on_one_side(const Element_attributes& a, const Element_attributes& b)
   {
     return a.subdomain_index == b.subdomain_index && !are_beside_sheet(a, b);
   }
 
-  // Whether all of some vertices are of another element too, on the same side.
+  // Whether another element on the same side has all of some vertices.
   bool is_shared(Element_index e, std::initializer_list<Vertex_index> vertices) const
   {
     const std::vector<Element_index>& around = m_mesh.incident[*vertices.begin()];
@@ -311,7 +313,7 @@ private:
     });
   }
 
-  // Whether the edge is one of a face that belongs to one element only.
+  // Whether the edge belongs to a face of only one element.
   bool is_edge_of_boundary(Vertex_index a, Vertex_index b) const
   {
     for(Element_index e : m_mesh.incident[a]) {
@@ -329,10 +331,10 @@ private:
     return false;
   }
 
-  // A tetrahedron with two faces on the boundary of its subdomain, which meet in the edge ab: the other two
-  // faces can take their place. That keeps the boundary a manifold if the edge between them is not on it yet.
-  // On the boundary of the mesh the tetrahedron is removed; on an interface or a sheet it goes to the other
-  // side if the edge can be flipped there.
+  // Removes a tetrahedron with two faces on the boundary of its subdomain, which meet in the edge ab: the
+  // other two faces replace them. The boundary stays a manifold if the edge between the other two faces is
+  // not on it yet. On the boundary of the mesh the tetrahedron is removed; on an interface or a sheet the
+  // tetrahedron goes to the other side if the edge can be flipped there.
   bool remove_from_boundary(Element_index e)
   {
     if(cost(m_mesh.elements[e].vertices.data()) < power(worth_removing, m_power))
@@ -349,7 +351,7 @@ private:
         continue;
       if(m_mesh.is_sharp(a, b)
          || (m_mesh.strata[c] == m_mesh.strata[d] && m_mesh.strata[c] >= first_sharp_stratum))
-        continue; // or two points of a sharp edge would be joined past those between
+        continue; // two points of a sharp edge would be joined past those between
       const Working_mesh::Element *first = element_behind(e, {a, b, c}),
                                   *second = element_behind(e, {a, b, d});
       if(first == nullptr && second == nullptr) {
@@ -391,7 +393,7 @@ private:
     const Reference_element& reference = reference_elements[TETRAHEDRON];
     for(int i = 0; i < 4; ++i) {
       const auto v = m_mesh.elements[e].vertices;
-      // the face opposite to vertex 3 - i
+      // The face is opposite to vertex 3 - i.
       const auto& f = reference.faces[i].vertices;
       const Vertex_index a = v[f[0]], b = v[f[1]], c = v[f[2]];
       const Vertex_index d = v[std::size_t(6 - f[0] - f[1] - f[2])];
@@ -402,7 +404,7 @@ private:
             continue;
           const Vertex_index apex =
             o.vertices[std::size_t(6 - o.position(a) - o.position(b) - o.position(c))];
-          // (a, b, c) is seen counter-clockwise from outside, where the apex is
+          // The face (a, b, c) is seen counter-clockwise from outside, where the apex is.
           const std::vector<Tetrahedron> tetrahedra{{a, b, d, apex}, {b, c, d, apex}, {c, a, d, apex}};
           const double first = cost(v.data()), second = cost(o.vertices.data());
           const double limit = (1 - least_gain) * (first + second);

@@ -38,9 +38,9 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-A balanced octree whose nodes are located in the domain and in the region of interest. Children of a
-node that is off a surface inherit its side; those of a node that meets it look at the parent's part
-of the surface only.
+A balanced octree whose nodes are located in the domain and in the region of interest. Children of a node that
+does not meet a surface inherit its side; children of a node that meets a surface look at the parent's part of
+the surface only.
 
 Copies share the domain, the region and the cell traits.
 */
@@ -61,7 +61,7 @@ public:
     locate(Octree::root(), m_locations[0]);
   }
 
-  /// Of models of the concepts, which the caller keeps.
+  /// Constructs an octree from models of the concepts, which the caller keeps.
   template <class Domain, class Region, class CellTraits>
   Located_octree(const Domain& domain, const Region& region, const CellTraits& traits)
     : Located_octree(oracles_of(domain, region, traits))
@@ -73,12 +73,12 @@ public:
   const Any_region& region() const { return *m_oracles.region; }
   const Any_cell_traits& cell_traits() const { return *m_oracles.cell_traits; }
 
-  /// `ON_BOUNDARY`: the cell meets the surface of the domain; else the side of all its points.
+  /// The side of all points of the cell, or `ON_BOUNDARY` if the cell meets the surface of the domain.
   Bounded_side side(Node_index n) const { return Bounded_side(m_locations[n].domain); }
   /// Whether the cell meets the domain. Only such cells are refined or become elements.
   bool is_alive(Node_index n) const { return side(n) != ON_UNBOUNDED_SIDE; }
   bool is_in_region(Node_index n) const { return m_locations[n].region != ON_UNBOUNDED_SIDE; }
-  /// Whether all of the root is inside the region: there is none.
+  /// Whether all of the root is inside the region: there is no region then.
   bool is_region_everywhere() const { return m_locations[0].region == ON_BOUNDED_SIDE; }
   /// Whether a lattice point of a leaf is in the region.
   bool is_in_region(const Lattice_point& p, Node_index leaf) const
@@ -87,8 +87,8 @@ public:
            || (m_locations[leaf].region == ON_BOUNDARY
                && m_oracles.region->depth(m_oracles.cell_traits->point(p)) >= 0);
   }
-  /// The part of the domain's surface that meets the cell; none if none does, but for cells inside labeled
-  /// domains.
+  /// The part of the domain's surface that meets the cell; null if the cell does not meet the surface, unless
+  /// the cell is inside a labeled domain.
   const Surface_part& surface_part(Node_index n) const
   {
     const std::uint32_t part = m_locations[n].domain_part;
@@ -131,7 +131,7 @@ public:
     return std::floor(length * (std::ldexp(1., 24) / m_diagonal) + 0.3);
   }
 
-  /// That length in its own unit.
+  /// A length rounded like `quantized()`, in its own unit.
   double rounded(double length) const { return quantized(length) * std::ldexp(m_diagonal, -24); }
 
   /// The leaf around a point of the root.
@@ -143,7 +143,7 @@ public:
     return n;
   }
 
-  /// The side of any point, by its leaf; by a query only if that meets the surface.
+  /// The side of any point: the side of its leaf, or the answer to a query if the leaf meets the surface.
   Bounded_side bounded_side(const Vec3& p) const
   {
     const Bbox_3 box = domain().bbox();
@@ -155,7 +155,7 @@ public:
     return side(n) != ON_BOUNDARY ? side(n) : domain().bounded_side(point, surface_part(n));
   }
 
-  /// Of eight siblings that with the nearest center: the one around a point, whatever the frame of the cells.
+  /// The sibling of eight with the nearest center: the cell around a point, whatever the frame of the cells.
   Node_index nearest_of(Node_index first, const Point_3& q) const
   {
     Node_index nearest = first;
@@ -181,7 +181,7 @@ public:
     CGAL_assertion(are_balanced(m_octree, refined, Adjacency::EDGE));
   }
 
-  /// Splits what is split in another octree with the same root.
+  /// Splits the nodes that are split in another octree with the same root.
   void refine_like(const Located_octree& other)
   {
     for(Node_index n = 0; n < other.m_octree.size(); ++n)
@@ -203,14 +203,14 @@ public:
     return level;
   }
 
-  /// Takes back all splits but those that made the nodes below `size`.
+  /// Undoes all splits but those that made the nodes below `size`.
   void truncate(std::size_t size)
   {
     m_octree.truncate(size);
     m_locations.resize(size);
   }
 
-  /// The leaves of a level that meet the domain, and the region too if asked for.
+  /// The leaves of a level that meet the domain, and, with `in_region_only`, the region too.
   std::vector<Node_index> leaves_to_refine(int level, bool in_region_only) const
   {
     std::vector<Node_index> leaves;
@@ -224,7 +224,7 @@ public:
   /// Depth of the center of a cell in the region; negative outside.
   double depth_in_region(Node_index n) const { return m_oracles.region->depth(center(n)); }
 
-  /// The weight of an error at the center of a cell, not counting how far it is from the region.
+  /// The weight of an error at the center of a cell, without the factor for the distance from the region.
   double weight_in_region(Node_index n, double reach) const
   {
     return m_oracles.region->weight(center(n), reach);
@@ -242,7 +242,7 @@ public:
                       -3 * level);
   }
 
-  /// The edge length of a cell, or, where edges are not equal, the root of their mean square.
+  /// The edge length of a cell; the root mean square where edges are not equal.
   double edge_length(Node_index n) const
   {
     return std::ldexp(m_diagonal / std::sqrt(3.), -m_octree.level(n));
@@ -298,13 +298,13 @@ private:
 
   Oracles m_oracles;
   Octree m_octree;
-  double m_diagonal; // of the root
+  double m_diagonal; // diagonal of the root
   std::vector<Location> m_locations;
   Parts m_domain_parts, m_region_parts;
   Surface_part m_no_part;
 };
 
-/// The volume of the domain, about: of the cells inside, and half of those that meet its surface.
+/// The approximate volume of the domain: the cells inside, and half of the cells that meet the surface.
 /// \param root the octree with nothing but its root
 inline double volume_of_domain(const Located_octree& root)
 {

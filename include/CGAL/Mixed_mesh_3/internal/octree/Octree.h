@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The octree: integers only. Nodes are in one array, the eight children of a node side by side;
-// nothing knows the geometry.
+// The octree, in integers only. Nodes are in one array, the eight children of a node side by side; the octree
+// does not know the geometry.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_OCTREE_OCTREE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_OCTREE_OCTREE_H
@@ -49,7 +49,7 @@ public:
   static constexpr Node_index root() { return 0; }
   bool is_leaf(Node_index n) const { return m_nodes[n].first_child == 0; }
   Node_index child(Node_index n, int i) const { return m_nodes[n].first_child + Node_index(i); }
-  /// \pre not the root
+  /// The parent of a node. \pre `n` is not the root
   Node_index parent(Node_index n) const { return m_parents[(n - 1) / 8]; }
   int level(Node_index n) const { return m_nodes[n].level; }
   const Lattice_point& corner(Node_index n) const { return m_nodes[n].corner; }
@@ -75,7 +75,7 @@ public:
     return first;
   }
 
-  /// Takes back all splits but the first ones: those that made the nodes below `size`.
+  /// Undoes all splits but the first ones: those that made the nodes below `size`.
   void truncate(std::size_t size)
   {
     CGAL_precondition(size % 8 == 1 && size <= m_nodes.size());
@@ -98,7 +98,8 @@ public:
         return no_node;
       difference |= p[k] ^ corner(n)[k];
     }
-    // up to the first common ancestor, whose children's bit is the highest that differs, and down
+    // The path goes up to the first common ancestor, whose children's bit is the highest that differs, and
+    // down.
     int common = l;
     for(; difference >> (max_level + 1 - common) != 0; --common)
       n = parent(n);
@@ -183,7 +184,7 @@ private:
       const int a = 1 << axis, b = 1 << (axis + 1) % 3, c = 1 << (axis + 2) % 3;
       for(int o : {0, b, c, b | c})
         face(axis, {child(n[0], o | a), child(n[1], o)});
-      // edges in the face along b, then along c; around an edge along k, bit 0 is axis k+1
+      // The edges in the face are along b, then along c; around an edge along k, bit 0 is axis k+1.
       for(int o : {0, b})
         edge((axis + 1) % 3,
              {child(n[0], o | a), child(n[0], o | a | c), child(n[1], o), child(n[1], o | c)});
@@ -228,7 +229,7 @@ private:
   };
 
   std::vector<Node> m_nodes;
-  std::vector<Node_index> m_parents; // of each eight siblings
+  std::vector<Node_index> m_parents; // parents of groups of eight siblings
 };
 
 /// A number for each lattice point; sorts by x, then y, then z.

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Which cell is split next: the one where a vertex removes most of the error.
+// The order in which cells are split: first the cell where a vertex removes most of the error.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_OCTREE_REFINEMENT_SEQUENCE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_OCTREE_REFINEMENT_SEQUENCE_H
@@ -32,7 +32,8 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /// The radius of a ball with the volume that the region has in common with the domain, by the centers of some
-/// hundred cells; 0 if they do not meet. Of a region too thin for that, at most that of the cells it meets.
+/// hundred cells; 0 if region and domain do not meet. If the region is too thin for that, a bound by the
+/// number of cells that meet the region.
 /// \param root the octree with nothing but its root
 inline double mean_radius_of_region(const Located_octree& root)
 {
@@ -48,7 +49,7 @@ inline double mean_radius_of_region(const Located_octree& root)
       radius = radius_of(double(count), octree.edge_length(leaves.front()));
     if(leaves.empty() || std::size_t(count) >= enough)
       break;
-    if(leaves.size() > too_many) // between their centers
+    if(leaves.size() > too_many) // the region lies between their centers
       return count > 0 ? radius : radius_of(double(leaves.size()), octree.edge_length(leaves.front()));
     octree.refine(leaves);
   }
@@ -56,55 +57,57 @@ inline double mean_radius_of_region(const Located_octree& root)
 }
 
 /*!
-The splits of an octree, in the order of a key: how much error a vertex removes that is spent in the cell.
+The splits of an octree, in the order of a key: the error that a vertex removes if it is spent in the cell.
 
-For linear elements, the error of a functional of the solution in the region is the sum of w h^2 over the
+The error of a functional of the solution in the region, for linear elements, is the sum of w h^2 over the
 volume, where w is the product of the second derivatives of the solution and of the functional's influence;
 splitting a cell of side h removes error w h^5 and costs a fixed number of vertices. Outside the region w
 falls like a power of the distance d: the key is (1 + d / r)^-6 h^5, times the weight that the region gives
-the place. With r = 0 that is the rule of the paper: what meets the region is split, the largest cells first.
+the place. With r = 0 this is the rule of the paper: cells that meet the region are split, the largest first.
 
-Cells at the surface come two levels of 32^(1/2) earlier: there displacements are prescribed and elements are
-tetrahedra, which are less accurate. And they remove volume between the surface and the boundary, which falls
-like h^4: so they get a share of the error that does not depend on the region.
+Cells at the surface come two levels of 32^(1/2) earlier: displacements are prescribed there and elements are
+tetrahedra, which are less accurate. Cells at the surface also remove volume between the surface and the
+boundary, which falls like h^4: so they get a share of the error that does not depend on the region.
 
-Without a region, cells at sharp edges come first, up to a level finer than others at the surface, and cells
-of equal keys are split here and there, so that the last level is not at one end.
+Cells at sharp edges come first without a region, up to a level finer than others at the surface, and cells of
+equal keys are split here and there, so that the last level is not at one end.
 
-As nodes of an octree are numbered in the order of the splits, the octree after any number of steps is a
-prefix of that after all.
+The octree after any number of steps is a prefix of the octree after all steps, as nodes of an octree are
+numbered in the order of the splits.
 */
 class Refinement_sequence
 {
   using Node_index = Octree::Node_index;
-  // Of equal keys, the deepest in the region first; ties by lattice position.
+  // Entries of equal keys are ordered by depth in the region, the deepest first, then by lattice position.
   using Entry = std::tuple<double, double, std::uint64_t, Node_index>;
 
 public:
-  // Measured as the exponent: factors from 2 to 16 differ by less than 10 %; without the factor, errors of
-  // prescribed displacements are half as large again at 2,000 vertices. With ten times as much for the
-  // volume, a sixth less is left for the region at 10,000 vertices.
+  // Factors measured like the exponent: factors from 2 to 16 differ by less than 10 %; without the factor,
+  // errors of prescribed displacements are half as large again at 2,000 vertices. With ten times the weight
+  // of the volume, a sixth fewer vertices are left for the region at 10,000 vertices.
   static constexpr double factor_at_surface = 4, weight_of_volume = 3e-4;
-  // A level of the cells between those at the surface and those inside, of 32^(1/2) each.
+  // Factor by which cells at sharp edges come a level, of 32^(1/2), before those at the surface, as these
+  // come before those inside.
   static constexpr double factor_at_sharp_edges = 16;
 
   using Point = Located_octree::Point_3;
 
 private:
-  Located_octree m_octree; // after all steps
+  Located_octree m_octree; // octree after all steps
   const double m_radius;
-  std::vector<double> m_depths;     // of each node in the region
+  std::vector<double> m_depths;     // depth of each node in the region
   std::vector<std::size_t> m_sizes; // numbers of nodes, and of leaves that meet the domain, after each step
   std::vector<std::size_t> m_cells;
-  std::vector<Node_index> m_split;          // by each step
-  const bool m_is_everywhere;               // the region
-  std::vector<std::vector<Point>> m_points; // in each node, on sharp edges
+  std::vector<Node_index> m_split;          // cell that each step splits
+  const bool m_is_everywhere;               // whether the region is everywhere
+  std::vector<std::vector<Point>> m_points; // points on sharp edges in each node
   std::priority_queue<Entry> m_queue;
 
 public:
-  /// \param start what is refined already
+  /// \param start octree with the splits that have been made already
   /// \param radius the distance from the region at which the weight has fallen to 2^-6; 0: the region only
-  /// \param points on sharp edges, closer to each other than cells are; they count without a region
+  /// \param points points on sharp edges, at distances less than cell sizes; points count without a region
+  /// only
   Refinement_sequence(Located_octree start, double radius, std::vector<Point> points = {})
     : m_octree(std::move(start)), m_radius(radius), m_is_everywhere(m_octree.is_region_everywhere())
   {
@@ -114,9 +117,9 @@ public:
   }
 
   std::size_t number_of_steps() const { return m_split.size(); }
-  /// How many leaves meet the domain after some steps.
+  /// The number of leaves that meet the domain after some steps.
   std::size_t number_of_cells(std::size_t steps) const { return m_cells[steps]; }
-  /// How many nodes there are.
+  /// The number of nodes after some steps.
   std::size_t number_of_nodes(std::size_t steps) const { return m_sizes[steps]; }
   /// The cell that a step splits.
   Node_index cell(std::size_t step) const { return m_split[step]; }
@@ -128,14 +131,14 @@ public:
     return result;
   }
 
-  /// One step more, unless there is nothing left to split.
+  /// Adds one step, unless there is nothing left to split.
   bool extend()
   {
     while(!m_queue.empty()) {
       const Node_index n = std::get<3>(m_queue.top());
       m_queue.pop();
       if(!m_octree.octree().is_leaf(n))
-        continue; // for the balance
+        continue; // the cell has been split for the balance
       const std::size_t size = m_octree.octree().size();
       m_octree.refine(std::vector<Node_index>{n});
       m_split.push_back(n);
@@ -146,7 +149,7 @@ public:
   }
 
 private:
-  // Takes the nodes from `first` on in; `cells` is the number of leaves before.
+  // Adds the nodes from `first` on; `cells` is the number of leaves before.
   void append(std::size_t first, std::size_t cells)
   {
     const Octree& octree = m_octree.octree();
@@ -165,7 +168,7 @@ private:
     m_cells.push_back(cells);
   }
 
-  // Cells that are small against what they are compared with take it from their parents.
+  // Depth of a cell in the region; cells that are small against the radius take the depth from their parents.
   double depth(Node_index n) const
   {
     return n > 0 && m_octree.edge_length(n) < m_radius / 2 ? m_depths[m_octree.octree().parent(n)]
@@ -178,7 +181,7 @@ private:
     return m_is_everywhere ? k * 0x9E3779B97F4A7C15u : k; // Fibonacci hashing (Knuth)
   }
 
-  // Those of a node to its children, the first of which is given.
+  // Passes the points of a node on to its children, the first of which is given.
   void hand_down_points(Node_index parent, Node_index first)
   {
     if(m_points.empty())

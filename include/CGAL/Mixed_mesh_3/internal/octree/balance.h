@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// 2:1 balance: the "one-irregular" octree of section 5.2 of the paper, and the edge patterns that
-// the transition templates are looked up with.
+// 2:1 balance: the "one-irregular" octree of section 5.2 of the paper, and the edge patterns by which
+// transition templates are looked up.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_OCTREE_BALANCE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_OCTREE_BALANCE_H
@@ -45,8 +45,8 @@ inline std::vector<std::array<int, 3>> neighbor_directions(Adjacency adjacency)
 Splits leaves until no two leaves adjacent across `adjacency` differ by more than one level.
 
 Dead cells are balanced like the others, so that every face between two cells is either whole or
-split in four. A refined cell asks for neighbors of its own size; doing so from the deepest level
-up, each refined cell is looked at once.
+split in four. A refined cell asks for neighbors of its own size; from the deepest level up, each refined cell
+is looked at once.
 
 \param refined the nodes split since the octree was last balanced
 \param split called as `split(node)` to split a leaf, so that the caller can keep data per node
@@ -73,7 +73,7 @@ void balance(const Octree& octree, const std::vector<Octree::Node_index>& refine
         }
 }
 
-/// Whether all neighbors of nodes that have been split are as small as these, as `balance()` leaves them.
+/// Whether all neighbors of split nodes are at least as small as these nodes, as `balance()` leaves them.
 inline bool are_balanced(const Octree& octree, const std::vector<Octree::Node_index>& refined,
                          Adjacency adjacency)
 {

@@ -29,13 +29,14 @@ class Budget_search
 {
   using Candidate = decltype(std::declval<const Try&>()(std::declval<const Located_octree&>()));
 
-  // A budget filled to 99.8 % is full enough while large steps are tried: with millions of vertices a
-  // further trial costs more than it brings. Below 99 % single cells are tried.
+  // Shares of the budget: at 99.8 % large steps end, because with millions of vertices a further trial costs
+  // more than it gains. Below 99 % single cells are tried.
   static constexpr double full_enough = 0.998, worth_single_cells = 0.99;
   static constexpr std::size_t number_of_single_cells = 24;
 
-  // Cells that meet the domain have a vertex and more each, unless the domain is thinner than they are: along
-  // a spike there may be any number without. Where so many do not fill the budget, more will not.
+  // Limit of the number of cells. Cells that meet the domain have one vertex or more each, unless the domain
+  // is thinner than a cell: along a spike any number of cells may have no vertices. If the limit does not
+  // fill the budget, more cells will not fill the budget either.
   static constexpr double most_cells_for_a_vertex = 8, most_cells_at_least = 1000;
 
   const std::size_t m_budget;
@@ -43,7 +44,7 @@ class Budget_search
   Refinement_sequence m_sequence;
   Located_octree m_octree;
   Candidate m_best;
-  std::size_t m_steps = 0; // of the best
+  std::size_t m_steps = 0; // steps of the best candidate
 
 public:
   Budget_search(const Located_octree& start, std::size_t budget, double radius, const Try& try_octree,
@@ -61,7 +62,7 @@ private:
   std::size_t size() const { return m_best.number_of_vertices; }
   bool is_done() const { return m_best.is_stopped || size() >= m_budget; }
 
-  // Tries an octree; takes it over if it fits.
+  // Tries an octree and takes it over if its mesh fits.
   std::size_t attempt(Located_octree trial)
   {
     Candidate candidate = m_try(trial);
@@ -71,7 +72,7 @@ private:
       return m_budget + 1;
     }
     if(!candidate.is_good() && m_best.is_good())
-      return m_budget + 1; // rare: another number of cells will do
+      return m_budget + 1; // rare: another number of cells succeeds
     if(n <= m_budget) {
       m_octree = std::move(trial);
       m_best = std::move(candidate);
@@ -85,7 +86,7 @@ private:
     return cells < most_cells_for_a_vertex * double(m_budget) + most_cells_at_least && m_sequence.extend();
   }
 
-  // The first step with so many cells.
+  // The first step with that number of cells.
   std::size_t steps_for(double cells)
   {
     while(double(m_sequence.number_of_cells(m_sequence.number_of_steps())) < cells && extend()) {
@@ -101,7 +102,7 @@ private:
     return low;
   }
 
-  // Extends the sequence as far as needed and there is something to split, and not too many cells.
+  // Extends the sequence as far as needed, unless there is nothing to split, or there are too many cells.
   std::size_t available(std::size_t steps)
   {
     while(m_sequence.number_of_steps() < steps && extend()) {
@@ -109,13 +110,13 @@ private:
     return (std::min)(steps, m_sequence.number_of_steps());
   }
 
-  // The number of vertices grows with that of cells, nearly at a fixed rate. `low` steps fit; `high` do not,
-  // or are not known to.
+  // Searches the number of steps. The number of vertices grows with the number of cells, nearly at a fixed
+  // rate. `low` steps fit; `high` steps do not fit, or are not known to fit.
   void search()
   {
     constexpr std::size_t unknown = std::size_t(-1);
     std::size_t high = unknown, n_high = 0;
-    double rate = 1.25; // vertices for a cell, deep inside and at the surface
+    double rate = 1.25; // vertices per cell, deep inside and at the surface
     for(int step = 0; high - m_steps > 1 && !is_done(); ++step) {
       if(m_steps > 0 && double(size()) > full_enough * double(m_budget))
         return;
@@ -141,7 +142,7 @@ private:
     }
   }
 
-  // Where one more cell in order would exceed a small budget, others may fit.
+  // Splits single cells: where the next cell in order would exceed a small budget, other cells may fit.
   void add_single_cells()
   {
     const std::size_t last = available(m_steps + number_of_single_cells);
@@ -161,14 +162,14 @@ private:
 /*!
 Finds the finest octree of a sequence whose mesh fits the budget.
 
-A candidate is an octree with the mesh made of it. `Candidate::number_of_vertices` is what is bounded;
-`Candidate::is_stopped` tells that the user wants to stop; the result is the best one before, then, and says
-so, too.
+A candidate is an octree with the mesh made of the octree. `Candidate::number_of_vertices` is what is bounded;
+`Candidate::is_stopped` tells that the user wants to stop: the result is then the best candidate before, and
+has `is_stopped` set too.
 
-\param octree the located octree to begin with; becomes that of the result
-\param radius, points see `Refinement_sequence`
+\param octree the located octree to begin with; becomes the octree of the result
+\param radius, points parameters of `Refinement_sequence`
 \param try_octree `Candidate(octree)`: runs all stages that change the number of vertices
-\return the best candidate; its number of vertices is above the budget only if that of the start is
+\return the best candidate; its number of vertices is above the budget only if that of the start is above, too
 \par Complexity
 O(log n) trials of at most a little more than n vertices; two for large n
 */

@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Where the octree's lattice can lie on the surface: if all of that is parallel to planes of the axes, cells
-// are placed and shaped such that these are lattice planes.
+// Octree lattices that lie on the surface: if all of the surface is parallel to planes of the axes, cells are
+// placed and shaped such that the planes of the surface are lattice planes.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_OCTREE_PLACE_LATTICE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_OCTREE_PLACE_LATTICE_H
@@ -34,14 +34,15 @@ namespace internal {
 /// Finds cells for a domain whose surface lies in planes perpendicular to the axes.
 class Lattice_placement
 {
-  // Cells are boxes of at most that ratio. Planes are on the lattice up to rounding.
+  // Bounds: cells are boxes of at most that ratio of edge lengths; planes are on the lattice up to rounding.
   static constexpr double largest_ratio = 1.25, accuracy = 1e-9;
-  // Where cells are uniform, those nearest to cubes are taken that use such a share of what others would.
+  // Share of the largest number of vertices within the budget from which uniform cells are candidates: the
+  // candidate nearest to a cube is taken.
   static constexpr double share_of_most = 0.7, margin = 1.05;
   // The share of the budget that the coarsest cells may take where others are split.
   static constexpr double share_of_coarsest = 0.25;
 
-  using Numbers = std::array<std::uint32_t, 3>; // of cells along each axis
+  using Numbers = std::array<std::uint32_t, 3>; // numbers of cells along each axis
 
   struct Choice
   {
@@ -92,7 +93,7 @@ public:
   }
 
 private:
-  // Exact for a box, and near enough for others.
+  // Number of vertices, exact for a box, and near enough for other shapes.
   double estimate(const std::array<double, 3>& h) const
   {
     double sum = 1 + m_volume / (h[0] * h[1] * h[2]);
@@ -115,7 +116,7 @@ private:
     });
   }
 
-  // The numbers of cells nearest to cubes of that side.
+  // The numbers of cells that are nearest to cubes of that side.
   std::optional<Choice> choose(double side) const
   {
     Choice choice{{0, 0, 0}, 1, 0};
@@ -152,13 +153,13 @@ private:
       for(const auto& [coordinate, area] : m_planes[k]) {
         axes[k].emplace_back(side * position(k, coordinate, numbers[k]), coordinate);
         if(axes[k].size() > 1 && axes[k].back().first == axes[k][axes[k].size() - 2].first)
-          return {}; // two planes nearer to each other than to be told apart
+          return {}; // two planes are too near to each other to be told apart
       }
     return Axis_aligned_octree_cell_traits_3(axes, level, is_uniform);
   }
 };
 
-/// Cells whose planes lie on the surface if they can, else around the domain as the criteria say.
+/// Cells whose planes lie on the surface if possible, else cells around the domain as the criteria say.
 template <class Domain, class Region, class Criteria>
 Axis_aligned_octree_cell_traits_3 cell_traits_of(const Domain& domain, const Region& region,
                                                  const Criteria& criteria)

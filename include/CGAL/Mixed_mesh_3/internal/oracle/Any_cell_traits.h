@@ -22,16 +22,15 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The coarsest level whose cells have all lattice planes that lie on the surface, and whether it shall be
-/// that of all cells.
+/// The coarsest level whose cells have all lattice planes that lie on the surface, and whether all cells
+/// shall have that level.
 struct Lattice_on_surface
 {
   int level = 0;
   bool is_uniform = false;
 };
 
-/// A model of `OctreeCellTraits_3` as the octree sees it. Cells themselves are seen by domain and region
-/// only.
+/// A model of `OctreeCellTraits_3` as the octree sees it. Only domain and region see the cells themselves.
 class Any_cell_traits
 {
 public:

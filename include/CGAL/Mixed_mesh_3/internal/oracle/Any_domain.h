@@ -33,22 +33,22 @@ public:
 
   virtual Surface_part surface_part() const = 0;
   /// \param parent the part of a cell that contains this one
-  /// \param part becomes that of the cell if the answer is `ON_BOUNDARY`, or, with labels, if the cell is
-  ///        inside; else none
+  /// \param part becomes the part of the cell if the answer is `ON_BOUNDARY`, or, with labels, if the cell is
+  ///        inside; else null
   virtual Bounded_side locate(const Lattice_point& corner, std::uint32_t side, const Surface_part& parent,
                               Surface_part& part) const = 0;
   /// A box around a cell.
   virtual Bbox_3 cell_box(const Lattice_point& corner, std::uint32_t side) const = 0;
 
-  /// \param part that of a cell that contains `p`, or none
+  /// \param part part of a cell that contains `p`, or null
   virtual Bounded_side bounded_side(const Point_3& p, const Surface_part& part) const = 0;
   virtual Point_3 closest_point(const Point_3& p, const Surface_part& part) const = 0;
-  /// With labels: the subdomain of a point inside.
+  /// The subdomain of a point inside, with labels.
   virtual Subdomain_index subdomain_index(const Point_3& p, const Surface_part& part) const = 0;
 
-  /// What the surface is like as a whole; nothing if the domain does not tell.
+  /// The number and genus of the shells of the surface; nothing if the domain does not tell.
   virtual std::optional<Shell_counts> shells() const = 0;
-  /// Nothing if the domain does not tell.
+  /// The volume; nothing if the domain does not tell.
   virtual std::optional<double> volume() const = 0;
 };
 

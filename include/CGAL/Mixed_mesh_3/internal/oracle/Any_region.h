@@ -34,11 +34,11 @@ public:
   virtual ~Any_region() = default;
   virtual Surface_part surface_part() const = 0;
   /// \param parent the part of a cell that contains this one
-  /// \param part becomes that of the cell if the answer is `ON_BOUNDARY`, else none
+  /// \param part becomes the part of the cell if the answer is `ON_BOUNDARY`, else null
   virtual Bounded_side locate(const Lattice_point& corner, std::uint32_t side, const Surface_part& parent,
                               Surface_part& part) const = 0;
   virtual double depth(const Point_3& p) const = 0;
-  /// The weight of an error at a point, not counting how far it is from the region.
+  /// The weight of an error at a point, without the factor for the distance from the region.
   virtual double weight(const Point_3& p, double reach) const = 0;
 };
 

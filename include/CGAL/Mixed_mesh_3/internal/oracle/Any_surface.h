@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A surface whose type is not known: the method is compiled once for all. What a model lacks of the
-// optional functions has a default here.
+// A surface whose type is not known: the method is compiled once for all. Optional functions that a model
+// lacks have a default here.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_ORACLE_ANY_SURFACE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_ORACLE_ANY_SURFACE_H
@@ -75,7 +75,7 @@ public:
 
   /// Whether subdomains have labels.
   bool is_labeled() const { return m_is_labeled; }
-  /// The subdomains in their order; the only one of a domain without labels is 1.
+  /// The subdomains in their order; the only subdomain of a domain without labels is 1.
   const std::vector<Subdomain_index>& subdomain_indices() const { return m_subdomain_indices; }
   const std::vector<std::unique_ptr<const Any_sheet>>& sheets() const { return m_sheets; }
   bool has_sheets() const { return !m_sheets.empty(); }
@@ -83,12 +83,12 @@ public:
   virtual Point_3 closest_point(const Point_3& p) const = 0;
   virtual Point_3 closest_point(const Point_3& p, const Point_3& hint) const = 0;
   virtual std::vector<Point_3> surface_samples(double spacing) const = 0;
-  /// None if the angle is not positive.
+  /// The sharp edges; none if the angle is not positive.
   virtual Sharp_edges sharp_edges(double angle) const = 0;
-  /// Empty if the model has none.
+  /// The bounding box; empty if the model has none.
   virtual Bbox_3 bbox() const = 0;
 
-  /// \name Of surfaces with labels
+  /// \name Functions of surfaces with labels
   /// @{
   virtual Point_3 closest_point(const Point_3& p, Subdomain_index first, Subdomain_index second) const = 0;
   virtual Point_3 closest_point(const Point_3& p, const Point_3& hint, Subdomain_index first,
@@ -106,7 +106,7 @@ protected:
 };
 
 /// A surface that the caller keeps.
-/// \tparam Base `Any_surface`, or what is derived from it
+/// \tparam Base `Any_surface`, or a class derived from it
 template <class Surface, class Base = Any_surface>
 class Surface_reference : public Base
 {

@@ -20,7 +20,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// All that an octree asks.
+/// The domain, region and cell traits that an octree asks.
 struct Oracles
 {
   std::shared_ptr<const Any_domain> domain;
@@ -28,7 +28,7 @@ struct Oracles
   std::shared_ptr<const Any_cell_traits> cell_traits;
 };
 
-/// Those of models of the concepts, which the caller keeps.
+/// The oracles of models of the concepts, which the caller keeps.
 template <class Domain, class Region, class CellTraits>
 Oracles oracles_of(const Domain& domain, const Region& region, const CellTraits& traits)
 {

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a domain or a region knows about its surface in a cell, whatever the type of that is.
+// The part of a surface in a cell, as a domain or a region knows it, whatever the type of the part is.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_ORACLE_SURFACE_PART_H
 #define CGAL_MIXED_MESH_3_INTERNAL_ORACLE_SURFACE_PART_H
@@ -21,7 +21,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Never changed, and shared by copies of the octree; null where there is none.
+/// A part that never changes, and that copies of the octree share; null where there is none.
 using Surface_part = std::shared_ptr<const void>;
 
 template <class Part>
@@ -30,17 +30,17 @@ Surface_part make_surface_part(Part part)
   return std::make_shared<const Part>(std::move(part));
 }
 
-/// \pre `part` was made of a `Part`
+/// Returns a part as its type. \pre `part` was made of a `Part`
 template <class Part>
 const Part& surface_part_as(const Surface_part& part)
 {
   return *static_cast<const Part*>(part.get());
 }
 
-/// Asks a model of `MixedMeshDomain_3` or `MixedMeshRegion_3` where a cell is.
+/// Asks a model of `MixedMeshDomain_3` or `MixedMeshRegion_3` for the location of a cell.
 /// \param parent the part of a cell that contains this one
-/// \param part becomes that of the cell if it meets the surface, or if it is inside and `has_part_inside`;
-///        else none
+/// \param part becomes the part of the cell if the cell meets the surface, or if the cell is inside and
+/// `has_part_inside`; else null
 template <class Model, class Cell>
 Bounded_side locate_cell(const Model& model, const Cell& cell, const Surface_part& parent, Surface_part& part,
                          bool has_part_inside)

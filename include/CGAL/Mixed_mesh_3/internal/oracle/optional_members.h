@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Which optional functions a model of MixedMeshSurface_3 or MixedMeshDomain_3 has.
+// Optional functions that a model of MixedMeshSurface_3 or MixedMeshDomain_3 may have.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_ORACLE_OPTIONAL_MEMBERS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_ORACLE_OPTIONAL_MEMBERS_H

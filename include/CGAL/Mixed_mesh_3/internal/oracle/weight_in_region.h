@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How much an error counts: how it falls with the distance from a region, and what several regions add.
+// Weight of an error: how it falls with the distance from a region, and what several regions add.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_ORACLE_WEIGHT_IN_REGION_H
 #define CGAL_MIXED_MESH_3_INTERNAL_ORACLE_WEIGHT_IN_REGION_H
@@ -22,12 +22,12 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// \param distance from a region; 0 or less: inside
-/// \param reach the distance at which the weight has fallen to 2^-6; 0: it counts inside only
+/// \param distance distance from a region; 0 or less: inside
+/// \param reach the distance at which the weight has fallen to 2^-6; 0: errors count inside only
 inline double weight_of_distance(double distance, double reach)
 {
-  // Measured on five regions and patches of a brain (benchmark/Linear_elasticity_3): exponents from 5 to 7
-  // differ by less than 10 %.
+  // Exponent measured on five regions and patches of a brain (benchmark/Linear_elasticity_3): exponents from
+  // 5 to 7 differ by less than 10 %.
   constexpr double exponent = 6;
   return distance <= 0 ? 1 : reach > 0 ? std::pow(1 + distance / reach, -exponent) : 0;
 }
@@ -44,7 +44,7 @@ struct Has_weight<
 {
 };
 
-/// The weight of an error at a point, not counting how far it is from the region.
+/// The weight of an error at a point, without the factor for the distance from the region.
 template <class Region, class Point>
 double weight_in_region(const Region& region, const Point& p, double reach)
 {
@@ -54,8 +54,8 @@ double weight_in_region(const Region& region, const Point& p, double reach)
     return 1;
 }
 
-/// That of the region in which an error counts most, against what it would count if only the distance from
-/// the union did.
+/// The weight in the region in which an error counts most, relative to the weight if only the distance from
+/// the union counted.
 /// \param regions depth and weight in each, as pairs
 template <class Range>
 double weight_in_union(const Range& regions, double reach)

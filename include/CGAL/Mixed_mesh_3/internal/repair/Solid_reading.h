@@ -5,7 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The solid that any triangles enclose: they may cut each other, overlap, and share edges of any number.
+// The solid that arbitrary triangles enclose: triangles may cut each other, overlap, and share edges of any
+// number.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_REPAIR_SOLID_READING_H
 #define CGAL_MIXED_MESH_3_INTERNAL_REPAIR_SOLID_READING_H
@@ -31,24 +32,25 @@ struct Solid_reading
   std::vector<Point> points;
   std::vector<std::array<std::size_t, 3>> triangles;
   Solid_rule rule = Solid_rule::WINDING;
-  /// If not, more than `most` pairs of triangles meet, or no ray tells what is solid, and there is no result.
+  /// Whether there is a result: not if more than `most` pairs of triangles meet, or no ray tells what is
+  /// solid.
   bool is_complete = true;
-  double inverted_volume = 0; ///< of places that triangles wind around inwards: they are not solid
+  double inverted_volume = 0; ///< volume of places that triangles wind around inwards
 };
 
 /*!
 Returns the boundary of the solid that triangles enclose, by the first rule that can be applied.
 
-The triangles are cut where they meet, exactly; of the pieces those are taken that have solid on one side
-only. Then what was computed is rounded to double: triangles may be degenerate or cross each other by a
+The triangles are cut exactly where they meet; the result consists of the pieces that have solid on one side
+only. Then computed points are rounded to double: triangles may be degenerate or cross each other by a
 rounding error. Where the solid touches itself in points and edges, each sheet has its own vertices.
 
 Source: Zhou, Grinspun, Zorin, Jacobson: Mesh arrangements for solid geometry (SIGGRAPH 2016).
 
-\param points finite
-\param triangles indices of points; those without area are passed over
-\param most number of pairs of triangles that meet, or of pieces, above which nothing is done; this many
-       take some ten seconds
+\param points points with finite coordinates
+\param triangles indices of points; triangles without area are skipped
+\param most number of pairs of triangles that meet, or of pieces, above which nothing is done; this number
+takes some ten seconds
 \par Complexity
 O((n + k) log(n + k)) for n triangles, k pairs of which meet
 */

@@ -34,19 +34,19 @@ namespace internal {
 struct Solid_facet
 {
   std::size_t facet;
-  bool is_outwards; // as the facet is oriented
+  bool is_outwards; // orientation of the facet
 };
 
-/// Gives each sheet of the boundary vertices of its own, where several meet in an edge or a vertex: sheets
-/// are facets that have the same piece of solid between them, at an edge.
+/// Gives each sheet of the boundary its own vertices, where several sheets meet in an edge or a vertex: the
+/// facets of a sheet have the same piece of solid between them at an edge.
 class Solid_sheets
 {
   using Triangle = std::array<std::size_t, 3>;
   using Link = std::array<std::size_t, 2>; // two triangles at an edge
 
-  std::vector<Triangle>& m_triangles;  // of points of the arrangement; then of vertices
-  std::vector<std::size_t> m_vertices; // by corner, as in a forest of sets
-  std::vector<std::size_t> m_points;   // of vertices
+  std::vector<Triangle>& m_triangles;  // triangles of points of the arrangement; then of vertices
+  std::vector<std::size_t> m_vertices; // vertices by corner, as in a forest of sets
+  std::vector<std::size_t> m_points;   // points of the vertices
 
 public:
   Solid_sheets(std::vector<Triangle>& triangles) : m_triangles(triangles), m_vertices(3 * triangles.size())
@@ -54,7 +54,7 @@ public:
     std::iota(m_vertices.begin(), m_vertices.end(), std::size_t(0));
   }
 
-  /// Triangles that follow each other around an edge: their corners there are the same.
+  /// Links triangles that follow each other around an edge: their corners at the edge are the same.
   void link(std::size_t s, std::size_t t, std::size_t a, std::size_t b)
   {
     for(std::size_t v : {a, b})
@@ -84,15 +84,16 @@ private:
   }
 };
 
-/// Where two sheets have both vertices of an edge in common, the edge gets a vertex in its middle, for each.
+/// Inserts a vertex in the middle of an edge for each sheet, where two sheets have both vertices of the edge
+/// in common.
 inline void separate_edges(std::vector<Solid_reading::Point>& points,
                            std::vector<std::array<std::size_t, 3>>& triangles,
                            std::vector<std::array<std::size_t, 4>> links) // two triangles, two vertices
 {
-  std::map<std::array<std::size_t, 2>, std::vector<std::array<std::size_t, 2>>> sheets; // by edge
+  std::map<std::array<std::size_t, 2>, std::vector<std::array<std::size_t, 2>>> sheets; // sheets by edge
   for(const auto& [s, t, a, b] : links)
     sheets[{(std::min)(a, b), (std::max)(a, b)}].push_back({s, t});
-  std::map<std::size_t, std::vector<std::size_t>> pieces; // of triangles that were cut
+  std::map<std::size_t, std::vector<std::size_t>> pieces; // pieces of triangles that were cut
   for(const auto& [edge, pairs] : sheets) {
     if(pairs.size() < 2)
       continue;
@@ -155,7 +156,7 @@ CGAL_MIXED_MESH_3_INLINE Solid_reading read_solid(const std::vector<Solid_readin
   Solid_sheets sheets(triangles);
   std::vector<std::array<std::size_t, 4>> links;
   space.for_each_edge([&](std::size_t a, std::size_t b, const std::vector<std::size_t>& around) {
-    std::vector<std::size_t> kept; // starts before solid, after which the next one follows
+    std::vector<std::size_t> kept; // solid begins and ends at kept facets in turn
     for(std::size_t f : around)
       if(triangle_of[f] != std::size_t(-1))
         kept.push_back(f);

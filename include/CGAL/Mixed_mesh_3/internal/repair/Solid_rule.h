@@ -14,11 +14,11 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// What makes a place solid.
+/// The rule by which a place is solid.
 enum class Solid_rule {
-  WINDING, ///< triangles are oriented: they wind around it more often outwards than inwards
-  PARITY,  ///< a ray from it crosses an odd number of triangles: for those that are not oriented
-  ENCLOSED ///< no path leads out: for those with edges of an odd number of triangles, as walls have
+  WINDING, ///< triangles are oriented: they wind around the place more often outwards than inwards
+  PARITY,  ///< a ray from the place crosses an odd number of triangles: for triangles that are not oriented
+  ENCLOSED ///< no path leads out of the place: for edges of an odd number of triangles, as walls have
 };
 
 } // namespace internal

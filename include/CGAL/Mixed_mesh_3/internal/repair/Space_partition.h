@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The cells into which triangles divide space, and which of them are solid.
+// The cells into which triangles divide space, and whether they are solid.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_REPAIR_SPACE_PARTITION_H
 #define CGAL_MIXED_MESH_3_INTERNAL_REPAIR_SPACE_PARTITION_H
@@ -43,8 +43,8 @@ inline std::size_t root_of_set(std::vector<std::size_t>& parent, std::size_t i)
 }
 
 /*!
-The cells of an arrangement. The two sides of each facet see one cell each; around an edge, neighbors see
-the same one. So facets that hang together by edges have consistent cells; where these are, a ray tells.
+The cells of an arrangement. The two sides of each facet see one cell each; around an edge, neighbors see the
+same cell. So facets that are connected by edges have consistent cells; a ray tells where the cells are.
 */
 class Space_partition
 {
@@ -60,10 +60,10 @@ class Space_partition
   const std::vector<Arrangement_facet>& m_facets;
   std::vector<Bbox_3> m_boxes;
   Bbox_3 m_bbox;
-  std::vector<std::vector<std::size_t>> m_around;  // facets around an edge, as they follow each other
-  std::vector<std::array<std::size_t, 2>> m_edges; // ascending
-  std::vector<std::size_t> m_cell;                 // by side, as in a forest of sets
-  std::vector<int> m_winding;                      // by side
+  std::vector<std::vector<std::size_t>> m_around;  // facets around an edge, in cyclic order
+  std::vector<std::array<std::size_t, 2>> m_edges; // edges, vertices ascending
+  std::vector<std::size_t> m_cell;                 // cell by side, as in a forest of sets
+  std::vector<int> m_winding;                      // winding number by side
   Solid_rule m_rule = Solid_rule::WINDING;
   bool m_is_complete = true;
 
@@ -95,10 +95,11 @@ public:
 
   Solid_rule rule() const { return m_rule; }
 
-  /// Whether all cells are known: no ray tells if facets overlap, as those of an arrangement do not.
+  /// Whether all cells are known: no ray tells if facets overlap, as facets of an arrangement do not.
   bool is_complete() const { return m_is_complete; }
 
-  /// Calls back with each edge, and the facets around it, turning to the right seen along it.
+  /// Calls back with each edge and the facets around the edge, in the order of a right turn seen along the
+  /// edge.
   template <class Use>
   void for_each_edge(const Use& use) const
   {
@@ -106,7 +107,7 @@ public:
       use(m_edges[e][0], m_edges[e][1], m_around[e]);
   }
 
-  /// The side of a facet that is turned to what follows it around an edge.
+  /// The side of a facet that faces the next facet around an edge.
   std::size_t side_after(std::size_t facet, std::size_t a, std::size_t b) const
   {
     const auto& v = m_facets[facet].vertices;
@@ -119,7 +120,7 @@ public:
     return m_rule == Solid_rule::PARITY ? m_winding[side] % 2 != 0 : m_winding[side] > 0;
   }
 
-  /// Of cells around which triangles wind inwards; each as often as it is wound around.
+  /// The volume of cells around which triangles wind inwards, each times its winding number.
   double inverted_volume() const
   {
     if(m_rule != Solid_rule::WINDING || m_facets.empty())
@@ -168,7 +169,7 @@ private:
     return m_points[*std::find_if(v.begin(), v.end(), [&](std::size_t w) { return w != a && w != b; })];
   }
 
-  // By the angle from the first one.
+  // Sorts facets around an edge by the angle from the first facet.
   void sort_around(std::size_t a, std::size_t b, std::vector<std::size_t>& around) const
   {
     const Point &p = m_points[a], &q = m_points[b], start = opposite(around[0], a, b);
@@ -184,7 +185,7 @@ private:
     });
   }
 
-  // By the edges: in a closed surface, as many triangles run along each as against it.
+  // Finds the rule by the edges: in a closed surface, as many triangles run along each edge as against it.
   void find_rule()
   {
     for_each_edge([this](std::size_t a, std::size_t b, const std::vector<std::size_t>& around) {
@@ -200,13 +201,13 @@ private:
     });
   }
 
-  // How much further out it is in front of a facet.
+  // Increase of the winding number from the back to the front of a facet.
   int jump(std::size_t f) const
   {
     return m_rule == Solid_rule::PARITY ? m_facets[f].number : m_facets[f].weight;
   }
 
-  // Numbers the facets that hang together by edges; returns the first of each number.
+  // Numbers the components of facets connected by edges; returns the first facet of each component.
   std::vector<std::size_t> find_components(std::vector<std::size_t>& component) const
   {
     std::iota(component.begin(), component.end(), std::size_t(0));
@@ -229,7 +230,7 @@ private:
     std::vector<std::size_t> cell(m_cell.size());
     for(std::size_t s = 0; s < cell.size(); ++s)
       cell[s] = root_of_set(m_cell, s);
-    std::vector<int> winding(cell.size(), 0); // by cell
+    std::vector<int> winding(cell.size(), 0); // winding numbers by cell
     std::vector<char> is_known(cell.size(), 0);
     std::vector<std::vector<std::size_t>> facets_of(cell.size());
     for(std::size_t f = 0; f < m_facets.size(); ++f)
@@ -264,17 +265,18 @@ private:
 
   struct Outlook
   {
-    std::size_t side;    // where the segment starts
-    std::size_t outside; // where it last leaves the component
-    int winding;         // around `side`
+    std::size_t side;    // side at which the segment starts
+    std::size_t outside; // side at which the segment last leaves the component
+    int winding;         // winding number around `side`
   };
 
-  // Along a segment from the middle of a facet to far away; nothing if none of some forty passes edges by.
+  // Looks along segments from the middle of a facet to far away; nothing if all of some forty segments touch
+  // edges.
   std::optional<Outlook> look_out(std::size_t start, const std::vector<std::size_t>& component) const
   {
     const auto& v = m_facets[start].vertices;
     const Point p = CGAL::centroid(m_points[v[0]], m_points[v[1]], m_points[v[2]]);
-    // nearly along an axis, that few boxes are met
+    // The direction is nearly along an axis, so that few boxes are met.
     const double length = 2 * ((std::max)({m_bbox.x_span(), m_bbox.y_span(), m_bbox.z_span()}) + 1e-30);
     constexpr int most_trials = 40; // the last one is of slope 200
     double slope = 1e-3;
@@ -288,7 +290,7 @@ private:
     return std::nullopt;
   }
 
-  // Nothing if the segment touches an edge, or is parallel to a facet that it touches.
+  // Looks along a segment; nothing if the segment touches an edge, or is parallel to a facet that it touches.
   std::optional<Outlook> look_out(std::size_t start, const Point& p, const Point& q,
                                   const std::vector<std::size_t>& component) const
   {

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Triangles, cut exactly where they meet.
+// Arrangement of triangles, cut exactly where they meet.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_REPAIR_TRIANGLE_ARRANGEMENT_H
 #define CGAL_MIXED_MESH_3_INTERNAL_REPAIR_TRIANGLE_ARRANGEMENT_H
@@ -38,13 +38,14 @@ namespace internal {
 /// A piece of a triangle, or of several that overlap.
 struct Arrangement_facet
 {
-  std::array<std::size_t, 3> vertices; ///< ascending: that is its front, seen counterclockwise
-  int weight = 0;                      ///< triangles oriented so, less those oriented the other way
-  int number = 0;                      ///< of triangles
+  std::array<std::size_t, 3> vertices; ///< ascending: the front is where they are counterclockwise
+  int weight = 0;                      ///< number of triangles oriented so, minus that of the others
+  int number = 0;                      ///< number of triangles
 };
 
 /*!
-Triangles that have nothing in common but vertices and edges, and cover the same points as those given.
+Triangles that have nothing in common but vertices and edges, and cover the same points as the given
+triangles.
 
 All coordinates are exact: equal points are one vertex, equal pieces one facet.
 */
@@ -73,12 +74,12 @@ private:
   };
 
 public:
-  /// \param most if more pairs of triangles meet, or more pieces come of that, the arrangement is empty and
-  /// not complete
+  /// \param most limit of the number of pairs of triangles that meet, and of pieces; above the limit the
+  /// arrangement is empty and not complete
   Triangle_arrangement(const std::vector<Input_point>& points, const std::vector<Triangle>& input,
                        std::size_t most)
   {
-    std::map<Input_point, std::size_t> place; // the first point there
+    std::map<Input_point, std::size_t> place; // first point at each place
     std::vector<std::size_t> first(points.size());
     for(std::size_t v = 0; v < points.size(); ++v)
       first[v] = place.emplace(points[v], v).first->second;
@@ -117,7 +118,7 @@ private:
           index[v] = m_points.size();
           m_points.emplace_back(points[v].x(), points[v].y(), points[v].z());
         }
-    // only places that may be met again
+    // The index has only places that may be met again.
     for(std::size_t t = 0; t < triangles.size(); ++t)
       if(!met[t].empty())
         for(std::size_t v : triangles[t])
@@ -155,7 +156,7 @@ private:
   // Whether triangles meet in more than the vertices and edges that both have.
   static bool do_meet(const Triangle& s, const Triangle& t, const std::vector<Input_point>& points)
   {
-    const auto turned = [](Triangle a, const Triangle& b) { // what is shared comes first
+    const auto turned = [](Triangle a, const Triangle& b) { // shared vertices come first
       std::stable_partition(a.begin(), a.end(),
                             [&](std::size_t v) { return std::count(b.begin(), b.end(), v) > 0; });
       return a;
@@ -176,7 +177,7 @@ private:
       return CGAL::coplanar(points[a[0]], points[a[1]], points[a[2]], points[b[2]])
              && CGAL::coplanar_orientation(points[a[0]], points[a[1]], points[a[2]], points[b[2]])
                   == POSITIVE;
-    default: return false; // the same: one facet
+    default: return false; // equal triangles are one facet
     }
   }
 
@@ -201,16 +202,16 @@ private:
     ++facet.number;
   }
 
-  // Triangulates a triangle such that the edges have all of its points that others have.
+  // Triangulates a triangle such that its edges have all points that other triangles have on them.
   void cut(std::size_t number, const std::vector<std::size_t>& met, const std::vector<Triangle>& triangles,
            std::size_t most_facets)
   {
     const Triangle t = triangles[number];
     const std::array<Point, 3> p{m_points[t[0]], m_points[t[1]], m_points[t[2]]};
     const Kernel::Vector_3 normal = CGAL::cross_product(p[1] - p[0], p[2] - p[0]);
-    // Seen along the axis that is most upright: exactly, and from the same end of it, for all triangles of a
-    // plane. The Delaunay triangulation of points on a circle depends on it; where triangles overlap, it must
-    // be the same.
+    // The triangle is seen along the axis that is most upright: exactly, and from the same end of the axis
+    // for all triangles of a plane. The Delaunay triangulation of points on a circle depends on the view;
+    // where triangles overlap, the triangulations must be equal.
     int axis = 0;
     for(int k = 1; k < 3; ++k)
       if(CGAL::abs(normal[k]) > CGAL::abs(normal[axis]))
@@ -233,7 +234,7 @@ private:
     for(std::size_t other : met) {
       const Triangle& o = triangles[other];
       const auto common = CGAL::intersection(
-        // in the same order for both: the same construction, the same point
+        // The order is the same for both triangles: the same construction gives the same point.
         number < other ? self : Kernel::Triangle_3(m_points[o[0]], m_points[o[1]], m_points[o[2]]),
         number < other ? Kernel::Triangle_3(m_points[o[0]], m_points[o[1]], m_points[o[2]]) : self);
       if(m_facets.size() + cdt.number_of_vertices() > most_facets)
@@ -257,7 +258,7 @@ private:
       const auto found = lifted.find(q);
       if(found != lifted.end())
         return index_of(found->second);
-      // where constraints cross
+      // The point is where constraints cross.
       const Kernel::FT height = p[0][axis]
                                 - (normal[first] * (q.x() - p[0][first])
                                    + normal[second] * (q.y() - p[0][second]))

@@ -32,18 +32,18 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The parts of a surface that hang together by edges.
+/// The components of a surface that are connected by edges.
 class Surface_parts
 {
   using Point = Predicates_kernel::Point_3;
   using Triangle = std::array<std::size_t, 3>;
 
   std::vector<Point>& m_points;
-  std::map<std::array<std::size_t, 2>, std::size_t> m_directed_edges; // with the triangle
-  std::vector<std::size_t> m_part;                                    // of each triangle: its first one
+  std::map<std::array<std::size_t, 2>, std::size_t> m_directed_edges; // edges with their triangles
+  std::vector<std::size_t> m_part;                                    // first triangle of the component
 
 public:
-  /// \pre oriented consistently, a manifold
+  /// Constructs the components. \pre the surface is oriented consistently, and a manifold
   Surface_parts(std::vector<Point>& points, std::vector<Triangle>& triangles)
     : m_points(points), m_part(triangles.size())
   {
@@ -75,7 +75,7 @@ public:
     return norm(cross(to_vec3(m_points[t[1]]) - a, to_vec3(m_points[t[2]]) - a)) / 2;
   }
 
-  /// The holes of each part.
+  /// The holes of each component.
   std::map<std::size_t, std::vector<Surface_hole>> holes() const
   {
     std::map<std::size_t, std::pair<std::size_t, std::size_t>> next; // along the hole; and the triangle
@@ -93,7 +93,7 @@ public:
         next.erase(at);
         at = next.find(to);
       }
-      if(hole.border.size() > 2) // no slit, of an edge that was cut
+      if(hole.border.size() > 2) // not a slit, of an edge that was cut
         result[m_part[t]].push_back(std::move(hole));
     }
     return result;
@@ -108,7 +108,7 @@ public:
     std::vector<CGAL::Triple<int, int, int>> found;
     try {
       CGAL::Polygon_mesh_processing::triangulate_hole_polyline(border, std::back_inserter(found));
-    } catch(const std::exception&) { // an assertion of CGAL
+    } catch(const std::exception&) { // CGAL's assertions throw
       found.clear();
     }
     std::vector<Triangle> patch;
@@ -117,7 +117,7 @@ public:
                        hole.border[std::size_t(t.third)]});
       hole.area += area(patch.back());
     }
-    // a crack, whose points are on a line
+    // The hole is a crack, whose points are on a line.
     for(std::size_t i = 2; found.empty() && i < hole.border.size(); ++i) {
       patch.push_back({hole.border[0], hole.border[i - 1], hole.border[i]});
       hole.area += area(patch.back());
@@ -131,11 +131,11 @@ CGAL_MIXED_MESH_3_INLINE Hole_filling fill_holes(std::vector<Predicates_kernel::
                                                  std::vector<std::array<std::size_t, 3>>& triangles,
                                                  double largest_share)
 {
-  constexpr double sheet_area = 0.25; // of all; what closes a flat one has about the area that it has
+  constexpr double sheet_area = 0.25; // of all; the patch of a flat sheet has about its area
   Hole_filling result;
   CGAL::Polygon_mesh_processing::orient_polygon_soup(points, triangles);
   const Surface_parts parts(points, triangles);
-  std::map<std::size_t, double> areas; // of parts
+  std::map<std::size_t, double> areas; // areas of components
   double area_of_all = 0;
   for(std::size_t t = 0; t < triangles.size(); ++t) {
     areas[parts.part(t)] += parts.area(triangles[t]);

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A closed surface around any triangles.
+// A closed surface around arbitrary triangles.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_REPAIR_WRAP_H
 #define CGAL_MIXED_MESH_3_INTERNAL_REPAIR_WRAP_H
@@ -23,11 +23,11 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-Returns triangles that wrap others: closed, manifold, without self-intersections, oriented outwards. What a
-ball of that diameter does not get into is solid.
+Returns triangles that wrap the given triangles: closed, manifold, without self-intersections, oriented
+outwards. Places that a ball of that diameter can not enter are solid.
 
 \par Complexity
-As that of `CGAL::alpha_wrap_3()`
+Complexity of `CGAL::alpha_wrap_3()`
 */
 void wrap(double diameter, std::vector<Predicates_kernel::Point_3>& points,
           std::vector<std::array<std::size_t, 3>>& triangles);

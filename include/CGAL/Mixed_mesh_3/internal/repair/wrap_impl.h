@@ -27,7 +27,7 @@ namespace internal {
 CGAL_MIXED_MESH_3_INLINE void wrap(double diameter, std::vector<Predicates_kernel::Point_3>& points,
                                    std::vector<std::array<std::size_t, 3>>& triangles)
 {
-  // The offset makes the solid larger, and the number of triangles grow where it is small.
+  // A larger offset makes the solid larger; a smaller one increases the number of triangles.
   constexpr double offset = 1. / 60; // CGAL's default, a thirtieth of alpha
   CGAL::Surface_mesh<Predicates_kernel::Point_3> mesh;
   CGAL::alpha_wrap_3(points, triangles, diameter / 2, offset * diameter, mesh);

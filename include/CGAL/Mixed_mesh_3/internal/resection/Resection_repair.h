@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Makes a set of elements removable: what is left has a manifold boundary, and no loose pieces.
+// Repair of a set of elements to be removed: the rest has a manifold boundary, and no loose pieces.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_RESECTION_RESECTION_REPAIR_H
 #define CGAL_MIXED_MESH_3_INTERNAL_RESECTION_RESECTION_REPAIR_H
@@ -37,7 +37,8 @@ class Element_adjacency
 
 public:
   /// \par Complexity
-  /// Linear in the number of elements, if vertices have boundedly many; 56 bytes per hexahedron
+  /// Linear in the number of elements, if the number of elements at a vertex is bounded; 56 bytes per
+  /// hexahedron
   Element_adjacency(const Element_list& elements, std::size_t number_of_vertices)
     : m_offsets(number_of_vertices + 1, 0), m_elements(elements.connectivity().size())
   {
@@ -60,40 +61,40 @@ public:
     });
   }
 
-  /// In increasing order.
+  /// The elements of a vertex, in increasing order.
   const Element_index* begin(Vertex_index v) const { return m_elements.data() + m_offsets[v]; }
   const Element_index* end(Vertex_index v) const { return m_elements.data() + m_offsets[v + 1]; }
 
-  /// What is across face `f` of an element; `no_element` on the boundary.
+  /// The element across face `f` of an element; `no_element` on the boundary.
   Element_index neighbor(Element_index e, int f) const { return m_neighbors[e][std::size_t(f)]; }
 };
 
 /*!
-Which elements have to go, and which have to stay after all.
+Selection of the elements that have to be removed, and of those that have to stay after all.
 
-*Pinched vertices.* The elements around a vertex make up a sphere (with what is outside, if the vertex is on
-the boundary): the surface of a small ball. There the elements that are kept, and those that are not, fall
-into fans: sets connected across faces. If there is one fan of either, the line between them is one closed
-curve: if it touched itself, or were several, it would cut one of the two (Jordan). So the boundary is a
-manifold iff no vertex has a fan too many of either; edges need no look of their own.
+*Pinched vertices.* The elements around a vertex form a sphere (together with the outside, if the vertex is on
+the boundary): the surface of a small ball. On the sphere, the kept elements, and the other elements, form
+fans: sets connected across faces. If there is one fan of each kind, the line between the fans is one closed
+curve: a line that touched itself, or several lines, would cut one of the two fans (Jordan). So the boundary
+is a manifold iff no vertex has a surplus fan of either kind; edges need no test of their own.
 
-*Repair.* A move changes the state of an element at a pinched vertex, or of a fan, or (if neither will do) of
-two neighbors. It is made only if the number of fans too many falls, summed over all vertices it touches. Of
-those possible it is the one that costs least for each fan: the volume that is not as was asked for, where
-tissue taken though nobody asked counts twice as much as tissue left. (On a brain of 660 vertices, with
-spheres as tumors, that takes a third less of what nobody asked for than if both counted the same, and
-changes 4 % more in all; at 4 times, the one gains nothing, and the other grows by a quarter.) Hence one
-element more or less where cavities touch at an edge or a vertex; a hinge of large parts is filled if few
-elements do that, and small things that dangle are taken.
+*Repair.* A move changes the state of an element at a pinched vertex, or of a fan, or (if neither suffices) of
+two neighbors. A move is made only if the number of surplus fans falls, summed over all vertices of the move.
+Of the possible moves, the one with the least cost for each fan is made: the cost is the volume that differs
+from the request, where tissue that is taken without request counts twice as much as tissue that is left. (On
+a brain of 660 vertices, with spheres as tumors, that takes a third less tissue without request than equal
+weights, and changes 4 % more in all; with a factor of 4, the former gains nothing, and the latter grows by a
+quarter.) Hence one element more or less is taken where cavities touch at an edge or a vertex; a hinge of
+large parts is filled if few elements suffice, and small parts that dangle are taken.
 
-*It ends.* The number of fans too many is a natural number that each move lowers. If no move does, an element
-at each vertex that is still pinched is removed for good, that which adds least; there are finitely many
-elements, and with none left no vertex is pinched. (On the same mesh, with random sets of elements, this
-happens to one in 400 pinched vertices; with spheres it has not been seen.)
+*Termination.* The number of surplus fans is a natural number that each move decreases. If no move decreases
+the number, an element at each vertex that is still pinched is removed for good, the one that adds least;
+there are finitely many elements, and without elements no vertex is pinched. (On the same mesh, with random
+sets of elements, this happens to one in 400 pinched vertices; with spheres it has not been seen.)
 
-*Loose pieces.* A connected piece has whole fans at its vertices; without one, the fans around it that are
-not kept become one. So removing pieces pinches no vertex. It is done before the repair, which then need not
-care for them, and after it, should that cut something off.
+*Loose pieces.* A connected piece has whole fans at its vertices; without a piece, the fans around it that are
+not kept become one fan. So the removal of pieces pinches no vertex. Pieces are removed before the repair,
+which then need not consider them, and after the repair, in case it cuts a piece off.
 */
 class Resection_repair
 {
@@ -105,7 +106,7 @@ public:
   };
   enum class State : std::uint8_t {
     KEPT,
-    GONE,  // from before
+    GONE,  // removed before
     ASKED, // removed as asked
     FLOATING,
     PINCH // removed in addition, and why
@@ -114,29 +115,29 @@ public:
 private:
   const Element_list& m_elements;
   const std::size_t m_number_of_vertices;
-  const std::vector<double>& m_volumes; // of the elements
+  const std::vector<double>& m_volumes; // volumes of the elements
   const Element_adjacency m_adjacency;
   std::vector<State> m_states;
-  std::vector<std::uint8_t> m_is_asked, m_is_locked; // of each element; locked: removed for good
+  std::vector<std::uint8_t> m_is_asked, m_is_locked; // for each element; locked: removed for good
   std::vector<Piece> m_floating;
-  mutable std::vector<std::uint8_t> m_is_seen; // of each element; all 0 between calls
+  mutable std::vector<std::uint8_t> m_is_seen; // for each element; all 0 between calls
   mutable std::vector<Element_index> m_fan;
 
-  static constexpr double cost_of_healthy_tissue = 2; // relative to that of tissue asked for, but left
+  static constexpr double cost_of_healthy_tissue = 2; // relative to the cost of requested tissue that is left
 
   using Move = std::vector<Element_index>; // elements that change their state
 
   enum class Effort {
     SMALL, // an element or a fan
-    LARGE, // two elements with a common face, too
-    FORCED // removes something whatever becomes of the number of fans, and for good
+    LARGE, // also two elements with a common face
+    FORCED // removes something for good, whatever the number of fans becomes
   };
 
 public:
   /// \param elements the mesh
-  /// \param number_of_vertices of the mesh
-  /// \param volumes of the elements
-  /// \param states what is `ASKED`, `GONE` and `KEPT`
+  /// \param number_of_vertices number of vertices of the mesh
+  /// \param volumes volumes of the elements
+  /// \param states state of each element: `ASKED`, `GONE` or `KEPT`
   Resection_repair(const Element_list& elements, std::size_t number_of_vertices,
                    const std::vector<double>& volumes, std::vector<State> states)
     : m_elements(elements), m_number_of_vertices(number_of_vertices), m_volumes(volumes),
@@ -152,11 +153,11 @@ public:
   const std::vector<State>& states() const { return m_states; }
   bool is_asked(Element_index e) const { return m_is_asked[e] != 0; }
 
-  /// Those found so far.
+  /// The floating pieces found so far.
   const std::vector<Piece>& floating() const { return m_floating; }
 
-  /// Finds pieces that came loose: of each connected part of what was there before, all pieces but the
-  /// largest, the first one if several are.
+  /// Finds pieces that came loose: of each connected part of the elements that were there before, all pieces
+  /// but the largest, or, among several largest ones, the first.
   /// \par Complexity
   /// Linear
   void find_floating(bool remove)
@@ -219,7 +220,8 @@ public:
     }
   }
 
-  /// Vertices where the boundary is not a manifold, counted by its faces: trusts nothing above.
+  /// Number of vertices where the boundary is not a manifold, counted by its faces, independently of the
+  /// functions above.
   /// \par Complexity
   /// O(n log n) for n boundary faces
   std::size_t number_of_pinched_vertices() const
@@ -247,7 +249,7 @@ private:
     v.erase(std::unique(v.begin(), v.end()), v.end());
   }
 
-  // Calls `visit(elements)` for sets of elements connected across faces, by their first element.
+  // Calls `visit(elements)` for sets of elements connected across faces, ordered by their first element.
   template <class Is_member, class Visitor>
   void for_each_component(const Is_member& is_member, const Visitor& visit) const
   {
@@ -270,7 +272,8 @@ private:
     m_is_seen.assign(m_elements.size(), 0);
   }
 
-  // What was asked for, and put back by the repair, is removed as asked, and no piece.
+  // Removes a piece. Elements that were requested, and put back by the repair, are removed as requested, and
+  // not as part of the piece.
   void remove_piece(Piece& piece)
   {
     for(Element_index e : piece.elements) {
@@ -285,8 +288,8 @@ private:
       piece.volume += m_volumes[e];
   }
 
-  // Calls `visit(elements, is_outside)` for each fan at a vertex: are some of its faces there on the boundary
-  // of the mesh?
+  // Calls `visit(elements, is_outside)` for each fan at a vertex; `is_outside` tells whether some of its
+  // faces there are on the boundary of the mesh.
   template <class Visitor>
   void for_each_fan(Vertex_index v, const Visitor& visit) const
   {
@@ -316,11 +319,11 @@ private:
       m_is_seen[*e] = 0;
   }
 
-  // The number of fans too many at a vertex.
+  // The number of surplus fans at a vertex.
   std::size_t surplus(Vertex_index v) const
   {
     const auto is_kept_here = [this](Element_index e) { return is_kept(e); };
-    if(std::all_of(m_adjacency.begin(v), m_adjacency.end(v), is_kept_here)) // as it was
+    if(std::all_of(m_adjacency.begin(v), m_adjacency.end(v), is_kept_here)) // as before
       return 0;
     std::size_t kept = 0, removed = 0, outside = 0;
     for_each_fan(v, [&](const std::vector<Element_index>& fan, bool is_outside) {
@@ -339,14 +342,14 @@ private:
     return sum;
   }
 
-  // Elements of a move are all kept, or none is.
+  // Changes the state of the elements of a move, which are all kept, or all removed.
   void flip(const Move& move)
   {
     for(Element_index e : move)
       m_states[e] = !is_kept(e) ? State::KEPT : m_is_asked[e] ? State::ASKED : State::PINCH;
   }
 
-  // By how much the volume grows that is not as was asked for, weighted.
+  // The increase of the volume that differs from the request, weighted.
   double cost(const Move& move) const
   {
     double sum = 0;
@@ -371,7 +374,7 @@ private:
           continue;
         moves.push_back({e});
         for(int f = 0; f < 6 && effort == Effort::LARGE; ++f) {
-          const Element_index other = m_adjacency.neighbor(e, f); // at the vertex or behind it
+          const Element_index other = m_adjacency.neighbor(e, f); // at the vertex or opposite to it
           if(other != no_element && is_kept(other) == is_kept_here && is_free(other))
             moves.push_back({e, other});
         }
@@ -380,7 +383,7 @@ private:
     return moves;
   }
 
-  // Makes the best move at a pinched vertex, if there is one; appends the vertices that it touches.
+  // Makes the best move at a pinched vertex, if there is one; appends the vertices of the move.
   bool change_around(Vertex_index v, Effort effort, std::vector<Vertex_index>& changed)
   {
     const bool is_forced = effort == Effort::FORCED;

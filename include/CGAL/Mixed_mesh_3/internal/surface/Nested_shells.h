@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The connected components of a closed surface, which of them is inside which, and points between them.
+// The connected components of a closed surface, their nesting, and points between them.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_SURFACE_NESTED_SHELLS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_SURFACE_NESTED_SHELLS_H
@@ -41,9 +41,9 @@ namespace internal {
 /*!
 The shells (connected components) of a closed surface.
 
-Shell `r` also names a region of space: what is inside it and not inside a shell within it. Regions at an even
-depth are bodies, those at an odd depth are cavities; `outside` is the rest of space. The orientation of faces
-does not matter.
+Shell `r` also names a region of space: the points inside the shell and not inside a shell within it. Regions
+at an even depth are bodies, regions at an odd depth are cavities; `outside` is the rest of space. The
+orientation of faces does not matter.
 */
 class Nested_shells
 {
@@ -63,17 +63,17 @@ public:
     Bbox_3 bbox;
     double area = 0;
     double signed_volume = 0; // enclosed; positive if the faces are oriented outwards
-    double volume = 0;        // of the region
+    double volume = 0;        // volume of the region
     int genus = 0;
     std::size_t depth = 0;        // number of shells around
-    std::size_t parent = outside; // the innermost of them
+    std::size_t parent = outside; // the innermost shell around
     std::unique_ptr<Tree> tree;
     std::unique_ptr<Side> side;
 
     bool is_cavity() const { return depth % 2 == 1; }
   };
 
-  /// The middle of a chord of a region, and how long that is.
+  /// The middle of a chord of a region, and the length of the chord.
   struct Sample
   {
     Point_3 point;
@@ -104,7 +104,7 @@ public:
 
   bool is_solid(std::size_t region) const { return region != outside && !m_shells[region].is_cavity(); }
 
-  /// The region of a point; one that is on a shell counts as outside of it.
+  /// The region of a point; a point on a shell counts as outside of the shell.
   /// \par Complexity
   /// A query for each shell whose box contains the point
   std::size_t region_of(const Point_3& p) const
@@ -116,7 +116,7 @@ public:
     return region;
   }
 
-  /// Middles of the chords that start on a shell, spread evenly over it, at right angles inwards.
+  /// Middles of the chords that start on a shell, spread evenly over the shell, at right angles inwards.
   std::vector<Sample> samples(std::size_t region) const
   {
     constexpr double number_for_all_shells = 2000;
@@ -124,7 +124,7 @@ public:
     const Shell& shell = m_shells[region];
     const double n = at_least + std::floor(number_for_all_shells * shell.area / m_area);
     std::vector<Sample> samples;
-    double sum = 0; // of areas
+    double sum = 0; // sum of areas
     int i = 0;
     for(const auto face : shell.faces) {
       const Triangle t = triangle(face);
@@ -134,8 +134,8 @@ public:
     return samples;
   }
 
-  /// Half way between the points of two shells that are nearest to each other: of vertices of the first, and
-  /// of the second; and how far they are from each other.
+  /// The middle between the nearest vertices of two shells, one of the first and one of the second shell, and
+  /// the distance of the two vertices.
   std::pair<Point_3, double> gap(std::size_t a, std::size_t b) const
   {
     std::pair<Point_3, double> best{{}, std::numeric_limits<double>::infinity()};
@@ -159,7 +159,7 @@ public:
 
 private:
   Surface m_surface;
-  std::unique_ptr<Tree> m_tree; // of all faces
+  std::unique_ptr<Tree> m_tree; // tree of all faces
   std::vector<Shell> m_shells;
   double m_area = 0;
   double m_size = 0; // the largest extent of a shell
@@ -210,7 +210,7 @@ private:
       ++number_of_vertices[map[face(halfedge(v, m_surface), m_surface)]];
     for(std::size_t r = 0; r < m_shells.size(); ++r) {
       Shell& s = m_shells[r];
-      const Vec3 origin = triangle(s.faces.front())[0]; // far from the origin of space, digits would be lost
+      const Vec3 origin = triangle(s.faces.front())[0]; // digits would be lost far from the origin of space
       for(const auto face : s.faces) {
         const Triangle t = triangle(face);
         s.area += area_of(t);
@@ -220,7 +220,7 @@ private:
       }
       m_area += s.area;
       m_size = (std::max)({m_size, s.bbox.x_span(), s.bbox.y_span(), s.bbox.z_span()});
-      // three half edges a triangle, and two an edge
+      // A triangle has three half-edges, and an edge two.
       const auto euler = std::ptrdiff_t(number_of_vertices[r]) - std::ptrdiff_t(s.faces.size() / 2);
       s.genus = int(1 - euler / 2);
       s.tree = tree_of(s.faces);
@@ -241,7 +241,8 @@ private:
     return contains(shell.bbox, p.bbox()) && (*shell.side)(p) == ON_BOUNDED_SIDE;
   }
 
-  // Shells may touch: the first vertex that is not on the other one decides.
+  // Whether a shell is within another one. Shells may touch: the first vertex that is not on the other shell
+  // decides.
   bool is_within(const Shell& inner, const Shell& outer) const
   {
     if(&inner == &outer || !contains(outer.bbox, inner.bbox))
@@ -276,7 +277,8 @@ private:
     const Vec3 normal = normal_of(triangle(face));
     const double sign = m_shells[region].signed_volume < 0 ? 1 : -1;
     const Vec3 inwards = (sign / norm(normal)) * normal;
-    // as long as the surface is large: where coordinates are 1e30, a second point at distance 1 is the first
+    // The vector is as long as the surface is large: where coordinates are 1e30, a second point at distance 1
+    // is the first.
     const Vec3 along = m_size * inwards;
     const Kernel::Ray_3 ray({p[0], p[1], p[2]}, Kernel::Vector_3(along[0], along[1], along[2]));
     const auto hit = m_tree->first_intersected_primitive(ray, [&](const auto& f) { return f == face; });
@@ -289,7 +291,7 @@ private:
     if(!(length > 0 && std::isfinite(m[0] + m[1] + m[2])))
       return;
     const Point_3 middle(m[0], m[1], m[2]);
-    if(region_of(middle) == region) // whatever rounding made of it
+    if(region_of(middle) == region) // whatever rounding did to the point
       samples.push_back({middle, length});
   }
 };

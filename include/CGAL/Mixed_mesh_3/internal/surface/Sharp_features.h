@@ -33,17 +33,17 @@ namespace internal {
 class Feature_polyline
 {
   std::vector<Vec3> m_points;
-  std::vector<double> m_lengths; // from the first point
+  std::vector<double> m_lengths; // arc lengths from the first point
   static constexpr std::size_t group = 16;
-  std::vector<std::pair<Vec3, double>> m_balls; // around groups of segments: center, radius
+  std::vector<std::pair<Vec3, double>> m_balls; // balls around groups of segments: center, radius
 
 public:
-  std::array<std::size_t, 2> corners; ///< at its ends; they differ
+  std::array<std::size_t, 2> corners; ///< corners at the ends; they differ
 
   struct Position
   {
     Vec3 point;
-    double length; ///< along the polyline
+    double length; ///< arc length along the polyline
   };
 
   Feature_polyline(std::vector<Vec3> points, const std::array<std::size_t, 2>& ends)
@@ -99,32 +99,34 @@ public:
 };
 
 /*!
-Polylines end where other than two of them meet, and where they turn sharply. Closed ones, and those with both
-ends at a corner, are cut into three; places of cuts count as corners for those who follow them.
+Polylines end where other than two polylines meet, and where a polyline turns sharply. Closed polylines, and
+polylines with both ends at one corner, are cut into three; places of cuts count as corners for users of the
+polylines.
 
-Some edges of nearly every surface of measured data are sharp, in furrows and where there is noise. They are
-no features of the body, and tell so by where they are: what is shorter than elements is left out, with all
-that it is connected to; and there are no features at all if they are shorter than the surface is wide, too
-dense for the elements to follow, or if many end anywhere: those of machine parts end where others begin.
+Some edges of nearly every surface of measured data are sharp, in furrows and where there is noise. Such edges
+are no features of the body, and are recognized by their arrangement: connected edges that are shorter than
+elements are left out; and there are no features at all if they are shorter than the surface is wide, too
+dense for the elements to follow, or if many of them have a free end: edges of machine parts end where others
+begin.
 */
 class Sharp_features
 {
 public:
   static constexpr double sharp_turn = 45; // degrees
-  // Connected polylines must be that long altogether, in sizes of elements.
+  // Least length of connected polylines altogether, in sizes of elements.
   static constexpr double least_length = 2;
-  // In diagonals of the surface; a brain has 0.3, a cube 7, machine parts 9 to 12.
+  // Least total length in diagonals of the surface; a brain has 0.3, a cube 7, machine parts 9 to 12.
   static constexpr double least_total = 1;
-  // Of the elements at the surface, those that would have a feature. Noise of 2 mm on a brain has 4 at 2,000
-  // vertices, machine parts up to 0.5.
+  // Largest share of the elements at the surface that would have a feature. Noise of 2 mm on a brain has 4 at
+  // 2,000 vertices, machine parts up to 0.5.
   static constexpr double largest_density = 0.8;
-  // The share of the length of polylines with a free end: of noisy or coarse brains 0.4 and more, of machine
-  // parts less than 0.1.
+  // Largest share of the length of polylines with a free end: noisy or coarse brains have 0.4 and more,
+  // machine parts less than 0.1.
   static constexpr double largest_share_of_free = 0.25;
 
   Sharp_features() = default;
 
-  /// \param size about that of elements: what is smaller can not be followed
+  /// \param size approximate size of elements: smaller features can not be followed
   Sharp_features(const Sharp_edges& sharp, double size) : m_sharp(&sharp), m_around(sharp.points.size())
   {
     for(std::size_t e = 0; e < sharp.edges.size(); ++e)
@@ -144,7 +146,7 @@ public:
   bool empty() const { return m_polylines.empty(); }
   const std::vector<Feature_polyline>& polylines() const { return m_polylines; }
   const std::vector<Vec3>& corners() const { return m_corners; }
-  /// Whether a corner is one, or else a place where a polyline is cut.
+  /// Whether a corner is a real one, and not a place where a polyline is cut.
   bool is_real_corner(std::size_t c) const { return m_is_real[c] != 0; }
 
   double length() const
@@ -156,7 +158,7 @@ public:
   }
 
 private:
-  const Sharp_edges* m_sharp = nullptr; // until the polylines are made
+  const Sharp_edges* m_sharp = nullptr; // null once the polylines are made
   std::vector<std::vector<std::size_t>> m_around;
   std::vector<Feature_polyline> m_polylines;
   std::vector<Vec3> m_corners;

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Queries on a triangulated surface that need not enclose anything: it has a front and a behind near by only.
+// Queries on a triangulated surface that need not enclose anything: it has a front and a back near by only.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SHEET_ORACLE_3_H
 #define CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SHEET_ORACLE_3_H
@@ -67,21 +67,21 @@ public:
   double area() const;
   std::size_t number_of_facets() const { return m_triangles.size(); }
 
-  /// Whether a part of the sheet may meet a box: what is far away is told apart, fast.
+  /// Whether a part of the sheet may meet a box: a fast test for what is far away.
   bool may_intersect(const Bbox_3& box) const;
   /// Whether the sheet meets a closed segment, exactly.
   bool do_intersect(const Point_3& p, const Point_3& q) const;
 
   Point_3 closest_point(const Point_3& p) const;
-  /// Faster if `hint`, a point of the sheet, is near.
+  /// The closest point of the sheet; faster if `hint`, a point of the sheet, is near.
   Point_3 closest_point(const Point_3& p, const Point_3& hint) const;
 
-  /// The normal is weighted by angles where the closest point is on an edge or a vertex, so that the sign of
-  /// the height is right (Baerentzen and Aanaes, 2005).
+  /// Location of a point. The normal is weighted by angles where the closest point is on an edge or a vertex,
+  /// so that the sign of the height is right (Baerentzen and Aanaes, 2005).
   Sheet_location locate(const Point_3& p) const;
 
-  /// Points of the sheet in the middle of equal shares of its triangles, about `number` of them, and the area
-  /// that each of them stands for.
+  /// Points of the sheet in the middle of equal shares of its triangles, about `number` points, and the area
+  /// that each point stands for.
   std::vector<std::pair<Point_3, double>> area_samples(std::size_t number) const;
 
 private:
@@ -91,7 +91,8 @@ private:
     void operator()(Trees* trees) const;
   };
 
-  // Of what the closest point can be on: the inside, the edge opposite to a corner, or a corner.
+  // A triangle with the normals of the places of a closest point: inside, on the edge opposite to a corner,
+  // or at a corner.
   struct Triangle
   {
     std::array<Vec3, 3> points;

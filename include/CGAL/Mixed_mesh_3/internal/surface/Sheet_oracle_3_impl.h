@@ -127,10 +127,10 @@ CGAL_MIXED_MESH_3_INLINE Sheet_location Sheet_oracle_3::locate(const Point_3& p)
 {
   const auto [q, triangle] = m_trees->closest->closest(to_vec3(p));
   const Triangle& t = m_triangles[triangle];
-  // Which corners it is on the edge between, or at.
+  // The corners between which the point is on the edge, or the corner at which it is.
   constexpr double nearly_0 = 1e-9;
   const Vec3 area = cross(t.points[1] - t.points[0], t.points[2] - t.points[0]);
-  std::array<bool, 3> is_far{}; // from the edge opposite to a corner
+  std::array<bool, 3> is_far{}; // far from the edge opposite to a corner
   for(std::size_t i = 0; i < 3; ++i)
     is_far[i] = dot(cross(t.points[(i + 1) % 3] - q, t.points[(i + 2) % 3] - q), area)
                 > nearly_0 * dot(area, area);

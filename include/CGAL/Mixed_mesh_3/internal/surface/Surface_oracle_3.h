@@ -5,9 +5,9 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Exact queries on a closed triangulated surface, made cheap by locality: the part of the surface
-// that meets a cell is handed down to its children, and the side of a point follows from a point of
-// known side in the same cell.
+// Exact queries on a closed triangulated surface, made fast by locality: the part of the surface that meets a
+// cell is passed on to its children, and the side of a point follows from a point of known side in the same
+// cell.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SURFACE_ORACLE_3_H
 #define CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SURFACE_ORACLE_3_H
@@ -59,7 +59,8 @@ public:
   {
     CGAL_precondition(CGAL::is_triangle_mesh(surface));
     CGAL_precondition(CGAL::is_closed(surface));
-    // A copy in doubles: predicates are exact on it, and the user's surface need not outlive us.
+    // The copy is in doubles: predicates are exact on doubles, and the copy does not depend on the lifetime
+    // of the user's surface.
     auto vpm = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
                                             get_const_property_map(CGAL::vertex_point, surface));
     std::unordered_map<typename boost::graph_traits<FaceListGraph>::vertex_descriptor, std::size_t> copy;
@@ -83,14 +84,14 @@ public:
   double area() const;
   double volume() const;
   std::size_t number_of_facets() const { return m_triangles.size(); }
-  /// Of the whole surface.
+  /// The shells of the whole surface.
   const Shell_counts& shells() const { return m_shells; }
 
   /// The edges between facets whose normals differ by more than an angle, in degrees.
   Sharp_edges sharp_edges(double angle) const;
 
-  /// If each facet is perpendicular to an axis, the coordinates of their planes, with the area in each, for
-  /// each axis; else nothing.
+  /// The coordinates of the planes of the facets, with the area in each plane, for each axis, if each facet
+  /// is perpendicular to an axis; else nothing.
   Axis_parallel_planes axis_parallel_planes() const;
 
   /// The whole surface, with a point outside as reference: the paper's P_out.
@@ -100,15 +101,15 @@ public:
     part.facets.resize(number_of_facets());
     std::iota(part.facets.begin(), part.facets.end(), 0);
     const Bbox_3& b = bbox();
-    // Anywhere outside will do, but not where segments to it are parallel to the axes; the side that follows
-    // is the same from everywhere.
+    // The reference may be anywhere outside, but segments to it must not be parallel to the axes; the side
+    // that follows is the same for every reference.
     const double margin = 0.1 * (std::max)({b.x_span(), b.y_span(), b.z_span()});
     part.reference = Point_3((b.xmax)() + 0.7 * b.x_span() + margin, (b.ymax)() + 0.9 * b.y_span() + margin,
                              (b.zmax)() + b.z_span() + margin);
     return part;
   }
 
-  /// Where a cell is: `ON_BOUNDARY` iff it meets the surface, else the side of all its points.
+  /// The location of a cell: `ON_BOUNDARY` iff the cell meets the surface, else the side of all its points.
   /// \param parent the part for a cell that contains this one
   /// \param part filled if the cell meets the surface
   template <class Cell>
@@ -154,10 +155,10 @@ public:
     return odd ? opposite(part.reference_side) : part.reference_side;
   }
 
-  /// The side of any point, by a ray through the AABB tree.
+  /// The side of any point, from a ray through the AABB tree.
   Bounded_side bounded_side(const Point_3& p) const;
 
-  /// The closest point of the surface; faster if `part` has facets near `p`, but it need not.
+  /// The closest point of the surface; faster if `part` has facets near `p`, which is not required.
   Point_3 closest_point(const Point_3& p, const Surface_part& part) const
   {
     if(part.facets.empty())
@@ -182,8 +183,8 @@ public:
   /// The closest point of the surface.
   Point_3 closest_point(const Point_3& p) const;
 
-  /// Points of the surface, such that none of its points is farther than about `spacing` from one of them:
-  /// all vertices, and a grid on larger triangles.
+  /// Points of the surface, such that no point of the surface is farther than about `spacing` from one of
+  /// them: all vertices, and a grid on larger triangles.
   std::vector<Point_3> surface_samples(double spacing) const;
 
 private:

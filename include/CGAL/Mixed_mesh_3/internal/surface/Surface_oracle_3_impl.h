@@ -36,7 +36,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// What CGAL's detection of sharp edges marks them in.
+/// The property map in which CGAL's detection of sharp edges marks them.
 struct Is_sharp_map
 {
   using key_type = CGAL::Surface_mesh<Surface_oracle_3::Point_3>::Edge_index;
@@ -54,7 +54,7 @@ struct Surface_oracle_3::Trees
 {
   using Surface = CGAL::Surface_mesh<Point_3>;
   using Side_of_surface = CGAL::Side_of_triangle_mesh<Surface, Kernel>;
-  using Tree = Side_of_surface::AABB_tree; // its traits have another name in each CGAL version
+  using Tree = Side_of_surface::AABB_tree; // the traits have another name in each CGAL version
 
   Surface surface;
   Tree tree;
@@ -90,13 +90,13 @@ Surface_oracle_3::build(const std::vector<Point_3>& points,
   count_shells(points, triangles);
 }
 
-// Around a cavity, what is inside of a shell, but near to it, is outside; whichever way the triangles are
-// oriented.
+// Counts the shells. Around a cavity, points inside the shell, but near to it, are outside of the domain, for
+// either orientation of the triangles.
 CGAL_MIXED_MESH_3_INLINE void
 Surface_oracle_3::count_shells(const std::vector<Point_3>& points,
                                const std::vector<std::array<std::size_t, 3>>& triangles)
 {
-  constexpr double near = 1e-6; // in sides of a triangle
+  constexpr double near = 1e-6; // distance in sides of a triangle
   const Shells_of_vertices shells = find_shells(triangles, points.size());
   m_shells = shells.counts;
   m_shells.number_of_cavities = 0;

@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Closest points of triangles, in doubles: the query that the optimization and the measurement of distances
-// ask most.
+// Closest points of triangles, in doubles: the most frequent query of the optimization and of the measurement
+// of distances.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_SURFACE_TRIANGLE_TREE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_SURFACE_TRIANGLE_TREE_H
@@ -30,7 +30,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The point of a triangle closest to a given one: by the region of the plane that the point projects to
+/// The point of a triangle closest to a given point, by the region of the plane that the point projects to
 /// (C. Ericson, *Real-Time Collision Detection*, 5.1.5).
 class Closest_point_of_triangle
 {
@@ -44,7 +44,7 @@ public:
   {
   }
 
-  /// A triangle without area has the closest point of one of its edges.
+  /// The closest point; for a triangle without area, the closest point of one of its edges.
   Vec3 operator()(const Vec3& p) const
   {
     const Vec3 ap = p - m_corner;
@@ -77,9 +77,9 @@ private:
 };
 
 /*!
-A tree of boxes with four children each, whose distances are computed at once. No decision depends on it that
-rounding could make wrong, so it need not be exact. The AABB tree of CGAL with `Simple_cartesian<double>`
-takes three times as long: it projects points onto planes first, and knows one box at a time.
+A tree of boxes with four children each, whose distances are computed at once. No decision that rounding could
+make wrong depends on the tree, so it need not be exact. The AABB tree of CGAL with `Simple_cartesian<double>`
+takes three times as long: it projects points onto planes first, and tests one box at a time.
 */
 class Triangle_tree
 {
@@ -91,7 +91,7 @@ public:
     std::size_t triangle;
   };
 
-  /// \param triangles may be degenerate
+  /// \param triangles triangles, which may be degenerate
   /// \par Complexity
   /// \f$ O(n \log n) \f$
   explicit Triangle_tree(const std::vector<std::array<Vec3, 3>>& triangles)
@@ -118,7 +118,7 @@ public:
 
   bool is_empty() const { return m_triangles.empty(); }
 
-  /// \pre not empty
+  /// The closest point. \pre the tree is not empty
   Closest closest(const Vec3& p) const
   {
     Closest found{};
@@ -127,7 +127,7 @@ public:
     return found;
   }
 
-  /// \param hint of the triangles: it is the result if no point is closer. The nearer, the faster
+  /// \param hint point of the triangles: it is the result if no point is closer. The nearer, the faster
   Closest closest(const Vec3& p, const Closest& hint) const
   {
     Closest found = hint;
@@ -172,16 +172,16 @@ private:
 
   struct Node
   {
-    double center[3][width], half[3][width];  // of the boxes of the children; an absent one is infinitely far
-    std::uint32_t first[width];               // its node, or the first triangle of a leaf
-    std::uint32_t number_of_triangles[width]; // 0: no leaf
+    double center[3][width], half[3][width];  // boxes of the children; an absent one is infinitely far
+    std::uint32_t first[width];               // node of the child, or the first triangle of a leaf
+    std::uint32_t number_of_triangles[width]; // 0: the child is no leaf
   };
 
   std::vector<Node> m_nodes; // the first is the root
-  double m_rounding = 0;     // of distances from boxes, at most
+  double m_rounding = 0;     // bound of the rounding error of distances from boxes
   std::vector<Closest_point_of_triangle> m_triangles;
-  std::vector<std::uint32_t> m_numbers;   // theirs in the order given
-  std::vector<std::uint32_t> m_positions; // of those in that order
+  std::vector<std::uint32_t> m_numbers;   // numbers of the triangles in the order given
+  std::vector<std::uint32_t> m_positions; // positions of the triangles of that order
 
   static double squared_distance(const Vec3& p, const Vec3& q)
   {
@@ -189,8 +189,8 @@ private:
     return dot(d, d);
   }
 
-  // Halves a range at the median along the longest side of what its centers fill; equal ones by their
-  // numbers.
+  // Halves a range at the median along the longest side of the box of its centers; equal centers are ordered
+  // by their numbers.
   static std::size_t halve(std::vector<Entry>& entries, std::size_t first, std::size_t last)
   {
     const auto center = [](const Entry& e) { return e.box.low + e.box.high; }; // doubled
@@ -238,8 +238,8 @@ private:
     return index;
   }
 
-  // Squared distances of a point from the boxes of the children. Absolute values instead of comparisons
-  // let compilers compute several at once.
+  // Squared distances of a point from the boxes of the children. Absolute values instead of comparisons let
+  // compilers compute several at once.
   static std::array<double, width> squared_distances(const Node& node, const Vec3& p)
   {
     std::array<double, width> squares{};
@@ -252,20 +252,20 @@ private:
     return squares;
   }
 
-  // The squared distance up to which boxes are entered: none that has a point as near as that is missed by
-  // rounding, so that a hint does not decide which of several triangles is named.
+  // The squared distance up to which boxes are entered: rounding must not miss a box with a point that is as
+  // near, so that a hint does not decide which of several triangles is named.
   double limit_of(double least) const
   {
     const double distance = std::sqrt(least) + m_rounding;
     return distance * distance;
   }
 
-  // Replaces what was found by what is closer, or as close and of a triangle with a smaller number.
+  // Replaces the point found by a closer one, or by one as close on a triangle with a smaller number.
   void search(const Vec3& p, Closest& found, double& least) const
   {
     CGAL_precondition(!is_empty());
     double limit = limit_of(least);
-    // Each level halves twice: 16 levels, in each of which at most three children wait.
+    // The stack of boxes. Each level halves twice: 16 levels, in each of which at most three children wait.
     struct Waiting
     {
       double distance;
@@ -284,7 +284,7 @@ private:
       for(std::size_t c = 0; c < width; ++c) {
         if(squares[c] > limit)
           continue;
-        if(node.number_of_triangles[c] == 0) { // the nearest on top
+        if(node.number_of_triangles[c] == 0) { // the nearest child is on top
           stack[size] = {squares[c], node.first[c]};
           if(size > bottom && stack[size - 1].distance < squares[c])
             std::swap(stack[size - 1], stack[size]);

@@ -18,8 +18,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Number of pairs of triangles that intersect other than in a common edge or vertex; a degenerate one is a
-/// pair with itself.
+/// Number of pairs of triangles that intersect other than in a common edge or vertex; a degenerate triangle
+/// forms a pair with itself.
 std::size_t number_of_self_intersections(Triangle_soup soup);
 
 } // namespace internal

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Which bodies and cavities of two solids belong to each other.
+// Correspondence of the bodies and cavities of two solids.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_SURFACE_COMPARE_SHELLS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_SURFACE_COMPARE_SHELLS_H
@@ -25,19 +25,19 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Where a region of one solid is in another one, by its sample points, which weigh as much as their chords
-/// are long.
+/// Location of a region of one solid in another solid, by its sample points, weighted by the lengths of their
+/// chords.
 struct Region_location
 {
-  std::size_t same = Nested_shells::outside; ///< the region of the same kind that most of it is in
-  double share_in_solid = 0;                 ///< of its sample points that are in bodies
+  std::size_t same = Nested_shells::outside; ///< the region of the same kind that has most of it
+  double share_in_solid = 0;                 ///< share of its sample points that are in bodies
   Predicates_kernel::Point_3 middle;         ///< the sample point nearest to their mean
-  Nested_shells::Sample elsewhere{{}, 0}; ///< such a one on the other side: in a body and not in a cavity, or
-                                          ///< conversely; length 0 if there is none
+  Nested_shells::Sample elsewhere{{}, 0}; ///< a sample point on the other side, in a body and not in a cavity
+                                          ///< or conversely; length 0 if there is none
 };
 
-/// The sample point that is nearest to the mean of all: inside the region even if that is bent.
-/// \pre not empty
+/// The sample point that is nearest to the mean of all: inside the region even if the region is bent.
+/// \pre `samples` is not empty
 inline Predicates_kernel::Point_3 middle_of(const std::vector<Nested_shells::Sample>& samples)
 {
   Vec3 sum{};
@@ -55,11 +55,11 @@ inline Predicates_kernel::Point_3 middle_of(const std::vector<Nested_shells::Sam
 
 inline Region_location locate_region(const Nested_shells& a, std::size_t region, const Nested_shells& b)
 {
-  constexpr double least_share = 0.1; // what lies on another region's border does not belong to it
+  constexpr double least_share = 0.1; // parts on the border of a region do not belong to it
   Region_location location;
   const std::vector<Nested_shells::Sample> samples = a.samples(region);
   location.middle = samples.empty() ? a.point_on(region) : middle_of(samples);
-  std::map<std::size_t, double> lengths; // in regions of b
+  std::map<std::size_t, double> lengths; // lengths in regions of b
   double sum = 0, sum_in_solid = 0;
   for(const Nested_shells::Sample& s : samples) {
     const std::size_t other = b.region_of(s.point);
@@ -87,7 +87,7 @@ inline std::vector<Region_location> locate_regions(const Nested_shells& a, const
   return locations;
 }
 
-/// For each region of the other solid, those that are in it.
+/// The regions that are in each region of the other solid.
 inline std::vector<std::vector<std::size_t>> indices_at(const std::vector<Region_location>& locations,
                                                         std::size_t number_of_others)
 {
@@ -98,7 +98,7 @@ inline std::vector<std::vector<std::size_t>> indices_at(const std::vector<Region
   return regions;
 }
 
-/// Regions of two solids that belong to each other, directly or by others.
+/// Regions of two solids that belong to each other, directly or through other regions.
 struct Region_group
 {
   std::vector<std::size_t> in_a, in_b;

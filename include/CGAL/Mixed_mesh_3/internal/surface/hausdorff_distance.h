@@ -5,9 +5,9 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The Hausdorff distance between sets of triangles, by branch and bound. Not CGAL's
-// bounded_error_Hausdorff_distance(): that of CGAL 5.5 fails an assertion where surfaces coincide, which
-// fitted meshes do, and no version is documented to tell the place.
+// The Hausdorff distance between sets of triangles, by branch and bound. CGAL's
+// bounded_error_Hausdorff_distance() is not used: in CGAL 5.5 it fails an assertion where surfaces coincide,
+// as fitted meshes do, and no version is documented to return the place.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_SURFACE_HAUSDORFF_DISTANCE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_SURFACE_HAUSDORFF_DISTANCE_H
@@ -87,7 +87,7 @@ class Nearest_triangle
 public:
   using Hint = Triangle_tree::Closest;
 
-  /// A point, the nearest point of the soup, and where that is.
+  /// A point, the nearest point of the soup, and its location.
   struct Query
   {
     Point_3 point;
@@ -95,12 +95,12 @@ public:
     double distance;
   };
 
-  /// \pre not empty
+  /// Constructs the query. \pre the soup is not empty
   explicit Nearest_triangle(const Triangle_soup& soup) : m_tree(corners(soup)) {}
 
   Query operator()(const Point_3& p) const { return query(p, m_tree.closest(to_vec3(p))); }
 
-  /// \param hint a point of the soup; faster if it is near
+  /// \param hint point of the soup; the query is faster if the hint is near
   Query operator()(const Point_3& p, const Hint& hint) const
   {
     return query(p, m_tree.closest(to_vec3(p), hint));
@@ -121,13 +121,13 @@ private:
 } // namespace internal
 
 /// \ingroup PkgMixedMesh3Validity
-/// How far a surface is from another one.
+/// The distance of a surface from another one.
 struct One_sided_distance
 {
-  double distance = 0;             ///< of `from`, the farthest point found
+  double distance = 0;             ///< distance of `from`, the farthest point found
   double error = 0;                ///< no point is farther than `distance + error`
   Predicates_kernel::Point_3 from; ///< a point of the surface
-  Predicates_kernel::Point_3 to;   ///< the point of the other one nearest to it
+  Predicates_kernel::Point_3 to;   ///< the point of the other surface nearest to `from`
 };
 
 namespace internal {
@@ -136,10 +136,10 @@ namespace internal {
 The point of `soup` that is farthest from `target`.
 
 The distance to one triangle is convex: on a piece of a triangle it is largest at a vertex. So the distance
-of a piece is at most the largest one of its vertices to any one triangle, and those nearest to its vertices
-are good ones to try. The piece with the largest bound is halved, until none exceeds the farthest vertex by
-more than `maximal_error`. Where large triangles coincide with small ones that takes very many pieces, so
-their number is limited.
+of a piece is at most the largest distance of its vertices to any one triangle, and the triangles nearest to
+its vertices are good candidates. The piece with the largest bound is halved, until no bound exceeds the
+distance of the farthest vertex by more than `maximal_error`. Where large triangles coincide with small ones,
+very many pieces would be needed, so their number is limited.
 */
 inline One_sided_distance one_sided_distance(const Triangle_soup& soup, const Nearest_triangle& target,
                                              double maximal_error)
@@ -209,7 +209,7 @@ inline One_sided_distance one_sided_distance(const Triangle_soup& soup, const Ne
     add_piece({m, b, c}, piece.bound);
   }
   const Query& q = queries[farthest];
-  // Pieces left out are within the limit there was, which has only grown.
+  // Pieces left out are within the limit at that time, which has only grown.
   const double bound = pieces.empty() ? limit() : (std::max)(limit(), pieces.top().bound);
   return {q.distance, bound - q.distance, q.point, rounded_point(q.nearest.point)};
 }

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Where the boundary of a mesh cuts itself.
+// Self-intersections of the boundary of a mesh.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SELF_INTERSECTIONS_H
 #define CGAL_MIXED_MESH_3_INTERNAL_SURFACE_SELF_INTERSECTIONS_H
@@ -38,7 +38,7 @@ inline bool is_crossing(const std::array<Vertex_index, 3>& s, const std::array<V
   const auto triangle = [&](const std::array<Vertex_index, 3>& v) {
     return Kernel::Triangle_3(points[v[0]], points[v[1]], points[v[2]]);
   };
-  // turned, such that what is shared comes first
+  // The vertices are turned such that the shared ones come first.
   const auto turned = [](std::array<Vertex_index, 3> a, const std::array<Vertex_index, 3>& b, int& shared) {
     const auto end = std::stable_partition(a.begin(), a.end(), [&](Vertex_index v) {
       return std::count(b.begin(), b.end(), v) > 0;
@@ -60,9 +60,10 @@ inline bool is_crossing(const std::array<Vertex_index, 3>& s, const std::array<V
   }
 }
 
-/// The vertices of faces that meet in more than the vertices and edges they share, ascending. Exact.
-/// \param faces triangles, and quadrilaterals as two of them; those without area, which no valid element has,
-///        are passed over
+/// The vertices of faces that meet in more than the vertices and edges they share, ascending. The test is
+/// exact.
+/// \param faces triangles, and quadrilaterals, each as two triangles; faces without area, which no valid
+///        element has, are skipped
 /// \par Complexity
 /// O(n log n) for n faces, if few meet
 inline std::vector<Vertex_index> vertices_of_self_intersections(const std::vector<Vec3>& positions,

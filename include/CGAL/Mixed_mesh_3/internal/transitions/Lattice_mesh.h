@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the stages after the octree hand on: elements between lattice points.
+// Elements between lattice points, as the stages after the octree pass them on.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_TRANSITIONS_LATTICE_MESH_H
 #define CGAL_MIXED_MESH_3_INTERNAL_TRANSITIONS_LATTICE_MESH_H
@@ -33,12 +33,12 @@ struct Lattice_mesh
 
   std::vector<Lattice_point> vertices;
   std::vector<std::int8_t> sides;         ///< `Bounded_side` of each vertex, or unknown
-  std::vector<Subdomain_rank> subdomains; ///< for each vertex inside, the rank of its subdomain
-  std::vector<Octree::Node_index> leaves; ///< for each vertex, a leaf that touches it
-  std::vector<std::uint8_t> is_on_rim;    ///< not all leaves around the vertex have elements
+  std::vector<Subdomain_rank> subdomains; ///< rank of the subdomain of each vertex inside
+  std::vector<Octree::Node_index> leaves; ///< a leaf that touches each vertex
+  std::vector<std::uint8_t> is_on_rim;    ///< whether not all leaves around the vertex have elements
   Element_list elements;
-  std::vector<Octree::Node_index> cells; ///< for each element, the leaf it comes from
-  /// From here on, vertices are not the octree's: transition templates inserted them.
+  std::vector<Octree::Node_index> cells; ///< leaf that each element comes from
+  /// Number of vertices of the octree: transition templates inserted the vertices from here on.
   std::size_t first_inserted_vertex = 0;
 
   Vertex_index add_vertex(const Lattice_point& p, std::int8_t side, Octree::Node_index leaf, bool rim = false)

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From the balanced octree to a conforming mixed mesh (section 5.2 of the paper): numbers the
+// Conversion of the balanced octree to a conforming mixed mesh (section 5.2 of the paper): numbers the
 // vertices, finds on which side of the surface they are, and replaces each cell by its template.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_TRANSITIONS_APPLY_TRANSITIONS_H
@@ -39,8 +39,8 @@ class Apply_transitions
   const Located_octree& m_located;
   const Octree& m_octree;
   const std::vector<std::uint16_t> m_patterns;
-  // A leaf without hanging vertices becomes one hexahedron, whose number is its slot; of the others,
-  // it is that in m_leaf_vertices.
+  // Slots of the leaves. A leaf without hanging vertices becomes one hexahedron, whose number is the slot of
+  // the leaf; the slot of another leaf is its number in m_leaf_vertices.
   std::vector<std::uint32_t> m_slots;
   std::vector<Leaf_vertices> m_leaf_vertices;
   std::unordered_map<std::uint64_t, Vertex_index> m_inserted;
@@ -68,8 +68,8 @@ public:
   }
 
 private:
-  // Leaves that meet the domain, and dead ones beside them: those serve if the boundary stage has to
-  // label one of their vertices inside.
+  // Chooses leaves that meet the domain, and dead leaves beside them: the boundary stage needs dead leaves if
+  // it has to label one of their vertices inside.
   void choose_leaves()
   {
     m_slots.assign(m_octree.size(), no_slot);
@@ -97,9 +97,10 @@ private:
 
   void number_vertices()
   {
-    static constexpr int hexahedron_vertex[8] = {0, 1, 3, 2, 4, 5, 7, 6}; // of a corner of a cell
+    static constexpr int hexahedron_vertex[8] = {0, 1, 3, 2, 4, 5, 7, 6}; // for corners of cells
     m_octree.for_each_vertex([this](const Lattice_point& p, const std::array<Node_index, 8>& around) {
-      // A leaf off the surface decides; a vertex whose leaves all meet it is asked for later.
+      // A leaf that does not meet the surface decides; the side of a vertex whose leaves all meet the surface
+      // is asked for later.
       std::int8_t side = Lattice_mesh::unknown_side;
       Node_index leaf = Octree::no_node;
       bool is_on_rim = false;
@@ -157,8 +158,8 @@ private:
     }
   }
 
-  // A vertex that the octree does not have: the center of the cell, or of a face whose four edges
-  // are split while the cell behind it is not; the latter is shared by two leaves.
+  // Inserts a vertex that the octree does not have: the center of the cell, or of a face whose four edges are
+  // split while the cell behind the face is not; such a face center is shared by two leaves.
   Vertex_index inserted_vertex(Node_index n, int local)
   {
     const std::uint32_t half = m_octree.side(n) / 2;
@@ -168,7 +169,7 @@ private:
     if(is_new) {
       const Bounded_side side = m_located.side(n);
       m_mesh.add_vertex(p, side == ON_BOUNDARY ? Lattice_mesh::unknown_side : std::int8_t(side), n,
-                        local != cell_center); // until the leaf behind the face asks for it, too
+                        local != cell_center); // until the leaf behind the face asks for the vertex, too
     } else {
       m_mesh.is_on_rim[known->second] = false;
       if(m_located.side(n) != ON_BOUNDARY)
@@ -202,7 +203,7 @@ private:
 Replaces the leaves of a balanced octree by hexahedra and transition templates.
 
 Two leaves of the mesh agree on every face, because face splits depend on the face's split edges
-only. Vertices get the side of the surface they are on; one exactly on it has `ON_BOUNDARY`.
+only. Vertices get the side of the surface they are on; a vertex exactly on the surface has `ON_BOUNDARY`.
 
 \par Complexity
 Linear in the number of nodes, times the depth

@@ -36,7 +36,7 @@ namespace internal {
 //     parallel   to x       | to y       | to z
 //     midpoint   1  7 19 25 | 3  5 21 23 | 9 11 15 17
 //
-// Faces: x-, x+, y-, y+, z-, z+ are 0 to 5. The pattern of a face has 4 bits: those of its edges in
+// Faces: x-, x+, y-, y+, z-, z+ are 0 to 5. The pattern of a face has 4 bits: the bits of its edges in
 // increasing order. If all four are set, the center of the face is a vertex, too.
 
 // One element: kind 0 tetrahedron, 1 pyramid, 2 prism, 3 hexahedron; `size` vertices as lattice
@@ -82,7 +82,7 @@ inline std::uint32_t face_pattern(std::uint32_t mask, int face)
   return (mask >> e[0] & 1) | (mask >> e[1] & 1) << 1 | (mask >> e[2] & 1) << 2 | (mask >> e[3] & 1) << 3;
 }
 
-// The pieces of a face, from its 4 bits only: both cells at a face agree on them. Up to rotation:
+// The pieces of a face, from its 4 bits only: both cells at a face agree on the pieces. Up to rotation:
 //
 //    6---5---4   o-------o   o-------o   o---o---o   o-------o   o-------o   o---o---o
 //    |       |   |       |   |\     /|   |   |   |   |   __./|   |       |   |   |   |
@@ -120,7 +120,7 @@ inline Face_split face_split(int face, std::uint32_t bits)
   std::uint32_t sides = 0;
   for(int i = 0; i < 4; ++i)
     sides |= (bits >> bits_of_sides[first ? 0 : 1][i] & 1) << i;
-  for(int rotation = 0;; ++rotation) // ends: one of the six is a rotation of any pattern
+  for(int rotation = 0;; ++rotation) // terminates: one of the six is a rotation of any pattern
   {
     const std::uint32_t rotated = (sides >> rotation | sides << (4 - rotation)) & 0xF;
     for(const Case& c : cases)
@@ -165,10 +165,10 @@ public:
     return templates;
   }
 
-  // The template of a pattern: without the cell center wherever that is possible.
+  // The template of a pattern, without the cell center wherever possible.
   Transition_template operator[](std::uint32_t mask) const { return m_default[mask]; }
 
-  // Does the template of a pattern have the cell center as a vertex?
+  // Whether the template of a pattern has the cell center as a vertex.
   bool has_center(std::uint32_t mask) const { return m_has_center[mask]; }
 
   // The other template: each boundary piece coned from the cell center, for all patterns but 0,
@@ -176,7 +176,7 @@ public:
   Transition_template centered(std::uint32_t mask) const { return m_centered[mask]; }
 
 private:
-  // Templates one after the other; that of a pattern is [offsets[mask], offsets[mask + 1]).
+  // Templates one after the other; the template of a pattern is [offsets[mask], offsets[mask + 1]).
   struct Family
   {
     std::vector<Template_element> elements;
@@ -188,7 +188,7 @@ private:
     }
   };
 
-  // A symmetry of the cube: as a permutation of the lattice, and of the edges.
+  // A symmetry of the cube, given as a permutation of the lattice points and of the edges.
   struct Symmetry
   {
     std::uint8_t points[27];
@@ -221,8 +221,8 @@ private:
       return result;
     }
 
-    // The image of an element. A reflection turns it inside out; listing the base, or both
-    // triangles, in the opposite direction makes it positive again.
+    // The image of an element. A reflection inverts the element; listing the base, or both triangles, in the
+    // opposite direction makes its volume positive again.
     Template_element operator()(const Template_element& element) const
     {
       constexpr std::uint8_t order[2][4][8] = {
@@ -248,7 +248,7 @@ private:
     for(int i = 0; i < 48; ++i)
       symmetries.emplace_back(i);
 
-    // For each pattern its class and the first symmetry that leads to it.
+    // The class of each pattern, and the first symmetry that leads to the pattern.
     struct Class
     {
       std::vector<Template_element> elements;
@@ -300,7 +300,7 @@ private:
       }
       for(int face = 0; face < 6; ++face)
         for(const Face_piece& piece : face_split(face, face_pattern(mask, face))) {
-          // Seen from the center, which is inside, the base is to be counter-clockwise.
+          // The base must be counter-clockwise seen from the center, which is inside.
           Template_element element = {};
           element.kind = (piece.size == 4 ? 1 : 0);
           element.size = static_cast<std::uint8_t>(piece.size + 1);
