@@ -4,13 +4,13 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-"""Reads the quadratic elements of test_io with other programs, VTK, Gmsh and meshio; FEBio's file as XML.
+"""Reads the quadratic elements of test_io with other programs, VTK, Gmsh and meshio; FEBio's file as XML. GetFEM solves.
 
 Usage: test_io_order_2.py [directory that test_io wrote to]
 
 The order of nodes is that of the manuals of the programs. It shows twice: each middle node is the rounded mean of the
 ends of the edge that the manual names, and the volume by quadratic shape functions is that of the linear element.
-Exit code 77 (skipped) if a module is missing: python3-vtk9, python3-gmsh, python3-meshio.
+Exit code 77 (skipped) if a module is missing: python3-getfem, python3-gmsh, python3-meshio, python3-vtk9.
 """
 
 import itertools
@@ -23,6 +23,7 @@ import test_io_readers  # ends the program, as skipped, without VTK and Gmsh
 from test_io_readers import KINDS, canonical, check, close, facet_sets
 
 try:
+    import getfem
     import gmsh
     import meshio
     import numpy as np
@@ -57,6 +58,14 @@ VTK_TYPES = [vtk.VTK_QUADRATIC_TETRA, vtk.VTK_QUADRATIC_PYRAMID, vtk.VTK_QUADRAT
 GMSH_TYPES, GMSH_FACES = [11, 19, 18, 17], {3: 9, 4: 16}
 GMSH_REFERENCE_VOLUMES = [1 / 6, 4 / 3, 1, 8]
 MESHIO_TYPES = ["tetra10", "pyramid13", "wedge15", "hexahedron20"]
+# Of GetFEM: map, elements, quadrature (collapsed, so exact for pyramids), and where the reference element is.
+HALF = np.array([0.5, 0.5, 0.5])
+GETFEM = [("GT_PK(3,2)", "FEM_PK(3,2)", "IM_TETRAHEDRON(6)", (1, 0)),
+          ("GT_PYRAMID_Q2_INCOMPLETE", "FEM_PYRAMID_Q2_INCOMPLETE", "IM_PYRAMID(IM_GAUSS_PARALLELEPIPED(3,8))",
+           (1, 0)),
+          ("GT_PRISM_INCOMPLETE_P2", "FEM_PRISM_INCOMPLETE_P2", "IM_PRODUCT(IM_TRIANGLE(7),IM_GAUSS1D(6))",
+           (np.array([1, 1, 0.5]), np.array([0, 0, 0.5]))),
+          ("GT_Q2_INCOMPLETE(3)", "FEM_Q2_INCOMPLETE(3)", "IM_HEXAHEDRON(9)", (HALF, HALF))]
 FEBIO_TYPES = ["tet10", "pyra13", "penta15", "hex20"]
 PRISM = KINDS.index("prism")
 
@@ -297,6 +306,8 @@ def check_gmsh(path, version, expected):
             for kind, _, nodes in zip(*mesh.getElements(2, entity))
             for face in np.asarray(nodes, int).reshape(-1, {9: 6, 16: 8}[kind]) - 1]
     check_faces(path, expected, points, groups, version == 2.2, elements)
+    if expected["name"] == "io_grid":
+        check_patch(path, expected, points, elements)
     for tag in gmsh.view.getTags():
         _, tags, data, _, _ = gmsh.view.getModelData(tag, 0)
         check(np.array_equal(np.asarray(data), points[np.asarray(tags, int) - 1]), path, "values at the nodes")
@@ -333,6 +344,44 @@ def vertices_first(expected, points, elements):
     result = np.zeros((numbers.max() + 1, 3))
     result[numbers] = points
     return result, numbers
+
+
+def check_patch(path, expected, points, elements):
+    """For GetFEM, a linear displacement takes no forces within: elements of different kinds fit together. Its nodes are
+    found by their places in the reference element, since its order is its own. GetFEM 5.4 errs by 1e-6 in gradients on
+    pyramids, whatever the quadrature, and by 1e-14 on other kinds."""
+    mesh = getfem.Mesh("empty", 3)
+    rules = {}
+    for kind, some in enumerate(elements):
+        map_name, fem, rule, (scale, shift) = GETFEM[kind]
+        transformation = getfem.GeoTrans(map_name)
+        corners = np.array(CORNERS[kind]) * scale + shift
+        nodes = np.vstack([corners, [(corners[i] + corners[j]) / 2 for i, j in GMSH_EDGES[kind]]])
+        order = [int(np.argmin(np.abs(nodes - p).sum(1))) for p in transformation.pts().T]
+        check(sorted(order) == list(range(len(nodes))), path, "GetFEM's nodes of", KINDS[kind])
+        rules[kind] = [int(mesh.add_convex(transformation, points[e[order]].T)[0]) for e in some], fem, rule
+    displacement, integration = getfem.MeshFem(mesh, 3), getfem.MeshIm(mesh)
+    for ids, fem, rule in rules.values():
+        displacement.set_fem(getfem.Fem(fem), ids)
+        integration.set_integ(getfem.Integ(rule), ids)
+    check(displacement.nbdof() == 3 * len(points), path, "nodes for GetFEM", displacement.nbdof() / 3, len(points))
+    check(close(getfem.asm_generic(integration, 0, "1", -1), expected["volume"]), path, "volume by GetFEM")
+    boundary = 1
+    mesh.set_region(boundary, mesh.outer_faces())
+    gradient = np.array([[0.1, 0.2, -0.3], [0.05, -0.1, 0.4], [0.3, 0.1, 0.2]])
+    places = displacement.basic_dof_nodes()
+    exact = np.array([gradient[i % 3] @ places[:, i] for i in range(places.shape[1])])
+    model = getfem.Model("real")
+    model.add_fem_variable("u", displacement)
+    model.add_initialized_data("lambda", 1.2)
+    model.add_initialized_data("mu", 0.8)
+    model.add_isotropic_linearized_elasticity_brick(integration, "u", "lambda", "mu")
+    model.assembly()
+    inner = np.setdiff1d(np.arange(displacement.nbdof()), displacement.basic_dof_on_region(boundary))
+    matrix = model.tangent_matrix()
+    forces = np.abs(matrix.mult(exact))
+    error = forces[inner].max() / forces.max()
+    check(len(inner) > 1000 and error < 1e-4, path, "patch test of GetFEM", len(inner), error)
 
 
 def check_inp(path, expected):
@@ -387,6 +436,7 @@ def main():
     with open(os.path.join(directory, "io_expected.json")) as file:
         expectations = json.load(file)
     check_shape_functions()
+    getfem.util_trace_level(0)
     gmsh.initialize(["gmsh"])
     gmsh.option.setNumber("General.Terminal", 0)
     number_of_inp = 0
