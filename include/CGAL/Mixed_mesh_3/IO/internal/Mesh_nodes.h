@@ -147,22 +147,21 @@ public:
 
   const Element_names& names(Element_kind kind) const { return names_of(kind, m_order); }
 
-  /// A value of each node, by `value(v)` of vertices: the rounded mean of both ends of an edge.
-  template <class Value>
-  double mean(std::size_t node, const Value& value) const
+  /// Both ends of the edge of a middle node; of a vertex, that twice: it is their mean, too.
+  std::array<Vertex_index, 2> ends(std::size_t node) const
   {
     const std::size_t n = m_mesh.number_of_vertices();
-    if(node < n)
-      return value(node);
-    const auto& [a, b] = m_middle.ends[node - n];
-    return rounded_mean(value(a), value(b));
+    return node < n ? std::array<Vertex_index, 2>{Vertex_index(node), Vertex_index(node)}
+                    : m_middle.ends[node - n];
   }
 
   Mixed_meshes_3::Vec3 point(std::size_t node) const
   {
-    Mixed_meshes_3::Vec3 p{};
+    const auto [a, b] = ends(node);
+    Mixed_meshes_3::Vec3 p = Mixed_meshes_3::to_vec3(m_mesh.points()[a]);
+    const Mixed_meshes_3::Vec3 q = Mixed_meshes_3::to_vec3(m_mesh.points()[b]);
     for(std::size_t i = 0; i < 3; ++i)
-      p[i] = mean(node, [&](std::size_t v) { return Mixed_meshes_3::to_vec3(m_mesh.points()[v])[i]; });
+      p[i] = rounded_mean(p[i], q[i]);
     return p;
   }
 
@@ -233,7 +232,8 @@ public:
       values.reserve(nodes.size() * n);
       for(std::size_t node = 0; node < nodes.size(); ++node)
         for(std::size_t i = 0; i < n; ++i)
-          values.push_back(nodes.mean(node, [&](std::size_t v) { return of_vertices[v * n + i]; }));
+          values.push_back(
+            rounded_mean(of_vertices[nodes.ends(node)[0] * n + i], of_vertices[nodes.ends(node)[1] * n + i]));
       array.values = &values;
     }
   }
