@@ -7,6 +7,7 @@
 
 #include "arrays.h"
 
+#include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
 #include <CGAL/Mixed_mesh_3/certify_mesh.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
@@ -138,6 +139,21 @@ py::array_t<double> quality(const Mesh& mesh, const std::string& measure)
                               + "'; expected ARC, scaled Jacobian or volume");
 }
 
+void save(const Mesh& mesh, const std::string& path, int order, bool has_only_tetrahedra)
+{
+  mm3::IO::Write_options options;
+  options.order = order;
+  options.tetrahedra = has_only_tetrahedra;
+  std::string error;
+  bool is_written;
+  {
+    const py::gil_scoped_release release;
+    is_written = mm3::IO::write_mixed_mesh(path, mesh, options, &error);
+  }
+  if(!is_written)
+    throw std::invalid_argument(error);
+}
+
 // The table of element kinds: the page of a mesh finds the faces to draw by it.
 py::list element_kinds()
 {
@@ -216,6 +232,7 @@ void add_mesh(py::module_& module)
   module.def("certify", &certify);
   module.def("defects", &defects);
   module.def("quality", &quality);
+  module.def("save", &save);
   module.def("element_kinds", &element_kinds);
   module.attr("CGAL_version") = CGAL_VERSION_STR;
 }

@@ -10,7 +10,9 @@
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
 #include <CGAL/Mixed_mesh_3/IO/FEB_model.h>
+#include <CGAL/Mixed_mesh_3/IO/INP.h>
 #include <CGAL/Mixed_mesh_3/IO/VTU.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/Mesh_nodes.h>
 #include <CGAL/Mixed_mesh_3/IO/read_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
@@ -289,6 +291,11 @@ std::size_t number_of_boundary_faces(const Mesh& mesh, int size)
 // Whether facet sets can share faces in the format.
 bool can_share_faces(const std::string& extension) { return extension != ".msh2" && extension != ".mesh"; }
 
+bool can_have_order_2(const std::string& extension, const Mesh& mesh)
+{
+  return extension != ".mesh" && (extension != ".inp" || mesh.elements().counts()[PYRAMID] == 0);
+}
+
 bool can_have_vertex_data(const std::string& extension)
 {
   return extension != ".inp" && extension != ".mesh";
@@ -305,8 +312,8 @@ public:
     m_json << std::setprecision(17) << "[";
   }
 
-  // Writes the mesh in all formats, twice, and the content that readers must find. Vertex data are the
-  // positions.
+  // Writes the mesh in all formats, also of order 2, twice, and the content that readers must find. Vertex
+  // data are the positions.
   void write(const std::string& name, const Mesh& mesh,
              const IO::Write_options& vtu_options = IO::Write_options(),
              const std::vector<IO::Facet_set>& facet_sets = {}, bool share_faces = false)
@@ -314,17 +321,20 @@ public:
     for(const char* extension : extensions) {
       if(share_faces && !can_share_faces(extension))
         continue;
-      const std::string path = (m_directory / (name + extension)).string();
       IO::Write_options options = std::string(extension) == ".vtu" ? vtu_options : IO::Write_options();
       options.facet_sets = facet_sets;
       if(can_have_vertex_data(extension))
         options.vertex_data = vtu_options.vertex_data;
-      BOOST_TEST(IO::check_output_path(path));
-      BOOST_TEST(IO::write_mixed_mesh(path, mesh, options));
-      const std::string first = contents(path);
-      BOOST_TEST(!first.empty());
-      BOOST_TEST(IO::write_mixed_mesh(path, mesh, options));
-      BOOST_TEST(first == contents(path));
+      for(int order = 1; order <= (can_have_order_2(extension, mesh) ? 2 : 1); ++order) {
+        const std::string path = (m_directory / (name + (order == 2 ? "_order_2" : "") + extension)).string();
+        options.order = order;
+        BOOST_TEST(IO::check_output_path(path, nullptr, order));
+        BOOST_TEST(IO::write_mixed_mesh(path, mesh, options));
+        const std::string first = contents(path);
+        BOOST_TEST(!first.empty());
+        BOOST_TEST(IO::write_mixed_mesh(path, mesh, options));
+        BOOST_TEST(first == contents(path));
+      }
     }
     std::size_t region = 0;
     for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
@@ -559,6 +569,82 @@ void test_writers(const fs::path& directory)
   BOOST_TEST(stream.str() == contents(path));
   fs::remove(path);
   expectations.finish();
+}
+
+// Middle nodes: one an edge, in the order in which elements have edges first; means are rounded once.
+void test_middle_nodes()
+{
+  using IO::internal::rounded_mean;
+  constexpr double largest = (std::numeric_limits<double>::max)(),
+                   smallest = std::numeric_limits<double>::denorm_min();
+  BOOST_TEST_EQ(rounded_mean(largest, largest), largest);
+  BOOST_TEST_EQ(rounded_mean(-largest, largest), 0.);
+  BOOST_TEST_EQ(rounded_mean(3 * smallest, smallest), 2 * smallest);
+  BOOST_TEST_EQ(rounded_mean(0.1, 0.3), (0.1 + 0.3) / 2);
+
+  const Mesh mesh = grid(3, 5, 0.1);
+  const std::size_t n = mesh.number_of_vertices();
+  const IO::internal::Middle_nodes middle = IO::internal::quadratic_connectivity(mesh.elements(), n);
+  std::map<std::array<Vertex_index, 2>, std::size_t> numbers;
+  std::size_t place = 0;
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
+    BOOST_TEST_EQ(middle.offsets[e], place);
+    const Element_view element = mesh.element(e);
+    for(int i = 0; i < element.reference().number_of_edges; ++i, ++place) {
+      std::array<Vertex_index, 2> edge{element[element.reference().edges[i][0]],
+                                       element[element.reference().edges[i][1]]};
+      std::sort(edge.begin(), edge.end());
+      const std::size_t number = numbers.emplace(edge, numbers.size()).first->second;
+      BOOST_TEST_EQ(std::size_t(middle.of_elements[place]), number);
+      BOOST_TEST(middle.ends[number] == edge);
+    }
+  }
+  BOOST_TEST_EQ(place, middle.of_elements.size());
+  BOOST_TEST_EQ(numbers.size(), middle.ends.size());
+}
+
+// What has no elements of order 2 is refused by a line, and our readers refuse files with them.
+void test_order_2(const fs::path& directory)
+{
+  const Mesh mesh = one_of_each_kind();
+  IO::Write_options options;
+  options.order = 2;
+  const auto refused = [&](const std::string& name, const std::string& reason) {
+    const std::string path = (directory / name).string();
+    const bool result = mentions(write_error(path, mesh, options), path + ": " + reason);
+    return result && !fs::exists(path);
+  };
+  const std::string medit = "elements of order 2 can be written to .vtu, .msh, .inp and .feb only";
+  BOOST_TEST(refused("io_refused.mesh", medit));
+  BOOST_TEST(
+    mentions(error_of([](std::string* error) { return IO::check_output_path("io_refused.mesh", error, 2); }),
+             "io_refused.mesh: " + medit));
+  BOOST_TEST(
+    refused("io_refused.inp", "Abaqus has no pyramids of order 2: split the mesh to tetrahedra, or"));
+  std::ostringstream stream;
+  BOOST_TEST(!IO::write_INP(stream, mesh, {}, {}, 2));
+  BOOST_TEST(stream.fail() && stream.str().empty());
+  for(int order : {0, 3}) {
+    options.order = order;
+    BOOST_TEST(refused("io_refused.vtu", "the order of elements is 1 or 2, not " + std::to_string(order)));
+  }
+
+  options.order = 2;
+  options.tetrahedra = true;
+  const std::string inp = (directory / "io_option.inp").string();
+  BOOST_TEST(IO::write_mixed_mesh(inp, mesh, options));
+  BOOST_TEST(contents(inp).find("TYPE=C3D10,") != std::string::npos);
+  fs::remove(inp);
+
+  for(Element_kind kind : element_kinds)
+    for(const char* extension : {".vtu", ".msh", ".msh2"}) {
+      Mesh read;
+      const std::string path =
+        (directory / (std::string("io_") + reference_elements[kind].name + "_order_2" + extension)).string();
+      const std::string error = error_of(
+        [&](std::string* error) { return IO::read_mixed_mesh(path, read, error); });
+      BOOST_TEST(mentions(error, path + ": ") && mentions(error, "of higher order"));
+    }
 }
 
 // A number type that is not double, a locale with other digits, an empty mesh.
@@ -987,6 +1073,8 @@ int run(int argc, char* argv[])
   const fs::path directory = argc > 2 ? argv[2] : ".";
   fs::create_directories(directory);
   test_writers(directory);
+  test_order_2(directory);
+  test_middle_nodes();
   test_writers_in_odd_conditions();
   test_FEB_model();
   test_split();

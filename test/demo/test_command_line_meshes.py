@@ -35,6 +35,35 @@ class Meshes(Case):
         quiet = self.mesher(DATA / "brain.off", "--vertices", 660, "--quiet")
         self.assertEqual((quiet.returncode, quiet.stdout, quiet.stderr), (0, "", ""))
 
+    def test_order(self):
+        """With --order 2 files have a node in the middle of each edge, or one line says why not."""
+        outputs = [WORK / ("quadratic" + e) for e in (".vtu", ".msh", ".feb", ".inp", ".msh2")]
+        told, run = self.brain("--order", 2, "--tetrahedra", *(x for path in outputs for x in ("--output", path)))
+        self.assertEqual(run.stderr, "")
+        self.assertEqual(told["options"]["order"], 2)
+        text = (WORK / "quadratic.msh2").read_text().split()
+        nodes = int(text[text.index("$Nodes") + 1])
+        # Euler: of a ball, vertices - edges + faces - tetrahedra = 1; each tetrahedron has 4 faces, shared by two.
+        tetrahedra, boundary = told["mesh"]["tetrahedra"], (WORK / "quadratic.feb").read_text().count("<tri6 ")
+        edges = told["mesh"]["vertices"] + (4 * tetrahedra + boundary) // 2 - tetrahedra - 1
+        self.assertEqual(nodes, told["mesh"]["vertices"] + edges)
+        self.assertIn("TYPE=C3D10,", (WORK / "quadratic.inp").read_text())
+
+        def refused(*words):
+            run = self.mesher(DATA / "brain.off", "--vertices", 300, *words)
+            return run.returncode, run.stderr.strip().split("\n")[-1]
+
+        for name, words in (("a.mesh", "elements of order 2 can be written to .vtu, .msh, .inp and .feb only"),
+                            ("a.inp", "Abaqus has no pyramids of order 2: split the mesh to tetrahedra, or write")):
+            status, line = refused("--order", 2, "--output", WORK / name, "--output", WORK / "b.vtu")
+            self.assertEqual(status, 1)
+            self.assertIn(name + ": " + words, line)
+            self.assertFalse((WORK / name).exists() or (WORK / "b.vtu").exists())
+        for order in (0, 3, "two"):
+            status, line = refused("--order", order)
+            self.assertEqual(status, 2)
+            self.assertIn("--order", line)
+
     def test_topology(self):
         """Two cubes with a gap: if it is much narrower than cells they are joined, and else they are not."""
         report = WORK / "report.json"

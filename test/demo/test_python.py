@@ -236,6 +236,41 @@ class Test(unittest.TestCase):
         np.testing.assert_array_equal(found, values)
         np.testing.assert_array_equal(found_affine, affine)
 
+    def test_save(self):
+        """Files are those of the program, of order 2, too; so is what it refuses."""
+        mesh = FOLDER / "saved.vtu"
+        self.mesh.save(mesh)
+        points, cells = read_vtu(mesh)
+        np.testing.assert_array_equal(points, self.mesh.points)
+        self.assertEqual(sum(map(len, cells.values())), len(self.mesh.kinds))
+        edges = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))  # of Abaqus, and of FEBio
+        for name in ("saved.inp", "saved.feb"):
+            self.mesh.save(str(FOLDER / name), order=2, tetrahedra=True)
+            text = (FOLDER / name).read_text()
+            if name.endswith(".inp"):
+                sections = re.split(r"\*(.*)\n", text)
+                nodes = sections[sections.index("NODE") + 1]
+                elements = "".join(b for a, b in zip(sections[1::2], sections[2::2]) if a.startswith("ELEMENT, TYPE=C3D10"))
+                nodes, elements = (np.array([line.split(",") for line in s.split("\n")[:-1]], float)[:, 1:]
+                                   for s in (nodes, elements))
+            else:
+                nodes = np.array([t.split(",") for t in re.findall("<node id=.*>(.*)</node>", text)], float)
+                elements = np.array([t.split(",") for t in re.findall("<elem id=.*>(.*)</elem>", text)], int)
+            elements = elements.astype(int) - 1
+            self.assertEqual(elements.shape[1], 10)
+            ends = np.sort(elements[:, edges], axis=2).reshape(-1, 2)
+            middle = elements[:, 4:].ravel()
+            self.assertEqual(len(np.unique(ends, axis=0)), len(nodes) - len(self.mesh.points))
+            np.testing.assert_array_equal(nodes[:len(self.mesh.points)], self.mesh.points)
+            np.testing.assert_array_equal(nodes[middle], nodes[ends].mean(1))
+        for name, order, error in (("a.mesh", 2, "a.mesh: elements of order 2 can be written to .vtu, .msh, .inp and"),
+                                   ("a.inp", 2, "a.inp: Abaqus has no pyramids of order 2"),
+                                   ("a.vtu", 3, "a.vtu: the order of elements is 1 or 2, not 3"),
+                                   ("a.vtu", 0, "order: expected at least 1, not 0"), ("a.stl", 1, "unknown extension")):
+            with self.assertRaisesRegex(ValueError, error):
+                self.mesh.save(FOLDER / name, order=order)
+            self.assertFalse((FOLDER / name).exists())
+
     def test_copies(self):
         labels = np.arange(len(self.mesh.kinds)) % 3 + 1
         mesh = mm3.Mesh(self.mesh.points, self.mesh.kinds, self.mesh.connectivity.astype(int), labels, self.mesh.in_region)

@@ -406,6 +406,13 @@ void set_up(CLI::App& app, Options& o)
                "Split all elements to tetrahedra, for solvers without the other kinds");
   app
     .add_option(
+      "--order", o.order,
+      "Order of the elements in files, 1 or 2: with 2, a node in the middle of each edge (.vtu, .msh, "
+      ".feb; .inp without pyramids)")
+    ->check(CLI::Range(1, 2))
+    ->type_name("1|2");
+  app
+    .add_option(
       "--time-limit", o.time_limit,
       "Seconds after which the best mesh so far is checked and written, with exit status 4; as after "
       "Ctrl-C (default: none)")
@@ -522,7 +529,7 @@ void check_feasible(const Options& o)
   inputs.insert(inputs.end(), o.cavities.begin(), o.cavities.end());
   Output_paths outputs(inputs);
   for(const std::string& path : o.outputs)
-    require([&](std::string* error) { return mm3::IO::check_output_path(path, error); });
+    require([&](std::string* error) { return mm3::IO::check_output_path(path, error, o.order); });
   for(const std::string& path : {o.report, o.page})
     if(!path.empty())
       require([&](std::string* error) { return mm3::IO::check_output_directory(path, error); });
@@ -534,7 +541,7 @@ void check_feasible(const Options& o)
   // The number is more than measured with 100,000 and 200,000 vertices; a direct solver takes more.
   const double bytes_per_vertex = o.fit() == Fit::ALGORITHM_1 ? 3000 : o.tetrahedra ? 1500 : 1100;
   check_memory("--vertices " + std::to_string(o.vertices) + ":", double(o.vertices) * bytes_per_vertex);
-  if(o.tetrahedra && o.vertices > 500000000u)
+  if((o.tetrahedra || o.order == 2) && o.vertices > 500000000u)
     throw std::runtime_error("--vertices " + std::to_string(o.vertices)
                              + ": more than the 32-bit indices of the files allow");
 }

@@ -73,6 +73,7 @@ struct Options
   bool is_arc_strict = false;
   double sharp_angle = CGAL::Mixed_mesh_optimization_criteria_3::default_sharp_angle; // degrees; 0: none
   unsigned threads = 1;
+  int order = 1; // of the elements in files
 
   // Options of Algorithm 1.
   int steps = CGAL::Mixed_mesh_fit_criteria_3().number_of_steps();

@@ -58,6 +58,7 @@ Json describe(const Options& o)
                  {"max ARC is strict", o.is_arc_strict},
                  {"sharp angle", o.sharp_angle},
                  {"tetrahedra", o.tetrahedra},
+                 {"order", o.order},
                  {"slit", o.slit},
                  {"msh version", o.msh2 ? "2.2" : "4.1"},
                  {"space", space_of(o.surface_options)},

@@ -431,6 +431,7 @@ void write_files(const Mesh& mesh, const std::vector<mm3::IO::Facet_set>& facet_
 {
   mm3::IO::Write_options write_options;
   write_options.msh_2_2 = o.msh2;
+  write_options.order = o.order;
   write_options.facet_sets = facet_sets;
   mm3::IO::Subdomain_names subdomain_names;
   for(const Subdomain& s : subdomains)
@@ -462,6 +463,12 @@ bool run(Options o)
   check_feasible(o);
   if(!o.quiet && o.outputs.empty() && o.report.empty() && o.page.empty())
     std::cerr << "note: nothing will be written, without --output, --report and --page\n";
+  if(!o.quiet && o.order == 2 && !o.tetrahedra)
+    for(const std::string& path : o.outputs)
+      if(mm3::IO::format_of(path) == mm3::IO::Format::INP)
+        std::cerr << "note: " << path
+                  << ": a mesh with pyramids will be refused, Abaqus has none of order 2; "
+                  << "--tetrahedra gives a mesh without\n";
   Stage_log log(!o.quiet);
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);

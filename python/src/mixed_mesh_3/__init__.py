@@ -72,6 +72,16 @@ def _to_pyvista(self):
     return grid
 
 
+def _save(self, path, *, order=1, tetrahedra=False):
+    """Writes a file as the program does: .vtu, .msh (Gmsh 4.1), .msh2 (Gmsh 2.2), .mesh, .inp or .feb.
+
+    order: of the elements. With 2 they are quadratic and straight-sided, with a node in the middle of each edge, whose
+    number is behind those of the vertices; not in .mesh, and in .inp without pyramids only. tetrahedra: whether to split
+    all elements to tetrahedra. ValueError: what the program would say.
+    """
+    _core.save(self, _os.fspath(path), _count("order", order), bool(tetrahedra))
+
+
 def _show(self, displacements=None, *, removed=None, report=None, title="mesh", height=620):
     """The mesh in 3D, as a Page: the last line of a cell of a notebook shows it; save(path) writes it as a file.
 
@@ -89,6 +99,7 @@ def _repr(self):
 Mesh.cells = property(_cells)
 Mesh.to_meshio = _to_meshio
 Mesh.to_pyvista = _to_pyvista
+Mesh.save = _save
 Mesh.show = _show
 Mesh.__repr__ = _repr
 

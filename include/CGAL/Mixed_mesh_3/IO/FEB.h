@@ -15,6 +15,7 @@
 #include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/FEB_output.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/Mesh_nodes.h>
 
 #include <ostream>
 #include <vector>
@@ -37,6 +38,9 @@ is one for each subdomain with a name, which is also its own, and `region` and `
 1, Poisson's ratio 0.45). There are no boundary conditions, loads or steps; `write_FEB_model()` writes them.
 The numbers of nodes and elements are the indices plus 1.
 
+Quadratic elements, of order 2, are tet10, pyra13, penta15 and hex20, and faces tri6 and quad8: FEBio has no
+pyramid and no prism with more nodes.
+
 Values at the vertices become mesh data, `NodeData` on the set `all`, which a prescribed displacement of the
 model can refer to, for example.
 
@@ -45,15 +49,18 @@ model can refer to, for example.
 \param facet_sets named faces
 \param vertex_data of one or three components, as many as vertices
 \param subdomain_names of those that have one
+\param order of the elements, 1 or 2: see `Write_options::order`
 
 \return whether the stream took everything.
 */
 template <class Mesh>
 bool write_FEB(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_set>& facet_sets = {},
-               const std::vector<Data_array>& vertex_data = {}, const Subdomain_names& subdomain_names = {})
+               const std::vector<Data_array>& vertex_data = {}, const Subdomain_names& subdomain_names = {},
+               int order = 1)
 {
   using namespace internal;
-  const FEB_output<Mesh> output(mesh, subdomain_names);
+  const FEB_output<Mesh> output(mesh, subdomain_names, order);
+  const Node_data node_data(output.nodes(), vertex_data);
   Buffered_output out(stream);
   output.write_head(out);
   output.write_materials(out, [&out](Subdomain_index) {
@@ -62,7 +69,7 @@ bool write_FEB(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_s
   output.write_mesh(out, {}, facet_sets);
   std::vector<FEB_node_data> data;
   if(!mesh.is_empty())
-    for(const Data_array& array : vertex_data)
+    for(const Data_array& array : node_data.arrays())
       data.push_back({array, "all"});
   output.write_node_data(out, data);
   output.write_foot(out);

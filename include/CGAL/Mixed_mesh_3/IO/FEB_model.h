@@ -239,7 +239,9 @@ bool write_FEB_model(std::ostream& stream, const Mesh& mesh, const FEB_model& mo
     sets.push_back(s.set);
   for(const FEB_prescribed& c : controlled) {
     sets.push_back(c.set);
-    data.push_back({{c.set.name, &c.values}, c.set.name});
+    FEB_node_data& of_set = data.emplace_back();
+    of_set.data.name = of_set.node_set = c.set.name;
+    of_set.data.values = &c.values;
   }
 
   Buffered_output out(stream);

@@ -12,10 +12,13 @@
 
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/Mesh_nodes.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/facet_sets.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <ios>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -37,6 +40,18 @@ void write_INP_set(Buffered_output& out, const std::string& header, const Indice
   }
   if(on_line != 0)
     out << '\n';
+}
+
+/// An element, 16 numbers on a line at most; a comma at its end tells that the next one goes on.
+inline void write_INP_element(Buffered_output& out, Element_index e, const Node_list& nodes)
+{
+  out << e + 1;
+  int on_line = 1;
+  for(Vertex_index node : nodes) {
+    out << (on_line % 16 == 0 ? ",\n" : ",") << std::uint64_t(node) + 1;
+    ++on_line;
+  }
+  out << '\n';
 }
 
 /// A surface is made of sets of elements, one for each number that the face has in its element.
@@ -74,35 +89,48 @@ elements with its name in upper case, of element sets such as `NAME_S1`: the ele
 the set. Subdomains with names are element sets with these in upper case, too. The numbers of nodes and
 elements are the indices plus 1.
 
+Quadratic elements, of order 2, are C3D10, C3D15 and C3D20, which CalculiX has, too; `BOUNDARY` has the middle
+nodes of the boundary faces then. Abaqus has no quadratic pyramid.
+
 \note CalculiX has no pyramids, and Gmsh 4.8 drops them when it reads this format: see
 `split_to_tetrahedra()`.
 
-\return whether the stream took everything.
+\param stream the stream
+\param mesh the mesh
+\param facet_sets named faces
+\param subdomain_names of those that have one
+\param order of the elements, 1 or 2: see `Write_options::order`
+
+\return whether the stream took everything. If the order is 2 and the mesh has pyramids, then nothing is
+        written, and the stream's `failbit` is set.
 */
 template <class Mesh>
 bool write_INP(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_set>& facet_sets = {},
-               const Subdomain_names& subdomain_names = {})
+               const Subdomain_names& subdomain_names = {}, int order = 1)
 {
   using namespace internal;
+  if(!has_all_kinds(mesh, order, &Element_names::abaqus_type)) {
+    stream.setstate(std::ios_base::failbit);
+    return false;
+  }
+  const Mesh_nodes<Mesh> nodes(mesh, order);
   const Element_blocks blocks(mesh);
+  const auto type = [order](const Element_block& block) { return names_of(block.kind, order).abaqus_type; };
   const auto set_name = [&blocks](std::size_t part) { return in_upper_case(blocks.parts()[part].name()); };
 
   Buffered_output out(stream);
   out << "*HEADING\nMixed-element mesh written by Mixed_mesh_3\n*NODE\n";
-  for(std::size_t v = 0; v < mesh.number_of_vertices(); ++v) {
-    out << v + 1 << ", ";
-    write_point(out, Mixed_meshes_3::to_vec3(mesh.points()[v]), ", ");
+  for(std::size_t node = 0; node < nodes.size(); ++node) {
+    out << node + 1 << ", ";
+    write_point(out, nodes.point(node), ", ");
     out << '\n';
   }
 
   for(const Element_block& block : blocks) {
-    out << "*ELEMENT, TYPE=" << block.names().abaqus_type << ", ELSET=" << set_name(block.part) << '_'
-        << block.names().abaqus_type << '\n';
-    for(Element_index e : block) {
-      out << e + 1 << ',';
-      write_vertices(out, mesh.element(e), ',');
-      out << '\n';
-    }
+    out << "*ELEMENT, TYPE=" << type(block) << ", ELSET=" << set_name(block.part) << '_' << type(block)
+        << '\n';
+    for(Element_index e : block)
+      write_INP_element(out, e, nodes.of(e, &Element_names::abaqus_edges));
   }
 
   // A set of sets: no second list of all elements.
@@ -110,7 +138,7 @@ bool write_INP(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_s
     out << "*ELSET, ELSET=" << set_name(part) << '\n';
     for(const Element_block& block : blocks)
       if(block.part == part)
-        out << set_name(part) << '_' << block.names().abaqus_type << '\n';
+        out << set_name(part) << '_' << type(block) << '\n';
   }
 
   for(const auto& [name, parts] : blocks.named_parts(subdomain_names)) {
@@ -119,7 +147,7 @@ bool write_INP(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_s
       out << set_name(part) << '\n';
   }
 
-  write_INP_set(out, "*NSET, NSET=BOUNDARY", boundary_vertices(mesh));
+  write_INP_set(out, "*NSET, NSET=BOUNDARY", nodes.of(boundary_faces(mesh)));
   for(const Facet_set& set : facet_sets)
     write_INP_surface(out, mesh, set);
   return out.finish();

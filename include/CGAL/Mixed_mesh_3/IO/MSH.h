@@ -13,6 +13,7 @@
 #include <CGAL/Mixed_mesh_3/IO/Data_array.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/Mesh_nodes.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/facet_sets.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
@@ -59,8 +60,6 @@ struct MSH_entity
   Mixed_meshes_3::Vec3 lower{}, upper{};
 };
 
-inline int gmsh_face_type(int size) { return size == 3 ? 2 : 3; }
-
 class MSH_model
 {
   static constexpr std::size_t no_entity = std::size_t(-1);
@@ -72,13 +71,13 @@ class MSH_model
   std::vector<MSH_group> m_subdomains; // those with names
 
   // An entity's box has all its vertices, but each vertex is on the first entity only.
-  template <class Mesh, class Vertices>
-  void add(const Mesh& mesh, std::size_t entity, const Vertices& vertices)
+  template <class Mesh>
+  void add(const Mesh_nodes<Mesh>& nodes, std::size_t entity, const Node_list& of_element)
   {
     MSH_entity& e = m_entities[entity];
-    for(Vertex_index v : vertices) {
-      const auto p = Mixed_meshes_3::to_vec3(mesh.point(v));
-      const bool is_first = e.number_of_elements == 0 && v == *vertices.begin();
+    for(Vertex_index v : of_element) {
+      const auto p = nodes.point(v);
+      const bool is_first = e.number_of_elements == 0 && v == *of_element.begin();
       for(int i = 0; i < 3; ++i) {
         e.lower[i] = is_first ? p[i] : (std::min)(e.lower[i], p[i]);
         e.upper[i] = is_first ? p[i] : (std::max)(e.upper[i], p[i]);
@@ -105,9 +104,9 @@ class MSH_model
 public:
   // \param has_one_number whether a face or an element can be in one group only: Gmsh 2.2
   template <class Mesh>
-  MSH_model(const Mesh& mesh, const std::vector<Facet_set>& facet_sets, bool has_one_number,
-            const Subdomain_names& subdomain_names)
-    : m_vertex_entity(mesh.number_of_vertices(), no_entity), m_blocks(mesh),
+  MSH_model(const Mesh& mesh, const Mesh_nodes<Mesh>& nodes, const std::vector<Facet_set>& facet_sets,
+            bool has_one_number, const Subdomain_names& subdomain_names)
+    : m_vertex_entity(nodes.size(), no_entity), m_blocks(mesh),
       m_patches(mesh, facet_sets, m_blocks.first_free_tag())
   {
     const std::vector<Face_patch>& patches = m_patches.patches();
@@ -135,12 +134,12 @@ public:
         entity_of[e] = patches.size() + block.part;
     for(std::size_t i = 0; i < faces().size(); ++i) {
       const std::size_t patch = m_patches.patch_of(i);
-      add(mesh, patch, faces()[i].vertices());
+      add(nodes, patch, nodes.of(faces()[i]));
       if(patches[patch].is_on_boundary)
         m_entities[entity_of[faces()[i].element()]].surfaces.insert(m_patches.tag(patch));
     }
     for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
-      add(mesh, entity_of[e], mesh.element(e));
+      add(nodes, entity_of[e], nodes.of(e, &Element_names::gmsh_edges));
     add_groups(facet_sets);
     for(std::size_t entity : m_vertex_entity)
       if(entity != no_entity)
@@ -194,14 +193,14 @@ inline void write_MSH_entities(Buffered_output& out, const MSH_model& model)
 }
 
 template <class Mesh>
-void write_MSH_4_1_nodes(Buffered_output& out, const Mesh& mesh, const MSH_model& model)
+void write_MSH_4_1_nodes(Buffered_output& out, const Mesh_nodes<Mesh>& nodes, const MSH_model& model)
 {
   std::size_t blocks = 0, vertices = 0;
   for(const MSH_entity& e : model.entities()) {
     blocks += e.number_of_vertices != 0;
     vertices += e.number_of_vertices;
   }
-  const std::size_t n = mesh.number_of_vertices();
+  const std::size_t n = nodes.size();
   out << "$Nodes\n" << blocks << ' ' << vertices << " 1 " << n << '\n';
   for(std::size_t i = 0; i < model.entities().size(); ++i) {
     const MSH_entity& e = model.entities()[i];
@@ -213,7 +212,7 @@ void write_MSH_4_1_nodes(Buffered_output& out, const Mesh& mesh, const MSH_model
         out << v + 1 << '\n';
     for(std::size_t v = 0; v < n; ++v)
       if(model.is_vertex_on(v, i)) {
-        write_point(out, Mixed_meshes_3::to_vec3(mesh.points()[v]), " ");
+        write_point(out, nodes.point(v), " ");
         out << '\n';
       }
   }
@@ -221,7 +220,8 @@ void write_MSH_4_1_nodes(Buffered_output& out, const Mesh& mesh, const MSH_model
 }
 
 template <class Mesh>
-void write_MSH_4_1_elements(Buffered_output& out, const Mesh& mesh, const MSH_model& model)
+void write_MSH_4_1_elements(Buffered_output& out, const Mesh& mesh, const Mesh_nodes<Mesh>& nodes,
+                            const MSH_model& model)
 {
   std::map<std::pair<int, int>, std::vector<std::size_t>> faces; // by surface and size
   for(std::size_t i = 0; i < model.faces().size(); ++i)
@@ -230,18 +230,19 @@ void write_MSH_4_1_elements(Buffered_output& out, const Mesh& mesh, const MSH_mo
   out << "$Elements\n"
       << model.blocks().blocks().size() + faces.size() << ' ' << total << " 1 " << total << '\n';
   for(const Element_block& block : model.blocks()) {
-    out << "3 " << model.tag(block) << ' ' << block.names().gmsh_type << ' ' << block.size() << '\n';
+    out << "3 " << model.tag(block) << ' ' << nodes.names(block.kind).gmsh_type << ' ' << block.size()
+        << '\n';
     for(Element_index e : block) {
       out << e + 1 << ' ';
-      write_vertices(out, mesh.element(e), ' ');
+      write_vertices(out, nodes.of(e, &Element_names::gmsh_edges), ' ');
       out << '\n';
     }
   }
   for(const auto& [key, of] : faces) {
-    out << "2 " << key.first << ' ' << gmsh_face_type(key.second) << ' ' << of.size() << '\n';
+    out << "2 " << key.first << ' ' << gmsh_face_type(key.second, nodes.order()) << ' ' << of.size() << '\n';
     for(std::size_t i : of) {
       out << m + 1 + i << ' ';
-      write_vertices(out, model.faces()[i].vertices(), ' ');
+      write_vertices(out, nodes.of(model.faces()[i]), ' ');
       out << '\n';
     }
   }
@@ -249,47 +250,49 @@ void write_MSH_4_1_elements(Buffered_output& out, const Mesh& mesh, const MSH_mo
 }
 
 template <class Mesh>
-void write_MSH_2_2_nodes_and_elements(Buffered_output& out, const Mesh& mesh, const MSH_model& model)
+void write_MSH_2_2_nodes_and_elements(Buffered_output& out, const Mesh& mesh, const Mesh_nodes<Mesh>& nodes,
+                                      const MSH_model& model)
 {
   const auto write_element = [&out](std::size_t number, int type, int group, int entity,
-                                    const auto& vertices) {
+                                    const Node_list& of_element) {
     out << number << ' ' << type << " 2 " << group << ' ' << entity << ' ';
-    write_vertices(out, vertices, ' ');
+    write_vertices(out, of_element, ' ');
     out << '\n';
   };
 
-  out << "$Nodes\n" << mesh.number_of_vertices() << '\n';
-  for(std::size_t v = 0; v < mesh.number_of_vertices(); ++v) {
+  out << "$Nodes\n" << nodes.size() << '\n';
+  for(std::size_t v = 0; v < nodes.size(); ++v) {
     out << v + 1 << ' ';
-    write_point(out, Mixed_meshes_3::to_vec3(mesh.points()[v]), " ");
+    write_point(out, nodes.point(v), " ");
     out << '\n';
   }
   out << "$EndNodes\n$Elements\n" << mesh.number_of_elements() + model.faces().size() << '\n';
   for(const Element_block& block : model.blocks())
     for(Element_index e : block)
-      write_element(e + 1, block.names().gmsh_type, model.tag(block), model.tag(block), mesh.element(e));
+      write_element(e + 1, nodes.names(block.kind).gmsh_type, model.tag(block), model.tag(block),
+                    nodes.of(e, &Element_names::gmsh_edges));
   for(std::size_t i = 0; i < model.faces().size(); ++i) {
-    const Face_vertices& face = model.faces()[i].vertices();
+    const Face& face = model.faces()[i];
     const MSH_entity& e = model.entity_of_face(i);
-    write_element(mesh.number_of_elements() + 1 + i, gmsh_face_type(face.size()), e.groups.front(), e.tag,
-                  face);
+    write_element(mesh.number_of_elements() + 1 + i, gmsh_face_type(face.vertices().size(), nodes.order()),
+                  e.groups.front(), e.tag, nodes.of(face));
   }
   out << "$EndElements\n";
 }
 
 // A view of Gmsh, at time 0. Version 4.1 has no vertices without an element.
-inline void write_MSH_node_data(Buffered_output& out, const Data_array& data, std::size_t number_of_vertices,
+inline void write_MSH_node_data(Buffered_output& out, const Data_array& data, std::size_t number_of_nodes,
                                 const MSH_model& model, MSH_version version)
 {
   const auto is_written = [&](std::size_t v) {
     return version == MSH_version::V2_2 || model.is_vertex_used(v);
   };
   std::size_t n = 0;
-  for(std::size_t v = 0; v < number_of_vertices; ++v)
+  for(std::size_t v = 0; v < number_of_nodes; ++v)
     n += is_written(v);
   const std::size_t components = std::size_t(data.number_of_components);
   out << "$NodeData\n1\n\"" << data.name << "\"\n1\n0\n3\n0\n" << components << '\n' << n << '\n';
-  for(std::size_t v = 0; v < number_of_vertices; ++v)
+  for(std::size_t v = 0; v < number_of_nodes; ++v)
     if(is_written(v)) {
       out << v + 1;
       for(std::size_t i = 0; i < components; ++i)
@@ -318,34 +321,41 @@ are physical volumes with these, too.
 
 Values at the vertices become views, at time 0.
 
+Quadratic elements, of order 2, are Gmsh's serendipity ones: types 11, 19, 18 and 17, with 10, 13, 15 and 20
+nodes, and faces 9 and 16. Those with 14, 18 and 27 nodes have some in faces and within, which FEBio's and
+Abaqus's lack.
+
 \param stream the stream
 \param mesh the mesh
 \param version of the format
 \param facet_sets named faces
 \param vertex_data of one or three components, as many as vertices; names without quotes
 \param subdomain_names version 4.1 only
+\param order of the elements, 1 or 2: see `Write_options::order`
 
 \return whether the stream took everything.
 */
 template <class Mesh>
 bool write_MSH(std::ostream& stream, const Mesh& mesh, MSH_version version = MSH_version::V4_1,
                const std::vector<Facet_set>& facet_sets = {}, const std::vector<Data_array>& vertex_data = {},
-               const Subdomain_names& subdomain_names = {})
+               const Subdomain_names& subdomain_names = {}, int order = 1)
 {
   using namespace internal;
-  const MSH_model model(mesh, facet_sets, version == MSH_version::V2_2, subdomain_names);
+  const Mesh_nodes<Mesh> nodes(mesh, order);
+  const MSH_model model(mesh, nodes, facet_sets, version == MSH_version::V2_2, subdomain_names);
   Buffered_output out(stream);
   out << "$MeshFormat\n" << (version == MSH_version::V4_1 ? "4.1" : "2.2") << " 0 8\n$EndMeshFormat\n";
   write_MSH_physical_names(out, model);
   if(version == MSH_version::V4_1) {
     write_MSH_entities(out, model);
-    write_MSH_4_1_nodes(out, mesh, model);
-    write_MSH_4_1_elements(out, mesh, model);
+    write_MSH_4_1_nodes(out, nodes, model);
+    write_MSH_4_1_elements(out, mesh, nodes, model);
   } else {
-    write_MSH_2_2_nodes_and_elements(out, mesh, model);
+    write_MSH_2_2_nodes_and_elements(out, mesh, nodes, model);
   }
-  for(const Data_array& data : vertex_data)
-    write_MSH_node_data(out, data, mesh.number_of_vertices(), model, version);
+  const Node_data node_data(nodes, vertex_data);
+  for(const Data_array& data : node_data.arrays())
+    write_MSH_node_data(out, data, nodes.size(), model, version);
   return out.finish();
 }
 

@@ -17,6 +17,7 @@
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Compressed_blocks.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/Mesh_nodes.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 
 #include <CGAL/config.h>
@@ -51,6 +52,8 @@ struct VTU_options
   std::vector<Facet_set> facet_sets = {};
   /// Names of subdomains; those without elements are not written.
   Subdomain_names subdomain_names = {};
+  /// Of the elements, 1 or 2: see `Write_options::order`.
+  int order = 1;
 };
 
 namespace internal {
@@ -139,27 +142,54 @@ inline std::vector<std::vector<std::uint8_t>> numbers_of_facets_in(const std::ve
   return numbers;
 }
 
-template <class Index, class Mesh>
-VTU_arrays cell_arrays(const Mesh& mesh)
+template <class Mesh>
+void add_facet_arrays(VTU_arrays& arrays, const Mesh& mesh, const std::vector<Facet_set>& sets,
+                      const std::vector<std::vector<std::uint8_t>>& numbers_of_facets)
 {
-  return {{"connectivity", vtk_type_name<Index>(), 1, mesh.elements().connectivity().size() * sizeof(Index),
-           [&mesh](Buffered_output& out) {
+  for(std::size_t i = 0; i < sets.size(); ++i)
+    if(!sets[i].faces.empty())
+      arrays.push_back(element_array<std::uint8_t>("facets_" + sets[i].name, mesh,
+                                                   [&numbers = numbers_of_facets[i]](Element_index e) {
+                                                     return numbers[e];
+                                                   }));
+}
+
+// Names of those subdomains that have elements.
+template <class Mesh>
+Subdomain_names used_names(const Mesh& mesh, const Subdomain_names& subdomain_names)
+{
+  Subdomain_names names;
+  for(const Element_attributes& a : mesh.attributes())
+    if(const auto named = subdomain_names.find(a.subdomain_index);
+       named != subdomain_names.end() && names.count(named->first) == 0)
+      names.insert(*named);
+  return names;
+}
+
+template <class Index, class Mesh>
+VTU_arrays cell_arrays(const Mesh& mesh, const Mesh_nodes<Mesh>& nodes)
+{
+  return {{"connectivity", vtk_type_name<Index>(), 1, nodes.number_of_incidences() * sizeof(Index),
+           [&](Buffered_output& out) {
              for_each_element_by_kind(mesh, [&](Element_index e) {
                const Element_view element = mesh.element(e);
+               const Node_list list = nodes.of(e, &Element_names::vtk_edges);
                for(int i = 0; i < element.size(); ++i)
-                 out.write_binary(Index(element[element_names[element.kind()].vtk_order[i]]));
+                 out.write_binary(Index(element[nodes.names(element.kind()).vtk_order[i]]));
+               for(const Vertex_index* node = list.begin() + element.size(); node != list.end(); ++node)
+                 out.write_binary(Index(*node));
              });
            }},
           {"offsets", vtk_type_name<Index>(), 1, mesh.number_of_elements() * sizeof(Index),
-           [&mesh](Buffered_output& out) {
+           [&](Buffered_output& out) {
              Index end = 0;
              for_each_element_by_kind(mesh, [&](Element_index e) {
-               end += Index(mesh.element(e).size());
+               end += Index(nodes.of(e, &Element_names::vtk_edges).size());
                out.write_binary(end);
              });
            }},
-          element_array<std::uint8_t>("types", mesh, [&mesh](Element_index e) {
-            return element_names[mesh.element(e).kind()].vtk_type;
+          element_array<std::uint8_t>("types", mesh, [&](Element_index e) {
+            return nodes.names(mesh.element(e).kind()).vtk_type;
           })};
 }
 
@@ -260,11 +290,16 @@ find four. Element data: `kind` (the number of the `Element_kind`), `ARC` (the a
 `facets_` with its name: the number of the element's faces in the set, since a file of elements has no faces
 of their own; a threshold above 0 selects the elements. Field data, if subdomains have
 names: `subdomain_indices`, and `subdomain_names` as bytes with a zero behind each name. Nothing of the size
-of the mesh is allocated but for facet sets, and for what is compressed.
+of the mesh is allocated but for facet sets, for middle nodes, and for what is compressed.
 
 VTK disagrees with itself on wedges. Written in the documented order, as here, their faces look
 outwards and `vtkCellSizeFilter` finds a positive volume, but the Jacobian of the shape functions of
 `vtkWedge` is negative (VTK 9.1).
+
+Quadratic elements, of order 2, have the types 24 to 27, with 10, 13, 15 and 20 nodes: the only ones that each
+version of VTK has for all four kinds. VTK documents the order of its quadratic wedge as that of the linear
+one, and disagrees with itself in the same way. meshio mirrors linear wedges only: other programs get
+quadratic prisms by `.msh` or `.inp`.
 
 \return whether the stream took everything. If the size of an added array does not fit the mesh, then
         nothing is written, and the stream's `failbit` is set.
@@ -273,13 +308,12 @@ template <class Mesh>
 bool write_VTU(std::ostream& stream, const Mesh& mesh, const VTU_options& options = VTU_options())
 {
   using namespace internal;
-  const std::size_t n = mesh.number_of_vertices(), m = mesh.number_of_elements();
+  const std::size_t m = mesh.number_of_elements();
 
   VTU_arrays vertex_data, element_data = own_element_arrays(mesh);
   bool fits = true;
   for(const Data_array& data : options.vertex_data)
-    if((fits = fits && data.has_size(n)))
-      vertex_data.push_back(vertex_data_array(data));
+    fits = fits && data.has_size(mesh.number_of_vertices());
   for(const Data_array& data : options.element_data)
     if((fits = fits && data.has_size(m)))
       element_data.push_back(element_data_array(mesh, data));
@@ -287,31 +321,31 @@ bool write_VTU(std::ostream& stream, const Mesh& mesh, const VTU_options& option
     stream.setstate(std::ios_base::failbit);
     return false;
   }
+  const Mesh_nodes<Mesh> nodes(mesh, options.order);
+  const Node_data node_data(nodes, options.vertex_data);
+  for(const Data_array& data : node_data.arrays())
+    vertex_data.push_back(vertex_data_array(data));
   const std::vector<std::vector<std::uint8_t>> numbers_of_facets = numbers_of_facets_in(options.facet_sets,
                                                                                         m);
-  for(std::size_t i = 0; i < options.facet_sets.size(); ++i)
-    if(!options.facet_sets[i].faces.empty())
-      element_data.push_back(element_array<std::uint8_t>("facets_" + options.facet_sets[i].name, mesh,
-                                                         [&numbers = numbers_of_facets[i]](Element_index e) {
-                                                           return numbers[e];
-                                                         }));
+  add_facet_arrays(element_data, mesh, options.facet_sets, numbers_of_facets);
 
   // The name "Points" is the one VTK gives.
+  const std::size_t n = nodes.size();
   const VTU_array points = {"Points", vtk_type_name<double>(), 3, n * 3 * sizeof(double),
-                            [&mesh](Buffered_output& out) {
-                              for(const auto& p : mesh.points())
-                                out.write_binary(Mixed_meshes_3::to_vec3(p));
+                            [&nodes](Buffered_output& out) {
+                              for(std::size_t node = 0; node < nodes.size(); ++node)
+                                out.write_binary(nodes.point(node));
                             }};
 
   // Both are VTK's own types of indices; the small one halves the file.
-  const bool is_small = (std::max)(n, mesh.elements().connectivity().size())
+  const bool is_small = (std::max)(n, nodes.number_of_incidences())
                         <= std::size_t((std::numeric_limits<std::int32_t>::max)());
 
   const std::vector<VTU_section> sections = {{"PointData", std::move(vertex_data)},
                                              {"CellData", std::move(element_data)},
                                              {"Points", {points}},
-                                             {"Cells", is_small ? cell_arrays<std::int32_t>(mesh)
-                                                                : cell_arrays<std::int64_t>(mesh)}};
+                                             {"Cells", is_small ? cell_arrays<std::int32_t>(mesh, nodes)
+                                                                : cell_arrays<std::int64_t>(mesh, nodes)}};
 
 #ifdef CGAL_BIG_ENDIAN
   const char* const byte_order = "BigEndian";
@@ -319,12 +353,7 @@ bool write_VTU(std::ostream& stream, const Mesh& mesh, const VTU_options& option
   const char* const byte_order = "LittleEndian";
 #endif
 
-  Subdomain_names names;
-  for(const Element_attributes& a : mesh.attributes())
-    if(const auto named = options.subdomain_names.find(a.subdomain_index);
-       named != options.subdomain_names.end() && names.count(named->first) == 0)
-      names.insert(*named);
-
+  const Subdomain_names names = used_names(mesh, options.subdomain_names);
   Buffered_output out(stream);
   out << "<?xml version=\"1.0\"?>\n"
       << "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"" << byte_order

@@ -62,6 +62,13 @@ struct Write_options
   std::vector<Facet_set> facet_sets = {};
   /// In all formats but `Format::MSH_2_2` and `Format::MEDIT`, which have no place for them.
   Subdomain_names subdomain_names = {};
+  /// The order of the elements, 1 or 2. With 2, they are quadratic and straight-sided: each edge has one node
+  /// more, at its rounded midpoint, numbered after the vertices in the order in which elements have the edges
+  /// first; faces have those of their edges. Such elements have the map of the linear ones, up to the
+  /// rounding of the middle nodes: what the certificate proves of those holds for them. Values at the
+  /// vertices are interpolated linearly. All formats but `Format::MEDIT` have them, `Format::INP` without
+  /// pyramids.
+  int order = 1;
 };
 
 namespace internal {
@@ -80,6 +87,16 @@ inline constexpr Extension extensions[] = {{".vtu", Format::VTU},      {".msh", 
 /// Writes a mesh in a format. \return whether all went well
 bool write(std::ostream& stream, const Mixed_meshes_3::internal::Core_mesh& mesh, Format format,
            const Write_options& options);
+
+/// Why a format cannot have elements of an order, whatever their kinds; empty if it can.
+inline std::string order_defect(Format format, int order)
+{
+  if(order != 1 && order != 2)
+    return "the order of elements is 1 or 2, not " + std::to_string(order);
+  return order == 2 && format == Format::MEDIT
+           ? "elements of order 2 can be written to .vtu, .msh, .inp and .feb only"
+           : "";
+}
 
 /// As `write_mixed_mesh()`, compiled once.
 bool write_core_mesh(Output_files& files, const std::string& path,
@@ -183,16 +200,19 @@ public:
 
 \brief Checks whether a mesh can be written to a path: to be called before meshing.
 
-The extension must be known, the directory exist and be writable. An existing file is not touched; a
-temporary one is created beside it and removed.
+The extension must be known, the directory exist and be writable, and the format have elements of the order.
+An existing file is not touched; a temporary one is created beside it and removed.
 
 \param path the file
 \param error if not null, receives a line that names the file and says what is wrong, if anything is
+\param order of the elements: see `Write_options::order`
 */
-[[nodiscard]] inline bool check_output_path(const std::string& path, std::string* error = nullptr)
+[[nodiscard]] inline bool check_output_path(const std::string& path, std::string* error = nullptr,
+                                            int order = 1)
 {
-  if(format_of(path))
-    return check_output_directory(path, error);
+  if(const std::optional<Format> format = format_of(path))
+    return internal::is_success(internal::with_path(path, internal::order_defect(*format, order)), error)
+           && check_output_directory(path, error);
   std::string known;
   for(const internal::Extension& extension : internal::extensions)
     known += std::string(" ") + extension.name;

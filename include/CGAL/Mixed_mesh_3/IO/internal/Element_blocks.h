@@ -85,7 +85,6 @@ struct Element_block
   Element_kind kind;
   std::vector<Element_index>::const_iterator first, last;
 
-  const Element_names& names() const { return element_names[kind]; }
   auto begin() const { return first; }
   auto end() const { return last; }
   std::size_t size() const { return std::size_t(last - first); }

@@ -19,6 +19,7 @@
 #include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/Mesh_nodes.h>
 #include <CGAL/Mixed_mesh_3/Index.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
@@ -52,14 +53,20 @@ template <class Mesh>
 class FEB_output
 {
   const Mesh& m_mesh;
+  Mesh_nodes<Mesh> m_nodes;
   const Subdomain_names& m_names;
   Element_blocks m_blocks;
 
 public:
   /// Keeps references.
-  FEB_output(const Mesh& mesh, const Subdomain_names& names) : m_mesh(mesh), m_names(names), m_blocks(mesh) {}
+  /// \param order of the elements
+  FEB_output(const Mesh& mesh, const Subdomain_names& names, int order = 1)
+    : m_mesh(mesh), m_nodes(mesh, order), m_names(names), m_blocks(mesh)
+  {
+  }
 
   const Element_blocks& blocks() const { return m_blocks; }
+  const Mesh_nodes<Mesh>& nodes() const { return m_nodes; }
 
   Subdomain_index subdomain(const Element_block& block) const
   {
@@ -74,7 +81,7 @@ public:
     const char* const side = m_names.count(part.attributes.subdomain_index) == 0 ? ""
                              : part.attributes.is_in_region                      ? ".region"
                                                                                  : ".rest";
-    return material_name(part) + side + '_' + block.names().febio_type;
+    return material_name(part) + side + '_' + m_nodes.names(block.kind).febio_type;
   }
 
   void write_head(Buffered_output& out) const
@@ -116,9 +123,9 @@ public:
   {
     out << "  <Mesh>\n"
         << "    <Nodes name=\"all\">\n";
-    for(std::size_t v = 0; v < m_mesh.number_of_vertices(); ++v) {
-      out << "      <node id=\"" << v + 1 << "\">";
-      write_point(out, Mixed_meshes_3::to_vec3(m_mesh.points()[v]), ",");
+    for(std::size_t node = 0; node < m_nodes.size(); ++node) {
+      out << "      <node id=\"" << node + 1 << "\">";
+      write_point(out, m_nodes.point(node), ",");
       out << "</node>\n";
     }
     out << "    </Nodes>\n";
@@ -166,10 +173,11 @@ private:
 
   void write_block(Buffered_output& out, const Element_block& block) const
   {
-    out << "    <Elements type=\"" << block.names().febio_type << "\" name=\"" << name(block) << "\">\n";
+    out << "    <Elements type=\"" << m_nodes.names(block.kind).febio_type << "\" name=\"" << name(block)
+        << "\">\n";
     for(Element_index e : block) {
       out << "      <elem id=\"" << e + 1 << "\">";
-      write_vertices(out, m_mesh.element(e), ',');
+      write_vertices(out, m_nodes.of(e, &Element_names::abaqus_edges), ',');
       out << "</elem>\n";
     }
     out << "    </Elements>\n";
@@ -189,16 +197,16 @@ private:
     out << "</ElementSet>\n";
   }
 
-  static void write_surface(Buffered_output& out, const std::string& name, const std::vector<Face>& faces)
+  void write_surface(Buffered_output& out, const std::string& name, const std::vector<Face>& faces) const
   {
     if(faces.empty())
       return;
     out << "    <Surface name=\"" << name << "\">\n";
     std::size_t number = 0;
     for(const Face& face : faces) {
-      const char* const type = face.vertices().size() == 3 ? "tri3" : "quad4";
+      const char* const type = febio_face_type(face.vertices().size(), m_nodes.order());
       out << "      <" << type << " id=\"" << ++number << "\">";
-      write_vertices(out, face.vertices(), ',');
+      write_vertices(out, m_nodes.of(face), ',');
       out << "</" << type << ">\n";
     }
     out << "    </Surface>\n";

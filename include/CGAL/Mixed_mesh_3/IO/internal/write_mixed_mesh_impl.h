@@ -15,6 +15,7 @@
 #include <CGAL/Mixed_mesh_3/IO/MEDIT.h>
 #include <CGAL/Mixed_mesh_3/IO/MSH.h>
 #include <CGAL/Mixed_mesh_3/IO/VTU.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/Mesh_nodes.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/facet_sets.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
@@ -52,14 +53,35 @@ CGAL_MIXED_MESH_3_INLINE bool write(std::ostream& stream, const Core_mesh& mesh,
   const std::vector<Facet_set>& sets = options.facet_sets;
   const Subdomain_names& names = options.subdomain_names;
   switch(format) {
-  case Format::VTU: return write_VTU(stream, mesh, {options.vertex_data, options.element_data, sets, names});
-  case Format::MSH_4_1: return write_MSH(stream, mesh, MSH_version::V4_1, sets, options.vertex_data, names);
-  case Format::MSH_2_2: return write_MSH(stream, mesh, MSH_version::V2_2, sets, options.vertex_data);
+  case Format::VTU:
+    return write_VTU(stream, mesh, {options.vertex_data, options.element_data, sets, names, options.order});
+  case Format::MSH_4_1:
+    return write_MSH(stream, mesh, MSH_version::V4_1, sets, options.vertex_data, names, options.order);
+  case Format::MSH_2_2:
+    return write_MSH(stream, mesh, MSH_version::V2_2, sets, options.vertex_data, {}, options.order);
   case Format::MEDIT: return write_MEDIT(stream, mesh, sets);
-  case Format::INP: return write_INP(stream, mesh, sets, names);
-  case Format::FEB: return write_FEB(stream, mesh, sets, options.vertex_data, names);
+  case Format::INP: return write_INP(stream, mesh, sets, names, options.order);
+  case Format::FEB: return write_FEB(stream, mesh, sets, options.vertex_data, names, options.order);
   }
   return false;
+}
+
+/// What is wrong with values to be written; empty if nothing is.
+inline std::string data_defect(const Core_mesh& mesh, Format format, const Write_options& options)
+{
+  const std::size_t sizes[] = {mesh.number_of_vertices(), mesh.number_of_elements()};
+  const std::vector<Data_array>* const data[] = {&options.vertex_data, &options.element_data};
+  for(int i = 0; i < 2; ++i)
+    for(const Data_array& array : *data[i]) {
+      const bool is_vertex_data = i == 0;
+      if(!can_hold(format, is_vertex_data, array))
+        return "data \"" + array.name + "\" can be written to "
+               + (is_vertex_data ? ".vtu, and of one or three components to .msh and .feb, only"
+                                 : ".vtu only");
+      if(!array.has_size(sizes[i]))
+        return "data \"" + array.name + "\" does not have the size of the mesh";
+    }
+  return std::string();
 }
 
 CGAL_MIXED_MESH_3_INLINE bool write_core_mesh(Output_files& files, const std::string& path,
@@ -71,18 +93,12 @@ CGAL_MIXED_MESH_3_INLINE bool write_core_mesh(Output_files& files, const std::st
     return check_output_path(path, error);
 
   const auto refused = [&](const std::string& reason) { return is_success(with_path(path, reason), error); };
-  const std::size_t sizes[] = {mesh.number_of_vertices(), mesh.number_of_elements()};
-  const std::vector<Data_array>* const data[] = {&options.vertex_data, &options.element_data};
-  for(int i = 0; i < 2; ++i)
-    for(const Data_array& array : *data[i]) {
-      const bool is_vertex_data = i == 0;
-      if(!can_hold(*format, is_vertex_data, array))
-        return refused(
-          "data \"" + array.name + "\" can be written to "
-          + (is_vertex_data ? ".vtu, and of one or three components to .msh and .feb, only" : ".vtu only"));
-      if(!array.has_size(sizes[i]))
-        return refused("data \"" + array.name + "\" does not have the size of the mesh");
-    }
+  const std::string defect_of_order = order_defect(*format, options.order);
+  if(!defect_of_order.empty())
+    return refused(defect_of_order);
+  const std::string defect_of_data = data_defect(mesh, *format, options);
+  if(!defect_of_data.empty())
+    return refused(defect_of_data);
   for(std::size_t v = 0; v < mesh.number_of_vertices(); ++v)
     for(double x : Mixed_meshes_3::to_vec3(mesh.points()[v]))
       if(!std::isfinite(x))
@@ -96,6 +112,11 @@ CGAL_MIXED_MESH_3_INLINE bool write_core_mesh(Output_files& files, const std::st
   const std::string defect_of_names = subdomain_name_defect(options.subdomain_names, options.facet_sets);
   if(!defect_of_names.empty())
     return refused(defect_of_names);
+
+  if(*format == Format::INP && !options.tetrahedra
+     && !has_all_kinds(mesh, options.order, &Element_names::abaqus_type))
+    return refused(
+      "Abaqus has no pyramids of order 2: split the mesh to tetrahedra, or write .feb, .msh or .vtu");
 
   if(options.tetrahedra) {
     std::vector<Element_index> origins;
