@@ -3,7 +3,7 @@
 """The error of brain shift in the regions of openings.json, beside meshes of Mesh_3: tables and a plot.
 
   compare_accuracy.py DIRECTORY WORK [--regions front back] [--vertices 660 2000 10000] [--tune-mesh-3]
-                      [--adapt] [--plot FILE.png]
+                      [--adapt] [--options OPTIONS] [--plot FILE.png]
 
 DIRECTORY holds the programs mixed_mesh_3, benchmark_mesh_3, make_region and measure_accuracy. WORK gets
 
@@ -17,8 +17,8 @@ DIRECTORY holds the programs mixed_mesh_3, benchmark_mesh_3, make_region and mea
 What is there is used again, but for our meshes. Mesh_3's are made with a growth of sizes of 0.4; --tune-mesh-3
 tries others, and regions of another scale. Each column has the best of the settings in WORK. Each mesh is
 solved with standard elements, which lock, and with the elements of Linear_elasticity_3. --adapt adapts our
-meshes to the bump first, by adapt_mixed_mesh_3(). The plot needs
-matplotlib (Debian: python3-matplotlib).
+meshes to the bump first, by adapt_mixed_mesh_3(). OPTIONS are some of mixed_mesh_3, as --options=--no-exchange. The plot
+needs matplotlib (Debian: python3-matplotlib).
 """
 
 import argparse
@@ -50,8 +50,8 @@ def error(row, load, elements, where=""):
 
 
 class Comparison:
-    def __init__(self, programs, work, openings, adapts=False):
-        self.programs, self.work = programs, work
+    def __init__(self, programs, work, openings, adapts=False, mesher_options=()):
+        self.programs, self.work, self.mesher_options = programs, work, mesher_options
         self.options = ["--adapt"] if adapts else []
         self.names = [o["name"] for o in openings]
         for folder in ("regions", "ref", "mesh_3", "mixed"):
@@ -88,7 +88,7 @@ class Comparison:
     def ours(self, name, vertices):
         mesh = self.work / "mixed" / f"{name}_{vertices}.vtu"
         run(self.programs / "mixed_mesh_3", BRAIN, "--region", self.region(name), "--vertices", vertices,
-            "--quiet", "--output", mesh)
+            *self.mesher_options, "--quiet", "--output", mesh)
         return json.loads(self.measure(mesh, "--regions", name, *self.options).splitlines()[0])
 
     def mesh_3(self, name, vertices, settings):
@@ -190,10 +190,11 @@ def main():
     parser.add_argument("--vertices", type=int, nargs="+", default=[660, 2000, 10000])
     parser.add_argument("--tune-mesh-3", action="store_true")
     parser.add_argument("--adapt", action="store_true")
+    parser.add_argument("--options", type=str.split, default=[])
     parser.add_argument("--plot", type=pathlib.Path)
     arguments = parser.parse_args()
     comparison = Comparison(arguments.directory, arguments.work,
-                            [o for o in openings if o["name"] in arguments.regions], arguments.adapt)
+                            [o for o in openings if o["name"] in arguments.regions], arguments.adapt, arguments.options)
     comparison.make_references()
     settings = TUNING if arguments.tune_mesh_3 else (DEFAULT,)
     results = {}

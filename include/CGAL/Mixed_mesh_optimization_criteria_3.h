@@ -62,9 +62,9 @@ public:
   /// The number of rounds for a mesh of a number of vertices.
   int number_of_rounds_for(std::size_t number_of_vertices) const
   {
-    const bool is_patient = m_tolerance > 0 && number_of_vertices <= 20000;
+    const bool has_many_rounds = m_tolerance > 0 && number_of_vertices <= 20000;
     return m_number_of_rounds > 0        ? m_number_of_rounds
-           : is_patient                  ? 12
+           : has_many_rounds             ? 12
            : number_of_vertices > 100000 ? 2
                                          : 4;
   }

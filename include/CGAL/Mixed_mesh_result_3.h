@@ -117,9 +117,10 @@ struct Mixed_mesh_result_3
   /// The approximate number of vertices that thin walls and narrow gaps take, if these were resolved first;
   /// else 0.
   std::size_t number_of_vertices_for_thin_parts = 0;
-  /// The number of vertices removed by edge collapses. Where the topology takes more vertices than the
-  /// budget, the mesh is made of a finer one, all of tetrahedra. The numbers of cells and octree are then
-  /// those of the finer mesh.
+  /// The number of vertices removed by edge collapses: where vertices are exchanged
+  /// (`Mixed_mesh_criteria_3::exchange_vertices()`), and where the topology takes more vertices than the
+  /// budget, so that the mesh is made of a finer one, all of tetrahedra. The numbers of cells and octree are
+  /// then those of the finer mesh.
   std::size_t number_of_collapsed_vertices = 0;
   /// The largest distance between boundary and surface: the tolerance of the criteria, or, if the criteria
   /// leave it open, the default for this domain and budget.

@@ -162,8 +162,8 @@ void compare(const Mesh& mesh, const Surface& surface, const CGAL::Mixed_mesh_re
 std::pair<std::shared_ptr<Mesh>, py::dict>
 make_mesh(const Soup& soup, const std::vector<Weighted_soup>& regions,
           const std::vector<Labeled_soup>& subdomains, std::size_t vertices, bool fewest_vertices,
-          double tolerance, double grading, std::optional<int> base_level, double quality_bound,
-          double sharp_angle, const Progress& progress)
+          double tolerance, double grading, bool exchange, std::optional<int> base_level,
+          double quality_bound, double sharp_angle, const Progress& progress)
 {
   std::vector<std::string> warnings;
   Domain domain;
@@ -192,6 +192,7 @@ make_mesh(const Soup& soup, const std::vector<Weighted_soup>& regions,
   auto criteria = CGAL::Mixed_mesh_criteria_3(vertices)
                     .fewest_vertices(fewest_vertices)
                     .grading(grading)
+                    .exchange_vertices(exchange)
                     .quality_bound(quality_bound)
                     .sharp_angle(sharp_angle);
   criteria.share_of_bisections(criteria.share_of_bisections_for(domain.subdomain_indices().size()));

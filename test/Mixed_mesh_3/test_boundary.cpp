@@ -329,7 +329,7 @@ std::vector<Octree::Node_index> expected_lost_cells(const Located_octree& locate
   }
   std::vector<Octree::Node_index> lost;
   for(Octree::Node_index n = 0; n < octree.size(); ++n) {
-    if(!octree.is_leaf(n) || !located.is_alive(n))
+    if(!octree.is_leaf(n) || !located.meets_domain(n))
       continue;
     const std::int64_t side = octree.side(n);
     bool is_lost = true;

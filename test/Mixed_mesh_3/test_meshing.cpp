@@ -86,7 +86,7 @@ void test_budgets(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& do
     // The same vertices, moved onto the surface.
     if(n > 2000) // see test_optimize
       continue;
-    const auto criteria = Mixed_mesh_criteria_3(n).share_of_bisections(0);
+    const auto criteria = Mixed_mesh_criteria_3(n).share_of_bisections(0).exchange_vertices(false);
     const Mixed_mesh_result_3 with = run(domain, region, criteria, fitted);
     BOOST_TEST(with.status == Status::SUCCESS);
     BOOST_TEST_EQ(with.tolerance, result.tolerance);
@@ -539,9 +539,11 @@ void test_small_budgets(const Polyhedral_mixed_mesh_domain_3& domain,
 void test_visitor(const Surface& brain, const Surface& region)
 {
   Mesh expected, mesh;
-  make_mixed_mesh_3(brain, region, 660, expected);
+  const auto criteria = Mixed_mesh_criteria_3(660).exchange_vertices(false);
+  make_mixed_mesh_3(brain, region, criteria, expected);
   Recording_visitor all;
-  const auto result = make_mixed_mesh_3(brain, region, 660, mesh, CGAL::parameters::visitor(std::ref(all)));
+  const auto result = make_mixed_mesh_3(brain, region, criteria, mesh,
+                                        CGAL::parameters::visitor(std::ref(all)));
   BOOST_TEST(content(mesh) == content(expected));
   BOOST_TEST_EQ(all.number_of_errors, 0u);
   BOOST_TEST_EQ(all.open, -1);
@@ -550,7 +552,6 @@ void test_visitor(const Surface& brain, const Surface& region)
     BOOST_TEST_GT(n, 0u);
   BOOST_TEST_EQ(all.begun[int(Stage::ASSEMBLY)], 1u);
   BOOST_TEST_EQ(all.number_of_trials, result.number_of_trials);
-  const auto criteria = Mixed_mesh_criteria_3(660);
   const std::size_t octree_budget = 660 - std::size_t(criteria.share_of_bisections() * 660);
   std::size_t largest_accepted = 0;
   for(std::size_t n : all.sizes)
@@ -564,7 +565,7 @@ void test_visitor(const Surface& brain, const Surface& region)
   for(std::size_t i = 0; i < all.number_of_questions; i += 2) {
     Recording_visitor visitor;
     visitor.stop_at = i;
-    const auto stopped = make_mixed_mesh_3(brain, region, 660, mesh,
+    const auto stopped = make_mixed_mesh_3(brain, region, criteria, mesh,
                                            CGAL::parameters::visitor(std::ref(visitor)));
     BOOST_TEST(stopped.status == Status::STOPPED);
     check(mesh, stopped, 660);
@@ -578,7 +579,10 @@ void test_visitor(const Surface& brain, const Surface& region)
 
   // The mesh so far can be kept: valid, and with more vertices the later the run is stopped.
   std::size_t last = 0, first_kept = 0;
-  for(std::size_t i = 0; i < all.number_of_questions; i += 3) {
+  Recording_visitor exchange;
+  make_mixed_mesh_3(brain, region, 660, mesh, CGAL::parameters::visitor(std::ref(exchange)));
+  BOOST_TEST_GT(exchange.number_of_questions, all.number_of_questions);
+  for(std::size_t i = 0; i < exchange.number_of_questions; i += 3) {
     Recording_visitor visitor;
     visitor.stop_at = i;
     const auto stopped = make_mixed_mesh_3(brain, region,
@@ -599,6 +603,61 @@ void test_visitor(const Surface& brain, const Surface& region)
     }
   }
   BOOST_TEST(last > 500 && first_kept < result.number_of_trials);
+}
+
+// The number of vertices of elements in the region.
+std::size_t number_in_region(const Mesh& mesh)
+{
+  std::vector<bool> is_in_region(mesh.number_of_vertices(), false);
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
+    if(mesh.attributes(e).is_in_region)
+      for(Vertex_index v : mesh.element(e))
+        is_in_region[v] = true;
+  return std::size_t(std::count(is_in_region.begin(), is_in_region.end(), true));
+}
+
+// Small budgets: vertices far from the region are exchanged for vertices in it, and nothing is lost for that.
+void test_exchange(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& domain,
+                   const Polyhedral_mixed_mesh_region_3& front)
+{
+  const auto check_region = [&](const auto& region, std::size_t n) {
+    Mesh with, again, without;
+    const auto criteria = Mixed_mesh_criteria_3(n);
+    const Mixed_mesh_result_3 result = run(domain, region, criteria, with);
+    const Mixed_mesh_result_3 plain = run(domain, region, Mixed_mesh_criteria_3(n).exchange_vertices(false),
+                                          without);
+    BOOST_TEST(result.status == Status::SUCCESS && plain.status == Status::SUCCESS);
+    BOOST_TEST_EQ(plain.number_of_collapsed_vertices, 0u);
+    BOOST_TEST_GT(result.number_of_collapsed_vertices, std::size_t(std::pow(double(n), 2. / 3)));
+    BOOST_TEST_LE(with.number_of_vertices(), n);
+    BOOST_TEST_GE(double(with.number_of_vertices()), 0.99 * double(n));
+    BOOST_TEST(find_defects(with).none());
+    BOOST_TEST_EQ(number_of_vertices_off_surface(with, brain), 0u);
+    BOOST_TEST(result.shells == plain.shells);
+    const auto rows = quality_statistics(with);
+    BOOST_TEST_LE(rows[number_of_element_kinds].maximum, criteria.quality_bound());
+    BOOST_TEST_LE(rows[number_of_element_kinds].mean,
+                  quality_statistics(without)[number_of_element_kinds].mean);
+    BOOST_TEST_GT(rows[HEXAHEDRON].count, 0u);
+    BOOST_TEST_GT(volume(with), 0.99 * volume(without));
+    BOOST_TEST_GT(double(number_in_region(with)), 1.05 * double(number_in_region(without)));
+    run(domain, region, criteria, again);
+    BOOST_TEST(content(again) == content(with));
+  };
+  for(std::size_t n : {400, 660, 2000})
+    check_region(front, n);
+  check_region(Ball_mixed_mesh_region_3(Kernel::Point_3(-30, -60, 40), 20), 1000);
+
+  // where it is not done
+  const std::vector<Mixed_mesh_criteria_3> others = {Mixed_mesh_criteria_3(2600),
+                                                     Mixed_mesh_criteria_3(660).grading(0),
+                                                     Mixed_mesh_criteria_3(660).base_level(3), unfitted(660)};
+  for(const Mixed_mesh_criteria_3& criteria : others) {
+    Mesh mesh;
+    BOOST_TEST_EQ(run(domain, front, criteria, mesh).number_of_collapsed_vertices, 0u);
+  }
+  Mesh mesh;
+  BOOST_TEST_EQ(run(domain, Everywhere_mixed_mesh_region_3(), 660, mesh).number_of_collapsed_vertices, 0u);
 }
 
 // The number of cells without vertices, of which a spike may have any number, is bounded.
@@ -648,6 +707,7 @@ int run(int argc, char* argv[])
   timed("invariance", [&] { test_invariance(brain, region_surface); });
   timed("small budgets", [&] { test_small_budgets(domain, region); });
   timed("spikes", test_spikes);
+  timed("exchange", [&] { test_exchange(brain, domain, region); });
   timed("visitor", [&] { test_visitor(brain, region_surface); });
   return boost::report_errors();
 }

@@ -315,7 +315,7 @@ void test_located_cells()
       std::size_t number_in_region = 0, number_beside = 0;
       for(int level = 0; level < 5; ++level) {
         std::vector<Octree::Node_index> all, in_region;
-        std::size_t inside = 0, alive = 0;
+        std::size_t inside = 0, in_domain = 0;
         for(Octree::Node_index n = 0; n < octree.octree().size(); ++n) {
           const auto cell = traits.cell(octree.octree().corner(n), octree.octree().side(n));
           Box_region::Surface_part part;
@@ -329,15 +329,15 @@ void test_located_cells()
             continue;
           BOOST_TEST_EQ(octree.leaf_at(cell.center()), n);
           inside += octree.side(n) == CGAL::ON_BOUNDED_SIDE;
-          alive += octree.is_alive(n);
+          in_domain += octree.meets_domain(n);
           BOOST_TEST(octree.side(n) == side || side == CGAL::ON_BOUNDARY); // children inherit a side
-          if(octree.octree().level(n) == level && octree.is_alive(n)) {
+          if(octree.octree().level(n) == level && octree.meets_domain(n)) {
             all.push_back(n);
             if(octree.is_in_region(n))
               in_region.push_back(n);
           }
         }
-        BOOST_TEST_EQ(octree.number_of_cells(), alive);
+        BOOST_TEST_EQ(octree.number_of_cells(), in_domain);
         BOOST_TEST_EQ(octree.number_of_cells_inside(), inside);
         BOOST_TEST(octree.leaves_to_refine(level, false) == all);
         BOOST_TEST(octree.leaves_to_refine(level, true) == in_region);

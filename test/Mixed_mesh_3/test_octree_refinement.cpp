@@ -124,7 +124,7 @@ void test_refine_like()
     for(Located_octree& octree : octrees)
       for(int i = 0; i < 12; ++i) {
         const auto n = Node_index(random() % octree.octree().size());
-        if(octree.octree().is_leaf(n) && octree.is_alive(n))
+        if(octree.octree().is_leaf(n) && octree.meets_domain(n))
           octree.refine(std::vector<Node_index>{n});
       }
     Located_octree both = octrees[0], other = octrees[1];
@@ -201,7 +201,8 @@ public:
     std::tuple<double, double, std::uint64_t> best{};
     Node_index chosen = Octree::no_node;
     for(Node_index n = 0; n < octree.octree().size(); ++n) {
-      if(!octree.octree().is_leaf(n) || !octree.is_alive(n) || octree.octree().level(n) == Octree::max_level)
+      if(!octree.octree().is_leaf(n) || !octree.meets_domain(n)
+         || octree.octree().level(n) == Octree::max_level)
         continue;
       const std::tuple<double, double, std::uint64_t> entry(key(octree, n),
                                                             octree.quantized(depth(octree, n)),

@@ -54,18 +54,18 @@ void test_transitions(const Located_octree& located, Transition_templates_choice
   BOOST_TEST_EQ(mesh.is_on_rim.size(), n);
 
   // Used leaves meet the domain, or touch a leaf that does (and some more beside refined cells).
-  std::vector<Octree::Node_index> leaves, alive;
+  std::vector<Octree::Node_index> leaves, in_domain;
   for(Octree::Node_index m = 0; m < octree.size(); ++m)
     if(octree.is_leaf(m)) {
       leaves.push_back(m);
-      if(located.is_alive(m))
-        alive.push_back(m);
+      if(located.meets_domain(m))
+        in_domain.push_back(m);
     }
   const std::set<Octree::Node_index> used(mesh.cells.begin(), mesh.cells.end());
   std::set<Lattice_point> corners;
   Integer volume_of_leaves = 0, volume_of_elements = 0;
   for(Octree::Node_index m : leaves) {
-    const bool is_used = std::any_of(alive.begin(), alive.end(),
+    const bool is_used = std::any_of(in_domain.begin(), in_domain.end(),
                                      [&](Octree::Node_index a) { return touch(octree, a, m); });
     BOOST_TEST(used.count(m) != 0 || !is_used);
     const Integer side = octree.side(m);

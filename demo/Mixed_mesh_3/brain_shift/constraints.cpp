@@ -21,7 +21,7 @@ using Component = std::pair<mm3::Vertex_index, int>;
 using Terms = std::map<Component, double>;
 
 // A component of a displacement that other components determine: the sum of `terms` and `value`.
-struct Told_component
+struct Dependent_component
 {
   Terms terms;
   double value;
@@ -35,7 +35,7 @@ class Elimination
   static constexpr double rounding = 1e-12, dependence = 1e-10;
 
   const std::vector<std::vector<Vector>>& m_held_directions;
-  std::map<Component, Told_component> m_told;
+  std::map<Component, Dependent_component> m_dependent;
   std::map<Component, std::set<Component>> m_users; // determined components with a component in their terms
 
 public:
@@ -44,7 +44,7 @@ public:
   {
   }
 
-  const std::map<Component, Told_component>& told() const { return m_told; }
+  const std::map<Component, Dependent_component>& dependent() const { return m_dependent; }
 
   bool is_fixed(mm3::Vertex_index v) const { return m_held_directions[v].size() == 3; }
 
@@ -55,7 +55,7 @@ public:
     Terms free;
     for(const auto& [component, factor] : equation) {
       scale = (std::max)(scale, std::abs(factor));
-      value -= add_told(component, factor, free);
+      value -= add_dependent(component, factor, free);
     }
     const auto largest = std::max_element(free.begin(), free.end(), [](const auto& a, const auto& b) {
       return std::abs(a.second) < std::abs(b.second);
@@ -63,24 +63,24 @@ public:
     if(largest == free.end() || !(std::abs(largest->second) > dependence * scale))
       return;
     const auto [component, pivot] = *largest;
-    Told_component told{{}, value / pivot, is_control};
+    Dependent_component dependent{{}, value / pivot, is_control};
     for(const auto& [other, factor] : free)
       if(other != component && std::abs(factor) > rounding * std::abs(pivot)) {
-        told.terms.emplace(other, -factor / pivot);
+        dependent.terms.emplace(other, -factor / pivot);
         m_users[other].insert(component);
       }
-    substitute(component, told);
-    m_told.emplace(component, std::move(told));
+    substitute(component, dependent);
+    m_dependent.emplace(component, std::move(dependent));
   }
 
 private:
   // Adds a component times a factor to a sum of undetermined components; returns the known part.
-  double add_told(const Component& component, double factor, Terms& sum) const
+  double add_dependent(const Component& component, double factor, Terms& sum) const
   {
     if(is_fixed(component.first))
       return 0;
-    const auto place = m_told.find(component);
-    if(place == m_told.end()) {
+    const auto place = m_dependent.find(component);
+    if(place == m_dependent.end()) {
       sum[component] += factor;
       return 0;
     }
@@ -90,7 +90,7 @@ private:
   }
 
   // Replaces a component by the components that determine it.
-  void substitute(const Component& component, const Told_component& by)
+  void substitute(const Component& component, const Dependent_component& by)
   {
     const auto users = m_users.find(component);
     if(users == m_users.end())
@@ -98,18 +98,18 @@ private:
     const std::set<Component> all = std::move(users->second);
     m_users.erase(users);
     for(const Component& user : all) {
-      Told_component& told = m_told.at(user);
-      const double factor = told.terms.at(component);
-      told.terms.erase(component);
-      told.value += factor * by.value;
+      Dependent_component& dependent = m_dependent.at(user);
+      const double factor = dependent.terms.at(component);
+      dependent.terms.erase(component);
+      dependent.value += factor * by.value;
       for(const auto& [other, f] : by.terms) {
-        double& sum = told.terms[other];
+        double& sum = dependent.terms[other];
         const double larger = (std::max)(std::abs(sum), std::abs(factor * f));
         sum += factor * f;
         if(std::abs(sum) > rounding * larger) {
           m_users[other].insert(user);
         } else { // the terms cancel each other
-          told.terms.erase(other);
+          dependent.terms.erase(other);
           m_users[other].erase(user);
         }
       }
@@ -117,10 +117,10 @@ private:
   }
 };
 
-mm3::IO::FEB_constraint constraint_of(const Component& component, const Told_component& told)
+mm3::IO::FEB_constraint constraint_of(const Component& component, const Dependent_component& dependent)
 {
-  mm3::IO::FEB_constraint c{component.first, component.second, {}, told.value};
-  for(const auto& [other, factor] : told.terms)
+  mm3::IO::FEB_constraint c{component.first, component.second, {}, dependent.value};
+  for(const auto& [other, factor] : dependent.terms)
     c.terms.push_back({other.first, other.second, factor});
   return c;
 }
@@ -145,7 +145,7 @@ Explicit_constraints solve_for_displacements(const Motion_constraints& constrain
         mean[{v, axis}] += weight;
       elimination.add(mean, constraints.means[i][axis], true);
     }
-  for(const auto& [component, told] : elimination.told())
-    (told.is_control ? result.controls : result.supports).push_back(constraint_of(component, told));
+  for(const auto& [component, dependent] : elimination.dependent())
+    (dependent.is_control ? result.controls : result.supports).push_back(constraint_of(component, dependent));
   return result;
 }

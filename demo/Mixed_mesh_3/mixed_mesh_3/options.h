@@ -65,7 +65,8 @@ struct Options
   CGAL::Mixed_meshes_3::Root_cell root = CGAL::Mixed_meshes_3::Root_cell::CUBE;
   Templates templates = Templates::FEWEST_VERTICES;
   CGAL::Mixed_meshes_3::IO::Read_surface_options surface_options;
-  bool slit = false, no_fit = false, no_optimize = false, msh2 = false, tetrahedra = false, quiet = false;
+  bool slit = false, no_exchange = false, no_fit = false, no_optimize = false, msh2 = false,
+       tetrahedra = false, quiet = false;
   double tolerance = 0; // automatic
   double grading = 0.35;
   double time_limit = std::numeric_limits<double>::infinity();                          // seconds

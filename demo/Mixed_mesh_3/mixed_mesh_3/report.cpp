@@ -52,6 +52,7 @@ Json describe(const Options& o)
                   o.templates == mm3::Transition_templates_choice::CENTERED ? "centered" : "fewest"},
                  {"fit", fit_names[int(o.fit())]},
                  {"grading", o.grading},
+                 {"exchange", !o.no_exchange},
                  {"time limit", std::isfinite(o.time_limit) ? Json(o.time_limit) : Json()},
                  {"tolerance", o.tolerance > 0 ? Json(o.tolerance) : Json("automatic")},
                  {"max ARC", o.has_quality_bound() ? Json(o.largest_arc) : Json()},
@@ -283,6 +284,7 @@ void describe_method(const Options& o, const Outcome& outcome, Json& report)
                       {"cells", result.number_of_cells},
                       {"cells lost", result.number_of_lost_cells},
                       {"octrees tried", result.number_of_trials},
+                      {"vertices collapsed", result.number_of_collapsed_vertices},
                       {"vertices for thin parts, about", result.number_of_vertices_for_thin_parts}};
   report["vertices inserted"] = {{"by transition templates", result.number_of_transition_vertices},
                                  {"by boundary stage", result.number_of_boundary_vertices_inserted},

@@ -353,6 +353,7 @@ Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3
                     .fit_to_surface(o.fit() == Fit::OPTIMIZATION)
                     .base_level(o.base_level)
                     .grading(o.grading)
+                    .exchange_vertices(!o.no_exchange)
                     .boundary_mode(o.mode)
                     .root_cell(o.root)
                     .transition_templates(o.templates)
@@ -476,11 +477,12 @@ bool run(Options o)
   const std::vector<Sheet> sheets = add_sheets(o, domain, outcome.warnings);
   check_regions(domain, inputs, o, outcome);
   log.expect(plan_for(o));
-  constexpr unsigned patience = 2; // seconds from Ctrl-C to the end
+  constexpr unsigned seconds_until_exit = 2; // from Ctrl-C
   std::optional<Signal_deadline> deadline;
-  deadline.emplace(patience,
+  deadline.emplace(seconds_until_exit,
                    "mixed_mesh_3: stopped by a signal: there was no mesh to write within "
-                     + std::to_string(patience) + " s, nothing is written; --time-limit waits for one",
+                     + std::to_string(seconds_until_exit)
+                     + " s, nothing is written; --time-limit waits for one",
                    1);
   Mesh mesh = make_mesh_until_stopped(domain, inputs, o, log, outcome);
   o.vertices = outcome.result.vertex_budget; // number found by --vertices auto

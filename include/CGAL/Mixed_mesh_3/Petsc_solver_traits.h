@@ -48,7 +48,7 @@ struct Petsc_error : std::runtime_error
 /// Calls `f` in one of several processes, and ends all processes if `f` throws: a process that leaves alone
 /// would keep the others waiting.
 template <class F>
-auto together(const F& f)
+auto abort_all_on_exception(const F& f)
 {
   try {
     return f();
@@ -397,10 +397,11 @@ public:
       int iterations = 0;
       switch(message.command) {
       case Petsc_command::FACTOR:
-        internal::together([&] { systems.try_emplace(message.system, message, nullptr, nullptr); });
+        internal::abort_all_on_exception(
+          [&] { systems.try_emplace(message.system, message, nullptr, nullptr); });
         break;
       case Petsc_command::SOLVE:
-        internal::together(
+        internal::abort_all_on_exception(
           [&] { return systems.at(message.system).solve(message.tolerance, nullptr, nullptr, iterations); });
         break;
       case Petsc_command::RELEASE: systems.erase(message.system); break;
@@ -543,7 +544,7 @@ private:
         has_kernel ? int(near_kernel.cols()) : 0, tolerance};
       internal::share(message);
       try {
-        internal::together(
+        internal::abort_all_on_exception(
           [&] { system = std::make_unique<internal::Petsc_system>(message, &lower, &near_kernel); });
       } catch(const internal::Petsc_error&) { // error of the only process
         return false;
@@ -558,7 +559,7 @@ private:
       x.eigen_object().resize(b.size()); // so that a failure from here on keeps no process waiting
       internal::share(message);
       try {
-        const bool is_solved = internal::together(
+        const bool is_solved = internal::abort_all_on_exception(
           [&] { return system->solve(tolerance, b.data(), x.eigen_object().data(), iterations); });
         most_iterations = (std::max)(most_iterations, iterations);
         return is_solved;

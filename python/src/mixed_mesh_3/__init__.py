@@ -182,8 +182,8 @@ def read_image(path):
     return _core.read_image(_os.fspath(path))
 
 
-def mesh(points, triangles, *, region=None, subdomains=None, vertices=660, tolerance=0.0, grading=0.35, base_level=None,
-         quality_bound=3.2, sharp_angle=50.0, progress=None):
+def mesh(points, triangles, *, region=None, subdomains=None, vertices=660, tolerance=0.0, grading=0.35, exchange=True,
+         base_level=None, quality_bound=3.2, sharp_angle=50.0, progress=None):
     """Meshes the inside of a closed surface, fine in a region of interest.
 
     region: (points, triangles) of a closed surface, or a list of them, each with a weight as its third entry if that is
@@ -193,6 +193,7 @@ def mesh(points, triangles, *, region=None, subdomains=None, vertices=660, toler
     vertices: how many there may be at most; "auto": as few as the tolerance allows, found by five to ten meshes of up to
         200,000 vertices.
     tolerance: how far the boundary may be from the surface, in mm; 0: what the budget allows.
+    exchange: whether vertices far from the region may be exchanged for vertices in it, with at most 2,500 vertices.
     quality_bound: no element has a larger aspect-ratio coefficient.
     progress: called as progress(stage, vertices, budget); what it raises ends the run, as Ctrl-C does.
 
@@ -206,7 +207,7 @@ def mesh(points, triangles, *, region=None, subdomains=None, vertices=660, toler
         _soup("surface", (points, triangles)), _regions(region),
         [(*_soup(f"subdomain {label}", s), label) for label, s in (subdomains or {}).items()],
         _most_vertices(vertices), vertices == "auto", _not_negative("tolerance", tolerance),
-        _not_negative("grading", grading), base_level,
+        _not_negative("grading", grading), bool(exchange), base_level,
         _number("quality_bound", quality_bound, lambda x: x == 0 or x >= 1, "of at least 1, or 0 for none"),
         _number("sharp_angle", sharp_angle, lambda x: 0 <= x <= 180, "from 0 to 180"), progress)
     report["seconds"] = _time.perf_counter() - start

@@ -51,7 +51,7 @@ def read_surface(path: Union[str, os.PathLike[str]], *, strict: bool = False,
 def read_image(path: Union[str, os.PathLike[str]]) -> tuple[NDArray[np.float32], NDArray[np.float64]]: ...
 def mesh(points: ArrayLike, triangles: ArrayLike, *, region: Union[None, Region, list[Region]] = None,
          subdomains: Optional[Mapping[int, Surface]] = None, vertices: int = 660, tolerance: float = 0.0,
-         grading: float = 0.35, base_level: Optional[int] = None, quality_bound: float = 3.2,
+         grading: float = 0.35, exchange: bool = True, base_level: Optional[int] = None, quality_bound: float = 3.2,
          sharp_angle: float = 50.0, progress: Progress = None) -> tuple[Mesh, Report]: ...
 def complete_label(image: ArrayLike, affine: ArrayLike, labels: Union[None, int, Sequence[int]] = None, *,
                    close: Optional[float] = None, fill_holes: bool = False, largest: bool = False,

@@ -259,8 +259,9 @@ private:
       m_state.residuals.push_back(now);
       if(!(rz > bound))
         return std::isfinite(rz);
-      const bool is_astray = step > 0 && now > last && last < 1; // from far away, the residual may grow first
-      if(method == Method::NEWTON && is_astray)
+      // From far away, the residual may grow first.
+      const bool is_diverging = step > 0 && now > last && last < 1;
+      if(method == Method::NEWTON && is_diverging)
         return false;
       last = now;
       const double wanted = method == Method::NEWTON && now > large ? accuracy_of_large_steps : accuracy;
@@ -283,14 +284,14 @@ private:
   // Moves along a step, as far as the potential falls enough.
   bool descend(const Vector& force, const Vector& points, const Vector& d, double slope, Vector& u)
   {
-    constexpr double enough = 1e-4, shortest = 1e-4;
+    constexpr double sufficient_decrease = 1e-4, shortest = 1e-4;
     const double before = potential(force, points, u);
     const double error = 1e-13 * (m_elements.energy() + std::abs(force.dot(u))); // rounding error
     const Vector from = u;
     for(double length = 1; length > shortest; length /= 2) {
       u = from + length * d;
       m_elements.move(u, true);
-      if(potential(force, points, u) <= before + enough * length * slope + error)
+      if(potential(force, points, u) <= before + sufficient_decrease * length * slope + error)
         return true;
     }
     return false;

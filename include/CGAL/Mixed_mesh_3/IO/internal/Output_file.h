@@ -105,7 +105,7 @@ public:
 // replaced by a new one, with its owner and mode, when the new file is complete.
 class Output_file
 {
-  std::filesystem::path m_target, m_temporary, m_aside; // the last one: the former file
+  std::filesystem::path m_target, m_temporary, m_backup; // the last one: the former file
   std::filesystem::perms m_permissions = std::filesystem::perms::unknown;
   std::string m_error;
   bool m_is_direct = false, m_is_in_place = false;
@@ -130,19 +130,19 @@ class Output_file
 
   // Gives the existing file a second name, so that the first name always has a file. Some file systems do not
   // have second names; the file is renamed then.
-  std::string put_aside()
+  std::string back_up()
   {
     namespace fs = std::filesystem;
     std::error_code error;
     if(!fs::exists(fs::status(m_target, error)))
       return std::string();
-    const fs::path aside = hidden_name_beside(m_target);
-    fs::create_hard_link(m_target, aside, error);
+    const fs::path backup = hidden_name_beside(m_target);
+    fs::create_hard_link(m_target, backup, error);
     if(error)
-      fs::rename(m_target, aside, error);
+      fs::rename(m_target, backup, error);
     if(error)
       return "cannot replace: " + error.message();
-    m_aside = aside;
+    m_backup = backup;
     return std::string();
   }
 
@@ -214,7 +214,7 @@ public:
     if(m_permissions != std::filesystem::perms::unknown)
       std::filesystem::permissions(m_temporary, m_permissions, error);
     if(can_be_undone) {
-      const std::string defect = put_aside();
+      const std::string defect = back_up();
       if(!defect.empty())
         return defect;
     }
@@ -230,18 +230,18 @@ public:
   std::string undo()
   {
     std::error_code error;
-    if(!m_aside.empty())
-      std::filesystem::rename(m_aside, m_target, error);
+    if(!m_backup.empty())
+      std::filesystem::rename(m_backup, m_target, error);
     else if(m_is_in_place)
       std::filesystem::remove(m_target, error);
     m_is_in_place = false;
     if(error)
-      return "what was there is now in " + m_aside.string() + ": " + error.message();
+      return "what was there is now in " + m_backup.string() + ": " + error.message();
     // Two names of one file are not renamed to each other; this is the case if the file had not been
     // replaced.
-    if(!m_aside.empty())
-      std::filesystem::remove(m_aside, error);
-    m_aside.clear();
+    if(!m_backup.empty())
+      std::filesystem::remove(m_backup, error);
+    m_backup.clear();
     return std::string();
   }
 
@@ -249,9 +249,9 @@ public:
   void finish()
   {
     std::error_code ignored;
-    if(!m_aside.empty())
-      std::filesystem::remove(m_aside, ignored);
-    m_aside.clear();
+    if(!m_backup.empty())
+      std::filesystem::remove(m_backup, ignored);
+    m_backup.clear();
   }
 };
 

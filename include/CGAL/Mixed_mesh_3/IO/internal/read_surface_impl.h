@@ -589,16 +589,16 @@ inline Component_counts make_solid(const Read_surface_options& options, Points p
     if(edges.open != 0)
       throw Surface_defect{not_closed(open), wrap_diameter_for(points)};
   }
-  if(edges.crowded != 0) {
-    const std::size_t crowded = edges.crowded;
+  if(edges.nonmanifold != 0) {
+    const std::size_t nonmanifold = edges.nonmanifold;
     separate_bodies(points, polygons);
     edges = count_edges(polygons);
-    if(edges.crowded == 0) {
-      input.warnings.push_back("bodies touch along " + counted(crowded, "edge", "edges"));
+    if(edges.nonmanifold == 0) {
+      input.warnings.push_back("bodies touch along " + counted(nonmanifold, "edge", "edges"));
     } else {
       bound(options,
             "the surface is not a manifold: "
-              + counted(crowded, "edge has more than two faces", "edges have more than two faces"),
+              + counted(nonmanifold, "edge has more than two faces", "edges have more than two faces"),
             points, polygons, input);
       edges = count_edges(polygons);
     }
@@ -723,10 +723,10 @@ CGAL_MIXED_MESH_3_INLINE void read_sheet(const std::string& path, const Read_sur
   Polygons polygons;
   take_faces(path, options, read_surface_file(path), points, polygons, input);
   const Edge_counts edges = count_edges(polygons);
-  if(edges.crowded != 0)
+  if(edges.nonmanifold != 0)
     refuse(path,
            "the sheet is not a manifold: "
-             + counted(edges.crowded, "edge has more than two faces", "edges have more than two faces"));
+             + counted(edges.nonmanifold, "edge has more than two faces", "edges have more than two faces"));
   if(!PMP::is_polygon_soup_a_polygon_mesh(polygons)) {
     PMP::orient_polygon_soup(points, polygons); // duplicates points, see above
     if(count_edges(polygons).open != edges.open)

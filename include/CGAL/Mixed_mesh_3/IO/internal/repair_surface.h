@@ -56,8 +56,8 @@ inline std::string counted(std::size_t n, const char* one, const char* many)
 
 struct Edge_counts
 {
-  std::size_t open = 0, crowded = 0; // edges with one face, and with more than two
-  bool is_oriented = true;           // no edge occurs twice in the same direction
+  std::size_t open = 0, nonmanifold = 0; // edges with one face, and with more than two
+  bool is_oriented = true;               // no edge occurs twice in the same direction
 };
 
 inline Edge_counts count_edges(const std::vector<std::vector<std::size_t>>& polygons)
@@ -79,7 +79,7 @@ inline Edge_counts count_edges(const std::vector<std::vector<std::size_t>>& poly
   for(auto first = edges.begin(), last = first; first != edges.end(); first = last) {
     last = std::upper_bound(first, edges.end(), *first);
     counts.open += last - first == 1;
-    counts.crowded += last - first > 2;
+    counts.nonmanifold += last - first > 2;
     if(last - first == 2 && first[0].is_upwards == first[1].is_upwards)
       counts.is_oriented = false;
   }
@@ -252,7 +252,7 @@ inline std::vector<Polygons> parts_of(const Polygons& polygons)
 // Drops faces that stand out of a surface: components with a border, beside edges of more than two faces.
 // Returns the number of dropped faces; 0 if they are more than a quarter of the area, or the surface has
 // other borders.
-inline std::size_t drop_fins(const Points& points, Polygons& polygons)
+inline std::size_t drop_protruding_faces(const Points& points, Polygons& polygons)
 {
   constexpr double largest_share = 0.25;
   const Edge_polygons edges = edges_of(polygons);
@@ -286,11 +286,11 @@ inline void bound(const Read_surface_options& options, const std::string& defect
     check_repair(options, {defect});
   repair::Solid_reading all;
   double volume_of_all = 0;
-  const bool is_manifold = count_edges(polygons).crowded == 0; // components may cut each other
+  const bool is_manifold = count_edges(polygons).nonmanifold == 0; // components may cut each other
   for(const Polygons& part : is_manifold ? std::vector<Polygons>{polygons} : parts_of(polygons)) {
     repair::Solid_reading reading;
     const Edge_counts edges = count_edges(part);
-    if(is_manifold || edges.crowded != 0)
+    if(is_manifold || edges.nonmanifold != 0)
       reading = read_solid_or_refuse(defect, points, triangulated(points, part));
     else
       reading.points = points, reading.triangles = triangulated(points, part);
@@ -309,10 +309,11 @@ inline void bound(const Read_surface_options& options, const std::string& defect
     throw Surface_defect{defect.empty() ? "the surface encloses no volume"
                                         : defect + "; it encloses no volume"};
   if(!defect.empty()) {
-    constexpr double little = 1e-3;
+    constexpr double negligible_share = 1e-3;
     const double inverted = all.inverted_volume / (volume_of_all + all.inverted_volume);
     note_repair(defect + ": read as the solid that it encloses"
-                  + (inverted > little ? ", without " + percent(inverted) + " that are inside out" : ""),
+                  + (inverted > negligible_share ? ", without " + percent(inverted) + " that are inside out"
+                                                 : ""),
                 input);
   }
   set_triangles(std::move(all.points), all.triangles, points, polygons);
@@ -333,14 +334,14 @@ inline std::string not_closed(std::size_t border_edges)
 inline void close(const Read_surface_options& options, Points& points, Polygons& polygons,
                   Surface_input& input)
 {
-  constexpr double all_of_it = 0.99;     // share of the area
-  constexpr double largest_share = 0.25; // share of the area that is invented
-  constexpr double margin = 1.1;         // factor of the width that a wrap has to close
+  constexpr double least_enclosed_share = 0.99; // share of the area
+  constexpr double largest_share = 0.25;        // share of the area that is invented
+  constexpr double margin = 1.1;                // factor of the width that a wrap has to close
   const Edge_counts edges = count_edges(polygons);
   const std::string defect = not_closed(edges.open);
-  if(edges.crowded != 0) {
+  if(edges.nonmanifold != 0) {
     Polygons rest = polygons;
-    const std::size_t dropped = drop_fins(points, rest);
+    const std::size_t dropped = drop_protruding_faces(points, rest);
     if(dropped != 0) {
       check_repair(options, {defect, wrap_diameter_for(points)});
       note_repair("dropped " + counted(dropped, "face that stands", "faces that stand") + " out", input);
@@ -353,7 +354,7 @@ inline void close(const Read_surface_options& options, Points& points, Polygons&
   {
     // Faces may meet without equal edges.
     repair::Solid_reading reading = read_solid_or_refuse(defect, points, triangles);
-    if(area(reading.points, reading.triangles) > all_of_it * area(points, triangles)) {
+    if(area(reading.points, reading.triangles) > least_enclosed_share * area(points, triangles)) {
       check_repair(options, {defect, wrap_diameter_for(points)});
       note_repair(defect + ", which lie on others: read as the solid that it encloses", input);
       set_triangles(std::move(reading.points), reading.triangles, points, polygons);

@@ -151,7 +151,7 @@ public:
     std::vector<std::set<Triangle>> faces;
     for(Sheet& s : m_sheets) {
       faces.push_back(sheet_faces(s, pieces));
-      has_changed = mend(s, bad_vertices(s, faces.back(), pieces)) || has_changed;
+      has_changed = mend(s, vertices_to_change(s, faces.back(), pieces)) || has_changed;
     }
     if(has_changed)
       return true;
@@ -374,8 +374,8 @@ private:
   }
 
   // Vertices of boundary faces that would have no area, and vertices where the sheet faces are not manifold.
-  std::set<Vertex_index> bad_vertices(Sheet& s, const std::set<Triangle>& faces,
-                                      const Element_list& pieces) const
+  std::set<Vertex_index> vertices_to_change(Sheet& s, const std::set<Triangle>& faces,
+                                            const Element_list& pieces) const
   {
     std::set<Vertex_index> used, bad;
     std::map<Edge, int> edges;

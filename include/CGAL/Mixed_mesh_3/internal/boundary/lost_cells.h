@@ -47,7 +47,7 @@ inline std::vector<Octree::Node_index> lost_cells(const Located_octree& located,
   const auto directions = neighbor_directions(Adjacency::VERTEX);
   std::vector<Octree::Node_index> lost;
   for(Octree::Node_index n = 0; n < octree.size(); ++n)
-    if(octree.is_leaf(n) && located.is_alive(n) && !is_meshed[n]
+    if(octree.is_leaf(n) && located.meets_domain(n) && !is_meshed[n]
        && std::none_of(directions.begin(), directions.end(), [&](const std::array<int, 3>& d) {
             const Octree::Node_index m = octree.neighbor(n, d);
             return m != Octree::no_node && is_meshed[m];

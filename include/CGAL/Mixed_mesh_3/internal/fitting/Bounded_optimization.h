@@ -62,8 +62,8 @@ class Bounded_optimization
   const Any_surface& m_domain;
   const Criteria& m_criteria;
   const Quality& m_quality;
-  const bool m_has_subdomains;  // or sheets
-  const double m_tolerated_off; // share of the boundary vertices
+  const bool m_has_subdomains;                // or sheets
+  const double m_tolerated_share_not_arrived; // share of the boundary vertices
   const Sharp_edges m_sharp_edges;
   const double m_edge_length; // mean of the boundary; any value if there are no sharp edges
   const Sharp_features m_features;
@@ -71,18 +71,20 @@ class Bounded_optimization
 
   // Tolerated share of vertices between subdomains that have not arrived; tolerated loss of the length of
   // sharp edges.
-  static constexpr double tolerated_off_interfaces = 0.01, tolerated_loss = 0.02;
+  static constexpr double tolerated_share_on_interfaces = 0.01, tolerated_loss = 0.02;
 
   // Number of rings of faces around crossing faces that are held in addition, in successive attempts.
   static constexpr int rings[] = {0, 1, 2, 4, 8};
 
 public:
-  /// \param tolerated_off share of the boundary vertices: if no more have not arrived, no other run is needed
+  /// \param tolerated_share_not_arrived share of the boundary vertices: if no more have not arrived,
+  /// no other run is needed
   Bounded_optimization(Core_mesh& mesh, const Any_surface& domain, const Criteria& criteria,
-                       const Quality& quality, double tolerated_off)
+                       const Quality& quality, double tolerated_share_not_arrived)
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality),
       m_has_subdomains(domain.subdomain_indices().size() > 1 || domain.has_sheets()),
-      m_tolerated_off((std::max)(tolerated_off, m_has_subdomains ? tolerated_off_interfaces : 0)),
+      m_tolerated_share_not_arrived(
+        (std::max)(tolerated_share_not_arrived, m_has_subdomains ? tolerated_share_on_interfaces : 0)),
       m_sharp_edges(domain.sharp_edges(criteria.sharp_angle())),
       m_edge_length(m_sharp_edges.edges.empty() ? 1 : mean_edge_length()),
       m_features(m_sharp_edges, m_edge_length), m_is_held(mesh.number_of_vertices(), 0)
@@ -104,30 +106,30 @@ private:
   {
     Core_mesh mesh;
     Result result;
-    bool is_within = false; // within the bound, and the boundary does not cut itself
-    bool is_drawn = false;  // places that are too far draw the boundary
+    bool meets_guarantees = false; // within the bound, and the boundary does not cut itself
+    bool has_attraction = false;   // places that are too far draw the boundary
   };
 
   Result optimize(const std::function<bool()>& go_on)
   {
     Outcome best = optimize_freely(false, go_on);
     if(best.result.status == Status::STOPPED)
-      return best.is_within ? take(best) : stopped(best.result);
-    if(best.is_within && (is_fitted(best.result) || !has_bound())) // no other run would do better
+      return best.meets_guarantees ? take(best) : stopped(best.result);
+    if(best.meets_guarantees && (is_fitted(best.result) || !has_bound())) // no other run would do better
       return take(best);
     // The attraction of the boundary to places that are too far may be what keeps vertices from arriving.
-    if(best.is_drawn) {
-      Outcome calm = optimize_freely(true, go_on);
-      if(calm.result.status == Status::STOPPED)
-        return stopped(calm.result);
-      if(is_better(calm, best))
-        best = std::move(calm);
-      if(best.is_within && is_fitted(best.result))
+    if(best.has_attraction) {
+      Outcome without_attraction = optimize_freely(true, go_on);
+      if(without_attraction.result.status == Status::STOPPED)
+        return stopped(without_attraction.result);
+      if(is_better(without_attraction, best))
+        best = std::move(without_attraction);
+      if(best.meets_guarantees && is_fitted(best.result))
         return take(best);
     }
     Outcome bounded;
     bounded.result = optimize_within(bounded.mesh, go_on);
-    bounded.is_within = true;
+    bounded.meets_guarantees = true;
     return take(bounded.result.status == Status::STOPPED || is_better(bounded, best) ? bounded : best);
   }
 
@@ -135,7 +137,8 @@ private:
 
   bool is_better(const Outcome& a, const Outcome& b) const
   {
-    return a.is_within && (!b.is_within || number_off(a.result) < number_off(b.result));
+    return a.meets_guarantees
+           && (!b.meets_guarantees || number_not_arrived(a.result) < number_not_arrived(b.result));
   }
 
   Result take(Outcome& outcome)
@@ -145,18 +148,18 @@ private:
   }
 
   // Optimizes with elements that may get worse than the bound on the way.
-  Outcome optimize_freely(bool is_calm, const std::function<bool()>& go_on) const
+  Outcome optimize_freely(bool is_without_attraction, const std::function<bool()>& go_on) const
   {
     Outcome outcome;
     outcome.mesh = m_mesh;
     Fitting_mode mode;
-    mode.is_calm = is_calm;
+    mode.is_without_attraction = is_without_attraction;
     const Fitting_outcome fitted = optimize_surface(outcome.mesh, m_domain, m_criteria, m_quality, mode,
                                                     m_features, m_is_held, go_on);
     outcome.result = fitted.result;
-    outcome.is_within = is_within_bound(outcome.mesh) && outcome.result.is_boundary_simple;
-    outcome.is_drawn = (m_criteria.tolerance() > 0 || m_criteria.number_of_bisections() > 0)
-                       && !fitted.is_calm;
+    outcome.meets_guarantees = is_within_bound(outcome.mesh) && outcome.result.is_boundary_simple;
+    outcome.has_attraction = (m_criteria.tolerance() > 0 || m_criteria.number_of_bisections() > 0)
+                             && !fitted.is_without_attraction;
     return outcome;
   }
 
@@ -169,7 +172,7 @@ private:
   }
 
   // The number of vertices that have not arrived, plus the lost length of sharp edges in lengths of edges.
-  double number_off(const Result& r) const
+  double number_not_arrived(const Result& r) const
   {
     const double lost = r.length_of_sharp_edges - r.length_of_sharp_edges_kept;
     return double(r.number_of_boundary_vertices - r.number_of_arrived_vertices)
@@ -180,9 +183,9 @@ private:
   // kept from arriving from both sides: another run would rarely help.
   bool is_fitted(const Result& r) const
   {
-    const double tolerated = m_tolerated_off * double(r.number_of_boundary_vertices);
+    const double tolerated = m_tolerated_share_not_arrived * double(r.number_of_boundary_vertices);
     return r.is_boundary_simple
-           && number_off(r) <= tolerated + tolerated_loss * r.length_of_sharp_edges / m_edge_length;
+           && number_not_arrived(r) <= tolerated + tolerated_loss * r.length_of_sharp_edges / m_edge_length;
   }
 
   // Optimizes within the bound, and repeats until no faces cut each other.
@@ -266,9 +269,9 @@ template <class Quality>
 Mixed_mesh_optimization_result_3 optimize_bounded(Core_mesh& mesh, const Any_surface& surface,
                                                   const Mixed_mesh_optimization_criteria_3& criteria,
                                                   const Quality& quality, const std::function<bool()>& go_on,
-                                                  double tolerated_off = 0)
+                                                  double tolerated_share_not_arrived = 0)
 {
-  return Bounded_optimization<Quality>(mesh, surface, criteria, quality, tolerated_off)(go_on);
+  return Bounded_optimization<Quality>(mesh, surface, criteria, quality, tolerated_share_not_arrived)(go_on);
 }
 
 } // namespace internal

@@ -55,7 +55,7 @@ struct Fitting_mode
   bool keeps_bound = false;
   /// Whether boundary vertices are not drawn to places that are too far, which are only measured; edges are
   /// bisected late.
-  bool is_calm = false;
+  bool is_without_attraction = false;
 };
 
 /*!
@@ -78,10 +78,10 @@ struct Fitting_state
   // Largest acceptable cost once the boundary has arrived, for the sake of the tolerance for example. Costs
   // are ratios, 1 for the ideal element: no limit of a cost has a unit. Such limits decide how soon and how
   // far bad elements are tolerated, never whether a mesh is valid: each move proves validity.
-  static constexpr double acceptable_in_the_end = 3;
-  static constexpr int sweeps_to_follow = 2; // sweeps over inner vertices, after the boundary has moved
+  static constexpr double acceptable_final_cost = 3;
+  static constexpr int sweeps_after_boundary = 2; // sweeps over inner vertices, after the boundary has moved
   // Largest cost of a half of a bisected tetrahedron.
-  static constexpr double worst_half = 3.2;
+  static constexpr double largest_cost_of_half = 3.2;
 
   const Any_surface& domain;
   const Criteria& criteria;
@@ -103,8 +103,8 @@ struct Fitting_state
   std::vector<std::uint8_t> is_held;
   // Positions at which no faces cut each other, at the start or at the last such test, and the vertices that
   // had arrived. New vertices get positions between the ends of their edges.
-  std::vector<Vec3> simple_points;
-  std::vector<std::uint8_t> simple_is_arrived;
+  std::vector<Vec3> saved_points;
+  std::vector<std::uint8_t> saved_is_arrived;
   std::vector<Vec3> feature_places; // starts of the search for targets, if there are features
   Mixed_mesh_optimization_result_3 result;
 
@@ -113,11 +113,11 @@ struct Fitting_state
     : domain(surface), criteria(c), quality(q), mode(m), strata(domain), project(domain, strata),
       boundary(strata.sorted_faces(start)),
       mesh(start, strata.of_vertices(start.number_of_vertices(), boundary)), effort(mesh.points.size()),
-      moves(mesh, quality, project, criteria.sliding_threshold(), bound_on_way()),
+      moves(mesh, quality, project, criteria.sliding_threshold(), intermediate_bound()),
       mean_edge_lengths(measure_edges()), tolerances(enlarged_tolerances()), samples(surface_samples()),
       attraction(mesh, project, samples, Concurrency::number_of_threads(criteria)),
-      is_arrived(mesh.points.size(), 0), is_held(mesh.points.size(), 0), simple_points(mesh.points),
-      simple_is_arrived(mesh.points.size(), 0)
+      is_arrived(mesh.points.size(), 0), is_held(mesh.points.size(), 0), saved_points(mesh.points),
+      saved_is_arrived(mesh.points.size(), 0)
   {
     attract_boundary();
     moves.set_notable_gain(effort.notable_gain);
@@ -127,14 +127,14 @@ struct Fitting_state
     if(effort.moves_by_colors)
       moves.use_colors(Concurrency::number_of_threads(criteria));
     if(effort.layers > 0)
-      moves.set_good_enough_inside(acceptable_in_the_end, effort.layers);
+      moves.set_good_enough_inside(acceptable_final_cost, effort.layers);
   }
 
   Fitting_state(const Fitting_state&) = delete; // members refer to each other
   Fitting_state& operator=(const Fitting_state&) = delete;
 
-  double bound_in_the_end() const { return bound_for_doubles(criteria); }
-  double bound_on_way() const { return mode.keeps_bound ? bound_in_the_end() : infinity; }
+  double final_bound() const { return bound_for_doubles(criteria); }
+  double intermediate_bound() const { return mode.keeps_bound ? final_bound() : infinity; }
   bool has_bound() const { return criteria.quality_bound() < infinity; }
 
   Subdomain_index first_subdomain(Stratum of_face) const { return strata.interfaces(of_face)[0].first; }
@@ -157,7 +157,7 @@ struct Fitting_state
   void add_vertices(bool have_arrived)
   {
     is_arrived.resize(mesh.points.size(), have_arrived);
-    simple_is_arrived.resize(mesh.points.size(), 0);
+    saved_is_arrived.resize(mesh.points.size(), 0);
     is_held.resize(mesh.points.size(), 0);
     moves.add_vertices();
   }
@@ -198,7 +198,7 @@ struct Fitting_state
   }
 
   /// The boundary vertices that have not arrived, underway or not.
-  std::vector<Vertex_index> vertices_off() const
+  std::vector<Vertex_index> vertices_not_arrived() const
   {
     std::vector<Vertex_index> off;
     for(Vertex_index v = 0; v < mesh.points.size(); ++v)
@@ -235,14 +235,14 @@ struct Fitting_state
     return vertices_of_self_intersections(mesh.points, faces);
   }
 
-  /// Remembers all positions if no faces cut each other. \return the number of vertices of faces that cut
+  /// Saves all positions if no faces cut each other. \return the number of vertices of faces that cut
   /// each other
-  std::size_t remember_if_simple()
+  std::size_t save_points_if_simple()
   {
     const std::size_t crossing = crossing_vertices().size();
     if(crossing == 0) {
-      simple_points = mesh.points;
-      simple_is_arrived = is_arrived;
+      saved_points = mesh.points;
+      saved_is_arrived = is_arrived;
     }
     return crossing;
   }

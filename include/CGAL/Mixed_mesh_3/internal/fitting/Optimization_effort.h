@@ -37,15 +37,15 @@ struct Optimization_effort
   // meshes would take a third more time, for a mean aspect-ratio coefficient of 1.378 instead of 1.381;
   // shorter steps and more sweeps would take a quarter more moves, for 1.389 instead of 1.390. With 100,000,
   // a notable gain of 0.02 would take a fifth fewer moves, for 1.343 instead of 1.340.
-  static constexpr std::size_t many = 20000;
+  static constexpr std::size_t large_number = 20000;
   // Number of vertices above which the effort is least. With 200,000, the values above would take 2.2 times
   // as long, for a mean of 1.343 instead of 1.379: half of the moves were in the fourth layer and beyond, or
   // gained less than a tenth of what others did.
-  static constexpr std::size_t very_many = 100000;
+  static constexpr std::size_t very_large_number = 100000;
 
   explicit Optimization_effort(std::size_t number_of_vertices)
   {
-    if(number_of_vertices > many) {
+    if(number_of_vertices > large_number) {
       good_enough_to_arrive = good_enough[0] = 1.3;
       notable_gain = 0.01;
       first_step = 0.3;
@@ -54,7 +54,7 @@ struct Optimization_effort
       sweeps[1] = 5;
       moves_by_colors = true;
     }
-    if(number_of_vertices > very_many) {
+    if(number_of_vertices > very_large_number) {
       good_enough_to_arrive = 2;
       layers = 3;
       samples_coarsely = true;

@@ -78,16 +78,16 @@ class Vertex_optimizer
   Working_mesh& m_mesh;
   const Quality& m_quality;
   const Project& m_project;
-  const double m_worth_sliding;
+  const double m_sliding_threshold;
   double m_bound;
   std::vector<double> m_radii;          // next trial step of each vertex; 0: not known
   std::vector<Shared_mark> m_is_active; // whether a move may gain something
   std::vector<std::uint8_t> m_is_fixed;
-  std::vector<std::uint8_t> m_is_loose;  // boundary vertices that need not stay on the surface
-  std::vector<std::uint8_t> m_is_inside; // vertices where only bad elements count
-  std::vector<Attraction> m_attractions; // one for each vertex, or none
-  std::vector<double> m_costs;           // cost of each element; negative: not known
-  std::vector<double> m_trial_costs;     // costs around a vertex that is moved: none moves beside it
+  std::vector<std::uint8_t> m_may_leave_surface; // boundary vertices that need not stay on the surface
+  std::vector<std::uint8_t> m_is_inside;         // vertices where only bad elements count
+  std::vector<Attraction> m_attractions;         // one for each vertex, or none
+  std::vector<double> m_costs;                   // cost of each element; negative: not known
+  std::vector<double> m_trial_costs;             // costs around a vertex that is moved: none moves beside it
   Vertex_coloring m_coloring;
   unsigned m_threads = 0; // 0: without colors
   double m_power = 4;
@@ -100,13 +100,14 @@ class Vertex_optimizer
   static constexpr std::size_t moves_worth_a_thread = 64;
 
 public:
-  /// \param worth_sliding cost of an element above which boundary vertices slide
+  /// \param sliding_threshold cost of an element above which boundary vertices slide
   /// \param bound largest cost that an element may get
-  Vertex_optimizer(Working_mesh& mesh, const Quality& quality, const Project& project, double worth_sliding,
-                   double bound)
-    : m_mesh(mesh), m_quality(quality), m_project(project), m_worth_sliding(worth_sliding), m_bound(bound),
-      m_radii(mesh.points.size(), 0), m_is_active(mesh.points.size()), m_is_fixed(mesh.points.size(), 0),
-      m_is_loose(mesh.points.size(), 0), m_is_inside(mesh.points.size(), 0)
+  Vertex_optimizer(Working_mesh& mesh, const Quality& quality, const Project& project,
+                   double sliding_threshold, double bound)
+    : m_mesh(mesh), m_quality(quality), m_project(project), m_sliding_threshold(sliding_threshold),
+      m_bound(bound), m_radii(mesh.points.size(), 0), m_is_active(mesh.points.size()),
+      m_is_fixed(mesh.points.size(), 0), m_may_leave_surface(mesh.points.size(), 0),
+      m_is_inside(mesh.points.size(), 0)
   {
     for(Vertex_index v = 0; v < mesh.points.size(); ++v)
       m_is_fixed[v] = mesh.is_on_boundary(v);
@@ -158,18 +159,18 @@ public:
     m_radii.resize(m_mesh.points.size(), 0);
     m_is_active.resize(m_mesh.points.size(), true);
     m_is_fixed.resize(m_mesh.points.size(), 0);
-    m_is_loose.resize(m_mesh.points.size(), 0);
+    m_may_leave_surface.resize(m_mesh.points.size(), 0);
     m_is_inside.resize(m_mesh.points.size(), 0);
   }
 
   /// Releases a boundary vertex: boundary vertices are fixed until they are on the surface.
-  void release(Vertex_index v) { m_is_fixed[v] = m_is_loose[v] = 0; }
+  void release(Vertex_index v) { m_is_fixed[v] = m_may_leave_surface[v] = 0; }
   void fix(Vertex_index v) { m_is_fixed[v] = 1; }
   /// Lets a vertex move off the surface, until it is released.
-  void loosen(Vertex_index v)
+  void free_from_surface(Vertex_index v)
   {
     m_is_fixed[v] = 0;
-    m_is_loose[v] = 1;
+    m_may_leave_surface[v] = 1;
   }
 
   /// Makes the next steps long again: steps that failed have become short.
@@ -187,13 +188,13 @@ public:
   /// The vertices that are fixed, and those that need not stay on the surface.
   struct Freedom
   {
-    std::vector<std::uint8_t> is_fixed, is_loose;
+    std::vector<std::uint8_t> is_fixed, may_leave_surface;
   };
-  Freedom freedom() const { return {m_is_fixed, m_is_loose}; }
+  Freedom freedom() const { return {m_is_fixed, m_may_leave_surface}; }
   void set_freedom(const Freedom& freedom)
   {
     m_is_fixed = freedom.is_fixed;
-    m_is_loose = freedom.is_loose;
+    m_may_leave_surface = freedom.may_leave_surface;
   }
 
   void activate(Vertex_index v) { m_is_active[v] = true; }
@@ -406,14 +407,14 @@ private:
   {
     if(m_is_fixed[v])
       return false;
-    const bool slides = m_mesh.is_on_boundary(v) && !m_is_loose[v];
+    const bool slides = m_mesh.is_on_boundary(v) && !m_may_leave_surface[v];
     const Attraction a = attraction(v);
     double sum = attraction_energy(v), worst = 0;
     for(Element_index e : m_mesh.incident[v]) {
       worst = (std::max)(worst, known_cost(e));
       sum += power(m_costs[e], m_power);
     }
-    const double stays = slides ? m_worth_sliding : m_is_inside[v] ? m_good_enough_inside : 1;
+    const double stays = slides ? m_sliding_threshold : m_is_inside[v] ? m_good_enough_inside : 1;
     if(a.weight == 0 && worst <= (std::max)(stays, m_good_enough))
       return false;
 

@@ -46,7 +46,7 @@ void set_targets(Fitting_state<Quality>& s)
 
 /// Makes vertices held: they stay where they are, and are no longer underway.
 template <class Quality>
-void leave_behind(Fitting_state<Quality>& s, const std::vector<Vertex_index>& vertices)
+void hold_vertices(Fitting_state<Quality>& s, const std::vector<Vertex_index>& vertices)
 {
   for(Vertex_index v : vertices)
     s.moves.fix(v);
@@ -66,29 +66,29 @@ bool arrive(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
   // Largest costs while the boundary arrives. The cost grows in each round, so that a vertex that does not
   // arrive with good elements arrives with worse ones: from 4, 15 rounds lead to 100. With a smaller limit
   // fewer vertices arrive, with a larger one elements are worse.
-  constexpr double acceptable_at_first = 4, acceptable_growth = 1.25, acceptable_at_most = 100;
+  constexpr double initial_acceptable_cost = 4, acceptable_growth = 1.25, largest_acceptable_cost = 100;
   constexpr int rounds = 40, rounds_for_features = 25, rounds_until_new_target = 8, rounds_until_check = 2;
 
   set_targets(s);
   // Small steps are checked: vertices whose faces would cut others are held. There is no check without a
   // bound: where elements may get that bad, too many vertices would be held.
-  const bool is_careful = s.mode.is_calm && s.has_bound() && s.crossing_vertices().empty();
+  const bool is_careful = s.mode.is_without_attraction && s.has_bound() && s.crossing_vertices().empty();
   auto simple = s.snapshot();
-  double acceptable = acceptable_at_first;
+  double acceptable = initial_acceptable_cost;
   for(int round = 0; round < rounds && !s.underway.empty(); ++round) {
     if(!go_on())
       return false;
     s.advance(acceptable);
-    s.moves.run(4, s.effort.good_enough_to_arrive, s.sweeps_to_follow);
+    s.moves.run(4, s.effort.good_enough_to_arrive, s.sweeps_after_boundary);
     if(is_careful && (round % rounds_until_check == rounds_until_check - 1 || s.underway.empty())) {
       const std::vector<Vertex_index> crossing = s.crossing_vertices();
       if(!crossing.empty()) {
         s.restore(simple);
-        leave_behind(s, crossing);
+        hold_vertices(s, crossing);
       }
       simple = s.snapshot();
     }
-    acceptable = (std::min)(acceptable_growth * acceptable, acceptable_at_most);
+    acceptable = (std::min)(acceptable_growth * acceptable, largest_acceptable_cost);
     if(round % rounds_until_new_target == rounds_until_new_target - 1)
       s.choose_new_targets();
     if(s.features && round >= rounds_for_features && (round - rounds_for_features) % 3 == 0)

@@ -41,10 +41,10 @@ void bisect_edges(Fitting_state<Quality>& s, std::size_t number, const Gain& gai
     return is_arrived(a) && is_arrived(b) ? gain(a, b, apexes, stratum) : 0.;
   };
   Boundary_bisector bisector(s.mesh, s.quality, s.project, gain_if_arrived, s.boundary,
-                             (std::min)(s.worst_half, s.bound_on_way()));
+                             (std::min)(s.largest_cost_of_half, s.intermediate_bound()));
   const auto bisected = bisector(number);
   for(const auto& [a, b] : bisected)
-    s.simple_points.push_back(0.5 * (s.simple_points[a] + s.simple_points[b]));
+    s.saved_points.push_back(0.5 * (s.saved_points[a] + s.saved_points[b]));
   s.result.number_of_bisections += bisected.size();
   s.result.number_of_boundary_vertices += bisected.size();
   s.result.number_of_arrived_vertices += bisected.size();
@@ -154,7 +154,7 @@ void bisect_far_edges(Fitting_state<Quality>& s, std::size_t number, double powe
 {
   if(number == 0)
     return;
-  if(s.mode.is_calm)
+  if(s.mode.is_without_attraction)
     s.attraction.measure();
   const auto far_edges = s.attraction.far_edges();
   bisect_edges(s, number, [&](Vertex_index a, Vertex_index b, const Edge_apexes& apexes, Stratum stratum) {

@@ -64,10 +64,10 @@ class Feature_paths
   std::vector<Vertex_index> m_corners;                  // vertex of each corner, or none
   std::vector<Edge> m_bisected;
 
-  // Weights of the length of edges: edges as far from the polyline as they are long count about `aversion`
-  // times as much, and middles count more than vertices. Limits in sizes: farther away there is no path, and
-  // no corner takes a vertex.
-  static constexpr double aversion = 8, price_of_bisection = 1.8, reach = 2.5, reach_of_corners = 2;
+  // Weights of the length of edges: edges as far from the polyline as they are long count about
+  // `distance_weight` times as much, and middles count more than vertices. Limits in sizes: farther away
+  // there is no path, and no corner takes a vertex.
+  static constexpr double distance_weight = 8, bisection_factor = 1.8, reach = 2.5, reach_of_corners = 2;
   static constexpr int trials = 20;
 
 public:
@@ -112,7 +112,7 @@ public:
       return polylines[i].length() > polylines[j].length();
     });
     for(std::size_t i : order)
-      lay(i);
+      choose_path(i);
     cut_short_cuts();
   }
 
@@ -159,7 +159,7 @@ private:
     m_places[v] = where;
   }
 
-  void lay(std::size_t number)
+  void choose_path(std::size_t number)
   {
     const Feature_polyline& polyline = m_features.polylines()[number];
     const Vertex_index first = m_corners[polyline.corners[0]], last = m_corners[polyline.corners[1]];
@@ -258,8 +258,8 @@ private:
                                + 2 * off * off;
         const double length = norm(b - a) + 0.05 * h;
         const double c = cost
-                         + length * (1 + aversion * squares / (4 * h * h))
-                             * (is_vertex(m) ? 1 : price_of_bisection);
+                         + length * (1 + distance_weight * squares / (4 * h * h))
+                             * (is_vertex(m) ? 1 : bisection_factor);
         if(c < next.cost) {
           next.cost = c;
           next.from = n;

@@ -28,21 +28,22 @@ namespace internal {
 
 /// Chooses the paths of edges that are to follow the sharp edges.
 template <class Quality>
-void lay_feature_paths(Fitting_state<Quality>& s)
+void choose_feature_paths(Fitting_state<Quality>& s)
 {
   const Surface_targets targets = surface_targets(s.boundary.faces, s.mesh.points, s.project, s.mesh.strata);
   s.feature_places = s.mesh.points;
   for(std::size_t i = 0; i < targets.vertices.size(); ++i)
     s.feature_places[targets.vertices[i]] = targets.positions[i];
   Feature_paths paths(s.mesh, s.quality, *s.features, s.boundary, s.feature_places, s.is_held,
-                      (std::min)(s.worst_half, s.bound_on_way()), s.criteria.number_of_bisections());
+                      (std::min)(s.largest_cost_of_half, s.intermediate_bound()),
+                      s.criteria.number_of_bisections());
   paths();
   s.feature_places = paths.places();
   const std::size_t number = paths.bisected().size();
   s.result.number_of_bisections += number;
   s.add_vertices(false);
   for(Vertex_index v = Vertex_index(s.mesh.points.size() - number); v < s.mesh.points.size(); ++v) {
-    s.simple_points.push_back(s.mesh.points[v]);
+    s.saved_points.push_back(s.mesh.points[v]);
     s.moves.fix(v);
   }
   s.update_boundary();

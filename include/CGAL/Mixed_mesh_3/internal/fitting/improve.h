@@ -31,32 +31,33 @@ bool improve(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
   using Criteria = Mixed_mesh_optimization_criteria_3;
   struct Phase
   {
-    double power, worth_flipping, weight; // weight of the attraction
+    double power, least_cost_to_flip, weight; // weight of the attraction
   };
   constexpr Phase phases[2] = {{4, 1.2, 1}, {8, 1.4, 16}};
   constexpr double share_of_first_phase = 0.6;
   constexpr double acceptable = 10; // cost for vertices that arrive late
 
-  const bool has_tolerance = s.criteria.tolerance() > 0 && !s.mode.is_calm;
+  const bool has_tolerance = s.criteria.tolerance() > 0 && !s.mode.is_without_attraction;
   const int rounds = (has_tolerance || s.features ? s.criteria : Criteria(s.criteria).tolerance(0))
                        .number_of_rounds_for(s.mesh.points.size());
   const int second_phase = int(share_of_first_phase * rounds + 0.5);
-  const int first_bisection = s.mode.is_calm ? second_phase : 0,
-            last_bisection = s.mode.is_calm ? second_phase : rounds / 4; // edges that are still far
+  // The last bisection is of edges that are still far.
+  const int first_bisection = s.mode.is_without_attraction ? second_phase : 0,
+            last_bisection = s.mode.is_without_attraction ? second_phase : rounds / 4;
   // Many short rounds let boundary vertices follow the places that draw them.
-  const bool is_patient = rounds > 6;
-  const int rounds_to_flip = is_patient ? 3 : 1;
-  typename Fitting_state<Quality>::Flipper flipper(s.mesh, s.quality, s.bound_on_way());
-  s.moves.set_bound((std::min)(s.acceptable_in_the_end, s.bound_on_way()));
+  const bool has_many_rounds = rounds > 6;
+  const int rounds_to_flip = has_many_rounds ? 3 : 1;
+  typename Fitting_state<Quality>::Flipper flipper(s.mesh, s.quality, s.intermediate_bound());
+  s.moves.set_bound((std::min)(s.acceptable_final_cost, s.intermediate_bound()));
   for(int round = 0; round < rounds; ++round) {
     if(!go_on())
       return false;
     if(has_tolerance && round % rounds_to_flip == rounds_to_flip - 1)
-      s.remember_if_simple();
+      s.save_points_if_simple();
     const int phase = round < second_phase ? 0 : 1;
-    const auto [power, worth_flipping, weight] = phases[phase];
+    const auto [power, least_cost_to_flip, weight] = phases[phase];
     if(s.criteria.flips() && round % rounds_to_flip == 0)
-      s.result.number_of_flips += s.flip(flipper, power, worth_flipping);
+      s.result.number_of_flips += s.flip(flipper, power, least_cost_to_flip);
     s.choose_new_targets();
     s.advance(acceptable);
     if(round == 0 || round == second_phase)
@@ -65,7 +66,7 @@ bool improve(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
       s.attraction.measure();
       s.moves.attract(s.attraction.attractions(weight));
     }
-    s.moves.run(power, s.effort.good_enough[phase], is_patient ? 3 : s.effort.sweeps[phase]);
+    s.moves.run(power, s.effort.good_enough[phase], has_many_rounds ? 3 : s.effort.sweeps[phase]);
     if(round == first_bisection)
       bisect_boundary(s);
     if(round == last_bisection)

@@ -26,11 +26,11 @@ void improve_worst(Fitting_state<Quality>& s, typename Fitting_state<Quality>::F
 {
   constexpr int rounds_until_flips = 3;
   constexpr double power = 16, goal = 0.8; // share of the bound
-  const double bound = s.bound_in_the_end();
+  const double bound = s.final_bound();
   if(s.criteria.flips() && round % rounds_until_flips == 0)
     s.result.number_of_flips += s.flip(flipper, power, goal * bound);
   s.moves.reset_steps();
-  s.moves.run(power, goal * bound, s.sweeps_to_follow);
+  s.moves.run(power, goal * bound, s.sweeps_after_boundary);
   s.choose_new_targets();
   s.advance(bound);
 }
@@ -44,12 +44,13 @@ void leave_surface(Fitting_state<Quality>& s, Vertex_index v)
     --s.result.number_of_arrived_vertices;
     s.underway.emplace_back(v, s.mesh.points[v]);
   }
-  s.moves.loosen(v);
+  s.moves.free_from_surface(v);
 }
 
 // Rounds of improving the worst elements: with all boundary vertices on the surface, then, if there are sharp
 // edges, without features, then with vertices that leave the surface.
-constexpr int mending_rounds_on_surface = 6, mending_rounds_of_features = 6, mending_rounds_off_surface = 18;
+constexpr int mending_rounds_on_surface = 6, mending_rounds_of_features = 6,
+              mending_rounds_leaving_surface = 18;
 
 /// Improves elements above the bound at the cost of the elements around them; where that does not suffice,
 /// boundary vertices leave the surface, and come back where it has sufficed.
@@ -59,21 +60,21 @@ bool mend(Fitting_state<Quality>& s)
 {
   // Largest share of all vertices: a mesh with a larger share of vertices of bad elements is not worth
   // mending.
-  constexpr double worth_mending = 0.1, worth_mending_features = 0.3;
-  const double bound = s.bound_in_the_end();
+  constexpr double largest_share_to_improve = 0.1, largest_share_with_features = 0.3;
+  const double bound = s.final_bound();
   std::vector<Vertex_index> bad = s.moves.vertices_above(bound);
-  const double worth = s.features ? worth_mending_features : worth_mending;
-  if(s.mode.keeps_bound || bad.empty() || double(bad.size()) > worth * double(s.mesh.points.size()))
+  const double largest_share = s.features ? largest_share_with_features : largest_share_to_improve;
+  if(s.mode.keeps_bound || bad.empty() || double(bad.size()) > largest_share * double(s.mesh.points.size()))
     return false;
   typename Fitting_state<Quality>::Flipper flipper(s.mesh, s.quality, bound);
   s.moves.attract({});
   s.moves.set_bound(bound);
-  const int off_surface = mending_rounds_on_surface + (s.features ? mending_rounds_of_features : 0);
-  for(int round = 0; round < off_surface + mending_rounds_off_surface && !bad.empty(); ++round) {
+  const int rounds_on_surface = mending_rounds_on_surface + (s.features ? mending_rounds_of_features : 0);
+  for(int round = 0; round < rounds_on_surface + mending_rounds_leaving_surface && !bad.empty(); ++round) {
     for(Vertex_index v : bad) {
       if(round >= mending_rounds_on_surface && s.mesh.strata[v] >= first_sharp_stratum)
         s.leave_feature(v);
-      else if(round >= off_surface && s.mesh.is_on_boundary(v))
+      else if(round >= rounds_on_surface && s.mesh.is_on_boundary(v))
         leave_surface(s, v);
       s.moves.activate_around(v);
     }

@@ -25,12 +25,13 @@ namespace internal {
 
 /// Runs `Bounded_optimization`; the cost of an element is its aspect-ratio coefficient.
 /// \param go_on function that is asked before each round
-/// \param tolerated_off share of the boundary vertices that may have not arrived without a further run
+/// \param tolerated_share_not_arrived share of the boundary vertices that may have not arrived without a
+/// further run
 Mixed_mesh_optimization_result_3 optimize_bounded(Core_mesh& mesh, const Any_surface& surface,
                                                   const Mixed_mesh_optimization_criteria_3& criteria,
                                                   const Aspect_ratio_quality_3& quality,
                                                   const std::function<bool()>& go_on,
-                                                  double tolerated_off = 0);
+                                                  double tolerated_share_not_arrived = 0);
 
 } // namespace internal
 } // namespace Mixed_meshes_3

@@ -17,7 +17,7 @@
 #include <CGAL/Mixed_mesh_3/internal/fitting/follow_sharp_edges.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/improve.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/mend.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/merge_vertices_off.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/merge_unarrived_vertices.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/retreat.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/return_to_surface.h>
 
@@ -34,7 +34,7 @@ struct Fitting_outcome
 {
   Mixed_mesh_optimization_result_3 result;
   std::vector<Vertex_index> crossing; ///< vertices of boundary faces that cut each other
-  bool is_calm;                       ///< no attraction: by the mode, or as too much did not arrive
+  bool is_without_attraction;         ///< no attraction: by the mode, or as too much did not arrive
 };
 
 /// Runs the passes that finish a boundary that does not cut itself.
@@ -48,7 +48,7 @@ bool finish(Fitting_state<Quality>& s, std::vector<Vertex_index>& crossing,
   if(!crossing.empty())
     return true;
   return_to_surface(s);
-  return !s.criteria.flips() || s.domain.has_sheets() || merge_vertices_off(s, go_on);
+  return !s.criteria.flips() || s.domain.has_sheets() || merge_unarrived_vertices(s, go_on);
 }
 
 template <class Quality>
@@ -89,18 +89,19 @@ Fitting_outcome optimize_surface(Core_mesh& mesh, const Any_surface& domain,
   s.project.set_features(features);
   if(!features.empty()) {
     s.features = &features;
-    lay_feature_paths(s);
+    choose_feature_paths(s);
   }
   bool goes_on = arrive(s, go_on);
   if(goes_on) {
-    const double crossing = double(s.remember_if_simple()),
+    const double crossing = double(s.save_points_if_simple()),
                  boundary = double(s.result.number_of_boundary_vertices);
     if(crossing > max_share_crossing * boundary && s.has_bound() && !mode.keeps_bound) {
       s.result.is_boundary_simple = false; // only small steps lead to a boundary that does not cut itself
       s.result.status = Mixed_mesh_optimization_status::NOT_ALL_ARRIVED;
       return {s.result, {}, true};
     }
-    s.mode.is_calm = s.mode.is_calm || double(s.underway.size()) > max_share_underway * boundary;
+    s.mode.is_without_attraction = s.mode.is_without_attraction
+                                   || double(s.underway.size()) > max_share_underway * boundary;
     goes_on = improve(s, go_on);
   }
   std::vector<Vertex_index> crossing = retreat_from_self_intersections(s);
@@ -115,7 +116,7 @@ Fitting_outcome optimize_surface(Core_mesh& mesh, const Any_surface& domain,
     measure_features(s);
   s.mesh.store(mesh);
   set_status(s, !goes_on);
-  return {s.result, std::move(crossing), s.mode.is_calm};
+  return {s.result, std::move(crossing), s.mode.is_without_attraction};
 }
 
 } // namespace internal

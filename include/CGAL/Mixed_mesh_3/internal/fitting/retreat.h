@@ -33,11 +33,9 @@ std::vector<Vertex_index> retreat_from_self_intersections(Fitting_state<Quality>
   for(int round = 0; round < rounds && !crossing.empty(); ++round) {
     const double share = round < rounds / 2 ? 0.25 : 1;
     for(Vertex_index v : crossing) {
-      const bool stays = s.is_arrived[v] && s.simple_is_arrived[v];
-      const Vec3 p = s.mesh.points[v], back = p + share * (s.simple_points[v] - p);
-      const Vec3 place = share == 1 ? s.simple_points[v]
-                         : stays    ? s.project(back, p, s.mesh.strata[v])
-                                    : back;
+      const bool stays = s.is_arrived[v] && s.saved_is_arrived[v];
+      const Vec3 p = s.mesh.points[v], back = p + share * (s.saved_points[v] - p);
+      const Vec3 place = share == 1 ? s.saved_points[v] : stays ? s.project(back, p, s.mesh.strata[v]) : back;
       if(!s.moves.try_move(v, place, acceptable))
         continue;
       s.moves.fix(v);

@@ -28,8 +28,8 @@ void return_to_surface(Fitting_state<Quality>& s)
 {
   constexpr int rounds = 8;
   constexpr double acceptable = 4;
-  s.moves.set_bound(s.bound_in_the_end());
-  std::vector<Vertex_index> off = s.vertices_off();
+  s.moves.set_bound(s.final_bound());
+  std::vector<Vertex_index> off = s.vertices_not_arrived();
   s.underway.clear();
   for(int round = 0; round < rounds && !off.empty(); ++round) {
     const auto simple = s.snapshot();

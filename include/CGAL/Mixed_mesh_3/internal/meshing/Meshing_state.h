@@ -53,9 +53,10 @@ struct Meshing_state
   std::optional<Located_octree> thin_start;  // walls and gaps are resolved
   std::optional<Located_octree> right_start; // on the way there, the topology was right
   bool are_gaps_wider = false;
-  bool keeps_topology = false; // while the budget is filled
-  bool is_stopped = false;     // by the visitor, which is not asked again then
-  double quality_bound;        // in force: larger than that of the criteria where walls need it
+  bool keeps_topology = false;      // while the budget is filled
+  bool is_stopped = false;          // by the visitor, which is not asked again then
+  std::size_t number_exchanged = 0; // vertices that the octree may have beyond the budget, to be removed
+  double quality_bound;             // in force: larger than that of the criteria where walls need it
   Mixed_mesh_result_3 result;
   Tolerance_search tolerance_search;
 
@@ -92,6 +93,9 @@ struct Meshing_state
     const std::size_t n = criteria.maximal_number_of_vertices();
     return n - std::size_t(share_of_bisections() * double(n));
   }
+
+  /// The number of vertices that the octree may have while vertices are exchanged, and else.
+  std::size_t octree_budget() const { return budget() + number_exchanged; }
 
   /// The edge of the cubes that the vertices of the budget have to serve.
   double mean_edge() const
@@ -166,7 +170,8 @@ struct Meshing_state
   /// The misfit of the best, whose boundary is not fitted.
   Misfit misfit_on_lattice() const
   {
-    return best.number_of_vertices == 0 ? Misfit::of_no_mesh() : misfit_on_lattice(octree, best, lost.size());
+    return best.number_of_vertices == 0 ? Misfit::without_mesh()
+                                        : misfit_on_lattice(octree, best, lost.size());
   }
 
   Misfit misfit_on_lattice(const Located_octree& o, const Candidate& candidate, std::size_t number_lost) const
@@ -179,14 +184,14 @@ struct Meshing_state
   Misfit misfit_of(const Core_mesh& mesh) const
   {
     if(mesh.number_of_elements() == 0)
-      return Misfit::of_no_mesh();
+      return Misfit::without_mesh();
     const double tolerance = criteria.tolerance(), distance = result.optimization.largest_distance;
-    return Misfit(mesh, root.domain(), criteria.fit_to_surface(), result.number_of_lost_cells, number_off(),
-                  tolerance > 0 ? distance / tolerance - 1 : 0);
+    return Misfit(mesh, root.domain(), criteria.fit_to_surface(), result.number_of_lost_cells,
+                  number_not_arrived(), tolerance > 0 ? distance / tolerance - 1 : 0);
   }
 
   /// The number of boundary vertices of the mesh optimized last that are not on the surface.
-  std::size_t number_off() const
+  std::size_t number_not_arrived() const
   {
     const Mixed_mesh_optimization_result_3& fit = result.optimization;
     return fit.number_of_boundary_vertices - fit.number_of_arrived_vertices;

@@ -30,14 +30,14 @@ namespace internal {
 class Misfit
 {
   bool m_is_mesh = true;
-  std::size_t m_topology = 0, m_number_of_lost_cells = 0, m_number_off = 0;
+  std::size_t m_topology = 0, m_number_of_lost_cells = 0, m_number_not_arrived = 0;
   double m_volume = 0, m_distance = 0; // relative excess over the tolerated values
   std::optional<Shell_counts> m_shells_of_domain, m_shells;
 
   static constexpr double tolerated_volume = 0.05;
 
 public:
-  static Misfit of_no_mesh()
+  static Misfit without_mesh()
   {
     Misfit m;
     m.m_is_mesh = false;
@@ -48,8 +48,8 @@ public:
   /// \param is_fitted whether its volume should be that of the domain
   /// \param distance relative excess of the distance from the surface over the tolerance
   Misfit(const Core_mesh& mesh, const Any_domain& domain, bool is_fitted, std::size_t number_of_lost_cells,
-         std::size_t number_off, double distance)
-    : m_number_of_lost_cells(number_of_lost_cells), m_number_off(number_off),
+         std::size_t number_not_arrived, double distance)
+    : m_number_of_lost_cells(number_of_lost_cells), m_number_not_arrived(number_not_arrived),
       m_distance((std::max)(0., distance))
   {
     m_shells_of_domain = domain.shells();
@@ -75,14 +75,14 @@ public:
 
   /// Whether there is no misfit, all boundary vertices are on the surface, and the boundary is within the
   /// tolerance.
-  bool is_right() const { return is_none() && m_number_off == 0 && m_distance == 0; }
-  bool is_of_distance_only() const { return is_none() && m_number_off == 0; }
+  bool is_right() const { return is_none() && m_number_not_arrived == 0 && m_distance == 0; }
+  bool has_distance_only() const { return is_none() && m_number_not_arrived == 0; }
 
   bool is_topology_right() const { return m_is_mesh && m_topology == 0; }
   bool is_topology_wrong() const { return m_topology > 0; }
   bool is_volume_wrong() const { return m_volume > 0; }
 
-  bool is_of_volume_only() const { return m_is_mesh && m_topology == 0 && m_number_of_lost_cells == 0; }
+  bool has_volume_only() const { return m_is_mesh && m_topology == 0 && m_number_of_lost_cells == 0; }
 
   bool operator<(const Misfit& m) const { return key() < m.key(); }
 
@@ -97,8 +97,8 @@ private:
 
   std::tuple<bool, std::size_t, bool, double, std::size_t, double, std::size_t> key() const
   {
-    return {!m_is_mesh,   m_topology, m_number_of_lost_cells > 0, m_volume,
-            m_number_off, m_distance, m_number_of_lost_cells};
+    return {!m_is_mesh,           m_topology, m_number_of_lost_cells > 0, m_volume,
+            m_number_not_arrived, m_distance, m_number_of_lost_cells};
   }
 };
 

@@ -106,7 +106,7 @@ public:
       for(std::size_t i = 0; i < number; ++i) {
         const Vec3& p = points[i];
         const Octree::Node_index n = octree.leaf_at(Predicates_kernel::Point_3(p[0], p[1], p[2]));
-        if(octree.is_alive(n) && (m_has_subdomains || !octree.is_in_region(n))
+        if(octree.meets_domain(n) && (m_has_subdomains || !octree.is_in_region(n))
            && octree.octree().level(n) < Octree::max_level)
           leaves.push_back(n);
       }

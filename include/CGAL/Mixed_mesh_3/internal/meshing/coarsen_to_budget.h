@@ -40,7 +40,7 @@ constexpr double finer_multiple = 20, finer_multiple_for_distance = 5;
 inline bool find_finer_octree(Meshing_state& s, std::size_t least, std::size_t most, bool only_thin)
 {
   const Stage_scope scope(s.visitor, Stage::OCTREE);
-  constexpr double cells_for_a_vertex = 2; // at most, nearly
+  constexpr double most_cells_per_vertex = 2; // at most, nearly
   Located_octree octree = s.root;
   s.are_gaps_wider = only_thin;
   if(!refine_to_level(octree, s.coarsest_level(), most))
@@ -56,7 +56,7 @@ inline bool find_finer_octree(Meshing_state& s, std::size_t least, std::size_t m
     if(leaves.empty())
       continue;
     octree.refine(leaves);
-    if(double(octree.number_of_cells()) > cells_for_a_vertex * double(most))
+    if(double(octree.number_of_cells()) > most_cells_per_vertex * double(most))
       return false;
     Candidate candidate = s.try_octree(octree);
     if(candidate.is_stopped || candidate.number_of_vertices > most)
@@ -70,29 +70,31 @@ inline bool find_finer_octree(Meshing_state& s, std::size_t least, std::size_t m
   return false;
 }
 
-/// The tetrahedra of the octree's mesh, with most of the boundary on the surface.
-inline Core_mesh roughly_fitted_mesh(Meshing_state& s)
+/// The mesh of the octree, on the lattice.
+inline Core_mesh assembled_mesh(const Meshing_state& s)
 {
-  constexpr double tolerated_off = 0.2; // share of the boundary vertices: those off the surface go first
-  Core_mesh fine;
-  {
-    const Stage_scope scope(s.visitor, Stage::ASSEMBLY);
-    Core_mesh mixed;
-    assemble_mesh(s.octree, s.best.mesh, s.best.boundary, mixed);
-    fine = split_to_tetrahedra(mixed);
-  }
+  const Stage_scope scope(s.visitor, Stage::ASSEMBLY);
+  Core_mesh mesh;
+  assemble_mesh(s.octree, s.best.mesh, s.best.boundary, mesh);
+  return mesh;
+}
+
+/// Brings most of the boundary of a mesh onto the surface.
+inline void fit_roughly(Meshing_state& s, Core_mesh& mesh)
+{
+  // Share of the boundary vertices: those off the surface go first.
+  constexpr double tolerated_share_not_arrived = 0.2;
   const Stage_scope scope(s.visitor, Stage::OPTIMIZATION);
   const auto rough = Mixed_mesh_optimization_criteria_3()
                        .quality_bound(s.quality_bound)
                        .sharp_angle(s.criteria.sharp_angle())
                        .number_of_rounds(1);
   optimize_bounded(
-    fine, s.root.domain(), Concurrency::with_threads(rough, Concurrency::number_of_threads(s.criteria)),
-    Aspect_ratio_quality_3(), [&s] { return s.go_on(); }, tolerated_off);
-  return fine;
+    mesh, s.root.domain(), Concurrency::with_threads(rough, Concurrency::number_of_threads(s.criteria)),
+    Aspect_ratio_quality_3(), [&s] { return s.go_on(); }, tolerated_share_not_arrived);
 }
 
-/// Removes vertices of a mesh of tetrahedra.
+/// Removes vertices that only tetrahedra have.
 /// \return whether it has so few then
 inline bool coarsen_to(Meshing_state& s, Core_mesh& mesh, std::size_t number_of_vertices,
                        Coarsening_goal goal = Coarsening_goal::SHAPE)
@@ -106,9 +108,9 @@ inline bool coarsen_to(Meshing_state& s, Core_mesh& mesh, std::size_t number_of_
 
 /// Removes the boundary vertices off the surface, if they are few, and optimizes the mesh again.
 /// \param status before the optimization
-inline void remove_vertices_off(Meshing_state& s, Core_mesh& mesh, Mixed_mesh_status status)
+inline void remove_unarrived_vertices(Meshing_state& s, Core_mesh& mesh, Mixed_mesh_status status)
 {
-  const std::size_t off = s.number_off();
+  const std::size_t off = s.number_not_arrived();
   if(off == 0 || s.is_stopped || !s.result.has_mesh())
     return;
   Core_mesh other = mesh;
@@ -117,7 +119,7 @@ inline void remove_vertices_off(Meshing_state& s, Core_mesh& mesh, Mixed_mesh_st
   s.result.number_of_collapsed_vertices += off;
   if(coarsen_to(s, other, mesh.number_of_vertices() - off))
     optimize_boundary(s, other);
-  if(!s.is_stopped && other.number_of_vertices() > 0 && s.number_off() < off)
+  if(!s.is_stopped && other.number_of_vertices() > 0 && s.number_not_arrived() < off)
     mesh = std::move(other);
   else
     s.result = result;
@@ -135,13 +137,14 @@ inline std::size_t number_of_vertices_in_region(const Core_mesh& mesh)
 }
 
 /// Makes a mesh with the vertices of the budget out of a finer one.
+/// \param number_of_vertices that are left for the optimization, which adds some
 /// \param mesh empty; stays so if edges that may be collapsed do not suffice
-inline void coarsen_and_optimize(Meshing_state& s, const Core_mesh& fine, Coarsening_goal goal,
-                                 Core_mesh& mesh)
+inline void coarsen_and_optimize(Meshing_state& s, const Core_mesh& fine, std::size_t number_of_vertices,
+                                 Coarsening_goal goal, Core_mesh& mesh)
 {
   const Stage_scope scope(s.visitor, Stage::OPTIMIZATION);
   Core_mesh coarse = fine;
-  if(s.is_stopped || !coarsen_to(s, coarse, s.budget(), goal))
+  if(s.is_stopped || !coarsen_to(s, coarse, number_of_vertices, goal))
     return;
   s.result.is_lattice_on_surface = false;
   s.result.number_of_vertices_needed = coarse.number_of_vertices();
@@ -151,7 +154,7 @@ inline void coarsen_and_optimize(Meshing_state& s, const Core_mesh& fine, Coarse
   s.result.number_of_collapsed_vertices = fine.number_of_vertices() - mesh.number_of_vertices();
   const Mixed_mesh_status status = s.result.status;
   optimize_boundary(s, mesh);
-  remove_vertices_off(s, mesh, status);
+  remove_unarrived_vertices(s, mesh, status);
   note_lost_cells(s, mesh);
   note_share_filled(s, mesh.number_of_vertices());
 }
@@ -165,9 +168,10 @@ inline void make_coarsened_mesh(Meshing_state& s, Core_mesh& mesh)
   describe_octree(s);
   if(!s.result.has_mesh())
     return;
-  const Core_mesh fine = roughly_fitted_mesh(s);
+  Core_mesh fine = split_to_tetrahedra(assembled_mesh(s));
+  fit_roughly(s, fine);
   const Mixed_mesh_result_3 result = s.result;
-  coarsen_and_optimize(s, fine, Coarsening_goal::SHAPE, mesh);
+  coarsen_and_optimize(s, fine, s.budget(), Coarsening_goal::SHAPE, mesh);
   if(s.is_stopped || !s.result.has_mesh())
     return;
   const Misfit first = s.misfit_of(mesh);
@@ -176,7 +180,7 @@ inline void make_coarsened_mesh(Meshing_state& s, Core_mesh& mesh)
   const Mixed_mesh_result_3 first_result = s.result;
   s.result = result;
   Core_mesh other;
-  coarsen_and_optimize(s, fine, Coarsening_goal::VOLUME, other);
+  coarsen_and_optimize(s, fine, s.budget(), Coarsening_goal::VOLUME, other);
   if(!s.is_stopped && s.result.optimization.number_of_elements_above_bound == 0 && s.misfit_of(other) < first)
     mesh = std::move(other);
   else
@@ -216,7 +220,7 @@ inline void try_flatter_elements(Meshing_state& s, bool is_finer, Best_mesh& bes
   constexpr std::array<double, 3> multiples{1.5, 2.5, 5};
   const double bound = s.criteria.quality_bound();
   for(const double multiple : multiples) {
-    if(s.is_stopped || best.misfit.is_of_distance_only())
+    if(s.is_stopped || best.misfit.has_distance_only())
       break;
     s.quality_bound = multiple * bound;
     best.try_octree(s, is_finer);
@@ -235,7 +239,7 @@ inline void improve_by_finer_octree(Meshing_state& s, Core_mesh& mesh, Misfit& m
   constexpr int most_trials = 3;
   if(s.is_stopped || !s.criteria.fit_to_surface() || s.root.domain().has_sheets())
     return;
-  const double multiple = misfit.is_of_distance_only() ? finer_multiple_for_distance : finer_multiple;
+  const double multiple = misfit.has_distance_only() ? finer_multiple_for_distance : finer_multiple;
   const std::size_t most = std::size_t(multiple * double(s.criteria.maximal_number_of_vertices()));
   std::size_t least = s.budget() + s.budget() / 4;
   const Mixed_mesh_result_3 result_before = s.result;

@@ -32,7 +32,7 @@ constexpr std::size_t least_budget = 60; // the shape of a brain is lost with fe
 
 /// Whether a mesh is within the tolerance, and has topology and volume of the domain. The distance between
 /// the points where it is measured is larger by up to a tenth.
-inline bool is_as_wanted(const Mixed_mesh_result_3& r)
+inline bool meets_all_criteria(const Mixed_mesh_result_3& r)
 {
   constexpr double share = 0.9;
   return (r.status == Mixed_mesh_status::SUCCESS || r.status == Mixed_mesh_status::BUDGET_NOT_FILLED)
@@ -63,34 +63,37 @@ inline Mixed_mesh_result_3 run_with_fewest_vertices(const Located_octree& root,
 {
   constexpr double step = 2, near_enough = 1.1;
   const std::size_t most = criteria.maximal_number_of_vertices();
-  std::size_t enough = 0, too_few = 0, trials = 0; // 0: not known
+  std::size_t sufficient_budget = 0, insufficient_budget = 0, trials = 0; // 0: not known
   std::size_t budget = first_budget(root, criteria);
   Mixed_mesh_result_3 best;
   for(;;) {
     Core_mesh trial;
     const Mixed_mesh_result_3 result = run_stages(
       root, Mixed_mesh_criteria_3(criteria).maximal_number_of_vertices(budget), visitor, trial);
-    const bool is_wanted = is_as_wanted(result);
-    if(is_wanted || enough == 0) {
+    const bool is_sufficient = meets_all_criteria(result);
+    if(is_sufficient || sufficient_budget == 0) {
       best = result;
       mesh = std::move(trial);
     }
     best.number_of_budgets = ++trials;
     if(result.status == Mixed_mesh_status::STOPPED)
       return best;
-    (is_wanted ? enough : too_few) = is_wanted ? (std::min)(budget, mesh.number_of_vertices()) : budget;
-    if(enough > 0 && too_few > 0) {
-      if(double(enough) <= near_enough * double(too_few))
+    if(is_sufficient)
+      sufficient_budget = (std::min)(budget, mesh.number_of_vertices());
+    else
+      insufficient_budget = budget;
+    if(sufficient_budget > 0 && insufficient_budget > 0) {
+      if(double(sufficient_budget) <= near_enough * double(insufficient_budget))
         return best;
-      budget = std::size_t(std::sqrt(double(enough) * double(too_few)));
-    } else if(enough > 0) {
-      if(enough <= least_budget)
+      budget = std::size_t(std::sqrt(double(sufficient_budget) * double(insufficient_budget)));
+    } else if(sufficient_budget > 0) {
+      if(sufficient_budget <= least_budget)
         return best;
-      budget = (std::max)(least_budget, std::size_t(double(enough) / step));
+      budget = (std::max)(least_budget, std::size_t(double(sufficient_budget) / step));
     } else {
-      if(too_few >= most)
+      if(insufficient_budget >= most)
         return best;
-      budget = (std::min)(most, std::size_t(step * double(too_few)));
+      budget = (std::min)(most, std::size_t(step * double(insufficient_budget)));
     }
   }
 }

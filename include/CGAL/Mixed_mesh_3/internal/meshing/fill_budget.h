@@ -75,7 +75,7 @@ inline std::optional<Located_octree>
 octree_for_region_first(const Meshing_state& s, const Located_octree& base, const Located_octree& filled)
 {
   constexpr double shares[] = {1, 0.5, 0.25, 0.125};
-  constexpr double room = 0.97; // in cells, whose vertices are not counted yet
+  constexpr double usable_share_of_cells = 0.97; // in cells, whose vertices are not counted yet
   if(s.criteria.tolerance() != Mixed_mesh_criteria_3::automatic || !s.tolerance_search.has_far_points()
      || s.root.is_region_everywhere() || s.root.domain().subdomain_indices().size() > 1)
     return std::nullopt;
@@ -102,7 +102,7 @@ octree_for_region_first(const Meshing_state& s, const Located_octree& base, cons
     Located_octree far = base, octree = start;
     s.tolerance_search.split_far_cells(far, share);
     octree.refine_like(far);
-    if(double(octree.number_of_cells()) < room * double(number_of_cells))
+    if(double(octree.number_of_cells()) < usable_share_of_cells * double(number_of_cells))
       return octree;
   }
   return start;
@@ -115,7 +115,7 @@ inline Candidate fill_from(Meshing_state& s, int level, Located_octree& octree)
   const auto first_to_split = points_on_sharp_edges(s);
   const auto fill = [&](Located_octree& o) {
     return fill_vertex_budget(
-      o, s.budget(), s.criteria.grading() * s.radius,
+      o, s.octree_budget(), s.criteria.grading() * s.radius,
       [&s](const Located_octree& tried) { return s.try_octree(tried); }, first_to_split);
   };
   if(s.thin_start) {
@@ -123,7 +123,7 @@ inline Candidate fill_from(Meshing_state& s, int level, Located_octree& octree)
     return fill(octree);
   }
   Candidate candidate;
-  if(!refine_to_level(octree, level, s.budget())) {
+  if(!refine_to_level(octree, level, s.octree_budget())) {
     candidate.number_of_vertices = 8 * octree.number_of_cells_inside();
     return candidate;
   }
@@ -135,7 +135,7 @@ inline Candidate fill_from(Meshing_state& s, int level, Located_octree& octree)
     return candidate;
   Candidate other_candidate = fill(*other);
   if(other_candidate.is_stopped || !other_candidate.is_good()
-     || other_candidate.number_of_vertices > s.budget())
+     || other_candidate.number_of_vertices > s.octree_budget())
     return candidate;
   octree = std::move(*other);
   return other_candidate;
@@ -152,7 +152,8 @@ inline void fill_budget(Meshing_state& s)
   for(int step = 0;; level += step) {
     Located_octree octree = s.root;
     Candidate candidate = fill_from(s, level, octree);
-    const bool is_above = candidate.number_of_vertices > s.criteria.maximal_number_of_vertices();
+    const bool is_above = candidate.number_of_vertices
+                          > s.criteria.maximal_number_of_vertices() + s.number_exchanged;
     if(is_above && step > 0)
       return; // the coarser one, which fits, stays
     if(candidate.is_stopped && candidate.number_of_vertices == 0) {

@@ -45,7 +45,7 @@ inline void describe_octree(Meshing_state& s)
   const Octree& octree = s.octree.octree();
   bool meets_region = false;
   for(Octree::Node_index n = 0; n < octree.size(); ++n)
-    if(octree.is_leaf(n) && s.octree.is_alive(n)) {
+    if(octree.is_leaf(n) && s.octree.meets_domain(n)) {
       s.result.deepest_level = (std::max)(s.result.deepest_level, octree.level(n));
       meets_region = meets_region || s.octree.is_in_region(n);
     }

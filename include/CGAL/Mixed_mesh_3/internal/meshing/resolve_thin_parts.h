@@ -41,7 +41,7 @@ inline void resolve_thin_parts(Meshing_state& s, bool is_for_volume)
     return;
   s.tolerance_search.split_far_cells(start);
   s.are_gaps_wider = true;
-  Misfit best = Misfit::of_no_mesh();
+  Misfit best = Misfit::without_mesh();
   for(const double strictness : is_for_volume ? strictnesses_for_volume : strictnesses) {
     Located_octree octree = start;
     std::optional<Misfit> misfit;
@@ -133,7 +133,7 @@ inline void improve_thin_parts(Meshing_state& s, Core_mesh& mesh, Misfit& misfit
     Core_mesh other;
     {
       const Stage_scope scope(s.visitor, Stage::OCTREE);
-      resolve_thin_parts(s, misfit.is_of_volume_only());
+      resolve_thin_parts(s, misfit.has_volume_only());
       if(s.thin_start)
         fill_budget(s);
     }

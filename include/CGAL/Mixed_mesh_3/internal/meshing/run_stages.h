@@ -12,6 +12,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/meshing/exchange_vertices.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/fill_budget.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/make_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/resolve_thin_parts.h>
@@ -69,12 +70,14 @@ inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Mixed_me
       }
     }
   }
-  Misfit misfit = Misfit::of_no_mesh();
+  Misfit misfit = Misfit::without_mesh();
   if(!s.may_resolve_thin_parts() || !resolve_topology(s, mesh, misfit)) {
-    make_mesh(s, mesh);
-    misfit = s.misfit_of(mesh);
-    if(s.may_resolve_thin_parts())
-      improve_thin_parts(s, mesh, misfit);
+    if(!may_exchange_vertices(s) || !exchange_vertices(s, mesh, misfit)) {
+      make_mesh(s, mesh);
+      misfit = s.misfit_of(mesh);
+      if(s.may_resolve_thin_parts())
+        improve_thin_parts(s, mesh, misfit);
+    }
   }
   note_misfit(s, misfit);
   return s.result;

@@ -50,7 +50,7 @@ class Thin_cell_finder
   const double m_strictness;
   std::map<Lattice_point, bool> m_is_thin_at; // corners of leaves are mostly common to four leaves
 
-  static constexpr double cells_in_wall = 1, cells_in_gap = 1;
+  static constexpr double cells_per_wall = 1, cells_per_gap = 1;
   // Limits in sides of cells: width of gaps that are widened, and largest widening on each side.
   static constexpr double wide_gap = 2.5, widening = 1;
   // Points of a line that are tested: thinner parts may be missed between the points.
@@ -94,7 +94,7 @@ public:
       return false;
     const Vec3 outwards = (1 / distance) * (q - p);
     return is_reached(q, outwards, wide_gap * edge, ON_BOUNDED_SIDE)
-           && !is_reached(q, -1 * outwards, distance + cells_in_wall * edge, ON_UNBOUNDED_SIDE);
+           && !is_reached(q, -1 * outwards, distance + cells_per_wall * edge, ON_UNBOUNDED_SIDE);
   }
 
 private:
@@ -122,8 +122,8 @@ private:
       return false;
     const Vec3 normal = (1 / distance) * (p - q);
     const Vec3 outwards = side == ON_BOUNDED_SIDE ? -1 * normal : normal;
-    return is_reached(q, outwards, cells_in_gap * m_strictness * edge, ON_BOUNDED_SIDE)
-           || is_reached(q, -1 * outwards, cells_in_wall * m_strictness * edge, ON_UNBOUNDED_SIDE);
+    return is_reached(q, outwards, cells_per_gap * m_strictness * edge, ON_BOUNDED_SIDE)
+           || is_reached(q, -1 * outwards, cells_per_wall * m_strictness * edge, ON_UNBOUNDED_SIDE);
   }
 
   // Whether a line of some length reaches a side.
@@ -175,9 +175,9 @@ template <class Count>
 Thin_cell_splits split_thin_cells(Located_octree& octree, double strictness, std::size_t budget,
                                   const Count& number_of_vertices)
 {
-  constexpr double cells_for_a_vertex = 4;   // approximate maximum: meshes of more cells would be in vain
-  constexpr double cells_of_estimate = 16;   // times the budget
-  constexpr double vertices_of_a_cell = 1.4; // vertices for each cell at the surface
+  constexpr double most_cells_per_vertex = 4;    // approximate maximum: meshes of more cells would be in vain
+  constexpr double cells_per_budget_vertex = 16; // times the budget
+  constexpr double vertices_per_cell = 1.4;      // vertices for each cell at the surface
   Thin_cell_splits result;
   Located_octree trial = octree;
   for(int level = 0; level < Octree::max_level; ++level) {
@@ -186,16 +186,16 @@ Thin_cell_splits split_thin_cells(Located_octree& octree, double strictness, std
       continue;
     trial.refine(leaves);
     const double cells = double(trial.number_of_cells());
-    result.number_of_vertices = std::size_t(vertices_of_a_cell * cells);
+    result.number_of_vertices = std::size_t(vertices_per_cell * cells);
     if(result.is_complete) {
-      const bool is_feasible = cells < cells_for_a_vertex * double(budget);
+      const bool is_feasible = cells < most_cells_per_vertex * double(budget);
       if(is_feasible)
         result.number_of_vertices = number_of_vertices(trial);
       result.is_complete = is_feasible && result.number_of_vertices <= budget;
       if(result.is_complete)
         octree = trial;
     }
-    if(cells > cells_of_estimate * double(budget))
+    if(cells > cells_per_budget_vertex * double(budget))
       break;
   }
   return result;

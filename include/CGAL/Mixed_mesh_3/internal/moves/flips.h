@@ -51,7 +51,7 @@ class Tetrahedron_flipper
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr int largest_ring = 7;
   // Cost above which tetrahedra on the boundary are removed if they can not be flipped.
-  static constexpr double worth_removing = 3;
+  static constexpr double least_cost_to_remove = 3;
   // Least relative gain: flips that gain less are not worth the time, and might go round in circles.
   static constexpr double least_gain = 1e-6;
 
@@ -337,7 +337,7 @@ private:
   // tetrahedron goes to the other side if the edge can be flipped there.
   bool remove_from_boundary(Element_index e)
   {
-    if(cost(m_mesh.elements[e].vertices.data()) < power(worth_removing, m_power))
+    if(cost(m_mesh.elements[e].vertices.data()) < power(least_cost_to_remove, m_power))
       return false;
     const std::array<Vertex_index, 8> v = m_mesh.elements[e].vertices;
     if(!std::all_of(v.begin(), v.begin() + 4, [this](Vertex_index u) { return m_mesh.is_on_boundary(u); }))

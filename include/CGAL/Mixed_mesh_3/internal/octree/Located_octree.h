@@ -76,7 +76,7 @@ public:
   /// The side of all points of the cell, or `ON_BOUNDARY` if the cell meets the surface of the domain.
   Bounded_side side(Node_index n) const { return Bounded_side(m_locations[n].domain); }
   /// Whether the cell meets the domain. Only such cells are refined or become elements.
-  bool is_alive(Node_index n) const { return side(n) != ON_UNBOUNDED_SIDE; }
+  bool meets_domain(Node_index n) const { return side(n) != ON_UNBOUNDED_SIDE; }
   bool is_in_region(Node_index n) const { return m_locations[n].region != ON_UNBOUNDED_SIDE; }
   /// Whether all of the root is inside the region: there is no region then.
   bool is_region_everywhere() const { return m_locations[0].region == ON_BOUNDED_SIDE; }
@@ -111,7 +111,7 @@ public:
   {
     std::size_t count = 0;
     for(Node_index n = 0; n < m_octree.size(); ++n)
-      count += m_octree.is_leaf(n) && is_alive(n);
+      count += m_octree.is_leaf(n) && meets_domain(n);
     return count;
   }
 
@@ -139,7 +139,7 @@ public:
   {
     Node_index n = Octree::root();
     while(!m_octree.is_leaf(n))
-      n = nearest_of(m_octree.child(n, 0), q);
+      n = nearest_child(m_octree.child(n, 0), q);
     return n;
   }
 
@@ -156,7 +156,7 @@ public:
   }
 
   /// The sibling of eight with the nearest center: the cell around a point, whatever the frame of the cells.
-  Node_index nearest_of(Node_index first, const Point_3& q) const
+  Node_index nearest_child(Node_index first, const Point_3& q) const
   {
     Node_index nearest = first;
     double least = std::numeric_limits<double>::infinity();
@@ -215,7 +215,7 @@ public:
   {
     std::vector<Node_index> leaves;
     for(Node_index n = 0; n < m_octree.size(); ++n)
-      if(m_octree.level(n) == level && m_octree.is_leaf(n) && is_alive(n)
+      if(m_octree.level(n) == level && m_octree.is_leaf(n) && meets_domain(n)
          && (!in_region_only || is_in_region(n)))
         leaves.push_back(n);
     return leaves;
@@ -308,11 +308,11 @@ private:
 /// \param root the octree with nothing but its root
 inline double volume_of_domain(const Located_octree& root)
 {
-  constexpr std::size_t enough = 500;
+  constexpr std::size_t sufficient_number = 500;
   Located_octree octree = root;
   for(int level = 0;; ++level) {
     const std::size_t inside = octree.number_of_cells_inside(), all = octree.number_of_cells();
-    if(all >= enough || level == Octree::max_level)
+    if(all >= sufficient_number || level == Octree::max_level)
       return 0.5 * double(inside + all) * octree.cell_volume(level);
     octree.refine(octree.leaves_to_refine(level, false));
   }

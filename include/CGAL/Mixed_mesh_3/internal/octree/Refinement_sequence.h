@@ -37,7 +37,7 @@ namespace internal {
 /// \param root the octree with nothing but its root
 inline double mean_radius_of_region(const Located_octree& root)
 {
-  constexpr std::size_t enough = 100, too_many = 20000;
+  constexpr std::size_t sufficient_number = 100, largest_number = 20000;
   const auto radius_of = [](double number, double edge) { return std::cbrt(0.75 / M_PI * number) * edge; };
   double radius = 0;
   Located_octree octree = root;
@@ -47,9 +47,9 @@ inline double mean_radius_of_region(const Located_octree& root)
                                      [&](Octree::Node_index n) { return octree.depth_in_region(n) >= 0; });
     if(count > 0)
       radius = radius_of(double(count), octree.edge_length(leaves.front()));
-    if(leaves.empty() || std::size_t(count) >= enough)
+    if(leaves.empty() || std::size_t(count) >= sufficient_number)
       break;
-    if(leaves.size() > too_many) // the region lies between their centers
+    if(leaves.size() > largest_number) // the region lies between their centers
       return count > 0 ? radius : radius_of(double(leaves.size()), octree.edge_length(leaves.front()));
     octree.refine(leaves);
   }
@@ -154,14 +154,14 @@ private:
   {
     const Octree& octree = m_octree.octree();
     for(Node_index n = Node_index(first); n < octree.size(); ++n) {
-      const bool is_alive = m_octree.is_alive(n);
-      m_depths.push_back(is_alive ? depth(n) : 0);
+      const bool meets_domain = m_octree.meets_domain(n);
+      m_depths.push_back(meets_domain ? depth(n) : 0);
       if(n > 0 && (n - 1) % 8 == 0)
-        hand_down_points(octree.parent(n), n);
+        pass_points_to_children(octree.parent(n), n);
       if(n > 0 && (n - 1) % 8 == 0)
-        cells -= m_octree.is_alive(octree.parent(n));
-      cells += is_alive;
-      if(is_alive && octree.is_leaf(n) && octree.level(n) < Octree::max_level && key(n) > 0)
+        cells -= m_octree.meets_domain(octree.parent(n));
+      cells += meets_domain;
+      if(meets_domain && octree.is_leaf(n) && octree.level(n) < Octree::max_level && key(n) > 0)
         m_queue.emplace(key(n), m_octree.quantized(m_depths[n]), rank_of_equals(n), n);
     }
     m_sizes.push_back(octree.size());
@@ -182,13 +182,13 @@ private:
   }
 
   // Passes the points of a node on to its children, the first of which is given.
-  void hand_down_points(Node_index parent, Node_index first)
+  void pass_points_to_children(Node_index parent, Node_index first)
   {
     if(m_points.empty())
       return;
     m_points.resize(std::size_t(first) + 8);
     for(const Point& p : m_points[parent])
-      m_points[m_octree.nearest_of(first, p)].push_back(p);
+      m_points[m_octree.nearest_child(first, p)].push_back(p);
   }
 
   double key(Node_index n) const

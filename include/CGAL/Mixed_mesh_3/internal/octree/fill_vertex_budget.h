@@ -31,13 +31,13 @@ class Budget_search
 
   // Shares of the budget: at 99.8 % large steps end, because with millions of vertices a further trial costs
   // more than it gains. Below 99 % single cells are tried.
-  static constexpr double full_enough = 0.998, worth_single_cells = 0.99;
+  static constexpr double share_that_is_full = 0.998, share_for_single_cells = 0.99;
   static constexpr std::size_t number_of_single_cells = 24;
 
   // Limit of the number of cells. Cells that meet the domain have one vertex or more each, unless the domain
   // is thinner than a cell: along a spike any number of cells may have no vertices. If the limit does not
   // fill the budget, more cells will not fill the budget either.
-  static constexpr double most_cells_for_a_vertex = 8, most_cells_at_least = 1000;
+  static constexpr double most_cells_per_vertex = 8, most_cells_at_least = 1000;
 
   const std::size_t m_budget;
   const Try& m_try;
@@ -83,7 +83,7 @@ private:
   bool extend()
   {
     const double cells = double(m_sequence.number_of_cells(m_sequence.number_of_steps()));
-    return cells < most_cells_for_a_vertex * double(m_budget) + most_cells_at_least && m_sequence.extend();
+    return cells < most_cells_per_vertex * double(m_budget) + most_cells_at_least && m_sequence.extend();
   }
 
   // The first step with that number of cells.
@@ -118,7 +118,7 @@ private:
     std::size_t high = unknown, n_high = 0;
     double rate = 1.25; // vertices per cell, deep inside and at the surface
     for(int step = 0; high - m_steps > 1 && !is_done(); ++step) {
-      if(m_steps > 0 && double(size()) > full_enough * double(m_budget))
+      if(m_steps > 0 && double(size()) > share_that_is_full * double(m_budget))
         return;
       const std::size_t low = m_steps, n_low = size();
       const double cells = double(m_sequence.number_of_cells(low));
@@ -147,7 +147,7 @@ private:
   {
     const std::size_t last = available(m_steps + number_of_single_cells);
     for(std::size_t i = m_steps; i < last; ++i) {
-      if(is_done() || double(size()) > worth_single_cells * double(m_budget))
+      if(is_done() || double(size()) > share_for_single_cells * double(m_budget))
         return;
       const Octree::Node_index n = m_sequence.cell(i);
       if(n >= m_sequence.number_of_nodes(m_steps) || !m_octree.octree().is_leaf(n))

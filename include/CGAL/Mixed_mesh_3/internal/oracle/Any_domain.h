@@ -89,19 +89,19 @@ public:
 
   Bounded_side bounded_side(const Point_3& p, const Surface_part& part) const override
   {
-    return m_surface.bounded_side(this->theirs(p), part_or_none(part));
+    return m_surface.bounded_side(this->to_user_point(p), part_or_none(part));
   }
 
   Point_3 closest_point(const Point_3& p, const Surface_part& part) const override
   {
-    return this->ours(m_surface.closest_point(this->theirs(p), part_or_none(part)));
+    return this->converted_point(m_surface.closest_point(this->to_user_point(p), part_or_none(part)));
   }
 
   Subdomain_index subdomain_index([[maybe_unused]] const Point_3& p,
                                   [[maybe_unused]] const Surface_part& part) const override
   {
     if constexpr(Is_labeled_domain<Domain>::value)
-      return m_surface.subdomain_index(this->theirs(p), part_or_none(part));
+      return m_surface.subdomain_index(this->to_user_point(p), part_or_none(part));
     else
       return 1;
   }

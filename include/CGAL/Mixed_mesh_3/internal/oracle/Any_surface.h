@@ -110,7 +110,7 @@ protected:
 template <class Surface, class Base = Any_surface>
 class Surface_reference : public Base
 {
-  using Their_point = typename Surface::Point_3;
+  using User_point = typename Surface::Point_3;
   static constexpr bool has_labels = Is_labeled_domain<Surface>::value;
 
 protected:
@@ -132,14 +132,17 @@ public:
         this->m_sheets.push_back(std::make_unique<Sheet_reference<std::decay_t<decltype(*sheet)>>>(*sheet));
   }
 
-  Point_3 closest_point(const Point_3& p) const override { return ours(m_surface.closest_point(theirs(p))); }
+  Point_3 closest_point(const Point_3& p) const override
+  {
+    return converted_point(m_surface.closest_point(to_user_point(p)));
+  }
   Point_3 closest_point(const Point_3& p, const Point_3& hint) const override
   {
-    return ours(m_surface.closest_point(theirs(p), theirs(hint)));
+    return converted_point(m_surface.closest_point(to_user_point(p), to_user_point(hint)));
   }
   std::vector<Point_3> surface_samples(double spacing) const override
   {
-    return all_ours(m_surface.surface_samples(spacing));
+    return converted_points(m_surface.surface_samples(spacing));
   }
   Sharp_edges sharp_edges([[maybe_unused]] double angle) const override
   {
@@ -160,7 +163,7 @@ public:
                         [[maybe_unused]] Subdomain_index second) const override
   {
     if constexpr(has_labels)
-      return ours(m_surface.closest_point(theirs(p), first, second));
+      return converted_point(m_surface.closest_point(to_user_point(p), first, second));
     else
       return closest_point(p);
   }
@@ -168,14 +171,14 @@ public:
                         [[maybe_unused]] Subdomain_index second) const override
   {
     if constexpr(has_labels)
-      return ours(m_surface.closest_point(theirs(p), theirs(hint), first, second));
+      return converted_point(m_surface.closest_point(to_user_point(p), to_user_point(hint), first, second));
     else
       return closest_point(p, hint);
   }
   std::vector<Point_3> surface_samples(double spacing, [[maybe_unused]] Subdomain_index index) const override
   {
     if constexpr(has_labels)
-      return all_ours(m_surface.surface_samples(spacing, index));
+      return converted_points(m_surface.surface_samples(spacing, index));
     else
       return surface_samples(spacing);
   }
@@ -188,16 +191,16 @@ public:
   }
 
 protected:
-  static Their_point theirs(const Point_3& p)
+  static User_point to_user_point(const Point_3& p)
   {
-    if constexpr(std::is_same_v<Their_point, Point_3>)
+    if constexpr(std::is_same_v<User_point, Point_3>)
       return p;
     else
-      return Their_point(p.x(), p.y(), p.z());
+      return User_point(p.x(), p.y(), p.z());
   }
 
   template <class Point>
-  static Point_3 ours(const Point& p)
+  static Point_3 converted_point(const Point& p)
   {
     if constexpr(std::is_same_v<Point, Point_3>)
       return p;
@@ -206,14 +209,14 @@ protected:
   }
 
   template <class Range>
-  static std::vector<Point_3> all_ours(Range&& points)
+  static std::vector<Point_3> converted_points(Range&& points)
   {
     if constexpr(std::is_same_v<std::decay_t<Range>, std::vector<Point_3>>) {
       return std::forward<Range>(points);
     } else {
       std::vector<Point_3> result;
       for(const auto& p : points)
-        result.push_back(ours(p));
+        result.push_back(converted_point(p));
       return result;
     }
   }

@@ -133,9 +133,9 @@ public:
     const Vec3 origin = vec(m_facets.front().vertices[0]);
     for(std::size_t f = 0; f < m_facets.size(); ++f) {
       const auto& v = m_facets[f].vertices;
-      const int jump = (std::min)(m_winding[back(f)], 0) - (std::min)(m_winding[front(f)], 0);
-      if(jump != 0)
-        volume -= jump * determinant(vec(v[0]) - origin, vec(v[1]) - origin, vec(v[2]) - origin) / 6;
+      const int increment = (std::min)(m_winding[back(f)], 0) - (std::min)(m_winding[front(f)], 0);
+      if(increment != 0)
+        volume -= increment * determinant(vec(v[0]) - origin, vec(v[1]) - origin, vec(v[2]) - origin) / 6;
     }
     return volume;
   }
@@ -202,7 +202,7 @@ private:
   }
 
   // Increase of the winding number from the back to the front of a facet.
-  int jump(std::size_t f) const
+  int winding_increment(std::size_t f) const
   {
     return m_rule == Solid_rule::PARITY ? m_facets[f].number : m_facets[f].weight;
   }
@@ -238,12 +238,12 @@ private:
         facets_of[cell[s]].push_back(f);
     std::vector<std::size_t> component(m_facets.size());
     for(std::size_t first : find_components(component)) {
-      const std::optional<Outlook> outlook = look_out(first, component);
-      if(!outlook) {
+      const std::optional<Segment_result> result = cast_segment(first, component);
+      if(!result) {
         m_is_complete = false;
         return;
       }
-      const auto [side, outside, w] = *outlook;
+      const auto [side, outside, w] = *result;
       std::vector<std::size_t> queue{m_rule == Solid_rule::ENCLOSED ? cell[outside] : cell[side]};
       winding[queue[0]] = m_rule == Solid_rule::ENCLOSED ? 0 : w;
       is_known[queue[0]] = 1;
@@ -254,8 +254,8 @@ private:
             continue;
           is_known[other] = 1;
           winding[other] = m_rule == Solid_rule::ENCLOSED ? 1
-                           : s == front(f)                ? winding[queue[i]] + jump(f)
-                                                          : winding[queue[i]] - jump(f);
+                           : s == front(f)                ? winding[queue[i]] + winding_increment(f)
+                                                          : winding[queue[i]] - winding_increment(f);
           queue.push_back(other);
         }
     }
@@ -263,16 +263,17 @@ private:
       m_winding[s] = winding[cell[s]];
   }
 
-  struct Outlook
+  struct Segment_result
   {
     std::size_t side;    // side at which the segment starts
     std::size_t outside; // side at which the segment last leaves the component
     int winding;         // winding number around `side`
   };
 
-  // Looks along segments from the middle of a facet to far away; nothing if all of some forty segments touch
+  // Casts segments from the middle of a facet to far away; nothing if all of some forty segments touch
   // edges.
-  std::optional<Outlook> look_out(std::size_t start, const std::vector<std::size_t>& component) const
+  std::optional<Segment_result> cast_segment(std::size_t start,
+                                             const std::vector<std::size_t>& component) const
   {
     const auto& v = m_facets[start].vertices;
     const Point p = CGAL::centroid(m_points[v[0]], m_points[v[1]], m_points[v[2]]);
@@ -283,16 +284,16 @@ private:
     for(int trial = 0; trial < most_trials; ++trial) {
       slope = trial == 0 ? slope : 1.37 * slope;
       const Kernel::Vector_3 out(length, slope * length, 0.618 * slope * (trial + 1) * length);
-      const std::optional<Outlook> outlook = look_out(start, p, p + out, component);
-      if(outlook)
-        return outlook;
+      const std::optional<Segment_result> result = cast_segment(start, p, p + out, component);
+      if(result)
+        return result;
     }
     return std::nullopt;
   }
 
-  // Looks along a segment; nothing if the segment touches an edge, or is parallel to a facet that it touches.
-  std::optional<Outlook> look_out(std::size_t start, const Point& p, const Point& q,
-                                  const std::vector<std::size_t>& component) const
+  // Casts a segment; nothing if the segment touches an edge, or is parallel to a facet that it touches.
+  std::optional<Segment_result> cast_segment(std::size_t start, const Point& p, const Point& q,
+                                             const std::vector<std::size_t>& component) const
   {
     const auto side_of = [this](std::size_t f, const Point& r) {
       const auto& v = m_facets[f].vertices;
@@ -301,7 +302,7 @@ private:
     const Orientation leaves_to = side_of(start, q);
     if(leaves_to == COPLANAR)
       return std::nullopt;
-    Outlook result;
+    Segment_result result;
     result.side = result.outside = leaves_to == POSITIVE ? front(start) : back(start);
     result.winding = 0;
     Kernel::FT farthest = 0;
@@ -322,7 +323,7 @@ private:
         continue;
       if(of_p == COPLANAR || of_q == COPLANAR || o0 == COPLANAR || o1 == COPLANAR || o2 == COPLANAR)
         return std::nullopt;
-      result.winding += of_p == NEGATIVE ? jump(f) : -jump(f);
+      result.winding += of_p == NEGATIVE ? winding_increment(f) : -winding_increment(f);
       if(component[f] != component[start])
         continue;
       const Kernel::FT from_p = CGAL::volume(a, b, c, p), from_q = CGAL::volume(a, b, c, q),

@@ -120,9 +120,9 @@ public:
   std::vector<Sample> samples(std::size_t region) const
   {
     constexpr double number_for_all_shells = 2000;
-    constexpr double at_least = 12;
+    constexpr double least_number_of_samples = 12;
     const Shell& shell = m_shells[region];
-    const double n = at_least + std::floor(number_for_all_shells * shell.area / m_area);
+    const double n = least_number_of_samples + std::floor(number_for_all_shells * shell.area / m_area);
     std::vector<Sample> samples;
     double sum = 0; // sum of areas
     int i = 0;

@@ -79,9 +79,9 @@ private:
         continue;
       const auto touches_domain = [&](const std::array<int, 3>& d) {
         const Node_index m = m_octree.neighbor(n, d);
-        return m != Octree::no_node && (!m_octree.is_leaf(m) || m_located.is_alive(m));
+        return m != Octree::no_node && (!m_octree.is_leaf(m) || m_located.meets_domain(m));
       };
-      if(!m_located.is_alive(n) && std::none_of(directions.begin(), directions.end(), touches_domain))
+      if(!m_located.meets_domain(n) && std::none_of(directions.begin(), directions.end(), touches_domain))
         continue;
       if(m_patterns[n] == 0) {
         m_slots[n] = std::uint32_t(m_mesh.cells.size());

@@ -7,8 +7,8 @@
 //
 // The pass that merges boundary vertices that can not arrive with vertices beside them.
 
-#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_MERGE_VERTICES_OFF_H
-#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_MERGE_VERTICES_OFF_H
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_MERGE_UNARRIVED_VERTICES_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_MERGE_UNARRIVED_VERTICES_H
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
@@ -40,7 +40,7 @@ std::vector<Working_mesh::Edge> merge_with_neighbors(Fitting_state<Quality>& s,
 {
   std::vector<Working_mesh::Edge> merged;
   s.underway.clear();
-  for(Vertex_index v : s.vertices_off()) {
+  for(Vertex_index v : s.vertices_not_arrived()) {
     if(s.is_held[v])
       continue;
     const Vec3 place = s.project(s.mesh.points[v], s.mesh.strata[v]);
@@ -66,20 +66,20 @@ std::vector<Working_mesh::Edge> merge_with_neighbors(Fitting_state<Quality>& s,
 /// round is undone, and other merges are tried.
 /// \return whether the pass was not stopped
 template <class Quality>
-bool merge_vertices_off(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
+bool merge_unarrived_vertices(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
 {
   constexpr int rounds = 24;
   // A merge that makes elements worse than that multiple of the bound would not be mended.
-  constexpr double worth_merging = 100;
-  const double bound = s.bound_in_the_end();
-  Boundary_vertex_merger<Quality> merger(s.mesh, s.quality, worth_merging * bound);
+  constexpr double largest_multiple_to_merge = 100;
+  const double bound = s.final_bound();
+  Boundary_vertex_merger<Quality> merger(s.mesh, s.quality, largest_multiple_to_merge * bound);
   typename Fitting_state<Quality>::Flipper flipper(s.mesh, s.quality, bound);
   Failed_merges failed;
   s.moves.attract({});
   s.moves.set_bound(bound);
   if(!s.moves.vertices_above(bound).empty())
     return true; // merges would not improve elements
-  for(int round = 0; round < rounds && !s.vertices_off().empty(); ++round) {
+  for(int round = 0; round < rounds && !s.vertices_not_arrived().empty(); ++round) {
     if(!go_on())
       return false;
     const auto simple = s.snapshot();
@@ -118,4 +118,4 @@ bool merge_vertices_off(Fitting_state<Quality>& s, const std::function<bool()>& 
 } // namespace Mixed_meshes_3
 } // namespace CGAL
 
-#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_MERGE_VERTICES_OFF_H
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_MERGE_UNARRIVED_VERTICES_H
