@@ -178,7 +178,7 @@ class Febio(unittest.TestCase):
 
     def test_sliding_means_and_materials(self):
         """Oblique supports, and means that have vertices in common with these and with each other."""
-        model = self.check_solution("--slide-below", "0.7", "--control-radius", "15")
+        model = self.check_solution("--slide-below", "0.7", "--control-radius", "25")
         self.assertGreater(len(model.links), 50)
         offsets = [c for c in model.links if model.values[c] != 0]
         self.assertGreater(max(len(model.links[c]) for c in offsets), 9)

@@ -275,7 +275,11 @@ class Meshes(Case):
         default, _ = self.brain()
         self.assertEqual(default["quality"], told[0.35]["quality"])
         # the gentler, the fewer vertices are left for the region
-        self.assertGreater(told[0]["mesh"]["vertices in region"], told[2]["mesh"]["vertices in region"])
+        octree, _ = self.brain("--grading", 2, "--no-exchange")
+        self.assertGreater(told[0]["mesh"]["vertices in region"], octree["mesh"]["vertices in region"])
+        self.assertGreater(told[2]["mesh"]["vertices in region"], octree["mesh"]["vertices in region"])
+        self.assertEqual(octree["octree"]["vertices collapsed"], 0)
+        self.assertGreater(told[2]["octree"]["vertices collapsed"], 0)
 
     def test_modes(self):
         for arguments in (["--mode", "paper"], ["--root", "box"], ["--templates", "centered"], ["--no-fit"],

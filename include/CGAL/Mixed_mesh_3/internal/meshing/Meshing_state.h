@@ -38,6 +38,10 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
+/// Share of the tolerance that the distance should be within at the points where it is measured: the distance
+/// between these points is larger by up to a tenth.
+constexpr double share_of_tolerance = 0.9;
+
 /// The octree on its way to the budget, the mesh of it on the lattice, and what is known of both. The steps
 /// of the method are functions of this state.
 struct Meshing_state
@@ -187,7 +191,7 @@ struct Meshing_state
       return Misfit::without_mesh();
     const double tolerance = criteria.tolerance(), distance = result.optimization.largest_distance;
     return Misfit(mesh, root.domain(), criteria.fit_to_surface(), result.number_of_lost_cells,
-                  number_not_arrived(), tolerance > 0 ? distance / tolerance - 1 : 0);
+                  number_not_arrived(), tolerance > 0 ? distance / (share_of_tolerance * tolerance) - 1 : 0);
   }
 
   /// The number of boundary vertices of the mesh optimized last that are not on the surface.

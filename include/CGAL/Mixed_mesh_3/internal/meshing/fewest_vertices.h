@@ -30,13 +30,11 @@ namespace internal {
 
 constexpr std::size_t least_budget = 60; // the shape of a brain is lost with fewer vertices
 
-/// Whether a mesh is within the tolerance, and has topology and volume of the domain. The distance between
-/// the points where it is measured is larger by up to a tenth.
+/// Whether a mesh is within the tolerance, and has topology and volume of the domain.
 inline bool meets_all_criteria(const Mixed_mesh_result_3& r)
 {
-  constexpr double share = 0.9;
   return (r.status == Mixed_mesh_status::SUCCESS || r.status == Mixed_mesh_status::BUDGET_NOT_FILLED)
-         && r.optimization.largest_distance <= share * r.tolerance;
+         && r.optimization.largest_distance <= share_of_tolerance * r.tolerance;
 }
 
 /// The budget that is tried first: a quarter of the budget whose default tolerance is the tolerance of the
