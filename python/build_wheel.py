@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What pip calls (PEP 517): the module is built by CMake, and packed as a wheel.
+"""The build backend for pip (PEP 517): CMake builds the module, which is packed as a wheel.
 
     pip install --no-build-isolation ./python        needs pybind11-dev and the packages of scripts/setup.sh build
-    python3 python/build_wheel.py FOLDER [BUILD]     the wheel alone, of a build of the module if there is one
+    python3 python/build_wheel.py FOLDER [BUILD]     only the wheel, from a build of the module if BUILD is given
 """
 
 import base64
@@ -55,7 +55,7 @@ def _pack(build, folder):
         record += f"{name},sha256={digest},{len(content)}\n"
     files[f"{info}/RECORD"] = f"{record}{info}/RECORD,,\n".encode()
     with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, content in files.items():  # the same bytes whenever it is made
+        for name, content in files.items():  # the same bytes in each build
             entry = zipfile.ZipInfo(name)
             entry.external_attr = 0o644 << 16
             entry.compress_type = zipfile.ZIP_DEFLATED

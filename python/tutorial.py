@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A tour of the Python package: from two surfaces to a brain that has shifted, and its tumor removed.
+"""A tutorial of the Python package: from surfaces to a brain after a shift and the resection of its tumor.
 
 Each part can be pasted into a notebook."""
 
-# %% Surfaces are arrays: those of the bundled brain here, else of read_surface() or of any other reader
+# %% Surfaces are arrays: here those of the bundled brain, otherwise from read_surface() or any other reader
 import numpy as np
 
 import mixed_mesh_3 as mm3
@@ -30,13 +30,13 @@ shift = model.solve(measured)
 assert np.abs(shift[top] - measured).max() < 1e-6
 print("largest displacement: %.2f mm" % np.linalg.norm(shift, axis=1).max())
 
-# %% The tumor is resected: how the rest moves then
+# %% The tumor is resected, and the shift is computed again
 removed = mm3.resect(mesh, *tumor)
 model.remove(removed)
 after = model.solve(measured)
 print("resected: %.1f cm3" % (mm3.quality(mesh, "volume")[removed].sum() / 1000))
 
-# %% An image follows: here one of stripes, 2 mm wide voxels
+# %% An image is deformed with the mesh: here an image of stripes, with voxels 2 mm wide
 lower, upper = mesh.points.min(axis=0) - 10, mesh.points.max(axis=0) + 10
 affine = np.diag([2.0, 2.0, 2.0, 1.0])
 affine[:3, 3] = lower

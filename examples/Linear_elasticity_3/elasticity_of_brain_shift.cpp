@@ -60,7 +60,7 @@ double largest(const std::vector<Vector>& displacements)
 
 int main(int argc, char** argv)
 try {
-  // 1. The mesh: fine on the path from the opening in the skull to the tumor.
+  // 1. The mesh is fine on the path from the opening in the skull to the tumor.
   const Surface brain = read("brain.off"), path = read("region.off"), tumor = read("tumour.off");
   Mesh mesh;
   if(!CGAL::make_mixed_mesh_3(brain, path, argc > 1 ? std::stoul(argv[1]) : 2000, mesh).has_mesh())
@@ -68,7 +68,7 @@ try {
   std::cout << "mesh: " << mesh.number_of_vertices() << " vertices, " << mesh.number_of_elements()
             << " elements\n";
 
-  // 2. The boundary conditions: the brain rests on the base of the skull; elsewhere its surface is free.
+  // 2. The boundary conditions: the brain rests on the base of the skull; the rest of its surface is free.
   //    Young's modulus is 1 kPa, Poisson's ratio 0.45: the defaults.
   Elasticity elasticity(mesh);
   const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(brain);
@@ -76,13 +76,13 @@ try {
     if(mesh.point(v).z() < box.zmin() + 0.3 * (box.zmax() - box.zmin()))
       elasticity.prescribe(v);
 
-  // 3. The factorization: before surgery, all that depends on the mesh.
+  // 3. The factorization: all computations that depend on the mesh only, before surgery.
   check(elasticity.factor());
 
-  // 4. Surgery: the skull is open. Four points of the cortex are measured before and after, here 10 mm
-  //    inwards on the way to the tumor. They need not be vertices; up to 5 mm outside the mesh will do. The
-  //    first call is for the points; the second, for their displacements, can be repeated as these change, at
-  //    next to no cost.
+  // 4. Surgery: the skull is open. Four points of the cortex are measured before and after the shift, here 10
+  //    mm inwards on the path to the tumor. The points need not be vertices; they may be up to 5 mm outside
+  //    the mesh. The first call sets the points; the second call, which takes little time, sets their
+  //    displacements, and can be repeated when these change.
   const std::vector<Vector> points{{43.633, 24.044, 49.096},
                                    {35.245, 31.664, 49.283},
                                    {29.646, 24.914, 57.660},
@@ -93,8 +93,8 @@ try {
   const std::vector<Vector> shift = elasticity.displacements();
   std::cout << "shift: up to " << largest(shift) << " mm\n";
 
-  // 5. The resection: elements in the tumor go, and the mesh is factored without them. Supports and control
-  //    points stay.
+  // 5. The resection: elements in the tumor are removed, and the mesh is solved without them. Supports and
+  //    control points stay.
   const mm3::Resection_3 resection = mm3::resect(mesh, tumor);
   if(resection.status != mm3::Resection_status::SUCCESS)
     throw std::runtime_error(mm3::description(resection.status));
@@ -103,7 +103,7 @@ try {
   std::cout << "resection: " << resection.volume / 1000 << " ml; shift: up to "
             << largest(elasticity.displacements()) << " mm\n";
 
-  // 6. For ParaView: displacements of vertices, and which elements are gone.
+  // 6. The file for ParaView has the displacements of vertices, and the elements that are removed.
   std::vector<double> displacements, is_removed(resection.is_removed.begin(), resection.is_removed.end());
   for(const Vector& u : elasticity.displacements())
     displacements.insert(displacements.end(), u.begin(), u.end());

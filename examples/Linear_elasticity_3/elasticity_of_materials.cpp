@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A material for each subdomain, a mesh from a file, and a solver of one's own: a stiff tumor bends less.
+// A material for each subdomain, a mesh from a file, and a user-defined solver: a stiff tumor bends less.
 
 #include <CGAL/Eigen_solver_traits.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -26,11 +26,11 @@
 namespace mm3 = CGAL::Mixed_meshes_3;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Mixed_mesh_3<Kernel>;
-// Any model of SparseLinearAlgebraWithFactorTraits_d will do. This one needs little memory, but iterates.
+// Any model of SparseLinearAlgebraWithFactorTraits_d suffices. This one needs little memory, but iterates.
 using Solver = CGAL::Eigen_solver_traits<
   Eigen::ConjugateGradient<CGAL::Eigen_sparse_symmetric_matrix<double>::EigenType, Eigen::Lower>>;
 
-// The largest change of length of an edge of the tumor's elements, relative to it.
+// The largest relative change of length of an edge of the tumor's elements.
 double strain(const Mesh& mesh, const std::vector<mm3::Vec3>& u)
 {
   double largest = 0;
@@ -47,7 +47,7 @@ double strain(const Mesh& mesh, const std::vector<mm3::Vec3>& u)
 
 int main()
 {
-  // Two subdomains, by a file: as any mesh with labels that read_mixed_mesh() reads, of Gmsh or TetGen.
+  // The mesh with two subdomains comes from a file with labels, as read_mixed_mesh() reads of Gmsh or TetGen.
   CGAL::Surface_mesh<Kernel::Point_3> brain, tumor;
   Mesh made, mesh;
   CGAL::Labeled_polyhedral_mixed_mesh_domain_3 domain;
@@ -68,7 +68,7 @@ int main()
     for(const mm3::Vertex_index v : mm3::boundary_vertices(mesh))
       if(mesh.point(v).z() < -20)
         elasticity.prescribe(v);
-    elasticity.set_gravity({0, 0, -400}); // mm/s^2: 4 % of the weight, as the rest floats
+    elasticity.set_gravity({0, 0, -400}); // mm/s^2: 4 % of the weight; buoyancy balances the rest
     if(!elasticity.factor().is_success() || !elasticity.solve().is_success())
       return EXIT_FAILURE;
     strains[is_stiff] = strain(mesh, elasticity.displacements());

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A mesh of CGAL's Mesh_3, with slivers: certified, made better, and used for elasticity.
+// A mesh of CGAL's Mesh_3, with slivers: it is certified, improved, and used for elasticity.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Linear_elasticity_3.h>
@@ -51,7 +51,7 @@ try {
   if(!mm3::IO::read_closed_surface(CGAL::data_file_path("brain.off"), brain, &error))
     throw std::runtime_error(error);
 
-  // Sizes are in mm. Neither perturbation nor exudation.
+  // Sizes are in mm. The mesh is made without perturbation and exudation.
   const Domain domain(brain);
   const Criteria criteria(Criteria::Facet_criteria(25, 20, 4), Criteria::Cell_criteria(2, 20));
   const auto complex = CGAL::make_mesh_3<Complex>(domain, criteria, CGAL::parameters::no_perturb(),
@@ -60,7 +60,7 @@ try {
   CGAL::cells_in_complex_3_to_mixed_mesh(complex, mesh);
   print("Mesh_3", mesh);
 
-  // Vertices move and tetrahedra are flipped; none is inverted on the way.
+  // Vertices move and tetrahedra are flipped; no tetrahedron is inverted at any time.
   CGAL::optimize_mixed_mesh_3(mesh, brain, CGAL::Mixed_mesh_optimization_criteria_3());
   print("optimized", mesh);
   if(!mm3::certify_mesh(mesh).is_valid())

@@ -28,7 +28,7 @@ using Mesh = CGAL::Mixed_mesh_3<Kernel>;
 
 bool fit(Mesh mesh, const Surface& subject, const std::string& file)
 {
-  // Algorithm 1 moves all vertices at once; then the optimization, without flips: elements stay the same.
+  // Algorithm 1 moves all vertices at once; then the optimization without flips keeps the elements.
   const auto fitted = CGAL::fit_mixed_mesh_to_surface(mesh, subject);
   const auto optimized = CGAL::optimize_mixed_mesh_3(mesh, subject,
                                                      CGAL::Mixed_mesh_optimization_criteria_3().flips(false));
@@ -53,8 +53,8 @@ int main()
      || !CGAL::make_mixed_mesh_3(brain, 660, atlas).has_mesh())
     return EXIT_FAILURE;
 
-  // The subjects: a wider and shorter brain, and one that is bent. They lie where the atlas does; others have
-  // to be brought there first, as the fit is to the nearest points of the surface.
+  // The subjects: a wider and shorter brain, and a bent one. They have the position of the atlas; other
+  // subjects must first be registered, because the fit is to the nearest points of the surface.
   Surface wide = brain, bent = brain;
   for(const auto v : brain.vertices()) {
     const Point& p = brain.point(v);

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A domain without a surface mesh, by a class of one's own: a solid ring, given by its signed distance.
+// A domain without a surface mesh, by a user-defined class: a solid ring, given by its signed distance.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
@@ -29,7 +29,7 @@ class Ring_domain
 public:
   using Point_3 = Kernel::Point_3;
 
-  // What is known of the surface in a cell. A formula needs no such help.
+  // The data about the surface in a cell. A formula needs no such data.
   struct Surface_part
   {
   };
@@ -37,14 +37,14 @@ public:
 
   CGAL::Bbox_3 bbox() const { return {-R - r, -R - r, -r, R + r, R + r, r}; }
 
-  // Positive outside.
+  // The signed distance, positive outside.
   double signed_distance(const Point_3& p) const
   {
     return std::hypot(std::hypot(p.x(), p.y()) - R, p.z()) - r;
   }
 
-  // A cell is off the surface if its circumscribed ball is. To answer ON_BOUNDARY too often costs
-  // time; to answer it too rarely would lose parts of the domain.
+  // A cell is off the surface if its circumscribed ball is. Too many answers ON_BOUNDARY cost time; too few
+  // would lose parts of the domain.
   template <class Cell>
   CGAL::Bounded_side locate(const Cell& cell, const Surface_part&, Surface_part&) const
   {
@@ -60,8 +60,8 @@ public:
     return d > 0 ? CGAL::ON_UNBOUNDED_SIDE : d < 0 ? CGAL::ON_BOUNDED_SIDE : CGAL::ON_BOUNDARY;
   }
 
-  // From the nearest point of the circle, through `p`, to the surface. On the axis, and on the circle, all
-  // directions are as near.
+  // The point of the surface on the ray from the nearest point of the circle through `p`. On the axis, and on
+  // the circle, all directions are equivalent.
   Point_3 closest_point(const Point_3& p) const
   {
     const double d = std::hypot(p.x(), p.y());
@@ -69,11 +69,11 @@ public:
     const double distance = std::hypot(d - R, p.z());
     return distance > 0 ? q + r / distance * (p - q) : q + Kernel::Vector_3(0, 0, r);
   }
-  // The same, with a hint: what is known of the surface in a cell, or a point of the surface near by.
+  // The same, with a hint: the data about the surface in a cell, or a point of the surface near `p`.
   Point_3 closest_point(const Point_3& p, const Surface_part&) const { return closest_point(p); }
   Point_3 closest_point(const Point_3& p, const Point_3&) const { return closest_point(p); }
 
-  // A grid of that spacing, along the circle and around it. Distances are measured there, with a tolerance.
+  // A grid of that spacing, along the circle and around it. With a tolerance, distances are measured there.
   std::vector<Point_3> surface_samples(double spacing) const
   {
     std::vector<Point_3> samples;
@@ -90,20 +90,20 @@ public:
 
 int main()
 {
-  // Fine in a ball at one side of the ring.
+  // The mesh is fine in a ball at one side of the ring.
   const Ring_domain ring;
   const CGAL::Ball_mixed_mesh_region_3 ball({3, 0, 0}, 1.5);
   Mesh mesh;
-  // Nowhere are cells larger than a quarter of the ring's thickness.
+  // No cell is larger than a quarter of the ring's thickness.
   const auto criteria = CGAL::Mixed_mesh_criteria_3(5000).base_level(4);
   const auto result = CGAL::make_mixed_mesh_3(ring, ball, criteria, mesh);
   if(result.status != CGAL::Mixed_mesh_status::SUCCESS)
     return EXIT_FAILURE;
 
-  // Is the hole there? The boundary consists of triangles; its Euler characteristic is 0 for a torus.
+  // The boundary consists of triangles. Its Euler characteristic is 0, as of a torus, if the hole exists.
   const std::vector<mm3::Face> boundary = mm3::boundary_faces(mesh);
   const std::vector<mm3::Vertex_index> boundary_vertices = mm3::vertices_of(boundary);
-  double farthest = 0; // from the surface, of the boundary's vertices
+  double farthest = 0; // distance of the boundary's vertices from the surface
   for(mm3::Vertex_index v : boundary_vertices)
     farthest = (std::max)(farthest, std::abs(ring.signed_distance(mesh.point(v))));
   const std::size_t triangles = boundary.size(), edges = triangles * 3 / 2;

@@ -3,7 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A measure of quality of one's own: how much of a volume the edges at each corner span for their lengths.
+// A user-defined measure of quality: the volume that the edges at each corner span, relative to their
+// lengths.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
@@ -38,7 +39,7 @@ struct Corner_quality
       if(cost <= worst)
         continue;
       worst = cost;
-      gradient = {0, 0, 0}; // what an edge gains if a neighbor moves, it loses if the corner does
+      gradient = {0, 0, 0}; // for each edge, the corner moves opposite to the neighbor
       for(int i = 0; i < 3; ++i)
         if(vertex == v[0] || vertex == v[i + 1])
           gradient = gradient
@@ -52,7 +53,7 @@ struct Corner_quality
     mm3::Vec3 unused;
     return (*this)(kind, p, 0, unused);
   }
-  bool is_acceptable(double cost) const { return cost < 5; } // Algorithm 1 asks; the optimization does not
+  bool is_acceptable(double cost) const { return cost < 5; } // called by Algorithm 1 only
 };
 
 double cost(const Mesh& mesh, std::size_t e)

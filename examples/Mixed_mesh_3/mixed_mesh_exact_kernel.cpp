@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Exact numbers in, exact numbers out: a surface with coordinates like 1/3, and a mesh whose volume,
-// summed over its elements and over its boundary, is the same to the last bit.
+// Input and output with exact numbers: a surface with coordinates like 1/3, and a mesh whose volume, summed
+// over its elements and over its boundary, is the same to the last bit.
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
@@ -24,7 +24,7 @@ using Mesh = CGAL::Mixed_mesh_3<Kernel>;
 
 int main()
 {
-  // An octahedron whose vertices are no doubles. The domain rounds them, once; from then on all
+  // An octahedron whose vertices are no doubles. The domain rounds the vertices, once; from then on all
   // predicates are exact.
   const Kernel::FT a = Kernel::FT(1) / 3;
   const std::array<Point_3, 6> p = {Point_3(a, 0, 0),  Point_3(0, a, 0), Point_3(-a, 0, 0),
@@ -38,21 +38,22 @@ int main()
     surface.add_face(V((i + 1) % 4), V(i), V(5));
   }
 
-  // Regions have no kernel of their own: the upper tip, as a ball about a point that is rounded, too.
+  // Regions have no kernel of their own: the region is the upper tip, a ball about a point that is also
+  // rounded.
   const CGAL::Polyhedral_mixed_mesh_domain_3 domain(surface);
   const CGAL::Ball_mixed_mesh_region_3 tip(p[4], 0.15);
   Mesh mesh;
   if(!CGAL::make_mixed_mesh_3(domain, tip, 1000, mesh).has_mesh())
     return EXIT_FAILURE;
 
-  // Vertices are doubles, so exact arithmetic on them has no error at all.
+  // Vertices are doubles, so exact arithmetic on vertices has no error.
   const Mesh tetrahedra = mm3::split_to_tetrahedra(mesh);
   Kernel::FT inside = 0, through_boundary = 0;
   for(mm3::Element_index e = 0; e < tetrahedra.number_of_elements(); ++e) {
     const auto t = tetrahedra.element(e);
     inside += CGAL::volume(tetrahedra.point(t[0]), tetrahedra.point(t[1]), tetrahedra.point(t[2]),
                            tetrahedra.point(t[3]));
-    inside.exact(); // no need to remember the sum
+    inside.exact(); // evaluates the sum, so that its terms need not be stored
   }
   for(const mm3::Face& face : mm3::boundary_faces(tetrahedra)) {
     const auto& v = face.vertices();

@@ -26,8 +26,8 @@ using Mesh = CGAL::Mixed_mesh_3<Kernel>;
 
 int main(int argc, char** argv)
 try {
-  // The domain, and the path from the skull opening to the tumor. Both have to be closed; the reader
-  // mends what is harmless, and says what is not.
+  // The domain, and the path from the skull opening to the tumor. Both surfaces have to be closed; the reader
+  // repairs minor defects, and reports the others.
   Surface brain, path;
   std::string error;
   if(!mm3::IO::read_closed_surface(argc > 1 ? argv[1] : CGAL::data_file_path("brain.off"), brain, &error)
@@ -37,7 +37,7 @@ try {
     return EXIT_FAILURE;
   }
 
-  // The budget bounds the mesh that comes out, everything included. Its boundary is on the surface.
+  // The budget bounds the number of vertices of the final mesh. The boundary of the mesh is on the surface.
   const std::size_t budget = argc > 3 ? std::stoul(argv[3]) : 660;
   Mesh mesh;
   const CGAL::Mixed_mesh_result_3 result = CGAL::make_mixed_mesh_3(brain, path, budget, mesh);
@@ -54,7 +54,7 @@ try {
     std::cout << rows[kind].count << ' ' << mm3::reference_elements[kind].plural << ", ARC "
               << rows[kind].mean << " (at most " << rows[kind].maximum << ")\n";
 
-  // For ParaView; the extension tells the format.
+  // A file for ParaView; the extension determines the format.
   if(!mm3::IO::write_mixed_mesh("mixed_mesh_of_a_brain.vtu", mesh, {}, &error)) {
     std::cerr << error << '\n';
     return EXIT_FAILURE;

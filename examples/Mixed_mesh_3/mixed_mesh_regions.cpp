@@ -60,8 +60,8 @@ try {
   const CGAL::Weighted_mixed_mesh_region_3 second(CGAL::Ball_mixed_mesh_region_3({-30, -20, 30}, 12), 0.5);
   const CGAL::Union_mixed_mesh_region_3 region(CGAL::Polyhedral_mixed_mesh_region_3(path_surface), second);
 
-  // From the tumor to the skull opening; the frame of the cells is exactly orthogonal, its third
-  // axis within a few degrees of the wanted one.
+  // The axis from the tumor to the skull opening; the frame of the cells is exactly orthogonal, its third
+  // axis within a few degrees of the given one.
   const Kernel::Point_3 tumor(28, 18, 24), opening(45, 30, 76);
   const mm3::Axis_aligned_octree_cell_traits_3 aligned(brain.bbox());
   const mm3::Rotated_octree_cell_traits_3 rotated(brain_surface.points(), opening - tumor);

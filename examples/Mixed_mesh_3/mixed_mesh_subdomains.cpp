@@ -36,12 +36,12 @@ try {
     return EXIT_FAILURE;
   }
 
-  // What is added first counts where surfaces overlap: the tumor, then the brain around it.
+  // Where surfaces overlap, the first one counts: the tumor, then the brain around it.
   CGAL::Labeled_polyhedral_mixed_mesh_domain_3 domain;
   domain.add(tumor, 2);
   domain.add(brain, 1);
 
-  // The tumor is the region of interest, too: elements are small there.
+  // The tumor is also the region of interest: elements are small there.
   Mesh mesh;
   const CGAL::Mixed_mesh_result_3 result = CGAL::make_mixed_mesh_3(
     domain, CGAL::Polyhedral_mixed_mesh_region_3(tumor), argc > 3 ? std::stoul(argv[3]) : 1000, mesh);
@@ -52,7 +52,7 @@ try {
   for(const auto& [index, volume] : mm3::volumes_of_subdomains(mesh))
     std::cout << "subdomain " << index << ": " << volume / 1000 << " cm^3\n";
 
-  // Interfaces are written as named faces, to hold conditions in a finite-element program.
+  // Interfaces are written as named faces, for boundary conditions in a finite-element program.
   mm3::IO::Write_options options;
   for(const mm3::Subdomain_interface& one : mm3::find_interfaces(mesh)) {
     std::cout << "between " << one.first << " and " << one.second << ": " << one.faces.size() << " faces, "

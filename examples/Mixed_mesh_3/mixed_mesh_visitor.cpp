@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Watching a run, and stopping it when it takes too long.
+// A visitor that observes a run, and stops the run after a time limit.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
@@ -21,7 +21,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 using Mesh = CGAL::Mixed_mesh_3<Kernel>;
 
-// Model of MixedMeshVisitor_3. What the default visitor has need not be written again.
+// Model of MixedMeshVisitor_3. The default visitor has the remaining members.
 class Time_limit : public mm3::Default_visitor
 {
   using Clock = std::chrono::steady_clock;
@@ -45,7 +45,7 @@ public:
       std::cout << "  " << seconds() << " s: " << mm3::stage_names[int(stage)] << '\n';
   }
 
-  // Asked for each mesh that is tried, and in each round of the optimization.
+  // Called for each mesh that is tried, and in each round of the optimization.
   bool go_on() { return seconds() < m_limit; }
 };
 
@@ -60,13 +60,13 @@ try {
     return EXIT_FAILURE;
   }
 
-  // Enough time for a small mesh, not for a large one.
+  // The time suffices for a small mesh, not for a large one.
   bool is_as_expected = true;
   for(const auto& [budget, limit] : {std::pair(std::size_t(660), 60.), {2000000, 0.05}}) {
     std::cout << "at most " << budget << " vertices, in " << limit << " s:\n";
     Time_limit visitor(limit);
     Mesh mesh;
-    // By reference: a visitor given by value would be copied.
+    // The visitor is given by reference: a visitor given by value would be copied.
     const auto result = CGAL::make_mixed_mesh_3(brain, path, budget, mesh,
                                                 CGAL::parameters::visitor(std::ref(visitor)));
     const bool is_stopped = result.status == CGAL::Mixed_mesh_status::STOPPED;

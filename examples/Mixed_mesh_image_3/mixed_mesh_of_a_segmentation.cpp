@@ -3,8 +3,9 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From an image of labels to a mesh: the domain is all that has a label, one label is the region of interest.
-// `IO::read_NIFTI()` reads images; here one is made, of an ellipsoid with a ball in it.
+// From an image of labels to a mesh: the domain consists of all voxels with a label, and one label is the
+// region of interest. `IO::read_NIFTI()` reads images; this program makes an image of an ellipsoid with a
+// ball in it.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
@@ -48,7 +49,7 @@ int main()
 try {
   const mm3::Voxel_image_3 image = make_image();
 
-  // The indicator of the labels, smoothed by a Gaussian of a voxel: closed surfaces without steps.
+  // A Gaussian of one voxel smooths the indicator of the labels: closed surfaces without steps.
   const double smoothing = 4; // mm
   Surface domain, region;
   mm3::make_label_surface(
@@ -56,7 +57,7 @@ try {
   mm3::make_label_surface(
     image, [](float label) { return label == tumor; }, smoothing, region);
   std::cout << "surface of " << domain.number_of_vertices() << " vertices, simplified to ";
-  mm3::simplify_closed_surface(domain, 3000); // what the mesh can follow, several times
+  mm3::simplify_closed_surface(domain, 3000); // several times the vertices that the mesh can follow
   std::cout << domain.number_of_vertices() << '\n';
 
   CGAL::Mixed_mesh_3<Kernel> mesh;

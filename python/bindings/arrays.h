@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Between NumPy's arrays and what the library takes.
+// Conversion between arrays of NumPy and types of the library.
 
 #ifndef MIXED_MESH_3_PYTHON_ARRAYS_H
 #define MIXED_MESH_3_PYTHON_ARRAYS_H
@@ -29,7 +29,7 @@ using Mesh = CGAL::Mixed_mesh_3<Kernel>;
 using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 using Vector = mm3::Vec3;
 
-// Arrays of other types and orders are converted; not numbers with fractions to integers.
+// Arrays of other types and orders are converted, except numbers with fractions to integers.
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Integers = py::array_t<std::int64_t, py::array::c_style>;
 using Marks = py::array_t<bool, py::array::c_style | py::array::forcecast>;
@@ -40,20 +40,20 @@ std::vector<Vector> vectors_of(const Doubles& array, const std::string& name);
 /// The same as an array.
 py::array_t<double> array_of(const std::vector<Vector>& vectors);
 
-/// Of an array of truth values, one for each of n things.
+/// An array of n truth values.
 std::vector<bool> marks_of(const Marks& array, std::size_t n, const std::string& name);
 
 py::array_t<bool> array_of(const std::vector<bool>& marks);
 
-/// A closed surface, mended as far as it can be.
+/// A closed surface, repaired as far as possible.
 /// \throw std::invalid_argument names the defect
 Surface surface_of(const Doubles& points, const Integers& triangles, const std::string& name,
                    std::vector<std::string>& warnings);
 
-/// (n, 3) points and (m, 3) triangles of a surface without garbage.
+/// (n, 3) points and (m, 3) triangles of a surface, without unused entries.
 py::tuple arrays_of(const Surface& surface);
 
-// What the parts of the module add to it.
+// Functions of the parts of the module, which add their names to it.
 void add_mesh(py::module_& module);
 void add_meshing(py::module_& module);
 void add_elasticity(py::module_& module);

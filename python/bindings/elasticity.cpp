@@ -35,9 +35,9 @@ void check(const CGAL::Linear_elasticity_result_3& result)
     throw Elasticity_error(result.description());
 }
 
-// Scope of what factors and solves: other threads of Python run meanwhile, but only one computes, as OpenBLAS
-// without threads is wrong in two; and CHOLMOD computes as in brain_shift, so that results are the same, byte
-// for byte.
+// Scope of factorizations and solutions: other threads of Python run meanwhile, but only one thread computes,
+// because OpenBLAS without threads gives wrong results in two; and CHOLMOD computes as in brain_shift, so
+// that results are the same, byte for byte.
 struct Computation
 {
   inline static std::mutex mutex;
@@ -47,7 +47,7 @@ struct Computation
   const One_blas_thread one_thread;
 };
 
-// Keeps the mesh that the solver refers to, and factors when that is first needed.
+// Keeps the mesh that the solver refers to, and factors the system when the factor is first needed.
 class Elasticity
 {
   using Solver = CGAL::Linear_elasticity_3<Mesh>;

@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Images of labels to surfaces, and images that follow a displacement.
+// Surfaces from images of labels, and images that follow a displacement.
 
 #include "arrays.h"
 
@@ -24,7 +24,7 @@
 
 namespace {
 
-// With the first index running fastest, as in files.
+// Values with the first index running fastest, as in files.
 using Voxels = py::array_t<float, py::array::f_style | py::array::forcecast>;
 
 mm3::Voxel_image_3 image_of(const Voxels& values, const Doubles& affine)
@@ -69,7 +69,7 @@ py::array_t<float> values_of(const mm3::Displacement_field_3& field)
   return array;
 }
 
-// Voxels with one of some values, completed.
+// Voxels with one of the given values, completed.
 py::array complete_label(const Voxels& values, const Doubles& affine, const std::set<float>& labels,
                          std::optional<double> radius, bool fill_holes, bool keep_largest,
                          double least_volume, bool is_hull)
@@ -99,7 +99,7 @@ py::array complete_label(const Voxels& values, const Doubles& affine, const std:
   return values_of(mask);
 }
 
-// The surface of voxels with one of some values, simplified; without points if smoothing leaves nothing.
+// The surface of voxels with one of the given values, simplified; empty if smoothing removes all voxels.
 py::tuple label_surface(const Voxels& values, const Doubles& affine, const std::set<float>& labels,
                         std::optional<double> smoothing, std::size_t vertices)
 {

@@ -67,7 +67,7 @@ std::shared_ptr<Mesh> mesh_of_arrays(const Doubles& points, const Kinds& kinds, 
   return mesh;
 }
 
-// Arrays that look into the mesh; it lives as long as they do, and is not changed.
+// Arrays that refer to the mesh, which lives as long as the arrays, and does not change.
 template <class T>
 py::array view_of(const T* data, std::vector<py::ssize_t> shape, const py::object& owner)
 {
@@ -76,7 +76,7 @@ py::array view_of(const T* data, std::vector<py::ssize_t> shape, const py::objec
   return std::move(array);
 }
 
-// A getter of a property: an array of the elements, as one of T. `get` takes an Element_list.
+// The getter of a property: the values that `get` takes from an Element_list, as an array of type T.
 template <class T, class Get>
 auto view_of_elements(const Get& get)
 {
@@ -95,7 +95,7 @@ py::array_t<T> of_elements(const Mesh& mesh, const Of_element& of_element)
   return array;
 }
 
-// For each element whether its Jacobian is proved positive all over it.
+// For each element, whether its Jacobian is proved positive on the whole element.
 py::array_t<bool> certify(const Mesh& mesh)
 {
   std::vector<bool> is_positive(mesh.number_of_elements());
@@ -154,7 +154,7 @@ void save(const Mesh& mesh, const std::string& path, int order, bool has_only_te
     throw std::invalid_argument(error);
 }
 
-// The table of element kinds: the page of a mesh finds the faces to draw by it.
+// The table of element kinds, from which the page of a mesh computes the faces to draw.
 py::list element_kinds()
 {
   py::list kinds;

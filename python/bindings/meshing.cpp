@@ -3,7 +3,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Surfaces to meshes.
+// Meshes from surfaces.
 
 #include "arrays.h"
 
@@ -41,7 +41,7 @@ struct Meshing_error : std::runtime_error
   using runtime_error::runtime_error;
 };
 
-// Tells Python how far it is, and stops when Python says so: by an exception of the function, or by Ctrl-C.
+// Reports progress to Python, and stops the run after an exception of the Python function, or after Ctrl-C.
 class Python_visitor : public mm3::Default_visitor
 {
   using Progress = std::function<void(const char*, std::size_t, std::size_t)>;
@@ -121,7 +121,7 @@ using Labeled_soup = std::tuple<Doubles, Integers, int>;
   }
 }
 
-// As files have them: by kind, within a kind in the order of the mesh.
+// Elements in the order of files: by kind, within a kind in the order of the mesh.
 Mesh sorted_by_kind(const Mesh& mesh)
 {
   Mesh sorted;
@@ -135,7 +135,7 @@ Mesh sorted_by_kind(const Mesh& mesh)
   return sorted;
 }
 
-// What the report says of a mesh beside its surface.
+// The part of the report that compares a mesh with its surface.
 void compare(const Mesh& mesh, const Surface& surface, const CGAL::Mixed_mesh_result_3& result,
              py::dict& report, std::vector<std::string>& warnings)
 {
@@ -273,7 +273,7 @@ py::dict fit(Mesh& mesh, const Soup& soup, const Progress& progress)
   return report;
 }
 
-// A closed surface out of a file: points, triangles, and what was mended.
+// A closed surface from a file: points, triangles, and repairs.
 py::tuple read_surface(const std::string& path, bool is_strict, double wrap_diameter)
 {
   mm3::IO::Read_surface_options options;

@@ -7,9 +7,9 @@
 \ingroup PkgMixedMesh3Concepts
 \cgalConcept
 
-The concept `MixedElementTraits_3` describes one kind of element at compile time, for code that is
-written once for all kinds, for example for the assembly of a stiffness matrix. All is static: a
-model need not be constructible.
+The concept `MixedElementTraits_3` describes one kind of element at compile time, for code that is written
+once for all kinds, for example for the assembly of a stiffness matrix. All members are static: a model need
+not be constructible.
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::Mixed_meshes_3::Mixed_element_traits_3<Kind>\, for each of the four kinds}
@@ -36,8 +36,8 @@ public:
   /// One gradient for each vertex: `std::array<std::array<double, 3>, number_of_vertices>`.
   typedef unspecified_type Shape_gradients;
 
-  /// The values of the shape functions at the point `(r,s,t)` of the reference element. That of a
-  /// vertex is 1 there and 0 at the other vertices, and the values sum to 1.
+  /// The values of the shape functions at the point `(r,s,t)` of the reference element. The shape function of
+  /// a vertex is 1 at this vertex and 0 at the other vertices, and the values sum to 1.
   static Shape_values shape_functions(double r, double s, double t);
 
   /// The gradients of the shape functions with respect to `(r,s,t)`. They need not be defined at

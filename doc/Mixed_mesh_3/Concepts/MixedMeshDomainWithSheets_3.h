@@ -10,7 +10,7 @@
 \cgalRefines{MixedMeshLabeledDomain_3}
 
 The concept `MixedMeshDomainWithSheets_3` describes a domain that may have sheets inside: surfaces that need
-not enclose anything, such as the falx of a brain. Faces of the mesh are brought onto them.
+not enclose a volume, such as the falx of a brain. Faces of the mesh are brought onto the sheets.
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::Labeled_polyhedral_mixed_mesh_domain_3}
@@ -19,7 +19,7 @@ not enclose anything, such as the falx of a brain. Faces of the mesh are brought
 class MixedMeshDomainWithSheets_3
 {
 public:
-  /// The sheets: a range of pointers, of any kind, to `CGAL::Mixed_mesh_sheet_3`, or to what has its
+  /// The sheets: a range of pointers, of any kind, to `CGAL::Mixed_mesh_sheet_3`, or to a type with the same
   /// functions `may_intersect()`, `do_intersect()`, `closest_point()` and `locate()`.
   unspecified_type sheets() const;
 };

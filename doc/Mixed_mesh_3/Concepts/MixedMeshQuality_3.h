@@ -7,15 +7,15 @@
 \ingroup PkgMixedMesh3Concepts
 \cgalConcept
 
-The concept `MixedMeshQuality_3` says how bad an element is, and in which direction it gets worse. The
-optimization minimizes sums of powers of it.
+The concept `MixedMeshQuality_3` defines the cost of an element, and the direction in which the cost
+increases. The optimization minimizes sums of powers of the cost.
 
-The cost has to be continuous where the element is positive; it may have kinks, as the largest of several
-measures has. It should not depend on the position of the element. If it depends on its size, so does the
-result on the unit.
+The cost has to be continuous where the element is positive; the cost may have kinks, as the maximum of
+several measures has. The cost should not depend on the position of the element. If the cost depends on the
+size of the element, the result depends on the unit of length.
 
-A cost need not tell all that makes an element invalid: moves and flips are made only if the Jacobian is
-proved positive on the whole element, whatever the cost.
+A cost need not detect every invalid element: moves and flips are made only if the Jacobian is proved positive
+on the whole element, whatever the cost.
 
 \cgalRefines{CopyConstructible}
 
@@ -32,9 +32,9 @@ public:
   /*!
   The cost of an element.
 
-  \param kind its kind
-  \param points its vertices, ordered as in `CGAL::Mixed_meshes_3::Reference_element`, relative to the
-         first one; those that the kind does not have are zero
+  \param kind the kind of the element
+  \param points the vertices of the element, ordered as in `CGAL::Mixed_meshes_3::Reference_element`, relative
+         to the first vertex; entries beyond the number of vertices of the kind are zero
   \return at least 1, near 1 for a good element; infinity if the element is degenerate or inverted
   */
   double operator()(CGAL::Mixed_meshes_3::Element_kind kind,
@@ -46,14 +46,14 @@ public:
   \param kind as above
   \param points as above
   \param vertex the number of a vertex in the element
-  \param gradient becomes the gradient by the position of that vertex, where the cost is finite. At a
-         kink, that of any of the measures that meet there
+  \param gradient becomes the gradient with respect to the position of that vertex, where the cost is finite;
+         at a kink, the gradient of any of the measures that meet there
   */
   double operator()(CGAL::Mixed_meshes_3::Element_kind kind,
                     const std::array<CGAL::Mixed_meshes_3::Vec3, 8>& points, int vertex,
                     CGAL::Mixed_meshes_3::Vec3& gradient) const;
 
-  /// Whether an element of that cost is good enough for Algorithm 1 of the paper, which stiffens those that
-  /// are not. The optimization does not ask.
+  /// Whether an element of that cost is good enough for Algorithm 1 of the paper, which stiffens all other
+  /// elements. The optimization does not call this function.
   bool is_acceptable(double cost) const;
 };

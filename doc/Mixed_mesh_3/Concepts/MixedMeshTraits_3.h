@@ -7,9 +7,9 @@
 \ingroup PkgMixedMesh3Concepts
 \cgalConcept
 
-The concept `MixedMeshTraits_3` says what the class `CGAL::Mixed_mesh_3` asks of its template
-parameter: a point type. No predicate and no construction is used; those of the method are on
-doubles, with `CGAL::Mixed_meshes_3::Predicates_kernel`.
+The concept `MixedMeshTraits_3` describes the requirements of the class `CGAL::Mixed_mesh_3` on its template
+parameter: a point type. No predicate and no construction of the traits is used; the method uses predicates
+and constructions on doubles, with `CGAL::Mixed_meshes_3::Predicates_kernel`.
 
 A model need not be constructible.
 
@@ -31,11 +31,11 @@ public:
   - a constructor from three `double`;
   - `p.x()`, `p.y()` and `p.z()`, of a type from which `CGAL::to_double()` makes a `double`.
 
-  It has to hold doubles unchanged: `CGAL::to_double(p.x())` is what `p` was constructed from. A
-  point that rounds, such as that of `CGAL::Simple_cartesian<float>`, voids the guarantees: its
-  vertices are not where the proofs have them.
+  The point has to hold doubles unchanged: `CGAL::to_double(p.x())` is the `double` from which `p` was
+  constructed. A point that rounds, such as the point of `CGAL::Simple_cartesian<float>`, voids the
+  guarantees: the positions of vertices differ from those in the proofs.
 
-  It need not be default constructible.
+  The point need not be default constructible.
   */
   typedef unspecified_type Point_3;
 };

@@ -7,7 +7,7 @@
 \ingroup PkgMixedMesh3Concepts
 \cgalConcept
 
-The concept `MixedMeshVisitor_3` is told how a run goes, and can stop it.
+The concept `MixedMeshVisitor_3` describes an object that observes a run, and can stop the run.
 
 The search for the budget tries several octrees. For each of them, the calls are
 
@@ -16,16 +16,16 @@ The search for the budget tries several octrees. For each of them, the calls are
     begin_stage(BOUNDARY)  end_stage(BOUNDARY)
     progress(number_of_vertices, budget)
 
-They are followed by one `begin_stage(OCTREE)` and `end_stage(OCTREE)` for what remains of the
-search, and, if there is a mesh, by the stages `ASSEMBLY` and, unless the boundary shall stay where the
-octree has it, `OPTIMIZATION`, in which `go_on()` is asked before each round. With a tolerance, as by default,
-octrees of coarse meshes come first, with the same calls. Stages are neither nested nor left open. All calls
-come from the thread that called `CGAL::make_mixed_mesh_3()`.
+After these calls follow one `begin_stage(OCTREE)` and `end_stage(OCTREE)` for the rest of the search, and, if
+there is a mesh, the stages `ASSEMBLY` and, if the boundary is to be fitted, `OPTIMIZATION`, in which
+`go_on()` is called before each round. With a tolerance, as by default, octrees of coarse meshes come first,
+with the same calls. Stages are not nested, and each stage ends. All calls come from the thread that called
+`CGAL::make_mixed_mesh_3()`.
 
-`CGAL::optimize_mixed_mesh_3()` and `CGAL::fit_mixed_mesh_to_surface()` ask `go_on()` only.
+`CGAL::optimize_mixed_mesh_3()` and `CGAL::fit_mixed_mesh_to_surface()` call `go_on()` only.
 
-A model need not be copied: pass it as `CGAL::parameters::visitor(std::ref(my_visitor))`. Members
-need not be `const`. The visitor must outlive the call.
+A model need not be copyable: pass it as `CGAL::parameters::visitor(std::ref(my_visitor))`. Members need not
+be `const`. The visitor must outlive the call.
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::Mixed_meshes_3::Default_visitor}
@@ -45,21 +45,23 @@ public:
   void end_stage(CGAL::Mixed_meshes_3::Stage stage);
 
   /// Called when a mesh has been tried.
-  /// \param number_of_vertices of that mesh. It may exceed the budget, and is not monotonic
+  /// \param number_of_vertices the number of vertices of that mesh. The number may exceed the budget, and is
+  ///        not monotonic
   /// \param budget the maximal number of vertices of the result
   void progress(std::size_t number_of_vertices, std::size_t budget);
 
-  /// Whether to go on. Asked for each mesh that is tried, when its octree is there and its elements are
-  /// not, and before each round of the optimization. After `false` it is not asked again, and the result
-  /// has the status `STOPPED`. The mesh of `CGAL::make_mixed_mesh_3()` is empty then, unless the criteria say
-  /// `keep_mesh_if_stopped(true)`; that of other functions is valid, as far as it went.
+  /// Whether to continue. Called for each mesh that is tried, after its octree and before its elements are
+  /// made, and before each round of the optimization. After `false`, the function is not called again, and
+  /// the result has the status `STOPPED`. The mesh of `CGAL::make_mixed_mesh_3()` is empty then, unless the
+  /// criteria have `keep_mesh_if_stopped(true)`; the mesh of the other functions is valid, with the changes
+  /// made until then.
   bool go_on();
 
   /// \name Optional
   /// @{
 
-  /// Called with each mesh whose boundary is to be fitted next, in the stage `OPTIMIZATION`: the last one is
-  /// what the result is made from. A model need not have this function.
+  /// Called with each mesh before its boundary is fitted, in the stage `OPTIMIZATION`: the result is made
+  /// from the last one. A model need not have this function.
   void before_fitting(const CGAL::Mixed_mesh_3<CGAL::Mixed_meshes_3::Predicates_kernel>& mesh);
   /// @}
 };

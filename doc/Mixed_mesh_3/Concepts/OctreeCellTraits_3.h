@@ -7,22 +7,21 @@
 \ingroup PkgMixedMesh3Concepts
 \cgalConcept
 
-The concept `OctreeCellTraits_3` puts an octree into space: it maps lattice points, which are
-integers, to points.
+The concept `OctreeCellTraits_3` embeds an octree in space: it maps lattice points, which are integers, to
+points.
 
-The lattice is \f$ [0, 2^{21}]^3 \f$; the root cell is the whole of it. A cell of level `l` has the
-lattice side \f$ 2^{21-l} \f$, and `l` is at most 20, so that centers of cells are lattice points
-too.
+The lattice is \f$ [0, 2^{21}]^3 \f$; the root cell is the whole lattice. A cell of level `l` has the lattice
+side \f$ 2^{21-l} \f$, and `l` is at most 20, so that centers of cells are also lattice points.
 
-The map shall be affine, and keep orientation, so that cells are parallelepipeds and elements, which
-are convex in the lattice, are convex and positive in space. It shall be exact on all lattice points
-that are used: cells that have a vertex, an edge or a face in common then have it exactly. The
-models choose an origin and a unit with few significant bits for that reason.
+The map must be affine, and preserve orientation, so that cells are parallelepipeds and elements, which are
+convex in the lattice, are convex and positive in space. The map must be exact on all lattice points that are
+used: cells that have a vertex, an edge or a face in common then have it exactly. For that reason, the models
+choose an origin and a unit with few significant bits.
 
-The root cell shall contain the domain, with room around: where the surface touches the border of
-the root cell, the boundary of the mesh cannot be repaired if it is pinched.
+The root cell must contain the domain, with space around the domain: where the surface touches the border of
+the root cell, a pinched boundary of the mesh cannot be repaired.
 
-A model need not be copied. It must outlive the call.
+A model need not be copyable. A model must outlive the call.
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::Mixed_meshes_3::Axis_aligned_octree_cell_traits_3}
@@ -35,9 +34,9 @@ class OctreeCellTraits_3
 {
 public:
   /*!
-  What `cell()` returns: a cell as a domain and a region see it. The method hands it on, and asks it
-  for nothing; the members are what the models of `MixedMeshDomain_3` and of `MixedMeshRegion_3`
-  use. It need not be copied or moved, nor be a nested type of that name.
+  The result of `cell()`: a cell as a domain and a region see it. The method passes the cell on, and calls no
+  member of it; the models of `MixedMeshDomain_3` and of `MixedMeshRegion_3` use the members. The type need
+  not be copyable or movable, nor be a nested type of that name.
   */
   class Cell
   {
@@ -49,14 +48,14 @@ public:
     /// \return a `CGAL::Mixed_meshes_3::Predicates_kernel::Point_3`
     unspecified_type center() const;
 
-    /// Whether the closed cell and the triangle have a point in common; must be exact. Used by
+    /// Whether the closed cell and the triangle have a point in common; the answer must be exact. Used by
     /// polyhedral domains and regions only.
     bool do_intersect(const CGAL::Mixed_meshes_3::Predicates_kernel::Triangle_3& t) const;
   };
 
-  /// The position of a lattice point. Those of the root's corners also give the scale on which
+  /// The position of a lattice point. The positions of the root's corners also define the scale on which
   /// distances and depths are compared.
-  /// \return a `CGAL::Mixed_meshes_3::Predicates_kernel::Point_3`, or what converts to it and to
+  /// \return a `CGAL::Mixed_meshes_3::Predicates_kernel::Point_3`, or a type that converts to it and to
   ///         `MixedMeshDomain_3::Point_3` and has `x()`, `y()` and `z()` of type `double`
   unspecified_type point(const CGAL::Mixed_meshes_3::Lattice_point& p) const;
 

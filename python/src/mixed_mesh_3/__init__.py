@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Mixed-element finite-element meshes from arrays, and what is computed on them.
+"""Mixed-element finite-element meshes from arrays, and computations on these meshes.
 
-Points are (n, 3) arrays in mm, triangles (m, 3) arrays of their numbers. The meshes are those of make_mixed_mesh_3() in
-C++, and of the program mixed_mesh_3 where that does not mesh a surface with thin parts a second time; what they
-guarantee, and what parameters do, is in the manual. Elements are sorted by kind, as in files.
+Points are (n, 3) arrays in mm, triangles are (m, 3) arrays of indices of points. The meshes are those of
+make_mixed_mesh_3() in C++, and of the program mixed_mesh_3 where the program does not mesh a surface with thin parts a
+second time; the manual describes guarantees and parameters. Elements are sorted by kind, as in files.
 
     import mixed_mesh_3 as mm3
     data = mm3.example_data()
@@ -30,15 +30,15 @@ __all__ = ["Elasticity", "ElasticityError", "KINDS", "Mesh", "MeshingError", "Pa
            "defects", "example_data", "fit", "label_surface", "mesh", "mesh_labels", "optimize", "quality", "read_image",
            "read_surface", "resect", "warp"]
 
-#: The kinds of elements, as meshio calls them: the values of Mesh.kinds are their places.
+#: The kinds of elements, with the names of meshio: the values of Mesh.kinds are indices of this tuple.
 KINDS = ("tetra", "pyramid", "wedge", "hexahedron")
 _SIZES = (4, 5, 6, 8)
 _VTK_TYPES = (10, 14, 13, 12)
-_VTK_WEDGE = (0, 2, 1, 3, 5, 4)  # VTK's is the mirror image of ours; meshio has the order of Gmsh, as we do
+_VTK_WEDGE = (0, 2, 1, 3, 5, 4)  # the mirror image of the wedge of meshio, Gmsh and this package
 
 
 def _cells(self):
-    """The elements: for each kind that there is, their vertices as an array of shape (n, 4), (n, 5), (n, 6) or (n, 8)."""
+    """The elements: for each existing kind, their vertices as an array of shape (n, 4), (n, 5), (n, 6) or (n, 8)."""
     result = {}
     for number, kind in enumerate(KINDS):
         of_kind = _np.flatnonzero(self.kinds == number)
@@ -75,18 +75,19 @@ def _to_pyvista(self):
 def _save(self, path, *, order=1, tetrahedra=False):
     """Writes a file as the program does: .vtu, .msh (Gmsh 4.1), .msh2 (Gmsh 2.2), .mesh, .inp or .feb.
 
-    order: of the elements. With 2 they are quadratic and straight-sided, with a node in the middle of each edge, whose
-    number is behind those of the vertices; not in .mesh, and in .inp without pyramids only. tetrahedra: whether to split
-    all elements to tetrahedra. ValueError: what the program would say.
+    order: the order of the elements. Elements of order 2 are quadratic and straight-sided, with a node in the middle of
+    each edge, numbered after the vertices; not in .mesh, and in .inp without pyramids only. tetrahedra: whether all
+    elements are split into tetrahedra. Raises ValueError with the message of the program.
     """
     _core.save(self, _os.fspath(path), _count("order", order), bool(tetrahedra))
 
 
 def _show(self, displacements=None, *, removed=None, report=None, title="mesh", height=620):
-    """The mesh in 3D, as a Page: the last line of a cell of a notebook shows it; save(path) writes it as a file.
+    """The mesh in 3D, as a Page: a notebook shows a page in the last line of a cell; save(path) writes a page to a file.
 
-    displacements: of vertices, (n, 3), that the page deforms the mesh by; removed: which elements are gone then.
-    report: that of mesh(), whose status, warnings and measures the page tells. title: its heading; height: in pixels.
+    displacements: displacements of vertices, (n, 3), with which the page deforms the mesh; removed: elements that are
+    removed then. report: the report of mesh(), whose status, warnings and measures the page shows. title: the heading of
+    the page; height: the height in pixels.
     """
     return _make_page(self, displacements, removed, report, str(title), int(height), __version__)
 
@@ -131,7 +132,7 @@ def _not_negative(name, value):
 
 
 def _soup(name, soup):
-    """Points and triangles of a surface, as arrays that the module takes."""
+    """Points and triangles of a surface, as arrays for the module."""
     try:
         points, triangles = soup
     except (TypeError, ValueError):
@@ -165,11 +166,11 @@ def example_data():
 
 
 def read_surface(path, *, strict=False, wrap=0.0):
-    """A closed surface out of a file: (points, triangles), in the unit of the file.
+    """A closed surface from a file: (points, triangles), in the unit of the file.
 
-    Files: .off, .obj, .stl, .ply, .vtp, .vtk, .gii, or binary surfaces of FreeSurfer. What can be mended is, with a
-    UserWarning; strict: that is refused. wrap: the surface is wrapped, as in foil; openings narrower than that are closed.
-    Raises ValueError with the file and its defect.
+    Files: .off, .obj, .stl, .ply, .vtp, .vtk, .gii, or binary surfaces of FreeSurfer. Defects are repaired if possible,
+    with a UserWarning; strict: such surfaces are rejected. wrap: the surface is wrapped; openings narrower than this
+    diameter are closed. Raises ValueError with the file and its defect.
     """
     *surface, mended = _core.read_surface(_os.fspath(path), bool(strict), _not_negative("wrap", wrap))
     for text in mended:
@@ -178,7 +179,7 @@ def read_surface(path, *, strict=False, wrap=0.0):
 
 
 def read_image(path):
-    """A NIfTI image (.nii, .nii.gz): its values, and its affine map from indices to mm, (4, 4), as nibabel has them."""
+    """A NIfTI image (.nii, .nii.gz): its values, and its affine map from indices to mm, (4, 4), as in nibabel."""
     return _core.read_image(_os.fspath(path))
 
 
@@ -186,19 +187,20 @@ def mesh(points, triangles, *, region=None, subdomains=None, vertices=660, toler
          base_level=None, quality_bound=3.2, sharp_angle=50.0, progress=None):
     """Meshes the inside of a closed surface, fine in a region of interest.
 
-    region: (points, triangles) of a closed surface, or a list of them, each with a weight as its third entry if that is
-        wanted; None: everywhere.
-    subdomains: {label: (points, triangles)}: parts inside, which count from the first to the last where they overlap;
-        labels from 2 on, the rest has 1, and 0 is a cavity.
-    vertices: how many there may be at most; "auto": as few as the tolerance allows, found by five to ten meshes of up to
-        200,000 vertices.
-    tolerance: how far the boundary may be from the surface, in mm; 0: what the budget allows.
-    exchange: whether vertices far from the region may be exchanged for vertices in it, with at most 2,500 vertices.
-    quality_bound: no element has a larger aspect-ratio coefficient.
-    progress: called as progress(stage, vertices, budget); what it raises ends the run, as Ctrl-C does.
+    region: (points, triangles) of a closed surface, or a list of them, each with an optional weight as its third entry;
+        None: the whole domain.
+    subdomains: {label: (points, triangles)}: inner parts; where they overlap, the first one counts; labels from 2 on,
+        the rest has the label 1, and 0 is a cavity.
+    vertices: the largest number of vertices; "auto": as few as the tolerance allows, found by five to ten meshes of up
+        to 200,000 vertices.
+    tolerance: the largest distance between boundary and surface, in mm; 0: a distance that the budget allows.
+    exchange: whether vertices far from the region may be exchanged for vertices in the region, with at most 2,500 vertices.
+    quality_bound: the largest aspect-ratio coefficient of an element.
+    progress: called as progress(stage, vertices, budget); an exception of this function ends the run, as Ctrl-C does.
 
     Returns the mesh and a report: a dictionary with "status", "warnings", "Hausdorff distance", "seconds" and other
-    measures. Raises ValueError if a surface is not one of a solid and cannot be mended, MeshingError if there is no mesh.
+    measures. Raises ValueError if a surface does not bound a solid and cannot be repaired, MeshingError if there is no
+    mesh.
     """
     start = _time.perf_counter()
     if vertices == "auto" and not tolerance > 0:
@@ -217,10 +219,11 @@ def mesh(points, triangles, *, region=None, subdomains=None, vertices=660, toler
 def complete_label(image, affine, labels=None, *, close=None, fill_holes=False, largest=False, drop_below=0, hull=False):
     """The voxels of an image that have one of some labels, completed: an image of 1 and 0, for label_surface().
 
-    labels: None: all values that are not 0. The steps, in their order: close: gaps, grooves and openings that a ball of
-    this radius in mm does not fit into; fill_holes: what the label encloses; largest: only the largest component stays;
-    drop_below: only components of at least that volume, in ml. hull: close, fill_holes and largest, by 13 % of the edge
-    of a cube of the label's volume, 15 mm for a brain, if close is not given: the solid organ out of an atlas.
+    labels: None: all values that are not 0. The steps, in their order: close: fills gaps, grooves and openings that a
+    ball of this radius in mm does not enter; fill_holes: fills space that the label encloses; largest: keeps only the
+    largest component; drop_below: keeps only components of at least this volume, in ml. hull: close, fill_holes and
+    largest, by 13 % of the edge of a cube of the label's volume, 15 mm for a brain, if close is not given: the solid
+    organ from an atlas.
     """
     image = _np.asarray(image)
     values = _np.unique(image[image != 0]) if labels is None else _np.atleast_1d(labels)
@@ -231,8 +234,8 @@ def complete_label(image, affine, labels=None, *, close=None, fill_holes=False, 
 def label_surface(image, affine, labels, *, smoothing=None, vertices=20000):
     """The surface of the voxels of an image that have one of some labels: (points, triangles), in mm.
 
-    affine: (4, 4), from indices to mm, as nibabel has it. smoothing: standard deviation of the Gaussian in mm; None: a
-    voxel. vertices: how many it is simplified to.
+    affine: (4, 4), from indices to mm, as in nibabel. smoothing: standard deviation of the Gaussian in mm; None: a voxel.
+    vertices: the number of vertices after simplification.
     """
     return _core.label_surface(image, affine, {float(label) for label in _np.atleast_1d(labels)}, smoothing,
                                _count("vertices", vertices))
@@ -242,7 +245,7 @@ def mesh_labels(image, affine, labels=None, *, smoothing=None, vertices=660, **o
     """Meshes an image of labels.
 
     labels: the values to mesh; None: all that are not 0. The label with most voxels surrounds the others, and has the
-    label 1 in the mesh, the others those of their values (from 2 on). options: as for mesh().
+    label 1 in the mesh; the others keep their values (from 2 on). options: as for mesh().
     """
     image = _np.asarray(image)
     values, counts = _np.unique(image[image != 0] if labels is None else image[_np.isin(image, labels)], return_counts=True)
@@ -252,7 +255,7 @@ def mesh_labels(image, affine, labels=None, *, smoothing=None, vertices=660, **o
         raise ValueError("image: labels are whole numbers from 1 on")
     largest = int(counts.argmax())
 
-    def surface(of, share):  # as fine as the mesh can use
+    def surface(of, share):  # no finer than the mesh can follow
         finer, least = (3, 1000) if share < 1 else (1, 2000)
         size = max(finer * 20 * (share * _most_vertices(vertices)) ** (2 / 3), least)
         return label_surface(image, affine, of, smoothing=smoothing, vertices=int(size))
@@ -264,7 +267,7 @@ def mesh_labels(image, affine, labels=None, *, smoothing=None, vertices=660, **o
         if value == 1:
             raise ValueError("image: label 1 is that of what is around the others; give it to the label with most voxels")
         points, triangles = surface(value, count / counts.sum())
-        if len(points):  # else smoothing leaves nothing
+        if len(points):  # otherwise smoothing has removed the label
             parts[int(value)] = (points, triangles)
     around = surface(values, 1)
     if not len(around[0]):
@@ -277,27 +280,27 @@ def mesh_labels(image, affine, labels=None, *, smoothing=None, vertices=660, **o
 
 def optimize(mesh, points, triangles, *, tolerance=0.0, quality_bound=3.2, bisections=0, flips=True,
              progress=None):
-    """A mesh with its boundary on the surface and better elements, and a report; the given one stays as it is. Without
-    flips, vertices and elements stay the same ones, as for an atlas after fit()."""
+    """A mesh with its boundary on the surface and better elements, and a report; the given mesh does not change. Without
+    flips, the mesh has the same vertices and elements, as for an atlas after fit()."""
     result = _copy.copy(mesh)
     return result, _core.optimize(result, _soup("surface", (points, triangles)), _not_negative("tolerance", tolerance),
                                   quality_bound, bisections, flips, progress)
 
 
 def fit(mesh, points, triangles, *, progress=None):
-    """A mesh with its boundary carried onto another surface by elastic relaxation (an atlas to a subject), and a
-    report; the given one stays as it is."""
+    """A mesh with its boundary brought onto another surface by elastic relaxation (an atlas to a subject), and a
+    report; the given mesh does not change."""
     result = _copy.copy(mesh)
     return result, _core.fit(result, _soup("surface", (points, triangles)), progress)
 
 
 def certify(mesh):
-    """For each element whether its Jacobian is proved to be positive all over it, exactly."""
+    """For each element, whether its Jacobian is proved to be positive on the whole element, exactly."""
     return _core.certify(mesh)
 
 
 def defects(mesh):
-    """What is wrong with a mesh, as a dictionary of numbers: all 0 if nothing is."""
+    """The defects of a mesh, as a dictionary of numbers: all 0 if there is no defect."""
     return _core.defects(mesh)
 
 
@@ -307,7 +310,7 @@ def quality(mesh, measure="ARC"):
 
 
 def resect(mesh, points=None, triangles=None, *, label=None):
-    """Which elements are removed with what a closed surface encloses, or with a label: an array of truth values."""
+    """The elements that a closed surface encloses, or that have a label, to be removed: an array of truth values."""
     if (points is None) == (label is None):
         raise ValueError("resect(): expected points and triangles, or a label")
     return _core.resect_elements(mesh, mesh.labels == label) if points is None else _core.resect(mesh, points, triangles)
@@ -317,23 +320,23 @@ def warp(image, affine, mesh, displacements, *, removed=None, is_of_labels=False
     """An image that follows the displacements of a mesh's vertices.
 
     removed: elements that were resected. is_of_labels: values are those of the nearest voxel. Returns the image, the
-    displacement fields forward and backward, of shape (i, j, k, 3) in mm, and a mask: 0 outside, 1 tissue, 2 resected.
+    forward and backward displacement fields, of shape (i, j, k, 3) in mm, and a mask: 0 outside, 1 tissue, 2 resected.
     """
     warped, *rest = _core.warp(image, affine, mesh, displacements, removed, is_of_labels)
     return (warped.astype(_np.asarray(image).dtype) if is_of_labels else warped, *rest)
 
 
 class Elasticity(_core.Elasticity):
-    """Elasticity: displacements of a mesh's vertices, in mm, from those of control points. Rotations are small, or
-    finite after set_corotational(True).
+    """Elasticity: computes displacements of a mesh's vertices, in mm, from displacements of control points. Rotations are
+    small, or finite after set_corotational(True).
 
         model = Elasticity(mesh, young_modulus=3.0)
         model.fix(is_fixed)
         model.set_control_points(points)
         displacements = model.solve(displacements_of_points)
 
-    young_modulus in kPa, density in kg/mm^3. materials: {label: (young_modulus, poisson_ratio)} or with a density as
-    third entry, for labels with another material. Errors are raised as ElasticityError, with the reason.
+    young_modulus is in kPa, density in kg/mm^3. materials: {label: (young_modulus, poisson_ratio)}, with an optional
+    density as third entry, for labels with another material. Errors raise ElasticityError, with the reason.
     """
 
     def __init__(self, mesh, young_modulus=1.0, poisson_ratio=0.45, density=1e-6, *, materials=None):
@@ -341,11 +344,11 @@ class Elasticity(_core.Elasticity):
         super().__init__(mesh, of_labels, (young_modulus, poisson_ratio, density))
 
     def set_control_points(self, points, *, largest_distance=0.0, compliance=0.0, radius=0.0, weights=()):
-        """Points at which displacements are given. largest_distance: points so far outside stand for the nearest one
-        of the boundary. compliance in mm/mN: displacements give way so much, divided by the weight of each point.
-        radius: of which they are a mean."""
+        """Sets the points at which displacements are given. largest_distance: up to this distance outside, the nearest
+        point of the boundary replaces a point. compliance: of the springs at the points, in mm/mN, divided by the weight
+        of each point. radius: displacements are means over this radius."""
         super().set_control_points(points, largest_distance, compliance, radius, weights)
 
     def solve(self, displacements=None):
-        """The displacement of each vertex, (n, 3) in mm, for those of the control points."""
+        """The displacement of each vertex, (n, 3) in mm, for displacements of the control points."""
         return super().solve(_np.empty((0, 3)) if displacements is None else displacements)

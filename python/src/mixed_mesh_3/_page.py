@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The page of a mesh, as the option --page of the programs writes it: a file of HTML that loads nothing else."""
+"""The page of a mesh, as written by the option --page of the programs: an HTML file that loads nothing else."""
 
 import base64
 import html
@@ -18,12 +18,12 @@ _PLACEHOLDER = re.compile(r"\{\{(.*?)\}\}")
 
 
 def _packed(values, dtype):
-    """Numbers one after the other, little-endian, as base64."""
+    """Consecutive numbers, little-endian, as base64."""
     return base64.b64encode(np.ascontiguousarray(values, dtype=dtype).tobytes()).decode("ascii")
 
 
 def _plain(value):
-    """A report as JSON has it, which knows neither arrays nor infinity."""
+    """A report for JSON, which has neither arrays nor infinity."""
     if isinstance(value, dict):
         return {str(key): _plain(x) for key, x in value.items()}
     if isinstance(value, (list, tuple)):
