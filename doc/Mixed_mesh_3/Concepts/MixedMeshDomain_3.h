@@ -75,11 +75,12 @@ public:
   /// \param part the part of a cell which contains `p`, and for which `locate()` answered `ON_BOUNDARY`
   CGAL::Bounded_side bounded_side(const Point_3& p, const Surface_part& part) const;
 
-  /// A point of the surface closest to `p`. Called for vertices outside the domain.
+  /// A point of the surface closest to `p`.
   ///
-  /// Only the distance to this point matters: the distance determines the order in which boundary elements
-  /// are split, in units of \f$ 2^{-24} \f$ of the diagonal of the root cell.
-  /// \f$ 2^{-24} \f$ of the diagonal of the root cell.
+  /// For vertices outside the domain, only the distance to this point matters: the distance determines the
+  /// order in which boundary elements are split, in units of \f$ 2^{-24} \f$ of the diagonal of the root
+  /// cell. For corners and centers of cells without elements, the point itself tells whether the boundary
+  /// of the mesh has come near to this part of the surface.
   /// \param p any point
   /// \param part the part of a cell which contains `p`, or a default-constructed part if that cell does not
   ///        meet the surface; the part is a hint, and the closest point may lie elsewhere
