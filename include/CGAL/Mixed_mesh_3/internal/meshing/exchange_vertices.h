@@ -88,9 +88,9 @@ inline bool exchange_vertices(Meshing_state& s, Core_mesh& mesh, Misfit& misfit)
   // With half as many again, errors of smooth displacements are larger by a tenth, others the same.
   constexpr double exponent = 2. / 3;
   constexpr double times_bisections = 1.5; // of the share of an octree alone: the region has more room
-  // Largest distance between boundary and surface, in tolerances. Brains reach 1.25; a dumbbell with a thin
-  // handle 4, as the handle is far from the region, where the octree alone would reach 0.6.
-  constexpr double tolerated_distance = 1.5;
+  // Largest distance between boundary and surface, in tolerances. Most brains reach 0.7 to 1; a dumbbell with
+  // a thin handle 4, as the handle is far from the region, where the octree alone would reach 0.6.
+  constexpr double tolerated_distance = 1.1;
   const std::size_t n = s.criteria.maximal_number_of_vertices();
   Meshing_state::Snapshot before = s.snapshot();
   {
