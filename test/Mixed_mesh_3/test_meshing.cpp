@@ -278,13 +278,13 @@ void test_tolerance(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& 
   }
 }
 
-// A wished tolerance takes no level of the surface in the region; a requested one may.
+// A wished tolerance takes no level of the octree from the surface in the region; a requested one may.
 void test_region_before_wish(const Polyhedral_mixed_mesh_domain_3& domain)
 {
   const Ball_mixed_mesh_region_3 opening({-25, -20, 66}, 24);
-  const auto number_in_opening = [&](const Mixed_mesh_criteria_3& criteria) {
+  const auto number_in_opening = [&](Mixed_mesh_criteria_3 criteria) {
     Mesh mesh;
-    const auto result = run(domain, opening, criteria, mesh);
+    const auto result = run(domain, opening, criteria.exchange_vertices(false), mesh);
     check(mesh, result, 2000);
     std::size_t n = 0;
     for(Vertex_index v : CGAL::Mixed_meshes_3::boundary_vertices(mesh))
