@@ -190,13 +190,18 @@ def check_vtu(path, expected):
               "element data")
 
 
-def check_msh(path, version, expected):
+def open_in_gmsh(path):
+    """Opens a file, which must go without errors and warnings."""
     gmsh.clear()
     gmsh.logger.start()
     gmsh.open(path)
     log = gmsh.logger.get()
     gmsh.logger.stop()
     check(not [line for line in log if line.startswith(("Error", "Warning"))], path, "Gmsh:", log)
+
+
+def check_msh(path, version, expected):
+    open_in_gmsh(path)
 
     n = expected["vertices"]
     mesh = gmsh.model.mesh

@@ -184,7 +184,7 @@ VTU_arrays cell_arrays(const Mesh& mesh, const Mesh_nodes<Mesh>& nodes)
            [&](Buffered_output& out) {
              Index end = 0;
              for_each_element_by_kind(mesh, [&](Element_index e) {
-               end += Index(nodes.of(e, &Element_names::vtk_edges).size());
+               end += Index(nodes.number_of_nodes(e));
                out.write_binary(end);
              });
            }},

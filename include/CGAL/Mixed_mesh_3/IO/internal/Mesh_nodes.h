@@ -145,6 +145,13 @@ public:
     return m_mesh.elements().connectivity().size() + m_middle.of_elements.size();
   }
 
+  /// Number of nodes of an element.
+  int number_of_nodes(Element_index e) const
+  {
+    const Element_view element = m_mesh.element(e);
+    return element.size() + (m_order == 2 ? element.reference().number_of_edges : 0);
+  }
+
   const Element_names& names(Element_kind kind) const { return names_of(kind, m_order); }
 
   /// Both ends of the edge of a middle node; of a vertex, that twice: it is their mean, too.

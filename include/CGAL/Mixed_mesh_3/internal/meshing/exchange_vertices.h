@@ -63,7 +63,7 @@ inline Core_mesh split_far_elements(const Core_mesh& mesh, double radius)
         is_kept[v] = true;
   }
   const auto is_kept_vertex = [&](Vertex_index v) { return bool(is_kept[v]); };
-  const auto rank = [&](Vertex_index v) { return std::make_pair(bool(is_kept[v]), v); };
+  const auto rank = [&](Vertex_index v) { return std::make_pair(is_kept_vertex(v), v); };
   Core_mesh result;
   result.points() = mesh.points();
   for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
