@@ -107,6 +107,9 @@ struct Meshing_state
     return std::cbrt(volume_of_domain(root) / double(criteria.maximal_number_of_vertices()));
   }
 
+  /// The distance from the region over which its weight decreases.
+  double graded_radius() const { return criteria.grading() * radius; }
+
   int coarsest_level() const { return (std::max)(first_base_level(criteria), lattice.level); }
 
   bool go_on()

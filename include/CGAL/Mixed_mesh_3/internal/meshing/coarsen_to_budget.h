@@ -99,7 +99,7 @@ inline void fit_roughly(Meshing_state& s, Core_mesh& mesh)
 inline bool coarsen_to(Meshing_state& s, Core_mesh& mesh, std::size_t number_of_vertices,
                        Coarsening_goal goal = Coarsening_goal::SHAPE)
 {
-  const double radius = s.root.is_region_everywhere() ? 0 : s.criteria.grading() * s.radius;
+  const double radius = s.root.is_region_everywhere() ? 0 : s.graded_radius();
   return coarsen(
            mesh, s.root.domain(), number_of_vertices, s.quality_bound, radius, [&s] { return s.go_on(); },
            goal)

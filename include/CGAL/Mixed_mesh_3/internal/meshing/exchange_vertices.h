@@ -104,9 +104,8 @@ inline bool exchange_vertices(Meshing_state& s, Core_mesh& mesh, Misfit& misfit)
   Core_mesh result;
   if(s.result.status == Mixed_mesh_status::SUCCESS && !s.is_stopped) {
     const Core_mesh assembled = assembled_mesh(s);
-    Core_mesh fine = s.criteria.only_tetrahedra()
-                       ? split_to_tetrahedra(assembled)
-                       : split_far_elements(assembled, s.criteria.grading() * s.radius);
+    Core_mesh fine = s.criteria.only_tetrahedra() ? split_to_tetrahedra(assembled)
+                                                  : split_far_elements(assembled, s.graded_radius());
     fit_roughly(s, fine);
     const std::size_t bisections = std::size_t(times_bisections * s.share_of_bisections() * double(n));
     coarsen_and_optimize(s, fine, n - bisections, Coarsening_goal::REGION, result);

@@ -80,7 +80,7 @@ octree_for_region_first(const Meshing_state& s, const Located_octree& base, cons
      || s.root.is_region_everywhere() || s.root.domain().subdomain_indices().size() > 1)
     return std::nullopt;
   const std::size_t number_of_cells = filled.number_of_cells();
-  Refinement_sequence sequence(base, s.criteria.grading() * s.radius);
+  Refinement_sequence sequence(base, s.graded_radius());
   while(sequence.number_of_cells(sequence.number_of_steps()) < number_of_cells && sequence.extend()) {
   }
   std::size_t low = 0, high = sequence.number_of_steps();
@@ -115,7 +115,7 @@ inline Candidate fill_from(Meshing_state& s, int level, Located_octree& octree)
   const auto first_to_split = points_on_sharp_edges(s);
   const auto fill = [&](Located_octree& o) {
     return fill_vertex_budget(
-      o, s.octree_budget(), s.criteria.grading() * s.radius,
+      o, s.octree_budget(), s.graded_radius(),
       [&s](const Located_octree& tried) { return s.try_octree(tried); }, first_to_split);
   };
   if(s.thin_start) {
