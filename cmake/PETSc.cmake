@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# What Mixed_mesh_3/Petsc_solver_traits.h needs, as the target CGAL::Mixed_mesh_3_petsc, if it is there: PETSc with
+# What Mixed_mesh_petsc/Petsc_solver_traits.h needs, as the target CGAL::Mixed_mesh_3_petsc, if it is there: PETSc with
 # real numbers, and MPI. CMakeLists.txt includes this file, and so does the installed package. Nothing else links
 # it, so that programs that do without do not load it.
 

@@ -34,7 +34,7 @@ def _tag():
 
 def _build(folder):
     subprocess.run(["cmake", "-S", ROOT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_TESTING=OFF",
-                    "-DMIXED_MESH_3_BUILD_DEMOS=OFF", "-DMIXED_MESH_3_BUILD_PYTHON=ON",
+                    "-DMIXED_MESH_3_BUILD_APPS=OFF", "-DMIXED_MESH_3_BUILD_PYTHON=ON",
                     f"-DPython_EXECUTABLE={sys.executable}"], check=True)
     subprocess.run(["cmake", "--build", folder, "--target", "Mixed_mesh_3_python", "--parallel",
                     str(os.cpu_count() or 1)], check=True)

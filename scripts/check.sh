@@ -55,7 +55,7 @@ short_programs=(test_base test_elements test_octree test_transitions test_bounda
 sources() {
   local ending
   for ending in "$@"; do
-    find benchmark cmake demo doc examples include python scripts src test workflow -type f -name "*$ending"
+    find apps benchmark cmake doc examples include python scripts src test workflow -type f -name "*$ending"
   done | sort
 }
 

@@ -31,18 +31,21 @@ MAY_REACH = {
     "IO": "base elements repair",
     "Linear_elasticity_3": "base elements fem",
     "Mixed_mesh_image_3": "base elements repair IO",
+    "Mixed_mesh_petsc": "",
 }
+# The folders beside Mixed_mesh_3.
+OTHERS = ("Linear_elasticity_3", "Mixed_mesh_image_3", "Mixed_mesh_petsc")
 # The public headers of Mixed_mesh_3 may reach its stages and its files, and no sibling.
 PUBLIC = "the public headers"
-MAY_REACH[PUBLIC] = " ".join(f for f in MAY_REACH if f not in ("Linear_elasticity_3", "Mixed_mesh_image_3"))
+MAY_REACH[PUBLIC] = " ".join(f for f in MAY_REACH if f not in OTHERS)
 
 INCLUDE = re.compile(r"^\s*#\s*include\s*[<\"]([^>\"]+)[>\"]", re.MULTILINE)
 
 # (files, what they must not say, files that may, why)
 WORDS = [
-    ("include/**/*.h", r"(?i)nifti|\bznz", r"include/CGAL/Mixed_mesh_image_3/|.*/read_GIFTI\.h",
+    ("include/**/*.h", r"(?i)nifti|\bznz", r"include/CGAL/Mixed_mesh_image_3/",
      "images are a package of their own"),
-    ("include/**/*.h", r"<zlib\.h>", r"include/CGAL/Mixed_mesh_image_3/|.*/(Compressed_blocks|VTK_XML_reader|read_GIFTI)\.h",
+    ("include/**/*.h", r"<zlib\.h>", r"include/CGAL/Mixed_mesh_image_3/|.*/(Compressed_blocks|VTK_XML_reader)\.h",
      "only files of VTK, GIFTI and images are compressed"),
     ("include/**/*.h", "CGAL_VERSION_NR", r".*/internal/base/compatibility\.h",
      "differences of CGAL's versions stand in one header"),
@@ -57,7 +60,7 @@ def folder_of(header):
         return header[len(STAGES):].split("/")[0]
     if header.startswith("Mixed_mesh_3/IO/"):
         return "IO"
-    for package in ("Linear_elasticity_3", "Mixed_mesh_image_3"):
+    for package in OTHERS:
         if header == package + ".h" or header.startswith(package + "/"):
             return package
     return PUBLIC
@@ -107,12 +110,11 @@ def read_includes(root):
     top = root / "include" / "CGAL"
     includes = {}
     for header in sorted(str(path.relative_to(top)) for path in top.rglob("*.h")):
-        # A header and that of its definitions, which may be compiled apart, include each other.
-        declarations = header.replace("_impl.h", ".h")
-        for inside, outside in (("read_surface", "read_closed_surface"), ("write_mixed_mesh", "write_mixed_mesh")):
-            declarations = declarations.replace(f"/IO/internal/{inside}.h", f"/IO/{outside}.h")
-        includes[header] = [name for name in own_includes(top / header) if (top / name).exists()
-                            and not (header.endswith("_impl.h") and name == declarations)]
+        includes[header] = [name for name in own_includes(top / header) if (top / name).exists()]
+    # A header and that of its definitions, which may be compiled apart, include each other.
+    for header, others in includes.items():
+        if header.endswith("_impl.h"):
+            includes[header] = [name for name in others if header not in includes[name]]
     return includes
 
 

@@ -37,6 +37,7 @@ PURPOSES = {
     "IO": "files",
     "Linear_elasticity_3": "displacements",
     "Mixed_mesh_image_3": "images",
+    "Mixed_mesh_petsc": "a solver for many processes",
     PUBLIC: "make_mixed_mesh_3() and others",
 }
 

@@ -4,12 +4,12 @@
 
   scripts/lay_out_as_cgal.py FOLDER      FOLDER is made anew
 
-  FOLDER/Mixed_mesh_3/{include,doc,examples,test,demo,benchmark,package_info}
+  FOLDER/Mixed_mesh_3/{include,doc,examples,test,demo,benchmark,package_info}, demo/ from apps/
   FOLDER/Linear_elasticity_3/{include,doc,examples,test,benchmark,package_info}
   FOLDER/Installation/include/CGAL/license/{Mixed_mesh_3,Linear_elasticity_3}.h
 
 Elasticity is a package: whoever meshes for another solver does not want it, and it takes meshes from elsewhere.
-Images are none: CGAL has images of its own, and does not use nifti_clib. They lie with the programs.
+Images and PETSc are none: CGAL has images of its own, and uses neither nifti_clib nor PETSc. They lie with the programs.
 
 Checked: the notice of each header, with its license and what CGAL's scripts fill in; that headers of a package, and
 no others, include its license; guards that begin with CGAL_ and are different; that names of programs say what
@@ -24,10 +24,13 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # The package, with a word that each of its programs has in its name: tests get it here.
 PACKAGES = {"Mixed_mesh_3": "mixed_mesh", "Linear_elasticity_3": "elasticity"}
-IMAGES = "Mixed_mesh_image_3"
+# Folders of headers that are no packages: they lie with the programs, as they need libraries that CGAL does not use.
+WITH_PROGRAMS = ("Mixed_mesh_image_3", "Mixed_mesh_petsc")
+# Tests and benchmarks that need them.
+NEED_PROGRAMS = ("test_petsc.cpp", "benchmark_elasticity.cpp", "measure_petsc.cpp")
 DATA = ("brain.off", "region.off", "tumour.off", "README.md")
 # Of tests, where they are not the folder of the data.
-ARGUMENTS = {"test_io": "output", "test_io_read": "data output", "test_io_surface": "output", "test_petsc": ""}
+ARGUMENTS = {"test_io": "output", "test_io_read": "data output", "test_io_surface": "output"}
 OURS = "// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org)."
 NOTICE = re.compile(
     r"\A// Copyright \(c\) \d{4} [^\n]+\n(?://\n)?// This file is part of CGAL \(www\.cgal\.org\)\.\n//\n"
@@ -64,24 +67,6 @@ if(TARGET CGAL::Eigen3_support)
 endif()
 """
 
-PROGRAM_PETSC = """\
-find_package(PkgConfig QUIET)
-if(PKG_CONFIG_FOUND)
-  pkg_check_modules(PETSC QUIET IMPORTED_TARGET PETSc)
-endif()
-set(MPI_CXX_SKIP_MPICXX ON)
-find_package(MPI QUIET COMPONENTS CXX)
-if(TARGET CGAL::Eigen3_support AND TARGET PkgConfig::PETSC AND TARGET MPI::MPI_CXX)
-  create_single_source_cgal_program("{name}.cpp")
-  target_link_libraries({name} PRIVATE CGAL::Eigen3_support PkgConfig::PETSC MPI::MPI_CXX)
-endif()
-"""
-
-
-def needs_petsc(source):
-    return "Petsc_solver_traits.h" in source.read_text()
-
-
 def needs_eigen(source):
     text = source.read_text()
     return re.search(r"fit_mixed_mesh_to_surface|Symmetric_solver_traits|Linear_elasticity_3|Eigen/|/fem/", text)
@@ -92,14 +77,14 @@ def write_cmake(folder, package, kind):
     programs = ""
     for source in sorted(folder.glob("*.cpp")):
         text = PROGRAM_EIGEN if package != "Mixed_mesh_3" or needs_eigen(source) else PROGRAM
-        programs += (PROGRAM_PETSC if needs_petsc(source) else text).format(name=source.stem)
+        programs += text.format(name=source.stem)
     (folder / "CMakeLists.txt").write_text(CMAKE.format(project=f"{package}_{kind}", programs=programs))
 
 
 def package_of(path):
     """The package of a header, by its path below include/CGAL; what is shared by the programs is none."""
     name = path.parts[1] if path.parts[0] == "license" else path.parts[0]
-    return next((p for p in ("Linear_elasticity_3", IMAGES) if name.startswith(p)), "Mixed_mesh_3")
+    return next((p for p in ("Linear_elasticity_3", *WITH_PROGRAMS) if name.startswith(p)), "Mixed_mesh_3")
 
 
 def copy_headers(target):
@@ -108,7 +93,7 @@ def copy_headers(target):
         package = package_of(path)
         if path.parts[0] == "license":
             place = target / "Installation"
-        elif package == IMAGES:
+        elif package in WITH_PROGRAMS:
             place = target / "Mixed_mesh_3" / "demo" / "Mixed_mesh_3"
         else:
             place = target / package
@@ -124,7 +109,7 @@ def copy_programs(target, package):
     tests = target / package / "test" / package
     tests.mkdir(parents=True)
     for source in sorted((ROOT / "test" / package).glob("*.cpp")):
-        if source.name.startswith("test_"):
+        if source.name.startswith("test_") and source.name not in NEED_PROGRAMS:
             stem = "test_" + PACKAGES[package] + source.stem[len("test"):]
             # Here, a test is a function of the program of its folder; there, a program.
             text = source.read_text()
@@ -169,12 +154,12 @@ def lay_out(target):
         copy_programs(target, package)
         copy_documentation(target, package)
         shutil.copytree(ROOT / "package_info" / package, target / package / "package_info" / package)
-        # Without those of the whole way to an image, which need the programs.
-        benchmarks = shutil.ignore_patterns("benchmark_elasticity.cpp", "CMakeLists.txt")
+        benchmarks = shutil.ignore_patterns(*NEED_PROGRAMS, "CMakeLists.txt")
         shutil.copytree(ROOT / "benchmark" / package, target / package / "benchmark" / package, ignore=benchmarks)
     demo = target / "Mixed_mesh_3" / "demo" / "Mixed_mesh_3"
-    shutil.copytree(ROOT / "demo" / "Mixed_mesh_3", demo, dirs_exist_ok=True)
-    for source in (ROOT / "examples" / IMAGES).glob("*.cpp"):
+    shutil.copytree(ROOT / "apps", demo, dirs_exist_ok=True)
+    shutil.copytree(ROOT / "third_party", demo / "third_party")
+    for source in (ROOT / "examples" / "Mixed_mesh_image_3").glob("*.cpp"):
         shutil.copy(source, demo)
 
 
@@ -192,7 +177,7 @@ def header_defects(target):
             yield f"{name}: has the guard of {guards[guard.group(1)]}"
         licenses = re.findall(r"#include <CGAL/license/(\w+)\.h>", text)
         package = package_of(path)
-        expected = [] if path.parts[0] == "license" or package == IMAGES else [package]
+        expected = [] if path.parts[0] == "license" or package in WITH_PROGRAMS else [package]
         if licenses != expected:
             yield f"{name}: includes the licenses of {licenses or 'none'}, expected {expected or 'none'}"
 
@@ -208,8 +193,8 @@ def program_defects(target):
                     yield f"{source.relative_to(target)}: there is {seen[source.stem].relative_to(target)}, too"
     for file in sorted(target.rglob("*")):
         if file.suffix in (".cpp", ".h") and "internal/" not in str(file) and "demo" not in file.parts:
-            if re.search(rf"#include <CGAL/{IMAGES}", file.read_text()):
-                yield f"{file.relative_to(target)}: needs images, which are with the programs"
+            if re.search(rf"#include <CGAL/({'|'.join(WITH_PROGRAMS)})/", file.read_text()):
+                yield f"{file.relative_to(target)}: needs what is with the programs"
 
 
 def info_defects(target):

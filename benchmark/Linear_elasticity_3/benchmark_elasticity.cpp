@@ -9,7 +9,7 @@
 
 #include "fix_lower_part.h"
 
-#include "common/resources.h"
+#include "core/resources.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Linear_elasticity_3.h>

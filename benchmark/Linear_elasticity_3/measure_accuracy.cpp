@@ -6,7 +6,7 @@
 // The error of brain shift in the region of interest, on meshes from files, compared with quadratic elements
 // on a fine mesh. Prints a JSON object in each line. compare_accuracy.py runs the program.
 
-#include "common/resources.h"
+#include "core/resources.h"
 
 #include "standard_elasticity.h"
 #include "Quadratic_reference.h"
@@ -86,7 +86,7 @@ nlohmann::ordered_json adapt(Mesh& mesh, const Boundary_displacement& load, mm3:
   const std::clock_t start = std::clock();
   const CGAL::Mixed_mesh_adaptation_result_3 result = CGAL::adapt_mixed_mesh_3(
     mesh, {material}, {prescribed_displacements(mesh, load)});
-  return {{"status", description(result.status)},
+  return {{"status", mm3::description(result.status)},
           {"steps", result.number_of_steps},
           {"solves", result.number_of_solves},
           {"energy after / before", result.functional},

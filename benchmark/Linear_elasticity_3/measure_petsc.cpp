@@ -9,14 +9,14 @@
 
 #include "fix_lower_part.h"
 
-#include "common/Stage_log.h"
-#include "common/resources.h"
+#include "core/Stage_log.h"
+#include "core/resources.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Linear_elasticity_3.h>
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/IO/read_mixed_mesh.h>
-#include <CGAL/Mixed_mesh_3/Petsc_solver_traits.h>
+#include <CGAL/Mixed_mesh_petsc/Petsc_solver_traits.h>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

@@ -8,7 +8,7 @@
 
 #include "test_cases.h"
 
-#include "common/resources.h"
+#include "core/resources.h"
 
 #include <CGAL/Linear_elasticity_3.h>
 #include <CGAL/Mixed_mesh_3/IO/read_mixed_mesh.h>

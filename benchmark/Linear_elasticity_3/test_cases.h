@@ -11,7 +11,7 @@
 
 #include "Opening.h"
 
-#include "common/resources.h"
+#include "core/resources.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3.h>
@@ -19,6 +19,7 @@
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_regions_3.h>
+#include <CGAL/Polyhedral_mixed_mesh_region_3.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 #include <CGAL/Surface_mesh.h>
 

@@ -42,7 +42,7 @@ try {
   Mesh mesh;
   const CGAL::Mixed_mesh_result_3 result = CGAL::make_mixed_mesh_3(brain, path, budget, mesh);
   if(!result.has_mesh()) {
-    std::cerr << description(result.status) << ": no mesh with " << budget << " vertices; one with "
+    std::cerr << mm3::description(result.status) << ": no mesh with " << budget << " vertices; one with "
               << result.number_of_vertices_needed << " has been tried\n";
     return EXIT_FAILURE;
   }

@@ -46,7 +46,7 @@ try {
   const CGAL::Mixed_mesh_result_3 result = CGAL::make_mixed_mesh_3(
     domain, CGAL::Polyhedral_mixed_mesh_region_3(tumor), argc > 3 ? std::stoul(argv[3]) : 1000, mesh);
   if(!result.has_mesh()) {
-    std::cerr << description(result.status) << '\n';
+    std::cerr << mm3::description(result.status) << '\n';
     return EXIT_FAILURE;
   }
   for(const auto& [index, volume] : mm3::volumes_of_subdomains(mesh))

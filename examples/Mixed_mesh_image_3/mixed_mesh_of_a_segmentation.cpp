@@ -62,7 +62,7 @@ try {
 
   CGAL::Mixed_mesh_3<Kernel> mesh;
   const auto result = CGAL::make_mixed_mesh_3(domain, region, 2000, mesh);
-  std::cout << description(result.status) << ": " << mesh.number_of_vertices() << " vertices, "
+  std::cout << mm3::description(result.status) << ": " << mesh.number_of_vertices() << " vertices, "
             << result.number_of_vertices_in_region << " of them in the tumor\n";
   std::string error;
   if(!mm3::IO::write_mixed_mesh("mixed_mesh_of_a_segmentation.vtu", mesh, {}, &error)) {

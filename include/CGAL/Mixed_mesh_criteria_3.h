@@ -274,8 +274,6 @@ private:
   double m_tolerance = automatic;
   double m_quality_bound = Mixed_mesh_optimization_criteria_3::default_quality_bound;
   double m_sharp_angle = Mixed_mesh_optimization_criteria_3::default_sharp_angle;
-  friend Mixed_meshes_3::internal::Concurrency;
-  unsigned m_number_of_threads = 1;
 };
 
 } // namespace CGAL

@@ -26,6 +26,8 @@ enum class Mixed_mesh_fit_status {
   EMPTY            ///< unchanged: there is no element
 };
 
+namespace Mixed_meshes_3 {
+
 /// \ingroup PkgMixedMesh3Functions
 /// The status in a few words.
 inline const char* description(Mixed_mesh_fit_status status)
@@ -41,6 +43,8 @@ inline const char* description(Mixed_mesh_fit_status status)
   }
   return "";
 }
+
+} // namespace Mixed_meshes_3
 
 /// \ingroup PkgMixedMesh3Optimization
 /// The result of `fit_mixed_mesh_to_surface()`.

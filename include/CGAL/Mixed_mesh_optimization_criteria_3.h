@@ -16,11 +16,6 @@
 #include <limits>
 
 namespace CGAL {
-namespace Mixed_meshes_3 {
-namespace internal {
-struct Concurrency;
-}
-} // namespace Mixed_meshes_3
 
 /*!
 \ingroup PkgMixedMesh3Optimization
@@ -130,8 +125,6 @@ public:
   double sharp_angle() const { return m_sharp_angle; }
 
 private:
-  friend Mixed_meshes_3::internal::Concurrency;
-  [[maybe_unused]] unsigned m_number_of_threads = 1;
   std::size_t m_number_of_bisections = 0;
   double m_sharp_angle = default_sharp_angle;
   double m_tolerance = 0;
@@ -153,6 +146,8 @@ enum class Mixed_mesh_optimization_status {
   EMPTY                  ///< unchanged: there is no element
 };
 
+namespace Mixed_meshes_3 {
+
 /// \ingroup PkgMixedMesh3Functions
 /// The status in a few words.
 inline const char* description(Mixed_mesh_optimization_status status)
@@ -167,6 +162,8 @@ inline const char* description(Mixed_mesh_optimization_status status)
   }
   return "";
 }
+
+} // namespace Mixed_meshes_3
 
 /// \ingroup PkgMixedMesh3Optimization
 /// The result of `optimize_mixed_mesh_3()`.

@@ -42,9 +42,11 @@ enum class Mixed_mesh_status {
   STOPPED                ///< no mesh, unless the criteria keep it: the visitor stopped the run
 };
 
+namespace Mixed_meshes_3 {
+
 /// \ingroup PkgMixedMesh3Functions
 /// The one of two statuses that has precedence; every function of the package decides by this one.
-inline Mixed_mesh_status worse(Mixed_mesh_status a, Mixed_mesh_status b) { return a < b ? b : a; }
+inline Mixed_mesh_status worse_status(Mixed_mesh_status a, Mixed_mesh_status b) { return a < b ? b : a; }
 
 /// \ingroup PkgMixedMesh3Functions
 /// The status of the whole after an optimization.
@@ -81,6 +83,8 @@ inline const char* description(Mixed_mesh_status status)
   }
   return "";
 }
+
+} // namespace Mixed_meshes_3
 
 /// \ingroup PkgMixedMesh3Functions
 /// The result of `make_mixed_mesh_3()`.

@@ -27,9 +27,14 @@ border. The surface is copied, its coordinates rounded to double.
 
 \sa `Labeled_polyhedral_mixed_mesh_domain_3::add_sheet()`
 */
-class Mixed_mesh_sheet_3 : public Mixed_meshes_3::internal::Sheet_oracle_3
+class Mixed_mesh_sheet_3 : private Mixed_meshes_3::internal::Sheet_oracle_3
 {
+  using Base = Mixed_meshes_3::internal::Sheet_oracle_3;
+
 public:
+  using Base::Kernel;
+  using Base::Point_3;
+
   /*!
   Builds the AABB trees.
 
@@ -51,9 +56,18 @@ public:
   template <class FaceListGraph, class NamedParameters = parameters::Default_named_parameters>
   explicit Mixed_mesh_sheet_3(const FaceListGraph& surface,
                               const NamedParameters& np = parameters::default_values())
-    : Sheet_oracle_3(surface, np)
+    : Base(surface, np)
   {
   }
+
+  using Base::area;
+  using Base::area_samples;
+  using Base::bbox;
+  using Base::closest_point;
+  using Base::do_intersect;
+  using Base::locate;
+  using Base::may_intersect;
+  using Base::number_of_facets;
 };
 
 } // namespace CGAL

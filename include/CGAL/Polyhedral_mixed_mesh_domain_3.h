@@ -27,9 +27,15 @@ copied.
 
 \cgalModels{MixedMeshDomain_3}
 */
-class Polyhedral_mixed_mesh_domain_3 : public Mixed_meshes_3::internal::Surface_oracle_3
+class Polyhedral_mixed_mesh_domain_3 : private Mixed_meshes_3::internal::Surface_oracle_3
 {
+  using Base = Mixed_meshes_3::internal::Surface_oracle_3;
+
 public:
+  using Base::Kernel;
+  using Base::Point_3;
+  using Base::Surface_part;
+
   /*!
   Builds the AABB tree.
 
@@ -51,9 +57,23 @@ public:
   template <class FaceListGraph, class NamedParameters = parameters::Default_named_parameters>
   explicit Polyhedral_mixed_mesh_domain_3(const FaceListGraph& surface,
                                           const NamedParameters& np = parameters::default_values())
-    : Surface_oracle_3(surface, np)
+    : Base(surface, np)
   {
   }
+
+  // The queries of the concept, optional ones among them.
+  using Base::area;
+  using Base::axis_parallel_planes;
+  using Base::bbox;
+  using Base::bounded_side;
+  using Base::closest_point;
+  using Base::locate;
+  using Base::number_of_facets;
+  using Base::sharp_edges;
+  using Base::shells;
+  using Base::surface_part;
+  using Base::surface_samples;
+  using Base::volume;
 };
 
 } // namespace CGAL

@@ -19,6 +19,7 @@
 #include <CGAL/Mixed_mesh_3/internal/octree/place_lattice.h>
 #include <CGAL/Mixed_mesh_criteria_3.h>
 #include <CGAL/Mixed_mesh_regions_3.h>
+#include <CGAL/Polyhedral_mixed_mesh_region_3.h>
 #include <CGAL/Mixed_mesh_result_3.h>
 
 #include <CGAL/Bbox_3.h>
@@ -96,7 +97,7 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
   const auto& d = mm3::as_domain(domain, np);
   const auto& r = mm3::as_region(region, np_region);
   return mm3::with_visitor(np, [&](auto& visitor) {
-    return mm3::mesh_models(d, r, mm3::Concurrency::with<ConcurrencyTag>(criteria), cell_traits, visitor,
+    return mm3::mesh_models(d, r, {criteria, mm3::number_of_threads<ConcurrencyTag>()}, cell_traits, visitor,
                             mesh);
   });
 }

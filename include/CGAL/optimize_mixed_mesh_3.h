@@ -106,7 +106,7 @@ optimize_mixed_mesh_3(Mixed_mesh_3<GeomTraits>& mesh, const Surface& surface, co
   const mm3::Surface_reference any_surface(s);
   return mm3::with_visitor(np, [&](auto& visitor) {
     return mm3::with_core_mesh(mesh, [&](mm3::Core_mesh& core) {
-      return mm3::optimize_bounded(core, any_surface, mm3::Concurrency::with<ConcurrencyTag>(criteria),
+      return mm3::optimize_bounded(core, any_surface, {criteria, mm3::number_of_threads<ConcurrencyTag>()},
                                    quality, [&] { return visitor.go_on(); });
     });
   });

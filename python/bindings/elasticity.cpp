@@ -6,7 +6,7 @@
 // Linear elasticity and resection.
 
 #include "arrays.h"
-#include "common/One_blas_thread.h"
+#include "core/One_blas_thread.h"
 
 #include <CGAL/Linear_elasticity_3.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>

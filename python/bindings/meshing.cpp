@@ -10,7 +10,7 @@
 #include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
 #include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
-#include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
+#include <CGAL/Mixed_mesh_image_3/IO/read_anatomical_surface.h>
 #include <CGAL/Mixed_mesh_3/fidelity.h>
 #include <CGAL/Mixed_mesh_3/surface_distance.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
@@ -117,7 +117,7 @@ using Labeled_soup = std::tuple<Doubles, Integers, int>;
   case Status::REGION_NOT_MET:
     throw Meshing_error(regions == 1 ? "region: the region does not meet the domain"
                                      : "none of the regions meets the domain");
-  default: throw Meshing_error(std::string(CGAL::description(result.status)));
+  default: throw Meshing_error(std::string(mm3::description(result.status)));
   }
 }
 
@@ -148,7 +148,8 @@ void compare(const Mesh& mesh, const Surface& surface, const CGAL::Mixed_mesh_re
   }
   for(const mm3::Solid_difference& difference : comparison.differences)
     warnings.push_back("surface: " + difference.sentence);
-  report["status"] = std::string(CGAL::description(CGAL::worse(result.status, mm3::status_of(comparison))));
+  report["status"] = std::string(
+    mm3::description(mm3::worse_status(result.status, mm3::status_of(comparison))));
   const auto& o = result.optimization;
   report["volume"] = comparison.mesh.volume;
   report["volume of surface"] = comparison.surface.volume;
@@ -214,7 +215,7 @@ make_mesh(const Soup& soup, const std::vector<Weighted_soup>& regions,
     refuse(result, vertices, regions.size());
   if(fewest_vertices && result.status > Status::BUDGET_NOT_FILLED)
     throw Meshing_error("vertices: not even " + std::to_string(result.vertex_budget)
-                        + " are within the tolerance: " + CGAL::description(result.status));
+                        + " are within the tolerance: " + mm3::description(result.status));
   py::dict report;
   report["vertex budget"] = result.vertex_budget;
   compare(*mesh, boundary, result, report, warnings);
@@ -276,7 +277,7 @@ py::dict fit(Mesh& mesh, const Soup& soup, const Progress& progress)
 // A closed surface from a file: points, triangles, and repairs.
 py::tuple read_surface(const std::string& path, bool is_strict, double wrap_diameter)
 {
-  mm3::IO::Read_surface_options options;
+  mm3::IO::Read_anatomical_surface_options options;
   options.is_strict = is_strict;
   options.wrap_diameter = wrap_diameter;
   Surface surface;
@@ -285,7 +286,7 @@ py::tuple read_surface(const std::string& path, bool is_strict, double wrap_diam
   bool is_read;
   {
     const py::gil_scoped_release release;
-    is_read = mm3::IO::read_closed_surface(path, options, surface, &error, &input);
+    is_read = mm3::IO::read_anatomical_surface(path, options, surface, &error, &input);
     surface.collect_garbage();
   }
   if(!is_read)

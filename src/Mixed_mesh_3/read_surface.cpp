@@ -5,7 +5,7 @@
 //
 // The library Mixed_mesh_3_compiled: surfaces from files.
 
-#include <CGAL/Mixed_mesh_3/IO/internal/read_surface_impl.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/surface/read_surface_impl.h>
 
 #ifndef CGAL_MIXED_MESH_3_COMPILED
 #error "build this file with CGAL_MIXED_MESH_3_COMPILED defined"

@@ -261,7 +261,7 @@ void test_statuses()
     const Mesh before = mesh;
     const Result result = CGAL::adapt_mixed_mesh_3(mesh, {Elastic_material()}, cases);
     BOOST_TEST(mesh.points() == before.points());
-    std::cout << description(result.status) << '\n';
+    std::cout << CGAL::Mixed_meshes_3::description(result.status) << '\n';
     return result.status;
   };
   const Mesh mesh = any_grid(3, TETRAHEDRON, 0.1);

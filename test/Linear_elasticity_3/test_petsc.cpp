@@ -8,7 +8,7 @@
 
 #include "elasticity_test.h"
 
-#include <CGAL/Mixed_mesh_3/Petsc_solver_traits.h>
+#include <CGAL/Mixed_mesh_petsc/Petsc_solver_traits.h>
 
 #include <cmath>
 #include <cstddef>

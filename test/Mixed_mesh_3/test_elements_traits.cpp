@@ -5,7 +5,7 @@
 //
 // The table of element kinds, the shape functions, volumes and aspect-ratio coefficients.
 
-#include <CGAL/Mixed_mesh_3/IO/internal/element_names.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/mesh/element_names.h>
 #include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/double.h>

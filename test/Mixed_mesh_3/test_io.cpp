@@ -12,7 +12,7 @@
 #include <CGAL/Mixed_mesh_3/IO/FEB_model.h>
 #include <CGAL/Mixed_mesh_3/IO/INP.h>
 #include <CGAL/Mixed_mesh_3/IO/VTU.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/Mesh_nodes.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/mesh/Mesh_nodes.h>
 #include <CGAL/Mixed_mesh_3/IO/read_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
@@ -614,7 +614,7 @@ void test_order_2(const fs::path& directory)
     const bool result = mentions(write_error(path, mesh, options), path + ": " + reason);
     return result && !fs::exists(path);
   };
-  const std::string medit = "elements of order 2 can be written to .vtu, .msh, .inp and .feb only";
+  const std::string medit = "elements of order 2 can be written to .vtu, .msh, .msh2, .inp and .feb only";
   BOOST_TEST(refused("io_refused.mesh", medit));
   BOOST_TEST(
     mentions(error_of([](std::string* error) { return IO::check_output_path("io_refused.mesh", error, 2); }),

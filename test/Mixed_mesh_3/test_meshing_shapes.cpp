@@ -278,11 +278,11 @@ void test_precedence()
 {
   std::vector<std::string> words;
   for(int a = 0; a <= int(Status::STOPPED); ++a) {
-    words.push_back(description(Status(a)));
+    words.push_back(CGAL::Mixed_meshes_3::description(Status(a)));
     BOOST_TEST(!words.back().empty());
     BOOST_TEST_EQ(std::count(words.begin(), words.end(), words.back()), 1);
     for(int b = 0; b <= int(Status::STOPPED); ++b)
-      BOOST_TEST_EQ(int(CGAL::worse(Status(a), Status(b))), (std::max)(a, b));
+      BOOST_TEST_EQ(int(CGAL::Mixed_meshes_3::worse_status(Status(a), Status(b))), (std::max)(a, b));
     Mixed_mesh_result_3 result;
     result.status = Status(a);
     BOOST_TEST_EQ(result.has_mesh(), a <= int(Status::BOUNDARY_NOT_MANIFOLD));

@@ -23,6 +23,7 @@
 #include <CGAL/Mixed_mesh_fit_criteria_3.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
 #include <CGAL/Mixed_mesh_regions_3.h>
+#include <CGAL/Polyhedral_mixed_mesh_region_3.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 
 #include <CGAL/assertions_behaviour.h>

@@ -11,6 +11,7 @@
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Triangle_tree.h>
 #include <CGAL/Mixed_mesh_regions_3.h>
+#include <CGAL/Polyhedral_mixed_mesh_region_3.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 
 #include <CGAL/Exact_rational.h>

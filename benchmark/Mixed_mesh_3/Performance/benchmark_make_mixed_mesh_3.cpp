@@ -9,8 +9,8 @@
 //
 // The boundary gets onto the surface by the optimization, by Algorithm 1 alone, or not at all.
 
-#include "common/Stage_log.h"
-#include "common/Thread_limit.h"
+#include "core/Stage_log.h"
+#include "core/Thread_limit.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3/quality.h>

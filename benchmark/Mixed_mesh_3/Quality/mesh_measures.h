@@ -12,7 +12,7 @@
 #include <CGAL/Linear_elasticity_3.h>
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
-#include "common/resources.h"
+#include "core/resources.h"
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>

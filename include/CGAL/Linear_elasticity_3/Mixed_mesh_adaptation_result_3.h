@@ -28,6 +28,8 @@ enum class Mixed_mesh_adaptation_status {
   EMPTY             ///< unchanged: there is no element
 };
 
+namespace Mixed_meshes_3 {
+
 /// \ingroup PkgLinearElasticity3Ref
 /// The status in a few words.
 inline const char* description(Mixed_mesh_adaptation_status status)
@@ -44,6 +46,8 @@ inline const char* description(Mixed_mesh_adaptation_status status)
   }
   return "";
 }
+
+} // namespace Mixed_meshes_3
 
 /// \ingroup PkgLinearElasticity3Ref
 /// The result of `adapt_mixed_mesh_3()`.

@@ -14,20 +14,18 @@
 
 #include <CGAL/Mixed_mesh_3/internal/surface/hausdorff_distance.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/boundary_self_intersections.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Triangle_soup.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/assertions.h>
 #include <CGAL/boost/graph/helpers.h>
-#include <CGAL/boost/graph/named_params_helper.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -35,28 +33,6 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 namespace internal {
-
-template <class FaceListGraph, class NamedParameters>
-Triangle_soup surface_triangles(const FaceListGraph& surface, const NamedParameters& np)
-{
-  CGAL_precondition(CGAL::is_triangle_mesh(surface) && faces(surface).first != faces(surface).second);
-  auto vpm = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
-                                          get_const_property_map(CGAL::vertex_point, surface));
-  Triangle_soup soup;
-  std::unordered_map<typename boost::graph_traits<FaceListGraph>::vertex_descriptor, std::size_t> index;
-  for(auto v : vertices(surface)) {
-    index[v] = soup.points.size();
-    soup.points.push_back(rounded_point(to_vec3(get(vpm, v))));
-  }
-  for(auto f : faces(surface)) {
-    std::array<std::size_t, 3> t;
-    int i = 0;
-    for(auto v : vertices_around_face(halfedge(f, surface), surface))
-      t[i++] = index[v];
-    soup.triangles.push_back(t);
-  }
-  return soup;
-}
 
 /// The length of the diagonal of the box of the triangles; a soup may have points without triangles.
 inline double diagonal(const Triangle_soup& soup)
@@ -117,6 +93,7 @@ Hausdorff_distance hausdorff_distance(const Mesh& mesh, const FaceListGraph& sur
   CGAL_precondition(relative_error > 0);
   const internal::Triangle_soup boundary = internal::boundary_triangles(mesh);
   const internal::Triangle_soup triangles = internal::surface_triangles(surface, np);
+  CGAL_precondition(!triangles.triangles.empty());
   const double maximal_error = relative_error * internal::diagonal(triangles);
   return {internal::one_sided_distance(boundary, internal::Nearest_triangle(triangles), maximal_error),
           internal::one_sided_distance(triangles, internal::Nearest_triangle(boundary), maximal_error)};
@@ -148,6 +125,7 @@ std::size_t number_of_vertices_off_surface(const Mesh& mesh, const FaceListGraph
 {
   const internal::Triangle_soup boundary = internal::boundary_triangles(mesh);
   const internal::Triangle_soup triangles = internal::surface_triangles(surface, np);
+  CGAL_precondition(!triangles.triangles.empty());
   const internal::Nearest_triangle nearest(triangles);
   const double tolerance = relative_tolerance * internal::diagonal(triangles);
   std::size_t n = 0;

@@ -14,8 +14,8 @@
 #include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
 #include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/FEB_output.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/Mesh_nodes.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/mesh/FEB_output.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/mesh/Mesh_nodes.h>
 
 #include <ostream>
 #include <vector>

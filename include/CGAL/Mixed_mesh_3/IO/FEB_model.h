@@ -16,7 +16,7 @@
 #include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
 #include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/FEB_output.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/mesh/FEB_output.h>
 #include <CGAL/Mixed_mesh_3/Index.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 

@@ -11,9 +11,9 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/Mesh_nodes.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/facet_sets.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/mesh/Element_blocks.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/mesh/Mesh_nodes.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/mesh/facet_sets.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
 #include <cstddef>

@@ -15,9 +15,9 @@
 #include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
 #include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/Compressed_blocks.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/Element_blocks.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/Mesh_nodes.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/mesh/Compressed_blocks.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/mesh/Element_blocks.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/mesh/Mesh_nodes.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 
 #include <CGAL/config.h>

@@ -12,16 +12,18 @@
 
 #include <CGAL/Mixed_mesh_3/IO/Read_surface_options.h>
 #include <CGAL/Mixed_mesh_3/IO/Surface_input.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/Surface_soup.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/surface/Surface.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/surface/Surface_soup.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
-#include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/extension_of.h>
 
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
 
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -29,30 +31,30 @@ namespace IO {
 
 namespace internal {
 
-/// The surface that is read: predicates on it are exact.
-using Surface = CGAL::Surface_mesh<Predicates_kernel::Point_3>;
+/// The extensions of the files that `read_surface_file()` reads.
+std::vector<std::string_view> surface_extensions();
 
-/// Reads a surface and mends it, or refuses.
-void read_surface(const std::string& path, const Read_surface_options& options, Surface& mesh,
-                  Surface_input& input);
+/// The points and polygons of a file, or refuses.
+Surface_soup read_surface_file(const std::string& path);
 
-/// Mends a surface, or refuses; the name represents the surface in messages.
+/// Mends a closed surface, or refuses; the name represents the surface in messages.
 void make_surface(const std::string& name, const Read_surface_options& options, Surface_soup soup,
                   Surface& mesh, Surface_input& input);
 
-/// Reads a sheet, or refuses.
-void read_sheet(const std::string& path, const Read_surface_options& options, Surface& mesh,
-                Surface_input& input);
+/// Mends a sheet, or refuses.
+void make_sheet(const std::string& name, const Read_surface_options& options, Surface_soup soup,
+                Surface& mesh, Surface_input& input);
 
-/// Implementation of the two functions below, with one of the functions above.
-template <class Read, class Mesh>
-bool read_surface_as(const Read& read, const std::string& path, const Read_surface_options& options,
-                     Mesh& mesh, std::string* error, Surface_input* input)
+/// Makes a surface of what `soup()` returns, with one of the functions above.
+template <class Soup, class Mesh>
+bool make_surface_as(decltype(make_surface)& make, const Soup& soup, const std::string& name,
+                     const Read_surface_options& options, Mesh& mesh, std::string* error,
+                     Surface_input* input)
 {
   Surface_input found;
-  const bool is_success = is_read(path, error, [&] {
+  const bool is_success = is_read(name, error, [&] {
     Surface surface;
-    read(path, options, surface, found);
+    make(name, options, soup(), surface, found);
     if constexpr(std::is_same_v<Mesh, Surface>) {
       mesh = std::move(surface);
     } else {
@@ -86,11 +88,9 @@ repaired is refused, or wrapped.
 |------|--------|
 | `.off`, `.obj`, `.stl`, `.ply` | the usual ones, text and binary |
 | `.vtp`, `.vtk` | VTK polygonal data in XML, and in the legacy format: polygons and strips |
-| `.gii` | GIFTI, in the coordinates of the scanner where the file leads there |
-| others | binary triangles of FreeSurfer (`lh.pial`), in the scanner's coordinates if they name the volume |
 
-Arrays compressed by zlib can be read if `CGAL_USE_ZLIB` is defined and zlib is linked. A header or comment
-with `SPACE=LPS`, as 3D Slicer writes it, is obeyed: x and y are negated, so that the result is in RAS.
+Arrays compressed by zlib can be read if `CGAL_USE_ZLIB` is defined and zlib is linked. Coordinates are those
+of the file; `read_anatomical_surface()` converts them to RAS, and reads formats of neuroimaging, too.
 
 \tparam Mesh a model of `MutableFaceGraph` and `FaceListGraph` with an internal vertex point map, for
         example `Surface_mesh` or `Polyhedron_3`
@@ -109,7 +109,9 @@ template <class Mesh>
                                        Mesh& mesh, std::string* error = nullptr,
                                        Surface_input* input = nullptr)
 {
-  return internal::read_surface_as(internal::read_surface, path, options, mesh, error, input);
+  return internal::make_surface_as(
+    internal::make_surface, [&] { return internal::read_surface_file(path); }, path, options, mesh, error,
+    input);
 }
 
 /// \ingroup PkgMixedMesh3IO
@@ -140,8 +142,7 @@ template <class Points, class Polygons, class Mesh>
                                        Mesh& mesh, std::string* error = nullptr,
                                        Surface_input* input = nullptr)
 {
-  const auto make = [&](const std::string&, const Read_surface_options&, internal::Surface& surface,
-                        Surface_input& found) {
+  const auto soup_of_arrays = [&] {
     internal::Surface_soup soup;
     for(const auto& p : points)
       soup.points.push_back({double(p[0]), double(p[1]), double(p[2])});
@@ -150,9 +151,9 @@ template <class Points, class Polygons, class Mesh>
       for(const auto v : polygon)
         soup.polygons.back().push_back(internal::vertex_index(v));
     }
-    internal::make_surface(name, options, std::move(soup), surface, found);
+    return soup;
   };
-  return internal::read_surface_as(make, name, options, mesh, error, input);
+  return internal::make_surface_as(internal::make_surface, soup_of_arrays, name, options, mesh, error, input);
 }
 
 /*!
@@ -169,7 +170,9 @@ template <class Mesh>
 [[nodiscard]] bool read_sheet(const std::string& path, const Read_surface_options& options, Mesh& mesh,
                               std::string* error = nullptr, Surface_input* input = nullptr)
 {
-  return internal::read_surface_as(internal::read_sheet, path, options, mesh, error, input);
+  return internal::make_surface_as(
+    internal::make_sheet, [&] { return internal::read_surface_file(path); }, path, options, mesh, error,
+    input);
 }
 
 } // namespace IO
@@ -177,7 +180,7 @@ template <class Mesh>
 } // namespace CGAL
 
 #ifndef CGAL_MIXED_MESH_3_COMPILED
-#include <CGAL/Mixed_mesh_3/IO/internal/read_surface_impl.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/surface/read_surface_impl.h>
 #endif
 
 #endif // CGAL_MIXED_MESH_3_IO_READ_CLOSED_SURFACE_H

@@ -11,17 +11,9 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/facet_sets.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/Mesh_input.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/read_MEDIT.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/read_MSH.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/read_NETGEN.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/read_TETGEN.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/read_VTU.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/mesh/Mesh_input.h>
 
-#include <cmath>
-#include <cstddef>
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,17 +24,8 @@ namespace IO {
 
 namespace internal {
 
-inline Mesh_input read_mesh_input(const std::string& file, const std::string& extension)
-{
-  if(extension == ".ele" || extension == ".node")
-    return read_TETGEN(file);
-  for(const auto& [name, read] :
-      {std::pair{".vtu", &read_VTU}, std::pair{".msh", &read_MSH}, std::pair{".msh2", &read_MSH},
-       std::pair{".mesh", &read_MEDIT}, std::pair{".vol", &read_NETGEN}})
-    if(extension == name)
-      return read(file, read_mesh_file(file));
-  refuse(file, "unknown format; expected .vtu, .msh, .msh2, .mesh, .ele, .node or .vol");
-}
+/// The mesh of a file, with finite points, at least one element, and names that can be written; or refuses.
+Mesh_input read_mesh_input(const std::string& file);
 
 } // namespace internal
 
@@ -62,41 +45,16 @@ template <class Mesh>
 [[nodiscard]] bool read_mixed_mesh(const std::string& file, Mesh& mesh, Subdomain_names& subdomain_names,
                                    std::string* error = nullptr)
 {
-  using internal::refuse;
   return internal::is_read(file, error, [&] {
-    std::string extension = std::filesystem::path(file).extension().string();
-    for(char& c : extension)
-      if(c >= 'A' && c <= 'Z')
-        c = char(c - 'A' + 'a');
-    internal::Mesh_input input = internal::read_mesh_input(file, extension);
+    internal::Mesh_input input = internal::read_mesh_input(file);
     std::vector<typename Mesh::Point_3> points;
     points.reserve(input.points.size());
-    for(const auto& p : input.points) {
-      for(double x : p)
-        if(!std::isfinite(x))
-          refuse(file,
-                 "vertex " + std::to_string(points.size()) + " has a coordinate that is not a finite number");
-        else if(std::abs(x) > internal::largest_coordinate)
-          refuse(file, "vertex " + std::to_string(points.size())
-                         + " has a coordinate beyond 1e30: volumes and "
-                           "areas of its elements would overflow");
+    for(const auto& p : input.points)
       points.emplace_back(p[0], p[1], p[2]);
-    }
-    if(input.elements.empty())
-      refuse(file, "has no hexahedra, prisms, pyramids or tetrahedra");
     Mesh result;
     result.assign(std::move(points), std::move(input.elements), std::move(input.attributes));
     mesh = std::move(result);
-    subdomain_names.clear();
-    for(const auto& named : input.subdomain_names) {
-      const std::string upper = internal::in_upper_case(named.second);
-      const bool is_new = std::none_of(subdomain_names.begin(), subdomain_names.end(),
-                                       [&](const auto& other) {
-                                         return internal::in_upper_case(other.second) == upper;
-                                       });
-      if(is_new && is_facet_set_name(named.second))
-        subdomain_names.insert(named);
-    }
+    subdomain_names = std::move(input.subdomain_names);
   });
 }
 
@@ -146,5 +104,9 @@ template <class Mesh>
 } // namespace IO
 } // namespace Mixed_meshes_3
 } // namespace CGAL
+
+#ifndef CGAL_MIXED_MESH_3_COMPILED
+#include <CGAL/Mixed_mesh_3/IO/internal/mesh/read_mixed_mesh_impl.h>
+#endif
 
 #endif // CGAL_MIXED_MESH_3_IO_READ_MIXED_MESH_H

@@ -10,23 +10,19 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
-#include <CGAL/Mixed_mesh_3/IO/Data_array.h>
-#include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
-#include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
+#include <CGAL/Mixed_mesh_3/IO/Write_options.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/Output_file.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 
 #include <cstddef>
 #include <deque>
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <ostream>
 #include <string>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -34,69 +30,7 @@ namespace IO {
 
 class Output_files;
 
-/// \ingroup PkgMixedMesh3IO
-/// The formats that can be written.
-enum class Format {
-  VTU,     ///< VTK's unstructured grid, in XML
-  MSH_4_1, ///< Gmsh, now
-  MSH_2_2, ///< Gmsh, the older format
-  MEDIT,   ///< Medit
-  INP,     ///< Abaqus
-  FEB      ///< FEBio
-};
-
-/// \ingroup PkgMixedMesh3IO
-/// How `write_mixed_mesh()` writes, and what besides the mesh.
-struct Write_options
-{
-  /// Whether to write `split_to_tetrahedra(mesh)` instead of the mesh.
-  bool tetrahedra = false;
-  /// Whether `.msh` means Gmsh's format 2.2 instead of 4.1.
-  bool msh_2_2 = false;
-  /// Values to write with the mesh: `Format::VTU`; of one or three components, also Gmsh's formats and
-  /// `Format::FEB`.
-  std::vector<Data_array> vertex_data;
-  /// Values to write with the mesh; `Format::VTU` only.
-  std::vector<Data_array> element_data;
-  /// Named faces of elements, in all formats. `Format::MSH_2_2` and `Format::MEDIT` take no face in two sets.
-  std::vector<Facet_set> facet_sets = {};
-  /// In all formats but `Format::MSH_2_2` and `Format::MEDIT`, which have no place for them.
-  Subdomain_names subdomain_names = {};
-  /// The order of the elements, 1 or 2. With 2, they are quadratic and straight-sided: each edge has one node
-  /// more, at its rounded midpoint, numbered after the vertices in the order in which elements have the edges
-  /// first; faces have those of their edges. Such elements have the map of the linear ones, up to the
-  /// rounding of the middle nodes: what the certificate proves of those holds for them. Values at the
-  /// vertices are interpolated linearly. All formats but `Format::MEDIT` have them, `Format::INP` without
-  /// pyramids.
-  int order = 1;
-};
-
 namespace internal {
-
-struct Extension
-{
-  const char* name;
-  Format format;
-};
-
-// The first extension of a format is its usual one; Gmsh knows `.msh2`, too.
-inline constexpr Extension extensions[] = {{".vtu", Format::VTU},      {".msh", Format::MSH_4_1},
-                                           {".msh2", Format::MSH_2_2}, {".mesh", Format::MEDIT},
-                                           {".inp", Format::INP},      {".feb", Format::FEB}};
-
-/// Writes a mesh in a format. \return whether all went well
-bool write(std::ostream& stream, const Mixed_meshes_3::internal::Core_mesh& mesh, Format format,
-           const Write_options& options);
-
-/// Why a format cannot have elements of an order, whatever their kinds; empty if it can.
-inline std::string order_defect(Format format, int order)
-{
-  if(order != 1 && order != 2)
-    return "the order of elements is 1 or 2, not " + std::to_string(order);
-  return order == 2 && format == Format::MEDIT
-           ? "elements of order 2 can be written to .vtu, .msh, .inp and .feb only"
-           : "";
-}
 
 /// As `write_mixed_mesh()`, compiled once.
 bool write_core_mesh(Output_files& files, const std::string& path,
@@ -107,17 +41,7 @@ bool write_core_mesh(Output_files& files, const std::string& path,
 
 /// \ingroup PkgMixedMesh3IO
 /// The format for a file name, from its extension in upper or lower case; empty if unknown.
-inline std::optional<Format> format_of(const std::string& path)
-{
-  std::string extension = std::filesystem::path(path).extension().string();
-  for(char& c : extension)
-    if(c >= 'A' && c <= 'Z')
-      c = char(c - 'A' + 'a');
-  for(const internal::Extension& known : internal::extensions)
-    if(extension == known.name)
-      return known.format;
-  return std::nullopt;
-}
+std::optional<Format> format_of(const std::string& path);
 
 /// \ingroup PkgMixedMesh3IO
 /// Whether any file can be written to a path: its directory must exist and be writable.
@@ -207,17 +131,7 @@ An existing file is not touched; a temporary one is created beside it and remove
 \param error if not null, receives a line that names the file and says what is wrong, if anything is
 \param order of the elements: see `Write_options::order`
 */
-[[nodiscard]] inline bool check_output_path(const std::string& path, std::string* error = nullptr,
-                                            int order = 1)
-{
-  if(const std::optional<Format> format = format_of(path))
-    return internal::is_success(internal::with_path(path, internal::order_defect(*format, order)), error)
-           && check_output_directory(path, error);
-  std::string known;
-  for(const internal::Extension& extension : internal::extensions)
-    known += std::string(" ") + extension.name;
-  return internal::is_success(path + ": unknown extension, known are" + known, error);
-}
+[[nodiscard]] bool check_output_path(const std::string& path, std::string* error = nullptr, int order = 1);
 
 /// \ingroup PkgMixedMesh3IO
 /// Writes a mesh to one of several files that shall appear together, as the function below does to one.
@@ -266,7 +180,7 @@ template <class Mesh>
 } // namespace CGAL
 
 #ifndef CGAL_MIXED_MESH_3_COMPILED
-#include <CGAL/Mixed_mesh_3/IO/internal/write_mixed_mesh_impl.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/mesh/write_mixed_mesh_impl.h>
 #endif
 
 #endif // CGAL_MIXED_MESH_3_IO_WRITE_MIXED_MESH_H

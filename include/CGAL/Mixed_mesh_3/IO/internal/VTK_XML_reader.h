@@ -13,7 +13,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
-#include <CGAL/Mixed_mesh_3/IO/internal/Mesh_input.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/Text_input.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/XML_input.h>
 
 #include <CGAL/config.h>

@@ -36,27 +36,13 @@ unsigned number_of_threads()
   return 1;
 }
 
-/// Number of threads that criteria carry from the function with the tag to the stages.
-struct Concurrency
+/// Criteria with the number of threads that a function with a tag stands for.
+template <class Criteria>
+struct With_threads : Criteria
 {
-  template <class ConcurrencyTag, class Criteria>
-  static Criteria with(const Criteria& criteria)
-  {
-    return with_threads(criteria, internal::number_of_threads<ConcurrencyTag>());
-  }
+  unsigned number_of_threads;
 
-  template <class Criteria>
-  static Criteria with_threads(Criteria criteria, unsigned threads)
-  {
-    criteria.m_number_of_threads = threads;
-    return criteria;
-  }
-
-  template <class Criteria>
-  static unsigned number_of_threads(const Criteria& criteria)
-  {
-    return criteria.m_number_of_threads;
-  }
+  With_threads(const Criteria& criteria, unsigned threads) : Criteria(criteria), number_of_threads(threads) {}
 };
 
 } // namespace internal

@@ -13,6 +13,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/element_points.h>
@@ -54,7 +55,7 @@ start.
 template <class Quality>
 class Bounded_optimization
 {
-  using Criteria = Mixed_mesh_optimization_criteria_3;
+  using Criteria = With_threads<Mixed_mesh_optimization_criteria_3>;
   using Result = Mixed_mesh_optimization_result_3;
   using Status = Mixed_mesh_optimization_status;
 
@@ -266,10 +267,10 @@ private:
 
 /// Runs the optimization, for any quality.
 template <class Quality>
-Mixed_mesh_optimization_result_3 optimize_bounded(Core_mesh& mesh, const Any_surface& surface,
-                                                  const Mixed_mesh_optimization_criteria_3& criteria,
-                                                  const Quality& quality, const std::function<bool()>& go_on,
-                                                  double tolerated_share_not_arrived = 0)
+Mixed_mesh_optimization_result_3
+optimize_bounded(Core_mesh& mesh, const Any_surface& surface,
+                 const With_threads<Mixed_mesh_optimization_criteria_3>& criteria, const Quality& quality,
+                 const std::function<bool()>& go_on, double tolerated_share_not_arrived = 0)
 {
   return Bounded_optimization<Quality>(mesh, surface, criteria, quality, tolerated_share_not_arrived)(go_on);
 }

@@ -70,7 +70,7 @@ The passes are functions of this state. A pass changes elements only by the move
 template <class Quality>
 struct Fitting_state
 {
-  using Criteria = Mixed_mesh_optimization_criteria_3;
+  using Criteria = With_threads<Mixed_mesh_optimization_criteria_3>;
   using Moves = Vertex_optimizer<Quality, Surface_projection>;
   using Flipper = Tetrahedron_flipper<Quality>;
 
@@ -115,9 +115,8 @@ struct Fitting_state
       mesh(start, strata.of_vertices(start.number_of_vertices(), boundary)), effort(mesh.points.size()),
       moves(mesh, quality, project, criteria.sliding_threshold(), intermediate_bound()),
       mean_edge_lengths(measure_edges()), tolerances(enlarged_tolerances()), samples(surface_samples()),
-      attraction(mesh, project, samples, Concurrency::number_of_threads(criteria)),
-      is_arrived(mesh.points.size(), 0), is_held(mesh.points.size(), 0), saved_points(mesh.points),
-      saved_is_arrived(mesh.points.size(), 0)
+      attraction(mesh, project, samples, criteria.number_of_threads), is_arrived(mesh.points.size(), 0),
+      is_held(mesh.points.size(), 0), saved_points(mesh.points), saved_is_arrived(mesh.points.size(), 0)
   {
     attract_boundary();
     moves.set_notable_gain(effort.notable_gain);
@@ -125,7 +124,7 @@ struct Fitting_state
     if(effort.samples_coarsely)
       attraction.sample_coarsely();
     if(effort.moves_by_colors)
-      moves.use_colors(Concurrency::number_of_threads(criteria));
+      moves.use_colors(criteria.number_of_threads);
     if(effort.layers > 0)
       moves.set_good_enough_inside(acceptable_final_cost, effort.layers);
   }

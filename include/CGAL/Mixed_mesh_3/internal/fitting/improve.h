@@ -38,7 +38,8 @@ bool improve(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
   constexpr double acceptable = 10; // cost for vertices that arrive late
 
   const bool has_tolerance = s.criteria.tolerance() > 0 && !s.mode.is_without_attraction;
-  const int rounds = (has_tolerance || s.features ? s.criteria : Criteria(s.criteria).tolerance(0))
+  const Criteria& criteria = s.criteria;
+  const int rounds = (has_tolerance || s.features ? criteria : Criteria(criteria).tolerance(0))
                        .number_of_rounds_for(s.mesh.points.size());
   const int second_phase = int(share_of_first_phase * rounds + 0.5);
   // The last bisection is of edges that are still far.

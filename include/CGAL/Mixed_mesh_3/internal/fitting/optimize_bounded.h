@@ -13,6 +13,7 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Any_surface.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
@@ -27,11 +28,11 @@ namespace internal {
 /// \param go_on function that is asked before each round
 /// \param tolerated_share_not_arrived share of the boundary vertices that may have not arrived without a
 /// further run
-Mixed_mesh_optimization_result_3 optimize_bounded(Core_mesh& mesh, const Any_surface& surface,
-                                                  const Mixed_mesh_optimization_criteria_3& criteria,
-                                                  const Aspect_ratio_quality_3& quality,
-                                                  const std::function<bool()>& go_on,
-                                                  double tolerated_share_not_arrived = 0);
+Mixed_mesh_optimization_result_3
+optimize_bounded(Core_mesh& mesh, const Any_surface& surface,
+                 const With_threads<Mixed_mesh_optimization_criteria_3>& criteria,
+                 const Aspect_ratio_quality_3& quality, const std::function<bool()>& go_on,
+                 double tolerated_share_not_arrived = 0);
 
 } // namespace internal
 } // namespace Mixed_meshes_3

@@ -12,6 +12,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Fitting_state.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/arrive.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/follow_sharp_edges.h>
@@ -72,9 +73,10 @@ Runs all passes once.
 */
 template <class Quality>
 Fitting_outcome optimize_surface(Core_mesh& mesh, const Any_surface& domain,
-                                 const Mixed_mesh_optimization_criteria_3& criteria, const Quality& quality,
-                                 const Fitting_mode& mode, const Sharp_features& features,
-                                 const std::vector<std::uint8_t>& is_held, const std::function<bool()>& go_on)
+                                 const With_threads<Mixed_mesh_optimization_criteria_3>& criteria,
+                                 const Quality& quality, const Fitting_mode& mode,
+                                 const Sharp_features& features, const std::vector<std::uint8_t>& is_held,
+                                 const std::function<bool()>& go_on)
 {
   // Share of the boundary vertices: if more have not arrived after the first pass, the vertices that draw
   // others would be in their way, and take most of the time.

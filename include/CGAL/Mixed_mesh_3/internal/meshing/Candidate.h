@@ -35,6 +35,8 @@ enum class Gap_rule : std::uint8_t {
   LINES    ///< `widen_gaps_by_lines()`
 };
 
+using Meshing_criteria = With_threads<Mixed_mesh_criteria_3>;
+
 /// The mesh of one octree on the way to the budget, on the lattice.
 struct Candidate
 {
@@ -50,7 +52,7 @@ struct Candidate
 };
 
 /// Runs the stages that follow the octree. To be called in the stage `OCTREE`.
-inline Candidate make_candidate(const Located_octree& octree, const Mixed_mesh_criteria_3& criteria,
+inline Candidate make_candidate(const Located_octree& octree, const Meshing_criteria& criteria,
                                 Any_visitor& visitor, Gap_rule gap_rule = Gap_rule::NONE)
 {
   Candidate c;
@@ -60,8 +62,7 @@ inline Candidate make_candidate(const Located_octree& octree, const Mixed_mesh_c
     return c;
   {
     const Stage_scope scope(visitor, Stage::TRANSITIONS);
-    c.mesh = apply_transitions(octree, criteria.transition_templates(),
-                               Concurrency::number_of_threads(criteria));
+    c.mesh = apply_transitions(octree, criteria.transition_templates(), criteria.number_of_threads);
     if(gap_rule == Gap_rule::NORMALS)
       widen_gaps(octree, c.mesh);
     else if(gap_rule == Gap_rule::LINES)
@@ -69,8 +70,7 @@ inline Candidate make_candidate(const Located_octree& octree, const Mixed_mesh_c
   }
   {
     const Stage_scope scope(visitor, Stage::BOUNDARY);
-    c.boundary = split_boundary(octree, c.mesh, criteria.boundary_mode(),
-                                Concurrency::number_of_threads(criteria));
+    c.boundary = split_boundary(octree, c.mesh, criteria.boundary_mode(), criteria.number_of_threads);
   }
   c.number_of_vertices = c.boundary.number_of_vertices;
   visitor.progress(c.number_of_vertices, criteria.maximal_number_of_vertices());

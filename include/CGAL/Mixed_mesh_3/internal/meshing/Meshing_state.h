@@ -46,7 +46,7 @@ constexpr double share_of_tolerance = 0.9;
 /// of the method are functions of this state.
 struct Meshing_state
 {
-  const Mixed_mesh_criteria_3& criteria;
+  const Meshing_criteria& criteria;
   Any_visitor& visitor;
   const Located_octree root; // with nothing but its root
   Located_octree octree;
@@ -65,7 +65,7 @@ struct Meshing_state
   Tolerance_search tolerance_search;
 
   /// \param r the octree with nothing but its root
-  Meshing_state(const Located_octree& r, const Mixed_mesh_criteria_3& c, Any_visitor& v)
+  Meshing_state(const Located_octree& r, const Meshing_criteria& c, Any_visitor& v)
     : criteria(c), visitor(v), root(r), octree(root), radius(mean_radius_of_region(root)),
       lattice(root.cell_traits().lattice_on_surface()), quality_bound(criteria.quality_bound()),
       tolerance_search(root, criteria, visitor, result)

@@ -61,7 +61,7 @@ class Tolerance_search
   static constexpr int rounds_of_sliding = 100, rounds_between_subdomains = 5;
 
   const Located_octree& m_root;
-  const Mixed_mesh_criteria_3& m_criteria;
+  const Meshing_criteria& m_criteria;
   Any_visitor& m_visitor;
   Mixed_mesh_result_3& m_result;
   const bool m_has_subdomains;
@@ -73,7 +73,7 @@ class Tolerance_search
 
 public:
   /// \param root the octree with nothing but its root
-  Tolerance_search(const Located_octree& root, const Mixed_mesh_criteria_3& criteria, Any_visitor& visitor,
+  Tolerance_search(const Located_octree& root, const Meshing_criteria& criteria, Any_visitor& visitor,
                    Mixed_mesh_result_3& result)
     : m_root(root), m_criteria(criteria), m_visitor(visitor), m_result(result),
       m_has_subdomains(root.domain().subdomain_indices().size() > 1)

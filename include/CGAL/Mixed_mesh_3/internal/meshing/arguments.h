@@ -14,6 +14,7 @@
 
 #include <CGAL/Mixed_mesh_3/Default_visitor.h>
 #include <CGAL/Mixed_mesh_regions_3.h>
+#include <CGAL/Polyhedral_mixed_mesh_region_3.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 
 #include <CGAL/Named_function_parameters.h>

@@ -90,8 +90,8 @@ inline void fit_roughly(Meshing_state& s, Core_mesh& mesh)
                        .sharp_angle(s.criteria.sharp_angle())
                        .number_of_rounds(1);
   optimize_bounded(
-    mesh, s.root.domain(), Concurrency::with_threads(rough, Concurrency::number_of_threads(s.criteria)),
-    Aspect_ratio_quality_3(), [&s] { return s.go_on(); }, tolerated_share_not_arrived);
+    mesh, s.root.domain(), {rough, s.criteria.number_of_threads}, Aspect_ratio_quality_3(),
+    [&s] { return s.go_on(); }, tolerated_share_not_arrived);
 }
 
 /// Removes vertices that only tetrahedra have.

@@ -56,8 +56,8 @@ the fewest vertices is taken; if even the largest budget does not suffice, the m
 Some five to ten meshes
 */
 inline Mixed_mesh_result_3 run_with_fewest_vertices(const Located_octree& root,
-                                                    const Mixed_mesh_criteria_3& criteria,
-                                                    Any_visitor& visitor, Core_mesh& mesh)
+                                                    const Meshing_criteria& criteria, Any_visitor& visitor,
+                                                    Core_mesh& mesh)
 {
   constexpr double step = 2, near_enough = 1.1;
   const std::size_t most = criteria.maximal_number_of_vertices();
@@ -66,8 +66,9 @@ inline Mixed_mesh_result_3 run_with_fewest_vertices(const Located_octree& root,
   Mixed_mesh_result_3 best;
   for(;;) {
     Core_mesh trial;
-    const Mixed_mesh_result_3 result = run_stages(
-      root, Mixed_mesh_criteria_3(criteria).maximal_number_of_vertices(budget), visitor, trial);
+    Meshing_criteria with_budget = criteria;
+    with_budget.maximal_number_of_vertices(budget);
+    const Mixed_mesh_result_3 result = run_stages(root, with_budget, visitor, trial);
     const bool is_sufficient = meets_all_criteria(result);
     if(is_sufficient || sufficient_budget == 0) {
       best = result;

@@ -61,7 +61,7 @@ inline void describe_octree(Meshing_state& s)
   const std::size_t n = s.best.number_of_vertices;
   const auto note = [&s](bool is_so, Status status) {
     if(is_so)
-      s.result.status = worse(s.result.status, status);
+      s.result.status = worse_status(s.result.status, status);
   };
   s.result.status = Status::SUCCESS;
   note(s.result.number_of_vertices_needed > s.criteria.maximal_number_of_vertices(),
@@ -81,11 +81,10 @@ inline void mark_sheets(Meshing_state& s)
   if(!s.root.domain().has_sheets())
     return;
   s.best.boundary = split_boundary(s.octree, s.best.mesh, s.criteria.boundary_mode(),
-                                   Concurrency::number_of_threads(s.criteria),
-                                   Sheet_layer(s.octree, s.best.mesh));
+                                   s.criteria.number_of_threads, Sheet_layer(s.octree, s.best.mesh));
   s.result.number_of_lost_sheets = s.best.boundary.number_of_lost_sheets;
   if(s.result.number_of_lost_sheets > 0)
-    s.result.status = worse(s.result.status, Mixed_mesh_status::PARTS_LOST);
+    s.result.status = worse_status(s.result.status, Mixed_mesh_status::PARTS_LOST);
 }
 
 /// Brings the boundary onto the surface, with the vertices that the budget has left.
@@ -99,14 +98,13 @@ inline void optimize_boundary(Meshing_state& s, Core_mesh& mesh)
                           .quality_bound(s.quality_bound)
                           .sharp_angle(s.criteria.sharp_angle())
                           .number_of_bisections(s.share_of_bisections() > 0 ? rest : 0);
-  const auto with_threads = Concurrency::with_threads(criteria, Concurrency::number_of_threads(s.criteria));
-  s.result.optimization = optimize_bounded(mesh, s.root.domain(), with_threads, Aspect_ratio_quality_3(),
-                                           [&s] { return s.go_on(); });
+  s.result.optimization = optimize_bounded(mesh, s.root.domain(), {criteria, s.criteria.number_of_threads},
+                                           Aspect_ratio_quality_3(), [&s] { return s.go_on(); });
   const bool is_only_wished = s.criteria.tolerance() == Mixed_mesh_criteria_3::automatic
                               && s.result.optimization.status
                                    == Mixed_mesh_optimization_status::TOLERANCE_NOT_REACHED;
   if(!is_only_wished)
-    s.result.status = worse(s.result.status, status_of(s.result.optimization.status));
+    s.result.status = worse_status(s.result.status, status_of(s.result.optimization.status));
   s.result.is_kept = s.result.status == Mixed_mesh_status::STOPPED && s.best.is_manifold()
                      && s.criteria.keep_mesh_if_stopped();
   if(!s.result.has_mesh())
@@ -124,7 +122,7 @@ inline void note_lost_cells(Meshing_state& s, const Core_mesh& mesh)
   for(Octree::Node_index n : lost)
     s.result.lost_cells += s.root.domain().cell_box(s.octree.octree().corner(n), s.octree.octree().side(n));
   if(!lost.empty())
-    s.result.status = worse(s.result.status, Mixed_mesh_status::PARTS_LOST);
+    s.result.status = worse_status(s.result.status, Mixed_mesh_status::PARTS_LOST);
 }
 
 /// Notes the share of the budget that is filled. The budget counts as filled if the mesh has most of the
@@ -134,7 +132,7 @@ inline void note_share_filled(Meshing_state& s, std::size_t n)
   const std::size_t whole = s.criteria.fit_to_surface() ? s.criteria.maximal_number_of_vertices()
                                                         : s.budget();
   if(double(n) < Mixed_mesh_criteria_3::full_share * double(whole))
-    s.result.status = worse(s.result.status, Mixed_mesh_status::BUDGET_NOT_FILLED);
+    s.result.status = worse_status(s.result.status, Mixed_mesh_status::BUDGET_NOT_FILLED);
 }
 
 /// Makes the mesh of the octree.

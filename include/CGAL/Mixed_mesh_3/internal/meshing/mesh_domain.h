@@ -13,6 +13,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Any_visitor.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Oracles.h>
@@ -24,14 +25,15 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /// Runs the driver.
-Mixed_mesh_result_3 mesh_domain(const Oracles& oracles, const Mixed_mesh_criteria_3& criteria,
+using Meshing_criteria = With_threads<Mixed_mesh_criteria_3>;
+
+Mixed_mesh_result_3 mesh_domain(const Oracles& oracles, const Meshing_criteria& criteria,
                                 Any_visitor& visitor, Core_mesh& mesh);
 
 /// Runs the driver on models of the concepts.
 template <class Domain, class Region, class CellTraits, class Visitor, class Mesh>
-Mixed_mesh_result_3 mesh_models(const Domain& domain, const Region& region,
-                                const Mixed_mesh_criteria_3& criteria, const CellTraits& cell_traits,
-                                Visitor& visitor, Mesh& mesh)
+Mixed_mesh_result_3 mesh_models(const Domain& domain, const Region& region, const Meshing_criteria& criteria,
+                                const CellTraits& cell_traits, Visitor& visitor, Mesh& mesh)
 {
   mesh.clear();
   Visitor_reference<Visitor> any_visitor(visitor);

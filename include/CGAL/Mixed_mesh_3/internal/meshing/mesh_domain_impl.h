@@ -20,7 +20,7 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 CGAL_MIXED_MESH_3_INLINE Mixed_mesh_result_3 mesh_domain(const Oracles& oracles,
-                                                         const Mixed_mesh_criteria_3& criteria,
+                                                         const Meshing_criteria& criteria,
                                                          Any_visitor& visitor, Core_mesh& mesh)
 {
   const Located_octree root(oracles);

@@ -44,15 +44,15 @@ inline void note_misfit(Meshing_state& s, const Misfit& misfit)
   if(s.result.is_kept || !s.result.has_mesh() || !s.criteria.fit_to_surface())
     return;
   if(misfit.is_topology_wrong())
-    s.result.status = worse(s.result.status, Mixed_mesh_status::TOPOLOGY_DIFFERS);
+    s.result.status = worse_status(s.result.status, Mixed_mesh_status::TOPOLOGY_DIFFERS);
   else if(misfit.is_volume_wrong())
-    s.result.status = worse(s.result.status, Mixed_mesh_status::VOLUME_DIFFERS);
+    s.result.status = worse_status(s.result.status, Mixed_mesh_status::VOLUME_DIFFERS);
 }
 
 /// Makes the mesh, by the stages in their order: the octree is refined, and what follows is tried, until the
 /// budget is full.
 /// \param root the octree with nothing but its root
-inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Mixed_mesh_criteria_3& criteria,
+inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_criteria& criteria,
                                       Any_visitor& visitor, Core_mesh& mesh)
 {
   Meshing_state s(root, criteria, visitor);

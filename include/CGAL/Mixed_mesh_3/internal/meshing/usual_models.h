@@ -19,6 +19,7 @@
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Oracles.h>
 #include <CGAL/Mixed_mesh_regions_3.h>
+#include <CGAL/Polyhedral_mixed_mesh_region_3.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 
 /// \param declare `extern template` or `template`

@@ -15,17 +15,16 @@
 #include <CGAL/Mixed_mesh_3/Surface_description.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Triangle_soup.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/assertions.h>
 #include <CGAL/boost/graph/helpers.h>
-#include <CGAL/boost/graph/named_params_helper.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -43,24 +42,8 @@ public:
   template <class FaceListGraph, class NamedParameters>
   Sheet_oracle_3(const FaceListGraph& surface, const NamedParameters& np)
   {
-    CGAL_precondition(CGAL::is_triangle_mesh(surface));
     CGAL_precondition(num_faces(surface) > 0);
-    auto vpm = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
-                                            get_const_property_map(CGAL::vertex_point, surface));
-    std::unordered_map<typename boost::graph_traits<FaceListGraph>::vertex_descriptor, std::size_t> copy;
-    std::vector<Vec3> points;
-    for(auto v : vertices(surface)) {
-      copy[v] = points.size();
-      points.push_back(to_vec3(get(vpm, v)));
-    }
-    std::vector<std::array<std::size_t, 3>> triangles;
-    for(auto f : faces(surface)) {
-      triangles.emplace_back();
-      std::size_t i = 0;
-      for(auto u : vertices_around_face(halfedge(f, surface), surface))
-        triangles.back()[i++] = copy[u];
-    }
-    build(points, triangles);
+    build(surface_triangles(surface, np));
   }
 
   const Bbox_3& bbox() const { return m_bbox; }
@@ -101,7 +84,7 @@ private:
     std::array<bool, 3> is_edge_at_rim, is_corner_at_rim;
   };
 
-  void build(const std::vector<Vec3>& points, const std::vector<std::array<std::size_t, 3>>& triangles);
+  void build(const Triangle_soup& soup);
 
   std::vector<Triangle> m_triangles;
   Bbox_3 m_bbox;

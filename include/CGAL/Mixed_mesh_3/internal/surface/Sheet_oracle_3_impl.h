@@ -41,9 +41,9 @@ struct Sheet_oracle_3::Trees
 
 CGAL_MIXED_MESH_3_INLINE void Sheet_oracle_3::Delete_trees::operator()(Trees* trees) const { delete trees; }
 
-CGAL_MIXED_MESH_3_INLINE void Sheet_oracle_3::build(const std::vector<Vec3>& points,
-                                                    const std::vector<std::array<std::size_t, 3>>& triangles)
+CGAL_MIXED_MESH_3_INLINE void Sheet_oracle_3::build(const Triangle_soup& soup)
 {
+  const auto& [points, triangles] = soup;
   const auto unit = [](const Vec3& v) { return norm(v) > 0 ? (1 / norm(v)) * v : v; };
   const auto edge_of = [](const std::array<std::size_t, 3>& t, std::size_t i) {
     return std::minmax({t[(i + 1) % 3], t[(i + 2) % 3]});
@@ -54,7 +54,7 @@ CGAL_MIXED_MESH_3_INLINE void Sheet_oracle_3::build(const std::vector<Vec3>& poi
   for(const auto& t : triangles) {
     Triangle& triangle = m_triangles.emplace_back();
     for(std::size_t i = 0; i < 3; ++i)
-      triangle.points[i] = points[t[i]];
+      triangle.points[i] = to_vec3(points[t[i]]);
     const auto& p = triangle.points;
     triangle.normal = unit(cross(p[1] - p[0], p[2] - p[0]));
     for(std::size_t i = 0; i < 3; ++i) {

@@ -17,21 +17,19 @@
 #include <CGAL/Mixed_mesh_3/Surface_description.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Triangle_soup.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/assertions.h>
 #include <CGAL/boost/graph/helpers.h>
-#include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <numeric>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -57,27 +55,8 @@ public:
   template <class FaceListGraph, class NamedParameters>
   Surface_oracle_3(const FaceListGraph& surface, const NamedParameters& np)
   {
-    CGAL_precondition(CGAL::is_triangle_mesh(surface));
     CGAL_precondition(CGAL::is_closed(surface));
-    // The copy is in doubles: predicates are exact on doubles, and the copy does not depend on the lifetime
-    // of the user's surface.
-    auto vpm = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
-                                            get_const_property_map(CGAL::vertex_point, surface));
-    std::unordered_map<typename boost::graph_traits<FaceListGraph>::vertex_descriptor, std::size_t> copy;
-    std::vector<Point_3> points;
-    for(auto v : vertices(surface)) {
-      copy[v] = points.size();
-      const auto& p = get(vpm, v);
-      points.emplace_back(rounded(p.x()), rounded(p.y()), rounded(p.z()));
-    }
-    std::vector<std::array<std::size_t, 3>> triangles;
-    for(auto f : faces(surface)) {
-      triangles.emplace_back();
-      int i = 0;
-      for(auto u : vertices_around_face(halfedge(f, surface), surface))
-        triangles.back()[i++] = copy[u];
-    }
-    build(points, triangles);
+    build(surface_triangles(surface, np));
   }
 
   const Bbox_3& bbox() const { return m_bbox; }
@@ -196,9 +175,8 @@ private:
 
   static Bounded_side opposite(Bounded_side side) { return Bounded_side(-int(side)); }
 
-  void build(const std::vector<Point_3>& points, const std::vector<std::array<std::size_t, 3>>& triangles);
-  void count_shells(const std::vector<Point_3>& points,
-                    const std::vector<std::array<std::size_t, 3>>& triangles);
+  void build(const Triangle_soup& soup);
+  void count_shells(const Triangle_soup& soup);
 
   std::vector<Triangle_3> m_triangles;
   std::vector<Bbox_3> m_boxes;

@@ -64,10 +64,9 @@ struct Surface_oracle_3::Trees
 
 CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::Delete_trees::operator()(Trees* trees) const { delete trees; }
 
-CGAL_MIXED_MESH_3_INLINE void
-Surface_oracle_3::build(const std::vector<Point_3>& points,
-                        const std::vector<std::array<std::size_t, 3>>& triangles)
+CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::build(const Triangle_soup& soup)
 {
+  const auto& [points, triangles] = soup;
   m_trees.reset(new Trees());
   Trees::Surface& s = m_trees->surface;
   for(const Point_3& p : points)
@@ -87,22 +86,21 @@ Surface_oracle_3::build(const std::vector<Point_3>& points,
   for(const Triangle_3& t : m_triangles)
     corners.push_back({to_vec3(t[0]), to_vec3(t[1]), to_vec3(t[2])});
   m_trees->triangles.emplace(corners);
-  count_shells(points, triangles);
+  count_shells(soup);
 }
 
 // Counts the shells. Around a cavity, points inside the shell, but near to it, are outside of the domain, for
 // either orientation of the triangles.
-CGAL_MIXED_MESH_3_INLINE void
-Surface_oracle_3::count_shells(const std::vector<Point_3>& points,
-                               const std::vector<std::array<std::size_t, 3>>& triangles)
+CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::count_shells(const Triangle_soup& soup)
 {
+  const auto& triangles = soup.triangles;
   constexpr double near = 1e-6; // distance in sides of a triangle
-  const Shells_of_vertices shells = find_shells(triangles, points.size());
+  const Shells_of_vertices shells = find_shells(triangles, soup.points.size());
   m_shells = shells.counts;
   m_shells.number_of_cavities = 0;
   if(m_shells.number_of_shells < 2)
     return;
-  const auto point = [&](std::size_t v) { return to_vec3(points[v]); };
+  const auto point = [&](std::size_t v) { return to_vec3(soup.points[v]); };
   const std::vector<double> volumes = volumes_of_shells(shells, triangles, point);
   std::vector<const std::array<std::size_t, 3>*> largest(volumes.size(), nullptr);
   std::vector<double> areas(volumes.size(), -1); // doubled

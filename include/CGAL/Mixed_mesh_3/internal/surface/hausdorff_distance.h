@@ -17,6 +17,7 @@
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Triangle_soup.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Triangle_tree.h>
 
 #include <CGAL/assertions.h>
@@ -35,14 +36,6 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
-
-struct Triangle_soup
-{
-  std::vector<Predicates_kernel::Point_3> points;
-  std::vector<std::array<std::size_t, 3>> triangles;
-};
-
-inline Predicates_kernel::Point_3 rounded_point(const Vec3& p) { return {p[0], p[1], p[2]}; }
 
 /// The boundary of a mesh. Quadrilaterals are split through their vertex of smallest index, as
 /// `split_to_tetrahedra()` does. Only the vertices of the boundary are in the soup.

@@ -1,0 +1,66 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The tumor, and the mesh without it.
+
+#ifndef MIXED_MESH_3_APPS_BRAIN_SHIFT_RESECTION_H
+#define MIXED_MESH_3_APPS_BRAIN_SHIFT_RESECTION_H
+
+#include "brain_shift/options.h"
+#include "brain_shift/outcome.h"
+#include "core/types.h"
+
+#include <CGAL/Mixed_mesh_3/Element_attributes.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+struct Tumor;
+
+/// The inside of a closed surface.
+class Closed_surface
+{
+public:
+  /// Reads the surface, and checks that it is where the mesh is.
+  Closed_surface(const std::string& path, const Options& options, const Mesh& mesh, Surface_facts& facts,
+                 std::vector<std::string>& warnings);
+  ~Closed_surface();
+
+  bool contains(const std::array<double, 3>& p) const;
+
+private:
+  friend std::vector<bool> resect(const Mesh&, const Tumor&, const Options&, Outcome&);
+  struct Domain; // heavy to compile
+  std::string m_path;
+  std::unique_ptr<const Domain> m_domain;
+};
+
+/// The resected tissue: the inside of a surface, or a subdomain, or nothing.
+struct Tumor
+{
+  std::unique_ptr<const Closed_surface> surface; // null without a surface
+  std::optional<CGAL::Mixed_meshes_3::Subdomain_index> subdomain;
+
+  bool is_given() const { return surface != nullptr || subdomain; }
+};
+
+/// The elements that are removed with the tumor, true for each.
+/// \throw std::runtime_error if no element is left to compute with
+std::vector<bool> resect(const Mesh& mesh, const Tumor& tumor, const Options& options, Outcome& outcome);
+
+/// The mesh that is left.
+struct Remaining_mesh
+{
+  Mesh mesh;
+  std::vector<Mesh::Vertex_index> vertices; // former numbers of the vertices
+};
+
+/// The mesh that is left; also noted in `outcome`, if there was a resection.
+Remaining_mesh remaining_mesh(const Mesh& mesh, const std::vector<bool>& is_removed, Outcome& outcome);
+
+#endif // MIXED_MESH_3_APPS_BRAIN_SHIFT_RESECTION_H

@@ -1,0 +1,260 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "brain_shift/simulate.h"
+
+#include "brain_shift/landmark_model.h"
+#include "brain_shift/solve.h"
+#include "brain_shift/subdomains.h"
+#include "brain_shift/supports.h"
+#include "core/messages.h"
+#include "core/resources.h"
+
+#include <CGAL/Mixed_mesh_3/certificate.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace mm3 = CGAL::Mixed_meshes_3;
+
+namespace {
+
+void set_supports(Elasticity& elasticity, const Supports& supports)
+{
+  const auto has = [&supports](mm3::Vertex_index v, Support s) { return supports.of_vertices[v] == s; };
+  for(mm3::Vertex_index v = 0; v < supports.of_vertices.size(); ++v)
+    if(has(v, Support::FIXED))
+      elasticity.prescribe(v);
+  elasticity.slide_along_boundary([&](mm3::Vertex_index v) { return has(v, Support::SLIDING); });
+  elasticity.touch_along_boundary([&](mm3::Vertex_index v) { return has(v, Support::TOUCHING); });
+}
+
+// Elements that the displacement inverts: their Jacobian is zero or negative somewhere.
+std::vector<std::size_t> find_inverted_elements(const Mesh& mesh, const std::vector<Vector>& displacements,
+                                                const std::vector<bool>& is_removed)
+{
+  std::vector<std::size_t> inverted;
+  for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e)
+    if(!is_removed[e] && mm3::jacobian_sign(mesh.element(e), [&](mm3::Vertex_index v) {
+                           return mm3::to_vec3(mesh.point(v)) + displacements[v];
+                         }) != mm3::Jacobian_sign::POSITIVE)
+      inverted.push_back(e);
+  return inverted;
+}
+
+// Measures the largest displacement.
+void measure(const Mesh& mesh, Shift& shift)
+{
+  mm3::Vertex_index farthest = 0;
+  for(mm3::Vertex_index v = 0; v < mesh.number_of_vertices(); ++v) {
+    const double length = norm(shift.displacements[v]);
+    if(!std::isfinite(length))
+      throw std::runtime_error("the displacement is not finite");
+    if(length > shift.largest) {
+      shift.largest = length;
+      farthest = v;
+    }
+  }
+  shift.at = mm3::to_vec3(mesh.point(farthest));
+}
+
+// \param is_used whether each control point is used
+void measure_controls(const Elasticity& elasticity, const Outcome& outcome, const std::vector<bool>& is_used,
+                      bool leave_one_out, Shift& shift)
+{
+  const std::vector<Vector> forces = elasticity.control_forces();
+  const std::vector<Vector> left_out = leave_one_out ? elasticity.leave_one_out_errors()
+                                                     : std::vector<Vector>();
+  double squares = 0, squares_left_out = 0;
+  std::size_t predicted = 0;
+  std::size_t used = 0;
+  for(std::size_t i = 0; i < outcome.points.size(); ++i) {
+    Control control;
+    control.is_used = is_used[i];
+    if(control.is_used) {
+      control.displacement = displacement_at(outcome.locations[i], elasticity.mesh(), shift.displacements);
+      control.miss = norm(control.displacement - Vector(outcome.points[i].displacement));
+      shift.largest_miss = (std::max)(shift.largest_miss, control.miss);
+      squares += control.miss * control.miss;
+      if(leave_one_out && std::isfinite(left_out[used][0])) {
+        control.left_out = left_out[used];
+        squares_left_out += dot(left_out[used], left_out[used]);
+        ++predicted;
+      }
+      control.force = forces[used++];
+    }
+    shift.controls.push_back(control);
+  }
+  if(used > 0)
+    shift.root_mean_square_miss = std::sqrt(squares / double(used));
+  if(predicted > 0)
+    shift.left_out = std::sqrt(squares_left_out / double(predicted));
+}
+
+Shift shift_of(const Elasticity& elasticity, const Options& o, const std::vector<bool>& is_used,
+               const std::string& when, Outcome& outcome)
+{
+  const Mesh& mesh = elasticity.mesh();
+  Shift shift;
+  shift.displacements = elasticity.displacements();
+  shift.energy = elasticity.energy();
+  if(elasticity.is_corotational()) {
+    shift.residuals = elasticity.residuals();
+    shift.iterations = elasticity.number_of_iterations();
+  }
+  measure(mesh, shift);
+  const std::vector<std::size_t> inverted = find_inverted_elements(mesh, shift.displacements,
+                                                                   elasticity.removed_elements());
+  shift.inverted_elements = inverted.size();
+  if(!inverted.empty())
+    outcome.warnings.push_back(when + ": " + counted(inverted.size(), "element is", "elements are")
+                               + " inverted, the first near "
+                               + place(mm3::to_vec3(mesh.point(mesh.element(inverted.front())[0])))
+                               + ": too much is asked of the elements there; --control-radius, or "
+                                 "--control-compliance, would spread it");
+  for(double force : elasticity.contact_forces()) {
+    shift.closed_contacts += force > 0;
+    shift.contact_force += force;
+  }
+  measure_controls(elasticity, outcome, is_used, o.leave_one_out && !elasticity.is_iterative(), shift);
+  if(o.is_exact() && shift.largest_miss > 1e-6 * (1 + shift.largest)) // a defect of the program
+    throw std::logic_error(when + ": control points are missed by up to " + rounded(shift.largest_miss)
+                           + " mm");
+  return shift;
+}
+
+void tell_of_solver([[maybe_unused]] Elasticity& elasticity, [[maybe_unused]] Outcome& outcome)
+{
+#if MIXED_MESH_3_HAS_PETSC
+  outcome.petsc = {elasticity.solver().number_of_processes(),
+                   elasticity.solver().largest_number_of_iterations()};
+#endif
+}
+
+// Notes the memory of a factorization before it begins: afterwards there may be no memory for a note. Numbers
+// are those of the table in the manual: the factor of CHOLMOD grows with n^(4/3), that of PETSc with n.
+void tell_of_factor([[maybe_unused]] const Mesh& mesh, [[maybe_unused]] const Options& o,
+                    [[maybe_unused]] Stage_log& log)
+{
+#if !MIXED_MESH_3_HAS_PETSC
+  constexpr double measured = 53799, bytes = 12e3, bytes_by_iteration = 5e3; // unknowns, and bytes for each
+  constexpr double sure = 0.6; // share of the estimate that any mesh needs
+  const double unknowns = 3 * double(mesh.number_of_vertices());
+  const double needed = bytes * unknowns * std::cbrt(unknowns / measured);
+  if(!o.quiet && needed > double(1 << 30))
+    log.note("factoring the matrix of " + std::to_string(mesh.number_of_vertices()) + " vertices takes about "
+             + gibibytes(needed) + " of memory, and its time grows with the square of their number; "
+             + "--solver petsc iterates, with about " + gibibytes(bytes_by_iteration * unknowns));
+  check_memory(o.mesh + ": without --solver petsc, the factor", sure * needed);
+#endif
+}
+
+// The constraints of a solution. With a compliance, means are the resulting ones: they give the same
+// displacements, without the springs.
+Motion_constraints constraints_of(const Elasticity& elasticity, std::vector<Vector> displacements,
+                                  const Options& o)
+{
+  Motion_constraints constraints{{}, elasticity.control_weights(), std::move(displacements)};
+  for(mm3::Vertex_index v = 0; v < elasticity.mesh().number_of_vertices(); ++v)
+    constraints.held_directions.push_back(elasticity.held_directions(v));
+  if(o.compliance > 0) {
+    const std::vector<Vector> residuals = elasticity.control_residuals();
+    for(std::size_t i = 0; i < residuals.size(); ++i)
+      constraints.means[i] = constraints.means[i] - residuals[i];
+  }
+  return constraints;
+}
+
+// Computes errors of predictions by landmarks, except errors known from the shift if landmarks are its
+// control points.
+void predict_landmarks(Elasticity& elasticity, const Options& o, Outcome& outcome)
+{
+  measure_by_outermost(elasticity, o, outcome);
+  if(o.are_landmarks_control_points)
+    return;
+  const Controls landmarks = controls_of_landmarks(o, *outcome.landmarks);
+  set_control_points(elasticity, o, landmarks);
+  solve(elasticity, o, landmarks);
+  measure_left_out(elasticity, outcome);
+}
+
+// Measures errors at landmarks that are known from the shift.
+void measure_landmarks(const Elasticity& elasticity, const Options& o, Outcome& outcome)
+{
+  if(o.are_landmarks_control_points)
+    measure_left_out(elasticity, outcome);
+  else
+    measure_shift(elasticity.mesh(), outcome);
+}
+
+// Solves after the removal of elements.
+void remove(Elasticity& elasticity, const std::vector<bool>& is_removed, const Options& o, Stage_log& log,
+            Outcome& outcome)
+{
+  // Control points in removed tissue move nothing.
+  Controls left{o.control_points, {}, o.compliance};
+  std::vector<bool> is_used;
+  for(std::size_t i = 0; i < outcome.points.size(); ++i) {
+    is_used.push_back(!is_removed[outcome.locations[i].element]);
+    if(is_used.back()) {
+      left.points.push_back(outcome.points[i]);
+    } else {
+      outcome.warnings.push_back(o.control_points + ": " + outcome.points[i].place()
+                                 + ": the control point is in tissue removed: it is not used after the "
+                                   "resection");
+    }
+  }
+  if(left.points.size() != outcome.points.size())
+    log("control points", [&] { set_control_points(elasticity, o, left); });
+  log("remove elements", [&] { check(elasticity.remove_elements(is_removed), o, left); });
+  log("solve after resection", [&] { solve(elasticity, o, left); });
+  if(!o.febio.empty())
+    outcome.constraints = constraints_of(elasticity, left.displacements(), o);
+  outcome.after = log("checks",
+                      [&] { return shift_of(elasticity, o, is_used, "shift after resection", outcome); });
+}
+
+} // namespace
+
+std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_patches& patches,
+                           const Options& o, Stage_log& log, Outcome& outcome)
+{
+  const Controls controls{o.control_points, outcome.points, o.compliance};
+  Elasticity elasticity(mesh, materials_of_elements(mesh, outcome.subdomains));
+  outcome.supports = find_supports(mesh, patches, o, outcome.points);
+  set_supports(elasticity, outcome.supports);
+
+  tell_of_factor(mesh, o, log);
+  // The mesh is factored before surgery; then each measurement takes milliseconds.
+  log("factor", [&] { check(elasticity.factor(), o, controls); });
+  elasticity.set_corotational(o.corotational);
+  elasticity.set_gravity(o.acceleration);
+  if(norm(Vector(o.acceleration)) > 0)
+    elasticity.set_body_forces(
+      mm3::buoyant_forces(mesh, o.acceleration, o.fluid_density * kg_per_mm3, o.fluid_level));
+  if(outcome.landmarks)
+    log("landmarks", [&] { predict_landmarks(elasticity, o, outcome); });
+  log("control points", [&] { set_control_points(elasticity, o, controls); });
+  log("solve", [&] { solve(elasticity, o, controls); });
+  if(!o.febio.empty())
+    outcome.constraints = constraints_of(elasticity, controls.displacements(), o);
+  outcome.before = log("checks", [&] {
+    return shift_of(elasticity, o, std::vector<bool>(outcome.points.size(), true), "shift", outcome);
+  });
+  if(outcome.landmarks)
+    log("errors at landmarks", [&] { measure_landmarks(elasticity, o, outcome); });
+  tell_of_solver(elasticity, outcome);
+  if(!tumor.is_given())
+    return std::vector<bool>(mesh.number_of_elements(), false);
+  const std::vector<bool> is_removed = log("resect", [&] { return resect(mesh, tumor, o, outcome); });
+  remove(elasticity, is_removed, o, log, outcome);
+  tell_of_solver(elasticity, outcome);
+  return is_removed;
+}

@@ -1,0 +1,35 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The subdomains of a mesh, by their labels, for --material and --tumor-label.
+
+#ifndef MIXED_MESH_3_APPS_BRAIN_SHIFT_SUBDOMAINS_H
+#define MIXED_MESH_3_APPS_BRAIN_SHIFT_SUBDOMAINS_H
+
+#include "brain_shift/options.h"
+#include "brain_shift/outcome.h"
+#include "core/types.h"
+
+#include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
+
+#include <string>
+#include <vector>
+
+/// The subdomains of the mesh with their materials, in the order of their indices.
+/// \throw std::runtime_error if the mesh lacks a label of --material, or if a label has two materials
+std::vector<Subdomain_facts> find_subdomains(const Mesh& mesh,
+                                             const CGAL::Mixed_meshes_3::IO::Subdomain_names& names,
+                                             const Options& options);
+
+/// The subdomain with a label of the command line.
+/// \throw std::runtime_error if there is no such subdomain
+const Subdomain_facts& find_subdomain(const std::vector<Subdomain_facts>& subdomains,
+                                      const std::string& label, const Options& options);
+
+/// The material of each element.
+std::vector<CGAL::Mixed_meshes_3::Elastic_material>
+materials_of_elements(const Mesh& mesh, const std::vector<Subdomain_facts>& subdomains);
+
+#endif // MIXED_MESH_3_APPS_BRAIN_SHIFT_SUBDOMAINS_H

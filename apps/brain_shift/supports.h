@@ -1,0 +1,22 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Vertices of the boundary that are fixed, slide, or touch the skull.
+
+#ifndef MIXED_MESH_3_APPS_BRAIN_SHIFT_SUPPORTS_H
+#define MIXED_MESH_3_APPS_BRAIN_SHIFT_SUPPORTS_H
+
+#include "brain_shift/options.h"
+#include "brain_shift/outcome.h"
+#include "brain_shift/patches.h"
+#include "brain_shift/read_control_points.h"
+#include "core/types.h"
+
+#include <vector>
+
+Supports find_supports(const Mesh& mesh, const Boundary_patches& patches, const Options& options,
+                       const std::vector<Control_point>& points);
+
+#endif // MIXED_MESH_3_APPS_BRAIN_SHIFT_SUPPORTS_H

@@ -1,0 +1,105 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "core/voxel_selection.h"
+
+#include "core/messages.h"
+#include "core/resources.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <limits>
+#include <sstream>
+#include <system_error>
+
+namespace {
+
+// The number that a whole text is, if not negative.
+std::optional<double> label(const std::string& text)
+{
+  unsigned value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if(error != std::errc() || end != text.data() + text.size())
+    return std::nullopt;
+  return value;
+}
+
+} // namespace
+
+bool is_image(const std::string& path) { return ends_with(path, ".nii") || ends_with(path, ".nii.gz"); }
+
+bool Voxel_selection::operator()(float value) const
+{
+  if(ranges.empty())
+    return value != 0;
+  return std::any_of(ranges.begin(), ranges.end(), [&](const std::pair<double, double>& r) {
+    return r.first <= double(value) && double(value) <= r.second;
+  });
+}
+
+std::optional<Voxel_selection> labels_selection(const std::string& text)
+{
+  Voxel_selection selection{{}, "with the labels " + text};
+  std::istringstream list(text);
+  for(std::string item; std::getline(list, item, ',');) {
+    const std::size_t dash = item.find('-');
+    const std::optional<double> first = label(item.substr(0, dash)),
+                                last = dash == std::string::npos ? first : label(item.substr(dash + 1));
+    if(!first || !last || *first > *last)
+      return std::nullopt;
+    selection.ranges.emplace_back(*first, *last);
+  }
+  if(selection.ranges.empty() || text.back() == ',')
+    return std::nullopt;
+  return selection;
+}
+
+std::optional<std::vector<std::pair<std::string, Voxel_selection>>> named_labels(const std::string& text)
+{
+  std::vector<std::pair<std::string, std::string>> lists;
+  std::istringstream items(text);
+  for(std::string item; std::getline(items, item, ',');) {
+    const std::size_t equals = item.find('=');
+    if(equals != std::string::npos)
+      lists.emplace_back(item.substr(0, equals), item.substr(equals + 1));
+    else if(lists.empty())
+      return std::nullopt;
+    else
+      lists.back().second += ',' + item;
+  }
+  std::vector<std::pair<std::string, Voxel_selection>> labels;
+  for(const auto& [name, list] : lists) {
+    const std::optional<Voxel_selection> selection = labels_selection(list);
+    if(!selection)
+      return std::nullopt;
+    labels.emplace_back(name, *selection);
+  }
+  if(labels.empty() || text.back() == ',')
+    return std::nullopt;
+  return labels;
+}
+
+Voxel_selection united(const std::vector<Voxel_selection>& selections)
+{
+  Voxel_selection all{{}, "of all labels"};
+  for(const Voxel_selection& s : selections)
+    all.ranges.insert(all.ranges.end(), s.ranges.begin(), s.ranges.end());
+  // Successive labels are one range, so that a voxel is not compared with each of hundreds.
+  std::sort(all.ranges.begin(), all.ranges.end());
+  std::vector<std::pair<double, double>> joined;
+  for(const auto& [first, last] : all.ranges)
+    if(!joined.empty() && first <= joined.back().second + 1)
+      joined.back().second = (std::max)(joined.back().second, last);
+    else
+      joined.emplace_back(first, last);
+  all.ranges = std::move(joined);
+  return all;
+}
+
+Voxel_selection threshold_selection(double threshold)
+{
+  return {{{threshold, std::numeric_limits<double>::infinity()}}, "of at least " + rounded(threshold)};
+}

@@ -1,0 +1,36 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Selection of the voxels of an image that make a domain, from the command line.
+
+#ifndef MIXED_MESH_3_APPS_CORE_VOXEL_SELECTION_H
+#define MIXED_MESH_3_APPS_CORE_VOXEL_SELECTION_H
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Whether a file is an image, by its name.
+bool is_image(const std::string& path);
+
+/// Selected voxels of an image: voxels with values in ranges; without ranges, voxels that are not 0.
+struct Voxel_selection
+{
+  std::vector<std::pair<double, double>> ranges; // first and last
+  std::string text = "that are not 0";           // for messages: "voxels ..."
+
+  bool operator()(float value) const;
+};
+
+/// Labels as in `1-189,200`; none if the text has another form.
+std::optional<Voxel_selection> labels_selection(const std::string& text);
+/// Labels with names as in `brain=1-189,tumor=200`; none if the text has another form.
+std::optional<std::vector<std::pair<std::string, Voxel_selection>>> named_labels(const std::string& text);
+Voxel_selection threshold_selection(double threshold);
+/// All voxels of several selections of labels, which are whole numbers.
+Voxel_selection united(const std::vector<Voxel_selection>& selections);
+
+#endif // MIXED_MESH_3_APPS_CORE_VOXEL_SELECTION_H

@@ -1,0 +1,550 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "mixed_mesh_3/options.h"
+
+#include "core/Thread_limit.h"
+#include "core/Deferred_signals.h"
+#include "core/command_line.h"
+#include "core/resources.h"
+
+#include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
+#include <CGAL/version.h>
+
+#include <boost/algorithm/string/predicate.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <system_error>
+
+namespace mm3 = CGAL::Mixed_meshes_3;
+
+namespace {
+
+// Whether CMakeLists.txt found Eigen: the paper's Algorithm 1 solves linear systems.
+#if MIXED_MESH_3_HAS_EIGEN
+constexpr bool has_eigen = true;
+#else
+constexpr bool has_eigen = false;
+#endif
+
+constexpr const char* automatic_vertices = "auto"; // value of --vertices
+constexpr std::size_t most_automatic_vertices = 200000;
+
+double weight_option(const std::string& option, const std::string& text)
+{
+  double weight = 0;
+  if(!CLI::detail::lexical_cast(text, weight) || !(weight >= 1e-6 && weight <= 1e6))
+    throw CLI::ValidationError(option, "the weight '" + text + "' is not a number from 0.000001 to 1000000");
+  return weight;
+}
+
+void set_largest_arc(const std::string& text, Options& o)
+{
+  const std::string strict = ",strict";
+  o.is_arc_strict = boost::algorithm::ends_with(text, strict);
+  const std::string arc = text.substr(0, text.size() - (o.is_arc_strict ? strict.size() : 0));
+  const bool is_number = arc == "none" || CLI::detail::lexical_cast(arc, o.largest_arc);
+  if(arc == "none")
+    o.largest_arc = 0;
+  if(!is_number || !std::isfinite(o.largest_arc) || !(o.largest_arc == 0 || o.largest_arc >= 1))
+    throw CLI::ValidationError("--max-arc",
+                               "expected a number of at least 1, 0 or none, with ,strict or not, not "
+                                 + text);
+}
+
+// The option of a region. A file whose name ends like a weight is that file.
+Region_option region_option(const std::string& text)
+{
+  const std::size_t colon = text.rfind(':');
+  std::error_code ignored;
+  if(colon == std::string::npos || std::filesystem::exists(text, ignored))
+    return {text, 1};
+  return {text.substr(0, colon), weight_option("--region " + text, text.substr(colon + 1))};
+}
+
+Voxel_selection labels_option(const std::string& option, const std::string& text)
+{
+  const auto labels = labels_selection(text);
+  if(!labels)
+    throw CLI::ValidationError(option, "expected labels as in 1-189,200");
+  return *labels;
+}
+
+// Whether a text is a name for files.
+bool is_name(const std::string& name)
+{
+  constexpr std::size_t longest = 24; // two names are parts of the name of an interface
+  return name.size() <= longest && mm3::IO::is_facet_set_name(name);
+}
+
+const char* const what_a_name_is = "a name has up to 24 letters, digits, _ and -, a letter first, and is "
+                                   "neither all, boundary, region or rest, nor begins as those of files";
+
+// The option of a subdomain, whose name is that of the file, without its ending, if no name is given.
+Subdomain_option subdomain_option(const std::string& option, const std::string& text)
+{
+  const std::size_t equals = text.find('=');
+  std::error_code ignored;
+  const bool has_name = equals != std::string::npos && !std::filesystem::exists(text, ignored);
+  Subdomain_option s{has_name ? text.substr(0, equals) : std::filesystem::path(text).stem().string(),
+                     has_name ? text.substr(equals + 1) : text};
+  if(!is_name(s.name))
+    throw CLI::ValidationError(option + " " + text, std::string(what_a_name_is) + ", as in tumor=" + s.file);
+  return s;
+}
+
+// Sets the labels of one domain, or of several with names.
+void set_labels(const std::string& text, Options& o)
+{
+  const std::string option = "--labels " + text;
+  if(text == "each") {
+    o.has_each_label = true;
+    return;
+  }
+  if(text.find('=') == std::string::npos) {
+    o.voxels = labels_option(option, text);
+    return;
+  }
+  const auto labels = named_labels(text);
+  if(!labels)
+    throw CLI::ValidationError(option, "expected labels as in brain=1-189,tumor=200");
+  for(const auto& [name, voxels] : *labels) {
+    if(!is_name(name))
+      throw CLI::ValidationError(option, what_a_name_is);
+    o.labels.push_back({name, "", voxels});
+  }
+}
+
+// The option of a region by labels, with a weight after a colon.
+Region_option region_of_labels(const std::string& text)
+{
+  const std::string option = "--region-labels " + text;
+  const std::size_t colon = text.find(':');
+  return {"", colon == std::string::npos ? 1 : weight_option(option, text.substr(colon + 1)),
+          labels_option(option, text.substr(0, colon))};
+}
+
+// Adds an option that can be given several times; `add` takes one of its texts.
+CLI::Option* add_several(CLI::App& app, const char* name, const char* what,
+                         const std::function<void(const std::string&)>& add)
+{
+  return app
+    .add_option_function<std::vector<std::string>>(
+      name,
+      [add](const std::vector<std::string>& texts) {
+        for(const std::string& text : texts)
+          add(text);
+      },
+      what)
+    ->allow_extra_args(false);
+}
+
+// Adds the options for a domain and regions from a segmentation.
+void add_labels(CLI::App& app, Options& o)
+{
+  const char* const group = "Options of images";
+  CLI::Option* const labels =
+    app
+      .add_option_function<std::string>(
+        "--labels", [&o](const std::string& text) { set_labels(text, o); },
+        "Labels of the domain in the image SURFACE (default: all but 0). With names, "
+        "as in brain=1-189,tumor=200, each list becomes a subdomain, numbered from 1; 'each': each label "
+        "but 0 becomes one, with its number, and the name label_NUMBER")
+      ->type_name("LIST")
+      ->group(group);
+  app
+    .add_option_function<double>(
+      "--threshold", [&o](double t) { o.voxels = threshold_selection(t); },
+      "The domain is where the image SURFACE has at least that value")
+    ->check(number("that is finite", [](double) { return true; }))
+    ->type_name("T")
+    ->excludes(labels)
+    ->group(group);
+  add_several(
+    app, "--region-labels",
+    "Labels of a region of interest in the image SURFACE, with a weight as that of --region; can be given "
+    "several times",
+    [&o](const std::string& text) { o.regions.push_back(region_of_labels(text)); })
+    ->type_name("LIST[:W]")
+    ->group(group);
+  app
+    .add_option(
+      "--smoothing", o.smoothing,
+      "Standard deviation, in mm, of the Gaussian that smoothes labels before their surface is made; "
+      "0: none (default: the largest distance between voxels)")
+    ->check(number("of at least 0", [](double x) { return x >= 0; }))
+    ->type_name("MM")
+    ->group(group);
+  app
+    .add_option(
+      "--close", o.completion.closing_radius,
+      "Close gaps, grooves and openings of the domain that a ball of this radius does not fit into; "
+      "what that adds to several labels is of the one with most voxels")
+    ->check(number("greater than 0", [](double x) { return x > 0; }))
+    ->type_name("MM")
+    ->group(group);
+  app.add_flag("--fill-holes", o.completion.fill_holes, "Add to the domain what it encloses")->group(group);
+  app.add_flag("--largest", o.completion.keep_largest, "Keep only the largest component of the domain")
+    ->group(group);
+  app.add_option("--drop-below", o.completion.least_volume, "Drop components of the domain with less volume")
+    ->check(number("greater than 0", [](double x) { return x > 0; }))
+    ->type_name("ML")
+    ->group(group);
+  app
+    .add_flag(
+      "--hull", o.completion.is_hull,
+      "The solid organ out of an atlas or a parcellation: --close (by 13 % of the edge of a cube of its "
+      "volume, 15 mm for a brain, if no other radius is given), --fill-holes and --largest")
+    ->group(group);
+}
+
+void add_files(CLI::App& app, Options& o)
+{
+  app
+    .add_option("SURFACE", o.surface,
+                "Closed surface of the domain: .off, .obj, .stl, .ply, .vtp, .vtk, .gii, or a binary surface "
+                "of FreeSurfer; "
+                "or an image of labels: .nii, .nii.gz")
+    ->required();
+  add_surface_options(app, o.surface_options);
+  add_several(
+    app, "--region",
+    "Closed surface of a region of interest, in the same coordinates; an error counts W times as much "
+    "there as in a region without weight. Can be given several times (default: refine everywhere)",
+    [&o](const std::string& text) { o.regions.push_back(region_option(text)); })
+    ->type_name("FILE[:W]");
+  add_several(app, "--subdomain",
+              "Closed surface of a part of the domain, such as a tumor, that gets elements, a label and an "
+              "interface of its own: SURFACE is 1, the parts are 2, 3, ... Can be given several times; where "
+              "parts overlap, the earlier one counts",
+              [&o](const std::string& text) {
+                o.subdomains.push_back(subdomain_option("--subdomain", text));
+              })
+    ->type_name("[NAME=]FILE");
+  add_several(app, "--cavity", "Closed surface of a part that is not meshed; can be given several times",
+              [&o](const std::string& file) { o.cavities.push_back(file); })
+    ->type_name("FILE");
+  add_several(app, "--sheet",
+              "Surface inside the domain that need not enclose anything, such as the falx: faces of the mesh "
+              "are brought onto it, and written as a facet set. Can be given several times",
+              [&o](const std::string& text) { o.sheets.push_back(subdomain_option("--sheet", text)); })
+    ->type_name("[NAME=]FILE");
+  app.add_flag("--slit", o.slit,
+               "Double the vertices on sheets, so that both sides can come apart; the copies are not counted "
+               "in the budget");
+  app
+    .add_option_function<std::string>(
+      "--vertices",
+      [&o](const std::string& text) {
+        o.fewest_vertices = text == automatic_vertices;
+        o.vertices = o.fewest_vertices ? most_automatic_vertices : std::stoul(text);
+      },
+      "Vertex budget: the mesh has at most that many vertices; auto: as few as --tolerance allows, found by "
+      "meshes with five to ten budgets of up to 200,000")
+    ->required()
+    ->check(CLI::Validator(
+      [](std::string& text) {
+        // The limit is that of 32-bit indices in files.
+        return text == automatic_vertices ? std::string() : count(1000000000)(text);
+      },
+      ""))
+    ->type_name("N|auto");
+  app
+    .add_option("--output", o.outputs,
+                "Mesh files: .vtu (VTK, ParaView), .msh (Gmsh), .mesh (Medit), .inp (Abaqus), .feb "
+                "(FEBio); can be given several times")
+    ->type_name("FILE")
+    ->allow_extra_args(false);
+  app.add_option("--report", o.report, "Report with counts, quality, checks, times and memory")
+    ->type_name("FILE.json");
+  app
+    .add_option(
+      "--page", o.page,
+      "Page for a browser, in one file that needs no network: the mesh in 3D, to turn and to cut open, "
+      "quality, checks and warnings with their places")
+    ->type_name("FILE.html");
+}
+
+// Returns the option that those of Algorithm 1 need.
+CLI::Option* add_fit(CLI::App& app, Options& o)
+{
+  app
+    .add_option("--base-level", o.base_level,
+                "Octree level of the whole domain; cells are 2^L times smaller than the root "
+                "at least (default: 3; coarser or finer as the budget says)")
+    ->check(CLI::Range(0, 10))
+    ->type_name("L");
+  app
+    .add_option(
+      "--grading", o.grading,
+      "How gently cells grow with the distance from the region, as a share of its mean radius; 0: only "
+      "the region is refined, as in the paper")
+    ->check(number("from 0 to 100", [](double x) { return x >= 0 && x <= 100; }))
+    ->type_name("G")
+    ->capture_default_str();
+  app.add_flag("--no-exchange", o.no_exchange,
+               "Keep all vertices of the octree: with a budget of at most 2,500, some of those far from the "
+               "region are exchanged for vertices in it, and elements there are tetrahedra");
+  CLI::Option* no_fit = app.add_flag("--no-fit", o.no_fit,
+                                     "Leave boundary vertices where the octree has them");
+  CLI::Option* no_optimize =
+    app
+      .add_flag("--no-optimize", o.no_optimize,
+                "Carry the boundary onto the surface as the paper does (Algorithm 1), without optimization")
+      ->excludes(no_fit);
+  app
+    .add_option("--tolerance", o.tolerance,
+                "How far boundary and surface may be from each other, in the unit of SURFACE: part of the "
+                "budget is spent outside the region for that (default: as the budget allows)")
+    ->check(number("greater than 0", [](double x) { return x > 0; }))
+    ->type_name("D")
+    ->excludes(no_fit)
+    ->excludes(no_optimize);
+  app
+    .add_option_function<std::string>(
+      "--max-arc", [&o](const std::string& text) { set_largest_arc(text, o); },
+      "Largest aspect-ratio coefficient of an element: boundary vertices that would need a larger one "
+      "stay off the surface, unless a thin wall has room for flatter elements only; strict: even then "
+      "(default: 3.2; 0 or none: no bound)")
+    ->type_name("ARC[,strict]")
+    ->excludes(no_fit)
+    ->excludes(no_optimize);
+  app
+    .add_option(
+      "--sharp-angle", o.sharp_angle,
+      "Edges of SURFACE between facets whose normals differ by more are kept: edges of the mesh lie on "
+      "them, and vertices at their corners, if they are long and not only noise; a surface that is "
+      "perpendicular to the axes gets cells between its planes (default: 50; 0: neither)")
+    ->check(number("from 0 to 180", [](double x) { return x >= 0 && x <= 180; }))
+    ->type_name("DEGREES");
+  app.add_flag_callback(
+    "--no-sharp", [&o] { o.sharp_angle = 0; }, "The same as --sharp-angle 0");
+  return no_optimize;
+}
+
+void add_stages(CLI::App& app, Options& o)
+{
+  const std::map<std::string, mm3::Boundary_mode> modes{{"default", mm3::Boundary_mode::VERTEX_ORDER},
+                                                        {"paper", mm3::Boundary_mode::PAPER}};
+  const std::map<std::string, mm3::Root_cell> roots{{"cube", mm3::Root_cell::CUBE},
+                                                    {"box", mm3::Root_cell::BOX}};
+  const std::map<std::string, mm3::Transition_templates_choice> templates{
+    {"fewest", mm3::Transition_templates_choice::FEWEST_VERTICES},
+    {"centered", mm3::Transition_templates_choice::CENTERED}};
+  app.add_option("--mode", o.mode, "Boundary stage: default, or paper (tetrahedra by parity)")
+    ->transform(CLI::CheckedTransformer(modes, CLI::ignore_case).description("{default,paper}"))
+    ->type_name("MODE");
+  app.add_option("--root", o.root, "Root cell: cube (default), or box (the bounding box, as the paper)")
+    ->transform(CLI::CheckedTransformer(roots, CLI::ignore_case).description("{cube,box}"))
+    ->type_name("ROOT");
+  app
+    .add_option("--templates", o.templates,
+                "Transition templates: fewest (vertices, default), or centered (a vertex in each)")
+    ->transform(CLI::CheckedTransformer(templates, CLI::ignore_case).description("{fewest,centered}"))
+    ->type_name("CHOICE");
+}
+
+// Adds the options of Algorithm 1, which need --no-optimize.
+void add_algorithm_1(CLI::App& app, Options& o, CLI::Option* no_optimize)
+{
+  const std::map<std::string, Solver> solvers{{"cg", Solver::CG}, {"ldlt", Solver::LDLT}};
+  const auto at_least_1 = number("of at least 1", [](double x) { return x >= 1; });
+  std::vector<CLI::Option*> options{
+    app.add_option("--steps", o.steps, "Steps to the surface, the paper's MAX_STEP")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N")
+      ->capture_default_str(),
+    app.add_option("--poisson-ratio", o.poisson_ratio, "Poisson's ratio of the elastic medium")
+      ->check(poisson_ratio())
+      ->type_name("NU")
+      ->capture_default_str(),
+    app
+      .add_option("--stiffness-factor", o.stiffness_factor,
+                  "By how much an element of bad quality is stiffened at a time")
+      ->check(number("greater than 1", [](double x) { return x > 1; }))
+      ->type_name("F")
+      ->capture_default_str(),
+    app
+      .add_option("--max-stiffness", o.maximal_stiffness,
+                  "Largest stiffness, as a multiple of that at the start, the paper's Y_MAX")
+      ->check(at_least_1)
+      ->type_name("Y")
+      ->capture_default_str(),
+    app
+      .add_option("--acceptable-quality", o.acceptable_quality,
+                  "Elements of a larger aspect-ratio coefficient are stiffened")
+      ->check(at_least_1)
+      ->type_name("ARC")
+      ->capture_default_str(),
+    app
+      .add_option("--solver", o.solver,
+                  "Linear solver: cg (conjugate gradients), or ldlt (Eigen's simplicial factorization)")
+      ->transform(CLI::CheckedTransformer(solvers, CLI::ignore_case).description("{cg,ldlt}"))
+      ->type_name("SOLVER")
+      ->default_str("cg")};
+  options.push_back(app
+                      .add_option("--layers", o.layers,
+                                  "Only vertices within so many layers of elements from the boundary move "
+                                  "(default: all of a mesh of up to 3,000 vertices, 4 of a larger one)")
+                      ->check(CLI::Range(0, CGAL::Mixed_mesh_fit_criteria_3::all_layers))
+                      ->type_name("L"));
+  for(CLI::Option* option : options)
+    option->needs(no_optimize)->group("Options of --no-optimize");
+}
+
+void set_up(CLI::App& app, Options& o)
+{
+  add_files(app, o);
+  CLI::Option* const no_optimize = add_fit(app, o);
+  add_stages(app, o);
+  add_labels(app, o);
+  app.add_flag("--msh2", o.msh2, "Write .msh files in Gmsh's format 2.2 instead of 4.1");
+  app.add_flag("--tetrahedra", o.tetrahedra,
+               "Split all elements to tetrahedra, for solvers without the other kinds");
+  app
+    .add_option(
+      "--order", o.order,
+      "Order of the elements in files, 1 or 2: with 2, a node in the middle of each edge (.vtu, .msh, "
+      ".feb; .inp without pyramids)")
+    ->check(CLI::Range(1, 2))
+    ->type_name("1|2");
+  app
+    .add_option(
+      "--time-limit", o.time_limit,
+      "Seconds after which the best mesh so far is checked and written, with exit status 4; as after "
+      "Ctrl-C (default: none)")
+    ->check(number("greater than 0", [](double x) { return x > 0; }))
+    ->type_name("S");
+  app.add_flag("--quiet", o.quiet, "Print errors and warnings only");
+  app
+    .add_option("--threads", o.threads,
+                "Threads for queries on the surface and moves of vertices; the mesh is the same")
+    ->check(CLI::Range(1, 256))
+    ->type_name("T");
+  add_algorithm_1(app, o, no_optimize);
+  app.set_version_flag("--version", "mixed_mesh_3 0.1 (CGAL " CGAL_VERSION_STR ")");
+  app.footer("Lengths are in the unit of SURFACE. Example:\n"
+             "  mixed_mesh_3 data/brain.off --region data/region.off --vertices 660 --output brain.vtu");
+}
+
+// Checks that names differ, and that options for a single subdomain are not used with several.
+void check_subdomains(const Options& o)
+{
+  std::vector<std::string> names;
+  for(const auto& subdomains : {o.labels, o.subdomains})
+    for(const Subdomain_option& s : subdomains)
+      names.push_back(s.name);
+  if(names.empty() && o.cavities.empty() && !o.has_each_label)
+    return;
+  if(o.labels.empty() && !o.has_each_label)
+    names.push_back(surrounding_name(o));
+  for(const Subdomain_option& sheet : o.sheets)
+    names.push_back(sheet.name);
+  for(auto name = names.begin(); name != names.end(); ++name) // some formats ignore upper and lower case
+    if(std::any_of(names.begin(), name, [&](const std::string& s) { return boost::iequals(s, *name); })
+       || boost::iequals(*name, "outside"))
+      throw CLI::ValidationError("--subdomain " + *name, "the name is taken, give NAME=FILE");
+  if(o.mode == mm3::Boundary_mode::PAPER || o.no_optimize)
+    throw CLI::ValidationError(o.no_optimize ? "--no-optimize" : "--mode paper",
+                               "knows neither subdomains nor cavities");
+}
+
+void check_sheets(const Options& o)
+{
+  if(o.slit && o.sheets.empty())
+    throw CLI::ValidationError("--slit", "needs --sheet");
+  for(std::size_t i = 0; i < o.sheets.size(); ++i)
+    for(std::size_t j = 0; j < i; ++j)
+      if(o.sheets[i].name == o.sheets[j].name)
+        throw CLI::ValidationError("--sheet " + o.sheets[i].name, "the name is taken, give NAME=FILE");
+  if(!o.sheets.empty() && (o.mode == mm3::Boundary_mode::PAPER || o.no_optimize))
+    throw CLI::ValidationError(o.no_optimize ? "--no-optimize" : "--mode paper", "knows no sheets");
+}
+
+// Checks combinations of options, and options that this program was built without: these are wrong use.
+void check_options(Options& o)
+{
+  if(o.threads > 1 && !Thread_limit::has_threads)
+    throw CLI::ValidationError("--threads", "this program was built without TBB");
+  if(o.no_optimize && !has_eigen)
+    throw CLI::ValidationError("--no-optimize", "this program was built without Eigen");
+  if(o.fewest_vertices && o.tolerance == 0)
+    throw CLI::ValidationError("--vertices auto", "needs a --tolerance");
+  const bool has_image = is_image(o.surface);
+  for(Region_option& r : o.regions)
+    if(r.file.empty())
+      r.file = o.surface;
+  if(!has_image && o.completion.is_needed())
+    throw CLI::ValidationError(o.surface, "--close, --fill-holes, --largest, --drop-below and --hull need an "
+                                          "image: .nii or .nii.gz; --wrap closes a surface");
+  if(!has_image
+     && (!o.voxels.ranges.empty() || !o.labels.empty() || o.has_each_label
+         || std::any_of(o.regions.begin(), o.regions.end(),
+                        [](const Region_option& r) { return !r.voxels.ranges.empty(); })))
+    throw CLI::ValidationError(
+      o.surface, "labels and thresholds need an image: .nii or .nii.gz (from FreeSurfer's .mgz by "
+                 "mri_convert)");
+  check_subdomains(o);
+  check_sheets(o);
+}
+
+} // namespace
+
+bool Options::is_in_patient_space() const
+{
+  const auto silent = {".off", ".obj", ".stl", ".ply", ".vtp", ".vtk"}; // endings of files that do not tell
+  return surface_options.space || std::none_of(silent.begin(), silent.end(), [this](const char* ending) {
+           return boost::algorithm::iends_with(surface, ending);
+         });
+}
+
+std::string surrounding_name(const Options& o)
+{
+  const std::string file = std::filesystem::path(o.surface).filename().string(),
+                    name = file.substr(0, file.find('.'));
+  return is_name(name) ? name : "domain";
+}
+
+std::optional<int> parse_command_line(int argc, char** argv, Options& options)
+{
+  CLI::App app("Makes a mixed-element (hexahedra, prisms, pyramids, tetrahedra) finite-element mesh of the "
+               "domain inside a closed surface, fine in a region of interest, within a vertex budget.");
+  set_up(app, options);
+  options.command = command_of("mixed_mesh_3", argc, argv);
+  return parse("mixed_mesh_3", app, argc, argv, [&] { check_options(options); });
+}
+
+void check_feasible(const Options& o)
+{
+  // A temporary file exists while the program tests whether a file can be written.
+  const Deferred_signals deferred({SIGINT, SIGTERM, SIGHUP}, Deferred_signals::Second::DEFERRED);
+  std::vector<std::string> inputs{o.surface};
+  for(const Region_option& r : o.regions)
+    inputs.push_back(r.file);
+  for(const Subdomain_option& s : o.subdomains)
+    inputs.push_back(s.file);
+  inputs.insert(inputs.end(), o.cavities.begin(), o.cavities.end());
+  Output_paths outputs(inputs);
+  for(const std::string& path : o.outputs)
+    require([&](std::string* error) { return mm3::IO::check_output_path(path, error, o.order); });
+  for(const std::string& path : {o.report, o.page})
+    if(!path.empty())
+      require([&](std::string* error) { return mm3::IO::check_output_directory(path, error); });
+  for(const std::string& path : o.outputs)
+    outputs.add(path);
+  for(const std::string& path : {o.report, o.page})
+    if(!path.empty())
+      outputs.add(path);
+  // The number is more than measured with 100,000 and 200,000 vertices; a direct solver takes more.
+  const double bytes_per_vertex = o.fit() == Fit::ALGORITHM_1 ? 3000 : o.tetrahedra ? 1500 : 1100;
+  check_memory("--vertices " + std::to_string(o.vertices) + ":", double(o.vertices) * bytes_per_vertex);
+  if((o.tetrahedra || o.order == 2) && o.vertices > 500000000u)
+    throw std::runtime_error("--vertices " + std::to_string(o.vertices)
+                             + ": more than the 32-bit indices of the files allow");
+}

@@ -1,0 +1,104 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The options of the mesher.
+
+#ifndef MIXED_MESH_3_APPS_MIXED_MESH_3_OPTIONS_H
+#define MIXED_MESH_3_APPS_MIXED_MESH_3_OPTIONS_H
+
+#include "core/read_label_surface.h"
+#include "core/voxel_selection.h"
+
+#include <CGAL/Mixed_mesh_image_3/IO/Read_anatomical_surface_options.h>
+#include <CGAL/Mixed_mesh_3/options.h>
+#include <CGAL/Mixed_mesh_criteria_3.h>
+#include <CGAL/Mixed_mesh_fit_criteria_3.h>
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The way in which the boundary gets onto the surface.
+enum class Fit { NONE, OPTIMIZATION, ALGORITHM_1 };
+/// The solver of the linear systems of Algorithm 1.
+enum class Solver { CG, LDLT };
+
+/// A closed surface of a region of interest, and the factor by which an error counts more in the region.
+struct Region_option
+{
+  std::string file;
+  double weight;
+  Voxel_selection voxels = {}; // voxels of an image
+};
+
+/// A part of the domain with a label of its own.
+struct Subdomain_option
+{
+  std::string name, file;
+  Voxel_selection voxels = {}; // voxels of an image
+};
+
+struct Options
+{
+  using Templates = CGAL::Mixed_meshes_3::Transition_templates_choice;
+
+  std::string surface, report, page;
+  std::string command; // the command with all options
+  std::vector<Region_option> regions;
+  std::vector<Subdomain_option> subdomains; // inside the surface; earlier ones count where they overlap
+  std::vector<Subdomain_option> labels;     // labels of an image, with names, instead of voxels
+  bool has_each_label = false;              // all labels of an image, instead
+  std::vector<std::string> cavities;
+  std::vector<Subdomain_option> sheets; // surfaces inside that need not enclose anything
+  Voxel_selection voxels;               // voxels of an image, the domain
+  Label_completion completion;          // completion of the domain
+  std::optional<double> smoothing;
+  std::vector<std::string> outputs;
+  std::size_t vertices = 0;
+  bool fewest_vertices = false; // at most the number above
+  int base_level = CGAL::Mixed_mesh_criteria_3::automatic;
+  CGAL::Mixed_meshes_3::Boundary_mode mode = CGAL::Mixed_meshes_3::Boundary_mode::VERTEX_ORDER;
+  CGAL::Mixed_meshes_3::Root_cell root = CGAL::Mixed_meshes_3::Root_cell::CUBE;
+  Templates templates = Templates::FEWEST_VERTICES;
+  CGAL::Mixed_meshes_3::IO::Read_anatomical_surface_options surface_options;
+  bool slit = false, no_exchange = false, no_fit = false, no_optimize = false, msh2 = false,
+       tetrahedra = false, quiet = false;
+  double tolerance = 0; // automatic
+  double grading = 0.35;
+  double time_limit = std::numeric_limits<double>::infinity();                          // seconds
+  double largest_arc = CGAL::Mixed_mesh_optimization_criteria_3::default_quality_bound; // 0: any
+  bool is_arc_strict = false;
+  double sharp_angle = CGAL::Mixed_mesh_optimization_criteria_3::default_sharp_angle; // degrees; 0: none
+  unsigned threads = 1;
+  int order = 1; // of the elements in files
+
+  // Options of Algorithm 1.
+  int steps = CGAL::Mixed_mesh_fit_criteria_3().number_of_steps();
+  int layers = CGAL::Mixed_mesh_fit_criteria_3::automatic;
+  double poisson_ratio = CGAL::Mixed_mesh_fit_criteria_3().poisson_ratio();
+  double stiffness_factor = CGAL::Mixed_mesh_fit_criteria_3().stiffness_factor();
+  double maximal_stiffness = CGAL::Mixed_mesh_fit_criteria_3().maximal_stiffness();
+  double acceptable_quality = CGAL::Mixed_mesh_fit_criteria_3().acceptable_aspect_ratio();
+  Solver solver = Solver::CG;
+
+  /// Whether the surface's file, or the user, says that coordinates are those of the patient, in mm.
+  bool is_in_patient_space() const;
+
+  bool has_quality_bound() const { return fit() == Fit::OPTIMIZATION && largest_arc > 0; }
+  Fit fit() const { return no_fit ? Fit::NONE : no_optimize ? Fit::ALGORITHM_1 : Fit::OPTIMIZATION; }
+};
+
+/// The name of the subdomain around all others: the name of its file, if that is a valid name.
+std::string surrounding_name(const Options& options);
+
+/// Returns the exit status if the program ends with its command line: help, the version, or wrong use.
+std::optional<int> parse_command_line(int argc, char** argv, Options& options);
+
+/// Throws if files cannot be written, or if the mesh would not fit into memory.
+void check_feasible(const Options& options);
+
+#endif // MIXED_MESH_3_APPS_MIXED_MESH_3_OPTIONS_H

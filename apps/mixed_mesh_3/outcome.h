@@ -1,0 +1,167 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Results of the mesher for its report and its messages: plain data.
+
+#ifndef MIXED_MESH_3_APPS_MIXED_MESH_3_OUTCOME_H
+#define MIXED_MESH_3_APPS_MIXED_MESH_3_OUTCOME_H
+
+#include "core/facts.h"
+
+#include <CGAL/Mixed_mesh_3/Element_attributes.h>
+#include <CGAL/Mixed_mesh_3/quality.h>
+#include <CGAL/Mixed_mesh_fit_result_3.h>
+#include <CGAL/Mixed_mesh_result_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+using Table = CGAL::Mixed_meshes_3::Quality_table;
+
+/// The aspect-ratio coefficients (ARC): the paper's Table 1, and a histogram.
+struct Aspect_ratios
+{
+  Table up_to_7, from_1_3_to_7; // the interval that shares are of
+  std::vector<std::size_t> histogram;
+};
+
+/// The ends of the bins of the histogram: the first bin has all values below 1.1, the last one all from 3 on.
+inline std::vector<double> histogram_edges()
+{
+  std::vector<double> edges;
+  for(int tenths = 11; tenths <= 30; ++tenths)
+    edges.push_back(tenths / 10.);
+  return edges;
+}
+
+/// The other measures.
+struct Shapes
+{
+  Table scaled_jacobian, smallest_dihedral_angle, largest_dihedral_angle, quad_warp;
+};
+
+/// The distance of a surface, at its farthest point, from another one.
+struct Distance
+{
+  double distance = 0, error = 0;
+  std::array<double, 3> from{}, to{};
+};
+
+/// The distances of the boundary of the mesh and the surface.
+struct Fidelity
+{
+  Distance from_mesh, from_surface;
+  double volume_of_mesh = 0, volume_of_surface = 0;
+  std::size_t vertices = 0;     // on the boundary
+  std::size_t vertices_off = 0; // vertices that are not on the surface
+  std::size_t self_intersections = 0;
+
+  double distance() const { return (std::max)(from_mesh.distance, from_surface.distance); }
+  double ratio_of_volumes() const { return volume_of_mesh / volume_of_surface; }
+};
+
+// The topology of a solid.
+struct Solid
+{
+  std::size_t bodies = 0, handles = 0, cavities = 0;
+  double volume = 0;
+};
+
+// A difference between the solids, at a place.
+struct Difference
+{
+  std::string sentence;
+  std::array<double, 3> at;
+};
+
+// The topology of the solid of the surface, and of that of the mesh.
+struct Topology
+{
+  Solid surface, mesh;
+  std::vector<Difference> differences;
+  bool is_same = true;
+};
+
+// Largest relative difference of the volume of a body from its right volume.
+constexpr double volume_tolerance = 0.05;
+constexpr double on_surface = 1e-9; // share of the diagonal of the surface's box
+
+/// A property of a valid mesh, or of a faithful one, in words.
+struct Check
+{
+  const char* name;
+  bool holds;
+};
+
+/// A part of the mesh with a label of its own.
+struct Subdomain_outcome
+{
+  std::string name;
+  CGAL::Mixed_meshes_3::Subdomain_index index = 1;
+  Surface_facts surface;
+  std::size_t elements = 0;
+  double volume = 0;
+  std::optional<double> volume_of_surface; // without inner parts; none where surfaces cross
+  double mean_arc = 0, largest_arc = 0;
+};
+
+/// The interface between two subdomains, or between a subdomain and the outside.
+struct Interface_outcome
+{
+  std::string first, second;
+  std::size_t faces = 0, vertices = 0, vertices_off = 0, bad_edges = 0, bad_vertices = 0;
+  double area = 0;
+  bool is_manifold = true, is_of_boundary = false;
+};
+
+/// A surface inside that need not enclose anything, and the faces of the mesh on it.
+struct Sheet_outcome
+{
+  std::string name;
+  Surface_facts surface;
+  std::size_t faces = 0, vertices = 0, vertices_off = 0, bad_edges = 0;
+  double largest_distance = 0;      // largest distance of a vertex from the sheet
+  double area = 0, area_inside = 0; // area of the faces; of the sheet inside the domain
+};
+
+/// The result of doubling the vertices of sheets.
+struct Slit_outcome
+{
+  std::size_t faces = 0, faces_left = 0, vertices = 0;
+};
+
+struct Outcome
+{
+  Surface_facts surface;
+  std::optional<Completion_facts> completion; // completion of the image's label
+  std::vector<Surface_facts> regions;
+  std::vector<Subdomain_outcome> subdomains; // empty for a single subdomain
+  std::vector<Interface_outcome> interfaces;
+  bool has_lost_labels = false; // lost before there was a mesh
+  std::vector<Sheet_outcome> sheets;
+  std::optional<Slit_outcome> slit;
+  CGAL::Mixed_mesh_result_3 result;
+  CGAL::Mixed_mesh_fit_result_3 algorithm_1;
+  bool is_stopped = false; // stopped by a signal or the limit of time
+  Mesh_facts mesh;
+  std::size_t elements_in_region = 0, boundary_faces = 0;
+  std::optional<Aspect_ratios> before; // the boundary is fitted
+  Aspect_ratios after;
+  std::size_t elements_above_bound = 0; // above the bound of the options, proved
+  Shapes shapes;
+  Fidelity fidelity;
+  Topology topology;
+  std::vector<Check> checks;             // checks of validity: a mesh that fails is not written
+  std::vector<Check> checks_of_fidelity; // whether the mesh represents this surface
+  std::vector<std::string> warnings;
+  double seconds = 0;
+  std::size_t peak_bytes = 0;
+};
+
+#endif // MIXED_MESH_3_APPS_MIXED_MESH_3_OUTCOME_H

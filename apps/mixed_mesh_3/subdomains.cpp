@@ -1,0 +1,212 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "mixed_mesh_3/subdomains.h"
+
+#include "core/messages.h"
+
+#include <CGAL/Mixed_mesh_3/interfaces.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace mm3 = CGAL::Mixed_meshes_3;
+using Domain = CGAL::Labeled_polyhedral_mixed_mesh_domain_3;
+
+namespace {
+
+constexpr double tolerated_change_of_volume = 0.05;
+
+std::string name_of(const std::vector<Subdomain>& subdomains, mm3::Subdomain_index index)
+{
+  if(index == 0)
+    return "outside";
+  return std::find_if(subdomains.begin(), subdomains.end(),
+                      [&](const Subdomain& s) { return s.index == index; })
+    ->name;
+}
+
+// A surface as a domain, and the sides of the vertices of other surfaces.
+class Enclosed
+{
+  Domain m_domain;
+
+public:
+  explicit Enclosed(const Surface& surface) { m_domain.add(surface, 1); }
+
+  // Whether there are vertices of a surface inside, and vertices outside.
+  std::pair<bool, bool> has_inside_and_outside(const Surface& surface) const
+  {
+    bool has_inside = false, has_outside = false;
+    for(const auto& p : surface.points()) {
+      (m_domain.subdomain_index(p) != 0 ? has_inside : has_outside) = true;
+      if(has_inside && has_outside)
+        break;
+    }
+    return {has_inside, has_outside};
+  }
+
+  bool is_near(const Enclosed& other) const
+  {
+    return CGAL::do_overlap(m_domain.bbox(), other.m_domain.bbox());
+  }
+};
+
+// Volumes without the volumes of earlier subdomains. None where surfaces cross.
+std::vector<std::optional<double>> expected_volumes(const std::vector<Subdomain>& subdomains)
+{
+  std::vector<std::optional<double>> volumes;
+  std::vector<Enclosed> enclosed;
+  for(std::size_t i = 0; i < subdomains.size(); ++i) {
+    const Surface& mine = *subdomains[i].surface;
+    enclosed.emplace_back(mine);
+    const bool are_labels = std::all_of(subdomains.begin(), subdomains.begin() + std::ptrdiff_t(i) + 1,
+                                        [](const Subdomain& s) { return s.volume.has_value(); });
+    if(are_labels) { // labels do not overlap
+      volumes.push_back(subdomains[i].volume);
+      continue;
+    }
+    volumes.emplace_back(subdomains[i].facts.volume);
+    for(std::size_t j = 0; j < i && volumes[i]; ++j) {
+      if(!enclosed[i].is_near(enclosed[j]))
+        continue;
+      const auto [has_inside, has_outside] = enclosed[i].has_inside_and_outside(*subdomains[j].surface);
+      if(enclosed[j].has_inside_and_outside(mine).first || (has_inside && has_outside))
+        volumes[i] = std::nullopt;
+      else if(has_inside && volumes[j])
+        *volumes[i] -= *volumes[j];
+      else if(has_inside)
+        volumes[i] = std::nullopt;
+    }
+  }
+  return volumes;
+}
+
+void warn_of(const Subdomain_outcome& s, const Options& o, std::vector<std::string>& warnings)
+{
+  const std::string named = "the subdomain " + s.name;
+  if(s.elements == 0)
+    warnings.push_back(
+      named + ", of volume "
+      + volume_with_unit(s.volume_of_surface.value_or(s.surface.volume), o.is_in_patient_space())
+      + ", is lost: too small for the cells; try more vertices than " + std::to_string(o.vertices));
+  else if(s.volume_of_surface && std::abs(s.volume / *s.volume_of_surface - 1) > tolerated_change_of_volume)
+    warnings.push_back(named + " has a volume of " + volume_with_unit(s.volume, o.is_in_patient_space())
+                       + ", " + percent(std::abs(s.volume / *s.volume_of_surface - 1))
+                       + (s.volume < *s.volume_of_surface ? " less" : " more")
+                       + " than its surface encloses; try more vertices");
+}
+
+void warn_of(const std::vector<Interface_outcome>& interfaces, std::vector<std::string>& warnings)
+{
+  constexpr std::size_t most = 10; // nearly all interfaces have such vertices with many labels
+  const auto named = [](const Interface_outcome& i) {
+    return "the interface between " + i.first + " and " + i.second;
+  };
+  std::vector<const Interface_outcome*> off; // inner ones; others have boundary vertices
+  for(const Interface_outcome& i : interfaces) {
+    if(!i.is_manifold)
+      warnings.push_back(named(i) + " is no manifold: " + std::to_string(i.bad_edges) + " edges and "
+                         + std::to_string(i.bad_vertices) + " vertices where it touches itself");
+    if(!i.is_of_boundary && i.vertices_off > 0)
+      off.push_back(&i);
+  }
+  std::stable_sort(off.begin(), off.end(), [](const Interface_outcome* a, const Interface_outcome* b) {
+    return a->vertices_off > b->vertices_off;
+  });
+  for(std::size_t i = 0; i < (std::min)(most, off.size()); ++i)
+    warnings.push_back(std::to_string(off[i]->vertices_off) + " of " + std::to_string(off[i]->vertices)
+                       + " vertices of " + named(*off[i]) + " are not on its surface");
+  if(off.size() > most)
+    warnings.push_back(std::to_string(off.size() - most)
+                       + " interfaces more have vertices that are not on their surfaces, see the report");
+}
+
+} // namespace
+
+Domain make_domain(const std::vector<Subdomain>& subdomains)
+{
+  Domain domain;
+  for(const Subdomain& s : subdomains)
+    domain.add(*s.surface, s.index);
+  return domain;
+}
+
+Surface boundary_of(const std::vector<Subdomain>& subdomains)
+{
+  Surface boundary = *subdomains.back().surface;
+  for(const Subdomain& s : subdomains)
+    if(s.index == 0)
+      CGAL::copy_face_graph(*s.surface, boundary);
+  return boundary;
+}
+
+void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vector<Subdomain>& subdomains,
+                        const Options& options, Outcome& outcome)
+{
+  if(outcome.has_lost_labels)
+    outcome.result.status = mm3::worse_status(outcome.result.status, CGAL::Mixed_mesh_status::PARTS_LOST);
+  if(subdomains.size() < 2)
+    return;
+  std::map<mm3::Subdomain_index, Subdomain_outcome> found;
+  std::map<mm3::Subdomain_index, double> sums;
+  for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e) {
+    Subdomain_outcome& s = found[mesh.subdomain_index(e)];
+    const double arc = mm3::aspect_ratio_coefficient(mesh, e);
+    ++s.elements;
+    s.volume += mm3::volume(mesh, e);
+    s.largest_arc = (std::max)(s.largest_arc, arc);
+    sums[mesh.subdomain_index(e)] += arc;
+  }
+  const std::vector<std::optional<double>> expected = expected_volumes(subdomains);
+  for(std::size_t i = 0; i < subdomains.size(); ++i) {
+    if(subdomains[i].index == 0)
+      continue;
+    Subdomain_outcome s = found[subdomains[i].index];
+    s.name = subdomains[i].name;
+    s.index = subdomains[i].index;
+    s.surface = subdomains[i].facts;
+    s.volume_of_surface = expected[i];
+    s.mean_arc = s.elements > 0 ? sums[s.index] / double(s.elements) : 0;
+    warn_of(s, options, outcome.warnings);
+    if(s.elements == 0)
+      outcome.result.status = mm3::worse_status(outcome.result.status, CGAL::Mixed_mesh_status::PARTS_LOST);
+    outcome.subdomains.push_back(std::move(s));
+  }
+  for(const mm3::Subdomain_interface& one : mm3::find_interfaces(mesh)) {
+    const Interface_outcome i{name_of(subdomains, one.first),
+                              name_of(subdomains, one.second),
+                              one.faces.size(),
+                              mm3::vertices_of(one.faces).size(),
+                              options.fit() == Fit::NONE
+                                ? 0
+                                : mm3::number_of_vertices_off_interface(mesh, one, domain, on_surface),
+                              one.number_of_bad_edges,
+                              one.number_of_bad_vertices,
+                              one.area,
+                              one.is_manifold(),
+                              one.second == 0};
+    outcome.interfaces.push_back(i);
+  }
+  warn_of(outcome.interfaces, outcome.warnings);
+}
+
+std::vector<mm3::IO::Facet_set> interfaces_of(const Mesh& mesh, const std::vector<Subdomain>& subdomains)
+{
+  std::vector<mm3::IO::Facet_set> sets;
+  if(subdomains.size() < 2)
+    return sets;
+  for(mm3::Subdomain_interface& one : mm3::find_interfaces(mesh)) {
+    const std::string first = name_of(subdomains, one.first), second = name_of(subdomains, one.second);
+    sets.push_back(
+      {one.second == 0 ? "outside_" + first : "interface_" + first + "_" + second, std::move(one.faces)});
+  }
+  return sets;
+}

@@ -1,0 +1,50 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Parts of the domain that have labels of their own, and their elements in the mesh.
+
+#ifndef MIXED_MESH_3_APPS_MIXED_MESH_3_SUBDOMAINS_H
+#define MIXED_MESH_3_APPS_MIXED_MESH_3_SUBDOMAINS_H
+
+#include "core/read_surface.h"
+#include "core/types.h"
+#include "mixed_mesh_3/options.h"
+#include "mixed_mesh_3/outcome.h"
+
+#include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
+#include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// A surface around a part of the domain; where several overlap, earlier ones count.
+struct Subdomain
+{
+  std::string name;
+  CGAL::Mixed_meshes_3::Subdomain_index index; // 0: a cavity
+  std::shared_ptr<const Surface> surface;
+  Surface_facts facts;
+  std::optional<double> volume; // volume of the voxels of a label, if known
+};
+
+/// \param subdomains surfaces; the last one is around the others
+CGAL::Labeled_polyhedral_mixed_mesh_domain_3 make_domain(const std::vector<Subdomain>& subdomains);
+
+/// The surface of the last subdomain and of cavities.
+Surface boundary_of(const std::vector<Subdomain>& subdomains);
+
+/// Examines volumes, quality and interfaces of several subdomains, with warnings for defects; and sets a
+/// status for parts that the mesh does not have.
+void examine_subdomains(const Mesh& mesh, const CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
+                        const std::vector<Subdomain>& subdomains, const Options& options, Outcome& outcome);
+
+/// The interfaces between two subdomains, such as `interface_tumor_brain`; with several subdomains, also the
+/// boundary of each subdomain, such as `outside_brain`.
+std::vector<CGAL::Mixed_meshes_3::IO::Facet_set> interfaces_of(const Mesh& mesh,
+                                                               const std::vector<Subdomain>& subdomains);
+
+#endif // MIXED_MESH_3_APPS_MIXED_MESH_3_SUBDOMAINS_H

@@ -1,0 +1,189 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "mixed_mesh_3/verdict.h"
+
+#include "core/messages.h"
+
+#include <CGAL/Mixed_mesh_criteria_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+namespace {
+
+std::string lost_parts(const CGAL::Mixed_mesh_result_3& result, const Options& o)
+{
+  const CGAL::Bbox_3& b = result.lost_cells;
+  std::ostringstream where;
+  where << '[' << b.xmin() << ", " << b.xmax() << "] x [" << b.ymin() << ", " << b.ymax() << "] x ["
+        << b.zmin() << ", " << b.zmax() << ']';
+  return o.surface + ": parts thinner than a cell are lost: " + std::to_string(result.number_of_lost_cells)
+         + " octree cells that they meet are away from the mesh, within " + where.str()
+         + "; try more vertices or a larger --base-level";
+}
+
+std::string missed_tolerance(const Fidelity& f, const Options& o)
+{
+  const bool is_on_mesh = f.from_mesh.distance > f.from_surface.distance;
+  const Distance& d = is_on_mesh ? f.from_mesh : f.from_surface;
+  const std::string at = " at " + place(d.from) + " is " + rounded(d.distance) + " away from ";
+  return "--tolerance " + rounded(o.tolerance) + ": not reached, "
+         + (is_on_mesh ? "the mesh" + at + o.surface : o.surface + at + "the mesh") + "; try more vertices";
+}
+
+std::string times_volume(double ratio, const Options& o)
+{
+  return o.surface + ": the mesh has " + as_part_of(ratio)
+         + " the surface's volume: it is "
+           "too coarse for the domain; try more vertices or a larger --base-level"
+         + (o.fit() == Fit::OPTIMIZATION && o.tolerance == 0 ? ", or --tolerance" : "");
+}
+
+// The number of vertices that the budget lacks in words, if that number is known.
+std::string needed_for_thin_parts(const CGAL::Mixed_mesh_result_3& result, const Options& o)
+{
+  const std::size_t n = result.number_of_vertices_for_thin_parts;
+  if(n <= o.vertices)
+    return {};
+  const double unit = std::pow(10, std::floor(std::log10(double(n))) - 1); // two digits
+  return "a mesh that is fine enough for all its thin walls and narrow gaps is estimated at "
+         + std::to_string(std::size_t(std::ceil(double(n) / unit) * unit)) + " vertices; this one may have "
+         + std::to_string(o.vertices);
+}
+
+std::string after_semicolon(const std::string& text) { return text.empty() ? text : "; " + text; }
+
+// Whether a surface is full of gaps, like that of an atlas, and unlike that of an organ.
+bool is_full_of_gaps(const Topology& topology, const Options& o)
+{
+  constexpr std::size_t many = 5;
+  const Solid& s = topology.surface;
+  return is_image(o.surface) && !o.completion.is_needed() && s.bodies + s.handles + s.cavities > many
+         && !topology.differences.empty();
+}
+
+// Adds the largest differences: a surface may have thousands of specks.
+void add_differences(const Topology& topology, const Options& o, std::vector<std::string>& warnings)
+{
+  const bool has_gaps = is_full_of_gaps(topology, o);
+  if(has_gaps)
+    warnings.insert(warnings.begin(), o.surface + ": its voxels have gaps ("
+                                        + counted(topology.surface.bodies, "body", "bodies") + ", "
+                                        + counted(topology.surface.handles, "handle", "handles") + ", "
+                                        + counted(topology.surface.cavities, "cavity", "cavities")
+                                        + "): --hull closes them, if the solid organ is wanted");
+  const std::size_t most = has_gaps ? 0 : 8;
+  const std::size_t n = topology.differences.size(), shown = (std::min)(n, most);
+  for(std::size_t i = 0; i < shown; ++i)
+    warnings.push_back(o.surface + ": " + topology.differences[i].sentence);
+  if(n > shown)
+    warnings.push_back(o.surface + ": " + counted(n - shown, "difference", "differences")
+                       + (shown == 0 ? "" : " more") + " in topology or volume, see the report");
+}
+
+} // namespace
+
+void refuse(const CGAL::Mixed_mesh_result_3& result, const Options& o)
+{
+  using Status = CGAL::Mixed_mesh_status;
+  if(o.fewest_vertices && result.status > Status::BUDGET_NOT_FILLED && result.status != Status::STOPPED)
+    throw std::runtime_error("--vertices auto: not even a mesh of " + std::to_string(result.vertex_budget)
+                             + " vertices is within a tolerance of " + rounded(o.tolerance) + " of "
+                             + o.surface + ": " + CGAL::Mixed_meshes_3::description(result.status)
+                             + ", farthest " + rounded(result.optimization.largest_distance));
+  switch(result.status) {
+  case Status::BUDGET_TOO_SMALL:
+    throw std::runtime_error("--vertices " + std::to_string(o.vertices)
+                             + ": too small, the coarsest mesh "
+                               "of "
+                             + o.surface + " at base level " + std::to_string(result.base_level)
+                             + " has at least " + std::to_string(result.number_of_vertices_needed)
+                             + " vertices");
+  case Status::EMPTY:
+    throw std::runtime_error(o.surface
+                             + ": too thin for this budget, no octree vertex is inside; try "
+                               "more vertices or a larger --base-level"
+                             + after_semicolon(needed_for_thin_parts(result, o)));
+  case Status::REGION_NOT_MET:
+    throw std::runtime_error(
+      o.regions.size() == 1 ? o.regions.front().file + ": the region does not meet the domain of " + o.surface
+                            : o.surface + ": none of the regions meets the domain");
+  case Status::STOPPED:
+    if(result.is_kept)
+      return;
+    throw std::runtime_error("stopped before there was a mesh: nothing is written");
+  case Status::BOUNDARY_NOT_MANIFOLD:
+    throw Invalid_mesh("the boundary is pinched at the border of the root cell; try another --base-level");
+  case Status::BUDGET_NOT_FILLED:
+  case Status::TOLERANCE_NOT_REACHED:
+  case Status::NOT_ALL_ARRIVED:
+  case Status::VOLUME_DIFFERS:
+  case Status::TOPOLOGY_DIFFERS:
+  case Status::PARTS_LOST:
+  case Status::SUCCESS: break;
+  }
+}
+
+void require_all(const std::vector<Check>& checks, std::size_t self_intersections)
+{
+  for(const Check& check : checks)
+    if(!check.holds)
+      throw Invalid_mesh(std::string("the mesh failed the check: ") + check.name
+                         + (self_intersections != 0
+                              ? ": " + std::to_string(self_intersections)
+                                  + " pairs of faces; "
+                                    "try more vertices, a larger --base-level, or --no-fit"
+                              : ""));
+}
+
+void require_volume(const Options& o, const Outcome& outcome)
+{
+  const double ratio = outcome.fidelity.ratio_of_volumes();
+  if(o.fit() != Fit::NONE && !outcome.is_stopped && !(0.5 <= ratio && ratio <= 1.5))
+    throw std::runtime_error(times_volume(ratio, o)
+                             + after_semicolon(needed_for_thin_parts(outcome.result, o)));
+}
+
+void add_warnings(const Options& o, Outcome& outcome)
+{
+  std::vector<std::string>& warnings = outcome.warnings;
+  const Fidelity& f = outcome.fidelity;
+  const double full = CGAL::Mixed_mesh_criteria_3::full_share * double(o.vertices);
+  if((double(outcome.mesh.vertices) < full && !outcome.result.is_lattice_on_surface)
+     || outcome.result.status == CGAL::Mixed_mesh_status::BUDGET_NOT_FILLED)
+    warnings.push_back("only " + std::to_string(outcome.mesh.vertices) + " of " + std::to_string(o.vertices)
+                       + " vertices used: the region cannot be refined "
+                         "further, or each further cell tried would exceed the budget");
+  if(outcome.result.number_of_lost_cells != 0)
+    warnings.push_back(lost_parts(outcome.result, o));
+  if(o.fit() != Fit::NONE && f.vertices_off != 0)
+    warnings.push_back(std::to_string(f.vertices_off) + " of " + std::to_string(f.vertices)
+                       + " boundary vertices are not on " + o.surface
+                       + (o.has_quality_bound()
+                            ? ": elements would be worse than --max-arc allows, or inverted"
+                            : ": elements would be inverted")
+                       + ", or coordinates are too large to tell");
+  if(outcome.elements_above_bound != 0)
+    warnings.push_back("--max-arc " + rounded(o.largest_arc) + ": "
+                       + counted(outcome.elements_above_bound, "element is", "elements are") + " above it"
+                       + (outcome.result.quality_bound > o.largest_arc
+                            ? ", none above " + rounded(outcome.result.quality_bound)
+                                + ": thin walls have room for flatter elements only"
+                            : ""));
+  if(o.tolerance > 0 && f.distance() > o.tolerance)
+    warnings.push_back(missed_tolerance(f, o));
+  // The cells around the boundary add some volume before it is fitted; corners cut off take some.
+  const bool is_fitted = o.fit() != Fit::NONE;
+  const double ratio = f.ratio_of_volumes();
+  if(is_fitted ? std::abs(ratio - 1) > volume_tolerance : ratio < 0.9 || ratio > 4)
+    warnings.push_back(times_volume(ratio, o));
+  add_differences(outcome.topology, o, warnings);
+  const std::string needed = needed_for_thin_parts(outcome.result, o);
+  if(!needed.empty() && (!outcome.topology.differences.empty() || outcome.result.number_of_lost_cells != 0))
+    warnings.push_back(o.surface + ": " + needed);
+}

@@ -1,0 +1,179 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// VTK unstructured grids in XML.
+
+#ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_MESH_READ_VTU_H
+#define CGAL_MIXED_MESH_3_IO_INTERNAL_MESH_READ_VTU_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/IO/internal/mesh/Mesh_input.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/VTK_XML_reader.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/mesh/element_names.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace IO {
+namespace internal {
+
+class VTU_reader : VTK_XML_reader
+{
+  // ---- cells --------------------------------------------------------------------------------
+
+  // How VTK numbers a cell: `order` as `Element_names::vtk_order`.
+  struct Cell_type
+  {
+    Element_kind kind;
+    const std::uint8_t* order;
+  };
+
+  // Nothing for cells that are on the boundary or on edges.
+  std::optional<Cell_type> cell_type(std::int64_t type, std::size_t cell) const
+  {
+    static constexpr std::uint8_t voxel_order[8] = {0, 1, 3, 2, 4, 5, 7, 6};
+    constexpr int voxel = 11, last_of_low_dimension = 9;
+    for(Element_kind kind : element_kinds)
+      if(element_names[kind].vtk_type == type)
+        return Cell_type{kind, element_names[kind].vtk_order};
+    if(type == voxel)
+      return Cell_type{HEXAHEDRON, voxel_order};
+    if(type < 0 || type > last_of_low_dimension) {
+      const bool is_of_higher_order = (type >= 21 && type <= 37) || (type >= 60 && type <= 81);
+      refuse("cell " + std::to_string(cell) + (is_of_higher_order ? " is of higher order" : " cannot be read")
+             + " (VTK's type " + std::to_string(type)
+             + "); expected linear hexahedra, wedges, pyramids and tetrahedra");
+    }
+    return std::nullopt;
+  }
+
+  void read_piece(const Piece& piece, Mesh_input& mesh)
+  {
+    const std::uint64_t n = number(piece.tag, "NumberOfPoints"), m = number(piece.tag, "NumberOfCells"),
+                        first = mesh.points.size(); // points of the pieces before
+    if(n > largest_mesh_size - first || m > largest_mesh_size - mesh.elements.size())
+      refuse("has more than 2^32 points or cells");
+    const std::vector<double> coordinates = values<double>(piece, "Points", "Points", 3 * n);
+    const std::vector<std::int64_t> offsets = values<std::int64_t>(piece, "Cells", "offsets", m),
+                                    types = values<std::int64_t>(piece, "Cells", "types", m);
+    const std::int64_t size = offsets.empty() ? 0 : offsets.back();
+    if(size < 0)
+      refuse("its array \"offsets\" is not increasing");
+    const std::vector<std::int64_t> connectivity = values<std::int64_t>(piece, "Cells", "connectivity",
+                                                                        std::uint64_t(size));
+    const auto cell_data = [&](const char* name) {
+      return piece.array("CellData", name) != nullptr ? values<double>(piece, "CellData", name, m)
+                                                      : std::vector<double>();
+    };
+    const std::vector<double> in_region = cell_data("in_region"), subdomain = cell_data("subdomain"),
+                              compartment = cell_data("compartment");
+
+    for(std::size_t v = 0; v < n; ++v)
+      mesh.points.push_back({coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]});
+    std::int64_t begin = 0;
+    for(std::size_t e = 0; e < m; ++e) {
+      const std::int64_t end = offsets[e];
+      if(end < begin || end > size)
+        refuse("its array \"offsets\" is not increasing");
+      for(std::int64_t i = begin; i < end; ++i) {
+        const std::int64_t v = connectivity[std::size_t(i)];
+        if(v < 0 || std::uint64_t(v) >= n)
+          refuse("cell " + std::to_string(e) + " has the point " + std::to_string(v)
+                 + ", which does not exist");
+      }
+      if(const std::optional<Cell_type> type = cell_type(types[e], e)) {
+        const std::int64_t expected = reference_elements[type->kind].number_of_vertices;
+        if(end - begin != expected)
+          refuse("cell " + std::to_string(e) + " has " + std::to_string(end - begin) + " points; expected "
+                 + std::to_string(expected));
+        std::array<Vertex_index, 8> vertices{};
+        for(std::int64_t i = 0; i < expected; ++i)
+          vertices[type->order[i]] = Vertex_index(first
+                                                  + std::uint64_t(connectivity[std::size_t(begin + i)]));
+        mesh.elements.add(type->kind, vertices.data());
+        Element_attributes attributes;
+        attributes.is_in_region = !in_region.empty() && in_region[e] != 0;
+        if(!subdomain.empty()) {
+          constexpr double largest = (std::numeric_limits<Subdomain_index>::max)();
+          if(!(subdomain[e] >= 1 && subdomain[e] <= largest && subdomain[e] == std::floor(subdomain[e])))
+            refuse("cell " + std::to_string(e) + " has a \"subdomain\" that is not a positive integer");
+          attributes.subdomain_index = Subdomain_index(subdomain[e]);
+        }
+        if(!compartment.empty()) {
+          constexpr double largest = (std::numeric_limits<Compartment_index>::max)();
+          if(!(compartment[e] >= 0 && compartment[e] <= largest
+               && compartment[e] == std::floor(compartment[e])))
+            refuse("cell " + std::to_string(e)
+                   + " has a \"compartment\" that is not an integer of at least 0");
+          attributes.compartment = Compartment_index(compartment[e]);
+        }
+        mesh.attributes.push_back(attributes);
+      }
+      begin = end;
+    }
+  }
+
+  void read_subdomain_names(Mesh_input& mesh)
+  {
+    const Array* const array = file().array("FieldData", "subdomain_names");
+    if(array == nullptr)
+      return;
+    std::vector<std::string> names(1);
+    // as numbers, or as strings of VTK: these count names, not bytes
+    const std::uint64_t size = has_strings(*array) ? size_of_text(*array)
+                                                   : number(array->tag, "NumberOfTuples");
+    for(std::int64_t c : values<std::int64_t>(file(), "FieldData", "subdomain_names", size))
+      if(c != 0)
+        names.back() += char(c);
+      else
+        names.emplace_back();
+    names.pop_back();
+    const auto indices = values<std::int64_t>(file(), "FieldData", "subdomain_indices", names.size());
+    for(std::size_t i = 0; i < names.size(); ++i) {
+      if(indices[i] < 1 || indices[i] > (std::numeric_limits<Subdomain_index>::max)())
+        refuse("its array \"subdomain_indices\" has a number that is no positive integer");
+      mesh.subdomain_names.emplace(Subdomain_index(indices[i]), names[i]);
+    }
+  }
+
+public:
+  VTU_reader(const std::string& path, const std::string& bytes)
+    : VTK_XML_reader(path, bytes, "UnstructuredGrid")
+  {
+  }
+
+  Mesh_input read()
+  {
+    Mesh_input mesh;
+    for(const Piece& piece : pieces())
+      read_piece(piece, mesh);
+    read_subdomain_names(mesh);
+    return mesh;
+  }
+};
+
+/// Reads what a `.vtu` file holds. Points and cells keep their order, cells of lower dimension are skipped.
+inline Mesh_input read_VTU(const std::string& path, const std::string& bytes)
+{
+  return VTU_reader(path, bytes).read();
+}
+
+} // namespace internal
+} // namespace IO
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_IO_INTERNAL_MESH_READ_VTU_H

@@ -1,0 +1,189 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The surface of a solid, of the faces of a file: closed, not self-intersecting, oriented outwards.
+
+#ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_SURFACE_MAKE_SOLID_H
+#define CGAL_MIXED_MESH_3_IO_INTERNAL_SURFACE_MAKE_SOLID_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/IO/Read_surface_options.h>
+#include <CGAL/Mixed_mesh_3/IO/Surface_input.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/surface/orient_components.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/surface/repair_surface.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/surface/separate_bodies.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/surface/surface_crossings.h>
+
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
+#include <CGAL/Polygon_mesh_processing/shape_predicates.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
+#include <CGAL/boost/graph/helpers.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <iterator>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace IO {
+namespace internal {
+
+// Removes triangles whose vertices are on a line; returns the defect if they could not be removed.
+inline std::string remove_degenerate_faces(Surface& mesh, Surface_input& input)
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  std::vector<Surface::Face_index> degenerate;
+  PMP::degenerate_faces(mesh, std::back_inserter(degenerate));
+  if(degenerate.empty())
+    return "";
+  if(degenerate.size() == faces(mesh).size())
+    return "all its faces are degenerate";
+  std::size_t n = degenerate.size();
+  std::string place = place_of(degenerate.front(), mesh);
+  bool is_intact = false;
+  try {
+    PMP::remove_degenerate_faces(mesh);
+    is_intact = CGAL::is_valid_polygon_mesh(mesh) && CGAL::is_closed(mesh) && CGAL::is_triangle_mesh(mesh);
+  } catch(const std::exception&) { // an assertion of CGAL
+  }
+  degenerate.clear();
+  if(is_intact) {
+    PMP::degenerate_faces(mesh, std::back_inserter(degenerate));
+    if(!degenerate.empty()) {
+      n = degenerate.size();
+      place = place_of(degenerate.front(), mesh);
+    }
+  }
+  if(!is_intact || !degenerate.empty())
+    return "has " + counted(n, "degenerate face", "degenerate faces")
+           + " (three vertices on a line), the first near " + place;
+  input.warnings.push_back("removed " + counted(n, "degenerate face", "degenerate faces"));
+  Surface compact; // without the places of removed faces
+  CGAL::copy_face_graph(mesh, compact);
+  clear(mesh);
+  CGAL::copy_face_graph(compact, mesh);
+  return "";
+}
+
+// Makes a mesh of faces that are closed, and a manifold except at points. Returns whether the mesh is
+// oriented.
+inline bool make_mesh(Points& points, Polygons& polygons, bool is_oriented, Surface& mesh,
+                      Surface_input& input)
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  if(!PMP::is_polygon_soup_a_polygon_mesh(polygons)) {
+    // Pinched points are duplicated, and points of edges that have to be cut, as in a Moebius band.
+    const std::size_t n = points.size();
+    PMP::orient_polygon_soup(points, polygons);
+    if(count_edges(polygons).open != 0 || !PMP::is_polygon_soup_a_polygon_mesh(polygons))
+      return false;
+    if(!is_oriented)
+      input.warnings.push_back("oriented the faces consistently");
+    const std::set<Surface::Point> pinched(points.begin() + std::ptrdiff_t(n), points.end());
+    if(!pinched.empty())
+      input.warnings.push_back("the surface is pinched at " + counted(pinched.size(), "point", "points"));
+  }
+  clear(mesh);
+  PMP::polygon_soup_to_polygon_mesh(points, polygons, mesh);
+  return true;
+}
+
+inline bool triangulate(const Polygons& polygons, Surface& mesh, Surface_input& input)
+{
+  if(CGAL::is_triangle_mesh(mesh))
+    return true;
+  const std::size_t n = std::size_t(
+    std::count_if(polygons.begin(), polygons.end(), [](const auto& p) { return p.size() > 3; }));
+  if(!CGAL::Polygon_mesh_processing::triangulate_faces(mesh))
+    return false;
+  input.warnings.push_back("triangulated " + counted(n, "polygon", "polygons"));
+  return true;
+}
+
+// Makes a mesh of the faces: closed, without self-intersections, oriented outwards.
+inline Component_counts make_solid(const Read_surface_options& options, Points points, Polygons polygons,
+                                   Surface& mesh, Surface_input& input)
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  Edge_counts edges = count_edges(polygons);
+  if(edges.open != 0) {
+    const std::size_t open = edges.open;
+    close(options, points, polygons, input);
+    edges = count_edges(polygons);
+    if(edges.open != 0)
+      throw Surface_defect{not_closed(open), wrap_diameter_for(points)};
+  }
+  if(edges.nonmanifold != 0) {
+    const std::size_t nonmanifold = edges.nonmanifold;
+    separate_bodies(points, polygons);
+    edges = count_edges(polygons);
+    if(edges.nonmanifold == 0) {
+      input.warnings.push_back("bodies touch along " + counted(nonmanifold, "edge", "edges"));
+    } else {
+      bound(options,
+            "the surface is not a manifold: "
+              + counted(nonmanifold, "edge has more than two faces", "edges have more than two faces"),
+            points, polygons, input);
+      edges = count_edges(polygons);
+    }
+  }
+  const bool is_oriented = edges.is_oriented;
+  Points whole_points = points;
+  Polygons whole = polygons;
+  if(!make_mesh(points, polygons, is_oriented, mesh, input)) {
+    bound(options, "the surface cannot be oriented", whole_points, whole, input);
+    if(!make_mesh(whole_points, whole, true, mesh, input))
+      throw Surface_defect{"the faces do not form a surface"};
+  }
+  if(!triangulate(polygons, mesh, input))
+    throw Surface_defect{"its polygons cannot be triangulated"};
+
+  // Rounding the points where faces cut each other may make other faces cut.
+  constexpr int most_passes = 5;
+  for(int pass = 0;; ++pass) {
+    std::string defect = remove_degenerate_faces(mesh, input);
+    std::vector<Face_pair> crossings;
+    if(defect.empty()) {
+      crossings = self_intersections(mesh);
+      const std::vector<Face_pair> at_edges = crossings.empty() ? crossings_at_edges(mesh) : crossings;
+      if(at_edges.empty())
+        return orient_components(mesh);
+      defect = !crossings.empty()
+                 ? describe(crossings, mesh)
+                 : "the surface crosses itself along an edge near " + place_of(at_edges.front().first, mesh);
+      crossings = at_edges;
+    }
+    if(pass == most_passes)
+      throw Surface_defect{defect};
+    if(pass == 0)
+      orient_components(mesh, crossings);
+    points.assign(mesh.points().begin(), mesh.points().end());
+    polygons.clear();
+    for(const auto face : faces(mesh)) {
+      const Triangle_view t(face, mesh);
+      polygons.push_back({t.vertices[0], t.vertices[1], t.vertices[2]});
+    }
+    bound(options, pass == 0 ? defect : "", points, polygons, input);
+    if(!make_mesh(points, polygons, true, mesh, input))
+      throw Surface_defect{defect};
+  }
+}
+
+} // namespace internal
+} // namespace IO
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_IO_INTERNAL_SURFACE_MAKE_SOLID_H

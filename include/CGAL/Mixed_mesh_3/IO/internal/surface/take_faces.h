@@ -1,0 +1,185 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The faces of a file: indices and coordinates checked, without superfluous points and polygons.
+
+#ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_SURFACE_TAKE_FACES_H
+#define CGAL_MIXED_MESH_3_IO_INTERNAL_SURFACE_TAKE_FACES_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/IO/internal/surface/Surface_soup.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/surface/polygon_soup.h>
+#include <CGAL/Mixed_mesh_3/IO/Surface_input.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+
+#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace IO {
+namespace internal {
+
+// Checks indices, then numbers: a file may have any content.
+inline void check_indices(const std::string& path, const Surface_soup& soup)
+{
+  if(soup.points.empty() || soup.polygons.empty())
+    refuse(path, "has no faces");
+  for(std::size_t i = 0; i < soup.polygons.size(); ++i) {
+    if(soup.polygons[i].size() < 3)
+      refuse(path, "face " + std::to_string(i) + " has fewer than three vertices");
+    for(std::size_t v : soup.polygons[i])
+      if(v >= soup.points.size())
+        refuse(path, "face " + std::to_string(i) + " has a vertex that does not exist");
+  }
+}
+
+// Refuses coordinates for which volumes and squared volumes of cells 2^20 times smaller over- or underflow.
+// Tiny coordinates beside ordinary ones are zeros with an error: they become zero, or products of them would
+// underflow in predicates, and their inverses be infinite.
+inline void check_coordinates(const std::string& path, Surface_soup& soup)
+{
+  double largest = 0, extent = 0;
+  for(int k = 0; k < 3; ++k) {
+    double lower = std::numeric_limits<double>::infinity(), upper = -lower;
+    for(std::size_t i = 0; i < soup.points.size(); ++i) {
+      const double x = soup.points[i][k];
+      if(!std::isfinite(x))
+        refuse(path, not_finite(i));
+      largest = (std::max)(largest, std::abs(x));
+      lower = (std::min)(lower, x);
+      upper = (std::max)(upper, x);
+    }
+    extent = (std::max)(extent, upper - lower);
+  }
+  if(largest > 1e90)
+    refuse(path, "coordinates up to " + number_text(largest) + " overflow");
+  if(extent < 1e-40)
+    refuse(path, "its extent is zero or underflows");
+  if(extent < largest * 1e-9)
+    refuse(path, "it is so small, and so far from the origin, that its coordinates have no digits left");
+  const double smallest = std::ldexp(extent, -60);
+  for(Vec3& p : soup.points)
+    for(double& x : p)
+      if(std::abs(x) < smallest)
+        x = 0;
+}
+
+// Removes polygons that have the same vertices as another one in the same order, forwards or backwards,
+// except the first of them; returns their number. CGAL's function compares points, and asserts that points of
+// a polygon differ.
+inline std::size_t remove_repeated(Polygons& polygons)
+{
+  std::set<std::vector<std::size_t>> met;
+  const auto is_repeated = [&met](std::vector<std::size_t> p) {
+    std::rotate(p.begin(), std::min_element(p.begin(), p.end()), p.end());
+    if(p[1] > p.back())
+      std::reverse(p.begin() + 1, p.end());
+    return !met.insert(std::move(p)).second;
+  };
+  const std::size_t before = polygons.size();
+  polygons.erase(std::remove_if(polygons.begin(), polygons.end(), is_repeated), polygons.end());
+  return before - polygons.size();
+}
+
+// Removes polygons with a vertex twice, repeated polygons, and unused points.
+inline void remove_superfluous(Points& points, Polygons& polygons, Surface_input& input)
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  const std::size_t before = polygons.size();
+  polygons.erase(std::remove_if(polygons.begin(), polygons.end(),
+                                [](std::vector<std::size_t> p) {
+                                  std::sort(p.begin(), p.end());
+                                  return std::adjacent_find(p.begin(), p.end()) != p.end();
+                                }),
+                 polygons.end());
+  if(polygons.size() != before)
+    input.warnings.push_back("dropped "
+                             + counted(before - polygons.size(), "degenerate face", "degenerate faces"));
+  const std::size_t doubled = remove_repeated(polygons);
+  if(doubled != 0)
+    input.warnings.push_back("merged " + counted(doubled, "duplicate face", "duplicate faces"));
+  const std::size_t unused = PMP::remove_isolated_points_in_polygon_soup(points, polygons);
+  if(unused != 0)
+    input.warnings.push_back("ignored " + counted(unused, "unused point", "unused points"));
+}
+
+// Merges points at edges of one face only; returns the number of removed points. If a surface is closed as
+// given, points at the same place belong to sheets that touch.
+inline std::size_t merge_border_points(Points& points, Polygons& polygons)
+{
+  std::vector<std::size_t> border;
+  for_each_edge(polygons, [&border](auto first, auto last) {
+    if(last - first == 1)
+      border.insert(border.end(), {first->low, first->high});
+  });
+  std::sort(border.begin(), border.end(), [&points](std::size_t a, std::size_t b) {
+    return points[a] != points[b] ? points[a] < points[b] : a < b;
+  });
+  std::vector<std::size_t> place(points.size()); // first point at each place, then its new index
+  std::iota(place.begin(), place.end(), std::size_t(0));
+  for(std::size_t i = 1; i < border.size(); ++i)
+    if(points[border[i]] == points[border[i - 1]])
+      place[border[i]] = place[border[i - 1]];
+  std::size_t n = 0;
+  for(std::size_t v = 0; v < points.size(); ++v) {
+    if(place[v] == v) {
+      points[n] = points[v];
+      place[v] = n++;
+    } else {
+      place[v] = place[place[v]];
+    }
+  }
+  const std::size_t merged = points.size() - n;
+  points.erase(points.begin() + std::ptrdiff_t(n), points.end());
+  for(auto& polygon : polygons)
+    for(std::size_t& v : polygon)
+      v = place[v];
+  return merged;
+}
+
+// Takes the faces of a soup, without superfluous ones.
+inline void take_faces(const std::string& path, Surface_soup soup, Points& points, Polygons& polygons,
+                       Surface_input& input)
+{
+  check_indices(path, soup);
+  check_coordinates(path, soup);
+  for(const Vec3& p : soup.points)
+    points.emplace_back(p[0], p[1], p[2]);
+  soup.points = {};
+  polygons = std::move(soup.polygons);
+  input.warnings = std::move(soup.warnings);
+  input.number_of_points = points.size();
+  input.number_of_polygons = polygons.size();
+
+  if(count_edges(polygons).open != 0) {
+    const std::size_t merged = merge_border_points(points, polygons);
+    if(merged != 0 && !soup.repeats_points)
+      input.warnings.push_back("merged " + counted(merged, "duplicate point", "duplicate points"));
+  }
+  remove_superfluous(points, polygons, input);
+  if(polygons.empty())
+    refuse(path, "all its faces are degenerate");
+}
+
+} // namespace internal
+} // namespace IO
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_IO_INTERNAL_SURFACE_TAKE_FACES_H

@@ -1,0 +1,586 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Python package: arrays against the files of the programs, errors, interruption, and the wheel.
+
+  test_python.py BUILD SOURCE FOLDER        BUILD holds bin/ and python/
+"""
+
+import base64
+import copy
+import ctypes
+import json
+import os
+import pathlib
+import pickle
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+import unittest
+
+try:
+    import numpy as np
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+BUILD, SOURCE, FOLDER = (pathlib.Path(a).resolve() for a in sys.argv[1:4])
+if not list((BUILD / "python" / "mixed_mesh_3").glob("_core*")):
+    print("skipped: the module was not built, see MIXED_MESH_3_BUILD_PYTHON")
+    sys.exit(77)
+sys.path.insert(0, str(BUILD / "python"))
+import browser  # noqa: E402
+import mixed_mesh_3 as mm3  # noqa: E402
+
+DATA = SOURCE / "data"
+GUIDE = SOURCE / "doc" / "guides" / "python_user.txt"
+
+
+def read_off(path):
+    words = path.read_text().split()
+    n, m = int(words[1]), int(words[2])
+    points = np.array(words[4:4 + 3 * n], dtype=float).reshape(n, 3)
+    return points, np.array(words[4 + 3 * n:4 + 3 * n + 4 * m], dtype=int).reshape(m, 4)[:, 1:]
+
+
+BRAIN, REGION, TUMOR = (read_off(DATA / f"{name}.off") for name in ("brain", "region", "tumour"))
+CUBE = (np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=float),
+        np.array([[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4],
+                  [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]]))
+
+
+def blas_threads():
+    """The functions of OpenBLAS that tell and set how many threads NumPy has there; None with another BLAS."""
+    for line in pathlib.Path("/proc/self/maps").read_text().splitlines():
+        if "libopenblas" in line:
+            library = ctypes.CDLL(line.split(maxsplit=5)[5])
+            return library.openblas_get_num_threads, library.openblas_set_num_threads
+    return None
+
+
+def read_vtu(path):
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    grid = reader.GetOutput()
+    cells = {}
+    for i in range(grid.GetNumberOfCells()):
+        cell = grid.GetCell(i)
+        ids = [cell.GetPointId(k) for k in range(cell.GetNumberOfPoints())]
+        cells.setdefault(cell.GetCellType(), []).append(ids)
+    return vtk_to_numpy(grid.GetPoints().GetData()), {kind: np.array(v) for kind, v in cells.items()}
+
+
+class Test(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        shutil.rmtree(FOLDER, ignore_errors=True)
+        FOLDER.mkdir(parents=True)
+        cls.mesh, cls.report = mm3.mesh(*BRAIN, region=REGION, vertices=660)
+
+    def run_program(self, name, *arguments):
+        subprocess.run([BUILD / "bin" / name, *map(str, arguments)], check=True, cwd=FOLDER,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def brain_file(self):
+        if not (FOLDER / "brain.vtu").exists():
+            self.run_program("mixed_mesh_3", DATA / "brain.off", "--region", DATA / "region.off", "--vertices", 660,
+                             "--output", "brain.vtu", "--report", "brain.json")
+        return FOLDER / "brain.vtu"
+
+    def test_same_bytes_as_program(self):
+        points, cells = read_vtu(self.brain_file())
+        self.assertEqual(points.tobytes(), np.array(self.mesh.points).tobytes())
+        vtk_types = {"tetra": 10, "pyramid": 14, "wedge": 13, "hexahedron": 12}
+        self.assertEqual({vtk_types[k] for k in self.mesh.cells}, set(cells))
+        for kind, v in self.mesh.cells.items():
+            v = v[:, [0, 2, 1, 3, 5, 4]] if kind == "wedge" else v
+            np.testing.assert_array_equal(v, cells[vtk_types[kind]])
+        report = json.loads((FOLDER / "brain.json").read_text())
+        self.assertEqual(self.report["status"], report["status"])
+        arc = mm3.quality(self.mesh)
+        for kind, name in (("tetra", "tetrahedra"), ("hexahedron", "hexahedra")):
+            self.assertAlmostEqual(arc[self.mesh.kinds == mm3.KINDS.index(kind)].mean(),
+                                   report["quality"]["after"][name]["ARC mean"])
+
+    def test_mesh_is_certified(self):
+        self.assertTrue(mm3.certify(self.mesh).all())
+        self.assertEqual(set(mm3.defects(self.mesh).values()), {0})
+        self.assertEqual(self.report["status"], "success")
+        self.assertLessEqual(mm3.quality(self.mesh).max(), 3.2)
+        self.assertAlmostEqual(mm3.quality(self.mesh, "volume").sum(), self.report["volume"], delta=1)
+        self.assertTrue(self.mesh.in_region.any() and not self.mesh.in_region.all())
+
+    def test_arrays_live_as_long_as_they_are_used(self):
+        mesh, _ = mm3.mesh(*CUBE, vertices=100)
+        points = mesh.points
+        copy = points.copy()
+        del mesh
+        mm3.mesh(*CUBE, vertices=200)
+        np.testing.assert_array_equal(points, copy)
+        with self.assertRaises(ValueError):
+            points[0, 0] = 1
+
+    def test_arrays_make_a_mesh(self):
+        m = self.mesh
+        again = mm3.Mesh(m.points, m.kinds, m.connectivity, m.labels)
+        np.testing.assert_array_equal(again.points, m.points)
+        np.testing.assert_array_equal(again.connectivity, m.connectivity)
+        swapped = m.connectivity.copy()
+        first = m.offsets[np.flatnonzero(m.kinds == 0)[0]]
+        swapped[[first, first + 1]] = swapped[[first + 1, first]]
+        inverted = mm3.Mesh(m.points, m.kinds, swapped)
+        self.assertEqual((~mm3.certify(inverted)).sum(), 1)
+        self.assertGreater(mm3.defects(inverted)["nonpositive elements"], 0)
+        with self.assertRaisesRegex(ValueError, "inverted"):
+            mm3.optimize(inverted, *BRAIN)
+        with self.assertRaisesRegex(ValueError, "element 0 has the vertex 99999, which does not exist"):
+            mm3.Mesh(m.points, [0], [0, 1, 2, 99999])
+        with self.assertRaisesRegex(ValueError, "ends before"):
+            mm3.Mesh(m.points, [0], [0, 1, 2])
+
+    def test_errors_are_those_of_the_program(self):
+        points, triangles = CUBE
+        for text, arguments, options, error in [
+            ("surface: face 2 has a vertex that does not exist", (points, np.where(triangles == 6, 99, triangles)),
+             {}, ValueError),
+            ("surface: vertex 2 has a coordinate that is not a finite number",
+             (np.where(np.arange(8)[:, None] == 2, np.nan, points), triangles), {}, ValueError),
+            ("surface: the surface is flat", (points * [1, 1, 0], triangles), {}, ValueError),
+            ("too small, the coarsest mesh of the surface", CUBE, {"vertices": 4, "base_level": 3}, mm3.MeshingError),
+            ("the region does not meet the domain", CUBE, {"region": (points + 10, triangles)}, mm3.MeshingError),
+            ("region: the weight is not positive", CUBE, {"region": (points, triangles, 0)}, ValueError),
+            (r"surface: expected an array of shape \(n, 3\)", (points[:, :2], triangles), {}, ValueError),
+        ]:
+            with self.assertRaisesRegex(error, text):
+                mm3.mesh(*arguments, **options)
+
+    def test_progress_and_interruption(self):
+        calls = []
+        mm3.mesh(*CUBE, vertices=300, progress=lambda *c: calls.append(c))
+        self.assertTrue({stage for stage, _, _ in calls} >= {"octree", "optimization"})
+
+        def fail(*_):
+            raise KeyError("enough")
+        with self.assertRaisesRegex(KeyError, "enough"):
+            mm3.mesh(*CUBE, vertices=300, progress=fail)
+        threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        start = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            mm3.mesh(*BRAIN, vertices=300000)
+        self.assertLess(time.monotonic() - start, 60)
+
+    def test_subdomains(self):
+        mesh, report = mm3.mesh(*BRAIN, region=REGION, subdomains={2: TUMOR}, vertices=1000)
+        self.assertEqual(set(mesh.labels), {1, 2})
+        self.assertTrue(mm3.certify(mesh).all())
+        removed = mm3.resect(mesh, label=2)
+        np.testing.assert_array_equal(removed, mesh.labels == 2)
+
+    def test_labels_of_an_image(self):
+        n, affine = 24, np.diag([-2.0, 2.0, 2.0, 1.0])
+        affine[:3, 3] = [20, -30, 5]
+        x = np.indices((n, n, n)) - (n - 1) / 2
+        image = np.where((x ** 2).sum(axis=0) < 100, 1, 0)
+        image[(x[0] - 3) ** 2 + x[1] ** 2 + x[2] ** 2 < 16] = 7
+        mesh, report = mm3.mesh_labels(image, affine, vertices=800)
+        self.assertEqual(set(mesh.labels), {1, 7})
+        self.assertEqual(report["labels lost"], [])
+        self.assertTrue(mm3.certify(mesh).all())
+        volumes = mm3.quality(mesh, "volume")
+        self.assertAlmostEqual(volumes.sum() / ((image > 0).sum() * 8), 1, delta=0.05)
+        center = affine @ [(n - 1) / 2 + 3, (n - 1) / 2, (n - 1) / 2, 1]
+        inner = mesh.points[np.unique(np.concatenate(
+            [mesh.connectivity[a:b] for a, b, label in zip(mesh.offsets, mesh.offsets[1:], mesh.labels) if label == 7]))]
+        np.testing.assert_allclose(inner.mean(axis=0), center[:3], atol=1)
+        with self.assertRaisesRegex(ValueError, "no voxels"):
+            mm3.mesh_labels(image, affine, labels=[3])
+        with self.assertRaisesRegex(ValueError, "no inverse"):
+            mm3.label_surface(image, np.zeros((4, 4)), 1)
+
+    def test_files(self):
+        """Surfaces and images are those of the files, and the bundled ones those of the repository."""
+        data = mm3.example_data()
+        for name, soup in (("brain", BRAIN), ("region", REGION), ("tumor", TUMOR)):
+            for found, expected in zip(data[name], soup):
+                np.testing.assert_array_equal(found, expected)
+        mesh, report = mm3.mesh(*data["brain"], region=data["region"], vertices=660)
+        np.testing.assert_array_equal(mesh.points, self.mesh.points)
+        path = FOLDER / "open.off"
+        faces = "".join("3 %d %d %d\n" % tuple(t) for t in CUBE[1][1:])
+        path.write_text("OFF\n8 11 0\n" + "".join("%r %r %r\n" % tuple(map(float, p)) for p in CUBE[0]) + faces)
+        with self.assertWarnsRegex(UserWarning, "open.off: .*filled 1 hole"):
+            points, triangles = mm3.read_surface(path)
+        self.assertEqual((points.shape, triangles.shape), ((8, 3), (12, 3)))
+        with self.assertWarnsRegex(UserWarning, "wrapped it"):
+            self.assertGreater(len(mm3.read_surface(path, wrap=0.5)[0]), 100)
+        with self.assertRaisesRegex(ValueError, "open.off: .*not closed"):
+            mm3.read_surface(path, strict=True)
+        with self.assertRaisesRegex(ValueError, "missing.stl"):
+            mm3.read_surface("missing.stl")
+        with self.assertRaisesRegex(ValueError, "missing.nii"):
+            mm3.read_image("missing.nii")
+        try:
+            import nibabel
+        except ImportError as missing:
+            self.skipTest(missing)
+        values = np.random.default_rng(3).integers(0, 9, (4, 5, 6)).astype(np.int16)
+        affine = np.array([[0, 2, 0, 5], [-1.5, 0, 0, 6], [0, 0, 3, -7], [0, 0, 0, 1.0]])
+        nibabel.save(nibabel.Nifti1Image(values, affine), str(FOLDER / "image.nii.gz"))
+        found, found_affine = mm3.read_image(FOLDER / "image.nii.gz")
+        np.testing.assert_array_equal(found, values)
+        np.testing.assert_array_equal(found_affine, affine)
+
+    def test_save(self):
+        """Files are those of the program, of order 2, too; so is what it refuses."""
+        mesh = FOLDER / "saved.vtu"
+        self.mesh.save(mesh)
+        points, cells = read_vtu(mesh)
+        np.testing.assert_array_equal(points, self.mesh.points)
+        self.assertEqual(sum(map(len, cells.values())), len(self.mesh.kinds))
+        edges = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))  # of Abaqus, and of FEBio
+        for name in ("saved.inp", "saved.feb"):
+            self.mesh.save(str(FOLDER / name), order=2, tetrahedra=True)
+            text = (FOLDER / name).read_text()
+            if name.endswith(".inp"):
+                sections = re.split(r"\*(.*)\n", text)
+                nodes = sections[sections.index("NODE") + 1]
+                elements = "".join(b for a, b in zip(sections[1::2], sections[2::2]) if a.startswith("ELEMENT, TYPE=C3D10"))
+                nodes, elements = (np.array([line.split(",") for line in s.split("\n")[:-1]], float)[:, 1:]
+                                   for s in (nodes, elements))
+            else:
+                nodes = np.array([t.split(",") for t in re.findall("<node id=.*>(.*)</node>", text)], float)
+                elements = np.array([t.split(",") for t in re.findall("<elem id=.*>(.*)</elem>", text)], int)
+            elements = elements.astype(int) - 1
+            self.assertEqual(elements.shape[1], 10)
+            ends = np.sort(elements[:, edges], axis=2).reshape(-1, 2)
+            middle = elements[:, 4:].ravel()
+            self.assertEqual(len(np.unique(ends, axis=0)), len(nodes) - len(self.mesh.points))
+            np.testing.assert_array_equal(nodes[:len(self.mesh.points)], self.mesh.points)
+            np.testing.assert_array_equal(nodes[middle], nodes[ends].mean(1))
+        for name, order, error in (("a.mesh", 2, "a.mesh: elements of order 2 can be written to .vtu, .msh, .msh2, .inp and"),
+                                   ("a.inp", 2, "a.inp: Abaqus has no pyramids of order 2"),
+                                   ("a.vtu", 3, "a.vtu: the order of elements is 1 or 2, not 3"),
+                                   ("a.vtu", 0, "order: expected at least 1, not 0"), ("a.stl", 1, "unknown extension")):
+            with self.assertRaisesRegex(ValueError, error):
+                self.mesh.save(FOLDER / name, order=order)
+            self.assertFalse((FOLDER / name).exists())
+
+    def test_copies(self):
+        labels = np.arange(len(self.mesh.kinds)) % 3 + 1
+        mesh = mm3.Mesh(self.mesh.points, self.mesh.kinds, self.mesh.connectivity.astype(int), labels, self.mesh.in_region)
+        for other in (pickle.loads(pickle.dumps(mesh)), copy.copy(mesh), copy.deepcopy(mesh)):
+            self.assertIsNot(other, mesh)
+            for name in ("points", "kinds", "connectivity", "offsets", "labels", "in_region"):
+                np.testing.assert_array_equal(getattr(other, name), getattr(mesh, name))
+        self.assertTrue(0 < mesh.in_region.sum() < len(labels))
+        for name in ("Mesh", "Elasticity", "mesh", "read_surface"):
+            self.assertGreater(len(getattr(mm3, name).__doc__), 50)
+        self.assertRegex(mm3.__version__, "^[0-9.]+$")
+        self.assertTrue(all(hasattr(mm3, name) for name in mm3.__all__))
+
+    def test_slips(self):
+        """Wrong arguments are named, in one line."""
+        points, triangles = CUBE
+        for error, text, arguments in (
+                (TypeError, "vertices: expected a whole number, not '600'", {"vertices": "600"}),
+                (TypeError, "vertices: expected a whole number, not 600.5", {"vertices": 600.5}),
+                (ValueError, "vertices: expected at least 1", {"vertices": 0}),
+                (ValueError, "tolerance: expected a number of at least 0", {"tolerance": -1}),
+                (ValueError, "tolerance: expected a number of at least 0", {"tolerance": float("nan")}),
+                (TypeError, "tolerance: expected a number, not None", {"tolerance": None}),
+                (ValueError, "quality_bound: expected", {"quality_bound": 0.5}),
+                (ValueError, "sharp_angle: expected", {"sharp_angle": 200}),
+                (ValueError, "region: expected points and triangles", {"region": (points,)}),
+                (TypeError, "region: weight: expected a number, not '2'", {"region": (*CUBE, "2")}),
+                (ValueError, "region: triangles are numbers of points", {"region": (points, triangles * 1.0)}),
+                (ValueError, "subdomain 2: expected points", {"subdomains": {2: points}})):
+            with self.subTest(text), self.assertRaises(error) as caught:
+                mm3.mesh(points, triangles, **{"vertices": 100, **arguments})
+            self.assertIn(text, str(caught.exception))
+            self.assertNotIn("\n", str(caught.exception))
+        with self.assertRaisesRegex(ValueError, "surface: triangles are numbers of points: expected integers, not float64"):
+            mm3.mesh(points, triangles * 1.0)
+
+    def test_report_as_program(self):
+        """Distance and topology as the program has them, with a cavity, too."""
+        report_file = FOLDER / "report.json"
+        subprocess.run([BUILD / "bin" / "mixed_mesh_3", DATA / "brain.off", "--cavity", DATA / "tumour.off", "--vertices", "800",
+                        "--quiet", "--report", report_file], check=True)
+        told = json.loads(report_file.read_text())
+        mesh, report = mm3.mesh(*BRAIN, subdomains={0: TUMOR}, vertices=800)
+        self.assertEqual(report["Hausdorff distance"], told["surface"]["Hausdorff distance"]["distance"])
+        self.assertEqual((report["status"], report["same topology"]),
+                         (told["status"], told["topology"]["same topology"]))
+        self.assertTrue(0 < report["seconds"] < 600)
+
+    def test_complete_label(self):
+        """Beside scipy: a closing by distances, holes filled, components by Kuhn's neighbors."""
+        try:
+            from scipy import ndimage
+        except ImportError as missing:
+            self.skipTest(missing)
+        random = np.random.default_rng(5)
+        spacing = np.array((1.0, 2.0, 1.5))
+        affine = np.diag((*spacing, 1.0))
+        edges = np.zeros((3, 3, 3), bool)
+        for step in np.ndindex(2, 2, 2):
+            edges[tuple(1 + np.array(step))] = edges[tuple(1 - np.array(step))] = True
+        for share in (0.05, 0.3, 0.7):
+            image = np.where(random.random((17, 12, 14)) < share, 5, 3)
+            mask = np.pad(image == 5, 8)
+            near = ndimage.distance_transform_edt(~mask, sampling=spacing) <= 3
+            closed = ndimage.distance_transform_edt(near, sampling=spacing) > 3
+            filled = ndimage.binary_fill_holes(closed, edges)
+            names, number = ndimage.label(filled, edges)
+            sizes = np.bincount(names.ravel())[1:]
+            inner = (slice(8, -8),) * 3
+            largest = names == 1 + sizes.argmax()
+            for expected, options in ((mask, {}), (closed, {"close": 3}), (filled, {"close": 3, "fill_holes": True}),
+                                      (largest, {"close": 3, "hull": True}),
+                                      (np.isin(names, 1 + np.flatnonzero(sizes >= 20)),
+                                       {"close": 3, "fill_holes": True, "drop_below": 20 * 3e-3 - 1e-9})):
+                found = mm3.complete_label(image, affine, 5, **options)
+                np.testing.assert_array_equal(found, expected[inner], str((share, options)))
+        hull = mm3.complete_label(np.pad(np.ones((20, 20, 20)), 1), affine, hull=True)
+        self.assertEqual(hull.sum(), 8000)
+        for bad in ({"close": -1}, {"close": 1e6}, {"close": np.nan}, {"drop_below": -1}):
+            with self.assertRaisesRegex(ValueError, next(iter(bad))):
+                mm3.complete_label(image, affine, 5, **bad)
+
+    def test_optimize_and_fit(self):
+        wider = (BRAIN[0] * [1.05, 1, 1], BRAIN[1])
+        optimized, report = mm3.optimize(self.mesh, *wider)
+        self.assertTrue(mm3.certify(optimized).all())
+        self.assertLess(report["boundary vertices not on surface"], 20)
+        self.assertGreater(np.ptp(optimized.points[:, 0]), 1.03 * np.ptp(self.mesh.points[:, 0]))
+        fitted, report = mm3.fit(self.mesh, *wider)
+        self.assertTrue(mm3.certify(fitted).all())
+        np.testing.assert_array_equal(fitted.connectivity, self.mesh.connectivity)
+        improved, report = mm3.optimize(fitted, *wider, flips=False)
+        self.assertTrue(report["success"])
+        np.testing.assert_array_equal(improved.connectivity, self.mesh.connectivity)
+        self.assertLess(mm3.quality(improved).max(), mm3.quality(fitted).max())
+
+    def test_elasticity_as_program(self):
+        boundary = np.flatnonzero(mm3.boundary_vertices(self.mesh))
+        z = self.mesh.points[:, 2]
+        top = boundary[np.argsort(z[boundary])[-5:]]
+        with open(FOLDER / "points.csv", "w", encoding="ascii") as file:
+            file.write("x,y,z,dx,dy,dz\n")
+            for v in top:
+                file.write(",".join(repr(float(c)) for c in self.mesh.points[v]) + ",0,0,-3\n")
+        self.run_program("brain_shift", self.brain_file(), "--control-points", "points.csv", "--output", "shifted.vtu",
+                         "--fixed-below", 0.2)
+        reader = vtk.vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(FOLDER / "shifted.vtu"))
+        reader.Update()
+        data = reader.GetOutput().GetPointData()
+        expected = vtk_to_numpy(data.GetArray("displacement"))
+        model = mm3.Elasticity(self.mesh)
+        is_boundary = mm3.boundary_vertices(self.mesh)
+        lowest, highest = z[is_boundary].min(), z[is_boundary].max()
+        model.fix(is_boundary & (z < lowest + 0.2 * (highest - lowest)))
+        model.set_control_points(self.mesh.points[top])
+        shift = model.solve(np.tile([0, 0, -3.0], (5, 1)))
+        np.testing.assert_array_equal(shift, expected)
+        self.assertGreater(model.energy, 0)
+        model.set_corotational(True)
+        np.testing.assert_allclose(model.solve(np.tile([0, 0, -1e-3], (5, 1))), shift * 1e-3 / 3, atol=1e-6)
+        model.set_corotational(False)
+        with self.assertRaisesRegex(ValueError, "not negative"):
+            model.set_control_points(self.mesh.points[top], compliance=-1)
+        model.set_control_points(self.mesh.points[top])
+        with self.assertRaisesRegex(mm3.ElasticityError, "supports are set before"):
+            model.fix(is_boundary)
+        with self.assertRaisesRegex(mm3.ElasticityError, "outside the mesh"):
+            model.set_control_points([[1e4, 0, 0]])
+        with self.assertRaisesRegex(mm3.ElasticityError, "rigid motions"):
+            mm3.Elasticity(self.mesh).solve()
+        with self.assertRaisesRegex(ValueError, "Poisson"):
+            mm3.Elasticity(self.mesh, poisson_ratio=0.5)
+        with self.assertRaisesRegex(ValueError, "positive"):
+            model.set_control_points(self.mesh.points[top], weights=[1, 1, 1, 1, 0])
+
+        # Measurements that give way: what is left, and how well the others predict each.
+        model.set_control_points(self.mesh.points[top], compliance=0.1, weights=[1, 1, 2, 1, 1])
+        with self.assertRaisesRegex(mm3.ElasticityError, "solve"):
+            model.leave_one_out_errors()
+        shift = model.solve(np.tile([0, 0, -3.0], (5, 1)))
+        wanted = np.tile([0, 0, -3.0], (5, 1))
+        np.testing.assert_allclose(model.control_residuals(), wanted - shift[top], atol=1e-9)
+        others = np.arange(5) != 2
+        left_out = model.leave_one_out_errors()[2]
+        model.set_control_points(self.mesh.points[top][others], compliance=0.1)
+        np.testing.assert_allclose(wanted[2] - model.solve(wanted[others])[top[2]], left_out, atol=1e-6)
+
+        # Pulled down, the top leaves the skull; pulled up, it is stopped.
+        model = mm3.Elasticity(self.mesh)
+        model.fix(is_boundary & (z < lowest + 0.2 * (highest - lowest)))
+        model.touch(is_boundary)
+        model.set_control_points(self.mesh.points[top])
+        model.solve(wanted)
+        self.assertTrue((model.contact_forces()[top] == 0).all())
+        self.assertTrue((model.contact_forces() >= 0).all())
+        self.assertTrue((model.contact_forces() > 0).any())
+
+    def test_threads_of_numpy(self):
+        """The solver takes one thread of the BLAS, and gives back those that NumPy had, also if two solve at once."""
+        functions = blas_threads()
+        if functions is None or os.cpu_count() == 1:
+            self.skipTest("no BLAS that tells how many threads it uses, or one processor")
+        threads, set_threads = functions
+        self.addCleanup(set_threads, threads())
+        z = self.mesh.points[:, 2]
+        top = self.mesh.points[np.argsort(z)[-5:]]
+
+        def solve():
+            model = mm3.Elasticity(self.mesh)
+            model.fix(z < np.quantile(z, 0.2))
+            model.set_control_points(top)
+            shift = model.solve(np.tile([0, 0, -3.0], (5, 1)))
+            with self.assertRaises(mm3.ElasticityError):
+                model.set_control_points([[1e4, 0, 0]])
+            return shift
+
+        set_threads(1)
+        expected = solve()
+        set_threads(2)
+        wanted = threads()  # 1 where OpenBLAS was built without threads
+        np.testing.assert_array_equal(solve(), expected)
+        self.assertEqual(threads(), wanted)
+        found = []
+        for _ in range(20):
+            both = [threading.Thread(target=lambda: found.append(solve())) for _ in range(2)]
+            for thread in both:
+                thread.start()
+            for thread in both:
+                thread.join()
+        self.assertEqual(threads(), wanted)
+        np.testing.assert_array_equal(found, 40 * [expected])
+
+    def test_warp(self):
+        affine = np.diag([4.0, 4.0, 4.0, 1.0])
+        affine[:3, 3] = self.mesh.points.min(axis=0) - 20
+        size = ((np.ptp(self.mesh.points, axis=0) + 40) / 4).astype(int)
+        image = np.random.default_rng(1).integers(0, 5, size).astype(np.int16)
+        shift = np.tile([4.0, 0, 0], (len(self.mesh.points), 1))  # a voxel
+        warped, forward, backward, mask = mm3.warp(image, affine, self.mesh, shift, is_of_labels=True)
+        self.assertEqual(warped.dtype, np.int16)
+        inside = mask == 1
+        np.testing.assert_array_equal(warped[1:][inside[1:]], image[:-1][inside[1:]])
+        np.testing.assert_allclose(backward[inside], np.tile([-4, 0, 0], (inside.sum(), 1)), atol=1e-4)
+
+    def test_other_packages(self):
+        class Meshio:
+            def __init__(self, points, cells, cell_data):
+                self.points, self.cells, self.cell_data = points, dict(cells), cell_data
+        sys.modules["meshio"] = type(sys)("meshio")
+        sys.modules["meshio"].Mesh = Meshio
+        result = self.mesh.to_meshio()
+        self.assertEqual(sum(map(len, result.cells.values())), len(self.mesh.kinds))
+        self.assertEqual([len(v) for v in result.cell_data["label"]], [len(v) for v in result.cells.values()])
+        np.testing.assert_array_equal(result.cells["wedge"], self.mesh.cells["wedge"])  # both as Gmsh has them
+
+        class Grid:
+            def __init__(self, cells, types, points):
+                self.cells, self.types, self.points, self.cell_data = cells, types, points, {}
+        sys.modules["pyvista"] = type(sys)("pyvista")
+        sys.modules["pyvista"].UnstructuredGrid = Grid
+        grid = self.mesh.to_pyvista()
+        _, cells = read_vtu(self.brain_file())
+        at = 0
+        expected = {kind: iter(v) for kind, v in cells.items()}
+        for vtk_type in grid.types:
+            size = grid.cells[at]
+            np.testing.assert_array_equal(grid.cells[at + 1:at + 1 + size], next(expected[vtk_type]))
+            at += size + 1
+        self.assertEqual(at, len(grid.cells))
+
+    def test_show(self):
+        """The page is that of the program; a notebook has it in a frame, where it draws."""
+        def data_of(text):
+            return json.loads(text.split('<script type="application/json" id="data">')[1].split("</script>")[0])
+        self.run_program("mixed_mesh_3", DATA / "brain.off", "--region", DATA / "region.off", "--vertices", 660, "--page",
+                         "program.html")
+        report = {**self.report, "warnings": ["</script>"]}
+        page = self.mesh.show(report=report, title="<!--<script>&ü")
+        expected, got = data_of((FOLDER / "program.html").read_text(encoding="utf-8")), data_of(page.html)
+        for key in ("kinds", "center", "points"):
+            self.assertEqual(got[key], expected[key], key)
+        unpacked = lambda data, key, dtype: np.frombuffer(base64.b64decode(data[key]), dtype)
+        kinds = unpacked(expected, "element kinds", "u1")
+        order = np.argsort(kinds, kind="stable")  # elements of the module are sorted by kind
+        for key, dtype in (("element kinds", "u1"), ("labels", "<u4"), ("in region", "u1"), ("ARC", "<f4")):
+            np.testing.assert_array_equal(unpacked(got, key, dtype), unpacked(expected, key, dtype)[order], key)
+        ends = np.cumsum([expected["kinds"][kind]["size"] for kind in kinds])
+        elements = np.split(unpacked(expected, "element vertices", "<u4"), ends[:-1])
+        np.testing.assert_array_equal(unpacked(got, "element vertices", "<u4"), np.concatenate([elements[i] for i in order]))
+        self.assertEqual(page.html, self.mesh.show(report={**report, "seconds": 7}, title="<!--<script>&ü").html)
+        self.assertEqual(page.html.count("</script>"), 3)
+        page.save(FOLDER / "python.html")
+        self.assertEqual((FOLDER / "python.html").read_text(encoding="utf-8"), page.html)
+        self.assertIn("save(path)", repr(page))
+        for arguments in ({"displacements": np.zeros((2, 3))}, {"removed": np.zeros(len(self.mesh.kinds), bool)},
+                          {"displacements": np.full_like(self.mesh.points, np.nan)}):
+            with self.assertRaises(ValueError):
+                self.mesh.show(**arguments)
+        if not browser.is_there():
+            self.skipTest("no chromium, the page is not drawn")
+        shifted = self.mesh.show(np.full_like(self.mesh.points, 2), title="shifted", height=500)
+        (FOLDER / "notebook.html").write_text(f"<!DOCTYPE html><meta charset=utf-8>{page._repr_html_()}"
+                                              f"{shifted._repr_html_()}", encoding="utf-8")
+        with browser.Browser() as view:
+            view.open(FOLDER / "notebook.html")
+            self.assertEqual(view.run("""return [...document.querySelectorAll('iframe')].map(frame => {
+              frame.contentWindow.mixedMeshPage.frame();
+              const text = id => frame.contentDocument.getElementById(id).textContent, shown = text('shown');
+              return [text('title'), text('subtitle'), shown.startsWith('0 '), shown.includes('elements shown')]; })"""),
+                             [["<!--<script>&ü", "Mixed-element mesh: success", False, True],
+                              ["shifted", "Mixed-element mesh", False, True]])
+            view.screenshot(FOLDER / "notebook.png")
+            self.assertEqual(view.messages(), [])
+
+    def test_packages_of_wheel(self):
+        """The manual names each package of Debian that has a library the module needs, but for what each system has."""
+        module, = (BUILD / "python" / "mixed_mesh_3").glob("_core*.so")
+        run = lambda *command: subprocess.run(command, capture_output=True, text=True, check=True).stdout
+        if not all(map(shutil.which, ("readelf", "ldd", "dpkg"))):
+            self.skipTest("no readelf, ldd or dpkg")
+        needed = re.findall(r"NEEDED.*\[(.*)\]", run("readelf", "-d", module))
+        paths = dict(re.findall(r"(\S+) => (\S+)", run("ldd", module)))
+        line, = (line for line in GUIDE.read_text().splitlines() if "install python3-numpy" in line)
+        there = [name for name in needed if not re.match(r"(libc|libm|libgcc_s|ld-linux.*)\.so", name)]
+        self.assertGreater(len(there), 5)
+        for name in there:
+            owner = run("dpkg", "-S", os.path.basename(os.path.realpath(paths[name])))
+            self.assertTrue({row.split(":")[0] for row in owner.splitlines()} & set(line.split()), (name, owner))
+
+    def test_wheel(self):
+        shutil.rmtree(FOLDER / "wheel", ignore_errors=True)
+        (FOLDER / "wheel").mkdir()
+        name = subprocess.run([sys.executable, SOURCE / "python" / "build_wheel.py", FOLDER / "wheel", BUILD], check=True,
+                              capture_output=True, text=True).stdout.strip()
+        environment = FOLDER / "wheel" / "environment"
+        made = subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", environment],
+                              capture_output=True, text=True)
+        if made.returncode != 0:
+            self.skipTest("python3-venv is not installed")
+        python = environment / "bin" / "python"
+        subprocess.run([python, "-m", "pip", "install", "--quiet", "--no-index", FOLDER / "wheel" / name], check=True)
+        clean = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"}
+        out = subprocess.run([python, SOURCE / "python" / "tutorial.py"], check=True, capture_output=True,
+                             text=True, cwd=FOLDER, env=clean).stdout
+        self.assertIn("success", out)
+        start = "import time; t = time.time(); import numpy; u = time.time(); import mixed_mesh_3; print(time.time() - u)"
+        seconds = float(subprocess.run([python, "-c", start], check=True, capture_output=True, text=True, env=clean).stdout)
+        print(f"import, beside NumPy's: {seconds:.3f} s", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
