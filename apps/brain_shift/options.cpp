@@ -215,6 +215,10 @@ void add_physics(CLI::App& app, Options& o)
     ->check(number("of a height", [](double x) { return std::isfinite(x); }))
     ->needs(gravity)
     ->type_name("MM");
+}
+
+void add_control(CLI::App& app, Options& o)
+{
   app
     .add_option("--max-distance", o.max_distance,
                 "Control points up to so far outside the mesh are taken to its boundary")
@@ -330,6 +334,7 @@ void set_up(CLI::App& app, Options& o)
   CLI::Option* const image = add_inputs(app, o);
   add_supports(app, o);
   add_physics(app, o);
+  add_control(app, o);
   add_method(app, o);
   add_outputs(app, o, image);
   app.add_flag("--quiet", o.quiet, "Print errors and warnings only");

@@ -238,6 +238,10 @@ void add_files(CLI::App& app, Options& o)
   app.add_flag("--slit", o.slit,
                "Double the vertices on sheets, so that both sides can come apart; the copies are not counted "
                "in the budget");
+}
+
+void add_budget(CLI::App& app, Options& o)
+{
   app
     .add_option_function<std::string>(
       "--vertices",
@@ -255,6 +259,10 @@ void add_files(CLI::App& app, Options& o)
       },
       ""))
     ->type_name("N|auto");
+}
+
+void add_outputs(CLI::App& app, Options& o)
+{
   app
     .add_option("--output", o.outputs,
                 "Mesh files: .vtu (VTK, ParaView), .msh (Gmsh), .mesh (Medit), .inp (Abaqus), .feb "
@@ -401,6 +409,8 @@ void add_algorithm_1(CLI::App& app, Options& o, CLI::Option* no_optimize)
 void set_up(CLI::App& app, Options& o)
 {
   add_files(app, o);
+  add_budget(app, o);
+  add_outputs(app, o);
   CLI::Option* const no_optimize = add_fit(app, o);
   add_stages(app, o);
   add_labels(app, o);

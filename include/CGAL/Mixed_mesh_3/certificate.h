@@ -152,6 +152,80 @@ NT scalar_product(const Vector<NT>& a, const Vector<NT>& b)
 // The weight by which the product of two linear Bernstein polynomials i and j is the quadratic one i + j.
 inline double product_weight(int i_plus_j) { return i_plus_j == 1 ? 0.5 : 1; }
 
+template <class NT>
+Bernstein_polynomial<NT> jacobian_of_hexahedron(const std::array<Vector<NT>, 8>& p)
+{
+  static constexpr int corner[2][2][2] = {{{0, 4}, {3, 7}}, {{1, 5}, {2, 6}}}; // by r, s, t
+  Vector<NT> dr[2][2], ds[2][2], dt[2][2];
+  for(int i = 0; i < 2; ++i)
+    for(int j = 0; j < 2; ++j) {
+      dr[i][j] = difference(p[corner[1][i][j]], p[corner[0][i][j]]);
+      ds[i][j] = difference(p[corner[i][1][j]], p[corner[i][0][j]]);
+      dt[i][j] = difference(p[corner[i][j][1]], p[corner[i][j][0]]);
+    }
+  Bernstein_polynomial<NT> jacobian({2, 2, 2});
+  for(int s1 = 0; s1 < 2; ++s1)
+    for(int t1 = 0; t1 < 2; ++t1)
+      for(int r2 = 0; r2 < 2; ++r2)
+        for(int t2 = 0; t2 < 2; ++t2) {
+          const Vector<NT> normal = cross_product(dr[s1][t1], ds[r2][t2]);
+          for(int r3 = 0; r3 < 2; ++r3)
+            for(int s3 = 0; s3 < 2; ++s3) {
+              const int i = r2 + r3, j = s1 + s3, k = t1 + t2;
+              jacobian(i, j, k) += scalar_product(normal, dt[r3][s3])
+                                   * NT(product_weight(i) * product_weight(j) * product_weight(k));
+            }
+        }
+  return jacobian;
+}
+
+template <class NT, class F>
+void for_each_jacobian_of_prism(const std::array<Vector<NT>, 8>& p, const F& f)
+{
+  Vector<NT> dr[2], ds[2];
+  for(int t = 0; t < 2; ++t) {
+    dr[t] = difference(p[3 * t + 1], p[3 * t]);
+    ds[t] = difference(p[3 * t + 2], p[3 * t]);
+  }
+  for(int edge = 0; edge < 3; ++edge) {
+    const Vector<NT> dt = difference(p[edge + 3], p[edge]);
+    Bernstein_polynomial<NT> jacobian({2, 0, 0});
+    for(int t1 = 0; t1 < 2; ++t1)
+      for(int t2 = 0; t2 < 2; ++t2)
+        jacobian(t1 + t2, 0, 0) += scalar_product(cross_product(dr[t1], ds[t2]), dt)
+                                   * NT(product_weight(t1 + t2));
+    f(jacobian);
+  }
+}
+
+template <class NT>
+Bernstein_polynomial<NT> jacobian_of_pyramid(const std::array<Vector<NT>, 8>& p)
+{
+  static constexpr int corner[2][2] = {{0, 3}, {1, 2}}; // by u, v
+  Bernstein_polynomial<NT> jacobian({2, 2, 0});
+  for(int v1 = 0; v1 < 2; ++v1)
+    for(int u2 = 0; u2 < 2; ++u2) {
+      const Vector<NT> normal = cross_product(difference(p[corner[1][v1]], p[corner[0][v1]]),
+                                              difference(p[corner[u2][1]], p[corner[u2][0]]));
+      for(int u3 = 0; u3 < 2; ++u3)
+        for(int v3 = 0; v3 < 2; ++v3) {
+          const int i = u2 + u3, j = v1 + v3;
+          jacobian(i, j, 0) += scalar_product(normal, difference(p[4], p[corner[u3][v3]]))
+                               * NT(product_weight(i) * product_weight(j));
+        }
+    }
+  return jacobian;
+}
+
+template <class NT>
+Bernstein_polynomial<NT> jacobian_of_tetrahedron(const std::array<Vector<NT>, 8>& p)
+{
+  Bernstein_polynomial<NT> jacobian({0, 0, 0});
+  jacobian(0, 0, 0) = scalar_product(cross_product(difference(p[1], p[0]), difference(p[2], p[0])),
+                                     difference(p[3], p[0]));
+  return jacobian;
+}
+
 /*!
 Calls `f(polynomial)` for polynomials on the unit cube that are positive iff the Jacobian of the element is.
 
@@ -165,69 +239,10 @@ template <class NT, class F>
 void for_each_jacobian_polynomial(Element_kind kind, const std::array<Vector<NT>, 8>& p, const F& f)
 {
   switch(kind) {
-  case HEXAHEDRON: {
-    static constexpr int corner[2][2][2] = {{{0, 4}, {3, 7}}, {{1, 5}, {2, 6}}}; // by r, s, t
-    Vector<NT> dr[2][2], ds[2][2], dt[2][2];
-    for(int i = 0; i < 2; ++i)
-      for(int j = 0; j < 2; ++j) {
-        dr[i][j] = difference(p[corner[1][i][j]], p[corner[0][i][j]]);
-        ds[i][j] = difference(p[corner[i][1][j]], p[corner[i][0][j]]);
-        dt[i][j] = difference(p[corner[i][j][1]], p[corner[i][j][0]]);
-      }
-    Bernstein_polynomial<NT> jacobian({2, 2, 2});
-    for(int s1 = 0; s1 < 2; ++s1)
-      for(int t1 = 0; t1 < 2; ++t1)
-        for(int r2 = 0; r2 < 2; ++r2)
-          for(int t2 = 0; t2 < 2; ++t2) {
-            const Vector<NT> normal = cross_product(dr[s1][t1], ds[r2][t2]);
-            for(int r3 = 0; r3 < 2; ++r3)
-              for(int s3 = 0; s3 < 2; ++s3) {
-                const int i = r2 + r3, j = s1 + s3, k = t1 + t2;
-                jacobian(i, j, k) += scalar_product(normal, dt[r3][s3])
-                                     * NT(product_weight(i) * product_weight(j) * product_weight(k));
-              }
-          }
-    return f(jacobian);
-  }
-  case PRISM: {
-    Vector<NT> dr[2], ds[2];
-    for(int t = 0; t < 2; ++t) {
-      dr[t] = difference(p[3 * t + 1], p[3 * t]);
-      ds[t] = difference(p[3 * t + 2], p[3 * t]);
-    }
-    for(int edge = 0; edge < 3; ++edge) {
-      const Vector<NT> dt = difference(p[edge + 3], p[edge]);
-      Bernstein_polynomial<NT> jacobian({2, 0, 0});
-      for(int t1 = 0; t1 < 2; ++t1)
-        for(int t2 = 0; t2 < 2; ++t2)
-          jacobian(t1 + t2, 0, 0) += scalar_product(cross_product(dr[t1], ds[t2]), dt)
-                                     * NT(product_weight(t1 + t2));
-      f(jacobian);
-    }
-    return;
-  }
-  case PYRAMID: {
-    static constexpr int corner[2][2] = {{0, 3}, {1, 2}}; // by u, v
-    Bernstein_polynomial<NT> jacobian({2, 2, 0});
-    for(int v1 = 0; v1 < 2; ++v1)
-      for(int u2 = 0; u2 < 2; ++u2) {
-        const Vector<NT> normal = cross_product(difference(p[corner[1][v1]], p[corner[0][v1]]),
-                                                difference(p[corner[u2][1]], p[corner[u2][0]]));
-        for(int u3 = 0; u3 < 2; ++u3)
-          for(int v3 = 0; v3 < 2; ++v3) {
-            const int i = u2 + u3, j = v1 + v3;
-            jacobian(i, j, 0) += scalar_product(normal, difference(p[4], p[corner[u3][v3]]))
-                                 * NT(product_weight(i) * product_weight(j));
-          }
-      }
-    return f(jacobian);
-  }
-  case TETRAHEDRON: {
-    Bernstein_polynomial<NT> jacobian({0, 0, 0});
-    jacobian(0, 0, 0) = scalar_product(cross_product(difference(p[1], p[0]), difference(p[2], p[0])),
-                                       difference(p[3], p[0]));
-    return f(jacobian);
-  }
+  case HEXAHEDRON: return f(jacobian_of_hexahedron(p));
+  case PRISM: return for_each_jacobian_of_prism(p, f);
+  case PYRAMID: return f(jacobian_of_pyramid(p));
+  case TETRAHEDRON: return f(jacobian_of_tetrahedron(p));
   }
 }
 

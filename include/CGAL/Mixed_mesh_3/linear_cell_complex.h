@@ -21,6 +21,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <type_traits>
@@ -89,6 +90,83 @@ inline std::pair<Element_kind, bool> kind_of_volume(int faces, int triangles, st
       return {kind, true};
   }
   return {TETRAHEDRON, false};
+}
+
+/// A volume of a complex as an element, with the points of its vertices.
+template <class LCC>
+struct Element_of_complex
+{
+  Element_kind kind;
+  std::vector<const typename LCC::Point*> vertices;
+  Element_attributes attributes;
+};
+
+/// The number of vertices of the face of a dart, at most 5; the count ends where the face is open.
+template <class LCC, class Dart>
+int size_of_face(const LCC& lcc, Dart dart)
+{
+  int n = 0;
+  Dart next = dart;
+  do {
+    next = lcc.template is_free<1>(next) ? dart : lcc.beta(next, 1);
+    ++n;
+  } while(next != dart && n < 5);
+  return n;
+}
+
+/// The kind of the volume of a dart with given vertices; none if a face is neither a triangle nor a
+/// quadrilateral, or the volume is not an element.
+template <class LCC, class Dart>
+std::optional<Element_kind> kind_of_volume(const LCC& lcc, Dart dart, std::size_t number_of_vertices)
+{
+  int faces = 0, triangles = 0;
+  for(auto f = lcc.template one_dart_per_incident_cell<2, 3>(dart).begin(),
+           end = lcc.template one_dart_per_incident_cell<2, 3>(dart).end();
+      f != end; ++f) {
+    const int n = size_of_face(lcc, f);
+    ++faces;
+    triangles += n == 3;
+    if(n < 3 || n > 4)
+      return std::nullopt;
+  }
+  const auto [kind, is_element] = kind_of_volume(faces, triangles, number_of_vertices);
+  return is_element ? std::optional(kind) : std::nullopt;
+}
+
+/// The element that is the volume of a dart; none if the volume is not closed, or not an element.
+template <class LCC, class Dart>
+std::optional<Element_of_complex<LCC>> element_of_volume(const LCC& lcc, Dart of_volume)
+{
+  std::set<const typename LCC::Point*> vertices;
+  for(auto d = lcc.template darts_of_cell<3>(of_volume).begin(),
+           end = lcc.template darts_of_cell<3>(of_volume).end();
+      d != end; ++d) {
+    if(lcc.template is_free<2>(d))
+      return std::nullopt;
+    vertices.insert(&lcc.point(d));
+  }
+  const std::optional<Element_kind> kind = kind_of_volume(lcc, of_volume, vertices.size());
+  if(!kind)
+    return std::nullopt;
+
+  const Element_face& base = reference_elements[*kind].faces[base_face(*kind)];
+  auto dart = lcc.template darts_of_cell<3>(of_volume).begin();
+  while(size_of_face(lcc, dart) != base.size)
+    ++dart;
+  Element_of_complex<LCC> element{*kind, std::vector<const typename LCC::Point*>(vertices.size()), {}};
+  std::decay_t<decltype(lcc.beta(dart, 1))> b = dart;
+  for(int i = 0; i < base.size; ++i, b = lcc.beta(b, 0)) {
+    const int v = base.vertices[i];
+    const int above = *kind == HEXAHEDRON ? v + 4 : *kind == PRISM ? v + 3 : base.size;
+    element.vertices[std::size_t(v)] = &lcc.point(b);
+    element.vertices[std::size_t(above)] = &lcc.point(lcc.beta(b, 2, 1, 1));
+  }
+  if(std::set(element.vertices.begin(), element.vertices.end()) != vertices)
+    return std::nullopt;
+  if constexpr(holds_element_attributes<LCC>)
+    if(lcc.template attribute<3>(of_volume) != LCC::null_handle)
+      element.attributes = lcc.template info<3>(of_volume);
+  return element;
 }
 
 } // namespace internal
@@ -191,74 +269,22 @@ O(n log n) for n volumes
 template <class LCC, class GeomTraits>
 bool linear_cell_complex_to_mixed_mesh(const LCC& lcc, Mixed_mesh_3<GeomTraits>& mesh)
 {
-  using namespace Mixed_meshes_3;
+  namespace mm3 = Mixed_meshes_3;
   mesh.clear();
-  using Dart = std::decay_t<decltype(lcc.beta(lcc.darts().begin(), 1))>;
-  const auto size_of_face = [&](Dart dart) {
-    int n = 0;
-    Dart next = dart;
-    do {
-      next = lcc.template is_free<1>(next) ? dart : lcc.beta(next, 1);
-      ++n;
-    } while(next != dart && n < 5);
-    return n;
-  };
   // Indices of vertices: first in the complex, then in the mesh.
-  std::map<const typename LCC::Point*, Vertex_index> indices;
+  std::map<const typename LCC::Point*, mm3::Vertex_index> indices;
   for(auto a = lcc.vertex_attributes().begin(); a != lcc.vertex_attributes().end(); ++a)
-    indices.emplace(&lcc.point_of_vertex_attribute(a), Mixed_meshes_3::internal::no_vertex);
+    indices.emplace(&lcc.point_of_vertex_attribute(a), mm3::internal::no_vertex);
 
-  struct Volume
-  {
-    Element_kind kind;
-    std::vector<const typename LCC::Point*> vertices;
-    Element_attributes attributes;
-  };
-  std::vector<Volume> volumes;
+  std::vector<mm3::internal::Element_of_complex<LCC>> volumes;
   std::set<const typename LCC::Point*> used;
-  for(auto d = lcc.template one_dart_per_cell<3>().begin(); d != lcc.template one_dart_per_cell<3>().end();
-      ++d) {
-    int faces = 0, triangles = 0;
-    std::set<const typename LCC::Point*> vertices;
-    for(auto f = lcc.template one_dart_per_incident_cell<2, 3>(d).begin(),
-             end = lcc.template one_dart_per_incident_cell<2, 3>(d).end();
-        f != end; ++f) {
-      const int n = size_of_face(f);
-      ++faces;
-      triangles += n == 3;
-      if(n < 3 || n > 4)
-        return false;
-    }
-    bool is_closed = true;
-    for(auto f = lcc.template darts_of_cell<3>(d).begin(), end = lcc.template darts_of_cell<3>(d).end();
-        f != end; ++f) {
-      is_closed = is_closed && !lcc.template is_free<2>(f);
-      vertices.insert(&lcc.point(f));
-    }
-    const auto [kind, is_element] = Mixed_meshes_3::internal::kind_of_volume(faces, triangles,
-                                                                             vertices.size());
-    if(!is_closed || !is_element)
+  const auto darts = lcc.template one_dart_per_cell<3>();
+  for(auto d = darts.begin(); d != darts.end(); ++d) {
+    auto volume = mm3::internal::element_of_volume(lcc, d);
+    if(!volume)
       return false;
-
-    const Element_face& base = reference_elements[kind].faces[Mixed_meshes_3::internal::base_face(kind)];
-    auto dart = lcc.template darts_of_cell<3>(d).begin();
-    while(size_of_face(dart) != base.size)
-      ++dart;
-    Volume volume{kind, std::vector<const typename LCC::Point*>(vertices.size()), {}};
-    Dart b = dart;
-    for(int i = 0; i < base.size; ++i, b = lcc.beta(b, 0)) {
-      const int v = base.vertices[i];
-      const int above = kind == HEXAHEDRON ? v + 4 : kind == PRISM ? v + 3 : base.size;
-      volume.vertices[std::size_t(v)] = &lcc.point(b);
-      volume.vertices[std::size_t(above)] = &lcc.point(lcc.beta(b, 2, 1, 1));
-    }
-    if(std::set(volume.vertices.begin(), volume.vertices.end()) != vertices)
-      return false;
-    if constexpr(Mixed_meshes_3::internal::holds_element_attributes<LCC>)
-      if(lcc.template attribute<3>(d) != LCC::null_handle)
-        volume.attributes = lcc.template info<3>(d);
-    used.insert(vertices.begin(), vertices.end());
-    volumes.push_back(std::move(volume));
+    used.insert(volume->vertices.begin(), volume->vertices.end());
+    volumes.push_back(std::move(*volume));
   }
 
   for(auto a = lcc.vertex_attributes().begin(); a != lcc.vertex_attributes().end(); ++a) {
@@ -267,8 +293,8 @@ bool linear_cell_complex_to_mixed_mesh(const LCC& lcc, Mixed_mesh_3<GeomTraits>&
       indices[&p] = mesh.add_vertex(
         typename GeomTraits::Point_3(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())));
   }
-  for(const Volume& volume : volumes) {
-    std::vector<Vertex_index> vertices;
+  for(const auto& volume : volumes) {
+    std::vector<mm3::Vertex_index> vertices;
     for(const auto* p : volume.vertices)
       vertices.push_back(indices.at(p));
     mesh.add_element(volume.kind, vertices, volume.attributes);

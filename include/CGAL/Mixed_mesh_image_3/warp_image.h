@@ -15,6 +15,7 @@
 #include <CGAL/Mixed_mesh_3/Element_locator_3.h>
 #include <CGAL/Mixed_mesh_3/Recovered_displacement_3.h>
 #include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>
+#include <CGAL/Mixed_mesh_image_3/internal/fade_displacement.h>
 #include <CGAL/Mixed_mesh_image_3/internal/rasterize_displacement.h>
 
 #include <CGAL/assertions.h>

@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -44,6 +45,104 @@ inline Patch_form patch_form(Element_kind kind)
   CGAL_unreachable();
 }
 
+/// Patches, each element in at most one.
+class Patch_builder
+{
+  static constexpr std::size_t no_patch = std::size_t(-1);
+
+  const Element_list& m_elements;
+  const std::size_t m_number_of_vertices;
+  std::vector<std::size_t> m_patch_of; // of each element
+
+public:
+  Patches patches;
+
+  Patch_builder(const Element_list& elements, std::size_t number_of_vertices)
+    : m_elements(elements), m_number_of_vertices(number_of_vertices), m_patch_of(elements.size(), no_patch)
+  {
+  }
+
+  /// Patches of elements around a vertex, the largest first.
+  template <class Is_together>
+  void add_stars(const Is_together& is_together)
+  {
+    constexpr std::size_t wanted_size = 8; // the star of an inner vertex with six neighbors
+    std::vector<std::vector<Element_index>> stars(m_number_of_vertices);
+    std::size_t largest = 0;
+    for(Element_index e = 0; e < m_elements.size(); ++e)
+      if(patch_form(m_elements[e].kind()) == Patch_form::STAR_OF_VERTEX && is_together(e, e))
+        for(Vertex_index v : m_elements[e]) {
+          stars[v].push_back(e);
+          largest = (std::max)(largest, stars[v].size());
+        }
+    std::vector<std::vector<Vertex_index>> vertices_by_size(largest + 1);
+    for(Vertex_index v = 0; v < stars.size(); ++v)
+      vertices_by_size[stars[v].size()].push_back(v);
+
+    std::vector<Element_index> left;
+    for(std::size_t size = largest; size > 0; --size)
+      for(std::size_t i = 0; i < vertices_by_size[size].size(); ++i) {
+        const Vertex_index v = vertices_by_size[size][i];
+        const std::vector<Element_index>& star = stars[v];
+        left.clear();
+        for(Element_index e : star)
+          if(!is_in_patch(e) && (left.empty() || is_together(left.front(), e)))
+            left.push_back(e);
+        if(left.empty())
+          continue;
+        if(left.size() < size) { // some have been taken: later, among stars of equal size
+          vertices_by_size[left.size()].push_back(v);
+          continue;
+        }
+        const std::size_t patch = size < wanted_size ? smallest_patch(star, left.front(), is_together)
+                                                     : no_patch;
+        join(left, patch == no_patch ? patches.size() : patch);
+        vertices_by_size[size].push_back(v); // again for remaining elements of other materials
+      }
+  }
+
+  /// Pairs of elements with a quadrilateral in common.
+  template <class Is_together>
+  void add_pairs(const Is_together& is_together)
+  {
+    for_each_face(m_elements, m_number_of_vertices, [&](const auto& faces) {
+      if(faces.size() != 2)
+        return;
+      const Element_index a = faces.element(0), b = faces.element(1);
+      if(patch_form(m_elements[a].kind()) == Patch_form::PAIR
+         && patch_form(m_elements[b].kind()) == Patch_form::PAIR && faces[0].vertices().size() == 4
+         && !is_in_patch(a) && !is_in_patch(b) && is_together(a, b))
+        join({a, b}, patches.size());
+    });
+  }
+
+private:
+  bool is_in_patch(Element_index e) const { return m_patch_of[e] != no_patch; }
+
+  void join(const std::vector<Element_index>& elements, std::size_t patch)
+  {
+    if(patch == patches.size())
+      patches.emplace_back();
+    for(Element_index e : elements) {
+      m_patch_of[e] = patch;
+      patches[patch].push_back(e);
+    }
+  }
+
+  // The smallest patch of elements of a star that may be with an element; none if there is none.
+  template <class Is_together>
+  std::size_t smallest_patch(const std::vector<Element_index>& star, Element_index with,
+                             const Is_together& is_together) const
+  {
+    std::size_t patch = no_patch;
+    for(Element_index e : star)
+      if(is_in_patch(e) && is_together(with, e)
+         && (patch == no_patch || patches[m_patch_of[e]].size() < patches[patch].size()))
+        patch = m_patch_of[e];
+    return patch;
+  }
+};
+
 /*!
 A partition of the tetrahedra and pyramids: stars of vertices, the largest first, as far as their elements are
 not taken yet. The rest of smaller stars joins the smallest patch around it. A single linear tetrahedron has a
@@ -64,69 +163,10 @@ template <class Is_together>
 Patches dilatation_patches(const Element_list& elements, std::size_t number_of_vertices,
                            const Is_together& is_together)
 {
-  constexpr std::size_t wanted_size = 8; // the star of an inner vertex with six neighbors
-  constexpr std::size_t no_patch = std::size_t(-1);
-  std::vector<std::vector<Element_index>> stars(number_of_vertices);
-  std::size_t largest = 0;
-  for(Element_index e = 0; e < elements.size(); ++e)
-    if(patch_form(elements[e].kind()) == Patch_form::STAR_OF_VERTEX && is_together(e, e))
-      for(Vertex_index v : elements[e]) {
-        stars[v].push_back(e);
-        largest = (std::max)(largest, stars[v].size());
-      }
-  std::vector<std::vector<Vertex_index>> vertices_by_size(largest + 1);
-  for(Vertex_index v = 0; v < number_of_vertices; ++v)
-    vertices_by_size[stars[v].size()].push_back(v);
-
-  Patches patches;
-  std::vector<std::size_t> patch_of(elements.size(), no_patch);
-  const auto join = [&](Element_index e, std::size_t patch) {
-    patch_of[e] = patch;
-    patches[patch].push_back(e);
-  };
-  std::vector<Element_index> left;
-  for(std::size_t size = largest; size > 0; --size)
-    for(std::size_t i = 0; i < vertices_by_size[size].size(); ++i) {
-      const Vertex_index v = vertices_by_size[size][i];
-      const std::vector<Element_index>& star = stars[v];
-      left.clear();
-      for(Element_index e : star)
-        if(patch_of[e] == no_patch && (left.empty() || is_together(left.front(), e)))
-          left.push_back(e);
-      if(left.empty())
-        continue;
-      if(left.size() < size) { // some have been taken: later, among stars of equal size
-        vertices_by_size[left.size()].push_back(v);
-        continue;
-      }
-      std::size_t patch = no_patch;
-      if(size < wanted_size)
-        for(Element_index e : star)
-          if(patch_of[e] != no_patch && is_together(left.front(), e)
-             && (patch == no_patch || patches[patch_of[e]].size() < patches[patch].size()))
-            patch = patch_of[e];
-      if(patch == no_patch) {
-        patch = patches.size();
-        patches.emplace_back();
-      }
-      for(Element_index e : left)
-        join(e, patch);
-      vertices_by_size[size].push_back(v); // again for remaining elements of other materials
-    }
-
-  for_each_face(elements, number_of_vertices, [&](const auto& faces) {
-    if(faces.size() != 2)
-      return;
-    const Element_index a = faces.element(0), b = faces.element(1);
-    if(patch_form(elements[a].kind()) == Patch_form::PAIR
-       && patch_form(elements[b].kind()) == Patch_form::PAIR && faces[0].vertices().size() == 4
-       && patch_of[a] == no_patch && patch_of[b] == no_patch && is_together(a, b)) {
-      patches.emplace_back();
-      join(a, patches.size() - 1);
-      join(b, patches.size() - 1);
-    }
-  });
-  return patches;
+  Patch_builder builder(elements, number_of_vertices);
+  builder.add_stars(is_together);
+  builder.add_pairs(is_together);
+  return std::move(builder.patches);
 }
 
 } // namespace internal

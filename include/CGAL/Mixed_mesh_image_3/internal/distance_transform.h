@@ -11,6 +11,7 @@
 #ifndef CGAL_MIXED_MESH_IMAGE_3_INTERNAL_DISTANCE_TRANSFORM_H
 #define CGAL_MIXED_MESH_IMAGE_3_INTERNAL_DISTANCE_TRANSFORM_H
 
+#include <CGAL/Mixed_mesh_image_3/internal/Lower_envelope.h>
 #include <CGAL/Mixed_mesh_image_3/internal/Voxel_box.h>
 
 #include <array>
@@ -23,51 +24,6 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The lower envelope of parabolas of one shape, with their apices on a line of voxels.
-class Parabola_envelope
-{
-  struct Parabola
-  {
-    double apex, height; // the place of the apex, and its value
-    double begin;        // the place from which on the parabola is the lowest
-  };
-
-  std::vector<Parabola> m_parabolas;
-
-public:
-  void clear() { m_parabolas.clear(); }
-  bool is_empty() const { return m_parabolas.empty(); }
-
-  /// Adds a parabola. \pre the apex is behind the apices before
-  void add(double apex, double height)
-  {
-    double begin = -std::numeric_limits<double>::infinity();
-    while(!m_parabolas.empty()) {
-      const Parabola& last = m_parabolas.back();
-      begin = (height - last.height + apex * apex - last.apex * last.apex) / (2 * (apex - last.apex));
-      if(begin > last.begin)
-        break;
-      m_parabolas.pop_back();
-      begin = -std::numeric_limits<double>::infinity();
-    }
-    m_parabolas.push_back({apex, height, begin});
-  }
-
-  /// Writes the envelope at places 0, spacing, 2 spacing, ...
-  template <class Write>
-  void evaluate(std::size_t number, double spacing, const Write& write) const
-  {
-    std::size_t lowest = 0;
-    for(std::size_t i = 0; i < number; ++i) {
-      const double x = double(i) * spacing;
-      while(lowest + 1 < m_parabolas.size() && m_parabolas[lowest + 1].begin < x)
-        ++lowest;
-      const Parabola& p = m_parabolas[lowest];
-      write(i, (x - p.apex) * (x - p.apex) + p.height);
-    }
-  }
-};
-
 /// The squared distance of each voxel of a box to the nearest voxel of a value, between centers; infinite if
 /// no voxel has the value.
 inline std::vector<float> squared_distances(const Labeled_box& box, std::uint8_t value,
@@ -79,8 +35,8 @@ inline std::vector<float> squared_distances(const Labeled_box& box, std::uint8_t
   for(std::uint8_t has_label : box.has_label)
     distances.push_back(has_label == value ? 0 : none);
   const std::array<std::size_t, 3> strides = box.strides();
-  Parabola_envelope envelope;
   for(int axis = 0; axis < 3; ++axis) {
+    Lower_envelope envelope(spacing[axis]);
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;
     for(std::size_t j = 0; j < box.size[b]; ++j)
       for(std::size_t k = 0; k < box.size[c]; ++k) {
@@ -89,10 +45,12 @@ inline std::vector<float> squared_distances(const Labeled_box& box, std::uint8_t
         envelope.clear();
         for(std::size_t i = 0; i < box.size[axis]; ++i)
           if(line[i * stride] < none)
-            envelope.add(double(i) * spacing[axis], line[i * stride]);
+            envelope.add(std::ptrdiff_t(i), line[i * stride]);
         if(!envelope.is_empty())
-          envelope.evaluate(box.size[axis], spacing[axis],
-                            [line, stride](std::size_t i, double d) { line[i * stride] = float(d); });
+          envelope.for_each(0, std::ptrdiff_t(box.size[axis]),
+                            [line, stride](std::ptrdiff_t i, std::ptrdiff_t, double d) {
+                              line[std::size_t(i) * stride] = float(d);
+                            });
       }
   }
   return distances;

@@ -202,79 +202,104 @@ private:
     ++facet.number;
   }
 
+  // A triangle seen along the axis that is most upright: exactly, and from the same end of the axis for all
+  // triangles of a plane. The Delaunay triangulation of points on a circle depends on the view; where
+  // triangles overlap, the triangulations must be equal.
+  class View
+  {
+    Point m_origin;
+    Kernel::Vector_3 m_normal;
+    int m_axis = 0, m_first, m_second;
+    std::map<Point_2, Point> m_lifted;
+
+  public:
+    explicit View(const std::array<Point, 3>& p)
+      : m_origin(p[0]), m_normal(CGAL::cross_product(p[1] - p[0], p[2] - p[0]))
+    {
+      for(int k = 1; k < 3; ++k)
+        if(CGAL::abs(m_normal[k]) > CGAL::abs(m_normal[m_axis]))
+          m_axis = k;
+      m_first = (m_axis + 1) % 3;
+      m_second = (m_axis + 2) % 3;
+    }
+
+    bool is_from_behind() const { return CGAL::is_negative(m_normal[m_axis]); }
+
+    Point_2 flat(const Point& q)
+    {
+      const Point_2 result(q[m_first], q[m_second]);
+      m_lifted.emplace(result, q);
+      return result;
+    }
+
+    // The point of the triangle's plane at a place; where constraints cross, it is new.
+    Point lifted(const Point_2& q) const
+    {
+      const auto found = m_lifted.find(q);
+      if(found != m_lifted.end())
+        return found->second;
+      std::array<Kernel::FT, 3> x;
+      x[std::size_t(m_first)] = q.x();
+      x[std::size_t(m_second)] = q.y();
+      x[std::size_t(m_axis)] = m_origin[m_axis]
+                               - (m_normal[m_first] * (q.x() - m_origin[m_first])
+                                  + m_normal[m_second] * (q.y() - m_origin[m_second]))
+                                   / m_normal[m_axis];
+      return Point(x[0], x[1], x[2]);
+    }
+  };
+
+  Kernel::Triangle_3 triangle_of(const Triangle& t) const
+  {
+    return Kernel::Triangle_3(m_points[t[0]], m_points[t[1]], m_points[t[2]]);
+  }
+
+  // Adds what two triangles have in common.
+  template <class Intersection>
+  static void constrain(const Intersection& common, View& view, Constrained_triangulation& cdt)
+  {
+    const auto add = [&](const Point& a, const Point& b) {
+      cdt.insert_constraint(view.flat(a), view.flat(b));
+    };
+    if(const Point* q = alternative<Point>(common)) {
+      cdt.insert(view.flat(*q));
+    } else if(const auto* s = alternative<Kernel::Segment_3>(common)) {
+      add(s->source(), s->target());
+    } else if(const auto* u = alternative<Kernel::Triangle_3>(common)) {
+      for(int i = 0; i < 3; ++i)
+        add(u->vertex(i), u->vertex(i + 1));
+    } else if(const auto* polygon = alternative<std::vector<Point>>(common)) {
+      for(std::size_t i = 0; i < polygon->size(); ++i)
+        add((*polygon)[i], (*polygon)[(i + 1) % polygon->size()]);
+    }
+  }
+
   // Triangulates a triangle such that its edges have all points that other triangles have on them.
   void cut(std::size_t number, const std::vector<std::size_t>& met, const std::vector<Triangle>& triangles,
            std::size_t most_facets)
   {
     const Triangle t = triangles[number];
     const std::array<Point, 3> p{m_points[t[0]], m_points[t[1]], m_points[t[2]]};
-    const Kernel::Vector_3 normal = CGAL::cross_product(p[1] - p[0], p[2] - p[0]);
-    // The triangle is seen along the axis that is most upright: exactly, and from the same end of the axis
-    // for all triangles of a plane. The Delaunay triangulation of points on a circle depends on the view;
-    // where triangles overlap, the triangulations must be equal.
-    int axis = 0;
-    for(int k = 1; k < 3; ++k)
-      if(CGAL::abs(normal[k]) > CGAL::abs(normal[axis]))
-        axis = k;
-    const int first = (axis + 1) % 3, second = (axis + 2) % 3;
-    const bool is_seen_from_behind = CGAL::is_negative(normal[axis]);
-    const auto flat = [&](const Point& q) { return Point_2(q[first], q[second]); };
-
+    View view(p);
     Constrained_triangulation cdt;
-    std::map<Point_2, Point> lifted;
-    const auto insert = [&](const Point& q) { lifted.emplace(flat(q), q); };
-    const auto constrain = [&](const Point& a, const Point& b) {
-      insert(a);
-      insert(b);
-      cdt.insert_constraint(flat(a), flat(b));
-    };
     for(int i = 0; i < 3; ++i)
-      constrain(p[i], p[(i + 1) % 3]);
-    const Kernel::Triangle_3 self(p[0], p[1], p[2]);
+      cdt.insert_constraint(view.flat(p[i]), view.flat(p[(i + 1) % 3]));
     for(std::size_t other : met) {
-      const Triangle& o = triangles[other];
-      const auto common = CGAL::intersection(
-        // The order is the same for both triangles: the same construction gives the same point.
-        number < other ? self : Kernel::Triangle_3(m_points[o[0]], m_points[o[1]], m_points[o[2]]),
-        number < other ? Kernel::Triangle_3(m_points[o[0]], m_points[o[1]], m_points[o[2]]) : self);
+      // The order is the same for both triangles: the same construction gives the same point.
+      const auto common = CGAL::intersection(triangle_of(triangles[(std::min)(number, other)]),
+                                             triangle_of(triangles[(std::max)(number, other)]));
       if(m_facets.size() + cdt.number_of_vertices() > most_facets)
         throw Too_many();
-      if(!common)
-        continue;
-      if(const Point* q = alternative<Point>(*common)) {
-        insert(*q);
-        cdt.insert(flat(*q));
-      } else if(const auto* s = alternative<Kernel::Segment_3>(*common)) {
-        constrain(s->source(), s->target());
-      } else if(const auto* u = alternative<Kernel::Triangle_3>(*common)) {
-        for(int i = 0; i < 3; ++i)
-          constrain(u->vertex(i), u->vertex(i + 1));
-      } else if(const auto* polygon = alternative<std::vector<Point>>(*common)) {
-        for(std::size_t i = 0; i < polygon->size(); ++i)
-          constrain((*polygon)[i], (*polygon)[(i + 1) % polygon->size()]);
-      }
+      if(common)
+        constrain(*common, view, cdt);
     }
-    const auto index = [&](const Point_2& q) {
-      const auto found = lifted.find(q);
-      if(found != lifted.end())
-        return index_of(found->second);
-      // The point is where constraints cross.
-      const Kernel::FT height = p[0][axis]
-                                - (normal[first] * (q.x() - p[0][first])
-                                   + normal[second] * (q.y() - p[0][second]))
-                                    / normal[axis];
-      std::array<Kernel::FT, 3> x;
-      x[std::size_t(first)] = q.x();
-      x[std::size_t(second)] = q.y();
-      x[std::size_t(axis)] = height;
-      return index_of(Point(x[0], x[1], x[2]));
-    };
     std::map<Constrained_triangulation::Vertex_handle, std::size_t> indices;
     for(auto v = cdt.finite_vertices_begin(); v != cdt.finite_vertices_end(); ++v)
-      indices[v] = index(v->point());
+      indices[v] = index_of(view.lifted(v->point()));
+    const bool is_from_behind = view.is_from_behind();
     for(auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f)
-      add({indices[f->vertex(0)], indices[f->vertex(is_seen_from_behind ? 2 : 1)],
-           indices[f->vertex(is_seen_from_behind ? 1 : 2)]});
+      add({indices[f->vertex(0)], indices[f->vertex(is_from_behind ? 2 : 1)],
+           indices[f->vertex(is_from_behind ? 1 : 2)]});
   }
 };
 

@@ -126,28 +126,17 @@ struct One_sided_distance
 namespace internal {
 
 /*!
-The point of `soup` that is farthest from `target`.
+The search for the point of some triangles that is farthest from `target`.
 
 The distance to one triangle is convex: on a piece of a triangle it is largest at a vertex. So the distance
 of a piece is at most the largest distance of its vertices to any one triangle, and the triangles nearest to
 its vertices are good candidates. The piece with the largest bound is halved, until no bound exceeds the
-distance of the farthest vertex by more than `maximal_error`. Where large triangles coincide with small ones,
-very many pieces would be needed, so their number is limited.
+distance of the farthest vertex by more than `maximal_error`.
 */
-inline One_sided_distance one_sided_distance(const Triangle_soup& soup, const Nearest_triangle& target,
-                                             double maximal_error)
+class Farthest_point_search
 {
-  constexpr std::size_t maximal_number_of_halvings = 500000; // some seconds
   using Query = Nearest_triangle::Query;
-  using Vertices = std::array<std::size_t, 3>;
-  std::vector<Query> queries;
-  std::size_t farthest = 0;
-  const auto add = [&](const Query& query) {
-    queries.push_back(query);
-    if(queries.back().distance > queries[farthest].distance)
-      farthest = queries.size() - 1;
-    return queries.size() - 1;
-  };
+  using Vertices = std::array<std::size_t, 3>; // indices of queries
 
   struct Piece
   {
@@ -158,53 +147,101 @@ inline One_sided_distance one_sided_distance(const Triangle_soup& soup, const Ne
       return bound != p.bound ? bound < p.bound : vertices < p.vertices;
     }
   };
-  std::priority_queue<Piece> pieces;
-  const auto limit = [&] { return queries[farthest].distance + maximal_error; };
-  const auto add_piece = [&](const Vertices& v, double bound) {
-    for(std::size_t i : v) {
-      double largest = 0;
-      for(std::size_t j : v) {
-        const std::size_t nearest = queries[i].nearest.triangle;
-        largest = (std::max)(largest, queries[j].nearest.triangle == nearest
-                                        ? queries[j].distance
-                                        : target.distance(queries[j].point, nearest));
-      }
-      bound = (std::min)(bound, largest);
-    }
-    if(bound > limit())
-      pieces.push({bound, v});
-  };
 
-  constexpr std::size_t none = std::size_t(-1);
-  std::vector<std::size_t> query_of_point(soup.points.size(), none);
-  for(const Vertices& t : soup.triangles)
-    for(std::size_t v : t)
-      if(query_of_point[v] == none)
-        query_of_point[v] = add(target(soup.points[v]));
-  for(const Vertices& t : soup.triangles)
-    add_piece({query_of_point[t[0]], query_of_point[t[1]], query_of_point[t[2]]},
-              std::numeric_limits<double>::infinity());
+  const Nearest_triangle& m_target;
+  const double m_maximal_error;
+  std::vector<Query> m_queries;
+  std::size_t m_farthest = 0;
+  std::priority_queue<Piece> m_pieces;
 
-  for(std::size_t n = 0; n < maximal_number_of_halvings && !pieces.empty() && pieces.top().bound > limit();
-      ++n) {
-    const Piece piece = pieces.top();
-    pieces.pop();
+public:
+  Farthest_point_search(const Nearest_triangle& target, double maximal_error)
+    : m_target(target), m_maximal_error(maximal_error)
+  {
+  }
+
+  void add_triangles(const Triangle_soup& soup)
+  {
+    constexpr std::size_t none = std::size_t(-1);
+    std::vector<std::size_t> query_of_point(soup.points.size(), none);
+    for(const auto& t : soup.triangles)
+      for(std::size_t v : t)
+        if(query_of_point[v] == none)
+          query_of_point[v] = add(m_target(soup.points[v]));
+    for(const auto& t : soup.triangles)
+      add_piece({query_of_point[t[0]], query_of_point[t[1]], query_of_point[t[2]]},
+                std::numeric_limits<double>::infinity());
+  }
+
+  bool is_ended() const { return m_pieces.empty() || m_pieces.top().bound <= limit(); }
+
+  /// Halves the piece with the largest bound at its longest edge.
+  void halve()
+  {
+    const Piece piece = m_pieces.top();
+    m_pieces.pop();
     auto [a, b, c] = piece.vertices;
-    const auto squared_length = [&](std::size_t i, std::size_t j) {
-      return CGAL::squared_distance(queries[i].point, queries[j].point);
-    };
     if(squared_length(b, c) > squared_length(a, b))
       std::swap(a, c);
     if(squared_length(a, c) > squared_length(a, b))
       std::swap(b, c);
-    const std::size_t m = add(target(CGAL::midpoint(queries[a].point, queries[b].point), queries[a].nearest));
+    const std::size_t m = add(
+      m_target(CGAL::midpoint(m_queries[a].point, m_queries[b].point), m_queries[a].nearest));
     add_piece({a, m, c}, piece.bound);
     add_piece({m, b, c}, piece.bound);
   }
-  const Query& q = queries[farthest];
-  // Pieces left out are within the limit at that time, which has only grown.
-  const double bound = pieces.empty() ? limit() : (std::max)(limit(), pieces.top().bound);
-  return {q.distance, bound - q.distance, q.point, rounded_point(q.nearest.point)};
+
+  One_sided_distance result() const
+  {
+    const Query& q = m_queries[m_farthest];
+    // Pieces left out are within the limit at that time, which has only grown.
+    const double bound = m_pieces.empty() ? limit() : (std::max)(limit(), m_pieces.top().bound);
+    return {q.distance, bound - q.distance, q.point, rounded_point(q.nearest.point)};
+  }
+
+private:
+  double limit() const { return m_queries[m_farthest].distance + m_maximal_error; }
+
+  double squared_length(std::size_t i, std::size_t j) const
+  {
+    return CGAL::squared_distance(m_queries[i].point, m_queries[j].point);
+  }
+
+  std::size_t add(const Query& query)
+  {
+    m_queries.push_back(query);
+    if(query.distance > m_queries[m_farthest].distance)
+      m_farthest = m_queries.size() - 1;
+    return m_queries.size() - 1;
+  }
+
+  void add_piece(const Vertices& v, double bound)
+  {
+    for(std::size_t i : v) {
+      const std::size_t nearest = m_queries[i].nearest.triangle;
+      double largest = 0;
+      for(std::size_t j : v)
+        largest = (std::max)(largest, m_queries[j].nearest.triangle == nearest
+                                        ? m_queries[j].distance
+                                        : m_target.distance(m_queries[j].point, nearest));
+      bound = (std::min)(bound, largest);
+    }
+    if(bound > limit())
+      m_pieces.push({bound, v});
+  }
+};
+
+/// The point of `soup` that is farthest from `target`. Where large triangles coincide with small ones, very
+/// many pieces would be needed, so their number is limited.
+inline One_sided_distance one_sided_distance(const Triangle_soup& soup, const Nearest_triangle& target,
+                                             double maximal_error)
+{
+  constexpr std::size_t maximal_number_of_halvings = 500000; // some seconds
+  Farthest_point_search search(target, maximal_error);
+  search.add_triangles(soup);
+  for(std::size_t n = 0; n < maximal_number_of_halvings && !search.is_ended(); ++n)
+    search.halve();
+  return search.result();
 }
 
 } // namespace internal

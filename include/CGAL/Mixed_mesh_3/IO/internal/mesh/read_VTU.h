@@ -60,6 +60,44 @@ class VTU_reader : VTK_XML_reader
     return std::nullopt;
   }
 
+  // The labels of the cells of a piece; an array that the file does not have is empty.
+  struct Labels
+  {
+    std::vector<double> in_region, subdomain, compartment;
+  };
+
+  Labels labels(const Piece& piece, std::uint64_t number_of_cells)
+  {
+    const auto cell_data = [&](const char* name) {
+      return piece.array("CellData", name) != nullptr
+               ? values<double>(piece, "CellData", name, number_of_cells)
+               : std::vector<double>();
+    };
+    return {cell_data("in_region"), cell_data("subdomain"), cell_data("compartment")};
+  }
+
+  // An integer label of a cell, in a range from `least`.
+  template <class Label>
+  Label label(const std::vector<double>& data, std::size_t cell, const char* name, Label least) const
+  {
+    const double x = data[cell];
+    if(!(x >= double(least) && x <= double((std::numeric_limits<Label>::max)()) && x == std::floor(x)))
+      refuse("cell " + std::to_string(cell) + " has a \"" + name + "\" that is not "
+             + (least == 0 ? "an integer of at least 0" : "a positive integer"));
+    return Label(x);
+  }
+
+  Element_attributes attributes(const Labels& labels, std::size_t cell) const
+  {
+    Element_attributes result;
+    result.is_in_region = !labels.in_region.empty() && labels.in_region[cell] != 0;
+    if(!labels.subdomain.empty())
+      result.subdomain_index = label<Subdomain_index>(labels.subdomain, cell, "subdomain", 1);
+    if(!labels.compartment.empty())
+      result.compartment = label<Compartment_index>(labels.compartment, cell, "compartment", 0);
+    return result;
+  }
+
   void read_piece(const Piece& piece, Mesh_input& mesh)
   {
     const std::uint64_t n = number(piece.tag, "NumberOfPoints"), m = number(piece.tag, "NumberOfCells"),
@@ -74,12 +112,7 @@ class VTU_reader : VTK_XML_reader
       refuse("its array \"offsets\" is not increasing");
     const std::vector<std::int64_t> connectivity = values<std::int64_t>(piece, "Cells", "connectivity",
                                                                         std::uint64_t(size));
-    const auto cell_data = [&](const char* name) {
-      return piece.array("CellData", name) != nullptr ? values<double>(piece, "CellData", name, m)
-                                                      : std::vector<double>();
-    };
-    const std::vector<double> in_region = cell_data("in_region"), subdomain = cell_data("subdomain"),
-                              compartment = cell_data("compartment");
+    const Labels labels_of_cells = labels(piece, m);
 
     for(std::size_t v = 0; v < n; ++v)
       mesh.points.push_back({coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]});
@@ -104,23 +137,7 @@ class VTU_reader : VTK_XML_reader
           vertices[type->order[i]] = Vertex_index(first
                                                   + std::uint64_t(connectivity[std::size_t(begin + i)]));
         mesh.elements.add(type->kind, vertices.data());
-        Element_attributes attributes;
-        attributes.is_in_region = !in_region.empty() && in_region[e] != 0;
-        if(!subdomain.empty()) {
-          constexpr double largest = (std::numeric_limits<Subdomain_index>::max)();
-          if(!(subdomain[e] >= 1 && subdomain[e] <= largest && subdomain[e] == std::floor(subdomain[e])))
-            refuse("cell " + std::to_string(e) + " has a \"subdomain\" that is not a positive integer");
-          attributes.subdomain_index = Subdomain_index(subdomain[e]);
-        }
-        if(!compartment.empty()) {
-          constexpr double largest = (std::numeric_limits<Compartment_index>::max)();
-          if(!(compartment[e] >= 0 && compartment[e] <= largest
-               && compartment[e] == std::floor(compartment[e])))
-            refuse("cell " + std::to_string(e)
-                   + " has a \"compartment\" that is not an integer of at least 0");
-          attributes.compartment = Compartment_index(compartment[e]);
-        }
-        mesh.attributes.push_back(attributes);
+        mesh.attributes.push_back(attributes(labels_of_cells, e));
       }
       begin = end;
     }

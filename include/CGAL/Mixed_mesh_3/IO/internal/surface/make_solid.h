@@ -112,34 +112,72 @@ inline bool triangulate(const Polygons& polygons, Surface& mesh, Surface_input& 
   return true;
 }
 
+// Closes the faces, and gives bodies that touch along edges their own vertices; what is not a manifold then
+// becomes the boundary of a solid.
+inline void make_closed_manifold(const Read_surface_options& options, Points& points, Polygons& polygons,
+                                 Surface_input& input)
+{
+  const std::size_t open = count_edges(polygons).open;
+  if(open != 0) {
+    close(options, points, polygons, input);
+    if(count_edges(polygons).open != 0)
+      throw Surface_defect{not_closed(open), wrap_diameter_for(points)};
+  }
+  const std::size_t nonmanifold = count_edges(polygons).nonmanifold;
+  if(nonmanifold == 0)
+    return;
+  separate_bodies(points, polygons);
+  if(count_edges(polygons).nonmanifold == 0)
+    input.warnings.push_back("bodies touch along " + counted(nonmanifold, "edge", "edges"));
+  else
+    bound(options,
+          "the surface is not a manifold: "
+            + counted(nonmanifold, "edge has more than two faces", "edges have more than two faces"),
+          points, polygons, input);
+}
+
+// The faces of a mesh as polygons.
+inline void set_polygons(const Surface& mesh, Points& points, Polygons& polygons)
+{
+  points.assign(mesh.points().begin(), mesh.points().end());
+  polygons.clear();
+  for(const auto face : faces(mesh)) {
+    const Triangle_view t(face, mesh);
+    polygons.push_back({t.vertices[0], t.vertices[1], t.vertices[2]});
+  }
+}
+
+// Faces that cut each other, and the defect in words; there may be a defect without such faces.
+struct Mesh_defect
+{
+  std::string text;
+  std::vector<Face_pair> crossings;
+};
+
+// Removes degenerate faces, and finds a defect that is left.
+inline Mesh_defect find_mesh_defect(Surface& mesh, Surface_input& input)
+{
+  Mesh_defect defect{remove_degenerate_faces(mesh, input), {}};
+  if(!defect.text.empty())
+    return defect;
+  defect.crossings = self_intersections(mesh);
+  if(!defect.crossings.empty()) {
+    defect.text = describe(defect.crossings, mesh);
+    return defect;
+  }
+  defect.crossings = crossings_at_edges(mesh);
+  if(!defect.crossings.empty())
+    defect.text = "the surface crosses itself along an edge near "
+                  + place_of(defect.crossings.front().first, mesh);
+  return defect;
+}
+
 // Makes a mesh of the faces: closed, without self-intersections, oriented outwards.
 inline Component_counts make_solid(const Read_surface_options& options, Points points, Polygons polygons,
                                    Surface& mesh, Surface_input& input)
 {
-  namespace PMP = CGAL::Polygon_mesh_processing;
-  Edge_counts edges = count_edges(polygons);
-  if(edges.open != 0) {
-    const std::size_t open = edges.open;
-    close(options, points, polygons, input);
-    edges = count_edges(polygons);
-    if(edges.open != 0)
-      throw Surface_defect{not_closed(open), wrap_diameter_for(points)};
-  }
-  if(edges.nonmanifold != 0) {
-    const std::size_t nonmanifold = edges.nonmanifold;
-    separate_bodies(points, polygons);
-    edges = count_edges(polygons);
-    if(edges.nonmanifold == 0) {
-      input.warnings.push_back("bodies touch along " + counted(nonmanifold, "edge", "edges"));
-    } else {
-      bound(options,
-            "the surface is not a manifold: "
-              + counted(nonmanifold, "edge has more than two faces", "edges have more than two faces"),
-            points, polygons, input);
-      edges = count_edges(polygons);
-    }
-  }
-  const bool is_oriented = edges.is_oriented;
+  make_closed_manifold(options, points, polygons, input);
+  const bool is_oriented = count_edges(polygons).is_oriented;
   Points whole_points = points;
   Polygons whole = polygons;
   if(!make_mesh(points, polygons, is_oriented, mesh, input)) {
@@ -153,31 +191,17 @@ inline Component_counts make_solid(const Read_surface_options& options, Points p
   // Rounding the points where faces cut each other may make other faces cut.
   constexpr int most_passes = 5;
   for(int pass = 0;; ++pass) {
-    std::string defect = remove_degenerate_faces(mesh, input);
-    std::vector<Face_pair> crossings;
-    if(defect.empty()) {
-      crossings = self_intersections(mesh);
-      const std::vector<Face_pair> at_edges = crossings.empty() ? crossings_at_edges(mesh) : crossings;
-      if(at_edges.empty())
-        return orient_components(mesh);
-      defect = !crossings.empty()
-                 ? describe(crossings, mesh)
-                 : "the surface crosses itself along an edge near " + place_of(at_edges.front().first, mesh);
-      crossings = at_edges;
-    }
+    const Mesh_defect defect = find_mesh_defect(mesh, input);
+    if(defect.text.empty())
+      return orient_components(mesh);
     if(pass == most_passes)
-      throw Surface_defect{defect};
+      throw Surface_defect{defect.text};
     if(pass == 0)
-      orient_components(mesh, crossings);
-    points.assign(mesh.points().begin(), mesh.points().end());
-    polygons.clear();
-    for(const auto face : faces(mesh)) {
-      const Triangle_view t(face, mesh);
-      polygons.push_back({t.vertices[0], t.vertices[1], t.vertices[2]});
-    }
-    bound(options, pass == 0 ? defect : "", points, polygons, input);
+      orient_components(mesh, defect.crossings);
+    set_polygons(mesh, points, polygons);
+    bound(options, pass == 0 ? defect.text : "", points, polygons, input);
     if(!make_mesh(points, polygons, true, mesh, input))
-      throw Surface_defect{defect};
+      throw Surface_defect{defect.text};
   }
 }
 

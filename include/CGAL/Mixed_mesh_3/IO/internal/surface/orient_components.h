@@ -51,26 +51,31 @@ struct Component_counts
   std::size_t all = 0, cavities = 0, reversed = 0;
 };
 
-// Orients the components such that the solid is on their inner side. A component that cuts another one is not
-// inside it. PMP::orient_to_bound_a_volume() looks at one vertex of a component only; where components touch,
-// that vertex may be in both.
-inline Component_counts orient_components(Surface& mesh, const std::vector<Face_pair>& crossings = {})
+struct Surface_component
 {
-  namespace PMP = CGAL::Polygon_mesh_processing;
-  using Side = CGAL::Side_of_triangle_mesh<Surface, Predicates_kernel>;
-  struct Component
-  {
-    std::vector<Surface::Face_index> faces;
-    Bbox_3 bbox;
-    double volume = 0;
-    bool is_cavity = false;
-  };
+  std::vector<Surface::Face_index> faces;
+  Bbox_3 bbox;
+  double volume = 0;
+  bool is_cavity = false;
 
-  const auto component_map = get(CGAL::dynamic_face_property_t<std::size_t>(), mesh);
-  std::vector<Component> components(PMP::connected_components(mesh, component_map));
+  bool has_box_within(const Bbox_3& box) const
+  {
+    bool is_within = true;
+    for(int k = 0; k < 3; ++k)
+      is_within = is_within && box.min(k) <= bbox.min(k) && bbox.max(k) <= box.max(k);
+    return is_within;
+  }
+};
+
+// The components, numbered as the map says.
+template <class ComponentMap>
+std::vector<Surface_component> components_of(const Surface& mesh, std::size_t number,
+                                             const ComponentMap& component_map)
+{
+  std::vector<Surface_component> components(number);
   for(Surface::Face_index face : faces(mesh))
     components[get(component_map, face)].faces.push_back(face);
-  for(Component& c : components) {
+  for(Surface_component& c : components) {
     const Surface::Point origin = Triangle_view(c.faces.front(), mesh).points[0];
     for(Surface::Face_index face : c.faces) {
       const Triangle_view t(face, mesh);
@@ -79,31 +84,27 @@ inline Component_counts orient_components(Surface& mesh, const std::vector<Face_
       c.volume += CGAL::to_double(CGAL::volume(origin, t.points[0], t.points[1], t.points[2]));
     }
   }
+  return components;
+}
 
-  std::set<std::pair<std::size_t, std::size_t>> cutting;
-  for(const Face_pair& pair : crossings) {
-    const std::size_t c = get(component_map, pair.first), d = get(component_map, pair.second);
-    cutting.insert({c, d});
-    cutting.insert({d, c});
-  }
-
-  for(const Component& outer : components) {
-    std::vector<Component*> candidates;
-    for(Component& c : components) {
-      bool is_within = &c != &outer
-                       && cutting.count(
-                            {std::size_t(&c - components.data()), std::size_t(&outer - components.data())})
-                            == 0;
-      for(int k = 0; k < 3; ++k)
-        is_within = is_within && outer.bbox.min(k) <= c.bbox.min(k) && c.bbox.max(k) <= outer.bbox.max(k);
-      if(is_within)
-        candidates.push_back(&c);
-    }
+// Marks the components that are inside an odd number of others. A component that cuts another one is not
+// inside it.
+// \param cutting pairs of components that cut each other, both ways
+inline void mark_cavities(const Surface& mesh, const std::set<std::pair<std::size_t, std::size_t>>& cutting,
+                          std::vector<Surface_component>& components)
+{
+  using Side = CGAL::Side_of_triangle_mesh<Surface, Predicates_kernel>;
+  for(std::size_t o = 0; o < components.size(); ++o) {
+    const Surface_component& outer = components[o];
+    std::vector<Surface_component*> candidates;
+    for(std::size_t c = 0; c < components.size(); ++c)
+      if(c != o && components[c].has_box_within(outer.bbox) && cutting.count({c, o}) == 0)
+        candidates.push_back(&components[c]);
     if(candidates.empty())
       continue;
     const Side::AABB_tree tree(outer.faces.begin(), outer.faces.end(), mesh, get(CGAL::vertex_point, mesh));
     const Side side(tree);
-    for(Component* c : candidates) {
+    for(Surface_component* c : candidates) {
       Bounded_side s = ON_BOUNDARY;
       for(std::size_t i = 0; i < c->faces.size() && s == ON_BOUNDARY; ++i)
         for(const auto& p : Triangle_view(c->faces[i], mesh).points)
@@ -112,8 +113,25 @@ inline Component_counts orient_components(Surface& mesh, const std::vector<Face_
       c->is_cavity ^= s == ON_BOUNDED_SIDE;
     }
   }
+}
+
+// Orients the components such that the solid is on their inner side. PMP::orient_to_bound_a_volume() looks at
+// one vertex of a component only; where components touch, that vertex may be in both.
+inline Component_counts orient_components(Surface& mesh, const std::vector<Face_pair>& crossings = {})
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  const auto component_map = get(CGAL::dynamic_face_property_t<std::size_t>(), mesh);
+  const std::size_t number = PMP::connected_components(mesh, component_map);
+  std::vector<Surface_component> components = components_of(mesh, number, component_map);
+  std::set<std::pair<std::size_t, std::size_t>> cutting;
+  for(const Face_pair& pair : crossings) {
+    const std::size_t c = get(component_map, pair.first), d = get(component_map, pair.second);
+    cutting.insert({c, d});
+    cutting.insert({d, c});
+  }
+  mark_cavities(mesh, cutting, components);
   Component_counts counts{components.size(), 0, 0};
-  for(const Component& c : components) {
+  for(const Surface_component& c : components) {
     counts.cavities += c.is_cavity;
     if((c.volume < 0) != c.is_cavity) {
       PMP::reverse_face_orientations(c.faces, mesh);
