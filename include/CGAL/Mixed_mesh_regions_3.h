@@ -14,6 +14,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/oracle/weight_in_region.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/assertions.h>

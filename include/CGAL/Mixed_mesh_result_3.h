@@ -11,7 +11,7 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Surface_description.h>
-#include <CGAL/Mixed_mesh_optimization_criteria_3.h>
+#include <CGAL/Mixed_mesh_optimization_result_3.h>
 
 #include <CGAL/Bbox_3.h>
 

@@ -19,6 +19,7 @@
 #include <CGAL/Mixed_mesh_3/internal/meshing/arguments.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/usual_models.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
+#include <CGAL/Mixed_mesh_optimization_result_3.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/tags.h>

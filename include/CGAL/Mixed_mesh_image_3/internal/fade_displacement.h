@@ -58,8 +58,8 @@ inline Voxel_range range_around_mesh(const Displacement_field_3& field, double d
   return voxel_range(grid, lower, upper, margin);
 }
 
-/// The nearest voxel in the mesh of each voxel of a range, as far as it is within a distance: in its row, then
-/// in its plane, then anywhere.
+/// The nearest voxel in the mesh of each voxel of a range, as far as it is within a distance: in its row,
+/// then in its plane, then anywhere.
 class Nearest_voxels_in_mesh
 {
 public:

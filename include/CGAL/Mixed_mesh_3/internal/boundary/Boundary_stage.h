@@ -19,6 +19,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/Sheet_layer.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/balance_interfaces.h>
+#include <CGAL/Mixed_mesh_3/internal/boundary/boundary_polygons.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/split_by_order.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/split_by_parity.h>
 #include <CGAL/Mixed_mesh_3/options.h>
@@ -63,8 +64,6 @@ struct Boundary_pieces
 template <class Sheets>
 class Boundary_stage : private Boundary_pieces
 {
-  using Polygons = std::vector<Face_vertices>;
-
   const Located_octree& m_located;
   Lattice_mesh& m_mesh;
   const std::size_t m_number_of_subdomains;
@@ -328,52 +327,6 @@ private:
     subdomains[piece] = a;
   }
 
-  struct Boundary_polygons
-  {
-    Polygons whole;
-    std::map<Subdomain_rank, Polygons> of_subdomains;                            // empty for a single one
-    std::map<std::pair<Subdomain_rank, Subdomain_rank>, Polygons> of_interfaces; // earlier first
-  };
-
-  // Polygons of the boundary and of interfaces, which are all between interface vertices.
-  Boundary_polygons boundary_polygons() const
-  {
-    struct Piece_face
-    {
-      std::array<Vertex_index, 4> key;
-      Face_vertices vertices;
-      Subdomain_rank subdomain;
-    };
-    std::vector<Piece_face> faces;
-    for(std::size_t i = 0; i < pieces.size(); ++i)
-      for(int f = 0; f < pieces[i].reference().number_of_faces; ++f) {
-        const Face_vertices vertices = Face(pieces, Element_index(i), f).vertices();
-        if(std::all_of(vertices.begin(), vertices.end(),
-                       [this](Vertex_index v) { return is_on_interface(v); })) {
-          const bool is_quad = vertices.size() == 4; // face of an element that stays whole
-          faces.push_back({{vertices[0], vertices[1], vertices[2], is_quad ? vertices[3] : no_vertex},
-                           vertices,
-                           subdomains[i]});
-          std::sort(faces.back().key.begin(), faces.back().key.end());
-        }
-      }
-    std::sort(faces.begin(), faces.end(),
-              [](const Piece_face& a, const Piece_face& b) { return a.key < b.key; });
-    Boundary_polygons result;
-    for(std::size_t i = 0, n = 0; i < faces.size(); i += n) {
-      n = i + 1 < faces.size() && faces[i + 1].key == faces[i].key ? 2 : 1;
-      if(n == 1)
-        result.whole.push_back(faces[i].vertices);
-      const Subdomain_rank a = faces[i].subdomain, b = n == 1 ? outside_rank : faces[i + 1].subdomain;
-      if(m_number_of_subdomains > 1 && a != b) {
-        for(std::size_t j = i; j < i + n; ++j)
-          result.of_subdomains[faces[j].subdomain].push_back(faces[j].vertices);
-        result.of_interfaces[std::minmax(a, b)].push_back(faces[i].vertices);
-      }
-    }
-    return result;
-  }
-
   // The nearer end of each bad edge, seen from the surface, and the bad vertices.
   std::vector<Vertex_index> pinched_vertices(const Manifold_defects& defects) const
   {
@@ -390,7 +343,8 @@ private:
   // instead.
   bool relabel()
   {
-    const Boundary_polygons polygons = boundary_polygons();
+    const Boundary_polygons polygons = internal::boundary_polygons(
+      pieces, subdomains, m_number_of_subdomains > 1, [this](Vertex_index v) { return is_on_interface(v); });
     defects = manifold_defects(polygons.whole);
     bool changed = false;
     std::set<Vertex_index> on_rim;

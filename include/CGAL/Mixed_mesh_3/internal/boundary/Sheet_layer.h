@@ -14,8 +14,8 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
-#include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/boundary/sheet_compartments.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/for_each_face.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
@@ -67,12 +67,11 @@ tetrahedron may have four sheet vertices, where cells of two sizes meet or at th
 tetrahedron.
 
 Each of two sheets that meet has faces of its own.
-
 */
 class Sheet_layer
 {
-  using Edge = std::pair<Vertex_index, Vertex_index>; // the smaller one first
-  using Triangle = std::array<Vertex_index, 3>;       // ascending
+  using Edge = Sheet_edge;
+  using Triangle = Sheet_triangle;
 
   struct Place
   {
@@ -163,8 +162,8 @@ public:
     }
     // Elements around inner vertices are included too, so that flips have more freedom.
     for(bool all_around : {true, false}) {
-      m_compartments = find_compartments(pieces, all, all_around);
-      const std::set<Triangle> lost = faces_within_compartments(pieces, all);
+      m_compartments = find_sheet_compartments(m_mesh, pieces, all, all_around);
+      const std::set<Triangle> lost = faces_within_compartments(pieces, all, m_compartments);
       if(lost.empty())
         return false;
       if(!all_around)
@@ -186,15 +185,6 @@ private:
   const Any_sheet& oracle(const Sheet& s) const { return *m_located.domain().sheets()[s.number]; }
   auto point(Vertex_index v) const { return m_located.point(m_mesh.vertices[v]); }
   double edge_length(Vertex_index v) const { return m_located.edge_length(m_mesh.leaves[v]); }
-
-  static Edge edge(Vertex_index a, Vertex_index b) { return std::minmax(a, b); }
-
-  static Triangle triangle(const Face_vertices& v)
-  {
-    Triangle t{v[0], v[1], v[2]};
-    std::sort(t.begin(), t.end());
-    return t;
-  }
 
   void find_elements(Sheet& s) const
   {
@@ -322,7 +312,7 @@ private:
       return true;
     if(b.is_at_rim && !b.is_beyond_rim && !f.is_beyond_rim)
       return true;
-    const auto [known, is_new] = s.is_crossed.try_emplace(edge(front, behind), false);
+    const auto [known, is_new] = s.is_crossed.try_emplace(sheet_edge(front, behind), false);
     if(is_new) {
       const auto p = point(front), q = point(behind);
       const double length = norm(to_vec3(p) - to_vec3(q));
@@ -342,7 +332,7 @@ private:
     for_each_face(pieces, m_mesh.vertices.size(), is_candidate, [&](const auto& group) {
       if(group.size() != 2)
         return;
-      const Triangle t = triangle(group[0].vertices());
+      const Triangle t = sheet_triangle(group[0].vertices());
       bool front[2];
       for(std::size_t i = 0; i < 2; ++i)
         front[i] = is_in_front(s, apex(pieces[group.element(i)], t));
@@ -383,8 +373,8 @@ private:
     for(const Triangle& t : faces)
       for(std::size_t i = 0; i < 3; ++i) {
         used.insert(t[i]);
-        ++edges[edge(t[i], t[(i + 1) % 3])];
-        links[t[i]].push_back(edge(t[(i + 1) % 3], t[(i + 2) % 3]));
+        ++edges[sheet_edge(t[i], t[(i + 1) % 3])];
+        links[t[i]].push_back(sheet_edge(t[(i + 1) % 3], t[(i + 2) % 3]));
       }
     for(const auto& [e, number] : edges)
       if(number > 2)
@@ -395,7 +385,7 @@ private:
     const auto is_used = [&](Vertex_index v) { return used.count(v) > 0; };
     for_each_face(pieces, m_mesh.vertices.size(), is_used, [&](const auto& group) {
       if(group.size() == 1 && m_round <= rounds_of_raising) { // later, some vertex will not arrive
-        const Triangle t = triangle(group[0].vertices());
+        const Triangle t = sheet_triangle(group[0].vertices());
         bad.insert(highest(s, {t.begin(), t.end()}));
       }
     });
@@ -435,89 +425,6 @@ private:
   {
     s.dropped.insert(v);
     find_vertices(s);
-  }
-
-  // Compartments: pieces connected by faces that are not on a sheet, among the pieces with a face on a sheet,
-  // and, if asked for, the pieces around a vertex that the sheet surrounds.
-  std::vector<Compartment_index> find_compartments(const Element_list& pieces,
-                                                   const std::set<Triangle>& faces, bool all_around) const
-  {
-    std::map<Edge, int> edges;
-    std::set<Vertex_index> inner;
-    for(const Triangle& t : faces)
-      for(std::size_t i = 0; i < 3; ++i) {
-        ++edges[edge(t[i], t[(i + 1) % 3])];
-        inner.insert(t[i]);
-      }
-    for(const auto& [e, number] : edges)
-      if(number == 1 && (m_mesh.is_inside(e.first) || m_mesh.is_inside(e.second))) {
-        inner.erase(e.first);
-        inner.erase(e.second);
-      }
-
-    Element_list chosen;
-    std::vector<Element_index> numbers;
-    for(Element_index i = 0; i < pieces.size(); ++i)
-      if((all_around
-          && std::any_of(pieces[i].begin(), pieces[i].end(),
-                         [&](Vertex_index v) { return inner.count(v) > 0; }))
-         || has_face(pieces, i, faces)) {
-        chosen.add(pieces[i].kind(), pieces[i].begin());
-        numbers.push_back(i);
-      }
-    std::vector<std::vector<std::size_t>> neighbors(chosen.size());
-    for_each_face(chosen, m_mesh.vertices.size(), [&](const auto& group) {
-      if(group.size() == 2
-         && (group[0].vertices().size() == 4 || faces.count(triangle(group[0].vertices())) == 0)) {
-        neighbors[group.element(0)].push_back(group.element(1));
-        neighbors[group.element(1)].push_back(group.element(0));
-      }
-    });
-    std::vector<Compartment_index> result(pieces.size(), 0);
-    Compartment_index last = 0;
-    for(std::size_t i = 0; i < chosen.size(); ++i) {
-      if(result[numbers[i]] != 0)
-        continue;
-      result[numbers[i]] = ++last;
-      std::vector<std::size_t> reached{i};
-      while(!reached.empty()) {
-        const std::size_t j = reached.back();
-        reached.pop_back();
-        for(std::size_t n : neighbors[j])
-          if(result[numbers[n]] == 0) {
-            result[numbers[n]] = last;
-            reached.push_back(n);
-          }
-      }
-    }
-    return result;
-  }
-
-  static bool has_face(const Element_list& pieces, Element_index i, const std::set<Triangle>& faces)
-  {
-    for(int f = 0; f < pieces[i].reference().number_of_faces; ++f)
-      if(const Face_vertices v = Face(pieces, i, f).vertices(); v.size() == 3 && faces.count(triangle(v)) > 0)
-        return true;
-    return false;
-  }
-
-  // Sheet faces with the same compartment on both sides, where the sides are connected around the rim.
-  std::set<Triangle> faces_within_compartments(const Element_list& pieces,
-                                               const std::set<Triangle>& faces) const
-  {
-    std::map<Triangle, Compartment_index> first;
-    std::set<Triangle> lost;
-    for(Element_index i = 0; i < pieces.size(); ++i)
-      if(m_compartments[i] != 0)
-        for(int f = 0; f < pieces[i].reference().number_of_faces; ++f) {
-          const Face_vertices v = Face(pieces, i, f).vertices();
-          if(v.size() != 3 || faces.count(triangle(v)) == 0)
-            continue;
-          const auto [known, is_new] = first.try_emplace(triangle(v), m_compartments[i]);
-          if(!is_new && known->second == m_compartments[i])
-            lost.insert(triangle(v));
-        }
-    return lost;
   }
 };
 

@@ -26,6 +26,7 @@
 #include <CGAL/Mixed_mesh_3/internal/surface/Sharp_features.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
+#include <CGAL/Mixed_mesh_optimization_result_3.h>
 
 #include <algorithm>
 #include <cstddef>

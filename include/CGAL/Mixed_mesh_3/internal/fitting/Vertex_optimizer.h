@@ -12,6 +12,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/base/Shared_mark.h>
 #include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_coloring.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
@@ -22,7 +23,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -32,23 +32,6 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
-
-/// A mark that several threads may set at the same time, but that only one thread reads later.
-class Shared_mark
-{
-  std::atomic<bool> m_is_set;
-
-public:
-  Shared_mark(bool is_set = false) : m_is_set(is_set) {}
-  Shared_mark(const Shared_mark& other) : m_is_set(bool(other)) {}
-  Shared_mark& operator=(const Shared_mark& other) { return *this = bool(other); }
-  Shared_mark& operator=(bool is_set)
-  {
-    m_is_set.store(is_set, std::memory_order_relaxed);
-    return *this;
-  }
-  operator bool() const { return m_is_set.load(std::memory_order_relaxed); }
-};
 
 /// The attraction of a boundary vertex to a place: `weight` times the squared distance is added to the
 /// energy.

@@ -17,6 +17,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Any_surface.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
+#include <CGAL/Mixed_mesh_optimization_result_3.h>
 
 #include <functional>
 
