@@ -24,8 +24,8 @@
 #               preconditions, the tests also with AddressSanitizer and UndefinedBehaviorSanitizer
 #   fuzz        targets of libFuzzer, one a reader, run for FUZZ_SECONDS each (default: 12), from test/fuzz/corpus;
 #               what makes one fail is kept in the build directory
-#   cgal61      headers, examples and short tests are built with another CGAL, if CGAL_DIR_61 names the folder
-#               that has its include/CGAL/version.h
+#   cgal61      headers, programs, examples and tests are built with another CGAL, and run, if CGAL_DIR_61 names the
+#               folder that has its include/CGAL/version.h
 #
 # A part that fails does not keep the next ones from running. BUILD_DIR overrides the folder of the build
 # directories, build: release and checked, as the presets have them, clang, cgal61 and layout.
@@ -219,9 +219,9 @@ check_cgal61() {
   local version=$CGAL_DIR_61/include/CGAL/version.h
   [[ -f $version ]] || fail "there is no $version"
   grep 'define CGAL_VERSION ' "$version"
-  configure cgal61 -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 \
-    "-DCMAKE_CXX_FLAGS=-isystem $CGAL_DIR_61/include"
-  build "$build/cgal61" test_headers examples/all "${short_programs[@]}"
+  configure cgal61 -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS=-isystem $CGAL_DIR_61/include"
+  build "$build/cgal61" test_headers apps/all examples/all test/all
+  ctest --test-dir "$build/cgal61" --output-on-failure --no-tests=error --parallel "$(nproc)"
 }
 
 parts=()

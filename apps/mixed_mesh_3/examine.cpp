@@ -9,11 +9,11 @@
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/certify_mesh.h>
-#include <CGAL/Mixed_mesh_3/fidelity.h>
 #include <CGAL/Mixed_mesh_3/quality_bound.h>
-#include <CGAL/Mixed_mesh_3/surface_distance.h>
 
-#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 
@@ -27,30 +27,6 @@ Shapes shapes_of(const Mesh& mesh)
           mm3::quality_statistics(mesh, mm3::quad_warp)};
 }
 
-Distance distance_of(const mm3::One_sided_distance& d)
-{
-  return {d.distance, d.error, {d.from.x(), d.from.y(), d.from.z()}, {d.to.x(), d.to.y(), d.to.z()}};
-}
-
-// Measures the fidelity. \pre the boundary is a closed manifold
-Fidelity fidelity_of(const Mesh& mesh, const Surface& surface, double volume_of_surface)
-{
-  const mm3::Hausdorff_distance distance = mm3::hausdorff_distance(mesh, surface);
-  Fidelity f;
-  f.from_mesh = distance_of(distance.from_mesh);
-  f.from_surface = distance_of(distance.from_surface);
-  f.volume_of_mesh = mm3::volume(mesh);
-  f.volume_of_surface = volume_of_surface;
-  f.vertices = mm3::boundary_vertices(mesh).size();
-  f.vertices_off = mm3::number_of_vertices_off_surface(mesh, surface, on_surface);
-  return f;
-}
-
-Solid solid_of(const mm3::Solid_topology& t)
-{
-  return {t.number_of_bodies, t.number_of_handles, t.number_of_cavities, t.volume};
-}
-
 // A sentence with the unit of volumes, which the library does not know, where the program knows the unit.
 std::string with_unit(std::string sentence, const Options& options)
 {
@@ -61,21 +37,13 @@ std::string with_unit(std::string sentence, const Options& options)
            : sentence;
 }
 
-// Compares the topology. \pre the boundary is a closed manifold. Before the boundary is fitted, the cells
-// around it add some volume.
-Topology topology_of(const Mesh& mesh, const Surface& surface, const Options& options,
-                     CGAL::Mixed_mesh_status& status)
+// The differences in units that the program knows.
+Topology topology_with_units(const Mesh& mesh, const Surface& surface, const Options& options,
+                             CGAL::Mixed_mesh_status& status)
 {
-  mm3::Solid_comparison c = mm3::compare_with_surface(mesh, surface, volume_tolerance);
-  auto& d = c.differences;
-  if(options.fit() == Fit::NONE)
-    d.erase(std::remove_if(d.begin(), d.end(),
-                           [](const auto& x) { return x.kind == mm3::Solid_difference_kind::VOLUME; }),
-            d.end());
-  status = mm3::worse_status(status, mm3::status_of(c));
-  Topology t{solid_of(c.surface), solid_of(c.mesh), {}, c.has_same_topology()};
-  for(const mm3::Solid_difference& x : d)
-    t.differences.push_back({with_unit(x.sentence, options), {x.point.x(), x.point.y(), x.point.z()}});
+  Topology t = topology_of(mesh, surface, options.fit() != Fit::NONE, status);
+  for(Difference& d : t.differences)
+    d.sentence = with_unit(d.sentence, options);
   return t;
 }
 
@@ -112,7 +80,7 @@ void examine(const Mesh& mesh, const Surface& surface, const Options& options, S
   require_all(outcome.checks, certificate.number_of_self_intersections);
   require_volume(options, outcome);
   outcome.topology = log("topology",
-                         [&] { return topology_of(mesh, surface, options, outcome.result.status); });
+                         [&] { return topology_with_units(mesh, surface, options, outcome.result.status); });
   outcome.checks_of_fidelity = checks_of_fidelity(outcome, options.fit() != Fit::NONE);
 
   outcome.mesh = facts_of(mesh);
@@ -124,9 +92,7 @@ void examine(const Mesh& mesh, const Surface& surface, const Options& options, S
       return mm3::number_of_elements_above(mesh, options.largest_arc);
     });
   add_warnings(options, outcome);
-  if(options.tolerance > 0 && outcome.result.status == CGAL::Mixed_mesh_status::SUCCESS
-     && outcome.fidelity.distance() > options.tolerance) // between the points that the library tested
-    outcome.result.status = CGAL::Mixed_mesh_status::TOLERANCE_NOT_REACHED;
+  outcome.result.status = checked_status(outcome.result.status, outcome.fidelity, options.tolerance);
   log("quality", [&] {
     outcome.after = aspect_ratios_of(mesh);
     outcome.shapes = shapes_of(mesh);

@@ -8,6 +8,7 @@
 #ifndef MIXED_MESH_3_APPS_MIXED_MESH_3_OUTCOME_H
 #define MIXED_MESH_3_APPS_MIXED_MESH_3_OUTCOME_H
 
+#include "core/comparison.h"
 #include "core/facts.h"
 
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
@@ -45,52 +46,6 @@ struct Shapes
 {
   Table scaled_jacobian, smallest_dihedral_angle, largest_dihedral_angle, quad_warp;
 };
-
-/// The distance of a surface, at its farthest point, from another one.
-struct Distance
-{
-  double distance = 0, error = 0;
-  std::array<double, 3> from{}, to{};
-};
-
-/// The distances of the boundary of the mesh and the surface.
-struct Fidelity
-{
-  Distance from_mesh, from_surface;
-  double volume_of_mesh = 0, volume_of_surface = 0;
-  std::size_t vertices = 0;     // on the boundary
-  std::size_t vertices_off = 0; // vertices that are not on the surface
-  std::size_t self_intersections = 0;
-
-  double distance() const { return (std::max)(from_mesh.distance, from_surface.distance); }
-  double ratio_of_volumes() const { return volume_of_mesh / volume_of_surface; }
-};
-
-// The topology of a solid.
-struct Solid
-{
-  std::size_t bodies = 0, handles = 0, cavities = 0;
-  double volume = 0;
-};
-
-// A difference between the solids, at a place.
-struct Difference
-{
-  std::string sentence;
-  std::array<double, 3> at;
-};
-
-// The topology of the solid of the surface, and of that of the mesh.
-struct Topology
-{
-  Solid surface, mesh;
-  std::vector<Difference> differences;
-  bool is_same = true;
-};
-
-// Largest relative difference of the volume of a body from its right volume.
-constexpr double volume_tolerance = 0.05;
-constexpr double on_surface = 1e-9; // share of the diagonal of the surface's box
 
 /// A property of a valid mesh, or of a faithful one, in words.
 struct Check

@@ -13,8 +13,20 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace {
+
+// The inputs and options as the user gave them.
+Input_names names_of(const Options& o)
+{
+  std::vector<std::string> regions;
+  for(const Region_option& r : o.regions)
+    regions.push_back(r.file);
+  const bool may_help = o.fit() == Fit::OPTIMIZATION && o.tolerance == 0;
+  return {o.surface, "--vertices " + std::to_string(o.vertices), "--base-level",
+          may_help ? "--tolerance" : "", regions};
+}
 
 std::string lost_parts(const CGAL::Mixed_mesh_result_3& result, const Options& o)
 {
@@ -35,28 +47,6 @@ std::string missed_tolerance(const Fidelity& f, const Options& o)
   return "--tolerance " + rounded(o.tolerance) + ": not reached, "
          + (is_on_mesh ? "the mesh" + at + o.surface : o.surface + at + "the mesh") + "; try more vertices";
 }
-
-std::string times_volume(double ratio, const Options& o)
-{
-  return o.surface + ": the mesh has " + as_part_of(ratio)
-         + " the surface's volume: it is "
-           "too coarse for the domain; try more vertices or a larger --base-level"
-         + (o.fit() == Fit::OPTIMIZATION && o.tolerance == 0 ? ", or --tolerance" : "");
-}
-
-// The number of vertices that the budget lacks in words, if that number is known.
-std::string needed_for_thin_parts(const CGAL::Mixed_mesh_result_3& result, const Options& o)
-{
-  const std::size_t n = result.number_of_vertices_for_thin_parts;
-  if(n <= o.vertices)
-    return {};
-  const double unit = std::pow(10, std::floor(std::log10(double(n))) - 1); // two digits
-  return "a mesh that is fine enough for all its thin walls and narrow gaps is estimated at "
-         + std::to_string(std::size_t(std::ceil(double(n) / unit) * unit)) + " vertices; this one may have "
-         + std::to_string(o.vertices);
-}
-
-std::string after_semicolon(const std::string& text) { return text.empty() ? text : "; " + text; }
 
 // Whether a surface is full of gaps, like that of an atlas, and unlike that of an organ.
 bool is_full_of_gaps(const Topology& topology, const Options& o)
@@ -96,37 +86,11 @@ void refuse(const CGAL::Mixed_mesh_result_3& result, const Options& o)
                              + " vertices is within a tolerance of " + rounded(o.tolerance) + " of "
                              + o.surface + ": " + CGAL::Mixed_meshes_3::description(result.status)
                              + ", farthest " + rounded(result.optimization.largest_distance));
-  switch(result.status) {
-  case Status::BUDGET_TOO_SMALL:
-    throw std::runtime_error("--vertices " + std::to_string(o.vertices)
-                             + ": too small, the coarsest mesh "
-                               "of "
-                             + o.surface + " at base level " + std::to_string(result.base_level)
-                             + " has at least " + std::to_string(result.number_of_vertices_needed)
-                             + " vertices");
-  case Status::EMPTY:
-    throw std::runtime_error(o.surface
-                             + ": too thin for this budget, no octree vertex is inside; try "
-                               "more vertices or a larger --base-level"
-                             + after_semicolon(needed_for_thin_parts(result, o)));
-  case Status::REGION_NOT_MET:
-    throw std::runtime_error(
-      o.regions.size() == 1 ? o.regions.front().file + ": the region does not meet the domain of " + o.surface
-                            : o.surface + ": none of the regions meets the domain");
-  case Status::STOPPED:
-    if(result.is_kept)
-      return;
-    throw std::runtime_error("stopped before there was a mesh: nothing is written");
-  case Status::BOUNDARY_NOT_MANIFOLD:
-    throw Invalid_mesh("the boundary is pinched at the border of the root cell; try another --base-level");
-  case Status::BUDGET_NOT_FILLED:
-  case Status::TOLERANCE_NOT_REACHED:
-  case Status::NOT_ALL_ARRIVED:
-  case Status::VOLUME_DIFFERS:
-  case Status::TOPOLOGY_DIFFERS:
-  case Status::PARTS_LOST:
-  case Status::SUCCESS: break;
-  }
+  const std::string reason = reason_for_no_mesh(result, names_of(o));
+  if(result.status == Status::BOUNDARY_NOT_MANIFOLD)
+    throw Invalid_mesh(reason);
+  if(!reason.empty())
+    throw std::runtime_error(reason);
 }
 
 void require_all(const std::vector<Check>& checks, std::size_t self_intersections)
@@ -143,10 +107,11 @@ void require_all(const std::vector<Check>& checks, std::size_t self_intersection
 
 void require_volume(const Options& o, const Outcome& outcome)
 {
-  const double ratio = outcome.fidelity.ratio_of_volumes();
-  if(o.fit() != Fit::NONE && !outcome.is_stopped && !(0.5 <= ratio && ratio <= 1.5))
-    throw std::runtime_error(times_volume(ratio, o)
-                             + after_semicolon(needed_for_thin_parts(outcome.result, o)));
+  if(o.fit() == Fit::NONE || outcome.is_stopped)
+    return;
+  const std::string reason = reason_for_no_likeness(outcome.result, outcome.fidelity, names_of(o));
+  if(!reason.empty())
+    throw std::runtime_error(reason);
 }
 
 void add_warnings(const Options& o, Outcome& outcome)
@@ -181,9 +146,9 @@ void add_warnings(const Options& o, Outcome& outcome)
   const bool is_fitted = o.fit() != Fit::NONE;
   const double ratio = f.ratio_of_volumes();
   if(is_fitted ? std::abs(ratio - 1) > volume_tolerance : ratio < 0.9 || ratio > 4)
-    warnings.push_back(times_volume(ratio, o));
+    warnings.push_back(sentence_on_volume(ratio, names_of(o)));
   add_differences(outcome.topology, o, warnings);
-  const std::string needed = needed_for_thin_parts(outcome.result, o);
+  const std::string needed = needed_for_thin_parts(outcome.result);
   if(!needed.empty() && (!outcome.topology.differences.empty() || outcome.result.number_of_lost_cells != 0))
     warnings.push_back(o.surface + ": " + needed);
 }

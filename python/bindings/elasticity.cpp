@@ -9,6 +9,7 @@
 #include "core/One_blas_thread.h"
 
 #include <CGAL/Linear_elasticity_3.h>
+#include <CGAL/Linear_elasticity_3/adapt_mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/resect.h>
 
@@ -19,8 +20,10 @@
 #include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace {
 
@@ -47,6 +50,27 @@ struct Computation
   const One_blas_thread one_thread;
 };
 
+using Material = std::tuple<double, double, double>;
+
+mm3::Elastic_material material_of(const Material& m)
+{
+  const auto [young_modulus, poisson_ratio, density] = m;
+  if(!(young_modulus > 0) || !(poisson_ratio >= 0 && poisson_ratio < 0.5) || !(density >= 0))
+    throw std::invalid_argument("material: expected a positive Young's modulus, Poisson's ratio from 0 to "
+                                "below 0.5, and a density that is not negative");
+  return {young_modulus, poisson_ratio, density};
+}
+
+// The material of each element: materials of labels, and that of the other elements.
+std::vector<mm3::Elastic_material> materials_of(const Mesh& mesh, const std::map<int, Material>& materials,
+                                                const Material& other)
+{
+  std::map<mm3::Subdomain_index, mm3::Elastic_material> of_labels;
+  for(const auto& [label, m] : materials)
+    of_labels[mm3::Subdomain_index(label)] = material_of(m);
+  return mm3::materials_of_elements(mesh, of_labels, material_of(other));
+}
+
 // Keeps the mesh that the solver refers to, and factors the system when the factor is first needed.
 class Elasticity
 {
@@ -71,24 +95,11 @@ class Elasticity
   }
 
 public:
-  Elasticity(std::shared_ptr<const Mesh> mesh,
-             const std::map<int, std::tuple<double, double, double>>& materials,
-             const std::tuple<double, double, double>& other)
-    : m_mesh(std::move(mesh))
+  Elasticity(std::shared_ptr<const Mesh> mesh, const std::map<int, Material>& materials,
+             const Material& other)
+    : m_mesh(std::move(mesh)),
+      m_solver(std::make_unique<Solver>(*m_mesh, materials_of(*m_mesh, materials, other)))
   {
-    const auto material = [](const std::tuple<double, double, double>& m) {
-      const auto [young_modulus, poisson_ratio, density] = m;
-      if(!(young_modulus > 0) || !(poisson_ratio >= 0 && poisson_ratio < 0.5) || !(density >= 0))
-        throw std::invalid_argument(
-          "material: expected a positive Young's modulus, Poisson's ratio from 0 to "
-          "below 0.5, and a density that is not negative");
-      return mm3::Elastic_material{young_modulus, poisson_ratio, density};
-    };
-    std::map<mm3::Subdomain_index, mm3::Elastic_material> of_labels;
-    for(const auto& [label, m] : materials)
-      of_labels[mm3::Subdomain_index(label)] = material(m);
-    m_solver = std::make_unique<Solver>(*m_mesh,
-                                        mm3::materials_of_elements(*m_mesh, of_labels, material(other)));
   }
 
   void fix(const Marks& vertices)
@@ -197,6 +208,52 @@ public:
   }
 };
 
+// Moves inner vertices along configurational forces; a load case is the displacements of marked vertices.
+py::dict adapt(Mesh& mesh, const std::vector<std::pair<Marks, Doubles>>& cases,
+               const std::map<int, Material>& materials, const Material& other, double quality_bound,
+               int maximal_number_of_solves)
+{
+  std::vector<mm3::Prescribed_displacements> prescribed;
+  for(const auto& [vertices, displacements] : cases) {
+    const std::vector<bool> marks = marks_of(vertices, mesh.number_of_vertices(), "cases: vertices");
+    const std::vector<Vector> values = vectors_of(displacements, "cases: displacements");
+    if(values.size() != marks.size())
+      throw std::invalid_argument("cases: expected a displacement for each of " + std::to_string(marks.size())
+                                  + " vertices, of which only those of the "
+                                    "marked ones count");
+    prescribed.emplace_back();
+    for(mm3::Vertex_index v = 0; v < marks.size(); ++v)
+      if(marks[v]) {
+        if(!std::isfinite(norm(values[v])))
+          throw std::invalid_argument("cases: the displacement of vertex " + std::to_string(v)
+                                      + " is not finite");
+        prescribed.back()[v] = values[v];
+      }
+  }
+  const auto criteria = CGAL::Mixed_mesh_adaptation_criteria_3()
+                          .quality_bound(quality_bound)
+                          .maximal_number_of_solves(maximal_number_of_solves);
+  const std::vector<mm3::Elastic_material> of_elements = materials_of(mesh, materials, other);
+  CGAL::Mixed_mesh_adaptation_result_3 result;
+  {
+    const Computation computation;
+    result = CGAL::adapt_mixed_mesh_3(mesh, of_elements, prescribed, criteria);
+  }
+  using Status = CGAL::Mixed_mesh_adaptation_status;
+  if(result.status != Status::CONVERGED && result.status != Status::SOLVES_EXHAUSTED)
+    throw Elasticity_error(std::string("adapt(): ") + mm3::description(result.status));
+  py::dict report;
+  report["status"] = std::string(mm3::description(result.status));
+  report["steps"] = result.number_of_steps;
+  report["solves"] = result.number_of_solves;
+  report["energies before"] = result.energies_before;
+  report["energies after"] = result.energies_after;
+  report["energy after / before"] = result.functional;
+  report["worst ARC before"] = result.worst_aspect_ratio_before;
+  report["worst ARC after"] = result.worst_aspect_ratio_after;
+  return report;
+}
+
 py::array_t<bool> removed_elements(const mm3::Resection_3& r)
 {
   if(r.status != mm3::Resection_status::SUCCESS)
@@ -230,8 +287,7 @@ void add_elasticity(py::module_& module)
 {
   py::register_exception<Elasticity_error>(module, "ElasticityError", PyExc_RuntimeError);
   py::class_<Elasticity>(module, "Elasticity")
-    .def(py::init<std::shared_ptr<const Mesh>, const std::map<int, std::tuple<double, double, double>>&,
-                  const std::tuple<double, double, double>&>())
+    .def(py::init<std::shared_ptr<const Mesh>, const std::map<int, Material>&, const Material&>())
     .def("fix", &Elasticity::fix)
     .def("slide", &Elasticity::slide)
     .def("touch", &Elasticity::touch, py::arg("vertices"), py::arg("gap") = 0.)
@@ -245,6 +301,7 @@ void add_elasticity(py::module_& module)
     .def("contact_forces", &Elasticity::contact_forces)
     .def("leave_one_out_errors", &Elasticity::leave_one_out_errors)
     .def_property_readonly("energy", &Elasticity::energy);
+  module.def("adapt", &adapt);
   module.def("resect", &resect);
   module.def("resect_elements", &resect_elements);
   module.def("boundary_vertices", &boundary_vertices);

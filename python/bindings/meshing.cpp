@@ -6,13 +6,11 @@
 // Meshes from surfaces.
 
 #include "arrays.h"
+#include "core/comparison.h"
 
 #include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
 #include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
-#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_image_3/IO/read_anatomical_surface.h>
-#include <CGAL/Mixed_mesh_3/fidelity.h>
-#include <CGAL/Mixed_mesh_3/surface_distance.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
 #include <CGAL/fit_mixed_mesh_to_surface.h>
@@ -102,25 +100,6 @@ using Soup = std::tuple<Doubles, Integers>;
 using Weighted_soup = std::tuple<Doubles, Integers, double>;
 using Labeled_soup = std::tuple<Doubles, Integers, int>;
 
-[[noreturn]] void refuse(const CGAL::Mixed_mesh_result_3& result, std::size_t vertices, std::size_t regions)
-{
-  switch(result.status) {
-  case Status::BUDGET_TOO_SMALL:
-    throw Meshing_error("vertices=" + std::to_string(vertices)
-                        + ": too small, the coarsest mesh of the surface at base level "
-                        + std::to_string(result.base_level) + " has at least "
-                        + std::to_string(result.number_of_vertices_needed) + " vertices");
-  case Status::EMPTY:
-    throw Meshing_error(
-      "surface: too thin for this budget, no octree vertex is inside; try more vertices or a "
-      "larger base_level");
-  case Status::REGION_NOT_MET:
-    throw Meshing_error(regions == 1 ? "region: the region does not meet the domain"
-                                     : "none of the regions meets the domain");
-  default: throw Meshing_error(std::string(mm3::description(result.status)));
-  }
-}
-
 // Elements in the order of files: by kind, within a kind in the order of the mesh.
 Mesh sorted_by_kind(const Mesh& mesh)
 {
@@ -135,28 +114,31 @@ Mesh sorted_by_kind(const Mesh& mesh)
   return sorted;
 }
 
-// The part of the report that compares a mesh with its surface.
-void compare(const Mesh& mesh, const Surface& surface, const CGAL::Mixed_mesh_result_3& result,
-             py::dict& report, std::vector<std::string>& warnings)
+// Compares a mesh with its surface, as the program does. \throw Meshing_error if it does not represent it
+void compare(const Mesh& mesh, const Surface& surface, double tolerance,
+             const CGAL::Mixed_mesh_result_3& result, const Input_names& names, py::dict& report,
+             std::vector<std::string>& warnings)
 {
-  mm3::Solid_comparison comparison;
-  double distance;
+  Status status = result.status;
+  Topology topology;
+  Fidelity fidelity;
   {
     const py::gil_scoped_release release;
-    comparison = mm3::compare_with_surface(mesh, surface);
-    distance = mm3::hausdorff_distance(mesh, surface).distance();
+    topology = topology_of(mesh, surface, true, status);
+    fidelity = fidelity_of(mesh, surface, topology.surface.volume);
   }
-  for(const mm3::Solid_difference& difference : comparison.differences)
-    warnings.push_back("surface: " + difference.sentence);
-  report["status"] = std::string(
-    mm3::description(mm3::worse_status(result.status, mm3::status_of(comparison))));
-  const auto& o = result.optimization;
-  report["volume"] = comparison.mesh.volume;
-  report["volume of surface"] = comparison.surface.volume;
-  report["same topology"] = comparison.has_same_topology();
-  report["Hausdorff distance"] = distance;
-  report["boundary vertices"] = o.number_of_boundary_vertices;
-  report["boundary vertices not on surface"] = o.number_of_boundary_vertices - o.number_of_arrived_vertices;
+  const std::string defect = reason_for_no_likeness(result, fidelity, names);
+  if(!defect.empty())
+    throw Meshing_error(defect);
+  for(const Difference& difference : topology.differences)
+    warnings.push_back(names.surface + ": " + difference.sentence);
+  report["status"] = std::string(mm3::description(checked_status(status, fidelity, tolerance)));
+  report["volume"] = fidelity.volume_of_mesh;
+  report["volume of surface"] = fidelity.volume_of_surface;
+  report["same topology"] = topology.is_same;
+  report["Hausdorff distance"] = fidelity.distance();
+  report["boundary vertices"] = fidelity.vertices;
+  report["boundary vertices not on surface"] = fidelity.vertices_off;
   report["number of vertices needed"] = result.number_of_vertices_for_thin_parts;
 }
 
@@ -196,7 +178,6 @@ make_mesh(const Soup& soup, const std::vector<Weighted_soup>& regions,
                     .exchange_vertices(exchange)
                     .quality_bound(quality_bound)
                     .sharp_angle(sharp_angle);
-  criteria.share_of_bisections(criteria.share_of_bisections_for(domain.subdomain_indices().size()));
   if(base_level)
     criteria.base_level(*base_level);
   if(tolerance > 0)
@@ -211,14 +192,18 @@ make_mesh(const Soup& soup, const std::vector<Weighted_soup>& regions,
                                                                         std::ref(visitor)));
   }
   visitor.rethrow();
-  if(!result.has_mesh() || result.status == Status::BOUNDARY_NOT_MANIFOLD)
-    refuse(result, vertices, regions.size());
+  const Input_names names{"surface", "vertices=" + std::to_string(vertices), "base_level",
+                          tolerance == 0 ? "tolerance" : "",
+                          std::vector<std::string>(regions.size(), "region")};
+  const std::string reason = reason_for_no_mesh(result, names);
+  if(!reason.empty())
+    throw Meshing_error(reason);
   if(fewest_vertices && result.status > Status::BUDGET_NOT_FILLED)
     throw Meshing_error("vertices: not even " + std::to_string(result.vertex_budget)
                         + " are within the tolerance: " + mm3::description(result.status));
   py::dict report;
   report["vertex budget"] = result.vertex_budget;
-  compare(*mesh, boundary, result, report, warnings);
+  compare(*mesh, boundary, tolerance, result, names, report, warnings);
   *mesh = sorted_by_kind(*mesh);
   report["warnings"] = warnings;
   return {mesh, report};
@@ -275,7 +260,7 @@ py::dict fit(Mesh& mesh, const Soup& soup, const Progress& progress)
 }
 
 // A closed surface from a file: points, triangles, and repairs.
-py::tuple read_surface(const std::string& path, bool is_strict, double wrap_diameter)
+py::tuple read_surface_arrays(const std::string& path, bool is_strict, double wrap_diameter)
 {
   mm3::IO::Read_anatomical_surface_options options;
   options.is_strict = is_strict;
@@ -303,5 +288,5 @@ void add_meshing(py::module_& module)
   module.def("mesh", &make_mesh);
   module.def("optimize", &optimize);
   module.def("fit", &fit);
-  module.def("read_surface", &read_surface);
+  module.def("read_surface", &read_surface_arrays);
 }

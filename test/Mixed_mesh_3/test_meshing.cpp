@@ -158,11 +158,10 @@ void test_paper(const Polyhedral_mixed_mesh_domain_3& domain, const Polyhedral_m
     BOOST_TEST(internal::refine_to_level(octree, base_level, 1500));
     Default_visitor default_visitor;
     internal::Visitor_reference<Default_visitor> visitor(default_visitor);
-    const auto candidate = internal::fill_vertex_budget(octree, 1500, 0,
-                                                        [&](const internal::Located_octree& o) {
-                                                          return internal::make_candidate(o, criteria,
-                                                                                          visitor);
-                                                        });
+    const auto candidate = internal::fill_vertex_budget(
+      octree, 1500, 0, [&](const internal::Located_octree& o) {
+        return internal::make_candidate(o, {criteria, 1}, visitor);
+      });
     internal::assemble_mesh(octree, candidate.mesh, candidate.boundary, expected);
     BOOST_TEST(content(mesh) == content(expected));
 

@@ -429,6 +429,51 @@ class Test(unittest.TestCase):
         self.assertTrue((model.contact_forces() >= 0).all())
         self.assertTrue((model.contact_forces() > 0).any())
 
+    def adaptation_cases(self, m):
+        """Bumps of the top of the brain along z and x, with the lower part held: vertices and displacements."""
+        z = m.points[:, 2]
+        boundary = mm3.boundary_vertices(m)
+        is_held = boundary & (z < z.min() + 0.3 * np.ptp(z))
+        top = m.points[boundary & (z == z[boundary].max())][0]
+        r = np.linalg.norm(m.points - top, axis=1)
+        is_loaded = boundary & (r < 25)
+        height = np.where(is_loaded, (1 + np.cos(np.pi * r / 25)) / 2, 0)
+        return [(is_held | is_loaded, height[:, None] * np.array(direction)) for direction in ([0, 0, 1.0], [1.0, 0, 0])]
+
+    def test_adapt(self):
+        """Energies of the solution fall, which Elasticity with few steps would see as well; and the mesh stays valid."""
+        m, _ = mm3.mesh(*BRAIN, region=REGION, vertices=400)
+        cases = self.adaptation_cases(m)
+        adapted, report = mm3.adapt(m, cases, solves=8)
+        self.assertLess(report["energy after / before"], 0.99)
+        self.assertEqual(report["solves"], 8)
+        self.assertAlmostEqual(report["energy after / before"],
+                               np.mean(np.divide(report["energies after"], report["energies before"])))
+        self.assertLessEqual(report["worst ARC after"], max(3.2, report["worst ARC before"]))
+        self.assertTrue(mm3.certify(adapted).all())
+        boundary = mm3.boundary_vertices(m)
+        np.testing.assert_array_equal(adapted.points[boundary], m.points[boundary])
+        self.assertGreater(np.abs(adapted.points - m.points).max(), 0.1)
+        # The energy that another object finds on both meshes, of elements that do not lock, falls, too.
+        energies = []
+        for mesh in (m, adapted):
+            model = mm3.Elasticity(mesh, poisson_ratio=0.3)
+            vertices, displacements = cases[0]
+            model.fix(vertices & ~displacements.any(axis=1))
+            marked = vertices & displacements.any(axis=1)
+            model.set_control_points(mesh.points[marked])
+            model.solve(displacements[marked])
+            energies.append(model.energy)
+        self.assertLess(energies[1], energies[0])
+        with self.assertRaisesRegex(ValueError, "cases: expected a displacement for each of"):
+            mm3.adapt(m, [(boundary, np.zeros((3, 3)))])
+        with self.assertRaisesRegex(ValueError, "is not finite"):
+            mm3.adapt(m, [(boundary, np.full((len(m.points), 3), np.nan))])
+        with self.assertRaisesRegex(mm3.ElasticityError, "no load"):
+            mm3.adapt(m, [(boundary, np.zeros((len(m.points), 3)))])
+        with self.assertRaisesRegex(mm3.ElasticityError, "solver failed"):
+            mm3.adapt(m, [(np.arange(len(m.points)) == 0, np.ones((len(m.points), 3)))])
+
     def test_threads_of_numpy(self):
         """The solver takes one thread of the BLAS, and gives back those that NumPy had, also if two solve at once."""
         functions = blas_threads()

@@ -101,12 +101,17 @@ struct Element_of_complex
   Element_attributes attributes;
 };
 
+/// A handle or descriptor of a dart, which iterators become.
+template <class LCC>
+using Dart_of =
+  std::decay_t<decltype(std::declval<const LCC&>().beta(std::declval<const LCC&>().darts().begin(), 1))>;
+
 /// The number of vertices of the face of a dart, at most 5; the count ends where the face is open.
-template <class LCC, class Dart>
-int size_of_face(const LCC& lcc, Dart dart)
+template <class LCC>
+int size_of_face(const LCC& lcc, Dart_of<LCC> dart)
 {
   int n = 0;
-  Dart next = dart;
+  Dart_of<LCC> next = dart;
   do {
     next = lcc.template is_free<1>(next) ? dart : lcc.beta(next, 1);
     ++n;
@@ -116,8 +121,8 @@ int size_of_face(const LCC& lcc, Dart dart)
 
 /// The kind of the volume of a dart with given vertices; none if a face is neither a triangle nor a
 /// quadrilateral, or the volume is not an element.
-template <class LCC, class Dart>
-std::optional<Element_kind> kind_of_volume(const LCC& lcc, Dart dart, std::size_t number_of_vertices)
+template <class LCC>
+std::optional<Element_kind> kind_of_volume(const LCC& lcc, Dart_of<LCC> dart, std::size_t number_of_vertices)
 {
   int faces = 0, triangles = 0;
   for(auto f = lcc.template one_dart_per_incident_cell<2, 3>(dart).begin(),
@@ -134,8 +139,8 @@ std::optional<Element_kind> kind_of_volume(const LCC& lcc, Dart dart, std::size_
 }
 
 /// The element that is the volume of a dart; none if the volume is not closed, or not an element.
-template <class LCC, class Dart>
-std::optional<Element_of_complex<LCC>> element_of_volume(const LCC& lcc, Dart of_volume)
+template <class LCC>
+std::optional<Element_of_complex<LCC>> element_of_volume(const LCC& lcc, Dart_of<LCC> of_volume)
 {
   std::set<const typename LCC::Point*> vertices;
   for(auto d = lcc.template darts_of_cell<3>(of_volume).begin(),
@@ -154,7 +159,7 @@ std::optional<Element_of_complex<LCC>> element_of_volume(const LCC& lcc, Dart of
   while(size_of_face(lcc, dart) != base.size)
     ++dart;
   Element_of_complex<LCC> element{*kind, std::vector<const typename LCC::Point*>(vertices.size()), {}};
-  std::decay_t<decltype(lcc.beta(dart, 1))> b = dart;
+  Dart_of<LCC> b = dart;
   for(int i = 0; i < base.size; ++i, b = lcc.beta(b, 0)) {
     const int v = base.vertices[i];
     const int above = *kind == HEXAHEDRON ? v + 4 : *kind == PRISM ? v + 3 : base.size;

@@ -2,8 +2,8 @@
 """Mixed-element finite-element meshes from arrays, and computations on these meshes.
 
 Points are (n, 3) arrays in mm, triangles are (m, 3) arrays of indices of points. The meshes are those of
-make_mixed_mesh_3() in C++, and of the program mixed_mesh_3 where the program does not mesh a surface with thin parts a
-second time; the manual describes guarantees and parameters. Elements are sorted by kind, as in files.
+make_mixed_mesh_3() in C++, and of the program mixed_mesh_3; the manual describes guarantees and parameters. Elements
+are sorted by kind, as in files.
 
     import mixed_mesh_3 as mm3
     data = mm3.example_data()
@@ -26,8 +26,8 @@ from ._core import ElasticityError, Mesh, MeshingError, boundary_vertices
 from ._page import Page, make_page as _make_page
 
 __version__ = "0.1.0"
-__all__ = ["Elasticity", "ElasticityError", "KINDS", "Mesh", "MeshingError", "Page", "boundary_vertices", "certify", "complete_label",
-           "defects", "example_data", "fit", "label_surface", "mesh", "mesh_labels", "optimize", "quality", "read_image",
+__all__ = ["Elasticity", "ElasticityError", "KINDS", "Mesh", "MeshingError", "Page", "adapt", "boundary_vertices", "certify",
+           "complete_label", "defects", "example_data", "fit", "label_surface", "mesh", "mesh_labels", "optimize", "quality", "read_image",
            "read_surface", "resect", "warp"]
 
 #: The kinds of elements, with the names of meshio: the values of Mesh.kinds are indices of this tuple.
@@ -144,6 +144,10 @@ def _soup(name, soup):
     if triangles.dtype.kind not in "iu":
         raise ValueError(f"{name}: triangles are numbers of points: expected integers, not {triangles.dtype}")
     return points, triangles
+
+
+def _materials(materials, density):
+    return {label: (*m, density)[:3] for label, m in (materials or {}).items()}
 
 
 def _regions(region):
@@ -309,6 +313,24 @@ def quality(mesh, measure="ARC"):
     return _core.quality(mesh, measure)
 
 
+def adapt(mesh, cases, *, young_modulus=1.0, poisson_ratio=0.3, materials=None, quality_bound=3.2, solves=20):
+    """A mesh whose inner vertices are where elements have less energy, and less error, under the loads to come, and a
+    report; the given mesh does not change.
+
+    cases: load cases, each (vertices, displacements): an array of truth values that marks the vertices with prescribed
+    displacements, enough to hold rigid motions, and the displacements, (n, 3) in mm, 0 where a vertex is held. Without
+    known loads, unit bumps of the boundary around the opening, along its normal and two tangents, are a good choice.
+    materials: as for Elasticity. Standard elements lock at a high Poisson's ratio, and the energy would be that of locking.
+    quality_bound: the largest aspect-ratio coefficient of an element. solves: how often the cases are solved at most.
+    """
+    result = _copy.copy(mesh)
+    return result, _core.adapt(
+        result, [(_np.asarray(vertices), _np.asarray(displacements, dtype=float)) for vertices, displacements in cases],
+        _materials(materials, 0.0), (young_modulus, poisson_ratio, 0.0),
+        _number("quality_bound", quality_bound, lambda x: x == 0 or x >= 1, "of at least 1, or 0 for none"),
+        _count("solves", solves))
+
+
 def resect(mesh, points=None, triangles=None, *, label=None):
     """The elements that a closed surface encloses, or that have a label, to be removed: an array of truth values."""
     if (points is None) == (label is None):
@@ -340,8 +362,7 @@ class Elasticity(_core.Elasticity):
     """
 
     def __init__(self, mesh, young_modulus=1.0, poisson_ratio=0.45, density=1e-6, *, materials=None):
-        of_labels = {label: (*m, density)[:3] for label, m in (materials or {}).items()}
-        super().__init__(mesh, of_labels, (young_modulus, poisson_ratio, density))
+        super().__init__(mesh, _materials(materials, density), (young_modulus, poisson_ratio, density))
 
     def set_control_points(self, points, *, largest_distance=0.0, compliance=0.0, radius=0.0, weights=()):
         """Sets the points at which displacements are given. largest_distance: up to this distance outside, the nearest

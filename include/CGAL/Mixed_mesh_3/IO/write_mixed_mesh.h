@@ -32,6 +32,10 @@ class Output_files;
 
 namespace internal {
 
+/// Writes a mesh in a format. \return whether all went well
+bool write(std::ostream& stream, const Mixed_meshes_3::internal::Core_mesh& mesh, Format format,
+           const Write_options& options);
+
 /// As `write_mixed_mesh()`, compiled once.
 bool write_core_mesh(Output_files& files, const std::string& path,
                      const Mixed_meshes_3::internal::Core_mesh& mesh, const Write_options& options,

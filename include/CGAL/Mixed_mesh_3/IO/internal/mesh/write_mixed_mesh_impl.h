@@ -31,6 +31,12 @@ namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
 
+CGAL_MIXED_MESH_3_INLINE bool write(std::ostream& stream, const Core_mesh& mesh, Format format,
+                                    const Write_options& options)
+{
+  return format_traits(format).write(stream, mesh, options);
+}
+
 // What is wrong with the order of the elements; empty if nothing is.
 inline std::string order_defect(const Mesh_format& format, int order)
 {

@@ -97,27 +97,35 @@ inline std::size_t remove_repeated(Polygons& polygons)
   return before - polygons.size();
 }
 
-// Removes polygons with a vertex twice, repeated polygons, and unused points.
-inline void remove_superfluous(Points& points, Polygons& polygons, Surface_input& input)
+// Numbers of polygons with a vertex twice, of repeated polygons, and of unused points, which are removed.
+struct Superfluous
 {
-  namespace PMP = CGAL::Polygon_mesh_processing;
-  const std::size_t before = polygons.size();
-  polygons.erase(std::remove_if(polygons.begin(), polygons.end(),
-                                [](std::vector<std::size_t> p) {
-                                  std::sort(p.begin(), p.end());
-                                  return std::adjacent_find(p.begin(), p.end()) != p.end();
-                                }),
-                 polygons.end());
-  if(polygons.size() != before)
-    input.warnings.push_back("dropped "
-                             + counted(before - polygons.size(), "degenerate face", "degenerate faces"));
-  const std::size_t doubled = remove_repeated(polygons);
-  if(doubled != 0)
-    input.warnings.push_back("merged " + counted(doubled, "duplicate face", "duplicate faces"));
-  const std::size_t unused = PMP::remove_isolated_points_in_polygon_soup(points, polygons);
-  if(unused != 0)
-    input.warnings.push_back("ignored " + counted(unused, "unused point", "unused points"));
-}
+  std::size_t degenerate = 0, repeated = 0, unused = 0;
+
+  void remove(Points& points, Polygons& polygons)
+  {
+    const std::size_t before = polygons.size();
+    polygons.erase(std::remove_if(polygons.begin(), polygons.end(),
+                                  [](std::vector<std::size_t> p) {
+                                    std::sort(p.begin(), p.end());
+                                    return std::adjacent_find(p.begin(), p.end()) != p.end();
+                                  }),
+                   polygons.end());
+    degenerate += before - polygons.size();
+    repeated += remove_repeated(polygons);
+    unused += CGAL::Polygon_mesh_processing::remove_isolated_points_in_polygon_soup(points, polygons);
+  }
+
+  void warn(Surface_input& input) const
+  {
+    if(degenerate != 0)
+      input.warnings.push_back("dropped " + counted(degenerate, "degenerate face", "degenerate faces"));
+    if(repeated != 0)
+      input.warnings.push_back("merged " + counted(repeated, "duplicate face", "duplicate faces"));
+    if(unused != 0)
+      input.warnings.push_back("ignored " + counted(unused, "unused point", "unused points"));
+  }
+};
 
 // Merges points at edges of one face only; returns the number of removed points. If a surface is closed as
 // given, points at the same place belong to sheets that touch.
@@ -167,12 +175,17 @@ inline void take_faces(const std::string& path, Surface_soup soup, Points& point
   input.number_of_points = points.size();
   input.number_of_polygons = polygons.size();
 
+  Superfluous superfluous;
+  if(!soup.repeats_points)
+    superfluous.remove(points, polygons); // edges of a face that is there twice look closed
   if(count_edges(polygons).open != 0) {
     const std::size_t merged = merge_border_points(points, polygons);
     if(merged != 0 && !soup.repeats_points)
       input.warnings.push_back("merged " + counted(merged, "duplicate point", "duplicate points"));
+    if(merged != 0)
+      superfluous.remove(points, polygons);
   }
-  remove_superfluous(points, polygons, input);
+  superfluous.warn(input);
   if(polygons.empty())
     refuse(path, "all its faces are degenerate");
 }

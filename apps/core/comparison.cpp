@@ -1,0 +1,125 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "core/comparison.h"
+
+#include "core/messages.h"
+
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/fidelity.h>
+#include <CGAL/Mixed_mesh_3/quality.h>
+#include <CGAL/Mixed_mesh_3/surface_distance.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mm3 = CGAL::Mixed_meshes_3;
+using Status = CGAL::Mixed_mesh_status;
+
+namespace {
+
+Distance distance_of(const mm3::One_sided_distance& d)
+{
+  return {d.distance, d.error, {d.from.x(), d.from.y(), d.from.z()}, {d.to.x(), d.to.y(), d.to.z()}};
+}
+
+Solid solid_of(const mm3::Solid_topology& t)
+{
+  return {t.number_of_bodies, t.number_of_handles, t.number_of_cavities, t.volume};
+}
+
+std::string after_semicolon(const std::string& text) { return text.empty() ? text : "; " + text; }
+
+} // namespace
+
+Fidelity fidelity_of(const Mesh& mesh, const Surface& surface, double volume_of_surface)
+{
+  const mm3::Hausdorff_distance distance = mm3::hausdorff_distance(mesh, surface);
+  Fidelity f;
+  f.from_mesh = distance_of(distance.from_mesh);
+  f.from_surface = distance_of(distance.from_surface);
+  f.volume_of_mesh = mm3::volume(mesh);
+  f.volume_of_surface = volume_of_surface;
+  f.vertices = mm3::boundary_vertices(mesh).size();
+  f.vertices_off = mm3::number_of_vertices_off_surface(mesh, surface, on_surface);
+  return f;
+}
+
+Topology topology_of(const Mesh& mesh, const Surface& surface, bool is_fitted, Status& status)
+{
+  mm3::Solid_comparison c = mm3::compare_with_surface(mesh, surface, volume_tolerance);
+  auto& d = c.differences;
+  if(!is_fitted)
+    d.erase(std::remove_if(d.begin(), d.end(),
+                           [](const auto& x) { return x.kind == mm3::Solid_difference_kind::VOLUME; }),
+            d.end());
+  status = mm3::worse_status(status, mm3::status_of(c));
+  Topology t{solid_of(c.surface), solid_of(c.mesh), {}, c.has_same_topology()};
+  for(const mm3::Solid_difference& x : d)
+    t.differences.push_back({x.sentence, {x.point.x(), x.point.y(), x.point.z()}});
+  return t;
+}
+
+Status checked_status(Status status, const Fidelity& fidelity, double tolerance)
+{
+  const bool is_missed = tolerance > 0 && fidelity.distance() > tolerance;
+  return status == Status::SUCCESS && is_missed ? Status::TOLERANCE_NOT_REACHED : status;
+}
+
+std::string needed_for_thin_parts(const CGAL::Mixed_mesh_result_3& result)
+{
+  const std::size_t n = result.number_of_vertices_for_thin_parts;
+  if(n <= result.vertex_budget)
+    return {};
+  const double unit = std::pow(10, std::floor(std::log10(double(n))) - 1); // two digits
+  return "a mesh that is fine enough for all its thin walls and narrow gaps is estimated at "
+         + std::to_string(std::size_t(std::ceil(double(n) / unit) * unit)) + " vertices; this one may have "
+         + std::to_string(result.vertex_budget);
+}
+
+std::string reason_for_no_mesh(const CGAL::Mixed_mesh_result_3& result, const Input_names& names)
+{
+  switch(result.status) {
+  case Status::BUDGET_TOO_SMALL:
+    return names.budget + ": too small, the coarsest mesh of " + names.surface + " at base level "
+           + std::to_string(result.base_level) + " has at least "
+           + std::to_string(result.number_of_vertices_needed) + " vertices";
+  case Status::EMPTY:
+    return names.surface
+           + ": too thin for this budget, no octree vertex is inside; try more vertices or a larger "
+           + names.base_level + after_semicolon(needed_for_thin_parts(result));
+  case Status::REGION_NOT_MET:
+    return names.regions.size() == 1
+             ? names.regions.front() + ": the region does not meet the domain of " + names.surface
+             : names.surface + ": none of the regions meets the domain";
+  case Status::STOPPED: return result.is_kept ? "" : "stopped before there was a mesh: nothing is written";
+  case Status::BOUNDARY_NOT_MANIFOLD:
+    return "the boundary is pinched at the border of the root cell; try another " + names.base_level;
+  case Status::BUDGET_NOT_FILLED:
+  case Status::TOLERANCE_NOT_REACHED:
+  case Status::NOT_ALL_ARRIVED:
+  case Status::VOLUME_DIFFERS:
+  case Status::TOPOLOGY_DIFFERS:
+  case Status::PARTS_LOST:
+  case Status::SUCCESS: break;
+  }
+  return {};
+}
+
+std::string sentence_on_volume(double ratio, const Input_names& names)
+{
+  return names.surface + ": the mesh has " + as_part_of(ratio)
+         + " the surface's volume: it is too coarse for the domain; try more vertices or a larger "
+         + names.base_level + (names.tolerance.empty() ? "" : ", or " + names.tolerance);
+}
+
+std::string reason_for_no_likeness(const CGAL::Mixed_mesh_result_3& result, const Fidelity& fidelity,
+                                   const Input_names& names)
+{
+  const double ratio = fidelity.ratio_of_volumes();
+  return 0.5 <= ratio && ratio <= 1.5
+           ? ""
+           : sentence_on_volume(ratio, names) + after_semicolon(needed_for_thin_parts(result));
+}
