@@ -13,13 +13,13 @@ import pathlib
 import re
 import sys
 
-from check_layers import MAY_REACH, PUBLIC, chains_from, folder_of, read_includes
+from check_layers import ENTRY, MEASURES, MODELS, SERVICES, VOCABULARY, chains_from, folder_of, read_includes
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TEXT = ROOT / "ARCHITECTURE.md"
 BLOCK = re.compile(r"(<!-- graph of the includes -->\n)(.*?)(<!-- end of graph -->\n)", re.DOTALL)
 
-# What a folder is for. Each folder of check_layers.py has a line.
+# What a folder or a group of public headers is for.
 PURPOSES = {
     "base": "vectors, lattice points, threads",
     "elements": "measures of elements and faces",
@@ -38,18 +38,21 @@ PURPOSES = {
     "Linear_elasticity_3": "displacements",
     "Mixed_mesh_image_3": "images",
     "Mixed_mesh_petsc": "a solver for many processes",
-    PUBLIC: "make_mixed_mesh_3() and others",
+    SERVICES: "validation, fidelity, resect()",
+    ENTRY: "make_mixed_mesh_3() and others",
 }
+# Groups of public headers that are not drawn: arrows lead through them.
+NOT_DRAWN = {VOCABULARY, MEASURES, MODELS}
 
 
 def arrows_between_folders(includes):
     """For each folder, the others that its headers reach with nothing but public headers between."""
-    arrows = {folder: set() for folder in MAY_REACH}
+    arrows = {folder: set() for folder in PURPOSES}
     for header in includes:
         for other, chain in chains_from(header, includes).items():
-            if {folder_of(name) for name in chain[1:-1]} <= {PUBLIC}:
+            if {folder_of(name) for name in chain[1:-1]} <= NOT_DRAWN and folder_of(header) not in NOT_DRAWN:
                 arrows[folder_of(header)].add(folder_of(other))
-    return {folder: others - {folder, PUBLIC} for folder, others in arrows.items()}
+    return {folder: others - {folder, *NOT_DRAWN} for folder, others in arrows.items()}
 
 
 def reduced(arrows):
@@ -64,10 +67,10 @@ def reduced(arrows):
 
 def graph():
     arrows = reduced(arrows_between_folders(read_includes(ROOT)))
-    names = {folder: folder.replace(" ", "_") for folder in MAY_REACH}
+    names = {folder: folder.replace(" ", "_") for folder in PURPOSES}
     lines = ["```mermaid", "flowchart TD"]
-    lines += [f'  {names[folder]}["<b>{folder}</b><br>{PURPOSES[folder]}"]' for folder in MAY_REACH]
-    lines += [f"  {names[folder]} --> {names[other]}" for folder in MAY_REACH for other in MAY_REACH
+    lines += [f'  {names[folder]}["<b>{folder}</b><br>{PURPOSES[folder]}"]' for folder in PURPOSES]
+    lines += [f"  {names[folder]} --> {names[other]}" for folder in PURPOSES for other in PURPOSES
               if other in arrows[folder]]
     return "\n".join([*lines, "```", ""])
 

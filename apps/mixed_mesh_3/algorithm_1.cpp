@@ -15,7 +15,7 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 
 CGAL::Mixed_mesh_fit_result_3 run_algorithm_1(Mesh& mesh,
                                               const CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
-                                              const Options& o, Stage_log& log)
+                                              const Relaxation_options& o, Stage_log& log)
 {
   const auto criteria = CGAL::Mixed_mesh_fit_criteria_3()
                           .number_of_steps(o.steps)
@@ -40,7 +40,7 @@ CGAL::Mixed_mesh_fit_result_3 run_algorithm_1(Mesh& mesh,
 #include <stdexcept>
 
 CGAL::Mixed_mesh_fit_result_3 run_algorithm_1(Mesh&, const CGAL::Labeled_polyhedral_mixed_mesh_domain_3&,
-                                              const Options&, Stage_log&)
+                                              const Relaxation_options&, Stage_log&)
 {
   throw std::logic_error("checked with the options");
 }

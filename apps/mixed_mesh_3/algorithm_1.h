@@ -18,6 +18,6 @@
 /// Brings the boundary onto the surface by Algorithm 1. \pre the program was built with Eigen and the solver
 CGAL::Mixed_mesh_fit_result_3 run_algorithm_1(Mesh& mesh,
                                               const CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
-                                              const Options& options, Stage_log& log);
+                                              const Relaxation_options& options, Stage_log& log);
 
 #endif // MIXED_MESH_3_APPS_MIXED_MESH_3_ALGORITHM_1_H

@@ -506,7 +506,7 @@ void check_options(Options& o)
 
 } // namespace
 
-bool Options::is_in_patient_space() const
+bool Input_options::is_in_patient_space() const
 {
   const auto silent = {".off", ".obj", ".stl", ".ply", ".vtp", ".vtk"}; // endings of files that do not tell
   return surface_options.space || std::none_of(silent.begin(), silent.end(), [this](const char* ending) {
@@ -514,7 +514,7 @@ bool Options::is_in_patient_space() const
          });
 }
 
-std::string surrounding_name(const Options& o)
+std::string surrounding_name(const Input_options& o)
 {
   const std::string file = std::filesystem::path(o.surface).filename().string(),
                     name = file.substr(0, file.find('.'));

@@ -42,12 +42,10 @@ struct Subdomain_option
   Voxel_selection voxels = {}; // voxels of an image
 };
 
-struct Options
+/// The surfaces and images, and how they are read.
+struct Input_options
 {
-  using Templates = CGAL::Mixed_meshes_3::Transition_templates_choice;
-
-  std::string surface, report, page;
-  std::string command; // the command with all options
+  std::string surface;
   std::vector<Region_option> regions;
   std::vector<Subdomain_option> subdomains; // inside the surface; earlier ones count where they overlap
   std::vector<Subdomain_option> labels;     // labels of an image, with names, instead of voxels
@@ -57,14 +55,39 @@ struct Options
   Voxel_selection voxels;               // voxels of an image, the domain
   Label_completion completion;          // completion of the domain
   std::optional<double> smoothing;
-  std::vector<std::string> outputs;
-  std::size_t vertices = 0;
+  CGAL::Mixed_meshes_3::IO::Read_anatomical_surface_options surface_options;
+  std::size_t vertices = 0;     // surfaces of images are no finer than the mesh can follow
   bool fewest_vertices = false; // at most the number above
+
+  /// Whether the surface's file, or the user, says that coordinates are those of the patient, in mm.
+  bool is_in_patient_space() const;
+};
+
+/// The parameters of Algorithm 1.
+struct Relaxation_options
+{
+  using Criteria = CGAL::Mixed_mesh_fit_criteria_3;
+
+  int steps = Criteria().number_of_steps();
+  int layers = Criteria::automatic;
+  double poisson_ratio = Criteria().poisson_ratio();
+  double stiffness_factor = Criteria().stiffness_factor();
+  double maximal_stiffness = Criteria().maximal_stiffness();
+  double acceptable_quality = Criteria().acceptable_aspect_ratio();
+  Solver solver = Solver::CG;
+};
+
+struct Options : Input_options, Relaxation_options
+{
+  using Templates = CGAL::Mixed_meshes_3::Transition_templates_choice;
+
+  std::string report, page;
+  std::string command; // the command with all options
+  std::vector<std::string> outputs;
   int base_level = CGAL::Mixed_mesh_criteria_3::automatic;
   CGAL::Mixed_meshes_3::Boundary_mode mode = CGAL::Mixed_meshes_3::Boundary_mode::VERTEX_ORDER;
   CGAL::Mixed_meshes_3::Root_cell root = CGAL::Mixed_meshes_3::Root_cell::CUBE;
   Templates templates = Templates::FEWEST_VERTICES;
-  CGAL::Mixed_meshes_3::IO::Read_anatomical_surface_options surface_options;
   bool slit = false, no_exchange = false, no_fit = false, no_optimize = false, msh2 = false,
        tetrahedra = false, quiet = false;
   double tolerance = 0; // automatic
@@ -76,24 +99,12 @@ struct Options
   unsigned threads = 1;
   int order = 1; // of the elements in files
 
-  // Options of Algorithm 1.
-  int steps = CGAL::Mixed_mesh_fit_criteria_3().number_of_steps();
-  int layers = CGAL::Mixed_mesh_fit_criteria_3::automatic;
-  double poisson_ratio = CGAL::Mixed_mesh_fit_criteria_3().poisson_ratio();
-  double stiffness_factor = CGAL::Mixed_mesh_fit_criteria_3().stiffness_factor();
-  double maximal_stiffness = CGAL::Mixed_mesh_fit_criteria_3().maximal_stiffness();
-  double acceptable_quality = CGAL::Mixed_mesh_fit_criteria_3().acceptable_aspect_ratio();
-  Solver solver = Solver::CG;
-
-  /// Whether the surface's file, or the user, says that coordinates are those of the patient, in mm.
-  bool is_in_patient_space() const;
-
   bool has_quality_bound() const { return fit() == Fit::OPTIMIZATION && largest_arc > 0; }
   Fit fit() const { return no_fit ? Fit::NONE : no_optimize ? Fit::ALGORITHM_1 : Fit::OPTIMIZATION; }
 };
 
 /// The name of the subdomain around all others: the name of its file, if that is a valid name.
-std::string surrounding_name(const Options& options);
+std::string surrounding_name(const Input_options& options);
 
 /// Returns the exit status if the program ends with its command line: help, the version, or wrong use.
 std::optional<int> parse_command_line(int argc, char** argv, Options& options);

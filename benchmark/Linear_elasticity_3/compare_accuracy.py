@@ -3,7 +3,7 @@
 """The error of brain shift in the regions of openings.json, beside meshes of Mesh_3: tables and a plot.
 
   compare_accuracy.py DIRECTORY WORK [--regions front back] [--vertices 660 2000 10000] [--tune-mesh-3]
-                      [--adapt] [--options OPTIONS] [--plot FILE.png]
+                      [--adapt] [--options OPTIONS] [--plot FILE.png] [--summary FILE.md]
 
 DIRECTORY holds the programs mixed_mesh_3, benchmark_mesh_3, make_region and measure_accuracy. WORK gets
 
@@ -16,9 +16,10 @@ DIRECTORY holds the programs mixed_mesh_3, benchmark_mesh_3, make_region and mea
 
 What is there is used again, but for our meshes. Mesh_3's are made with a growth of sizes of 0.4; --tune-mesh-3
 tries others, and regions of another scale. Each column has the best of the settings in WORK. Each mesh is
-solved with standard elements, which lock, and with the elements of Linear_elasticity_3. --adapt adapts our
-meshes to the bump first, by adapt_mixed_mesh_3(). OPTIONS are some of mixed_mesh_3, as --options=--no-exchange. The plot
-needs matplotlib (Debian: python3-matplotlib).
+solved with standard elements, which lock, and with the elements of Linear_elasticity_3, whose displacement is also
+recovered between vertices. --adapt adapts the meshes of both to the bump first, by adapt_mixed_mesh_3(). OPTIONS are some
+of mixed_mesh_3, as --options=--no-exchange. The summary has the mean and the worst error of all regions, before and after
+adaptation, and whether they fall with N. The plot needs matplotlib (Debian: python3-matplotlib).
 """
 
 import argparse
@@ -37,7 +38,8 @@ REFERENCE = ("--vertices", 50000, "--base-level", 5, "--tetrahedra")  # 382,000 
 DEFAULT = (0.4, 1)  # growth of Mesh_3's sizes with the distance, scale of the region
 TUNING = tuple(itertools.product((0.15, 0.25, 0.4, 0.7, 1.0), (1, 1.4)))
 LOADS = {"bump": "bump of 10 mm, lower 30 % fixed, rest free", "smooth": "smooth, prescribed everywhere"}
-ELEMENTS = {"standard": "error of standard elements", "own": "error"}
+LARGEST_ADAPTED = 6000  # in the summary: with more vertices, all meshes would take hours
+ELEMENTS = {"standard": "error of standard elements", "own": "error", "recovered": "error of recovered displacements"}
 COLUMNS = tuple(itertools.product(LOADS, ELEMENTS))
 
 
@@ -52,7 +54,7 @@ def error(row, load, elements, where=""):
 class Comparison:
     def __init__(self, programs, work, openings, adapts=False, mesher_options=()):
         self.programs, self.work, self.mesher_options = programs, work, mesher_options
-        self.options = ["--adapt"] if adapts else []
+        self.adapts = adapts
         self.names = [o["name"] for o in openings]
         for folder in ("regions", "ref", "mesh_3", "mixed"):
             (work / folder).mkdir(parents=True, exist_ok=True)
@@ -85,11 +87,18 @@ class Comparison:
             run(self.programs / "mixed_mesh_3", BRAIN, "--region", regions, *REFERENCE, "--quiet", "--output", mesh)
             self.measure("--reference-mesh", mesh, "--regions", *missing)
 
-    def ours(self, name, vertices):
+    def errors(self, name, meshes, adapts):
+        lines = self.measure(*meshes, "--regions", name, *(["--adapt"] if adapts else [])).splitlines()
+        return [json.loads(line) for line in lines]
+
+    def make_ours(self, name, vertices):
         mesh = self.work / "mixed" / f"{name}_{vertices}.vtu"
         run(self.programs / "mixed_mesh_3", BRAIN, "--region", self.region(name), "--vertices", vertices,
             *self.mesher_options, "--quiet", "--output", mesh)
-        return json.loads(self.measure(mesh, "--regions", name, *self.options).splitlines()[0])
+        return mesh
+
+    def ours(self, name, vertices):
+        return self.errors(name, [self.make_ours(name, vertices)], self.adapts)[0]
 
     def mesh_3(self, name, vertices, settings):
         """Of each setting in WORK, those of `settings` among them."""
@@ -100,15 +109,17 @@ class Comparison:
                 run(self.programs / "benchmark_mesh_3", BRAIN, self.region(name), vertices, "--growth", growth,
                     "--region-scale", scale, "--output", mesh)
         meshes = sorted(folder.glob(f"{name}_{vertices}_*.vtu"))
-        references_time = max(self.reference(name, load).stat().st_mtime for load in LOADS)
-        outdated = [m for m in meshes if not m.with_suffix(".json").exists()
-                    or m.with_suffix(".json").stat().st_mtime < references_time]
+        ending = ".adapted.json" if self.adapts else ".json"
+        made = max(self.programs.joinpath("measure_accuracy").stat().st_mtime,
+                   *(self.reference(name, load).stat().st_mtime for load in LOADS))
+        outdated = [m for m in meshes if not m.with_suffix(ending).exists()
+                    or m.with_suffix(ending).stat().st_mtime < made]
         if outdated:
-            for mesh, line in zip(outdated, self.measure(*outdated, "--regions", name).splitlines()):
-                mesh.with_suffix(".json").write_text(line + "\n")
+            for mesh, errors in zip(outdated, self.errors(name, outdated, self.adapts)):
+                mesh.with_suffix(ending).write_text(json.dumps(errors) + "\n")
         rows = []
         for mesh in meshes:
-            rows.append(json.loads(mesh.with_suffix(".json").read_text()))
+            rows.append(json.loads(mesh.with_suffix(ending).read_text()))
             rows[-1]["setting"] = ", ".join(mesh.stem.split("_")[2:])
         return rows
 
@@ -156,6 +167,32 @@ def print_meshes(results, vertices, names):
                   + "".join(f" {100 * error(r, *c, ' in tumor'):.2f} |" for c in COLUMNS))
 
 
+def summary(comparison, counts, settings):
+    """Lines of Markdown: errors of all regions, before and after adaptation, and how much they rise with N at most."""
+    lines = ["| N | | mesher |" + "".join(f" {load}, {elements} |" for load, elements in COLUMNS),
+             "|--:|---|---|" + "--:|" * len(COLUMNS)]
+    means = {}
+    for n in counts:
+        for adapts in (False, True)[:1 + (n <= LARGEST_ADAPTED)]:
+            comparison.adapts = adapts
+            rows = {"ours": [comparison.ours(name, n) for name in comparison.names],
+                    "Mesh_3": [comparison.mesh_3(name, n, settings) for name in comparison.names]}
+            for mesher, of_mesher in rows.items():
+                cells = ""
+                for column in COLUMNS:
+                    errors = [error(best(row, *column) if isinstance(row, list) else row, *column) for row in of_mesher]
+                    means.setdefault((mesher, adapts, column), []).append(statistics.mean(errors))
+                    cells += f" {100 * statistics.mean(errors):.2f} ({100 * max(errors):.2f}) |"
+                lines.append(f"| {n:,} | {'adapted' if adapts else ''} | {mesher} |{cells}")
+    lines += ["", "Largest rise of the mean error from one N to the next:", ""]
+    for mesher in ("ours", "Mesh_3"):
+        for adapts in (False, True):
+            rises = [f"{load}, {elements} {max(b / a - 1 for a, b in zip(e, e[1:])):+.0%}"
+                     for (load, elements), e in ((c, means[mesher, adapts, c]) for c in COLUMNS) if len(e) > 1]
+            lines.append(f"- {mesher}{', adapted' if adapts else ''}: {'; '.join(rises)}")
+    return lines
+
+
 def plot(results, counts, names, file):
     import matplotlib
     matplotlib.use("Agg")
@@ -192,11 +229,15 @@ def main():
     parser.add_argument("--adapt", action="store_true")
     parser.add_argument("--options", type=str.split, default=[])
     parser.add_argument("--plot", type=pathlib.Path)
+    parser.add_argument("--summary", type=pathlib.Path)
     arguments = parser.parse_args()
     comparison = Comparison(arguments.directory, arguments.work,
                             [o for o in openings if o["name"] in arguments.regions], arguments.adapt, arguments.options)
     comparison.make_references()
     settings = TUNING if arguments.tune_mesh_3 else (DEFAULT,)
+    if arguments.summary:
+        arguments.summary.write_text("\n".join(summary(comparison, arguments.vertices, settings)) + "\n")
+        return
     results = {}
     for n in arguments.vertices:
         for name in comparison.names:

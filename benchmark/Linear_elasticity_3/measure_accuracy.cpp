@@ -15,6 +15,7 @@
 #include <CGAL/Linear_elasticity_3.h>
 #include <CGAL/Linear_elasticity_3/adapt_mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/IO/read_mixed_mesh.h>
+#include <CGAL/Mixed_mesh_3/Recovered_displacement_3.h>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -54,18 +55,28 @@ double relative_error(const std::vector<Vector>& u, const std::vector<Vector>& e
   return root_mean_square(difference, is_in_subset) / root_mean_square(exact, is_in_subset);
 }
 
+// The displacement at points of a mesh, by shape functions.
 std::vector<Vector> at_points(const Mesh& mesh, const std::vector<Vector>& displacements,
-                              const std::vector<Vector>& points)
+                              const std::vector<mm3::Element_location_3>& points)
 {
-  const mm3::Element_locator_3<Mesh> locator(mesh);
   std::vector<Vector> values;
-  for(const Vector& p : points) {
-    const mm3::Element_location_3 l = locator.nearest(p);
+  for(const mm3::Element_location_3& l : points) {
     Vector u{};
     for(int i = 0; i < mesh.element(l.element).size(); ++i)
       u = u + l.weights[i] * displacements[mesh.element(l.element)[i]];
     values.push_back(u);
   }
+  return values;
+}
+
+// The displacement at points of a mesh, by shape functions and recovered gradients.
+std::vector<Vector> recovered_at_points(const Mesh& mesh, const std::vector<Vector>& displacements,
+                                        const std::vector<mm3::Element_location_3>& points)
+{
+  const mm3::Recovered_displacement_3<Mesh> recovered(mesh, displacements);
+  std::vector<Vector> values;
+  for(const mm3::Element_location_3& l : points)
+    values.push_back(recovered(l));
   return values;
 }
 
@@ -212,15 +223,22 @@ nlohmann::ordered_json measure(const std::string& file, const std::string& work,
   if(is_adapted)
     line["adaptation"] = adaptation;
   const std::vector<bool> everywhere(c.points.size(), true);
+  const mm3::Element_locator_3<Mesh> locator(mesh);
+  std::vector<mm3::Element_location_3> points;
+  for(const Vector& p : c.points)
+    points.push_back(locator.nearest(p));
   for(const auto& [name, load] : c.loads) {
     const std::vector<Vector> exact = read_reference(reference_file(work, c, name));
     const auto [ours, standard] = solve(mesh, load, material);
-    const std::vector<Vector> u = at_points(mesh, ours, c.points), v = at_points(mesh, standard, c.points);
-    line[name] = {{"rms displacement, mm", root_mean_square(exact, everywhere)},
-                  {"error", relative_error(u, exact, everywhere)},
-                  {"error of standard elements", relative_error(v, exact, everywhere)},
-                  {"error in tumor", relative_error(u, exact, c.is_in_tumor)},
-                  {"error of standard elements in tumor", relative_error(v, exact, c.is_in_tumor)}};
+    line[name]["rms displacement, mm"] = root_mean_square(exact, everywhere);
+    const auto add = [&, &exact = exact, &to = line[name]](const std::string& key,
+                                                           const std::vector<Vector>& u) {
+      to[key] = relative_error(u, exact, everywhere);
+      to[key + " in tumor"] = relative_error(u, exact, c.is_in_tumor);
+    };
+    add("error", at_points(mesh, ours, points));
+    add("error of standard elements", at_points(mesh, standard, points));
+    add("error of recovered displacements", recovered_at_points(mesh, ours, points));
   }
   return line;
 }

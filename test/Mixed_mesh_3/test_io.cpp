@@ -860,7 +860,7 @@ void test_errors(const fs::path& directory)
     BOOST_TEST(mentions(write_error(path.string(), mesh), text));
   };
 
-  both(place / "mesh.stl", "known are .vtu .msh .msh2 .mesh .inp .feb");
+  both(place / "mesh.stl", "known are .vtu, .msh, .msh2, .mesh, .inp and .feb");
   both(place / "mesh", "unknown extension");
   both(place / ".vtu", "unknown extension");
   both("", "unknown extension");
@@ -890,11 +890,14 @@ void test_errors(const fs::path& directory)
   BOOST_TEST(mentions(write_error(old.string(), mesh, options), "size of the mesh"));
   BOOST_TEST(mentions(write_error((place / "old.msh").string(), mesh, options), "size of the mesh"));
   for(const char* name : {"old.inp", "old.mesh"})
-    BOOST_TEST(mentions(write_error((place / name).string(), mesh, options), "to .msh and .feb, only"));
+    BOOST_TEST(
+      mentions(write_error((place / name).string(), mesh, options), "to .msh, .msh2 and .feb, only"));
   options.vertex_data = {{"data", &values, 2}};
-  BOOST_TEST(mentions(write_error((place / "old.feb").string(), mesh, options), "to .msh and .feb, only"));
+  BOOST_TEST(
+    mentions(write_error((place / "old.feb").string(), mesh, options), "to .msh, .msh2 and .feb, only"));
   options.vertex_data = {{"da\"ta", &values}};
-  BOOST_TEST(mentions(write_error((place / "old.msh").string(), mesh, options), "to .msh and .feb, only"));
+  BOOST_TEST(
+    mentions(write_error((place / "old.msh").string(), mesh, options), "to .msh, .msh2 and .feb, only"));
   options.vertex_data.clear();
   options.element_data = {{"data", &values}};
   BOOST_TEST(mentions(write_error((place / "old.msh").string(), mesh, options), ".vtu only"));

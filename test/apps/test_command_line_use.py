@@ -224,7 +224,7 @@ class Use(Case):
     def test_progress(self):
         """On a terminal: a share of the work that never falls, and the time that is left."""
         terminal, stderr = os.openpty()
-        run = subprocess.Popen([MESHER, DATA / "brain.off", "--vertices", "10000", "--output", self.output], stderr=stderr,
+        run = subprocess.Popen([MESHER, DATA / "brain.off", "--vertices", "30000", "--output", self.output], stderr=stderr,
                                stdout=subprocess.DEVNULL)
         os.close(stderr)
         text = b""

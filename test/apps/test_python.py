@@ -152,7 +152,7 @@ class Test(unittest.TestCase):
             ("surface: vertex 2 has a coordinate that is not a finite number",
              (np.where(np.arange(8)[:, None] == 2, np.nan, points), triangles), {}, ValueError),
             ("surface: the surface is flat", (points * [1, 1, 0], triangles), {}, ValueError),
-            ("too small, the coarsest mesh of the surface", CUBE, {"vertices": 4, "base_level": 3}, mm3.MeshingError),
+            ("too small, the coarsest mesh of surface", CUBE, {"vertices": 4, "base_level": 3}, mm3.MeshingError),
             ("the region does not meet the domain", CUBE, {"region": (points + 10, triangles)}, mm3.MeshingError),
             ("region: the weight is not positive", CUBE, {"region": (points, triangles, 0)}, ValueError),
             (r"surface: expected an array of shape \(n, 3\)", (points[:, :2], triangles), {}, ValueError),

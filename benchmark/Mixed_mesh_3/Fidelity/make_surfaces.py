@@ -487,6 +487,13 @@ def problems(points, triangles):
     return found, euler
 
 
+def write_off(path, points, triangles):
+    with open(path, "w") as out:
+        out.write(f"OFF\n{len(points)} {len(triangles)} 0\n")
+        out.writelines(f"{x:.17g} {y:.17g} {z:.17g}\n" for x, y, z in points)
+        out.writelines(f"3 {a} {b} {c}\n" for a, b, c in triangles)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("folder", type=pathlib.Path)
@@ -498,10 +505,7 @@ def main():
         expected = 2 * (topology["bodies"] + topology["cavities"] - topology["handles"])
         if found or euler != expected:
             raise SystemExit(f"{name}: {found}, Euler characteristic {euler} instead of {expected}")
-        with open(folder / f"{name}.off", "w") as out:
-            out.write(f"OFF\n{len(points)} {len(triangles)} 0\n")
-            out.writelines(f"{x:.17g} {y:.17g} {z:.17g}\n" for x, y, z in points)
-            out.writelines(f"3 {a} {b} {c}\n" for a, b, c in triangles)
+        write_off(folder / f"{name}.off", points, triangles)
     with open(folder / "surfaces.json", "w") as out:
         json.dump({name: topology for name, (_, topology) in SURFACES.items()}, out, indent=1)
     print(f"{len(SURFACES)} surfaces in {folder}")
