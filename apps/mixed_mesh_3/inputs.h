@@ -23,7 +23,8 @@ struct Inputs
   std::vector<Surface> regions;
 };
 
-/// Reads all surfaces but sheets, each image once. \throw std::runtime_error a line naming the file and the defect
+/// Reads all surfaces but sheets, each image once.
+/// \throw std::runtime_error a line naming the file and the defect
 Inputs read_inputs(const Input_options& options, Stage_log& log, Outcome& outcome);
 
 #endif // MIXED_MESH_3_APPS_MIXED_MESH_3_INPUTS_H
