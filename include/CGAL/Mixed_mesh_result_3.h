@@ -23,8 +23,8 @@ namespace CGAL {
 /// \ingroup PkgMixedMesh3Functions
 /// The outcome of `make_mixed_mesh_3()`, in the order of precedence: the last of the statuses that apply.
 /// `VOLUME_DIFFERS` and `TOPOLOGY_DIFFERS` are found by `make_mixed_mesh_3()` as far as the domain describes
-/// its surface (`MixedMeshDomain_3::shells()`, `volume()`), by numbers for the whole; and by
-/// `Mixed_meshes_3::compare_with_surface()` for each body, cavity and handle.
+/// its surface (`MixedMeshDomain_3::shells()`, `volume()`), by numbers for the whole and its shells; and
+/// by `Mixed_meshes_3::compare_with_surface()` for each body, cavity and handle.
 enum class Mixed_mesh_status {
   SUCCESS,               ///< the budget is filled to at least 97 %, and the boundary is where it should be
   BUDGET_NOT_FILLED,     ///< valid, but below 97 %: each cell tried would exceed the budget

@@ -32,12 +32,12 @@ import mixed_mesh_3 as mm3  # noqa: E402
 
 VERTICES = 200
 NAMES = """
-    block_drilled_0.1 block_drilled_0.2 blocks_apart_0.05 box_open_0.04 c_ring_0.04 c_ring_0.08 comb_0.08
-    cross_of_plates_0.08 cube_12_tunnels cube_3_tunnels fork_two_prongs gear_12 gear_24_hole gear_40_thin
-    hair_on_ball_0.06 horseshoe_tips pin_in_hole_0.08 plate_0.05 plate_0.1 plate_0.2 plate_25_holes plate_64_holes
-    plate_9_holes plate_turned_0.02 plate_turned_0.2 pretzel rolled_sheet shell_closed_0.1 shell_open_0.05
-    speck_beside_ball stairs_thin star_sharp torus_narrow_hole_0.05 torus_narrow_hole_0.1 torus_narrow_hole_0.2
-    void_flat void_near_wall void_small voids_8 wedge_to_nothing
+    balls_apart_0.1 block_drilled_0.1 block_drilled_0.2 blocks_apart_0.05 box_open_0.04 c_ring_0.04 c_ring_0.08
+    comb_0.08 cross_of_plates_0.08 cube_12_tunnels cube_3_narrow_tunnels cube_3_tunnels fork_two_prongs gear_12
+    gear_24_hole gear_40_thin hair_on_ball_0.06 horseshoe_tips plate_0.05 plate_0.1 plate_0.2 plate_25_holes
+    plate_64_holes plate_9_holes plate_turned_0.02 plate_turned_0.2 pretzel rolled_sheet shell_closed_0.05
+    shell_closed_0.1 shell_open_0.05 speck_beside_ball stairs_thin star_sharp torus_narrow_hole_0.05
+    torus_narrow_hole_0.1 torus_narrow_hole_0.2 void_flat voids_8 wedge_to_nothing
 """.split()
 NO_MESH = "none"
 

@@ -97,9 +97,9 @@ public:
   /// `CGAL::Mixed_mesh_result_3::shells_of_domain` is empty.
   std::optional<CGAL::Mixed_meshes_3::Shell_counts> shells() const;
 
-  /// The volume of the domain. If the volume of the mesh differs by more than 5 %, thin parts are resolved
-  /// first, and if the volumes still differ, the status is `CGAL::Mixed_mesh_status::VOLUME_DIFFERS`. Called
-  /// if the result of `shells()` is not empty.
+  /// The volume of the domain. If the volume of the mesh, or that of one of its shells, differs by more than
+  /// 5 %, thin parts are resolved first, and if volumes still differ, the status is
+  /// `CGAL::Mixed_mesh_status::VOLUME_DIFFERS`. Called if the result of `shells()` is not empty.
   double volume() const;
 
   /// The planes that contain the surface, if all of its facets are perpendicular to the axes; else nothing.

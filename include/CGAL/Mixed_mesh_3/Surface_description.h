@@ -30,6 +30,9 @@ struct Shell_counts
   /// The number of shells around cavities, if known: only this number distinguishes two bodies from a body
   /// with a cavity.
   std::optional<std::size_t> number_of_cavities = std::nullopt;
+  /// The volumes that the shells enclose, ascending, negative around cavities; empty if they are not known,
+  /// or if there is one shell.
+  std::vector<double> volumes = {};
   /// Whether all numbers that both have are equal.
   bool operator==(const Shell_counts& s) const
   {

@@ -19,6 +19,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -98,6 +99,15 @@ std::vector<double> volumes_of_shells(const Shells_of_vertices& shells, const Po
   return volumes;
 }
 
+/// Sets signed volumes of shells, if there are several.
+inline void set_volumes(Shell_counts& counts, std::vector<double> volumes)
+{
+  if(volumes.size() < 2)
+    return;
+  std::sort(volumes.begin(), volumes.end());
+  counts.volumes = std::move(volumes);
+}
+
 /// The shells of the boundary of a mesh. \pre the boundary is a manifold, except where it is pinched
 template <class Mesh>
 Shell_counts shells_of_boundary(const Mesh& mesh)
@@ -106,12 +116,13 @@ Shell_counts shells_of_boundary(const Mesh& mesh)
   for(const Face& face : boundary_faces(mesh))
     polygons.push_back(face.vertices());
   const Shells_of_vertices shells = find_shells(polygons, mesh.number_of_vertices());
-  const std::vector<double> volumes = volumes_of_shells(shells, polygons, [&](std::size_t v) {
+  std::vector<double> volumes = volumes_of_shells(shells, polygons, [&](std::size_t v) {
     return to_vec3(mesh.point(Vertex_index(v)));
   });
   Shell_counts counts = shells.counts;
   counts.number_of_cavities = std::size_t(
     std::count_if(volumes.begin(), volumes.end(), [](double v) { return v < 0; }));
+  set_volumes(counts, std::move(volumes));
   return counts;
 }
 

@@ -20,6 +20,7 @@
 #include <cstddef>
 #include <optional>
 #include <tuple>
+#include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -60,8 +61,13 @@ public:
                  + difference(m_shells->euler_characteristic, m_shells_of_domain->euler_characteristic);
     if(m_shells->number_of_cavities && m_shells_of_domain->number_of_cavities)
       m_topology += difference(*m_shells->number_of_cavities, *m_shells_of_domain->number_of_cavities);
-    if(const std::optional<double> volume = domain.volume(); volume && is_fitted)
-      m_volume = (std::max)(0., std::abs(Mixed_meshes_3::volume(mesh) / *volume - 1) - tolerated_volume);
+    if(!is_fitted)
+      return;
+    if(const std::optional<double> volume = domain.volume())
+      add_volume(Mixed_meshes_3::volume(mesh), *volume);
+    const std::vector<double>&volumes = m_shells->volumes, &wanted = m_shells_of_domain->volumes;
+    for(std::size_t i = 0; i < wanted.size() && volumes.size() == wanted.size(); ++i)
+      add_volume(volumes[i], wanted[i]);
   }
 
   bool is_none() const
@@ -88,6 +94,12 @@ public:
 
 private:
   Misfit() = default;
+
+  void add_volume(double volume, double wanted)
+  {
+    if(wanted != 0)
+      m_volume = (std::max)(m_volume, std::abs(volume / wanted - 1) - tolerated_volume);
+  }
 
   template <class Number>
   static std::size_t difference(Number a, Number b)

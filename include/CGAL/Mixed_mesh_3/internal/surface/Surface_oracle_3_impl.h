@@ -114,6 +114,7 @@ CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::count_shells(const Triangle_soup
       largest[shell] = &t;
     }
   }
+  std::vector<double> signed_volumes(volumes.size(), 0);
   for(std::size_t s = 0; s < volumes.size(); ++s) {
     if(!(areas[s] > 0))
       continue;
@@ -121,8 +122,11 @@ CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::count_shells(const Triangle_soup
     const Vec3 inwards = (volumes[s] < 0 ? 1 : -1) / areas[s] * normal(t);
     const Vec3 p = (1. / 3) * (point(t[0]) + point(t[1]) + point(t[2]))
                    + near * std::sqrt(areas[s]) * inwards;
-    *m_shells.number_of_cavities += bounded_side(Point_3(p[0], p[1], p[2])) == ON_UNBOUNDED_SIDE;
+    const bool is_cavity = bounded_side(Point_3(p[0], p[1], p[2])) == ON_UNBOUNDED_SIDE;
+    *m_shells.number_of_cavities += is_cavity;
+    signed_volumes[s] = is_cavity ? -std::abs(volumes[s]) : std::abs(volumes[s]);
   }
+  set_volumes(m_shells, std::move(signed_volumes));
 }
 
 CGAL_MIXED_MESH_3_INLINE double Surface_oracle_3::area() const
