@@ -14,6 +14,9 @@
 #include "core/One_blas_thread.h"
 #include "core/messages.h"
 
+#ifndef MIXED_MESH_3_HAS_PETSC
+#define MIXED_MESH_3_HAS_PETSC 0
+#endif
 #if MIXED_MESH_3_HAS_PETSC
 #include <CGAL/Mixed_mesh_petsc/Petsc_solver_traits.h>
 #else
@@ -40,7 +43,7 @@ int fail(const std::string& what)
 int run_command_line(int argc, char** argv)
 {
   Options options;
-  if(const auto status = parse_command_line(argc, argv, options))
+  if(const auto status = parse_command_line(argc, argv, MIXED_MESH_3_HAS_PETSC, options))
     return *status;
   try {
     run(options);

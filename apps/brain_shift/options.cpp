@@ -37,13 +37,6 @@ constexpr bool has_nifti = true;
 constexpr bool has_nifti = false;
 #endif
 
-// Whether the program is brain_shift_petsc, which is the same program for --solver petsc.
-#if MIXED_MESH_3_HAS_PETSC
-constexpr bool has_petsc = true;
-#else
-constexpr bool has_petsc = false;
-#endif
-
 constexpr const char* label_prefix = "label:";
 
 CLI::Validator fraction()
@@ -451,7 +444,7 @@ void check_points(const CLI::App& app, Options& o)
 }
 
 // Checks conditions that the parser does not check.
-void check_use(const CLI::App& app, Options& o)
+void check_use(const CLI::App& app, bool has_petsc, Options& o)
 {
   check_points(app, o);
   const std::string axes = "xyz";
@@ -483,7 +476,7 @@ void check_use(const CLI::App& app, Options& o)
 
 } // namespace
 
-std::optional<int> parse_command_line(int argc, char** argv, Options& options)
+std::optional<int> parse_command_line(int argc, char** argv, bool has_petsc, Options& options)
 {
   CLI::App app(
     "Computes how a brain shifts from the displacements of some points, before and after a tumor "
@@ -491,7 +484,7 @@ std::optional<int> parse_command_line(int argc, char** argv, Options& options)
     "finite ones.");
   set_up(app, options);
   options.command = command_of("brain_shift", argc, argv);
-  return parse("brain_shift", app, argc, argv, [&] { check_use(app, options); });
+  return parse("brain_shift", app, argc, argv, [&] { check_use(app, has_petsc, options); });
 }
 
 std::string labels_output(const Options& o) { return o.output_image + "_labels.nii.gz"; }

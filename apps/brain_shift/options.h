@@ -73,7 +73,8 @@ struct Options
 };
 
 /// Returns the exit status if the program ends with its command line: help, the version, or wrong use.
-std::optional<int> parse_command_line(int argc, char** argv, Options& options);
+/// \param has_petsc whether the program is brain_shift_petsc, which is the same one for --solver petsc
+std::optional<int> parse_command_line(int argc, char** argv, bool has_petsc, Options& options);
 
 /// The label image that is written.
 std::string labels_output(const Options& options);

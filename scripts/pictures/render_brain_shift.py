@@ -518,17 +518,7 @@ def main():
     parser.add_argument("--control-points", required=True, metavar="FILE.csv", help="the control points")
     parser.add_argument("--image", metavar="IMAGE", help="the image before")
     parser.add_argument("--warped-image", metavar="IMAGE", help="the image that brain_shift wrote")
-    parser.add_argument("--output-prefix", required=True, metavar="PREFIX", help="start of the pictures' names")
-    parser.add_argument("--size", default="1600x1200", help="of the pictures, in pixels (default: %(default)s)")
-    parser.add_argument("--world", choices=sorted(WORLDS), default="ras",
-                        help="coordinates, in mm: ras (to the right, front, top), lps, or none: no bar, no letters "
-                             "(default: %(default)s)")
-    options = parser.parse_args()
-    try:
-        size = [int(x) for x in options.size.split("x")]
-        assert len(size) == 2 and min(size) >= 100 and max(size) <= 8000
-    except (ValueError, AssertionError):
-        parser.error("--size: expected WIDTHxHEIGHT, from 100x100 to 8000x8000")
+    options, size = render_mesh.parse(parser)
     if (options.image is None) != (options.warped_image is None):
         parser.error("--image and --warped-image need each other")
 

@@ -612,11 +612,8 @@ def draw_arc(size, mesh, skin, surface, region, plane, world, path):
     canvas.write(path)
 
 
-def main():
-    parser = argparse.ArgumentParser(description="Draws a mixed mesh, cut open through its region of interest.")
-    parser.add_argument("mesh", metavar="MESH.vtu", help="mesh with cell data `kind` and `ARC`")
-    parser.add_argument("--surface", required=True, metavar="S.off", help="the surface that was meshed")
-    parser.add_argument("--region", required=True, metavar="R.off", help="the region of interest")
+def parse(parser):
+    """The options of a program that draws, with those that all have, and the size of its pictures."""
     parser.add_argument("--output-prefix", required=True, metavar="PREFIX", help="start of the pictures' names")
     parser.add_argument("--size", default="1600x1200", help="of the pictures, in pixels (default: %(default)s)")
     parser.add_argument("--world", choices=sorted(WORLDS), default="ras",
@@ -628,6 +625,15 @@ def main():
         assert len(size) == 2 and min(size) >= 100 and max(size) <= 8000
     except (ValueError, AssertionError):
         parser.error("--size: expected WIDTHxHEIGHT, from 100x100 to 8000x8000")
+    return options, size
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Draws a mixed mesh, cut open through its region of interest.")
+    parser.add_argument("mesh", metavar="MESH.vtu", help="mesh with cell data `kind` and `ARC`")
+    parser.add_argument("--surface", required=True, metavar="S.off", help="the surface that was meshed")
+    parser.add_argument("--region", required=True, metavar="R.off", help="the region of interest")
+    options, size = parse(parser)
 
     vtk.vtkObject.GlobalWarningDisplayOff()  # errors are one line of ours
     surface, region, mesh = read_off(options.surface), read_off(options.region), read_mesh(options.mesh)
