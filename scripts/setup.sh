@@ -37,8 +37,8 @@ packages_for() {
     python) echo pybind11-dev python3-dev python3-numpy python3-pip python3-venv ;;
     # The solver of brain_shift --solver petsc, and mpirun.
     petsc) echo libpetsc-real-dev openmpi-bin pkg-config ;;
-    # The peers of scripts/benchmark.sh, and its plots.
-    benchmark) echo tetgen python3-gmsh python3-netgen python3-matplotlib ;;
+    # The peers of scripts/benchmark.sh, its plots, and what kernels are measured with.
+    benchmark) echo libbenchmark-dev tetgen python3-gmsh python3-netgen python3-matplotlib ;;
     # What scripts/check.sh runs besides the compiler.
     checks) echo clang clang-format-14 doxygen libjs-mathjax pyflakes3 shellcheck ;;
     *) fail "unknown purpose '$1': expected build, pictures, tests, image, benchmark, checks, cohort, page, python or petsc" ;;
