@@ -437,6 +437,7 @@ function showReport() {
   showHistogram();
   showPlaces();
   showChecks();
+  showFacts();
 }
 
 // ---- start -----------------------------------------------------------------------------------------------
@@ -448,6 +449,7 @@ try {
 } catch (error) {
   view.replaceChildren(
     make("p", {class: "error"}, "This browser cannot draw in 3D: WebGL is missing or switched off."));
+  $("settings").hidden = true;  // those of the picture
   return;
 }
 listen();

@@ -282,6 +282,8 @@ def test_without_3d(path):
         page.open(path)
         assert "WebGL" in page.run("return document.getElementById('view').innerText")
         assert page.run("return document.querySelectorAll('#table tr').length") == 6
+        assert "vertices" in page.run("return document.getElementById('facts').innerText")
+        assert page.run("return document.getElementById('settings').offsetHeight") == 0
 
 
 def test_brain_shift():
