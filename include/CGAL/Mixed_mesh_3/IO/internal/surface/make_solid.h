@@ -77,8 +77,8 @@ inline std::string remove_degenerate_faces(Surface& mesh, Surface_input& input)
   return "";
 }
 
-// Makes a mesh of faces that are closed, and a manifold except at points. Returns whether the mesh is
-// oriented.
+// Makes a mesh of faces that are closed, and a manifold except at points. Returns whether the faces can be
+// oriented; if not, they stay as they are.
 inline bool make_mesh(Points& points, Polygons& polygons, bool is_oriented, Surface& mesh,
                       Surface_input& input)
 {
@@ -86,9 +86,14 @@ inline bool make_mesh(Points& points, Polygons& polygons, bool is_oriented, Surf
   if(!PMP::is_polygon_soup_a_polygon_mesh(polygons)) {
     // Pinched points are duplicated, and points of edges that have to be cut, as in a Moebius band.
     const std::size_t n = points.size();
+    Points points_before = points;
+    Polygons polygons_before = polygons;
     PMP::orient_polygon_soup(points, polygons);
-    if(count_edges(polygons).open != 0 || !PMP::is_polygon_soup_a_polygon_mesh(polygons))
+    if(count_edges(polygons).open != 0 || !PMP::is_polygon_soup_a_polygon_mesh(polygons)) {
+      points = std::move(points_before);
+      polygons = std::move(polygons_before);
       return false;
+    }
     if(!is_oriented)
       input.warnings.push_back("oriented the faces consistently");
     const std::set<Surface::Point> pinched(points.begin() + std::ptrdiff_t(n), points.end());
@@ -114,26 +119,31 @@ inline bool triangulate(const Polygons& polygons, Surface& mesh, Surface_input& 
 
 // Closes the faces, and gives bodies that touch along edges their own vertices; what is not a manifold then
 // becomes the boundary of a solid.
-inline void make_closed_manifold(const Read_surface_options& options, Points& points, Polygons& polygons,
-                                 Surface_input& input)
+inline Edge_counts make_closed_manifold(const Read_surface_options& options, Points& points,
+                                        Polygons& polygons, Surface_input& input)
 {
-  const std::size_t open = count_edges(polygons).open;
-  if(open != 0) {
+  Edge_counts edges = count_edges(polygons);
+  if(edges.open != 0) {
+    const std::size_t open = edges.open;
     close(options, points, polygons, input);
-    if(count_edges(polygons).open != 0)
+    edges = count_edges(polygons);
+    if(edges.open != 0)
       throw Surface_defect{not_closed(open), wrap_diameter_for(points)};
   }
-  const std::size_t nonmanifold = count_edges(polygons).nonmanifold;
+  const std::size_t nonmanifold = edges.nonmanifold;
   if(nonmanifold == 0)
-    return;
+    return edges;
   separate_bodies(points, polygons);
-  if(count_edges(polygons).nonmanifold == 0)
+  edges = count_edges(polygons);
+  if(edges.nonmanifold == 0) {
     input.warnings.push_back("bodies touch along " + counted(nonmanifold, "edge", "edges"));
-  else
-    bound(options,
-          "the surface is not a manifold: "
-            + counted(nonmanifold, "edge has more than two faces", "edges have more than two faces"),
-          points, polygons, input);
+    return edges;
+  }
+  bound(options,
+        "the surface is not a manifold: "
+          + counted(nonmanifold, "edge has more than two faces", "edges have more than two faces"),
+        points, polygons, input);
+  return count_edges(polygons);
 }
 
 // The faces of a mesh as polygons.
@@ -176,17 +186,16 @@ inline Mesh_defect find_mesh_defect(Surface& mesh, Surface_input& input)
 inline Component_counts make_solid(const Read_surface_options& options, Points points, Polygons polygons,
                                    Surface& mesh, Surface_input& input)
 {
-  make_closed_manifold(options, points, polygons, input);
-  const bool is_oriented = count_edges(polygons).is_oriented;
-  Points whole_points = points;
-  Polygons whole = polygons;
+  const bool is_oriented = make_closed_manifold(options, points, polygons, input).is_oriented;
   if(!make_mesh(points, polygons, is_oriented, mesh, input)) {
-    bound(options, "the surface cannot be oriented", whole_points, whole, input);
-    if(!make_mesh(whole_points, whole, true, mesh, input))
+    bound(options, "the surface cannot be oriented", points, polygons, input);
+    if(!make_mesh(points, polygons, true, mesh, input))
       throw Surface_defect{"the faces do not form a surface"};
   }
   if(!triangulate(polygons, mesh, input))
     throw Surface_defect{"its polygons cannot be triangulated"};
+  points = Points(); // the mesh has them
+  polygons = Polygons();
 
   // Rounding the points where faces cut each other may make other faces cut.
   constexpr int most_passes = 5;

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <iterator>
 #include <locale>
@@ -50,13 +51,23 @@ struct Edge_counts
   bool is_oriented = true;               // no edge occurs twice in the same direction
 };
 
-// A polygon at an undirected edge.
-struct Polygon_edge
+// A polygon at an undirected edge, in one number: the smaller vertex, the larger one, and whether the polygon
+// has them in this order. There are fewer than 2^31 points.
+class Polygon_edge
 {
-  std::size_t low, high; // vertices
-  bool is_upwards;       // whether the polygon has them in this order
+  std::uint64_t m_code;
 
-  bool operator<(const Polygon_edge& e) const { return low != e.low ? low < e.low : high < e.high; }
+public:
+  Polygon_edge(std::size_t a, std::size_t b)
+    : m_code(std::uint64_t((std::min)(a, b)) << 32 | std::uint64_t((std::max)(a, b)) << 1 | (a < b))
+  {
+  }
+
+  std::size_t low() const { return std::size_t(m_code >> 32); }
+  std::size_t high() const { return std::size_t(m_code >> 1 & 0x7fffffff); }
+  bool is_upwards() const { return (m_code & 1) != 0; }
+  bool is_at_edge_of(const Polygon_edge& e) const { return m_code >> 1 == e.m_code >> 1; }
+  bool operator<(const Polygon_edge& e) const { return m_code < e.m_code; }
 };
 
 // Calls `use(first, last)` for each edge, in ascending order, with the range of polygons at the edge.
@@ -64,14 +75,14 @@ template <class Use>
 void for_each_edge(const Polygons& polygons, const Use& use)
 {
   std::vector<Polygon_edge> edges;
+  edges.reserve(3 * polygons.size());
   for(const auto& polygon : polygons)
-    for(std::size_t i = 0; i < polygon.size(); ++i) {
-      const std::size_t a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-      edges.push_back({(std::min)(a, b), (std::max)(a, b), a < b});
-    }
+    for(std::size_t i = 0; i < polygon.size(); ++i)
+      edges.emplace_back(polygon[i], polygon[(i + 1) % polygon.size()]);
   std::sort(edges.begin(), edges.end());
   for(auto first = edges.cbegin(), last = first; first != edges.cend(); first = last) {
-    last = std::upper_bound(first, edges.cend(), *first);
+    while(last != edges.cend() && last->is_at_edge_of(*first))
+      ++last;
     use(first, last);
   }
 }
@@ -82,7 +93,7 @@ inline Edge_counts count_edges(const Polygons& polygons)
   for_each_edge(polygons, [&counts](auto first, auto last) {
     counts.open += last - first == 1;
     counts.nonmanifold += last - first > 2;
-    if(last - first == 2 && first[0].is_upwards == first[1].is_upwards)
+    if(last - first == 2 && first[0].is_upwards() == first[1].is_upwards())
       counts.is_oriented = false;
   });
   return counts;

@@ -82,7 +82,7 @@ CGAL_MIXED_MESH_3_INLINE void make_surface(const std::string& name, const Read_s
     note_repair("wrapped it, closing what is narrower than " + number_text(options.wrap_diameter), input);
   } else {
     try {
-      components = make_solid(options, points, polygons, mesh, input);
+      components = make_solid(options, std::move(points), std::move(polygons), mesh, input);
     } catch(const Surface_defect& defect) {
       input.wrap_diameter = defect.wrap_diameter;
       refuse(name, defect.text);

@@ -104,6 +104,20 @@ inline bool is_between(const Edge_sheet& s, const Surface::Point& p)
   }
 }
 
+// Whether another vertex is at the same point, for each vertex: few are.
+inline std::vector<bool> vertices_that_share_points(const Surface& mesh)
+{
+  std::vector<Surface::Vertex_index> sorted(vertices(mesh).begin(), vertices(mesh).end());
+  std::sort(sorted.begin(), sorted.end(), [&mesh](Surface::Vertex_index v, Surface::Vertex_index w) {
+    return mesh.point(v) < mesh.point(w);
+  });
+  std::vector<bool> shares_point(mesh.num_vertices(), false);
+  for(std::size_t i = 1; i < sorted.size(); ++i)
+    if(mesh.point(sorted[i]) == mesh.point(sorted[i - 1]))
+      shares_point[sorted[i]] = shares_point[sorted[i - 1]] = true;
+  return shares_point;
+}
+
 // Pairs of faces of two sheets of the surface that go through each other at a common edge, where sheets may
 // also just touch: the edges of both are the same all along then, and faces meet nowhere else.
 inline std::vector<Face_pair> crossings_at_edges(const Surface& mesh)
@@ -123,7 +137,11 @@ inline std::vector<Face_pair> crossings_at_edges(const Surface& mesh)
     return Edge_sheet{mesh.point(mesh.source(h)), mesh.point(mesh.target(h)), opposite(h),
                       opposite(mesh.opposite(h)), mesh.face(h)};
   };
-  std::vector<Surface::Edge_index> sorted(edges(mesh).begin(), edges(mesh).end());
+  const std::vector<bool> shares_point = vertices_that_share_points(mesh);
+  std::vector<Surface::Edge_index> sorted;
+  for(const auto e : edges(mesh))
+    if(shares_point[mesh.source(mesh.halfedge(e))] && shares_point[mesh.target(mesh.halfedge(e))])
+      sorted.push_back(e);
   std::sort(sorted.begin(), sorted.end(), is_less);
   std::vector<Face_pair> crossings;
   for(auto e = sorted.begin(); e != sorted.end(); ++e)

@@ -21,6 +21,7 @@
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -38,8 +39,11 @@ namespace internal {
 // Checks indices, then numbers: a file may have any content.
 inline void check_indices(const std::string& path, const Surface_soup& soup)
 {
+  constexpr std::size_t most_points = std::size_t(1) << 31;
   if(soup.points.empty() || soup.polygons.empty())
     refuse(path, "has no faces");
+  if(soup.points.size() >= most_points)
+    refuse(path, "has 2^31 points or more");
   for(std::size_t i = 0; i < soup.polygons.size(); ++i) {
     if(soup.polygons[i].size() < 3)
       refuse(path, "face " + std::to_string(i) + " has fewer than three vertices");
@@ -85,16 +89,34 @@ inline void check_coordinates(const std::string& path, Surface_soup& soup)
 // a polygon differ.
 inline std::size_t remove_repeated(Polygons& polygons)
 {
-  std::set<std::vector<std::size_t>> met;
-  const auto is_repeated = [&met](std::vector<std::size_t> p) {
+  const auto normalized = [](std::vector<std::size_t> p) {
     std::rotate(p.begin(), std::min_element(p.begin(), p.end()), p.end());
     if(p[1] > p.back())
       std::reverse(p.begin() + 1, p.end());
-    return !met.insert(std::move(p)).second;
+    return p;
   };
-  const std::size_t before = polygons.size();
-  polygons.erase(std::remove_if(polygons.begin(), polygons.end(), is_repeated), polygons.end());
-  return before - polygons.size();
+  // The first three vertices, by which nearly all polygons differ, and the polygon.
+  std::vector<std::array<std::size_t, 4>> keys;
+  keys.reserve(polygons.size());
+  for(std::size_t f = 0; f < polygons.size(); ++f) {
+    const std::vector<std::size_t> p = normalized(polygons[f]);
+    keys.push_back({p[0], p[1], p[2], f});
+  }
+  std::sort(keys.begin(), keys.end());
+  std::size_t number = 0;
+  for(auto first = keys.begin(), last = first; first != keys.end(); first = last) {
+    while(last != keys.end() && std::equal(first->begin(), first->begin() + 3, last->begin()))
+      ++last;
+    std::set<std::vector<std::size_t>> met;
+    for(auto key = first; last - first > 1 && key != last; ++key)
+      if(std::vector<std::size_t>& polygon = polygons[(*key)[3]]; !met.insert(normalized(polygon)).second) {
+        polygon.clear();
+        ++number;
+      }
+  }
+  polygons.erase(std::remove_if(polygons.begin(), polygons.end(), [](const auto& p) { return p.empty(); }),
+                 polygons.end());
+  return number;
 }
 
 // Numbers of polygons with a vertex twice, of repeated polygons, and of unused points, which are removed.
@@ -131,11 +153,15 @@ struct Superfluous
 // given, points at the same place belong to sheets that touch.
 inline std::size_t merge_border_points(Points& points, Polygons& polygons)
 {
-  std::vector<std::size_t> border;
-  for_each_edge(polygons, [&border](auto first, auto last) {
+  std::vector<bool> is_at_border(points.size(), false);
+  for_each_edge(polygons, [&is_at_border](auto first, auto last) {
     if(last - first == 1)
-      border.insert(border.end(), {first->low, first->high});
+      is_at_border[first->low()] = is_at_border[first->high()] = true;
   });
+  std::vector<std::size_t> border;
+  for(std::size_t v = 0; v < points.size(); ++v)
+    if(is_at_border[v])
+      border.push_back(v);
   std::sort(border.begin(), border.end(), [&points](std::size_t a, std::size_t b) {
     return points[a] != points[b] ? points[a] < points[b] : a < b;
   });
