@@ -52,7 +52,7 @@ inline void separate_bodies(Points& points, Polygons& polygons)
         const auto [copy, is_new] = copies.emplace(std::make_pair(v, body[f]), v);
         if(is_new && !taken.insert(v).second) {
           copy->second = points.size();
-          points.push_back(Surface::Point(points[v]));
+          points.push_back(Points::value_type(points[v]));
         }
         v = copy->second;
       }
