@@ -124,6 +124,7 @@ void test_gifti()
   no_triangles.replace(no_triangles.find("NIFTI_INTENT_TRIANGLE"), 21, "NIFTI_INTENT_SHAPE");
   refuses("points.gii", no_triangles, "is no surface");
   refuses("no_gifti.gii", "<html></html>", "not a GIFTI file");
+  refuses("end.gii", "</GIFTI>", "not a GIFTI file");
 }
 
 // ---- spaces ------------------------------------------------------------------------------------

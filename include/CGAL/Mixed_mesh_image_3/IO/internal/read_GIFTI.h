@@ -71,7 +71,7 @@ class GIFTI_reader
     std::string_view name;              // name of metadata
     bool has_root = false;
     while(in.next(tag)) {
-      if(!has_root && tag.name != "GIFTI")
+      if(!has_root && (!tag.is_start || tag.name != "GIFTI"))
         refuse("cannot be read: not a GIFTI file");
       if(has_root && (open.empty() || (!tag.is_start && open.back() != tag.name)))
         refuse("is damaged: no valid XML at the tag " + in_quotes(tag.name));
