@@ -193,7 +193,7 @@ def summary(comparison, counts, settings):
     return lines
 
 
-def plot(results, counts, names, file):
+def plot(results, counts, names, file, is_tuned):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
@@ -205,7 +205,7 @@ def plot(results, counts, names, file):
             ours = [[error(results[name, n][0], *column) for name in names] for n in counts]
             theirs = [[error(best(results[name, n][1], *column), *column) for name in names] for n in counts]
             for mesher, errors, marker, color in (("Mixed_mesh_3", ours, "o", "#1f6fb4"),
-                                                  ("Mesh_3, tuned", theirs, "s", "#c8442c")):
+                                                  ("Mesh_3, tuned" if is_tuned else "Mesh_3", theirs, "s", "#c8442c")):
                 ax.loglog(counts, [100 * statistics.mean(e) for e in errors], marker + line, color=color,
                           label=f"{mesher}, {elements} elements")
         ax.set_title(title)
@@ -245,7 +245,7 @@ def main():
         print_errors(results, n, comparison.names)
         print_meshes(results, n, comparison.names)
     if arguments.plot:
-        plot(results, arguments.vertices, comparison.names, arguments.plot)
+        plot(results, arguments.vertices, comparison.names, arguments.plot, arguments.tune_mesh_3)
 
 
 if __name__ == "__main__":
