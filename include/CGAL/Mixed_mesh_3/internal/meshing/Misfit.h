@@ -33,9 +33,12 @@ class Misfit
   bool m_is_mesh = true;
   std::size_t m_topology = 0, m_number_of_lost_cells = 0, m_number_not_arrived = 0;
   double m_volume = 0, m_distance = 0; // relative excess over the tolerated values
+  double m_volume_of_small_shells = 0; // the same, of shells that no other mesh would represent better
   std::optional<Shell_counts> m_shells_of_domain, m_shells;
 
   static constexpr double tolerated_volume = 0.05;
+  // The volume of a small shell, in mean cells of a mesh with as many vertices.
+  static constexpr double small = 16;
 
 public:
   static Misfit without_mesh()
@@ -63,11 +66,14 @@ public:
       m_topology += difference(*m_shells->number_of_cavities, *m_shells_of_domain->number_of_cavities);
     if(!is_fitted)
       return;
-    if(const std::optional<double> volume = domain.volume())
-      add_volume(Mixed_meshes_3::volume(mesh), *volume);
+    const double volume = Mixed_meshes_3::volume(mesh), cell = volume / double(mesh.number_of_vertices());
+    if(const std::optional<double> of_domain = domain.volume())
+      m_volume = (std::max)(m_volume, excess(volume, *of_domain));
     const std::vector<double>&volumes = m_shells->volumes, &wanted = m_shells_of_domain->volumes;
-    for(std::size_t i = 0; i < wanted.size() && volumes.size() == wanted.size(); ++i)
-      add_volume(volumes[i], wanted[i]);
+    for(std::size_t i = 0; i < wanted.size() && volumes.size() == wanted.size(); ++i) {
+      double& worst = std::abs(wanted[i]) < small * cell ? m_volume_of_small_shells : m_volume;
+      worst = (std::max)(worst, excess(volumes[i], wanted[i]));
+    }
   }
 
   bool is_none() const
@@ -87,6 +93,8 @@ public:
   bool is_topology_right() const { return m_is_mesh && m_topology == 0; }
   bool is_topology_wrong() const { return m_topology > 0; }
   bool is_volume_wrong() const { return m_volume > 0; }
+  /// Whether the volume of the whole or of some shell is wrong, however small the shell is.
+  bool is_some_volume_wrong() const { return m_volume > 0 || m_volume_of_small_shells > 0; }
 
   bool has_volume_only() const { return m_is_mesh && m_topology == 0 && m_number_of_lost_cells == 0; }
 
@@ -95,10 +103,9 @@ public:
 private:
   Misfit() = default;
 
-  void add_volume(double volume, double wanted)
+  static double excess(double volume, double wanted)
   {
-    if(wanted != 0)
-      m_volume = (std::max)(m_volume, std::abs(volume / wanted - 1) - tolerated_volume);
+    return wanted == 0 ? 0 : (std::max)(0., std::abs(volume / wanted - 1) - tolerated_volume);
   }
 
   template <class Number>

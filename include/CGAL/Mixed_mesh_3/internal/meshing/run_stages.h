@@ -45,7 +45,7 @@ inline void note_misfit(Meshing_state& s, const Misfit& misfit)
     return;
   if(misfit.is_topology_wrong())
     s.result.status = worse_status(s.result.status, Mixed_mesh_status::TOPOLOGY_DIFFERS);
-  else if(misfit.is_volume_wrong())
+  else if(misfit.is_some_volume_wrong())
     s.result.status = worse_status(s.result.status, Mixed_mesh_status::VOLUME_DIFFERS);
 }
 
