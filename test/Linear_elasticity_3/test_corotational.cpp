@@ -354,7 +354,7 @@ void test_too_much()
   problem.set_corotational(true);
   const auto result = problem.solve();
   std::cout << "  pressed through its base: " << result.description() << '\n';
-  BOOST_TEST(result.status == Status::INVERTED_ELEMENT || result.status == Status::NOT_CONVERGED);
+  BOOST_TEST(result.status == Status::INVERTED_ELEMENT);
   for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
     if(is_top(position(mesh, v)))
       problem.set_support_displacement(v, {0, 0, -0.1});
