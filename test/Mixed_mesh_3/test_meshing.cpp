@@ -206,7 +206,8 @@ void test_fewest_vertices(const Surface& brain, const Polyhedral_mixed_mesh_doma
     const auto result = make_mixed_mesh_3(domain, region,
                                           Mixed_mesh_criteria_3(criteria).fewest_vertices(true), mesh);
     BOOST_TEST(result.status == Status::SUCCESS || result.status == Status::BUDGET_NOT_FILLED);
-    BOOST_TEST_LE(hausdorff_distance(mesh, brain, 1e-3).distance(), tolerance);
+    BOOST_TEST_LE(result.optimization.largest_distance, 0.9 * tolerance);
+    BOOST_TEST_LE(hausdorff_distance(mesh, brain, 1e-3).distance(), 1.02 * tolerance); // CGAL 6.1: 1.005
     BOOST_TEST(result.vertex_budget > 60 && result.vertex_budget < 5000);
     BOOST_TEST(result.number_of_budgets > 2 && result.number_of_budgets <= 10);
     BOOST_TEST_LE(mesh.number_of_vertices(), result.vertex_budget);

@@ -39,7 +39,7 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /// Share of the tolerance that the distance should be within at the points where it is measured: the distance
-/// between these points is larger by up to a tenth.
+/// between these points is larger by about a tenth at most.
 constexpr double share_of_tolerance = 0.9;
 
 /// The octree on its way to the budget, the mesh of it on the lattice, and what is known of both. The steps
