@@ -60,7 +60,7 @@ INCLUDE = re.compile(r"^\s*#\s*include\s*[<\"]([^>\"]+)[>\"]", re.MULTILINE)
 WORDS = [
     ("include/**/*.h", r"(?i)nifti|\bznz", r"include/CGAL/Mixed_mesh_image_3/",
      "images are a package of their own"),
-    ("include/**/*.h", r"<zlib\.h>", r"include/CGAL/Mixed_mesh_image_3/|.*/(Compressed_blocks|VTK_XML_reader)\.h",
+    ("include/**/*.h", r"<zlib\.h>", r"include/CGAL/Mixed_mesh_image_3/|.*/(Compressed_blocks|XML_input)\.h",
      "only files of VTK, GIFTI and images are compressed"),
     ("include/**/*.h", "CGAL_VERSION_NR", r".*/internal/base/compatibility\.h",
      "differences of CGAL's versions stand in one header"),

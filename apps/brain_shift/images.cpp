@@ -19,6 +19,8 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 #include <CGAL/Mixed_mesh_image_3/IO/write_warped_image.h>
 #include <CGAL/Mixed_mesh_image_3/warp_image.h>
 
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -165,7 +167,7 @@ mm3::Voxel_image_3 read_labels(const Options& o, const mm3::Voxel_grid_3& grid)
 
 mm3::Voxel_image_3 read_image(const Options& o, const Mesh& mesh, Outcome& outcome)
 {
-  if(ends_with(o.image, ".mgz") || ends_with(o.image, ".mgh"))
+  if(boost::algorithm::ends_with(o.image, ".mgz") || boost::algorithm::ends_with(o.image, ".mgh"))
     throw std::runtime_error(o.image + ": is an image of FreeSurfer; convert it: mri_convert " + o.image
                              + " image.nii.gz");
   mm3::Voxel_image_3 image;

@@ -7,6 +7,7 @@
 
 #include "core/resources.h"
 
+#include <boost/algorithm/string/predicate.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -194,7 +195,7 @@ std::vector<Control_point> read_control_points(const std::string& path)
 
 bool is_fiducials(const std::string& path)
 {
-  return ends_with(path, ".fcsv") || ends_with(path, ".mrk.json");
+  return boost::algorithm::ends_with(path, ".fcsv") || boost::algorithm::ends_with(path, ".mrk.json");
 }
 
 namespace {

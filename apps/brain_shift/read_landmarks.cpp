@@ -8,6 +8,8 @@
 #include "core/messages.h"
 #include "core/resources.h"
 
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -161,9 +163,10 @@ std::vector<Control_point> read_tags(const std::string& path)
 
 std::vector<Control_point> read_landmarks(const std::string& path, const std::string& after)
 {
-  const std::vector<Control_point> landmarks = is_fiducials(path)        ? read_fiducials(path, after)
-                                               : ends_with(path, ".tag") ? read_tags(path)
-                                                                         : read_landmark_table(path);
+  const bool has_tags = boost::algorithm::ends_with(path, ".tag");
+  const std::vector<Control_point> landmarks = is_fiducials(path) ? read_fiducials(path, after)
+                                               : has_tags         ? read_tags(path)
+                                                                  : read_landmark_table(path);
   if(landmarks.size() < least_number_of_landmarks)
     refuse(path, "has " + counted(landmarks.size(), "landmark", "landmarks") + ", expected at least "
                    + std::to_string(least_number_of_landmarks));

@@ -64,8 +64,7 @@ Topology topology_of(const Mesh& mesh, const Surface& surface, bool is_fitted, S
 
 Status checked_status(Status status, const Fidelity& fidelity, double tolerance)
 {
-  const bool is_missed = tolerance > 0 && fidelity.distance() > tolerance;
-  return status == Status::SUCCESS && is_missed ? Status::TOLERANCE_NOT_REACHED : status;
+  return status == Status::SUCCESS && fidelity.misses(tolerance) ? Status::TOLERANCE_NOT_REACHED : status;
 }
 
 std::string needed_for_thin_parts(const CGAL::Mixed_mesh_result_3& result)

@@ -15,9 +15,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
+
+/// Largest relative difference of the volume of a body from its right volume.
+constexpr double volume_tolerance = 0.05;
+constexpr double on_surface = 1e-9; // share of the diagonal of the surface's box
 
 /// The distance of a surface, at its farthest point, from another one.
 struct Distance
@@ -37,6 +42,9 @@ struct Fidelity
 
   double distance() const { return (std::max)(from_mesh.distance, from_surface.distance); }
   double ratio_of_volumes() const { return volume_of_mesh / volume_of_surface; }
+  bool has_right_volume() const { return std::abs(ratio_of_volumes() - 1) <= volume_tolerance; }
+  // \param tolerance 0 if none was given
+  bool misses(double tolerance) const { return tolerance > 0 && distance() > tolerance; }
 };
 
 /// The topology of a solid.
@@ -60,10 +68,6 @@ struct Topology
   std::vector<Difference> differences;
   bool is_same = true;
 };
-
-/// Largest relative difference of the volume of a body from its right volume.
-constexpr double volume_tolerance = 0.05;
-constexpr double on_surface = 1e-9; // share of the diagonal of the surface's box
 
 /// Measures the fidelity. \pre the boundary is a closed manifold
 Fidelity fidelity_of(const Mesh& mesh, const Surface& surface, double volume_of_surface);

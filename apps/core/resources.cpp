@@ -41,11 +41,6 @@ void Output_paths::add(const std::string& path)
     throw std::runtime_error(path + ": is given twice as output");
 }
 
-bool ends_with(const std::string& path, const std::string& end)
-{
-  return path.size() >= end.size() && path.compare(path.size() - end.size(), end.size(), end) == 0;
-}
-
 void check_memory(const std::string& what, double needed)
 {
   const double available = available_memory();

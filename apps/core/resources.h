@@ -28,9 +28,6 @@ private:
   std::set<std::string> m_outputs;
 };
 
-/// Whether a file's name ends with some characters.
-bool ends_with(const std::string& path, const std::string& end);
-
 /// Calls `io(&error)`, a function of the library that reads or writes, and throws the error.
 template <class Io>
 void require(const Io& io)

@@ -8,6 +8,8 @@
 #include "core/messages.h"
 #include "core/resources.h"
 
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
@@ -29,7 +31,10 @@ std::optional<double> label(const std::string& text)
 
 } // namespace
 
-bool is_image(const std::string& path) { return ends_with(path, ".nii") || ends_with(path, ".nii.gz"); }
+bool is_image(const std::string& path)
+{
+  return boost::algorithm::ends_with(path, ".nii") || boost::algorithm::ends_with(path, ".nii.gz");
+}
 
 bool Voxel_selection::operator()(float value) const
 {

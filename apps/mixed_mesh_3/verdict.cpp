@@ -140,12 +140,12 @@ void add_warnings(const Options& o, Outcome& outcome)
                             ? ", none above " + rounded(outcome.result.quality_bound)
                                 + ": thin walls have room for flatter elements only"
                             : ""));
-  if(o.tolerance > 0 && f.distance() > o.tolerance)
+  if(f.misses(o.tolerance))
     warnings.push_back(missed_tolerance(f, o));
   // The cells around the boundary add some volume before it is fitted; corners cut off take some.
   const bool is_fitted = o.fit() != Fit::NONE;
   const double ratio = f.ratio_of_volumes();
-  if(is_fitted ? std::abs(ratio - 1) > volume_tolerance : ratio < 0.9 || ratio > 4)
+  if(is_fitted ? !f.has_right_volume() : ratio < 0.9 || ratio > 4)
     warnings.push_back(sentence_on_volume(ratio, names_of(o)));
   add_differences(outcome.topology, o, warnings);
   const std::string needed = needed_for_thin_parts(outcome.result);

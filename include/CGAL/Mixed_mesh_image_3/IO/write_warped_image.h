@@ -10,6 +10,7 @@
 #ifndef CGAL_MIXED_MESH_IMAGE_3_IO_WRITE_WARPED_IMAGE_H
 #define CGAL_MIXED_MESH_IMAGE_3_IO_WRITE_WARPED_IMAGE_H
 
+#include <CGAL/Mixed_mesh_3/IO/internal/extension_of.h>
 #include <CGAL/Mixed_mesh_image_3/IO/Field_format.h>
 #include <CGAL/Mixed_mesh_image_3/IO/NIFTI.h>
 #include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>

@@ -18,10 +18,6 @@
 
 #include <CGAL/config.h>
 
-#ifdef CGAL_USE_ZLIB
-#include <zlib.h>
-#endif
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -245,17 +241,14 @@ private:
     if(expected / largest_compression > in.largest_size())
       refuse_array(array, "is truncated");
     values.resize(count);
-    std::vector<char> compressed;
-    Bytef* to = reinterpret_cast<Bytef*>(values.data());
+    std::string compressed;
+    char* to = reinterpret_cast<char*>(values.data());
     for(std::size_t i = 0; i < sizes.size(); ++i) {
       if(sizes[i] > in.largest_size())
         refuse_array(array, "is truncated");
       compressed.resize(std::size_t(sizes[i]));
-      const uLong size = uLong(i + 1 == sizes.size() ? last : block_size);
-      uLongf found = size;
-      const Bytef* const from = reinterpret_cast<const Bytef*>(compressed.data());
-      if(!in.read(compressed.data(), compressed.size())
-         || uncompress(to, &found, from, uLong(compressed.size())) != Z_OK || found != size)
+      const std::size_t size = std::size_t(i + 1 == sizes.size() ? last : block_size);
+      if(!in.read(compressed.data(), compressed.size()) || !decompress(compressed, to, size))
         refuse_array(array, "is damaged: its compressed data are not valid");
       to += size;
     }

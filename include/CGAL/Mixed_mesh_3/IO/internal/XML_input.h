@@ -5,7 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Parser that readers of XML share: tags, text, and bytes as base64.
+// Parser that readers of XML share: tags, text, and bytes as base64, also
+// compressed by zlib if CGAL_USE_ZLIB is defined (link zlib then).
 
 #ifndef CGAL_MIXED_MESH_3_IO_INTERNAL_XML_INPUT_H
 #define CGAL_MIXED_MESH_3_IO_INTERNAL_XML_INPUT_H
@@ -13,6 +14,12 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/internal/Text_input.h>
+
+#include <CGAL/config.h>
+
+#ifdef CGAL_USE_ZLIB
+#include <zlib.h>
+#endif
 
 #include <algorithm>
 #include <cstddef>
@@ -234,6 +241,18 @@ public:
     return true;
   }
 };
+
+#ifdef CGAL_USE_ZLIB
+/// Decompresses data of zlib that have a known size. \return whether they are valid, and have the size
+inline bool decompress(std::string_view compressed, void* bytes, std::size_t size)
+{
+  uLongf found = uLongf(size);
+  return uncompress(static_cast<Bytef*>(bytes), &found, reinterpret_cast<const Bytef*>(compressed.data()),
+                    uLong(compressed.size()))
+           == Z_OK
+         && found == size;
+}
+#endif
 
 } // namespace internal
 } // namespace IO

@@ -33,6 +33,12 @@ inline std::string extension_of(const std::string& path)
   return extension;
 }
 
+/// Whether a file name ends with some characters.
+inline bool ends_with(const std::string& text, const std::string& end)
+{
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
 /// Extensions in a sentence: ".off, .obj, .stl", or ".off, .obj and .stl".
 inline std::string in_one_line(const std::vector<std::string_view>& extensions,
                                const std::string& conjunction = "")

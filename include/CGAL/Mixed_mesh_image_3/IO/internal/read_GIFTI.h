@@ -14,10 +14,6 @@
 #include <CGAL/Mixed_mesh_image_3/IO/internal/Volume_geometry.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/XML_input.h>
 
-#ifdef CGAL_USE_ZLIB
-#include <zlib.h>
-#endif
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -170,11 +166,7 @@ class GIFTI_reader
     if(size / Encoded_bytes::largest_compression > compressed.size())
       refuse_array(array, "is truncated");
     std::string bytes(size, '\0');
-    uLongf found = uLongf(size);
-    if(uncompress(reinterpret_cast<Bytef*>(bytes.data()), &found,
-                  reinterpret_cast<const Bytef*>(compressed.data()), uLong(compressed.size()))
-         != Z_OK
-       || found != size)
+    if(!decompress(compressed, bytes.data(), size))
       refuse_array(array, "is damaged: its compressed data are not valid");
     return bytes;
 #else

@@ -11,6 +11,7 @@
 #define CGAL_MIXED_MESH_IMAGE_3_IO_INTERNAL_READ_NIFTI_H
 
 #include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/extension_of.h>
 #include <CGAL/Mixed_mesh_image_3/IO/internal/voxel_types.h>
 #include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>
 

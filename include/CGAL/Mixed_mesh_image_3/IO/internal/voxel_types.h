@@ -15,17 +15,11 @@
 #include <nifti2_io.h>
 
 #include <cstdint>
-#include <string>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
-
-inline bool ends_with(const std::string& text, const std::string& end)
-{
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 /// Calls `f(T())` with the C++ type of the numbers; false if the type is none of `Voxel_type`.
 template <class F>

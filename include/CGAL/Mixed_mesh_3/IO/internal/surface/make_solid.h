@@ -40,6 +40,18 @@ namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
 
+inline std::string describe_degenerate(std::size_t number, const std::string& place_of_first)
+{
+  return "has " + counted(number, "degenerate face", "degenerate faces")
+         + " (three vertices on a line), the first near " + place_of_first;
+}
+
+inline std::string describe_nonmanifold(const std::string& what, std::size_t number_of_edges)
+{
+  return what + " is not a manifold: "
+         + counted(number_of_edges, "edge has more than two faces", "edges have more than two faces");
+}
+
 // Removes triangles whose vertices are on a line; returns the defect if they could not be removed.
 inline std::string remove_degenerate_faces(Surface& mesh, Surface_input& input)
 {
@@ -67,8 +79,7 @@ inline std::string remove_degenerate_faces(Surface& mesh, Surface_input& input)
     }
   }
   if(!is_intact || !degenerate.empty())
-    return "has " + counted(n, "degenerate face", "degenerate faces")
-           + " (three vertices on a line), the first near " + place;
+    return describe_degenerate(n, place);
   input.warnings.push_back("removed " + counted(n, "degenerate face", "degenerate faces"));
   Surface compact; // without the places of removed faces
   CGAL::copy_face_graph(mesh, compact);
@@ -139,10 +150,7 @@ inline Edge_counts make_closed_manifold(const Read_surface_options& options, Poi
     input.warnings.push_back("bodies touch along " + counted(nonmanifold, "edge", "edges"));
     return edges;
   }
-  bound(options,
-        "the surface is not a manifold: "
-          + counted(nonmanifold, "edge has more than two faces", "edges have more than two faces"),
-        points, polygons, input);
+  bound(options, describe_nonmanifold("the surface", nonmanifold), points, polygons, input);
   return count_edges(polygons);
 }
 

@@ -111,11 +111,9 @@ CGAL_MIXED_MESH_3_INLINE void make_sheet(const std::string& name, const Read_sur
   take_faces(name, std::move(soup), points, polygons, input);
   const Edge_counts edges = count_edges(polygons);
   if(edges.nonmanifold != 0)
-    refuse(name,
-           "the sheet is not a manifold: "
-             + counted(edges.nonmanifold, "edge has more than two faces", "edges have more than two faces"));
+    refuse(name, describe_nonmanifold("the sheet", edges.nonmanifold));
   if(!PMP::is_polygon_soup_a_polygon_mesh(polygons)) {
-    PMP::orient_polygon_soup(points, polygons); // duplicates points, see above
+    PMP::orient_polygon_soup(points, polygons); // duplicates points, as for make_mesh()
     if(count_edges(polygons).open != edges.open)
       refuse(name, "the sheet cannot be oriented");
     if(!PMP::is_polygon_soup_a_polygon_mesh(polygons))
@@ -130,8 +128,7 @@ CGAL_MIXED_MESH_3_INLINE void make_sheet(const std::string& name, const Read_sur
   std::vector<Surface::Face_index> degenerate;
   PMP::degenerate_faces(mesh, std::back_inserter(degenerate));
   if(!degenerate.empty())
-    refuse(name, "has " + counted(degenerate.size(), "degenerate face", "degenerate faces")
-                   + " (three vertices on a line), the first near " + place_of(degenerate.front(), mesh));
+    refuse(name, describe_degenerate(degenerate.size(), place_of(degenerate.front(), mesh)));
   const std::vector<Face_pair> crossings = self_intersections(mesh);
   if(!crossings.empty())
     refuse(name, describe(crossings, mesh));
