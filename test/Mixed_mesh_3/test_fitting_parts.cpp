@@ -12,6 +12,7 @@
 #include <CGAL/Mixed_mesh_3/Scaled_jacobian_quality_3.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/flips.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_star.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/Mixed_mesh_3/validation.h>
@@ -312,9 +313,108 @@ void test_removal()
   }
 }
 
+// ---- the star of a vertex ----------------------------------------------------------------------
+
+// Tetrahedra with a vertex in common, flat ones among them, anywhere: no element depends on the others.
+internal::Working_mesh random_star(std::mt19937& random)
+{
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const double size = std::pow(10, 3 * uniform(random)), away = std::pow(10, 3 * uniform(random));
+  const Vec3 center = (size * away) * Vec3{uniform(random), uniform(random), uniform(random)};
+  Mesh mesh;
+  const auto add = [&](const Vec3& p) {
+    const Vec3 q = center + size * p;
+    return mesh.add_vertex(Test_point(q[0], q[1], q[2]));
+  };
+  const Vertex_index v = add({});
+  for(int i = 0; i < 8; ++i) {
+    const double flatness = i % 2 == 0 ? 1 : std::pow(10, -8 + 8 * uniform(random));
+    std::array<Vertex_index, 4> t{v, {}, {}, {}};
+    for(std::size_t k = 1; k < 4; ++k)
+      t[k] = add({uniform(random), uniform(random), flatness * uniform(random)});
+    std::rotate(t.begin(), t.begin() + i % 4, t.end());
+    const auto position = [&](Vertex_index u) { return to_vec3(mesh.point(u)); };
+    if(jacobian_sign(Element_view(TETRAHEDRON, t.data()), position) != Jacobian_sign::POSITIVE)
+      std::swap(t[0], t[1]);
+    mesh.add_element(TETRAHEDRON, t);
+  }
+  return {mesh, std::vector<internal::Stratum>(mesh.number_of_vertices(), internal::free_stratum)};
+}
+
+// Costs by coefficients are those by points, and prove nothing that is not so, by rationals.
+void test_star()
+{
+  const Aspect_ratio_quality_3 quality;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::size_t proved = 0, finite = 0;
+  for(int trial = 0; trial < 2000; ++trial) {
+    internal::Working_mesh mesh = random_star(random);
+    const Vertex_index v(0);
+    const Vec3 start = mesh.points[v];
+    const double edge = norm(mesh.points[Vertex_index(1)] - start);
+    internal::Vertex_star star(mesh, quality, v);
+    Vec3 by_coefficients{}, by_points{};
+    const double energy = star.energy(4, by_coefficients);
+    for(const internal::Working_mesh::Element& element : mesh.elements) {
+      Vec3 g{};
+      const double q = quality(TETRAHEDRON, mesh.relative_points(element), element.position(v), g);
+      by_points = by_points + (4 * q * q * q) * g;
+    }
+    if(energy < 1e12)
+      BOOST_TEST_LE(norm(by_coefficients - by_points), 1e-5 * norm(by_points));
+    for(int place = 0; place < 8; ++place) {
+      const double step = place == 0 ? 0 : edge * std::pow(10, -4 + 4.5 * uniform(random));
+      mesh.points[v] = start + step * Vec3{uniform(random), uniform(random), uniform(random)};
+      double sum = 0;
+      bool are_positive = true;
+      for(const internal::Working_mesh::Element& element : mesh.elements) {
+        sum += std::pow(quality(TETRAHEDRON, mesh.relative_points(element)), 4);
+        are_positive = are_positive && mesh.is_positive(element);
+      }
+      const double by_star = star.energy_at(mesh.points[v], 4, 0, infinity, infinity);
+      if(by_star < infinity) {
+        BOOST_TEST_EQ(star.is_positive(), are_positive);
+        proved += are_positive;
+      }
+      if(by_star < 1e12) { // with larger ones, rounding counts
+        BOOST_TEST_LE(std::abs(by_star - sum), 1e-6 * sum);
+        ++finite;
+      }
+    }
+  }
+  BOOST_TEST_GT(proved, 2000u);
+  BOOST_TEST_GT(finite, 200u);
+}
+
+// A cost that is as good as it may be to count as a proof, where the volume is what rounding leaves of 0.
+void test_proof_by_cost()
+{
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::size_t claimed = 0;
+  for(int trial = 0; trial < 200000; ++trial) {
+    const auto point = [&] { return Vec3{uniform(random), uniform(random), uniform(random)}; };
+    const Vec3 u = point(), v = point(), w = point(), x = point();
+    const Vec3 n = cross(v - u, w - u); // towards the plane of the others, nearly onto it
+    const double height = dot(u - x, n) / dot(n, n);
+    const Vec3 y = x + (height * (1 + std::pow(10, -9 + 8 * uniform(random)))) * n;
+    internal::Moving_tetrahedron t(Element_index(0), u, v, w);
+    const double yy = dot(y, y);
+    t.squared_cost = t.at(y, yy);
+    if(!t.proves_positive(y, yy))
+      continue;
+    ++claimed;
+    BOOST_TEST(jacobian_sign(TETRAHEDRON, {y, u, v, w}) == Jacobian_sign::POSITIVE);
+  }
+  BOOST_TEST_GT(claimed, 10000u);
+}
+
 int run(int, char*[])
 {
   test_qualities();
+  test_star();
+  test_proof_by_cost();
   test_flips();
   test_removal();
   return boost::report_errors();

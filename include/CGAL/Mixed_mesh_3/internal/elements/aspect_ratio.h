@@ -37,6 +37,14 @@ struct Length
   Vec3 gradient;
 };
 
+// The square of the ARC of a tetrahedron with that sum of the squared edges, and six times the volume.
+inline double squared_tetrahedron_arc(double squared_edges, double six_volumes)
+{
+  constexpr double factor = 36 / (tetrahedron_arc_factor * tetrahedron_arc_factor);
+  const double l2 = squared_edges / 6;
+  return factor * l2 * l2 * l2 / (six_volumes * six_volumes);
+}
+
 // The square of the ARC of the tetrahedron of four points, computed without roots.
 inline double squared_tetrahedron_arc(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
 {
@@ -44,9 +52,9 @@ inline double squared_tetrahedron_arc(const Vec3& a, const Vec3& b, const Vec3& 
   const double six_volumes = determinant(ab, ac, ad);
   if(!(six_volumes > 0))
     return std::numeric_limits<double>::infinity();
-  const double l2 = (dot(ab, ab) + dot(ac, ac) + dot(ad, ad) + dot(bc, bc) + dot(bd, bd) + dot(cd, cd)) / 6;
-  constexpr double factor = 36 / (tetrahedron_arc_factor * tetrahedron_arc_factor);
-  return factor * l2 * l2 * l2 / (six_volumes * six_volumes);
+  return squared_tetrahedron_arc(dot(ab, ab) + dot(ac, ac) + dot(ad, ad) + dot(bc, bc) + dot(bd, bd)
+                                   + dot(cd, cd),
+                                 six_volumes);
 }
 
 // The logarithmic gradient of the ARC, by the position of x, where x, u, v, w is an even permutation.

@@ -120,7 +120,6 @@ struct Fitting_state
       is_held(mesh.points.size(), 0), saved_points(mesh.points), saved_is_arrived(mesh.points.size(), 0)
   {
     attract_boundary();
-    moves.set_notable_gain(effort.notable_gain);
     moves.set_steps(effort.first_step, effort.step_growth);
     if(effort.samples_coarsely)
       attraction.sample_coarsely();

@@ -24,7 +24,6 @@ serves the worst ones: vertices whose elements are all better than `good_enough`
 struct Optimization_effort
 {
   double good_enough_to_arrive = 1.02, good_enough[2] = {1.02, 1.4};
-  double notable_gain = 3e-3; ///< gain that wakes the neighbors of a vertex, as a share of its sum
   double first_step = 0.1;    ///< first step, as a share of the shortest edge
   double step_growth = 1.5;   ///< growth of steps that succeed
   int sweeps[2] = {8, 8};     ///< sweeps of a round, if rounds are few
@@ -35,8 +34,7 @@ struct Optimization_effort
 
   // Number of vertices above which thresholds are larger. With 50,000 vertices, the thresholds of smaller
   // meshes would take a third more time, for a mean aspect-ratio coefficient of 1.378 instead of 1.381;
-  // shorter steps and more sweeps would take a quarter more moves, for 1.389 instead of 1.390. With 100,000,
-  // a notable gain of 0.02 would take a fifth fewer moves, for 1.343 instead of 1.340.
+  // shorter steps and more sweeps would take a quarter more moves, for 1.389 instead of 1.390.
   static constexpr std::size_t large_number = 20000;
   // Number of vertices above which the effort is least. With 200,000, the values above would take 2.2 times
   // as long, for a mean of 1.343 instead of 1.379: half of the moves were in the fourth layer and beyond, or
@@ -47,7 +45,6 @@ struct Optimization_effort
   {
     if(number_of_vertices > large_number) {
       good_enough_to_arrive = good_enough[0] = 1.3;
-      notable_gain = 0.01;
       first_step = 0.3;
       step_growth = 2;
       sweeps[0] = 3;

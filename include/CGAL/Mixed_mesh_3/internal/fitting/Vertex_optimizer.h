@@ -15,14 +15,12 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Shared_mark.h>
 #include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_coloring.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_star.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 
 #include <CGAL/assertions.h>
 
-#include <boost/container/small_vector.hpp>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -75,12 +73,16 @@ class Vertex_optimizer
   unsigned m_threads = 0; // 0: without colors
   double m_power = 4;
   double m_good_enough = 1, m_good_enough_inside = 1;
-  double m_notable_gain = 3e-3, m_first_step = 0.1, m_growth = 1.5;
+  double m_first_step = 0.1, m_growth = 1.5;
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   // Steps grow when they succeed, and shrink when they fail.
   static constexpr double shrinkage = 0.4, smallest_step = 0.01;
   static constexpr std::size_t moves_worth_a_thread = 64;
+  // Gain that wakes the neighbors of a vertex, as a share of its sum. With 10,000 vertices, 0.003 takes 1.7
+  // times as long, for a mean aspect-ratio coefficient of 1.418 instead of 1.426; 0.04 a sixth less, for
+  // 1.434.
+  static constexpr double notable_gain = 0.02;
 
 public:
   /// \param sliding_threshold cost of an element above which boundary vertices slide
@@ -98,9 +100,6 @@ public:
 
   /// Sets the largest cost that an element may get from now on.
   void set_bound(double cost) { m_bound = cost; }
-
-  /// Sets the gain that wakes the neighbors of a vertex, as a share of its sum. Default: 0.003.
-  void set_notable_gain(double share) { m_notable_gain = share; }
 
   /// Sets the first trial step of a vertex, as a share of the shortest edge, and the growth of a step that
   /// succeeds. Default: 0.1, 1.5.
@@ -245,7 +244,8 @@ public:
       m_mesh.points[v] = old;
       return false;
     }
-    accept(v);
+    for(Element_index e : m_mesh.incident[v])
+      m_costs[e] = m_trial_costs[e];
     activate_around(v);
     return true;
   }
@@ -301,14 +301,6 @@ private:
     return m_costs[e];
   }
 
-  // Accepts the trial position as the new position.
-  void accept(Vertex_index v)
-  {
-    CGAL_assertion(is_valid(v));
-    for(Element_index e : m_mesh.incident[v])
-      m_costs[e] = m_trial_costs[e];
-  }
-
   bool is_valid(Vertex_index v) const
   {
     return std::all_of(m_mesh.incident[v].begin(), m_mesh.incident[v].end(),
@@ -328,62 +320,17 @@ private:
     return a.weight * dot(d, d);
   }
 
-  // An element around a vertex that is moved, with the positions of its vertices side by side.
-  struct Star_element
+  // The length of the shortest edge of elements around a vertex that ends there.
+  double shortest_edge(Vertex_index v) const
   {
-    Element_kind kind;
-    std::uint8_t size, position; // position of the moved vertex
-    std::array<std::array<double, 3>, 8> points;
-
-    Element_points relative_points() const
-    {
-      Element_points p;
-      p[0] = Vec3{};
-      for(std::size_t i = 1; i < size; ++i)
-        p[i] = Vec3(points[i]) - Vec3(points[0]);
-      return p;
-    }
-  };
-  using Star = boost::container::small_vector<Star_element, 40>;
-
-  Star star_of(Vertex_index v) const
-  {
-    Star star;
-    for(Element_index e : m_mesh.incident[v]) {
-      const Working_mesh::Element& element = m_mesh.elements[e];
-      Star_element& s = star.emplace_back();
-      s.kind = element.kind;
-      s.size = std::uint8_t(element.size());
-      s.position = std::uint8_t(element.position(v));
-      for(std::size_t i = 0; i < s.size; ++i)
-        s.points[i] = m_mesh.points[element.vertices[i]];
-    }
-    return star;
-  }
-
-  // The energy with the vertex at its trial position; infinity if it is not less than the limit, or if an
-  // element costs more than `most`.
-  double energy(Vertex_index v, Star& star, double limit, double most)
-  {
-    double sum = attraction_energy(v);
-    const auto& incident = m_mesh.incident[v];
-    for(std::size_t i = 0; i < star.size(); ++i) {
-      Star_element& element = star[i];
-      element.points[element.position] = m_mesh.points[v];
-      const double c = m_quality(element.kind, element.relative_points());
-      m_trial_costs[incident[i]] = c;
-      sum += power(c, m_power);
-      if(!(sum < limit && c <= most))
-        return infinity;
-    }
-    return sum;
-  }
-
-  static bool are_positive(const Star& star)
-  {
-    return std::all_of(star.begin(), star.end(), [](const Star_element& element) {
-      return jacobian_sign(element.kind, element.points) == Jacobian_sign::POSITIVE;
-    });
+    double shortest = infinity; // squared
+    for(Element_index e : m_mesh.incident[v])
+      for(Vertex_index u : m_mesh.elements[e])
+        if(u != v) {
+          const Vec3 d = m_mesh.points[u] - m_mesh.points[v];
+          shortest = (std::min)(shortest, dot(d, d));
+        }
+    return std::sqrt(shortest);
   }
 
   bool improve(Vertex_index v)
@@ -392,34 +339,21 @@ private:
       return false;
     const bool slides = m_mesh.is_on_boundary(v) && !m_may_leave_surface[v];
     const Attraction a = attraction(v);
-    double sum = attraction_energy(v), worst = 0;
-    for(Element_index e : m_mesh.incident[v]) {
+    double worst = 0;
+    for(Element_index e : m_mesh.incident[v])
       worst = (std::max)(worst, known_cost(e));
-      sum += power(m_costs[e], m_power);
-    }
     const double stays = slides ? m_sliding_threshold : m_is_inside[v] ? m_good_enough_inside : 1;
     if(a.weight == 0 && worst <= (std::max)(stays, m_good_enough))
       return false;
 
     const Vec3 old = m_mesh.points[v];
+    Vertex_star<Quality> star(m_mesh, m_quality, v);
     Vec3 gradient = (2 * a.weight) * (old - a.place);
-    double shortest = infinity;
-    Star star = star_of(v);
-    for(const Star_element& element : star) {
-      const Element_points p = element.relative_points();
-      Vec3 g{};
-      const double q = m_quality(element.kind, p, element.position, g);
-      gradient = gradient + (m_power * power(q, m_power) / q) * g;
-      if(m_radii[v] == 0)
-        for(std::size_t i = 0; i < element.size; ++i)
-          if(i != element.position)
-            shortest = (std::min)(shortest, norm(p[i] - p[element.position]));
-    }
-    const double slope = norm(gradient);
+    const double sum = attraction_energy(v) + star.energy(m_power, gradient), slope = norm(gradient);
     if(!(slope > 0 && slope < infinity))
       return false;
     if(m_radii[v] == 0)
-      m_radii[v] = m_first_step * shortest;
+      m_radii[v] = m_first_step * shortest_edge(v);
     for(double radius = m_radii[v]; radius > smallest_step * m_radii[v]; radius *= shrinkage) {
       Vec3 p = old - (radius / slope) * gradient;
       if(slides) {
@@ -428,11 +362,11 @@ private:
           continue;
       }
       m_mesh.points[v] = p;
-      const double now = energy(v, star, sum, (std::max)(m_bound, worst));
-      if(now < sum && are_positive(star)) {
-        accept(v);
+      const double now = star.energy_at(p, m_power, attraction_energy(v), sum, (std::max)(m_bound, worst));
+      if(now < sum && star.is_positive()) {
+        star.for_each_cost([this](Element_index e, double cost) { m_costs[e] = cost; });
         m_radii[v] = radius == m_radii[v] ? m_growth * radius : radius;
-        if(sum - now > m_notable_gain * sum)
+        if(sum - now > notable_gain * sum)
           activate_around(v);
         return true;
       }

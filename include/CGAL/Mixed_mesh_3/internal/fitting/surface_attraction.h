@@ -24,6 +24,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -65,11 +66,15 @@ class Surface_attraction
   std::vector<double> m_moved;            // way of each vertex since the last measurement
   std::vector<double> m_slack_of_samples; // distance that the boundary may move until the sample draws
   std::vector<std::size_t> m_nearest;     // triangle of each sample
-  std::vector<double> m_slack_of_triangles;
+  // Samples of the boundary: those of triangle t are at the positions from `m_starts[t]` on.
   std::vector<int> m_steps_of_triangles; // steps of the grid of samples
+  std::vector<std::size_t> m_starts;
+  std::vector<double> m_slacks;
+  std::vector<Vec3> m_found; // points of the surface, the closest ones when they were asked for
 
   // Rounding of barycentric coordinates: a place on an edge does not draw the vertex opposite to the edge.
   static constexpr double nearly_0 = 1e-9;
+  static constexpr double not_measured = -std::numeric_limits<double>::infinity(); // slack of a new sample
   // Share of the tolerance below which samples draw nothing.
   static constexpr double tolerated_share = 0.35;
   // Number of successive samples for one thread, each of which is a hint for the next one.
@@ -105,8 +110,8 @@ public:
     }
     m_slack_of_samples.assign(m_samples.size(), 0);
     m_nearest.assign(m_samples.size(), 0);
-    m_slack_of_triangles.assign(m_triangles.size(), 0);
     m_steps_of_triangles.assign(m_triangles.size(), 0);
+    m_starts.assign(m_triangles.size() + 1, 0);
   }
 
   /// Samples the boundary at the middles of edges only.
@@ -276,51 +281,77 @@ private:
 
   static int number_of_samples(int steps) { return (steps + 1) * (steps + 2) / 2 - 3; }
 
-  // Calls `f(b, p)` for each sample of a triangle, with its barycentric coordinates.
+  // Calls `f(sample, b, p)` for each sample of a triangle, with its barycentric coordinates.
   template <class F>
   void for_each_sample(std::size_t triangle, const F& f) const
   {
     const Triangle& t = m_triangles[triangle];
     const int n = m_steps_of_triangles[triangle];
+    std::size_t sample = m_starts[triangle];
     for(int i = 0; i <= n; ++i)
       for(int j = 0; i + j <= n; ++j)
         if((i > 0) + (j > 0) + (i + j < n) > 1) { // not at a vertex
           const std::array<double, 3> b{1 - double(i + j) / n, double(i) / n, double(j) / n};
-          f(b, b[0] * m_mesh.points[t[0]] + (b[1] * m_mesh.points[t[1]] + b[2] * m_mesh.points[t[2]]));
+          f(sample++, b,
+            b[0] * m_mesh.points[t[0]] + (b[1] * m_mesh.points[t[1]] + b[2] * m_mesh.points[t[2]]));
         }
+  }
+
+  // Chooses the samples of the boundary: those of a triangle with as many steps as before stay.
+  void update_samples_of_boundary()
+  {
+    std::vector<std::size_t> starts{0};
+    std::vector<double> slacks;
+    std::vector<Vec3> found;
+    for(std::size_t k = 0; k < m_triangles.size(); ++k) {
+      const int n = number_of_steps(m_triangles[k], m_tolerances_of_triangles[k]);
+      starts.push_back(starts.back() + std::size_t(number_of_samples(n)));
+      if(n == m_steps_of_triangles[k]) {
+        const auto first = std::ptrdiff_t(m_starts[k]), last = std::ptrdiff_t(m_starts[k + 1]);
+        slacks.insert(slacks.end(), m_slacks.begin() + first, m_slacks.begin() + last);
+        found.insert(found.end(), m_found.begin() + first, m_found.begin() + last);
+      } else {
+        slacks.resize(starts.back(), not_measured);
+        found.resize(starts.back());
+        m_steps_of_triangles[k] = n;
+      }
+    }
+    m_starts = std::move(starts);
+    m_slacks = std::move(slacks);
+    m_found = std::move(found);
   }
 
   void measure_from_boundary()
   {
-    std::vector<std::size_t> asked, starts{0}; // triangles, and starts of the points found for each
+    update_samples_of_boundary();
+    std::vector<std::size_t> asked; // triangles with samples that are not near
     for(std::size_t k = 0; k < m_triangles.size(); ++k) {
-      const Triangle& t = m_triangles[k];
-      const double tolerance = m_tolerances_of_triangles[k];
-      const int n = number_of_steps(t, tolerance);
-      if(n == m_steps_of_triangles[k] && is_near(m_slack_of_triangles[k], t, tolerance))
-        continue;
-      m_slack_of_triangles[k] = threshold(tolerance);
-      m_steps_of_triangles[k] = n;
-      asked.push_back(k);
-      starts.push_back(starts.back() + std::size_t(number_of_samples(n)));
+      bool are_near = true;
+      for(std::size_t i = m_starts[k]; i < m_starts[k + 1]; ++i)
+        are_near = is_near(m_slacks[i], m_triangles[k], m_tolerances_of_triangles[k]) && are_near;
+      if(!are_near)
+        asked.push_back(k);
     }
-    std::vector<Vec3> found(starts.back());
     parallel_for(asked.size(), m_threads, [&](std::size_t i) {
-      Vec3 hint = m_mesh.points[m_triangles[asked[i]][0]];
-      auto out = found.begin() + std::ptrdiff_t(starts[i]);
-      for_each_sample(asked[i], [&](const auto&, const Vec3& p) {
-        *out++ = hint = m_project(p, hint, m_strata[asked[i]]);
+      const std::size_t k = asked[i];
+      const Vec3* last = nullptr; // found for the sample before
+      for_each_sample(k, [&](std::size_t sample, const auto&, const Vec3& p) {
+        Vec3& found = m_found[sample];
+        const Vec3* hint = m_slacks[sample] == not_measured ? last : &found;
+        if(!(m_slacks[sample] > 0))
+          found = hint != nullptr ? m_project(p, *hint, m_strata[k]) : m_project(p, m_strata[k]);
+        last = &found;
       });
     });
-    for(std::size_t i = 0; i < asked.size(); ++i) {
-      const std::size_t k = asked[i];
+    for(std::size_t k : asked) {
       const double tolerance = m_tolerances_of_triangles[k],
                    share = 4. / number_of_samples(m_steps_of_triangles[k]); // weighted like four samples
-      auto q = found.cbegin() + std::ptrdiff_t(starts[i]);
-      for_each_sample(k, [&](const std::array<double, 3>& b, const Vec3& p) {
-        m_slack_of_triangles[k] = (std::min)(m_slack_of_triangles[k], threshold(tolerance) - norm(*q - p));
-        add(k, b, *q - p, *q, share, tolerance);
-        ++q;
+      for_each_sample(k, [&](std::size_t sample, const std::array<double, 3>& b, const Vec3& p) {
+        if(m_slacks[sample] > 0)
+          return;
+        const Vec3& q = m_found[sample];
+        m_slacks[sample] = threshold(tolerance) - norm(q - p);
+        add(k, b, q - p, q, share, tolerance);
       });
     }
   }
