@@ -189,10 +189,22 @@ public:
       weight = std::pow(1 + d / m_radius, -6);
     }
     weight *= m_region.weight(center(octree, n), m_radius);
+    weight *= factor_by_surface(octree, n);
     if(octree.side(n) == CGAL::ON_BOUNDARY)
-      weight = Refinement_sequence::factor_at_surface * weight
-               + Refinement_sequence::weight_of_volume * m_radius / h;
+      weight += Refinement_sequence::weight_of_volume * m_radius / h;
     return weight * std::pow(h, 5);
+  }
+
+  double factor_by_surface(const Located_octree& octree, Node_index n) const
+  {
+    if(m_radius == 0 || octree.is_region_everywhere() || !octree.is_in_region(n))
+      return octree.side(n) == CGAL::ON_BOUNDARY ? Refinement_sequence::factor_at_surface : 1;
+    for(const double factor : {32., 8., 2.}) {
+      if(octree.side(n) == CGAL::ON_BOUNDARY)
+        return factor;
+      n = n > 0 ? octree.octree().parent(n) : n;
+    }
+    return 1;
   }
 
   // The leaf to be split next; `no_node` if there is none.
