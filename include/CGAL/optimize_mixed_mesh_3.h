@@ -15,7 +15,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Bounded_optimization.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/optimize_bounded.h>
-#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/is_valid_start.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/arguments.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/usual_models.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>

@@ -13,7 +13,7 @@
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_coloring.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_optimizer.h>
-#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Transaction.h>
 #include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
 
 #include <boost/core/lightweight_test.hpp>
@@ -89,11 +89,12 @@ void test_coloring()
   BOOST_TEST_EQ(coloring.vertices().size(), 8u); // every other one in three directions
 
   // New elements are between vertices of the same color, and there is a new vertex.
-  const Vertex_index middle = mesh.add_vertex({2.5, 2.5, 2.5}, internal::free_stratum);
+  internal::Transaction transaction(mesh);
+  const Vertex_index middle = transaction.add_vertex({2.5, 2.5, 2.5}, internal::free_stratum);
   std::size_t i = 0;
   for(const std::vector<Vertex_index>& same : std::vector(coloring.vertices())) {
-    mesh.add({TETRAHEDRON, {}, false, {same[0], same[1], same[2], middle}});
-    mesh.remove(Element_index(i++));
+    transaction.add({TETRAHEDRON, {}, false, {same[0], same[1], same[2], middle}});
+    transaction.remove(Element_index(i++));
   }
   coloring.update(mesh);
   check_colors(mesh, coloring);

@@ -126,8 +126,7 @@ public:
         push(v, loss.value);
         continue;
       }
-      collapse(v, loss.end);
-      ++removed;
+      removed += collapse(v, loss.end);
     }
     return removed;
   }
@@ -172,19 +171,22 @@ private:
     return (std::max)(m_weights[v], m_weights[w]) * longest * std::sqrt(longest);
   }
 
-  void collapse(Vertex_index v, Vertex_index w)
+  bool collapse(Vertex_index v, Vertex_index w)
   {
     const std::vector<Vertex_index> around = neighbors(v);
-    if(m_mesh.is_on_boundary(v)) {
+    const bool is_on_boundary = m_mesh.is_on_boundary(v);
+    if(!m_collapser(v, w, m_bound))
+      return false;
+    if(is_on_boundary) {
       m_boundary.collapse(v, w);
       m_places[w].push_back(m_targets[v]);
       m_places[w].insert(m_places[w].end(), m_places[v].begin(), m_places[v].end());
       m_places[v] = {};
     }
     m_weights[w] = (std::max)(m_weights[w], m_weights[v]);
-    m_collapser(v, w);
     for(Vertex_index u : around)
       push(u);
+    return true;
   }
 
   // By elements, ascending.

@@ -31,7 +31,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -209,9 +208,9 @@ struct Fitting_state
   /// Releases a vertex from the sharp edge or corner that it was to be on.
   void leave_feature(Vertex_index v)
   {
-    mesh.strata[v] = boundary_stratum;
-    for(auto e = mesh.sharp_edges.begin(); e != mesh.sharp_edges.end();)
-      e = e->first.first == v || e->first.second == v ? mesh.sharp_edges.erase(e) : std::next(e);
+    Transaction transaction(mesh);
+    transaction.leave_sharp_edges(v, boundary_stratum);
+    transaction.keep();
   }
 
   std::size_t flip(Flipper& flipper, double power, double worst)

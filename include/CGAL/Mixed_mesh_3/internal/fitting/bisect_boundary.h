@@ -138,11 +138,10 @@ void bisect_sharp_edges(Fitting_state<Quality>& s, std::size_t number)
 {
   constexpr double near_enough = 0.04;
   bisect_edges(s, number, [&](Vertex_index a, Vertex_index b, const Edge_apexes&, Stratum) {
-    const auto sharp = s.mesh.sharp_edges.find(std::minmax(a, b));
-    if(sharp == s.mesh.sharp_edges.end())
+    if(!s.mesh.is_sharp(a, b))
       return 0.;
     const Vec3 &p = s.mesh.points[a], &q = s.mesh.points[b], middle = 0.5 * (p + q);
-    const double share = norm(s.project(middle, sharp->second) - middle) / norm(q - p);
+    const double share = norm(s.project(middle, s.mesh.sharp_stratum(a, b)) - middle) / norm(q - p);
     return share > near_enough ? share * norm(q - p) : 0;
   });
 }

@@ -13,7 +13,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
-#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/bisect_edge.h>
 
 #include <algorithm>
 #include <array>
@@ -26,41 +26,6 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
-
-/// Splits the tetrahedra around an edge in two, by a new vertex at `p`, if the new tetrahedra are positive
-/// and cost at most `worst`. The new vertex is the last one, with the given stratum.
-/// \return whether the edge was bisected
-template <class Quality>
-bool bisect_edge(Working_mesh& mesh, const Quality& quality, Vertex_index a, Vertex_index b, const Vec3& p,
-                 Stratum stratum, double worst)
-{
-  std::vector<Element_index> old;
-  for(Element_index e : mesh.incident[a]) {
-    const Working_mesh::Element& element = mesh.elements[e];
-    if(element.begin() + element.position(b) == element.end())
-      continue;
-    if(element.kind != TETRAHEDRON)
-      return false;
-    old.push_back(e);
-  }
-  const Vertex_index middle = mesh.add_vertex(p, stratum);
-  std::vector<Working_mesh::Element> halves;
-  for(Element_index e : old)
-    for(Vertex_index end : {a, b}) {
-      halves.push_back(mesh.elements[e]);
-      halves.back().vertices[std::size_t(halves.back().position(end))] = middle;
-      const Working_mesh::Element& half = halves.back();
-      if(!(quality(TETRAHEDRON, mesh.relative_points(half)) <= worst) || !mesh.is_positive(half)) {
-        mesh.remove_last_vertex();
-        return false;
-      }
-    }
-  for(Element_index e : old)
-    mesh.remove(e);
-  for(const Working_mesh::Element& half : halves)
-    mesh.add(half);
-  return true;
-}
 
 /*!
 Bisects edges of a triangulated boundary, the edges with the largest gain first, and puts their middles on the
@@ -156,18 +121,12 @@ public:
       const auto [a, b] = m_queue.top().second;
       m_queue.pop();
       const Vec3 middle = 0.5 * (m_mesh.points[a] + m_mesh.points[b]);
-      const auto sharp = m_mesh.sharp_edges.find({a, b});
-      const bool is_sharp = sharp != m_mesh.sharp_edges.end();
-      const Stratum stratum = is_sharp ? sharp->second : m_triangles.at({a, b}).stratum;
+      const Stratum stratum = m_mesh.is_sharp(a, b) ? m_mesh.sharp_stratum(a, b)
+                                                    : m_triangles.at({a, b}).stratum;
       const Vec3 p = m_mesh.strata[a] == stratum ? m_project(middle, m_mesh.points[a], stratum)
                                                  : m_project(middle, stratum);
       if(bisect_edge(m_mesh, m_quality, a, b, p, stratum, m_worst)) {
-        const Vertex_index v = Vertex_index(m_mesh.points.size() - 1);
-        if(is_sharp) {
-          m_mesh.sharp_edges.erase(sharp);
-          m_mesh.sharp_edges[edge(a, v)] = m_mesh.sharp_edges[edge(b, v)] = stratum;
-        }
-        update(a, b, v);
+        update(a, b, Vertex_index(m_mesh.points.size() - 1));
         bisected.emplace_back(a, b);
       }
     }

@@ -13,8 +13,7 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
-#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/bisect_boundary_edges.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/bisect_edge.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Sharp_features.h>
 
 #include <algorithm>

@@ -15,7 +15,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Strata.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
-#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/is_valid_start.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/relax_to_surface.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>

@@ -71,9 +71,7 @@ public:
           least = worst;
         }
       }
-    if(best != no_vertex)
-      m_collapser(v, best);
-    return best;
+    return best != no_vertex && m_collapser(v, best, m_worst) ? best : no_vertex;
   }
 
 private:

@@ -46,8 +46,6 @@ std::vector<Working_mesh::Edge> merge_with_neighbors(Fitting_state<Quality>& s,
     const Vec3 place = s.project(s.mesh.points[v], s.mesh.strata[v]);
     const Vertex_index w = merger(v, place, [&](Vertex_index u) { return failed.count({v, u}) == 0; });
     if(w != no_vertex) {
-      s.leave_feature(v);
-      s.mesh.strata[v] = free_stratum;
       s.moves.fix(v);
       s.moves.activate_around(w);
       --s.result.number_of_boundary_vertices;
@@ -83,7 +81,7 @@ bool merge_unarrived_vertices(Fitting_state<Quality>& s, const std::function<boo
     if(!go_on())
       return false;
     const auto simple = s.snapshot();
-    const Working_mesh mesh = s.mesh;
+    Transaction transaction(s.mesh);
     const Mixed_mesh_optimization_result_3 result = s.result;
     const std::vector<Working_mesh::Edge> merged = merge_with_neighbors(s, merger, failed);
     if(merged.empty())
@@ -92,8 +90,10 @@ bool merge_unarrived_vertices(Fitting_state<Quality>& s, const std::function<boo
       improve_worst(s, flipper, i);
     const std::vector<Vertex_index> crossing = s.crossing_vertices();
     std::vector<Vertex_index> bad = s.moves.vertices_above(bound);
-    if(bad.empty() && crossing.empty())
+    if(bad.empty() && crossing.empty()) {
+      transaction.keep();
       continue;
+    }
     bad.insert(bad.end(), crossing.begin(), crossing.end());
     std::sort(bad.begin(), bad.end());
     const std::size_t before = failed.size();
@@ -105,7 +105,7 @@ bool merge_unarrived_vertices(Fitting_state<Quality>& s, const std::function<boo
         failed.insert(edge);
     if(failed.size() == before)
       failed.insert(merged.begin(), merged.end());
-    s.mesh = mesh;
+    transaction.roll_back();
     s.result = result;
     s.restore(simple);
     s.moves.forget_elements();

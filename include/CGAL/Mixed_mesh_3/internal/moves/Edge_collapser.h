@@ -12,7 +12,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
-#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Transaction.h>
 
 #include <algorithm>
 #include <array>
@@ -26,8 +26,7 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-Collapses edges if the topology is kept and all elements stay positive and good enough: conditions are checked
-first, so that nothing has to be undone.
+Collapses edges if all elements stay positive and good enough; whether the topology is kept is asked before.
 
 The tetrahedra at an edge vw are removed, and w replaces v in all other elements of v. The topology is kept if
 the links of both vertices have exactly the link of the edge in common (link condition; Dey, Edelsbrunner,
@@ -129,7 +128,7 @@ public:
     double worst = 0;
     for(Element_index e : m_mesh.incident[v])
       if(!has(e, w)) {
-        const Working_mesh::Element element = with_other_vertex(e, v, w);
+        const Working_mesh::Element element = m_mesh.elements[e].with_other_vertex(v, w);
         worst = (std::max)(worst, m_quality(element.kind, m_mesh.relative_points(element)));
         if(!(worst <= most) || !m_mesh.is_positive(element))
           return infinity;
@@ -137,27 +136,23 @@ public:
     return worst;
   }
 
-  /// Collapses the edge vw and removes v.
-  void operator()(Vertex_index v, Vertex_index w)
+  /// Collapses the edge vw, so that w takes the place of v, if all new elements are positive and cost at most
+  /// `most`. \pre `keeps_topology(v, w)`
+  bool operator()(Vertex_index v, Vertex_index w, double most)
   {
+    Transaction transaction(m_mesh);
     const std::vector<Element_index> around = m_mesh.incident[v];
     for(Element_index e : around) {
-      const Working_mesh::Element element = has(e, w) ? m_mesh.elements[e] : with_other_vertex(e, v, w);
-      const bool stays = !has(e, w);
-      m_mesh.remove(e);
-      if(stays)
-        m_mesh.add(element);
+      transaction.remove(e);
+      if(!has(e, w))
+        transaction.add(m_mesh.elements[e].with_other_vertex(v, w));
     }
-    m_mesh.strata[v] = free_stratum;
-    m_mesh.merged.push_back(v);
+    transaction.merge(v);
+    return transaction.accept(m_quality, most);
   }
 
 private:
-  bool has(Element_index e, Vertex_index v) const
-  {
-    const Working_mesh::Element& element = m_mesh.elements[e];
-    return element.position(v) < element.size();
-  }
+  bool has(Element_index e, Vertex_index v) const { return m_mesh.elements[e].has(v); }
 
   Subdomain_index subdomain(Element_index e) const { return m_mesh.elements[e].attributes.subdomain_index; }
 
@@ -266,13 +261,6 @@ private:
     std::vector<Vertex_index> c;
     std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(c));
     return c;
-  }
-
-  Working_mesh::Element with_other_vertex(Element_index e, Vertex_index v, Vertex_index w) const
-  {
-    Working_mesh::Element element = m_mesh.elements[e];
-    element.vertices[std::size_t(element.position(v))] = w;
-    return element;
   }
 };
 

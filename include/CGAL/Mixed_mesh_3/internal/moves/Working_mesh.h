@@ -27,6 +27,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <utility>
 #include <vector>
@@ -35,23 +36,6 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Whether the vertices of elements exist, at finite positions, and no element is inverted.
-template <class Mesh>
-bool is_valid_start(const Mesh& mesh)
-{
-  for(const auto& p : mesh.points())
-    if(!std::isfinite(norm(to_vec3(p))))
-      return false;
-  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
-    const Element_view element = mesh.element(Element_index(e));
-    if(std::any_of(element.begin(), element.end(),
-                   [&](Vertex_index v) { return v >= mesh.number_of_vertices(); })
-       || jacobian_sign(mesh, Element_index(e)) != Jacobian_sign::POSITIVE)
-      return false;
-  }
-  return true;
-}
-
 /// The power of a cost; the exponents are 4 and 8, mostly.
 inline double power(double q, double exponent)
 {
@@ -59,6 +43,9 @@ inline double power(double q, double exponent)
   return exponent == 4 ? q4 : exponent == 8 ? q4 * q4 : std::pow(q, exponent);
 }
 
+class Transaction;
+
+/// A mesh that is changed. Elements are changed by transactions only.
 struct Working_mesh
 {
   struct Element
@@ -74,6 +61,15 @@ struct Working_mesh
     int size() const { return reference().number_of_vertices; }
     operator Element_view() const { return {kind, begin()}; }
     int position(Vertex_index v) const { return int(std::find(begin(), end(), v) - begin()); }
+    bool has(Vertex_index v) const { return std::find(begin(), end(), v) != end(); }
+    /// The element with another vertex in the place of v.
+    Element with_other_vertex(Vertex_index v, Vertex_index other) const
+    {
+      Element element = *this;
+      element.is_removed = false;
+      element.vertices[std::size_t(position(v))] = other;
+      return element;
+    }
   };
 
   std::vector<Vec3> points;
@@ -83,6 +79,7 @@ struct Working_mesh
   using Edge = std::pair<Vertex_index, Vertex_index>; ///< smaller vertex first
   std::map<Edge, Stratum> sharp_edges;                ///< edges of the boundary along sharp edges
   std::vector<Vertex_index> merged;                   ///< vertices that no element has any more
+  Transaction* transaction = nullptr;                 ///< the innermost one that is open
 
   /// \param strata_of_vertices strata that the vertices have to be on
   template <class Mesh>
@@ -112,53 +109,36 @@ struct Working_mesh
                      [this](Vertex_index v) { return is_on_boundary(v); });
   }
 
-  Vertex_index add_vertex(const Vec3& p, Stratum stratum)
+  bool is_sharp(Vertex_index a, Vertex_index b) const { return sharp_stratum(a, b) != free_stratum; }
+
+  /// The stratum of a sharp edge; `free_stratum` of other edges.
+  Stratum sharp_stratum(Vertex_index a, Vertex_index b) const
   {
-    points.push_back(p);
-    incident.emplace_back();
-    strata.push_back(stratum);
-    return Vertex_index(points.size() - 1);
+    const auto found = sharp_edges.find(std::minmax(a, b));
+    return found == sharp_edges.end() ? free_stratum : found->second;
   }
 
-  /// Removes the last vertex. \pre the vertex has no elements
-  void remove_last_vertex()
+  /// Whether two vertices are on the same polyline of sharp edges: an edge between them would lead past the
+  /// vertices between them.
+  bool are_on_one_sharp_line(Vertex_index a, Vertex_index b) const
   {
-    points.pop_back();
-    incident.pop_back();
-    strata.pop_back();
+    return strata[a] == strata[b] && strata[a] >= first_sharp_stratum;
   }
 
-  Element_index add(const Element& element)
+  /// The elements that have both vertices.
+  std::vector<Element_index> elements_at_edge(Vertex_index a, Vertex_index b) const
   {
-    CGAL_assertion(!element.is_removed && std::all_of(element.begin(), element.end(), [&](Vertex_index v) {
-      return v < points.size() && std::count(element.begin(), element.end(), v) == 1;
-    }));
-    const Element_index e = Element_index(elements.size());
-    elements.push_back(element);
-    for(Vertex_index v : element)
-      incident[v].push_back(e);
-    return e;
+    std::vector<Element_index> around;
+    std::copy_if(incident[a].begin(), incident[a].end(), std::back_inserter(around),
+                 [&](Element_index e) { return elements[e].has(b); });
+    return around;
   }
-
-  void remove(Element_index e)
-  {
-    CGAL_assertion(!elements[e].is_removed);
-    elements[e].is_removed = true;
-    for(Vertex_index v : elements[e]) {
-      const auto position = std::find(incident[v].begin(), incident[v].end(), e);
-      CGAL_assertion(position != incident[v].end());
-      incident[v].erase(position);
-    }
-  }
-
-  bool is_sharp(Vertex_index a, Vertex_index b) const { return sharp_edges.count(std::minmax(a, b)) > 0; }
 
   /// Whether an element with that edge is in the region of interest.
   bool is_edge_in_region(Vertex_index a, Vertex_index b) const
   {
     return std::any_of(incident[a].begin(), incident[a].end(), [&](Element_index e) {
-      const Element& element = elements[e];
-      return element.attributes.is_in_region && element.begin() + element.position(b) != element.end();
+      return elements[e].attributes.is_in_region && elements[e].has(b);
     });
   }
 
@@ -222,6 +202,69 @@ struct Working_mesh
   }
 
 private:
+  friend class Transaction;
+
+  // Changes, each with the one that undoes it.
+
+  void add_vertex(const Vec3& p, Stratum stratum)
+  {
+    points.push_back(p);
+    incident.emplace_back();
+    strata.push_back(stratum);
+  }
+
+  void remove_last_vertex()
+  {
+    CGAL_assertion(incident.back().empty());
+    points.pop_back();
+    incident.pop_back();
+    strata.pop_back();
+  }
+
+  Element_index add(const Element& element)
+  {
+    CGAL_assertion(!element.is_removed && std::all_of(element.begin(), element.end(), [&](Vertex_index v) {
+      return v < points.size() && std::count(element.begin(), element.end(), v) == 1;
+    }));
+    const Element_index e = Element_index(elements.size());
+    elements.push_back(element);
+    for(Vertex_index v : elements.back()) // `element` may have been in the list
+      incident[v].push_back(e);
+    return e;
+  }
+
+  void remove_last()
+  {
+    for(Vertex_index v : elements.back())
+      incident[v].pop_back();
+    elements.pop_back();
+  }
+
+  using Places = std::array<std::ptrdiff_t, 8>; // of an element among those of its vertices
+
+  Places remove(Element_index e)
+  {
+    CGAL_assertion(!elements[e].is_removed);
+    elements[e].is_removed = true;
+    Places places{};
+    auto place = places.begin();
+    for(Vertex_index v : elements[e]) {
+      const auto found = std::find(incident[v].begin(), incident[v].end(), e);
+      CGAL_assertion(found != incident[v].end());
+      *place++ = found - incident[v].begin();
+      incident[v].erase(found);
+    }
+    return places;
+  }
+
+  void put_back(Element_index e, const Places& places)
+  {
+    elements[e].is_removed = false;
+    auto place = places.begin();
+    for(Vertex_index v : elements[e])
+      incident[v].insert(incident[v].begin() + *place++, e);
+  }
+
   template <class Mesh, class Point_3>
   void store_without_merged(Mesh& mesh, std::vector<Point_3> all_points) const
   {

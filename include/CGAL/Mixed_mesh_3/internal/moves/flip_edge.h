@@ -1,0 +1,165 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Better tetrahedra between the same vertices, in the place of an edge and its ring of tetrahedra.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_MOVES_FLIP_EDGE_H
+#define CGAL_MIXED_MESH_3_INTERNAL_MOVES_FLIP_EDGE_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/internal/moves/Flip_context.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// The largest number of tetrahedra around an edge that is flipped.
+inline constexpr int largest_ring = 7;
+
+/// The ring of an edge in a flat place of the boundary, beside which there are sharp edges. An edge of the
+/// boundary between the ends of the ring will replace the edge.
+inline std::vector<Vertex_index> open_ring(const Working_mesh& mesh, Vertex_index a, Vertex_index b,
+                                           const std::vector<std::array<Vertex_index, 2>>& links)
+{
+  constexpr double flat = 1e-9; // volume divided by the third power of the longest edge
+  if(mesh.sharp_edges.empty() || mesh.is_sharp(a, b) || links.size() >= std::size_t(largest_ring))
+    return {};
+  const auto first = std::find_if(links.begin(), links.end(), [&](const auto& l) {
+    return std::none_of(links.begin(), links.end(), [&](const auto& m) { return m[1] == l[0]; });
+  });
+  if(first == links.end())
+    return {};
+  std::vector<Vertex_index> ring{(*first)[0]};
+  for(auto next = first; next != links.end() && ring.size() <= links.size();
+      next = std::find_if(links.begin(), links.end(), [&](const auto& l) { return l[0] == ring.back(); }))
+    ring.push_back((*next)[1]);
+  if(ring.size() != links.size() + 1)
+    return {};
+  const Vertex_index c = ring.front(), d = ring.back();
+  const Vec3 x = mesh.points[b] - mesh.points[a], y = mesh.points[c] - mesh.points[a],
+             z = mesh.points[d] - mesh.points[a];
+  const double longest = (std::max)({norm(x), norm(y), norm(z)});
+  if(mesh.are_on_one_sharp_line(c, d) || !mesh.elements_at_edge(c, d).empty()
+     || std::abs(determinant(x, y, z)) > flat * longest * longest * longest)
+    return {};
+  return ring;
+}
+
+/// The other vertices of the tetrahedra around an edge, in order such that (a, b, r[i], r[i + 1]) is
+/// positive. Empty unless all elements of the edge are tetrahedra, and the edge is inside or can be flipped
+/// on the boundary: the ring of a boundary edge is open.
+/// \param elements gets the tetrahedra, if the ring is not empty
+inline std::vector<Vertex_index> ring_of(const Working_mesh& mesh, Vertex_index a, Vertex_index b,
+                                         std::vector<Element_index>& elements)
+{
+  std::vector<std::array<Vertex_index, 2>> links;
+  for(Element_index e : mesh.incident[a]) {
+    const Working_mesh::Element& element = mesh.elements[e];
+    const int j = element.position(b);
+    if(j == element.size())
+      continue;
+    if(element.kind != TETRAHEDRON || links.size() == std::size_t(largest_ring))
+      return {};
+    elements.push_back(e);
+    // The permutation (a, b, c, d) has the sign of the element.
+    const int i = element.position(a);
+    int k = 0;
+    while(k == i || k == j)
+      ++k;
+    const int l = 6 - i - j - k;
+    const bool is_even = ((i < j) + (i < k) + (i < l) + (j < k) + (j < l) + (k < l)) % 2 == 0;
+    const Vertex_index c = element.vertices[std::size_t(k)], d = element.vertices[std::size_t(l)];
+    links.push_back(is_even ? std::array<Vertex_index, 2>{c, d} : std::array<Vertex_index, 2>{d, c});
+  }
+  if(links.size() < 3)
+    return links.size() == 2 ? open_ring(mesh, a, b, links) : std::vector<Vertex_index>();
+  std::vector<Vertex_index> ring{links[0][0]};
+  while(ring.size() <= links.size()) {
+    const auto next = std::find_if(links.begin(), links.end(),
+                                   [&](const auto& l) { return l[0] == ring.back(); });
+    if(next == links.end())
+      return open_ring(mesh, a, b, links); // the edge is on the boundary
+    if((*next)[1] == ring.front())
+      return ring.size() == links.size() ? ring : std::vector<Vertex_index>();
+    ring.push_back((*next)[1]);
+  }
+  return {};
+}
+
+/// Removes an edge by the best triangulation of its ring (Klincsek), in a transaction that is ended if the
+/// edge is removed; each triangle gets a tetrahedron to either end of the edge.
+template <class Quality>
+bool flip_edge(Flip_context<Quality>& context, Transaction& transaction, Vertex_index a, Vertex_index b)
+{
+  std::vector<Element_index> old;
+  const std::vector<Vertex_index> ring = ring_of(context.mesh, a, b, old);
+  const int n = int(ring.size());
+  if(n < 3)
+    return false;
+  const auto [limit, most] = context.limits(old);
+  std::array<std::array<double, largest_ring>, largest_ring> best{};
+  std::array<std::array<int, largest_ring>, largest_ring> middle{};
+  for(int length = 2; length < n; ++length)
+    for(int i = 0; i + length < n; ++i) {
+      const int k = i + length;
+      best[i][k] = context.infinity;
+      for(int j = i + 1; j < k; ++j) {
+        double sum = best[i][j] + best[j][k];
+        if(sum < limit)
+          sum += context.cost({ring[i], ring[j], ring[k], b}, most);
+        if(sum < limit)
+          sum += context.cost({ring[k], ring[j], ring[i], a}, most);
+        if(sum < limit && sum < best[i][k]) {
+          best[i][k] = sum;
+          middle[i][k] = j;
+        }
+      }
+    }
+  if(!(best[0][n - 1] < limit))
+    return false;
+  std::vector<Tetrahedron> tetrahedra;
+  const auto collect = [&](const auto& self, int i, int k) -> void {
+    if(k - i < 2)
+      return;
+    const int j = middle[i][k];
+    tetrahedra.push_back({ring[i], ring[j], ring[k], b});
+    tetrahedra.push_back({ring[k], ring[j], ring[i], a});
+    self(self, i, j);
+    self(self, j, k);
+  };
+  collect(collect, 0, n - 1);
+  if(!context.replace(transaction, old, tetrahedra))
+    return false;
+  context.number_of_removals += ring.size() > old.size(); // the boundary has other faces
+  return true;
+}
+
+/// Flips the first edge of a tetrahedron that can be flipped.
+template <class Quality>
+bool flip_edges(Flip_context<Quality>& context, Element_index e)
+{
+  Transaction transaction(context.mesh);
+  const auto v = context.mesh.elements[e].vertices;
+  for(std::size_t i = 0; i < 4; ++i)
+    for(std::size_t j = i + 1; j < 4; ++j)
+      if(flip_edge(context, transaction, v[i], v[j]))
+        return true;
+  return false;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_MOVES_FLIP_EDGE_H
