@@ -562,6 +562,7 @@ void test_visitor(const Surface& brain, const Surface& region)
   BOOST_TEST_EQ(all.begun[int(Stage::OPTIMIZATION)], 1u);
   BOOST_TEST_GT(all.number_of_questions, all.number_of_trials + 2);
 
+  bool is_in_search = true;
   for(std::size_t i = 0; i < all.number_of_questions; i += 2) {
     Recording_visitor visitor;
     visitor.stop_at = i;
@@ -572,10 +573,13 @@ void test_visitor(const Surface& brain, const Surface& region)
     BOOST_TEST_EQ(visitor.number_of_errors, 0u);
     BOOST_TEST(visitor.begun == visitor.ended);
     BOOST_TEST_EQ(visitor.number_of_questions, i + 1); // not asked again
-    const bool is_in_search = i < result.number_of_trials;
+    // The search asks at least once in each trial.
+    is_in_search = is_in_search && visitor.begun[int(Stage::ASSEMBLY)] == 0;
+    BOOST_TEST(is_in_search || i + 1 > result.number_of_trials);
     BOOST_TEST_EQ(visitor.begun[int(Stage::ASSEMBLY)], is_in_search ? 0u : 1u);
     BOOST_TEST_EQ(visitor.begun[int(Stage::OPTIMIZATION)], is_in_search ? 0u : 1u);
   }
+  BOOST_TEST(!is_in_search);
 
   // The mesh so far can be kept: valid, and with more vertices the later the run is stopped.
   std::size_t last = 0, first_kept = 0;

@@ -24,9 +24,9 @@ serves the worst ones: vertices whose elements are all better than `good_enough`
 struct Optimization_effort
 {
   double good_enough_to_arrive = 1.02, good_enough[2] = {1.02, 1.4};
-  double first_step = 0.1;    ///< first step, as a share of the shortest edge
-  double step_growth = 1.5;   ///< growth of steps that succeed
-  int sweeps[2] = {8, 8};     ///< sweeps of a round, if rounds are few
+  double first_step = 0.1;  ///< first step, as a share of the shortest edge
+  double step_growth = 1.5; ///< growth of steps that succeed
+  int sweeps[2] = {8, 8};   ///< sweeps of a round, if rounds are few
   bool moves_by_colors = false;
   int layers = 0;                ///< layers of elements at the boundary; beyond, the octree stays; 0: all
   bool samples_coarsely = false; ///< samples of the distance to the surface

@@ -332,14 +332,18 @@ private:
       if(!are_near)
         asked.push_back(k);
     }
+    // A point of the surface of each stratum, a hint where there is no nearer one: several threads need hints.
+    std::map<Stratum, Vec3> anywhere;
+    for(std::size_t k : asked)
+      if(const auto found = anywhere.try_emplace(m_strata[k]); found.second)
+        found.first->second = m_project(m_mesh.points[m_triangles[k][0]], m_strata[k]);
     parallel_for(asked.size(), m_threads, [&](std::size_t i) {
       const std::size_t k = asked[i];
-      const Vec3* last = nullptr; // found for the sample before
+      const Vec3* last = &anywhere.at(m_strata[k]);
       for_each_sample(k, [&](std::size_t sample, const auto&, const Vec3& p) {
         Vec3& found = m_found[sample];
-        const Vec3* hint = m_slacks[sample] == not_measured ? last : &found;
         if(!(m_slacks[sample] > 0))
-          found = hint != nullptr ? m_project(p, *hint, m_strata[k]) : m_project(p, m_strata[k]);
+          found = m_project(p, m_slacks[sample] == not_measured ? *last : found, m_strata[k]);
         last = &found;
       });
     });

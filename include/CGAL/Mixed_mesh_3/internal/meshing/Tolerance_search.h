@@ -19,11 +19,11 @@
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/assemble_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/optimize_bounded.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_attraction.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Any_visitor.h>
-#include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Candidate.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/base_level.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
@@ -48,17 +48,15 @@ class Tolerance_search
 {
   // Rounds of splitting (six make cells 64 times smaller), and the share of the budget that they may take
   // (the rest is for the region). Cells are split at places farther than the first of these multiples of the
-  // tolerance: the sliding of boundary vertices reaches nearer places. The other multiples are tried where
-  // the first one takes too much.
+  // tolerance; the other multiples are tried where the first one takes too much.
   static constexpr int rounds = 6;
   static constexpr double largest_share = 0.5, largest_share_of_parts = 0.7,
                           largest_share_of_subdomains = 0.75;
-  static constexpr double multiples[] = {1.6, 2, 2.5, 3}, multiples_of_wish[] = {2.5, 3.2, 4};
-  static constexpr int number_of_trials = 5; // trials of a search for such a multiple
-  // Rounds of sliding. Between subdomains, where folds are no defects, the first few rounds gain most; with
-  // 189 subdomains most boundary vertices are where three or more meet, and all rounds would take nearly all
-  // of the time.
-  static constexpr int rounds_of_sliding = 100, rounds_between_subdomains = 5;
+  static constexpr double multiples[] = {1, 1.3, 2, 3}, multiples_of_wish[] = {1.9, 2.4, 3.2};
+  // Between subdomains, the sliding of boundary vertices, which is not estimated, reaches nearer places: the
+  // first multiple that is tried, and the number of trials of the search for another one.
+  static constexpr double multiple_between_subdomains = 2.5;
+  static constexpr int number_of_trials = 5;
 
   const Located_octree& m_root;
   const Meshing_criteria& m_criteria;
@@ -66,10 +64,11 @@ class Tolerance_search
   Mixed_mesh_result_3& m_result;
   const bool m_has_subdomains;
   std::vector<Surface_sample> m_samples;
-  std::vector<std::vector<Vec3>> m_far_points; // on the surface, where cells are split: the farthest first
-  bool m_is_stopped = false;                   // the visitor stopped the search
-  bool m_only_parts = false;                   // small parts only, not the outer surface
-  bool m_is_full = false;                      // there is no room for more splits
+  std::vector<std::vector<Vec3>> m_far_points;  // on the surface, where cells are split: the farthest first
+  std::vector<std::pair<Vec3, int>> m_required; // places with the levels that their cells must have
+  bool m_is_stopped = false;                    // the visitor stopped the search
+  bool m_only_parts = false;                    // small parts only, not the outer surface
+  bool m_is_full = false;                       // there is no room for more splits
 
 public:
   /// \param root the octree with nothing but its root
@@ -95,53 +94,87 @@ public:
   }
 
   bool has_far_points() const { return !m_far_points.empty(); }
+  /// Whether cells may be split: not where the region is everywhere.
+  bool has_samples() const { return !m_samples.empty(); }
+
+  /// Notes where a mesh is too far from the surface: cells will be smaller there than in its octree.
+  /// \return whether there are such places
+  bool note_far_places(const Core_mesh& mesh, const Located_octree& octree)
+  {
+    const std::size_t before = m_required.size();
+    for(const auto& [distance, p] : far_points(mesh))
+      if(const Octree::Node_index n = octree.leaf_at({p[0], p[1], p[2]});
+         distance > first_multiple() && may_split(octree, n))
+        m_required.emplace_back(p, octree.octree().level(n) + 1);
+    return m_required.size() > before;
+  }
 
   /// Splits the cell around each far point once, round by round.
-  /// \param share share of the points of each round; the farthest points are used
+  /// \param share share of the points of each round; the farthest points are used. All places that were noted
+  /// are split
   void split_far_cells(Located_octree& octree, double share = 1) const
   {
-    for(const std::vector<Vec3>& points : m_far_points) {
-      std::vector<Octree::Node_index> leaves;
-      const auto number = std::size_t(std::ceil(share * double(points.size())));
-      for(std::size_t i = 0; i < number; ++i) {
-        const Vec3& p = points[i];
-        const Octree::Node_index n = octree.leaf_at(Predicates_kernel::Point_3(p[0], p[1], p[2]));
-        if(octree.meets_domain(n) && (m_has_subdomains || !octree.is_in_region(n))
-           && octree.octree().level(n) < Octree::max_level)
-          leaves.push_back(n);
-      }
+    const auto refine = [&octree](std::vector<Octree::Node_index>& leaves) {
       std::sort(leaves.begin(), leaves.end());
       leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
       octree.refine(leaves);
+    };
+    for(const std::vector<Vec3>& points : m_far_points) {
+      std::vector<Octree::Node_index> leaves;
+      const auto number = std::size_t(std::ceil(share * double(points.size())));
+      for(std::size_t i = 0; i < number; ++i)
+        if(const Octree::Node_index n = octree.leaf_at({points[i][0], points[i][1], points[i][2]});
+           may_split(octree, n))
+          leaves.push_back(n);
+      refine(leaves);
+    }
+    for(std::vector<Octree::Node_index> leaves(1); !leaves.empty();) {
+      leaves.clear();
+      for(const auto& [p, level] : m_required)
+        if(const Octree::Node_index n = octree.leaf_at({p[0], p[1], p[2]}); octree.octree().level(n) < level)
+          leaves.push_back(n);
+      refine(leaves);
     }
   }
 
 private:
+  // Cells in the region are split anyway, but maybe not as much as small parts need.
+  bool may_split(const Located_octree& octree, Octree::Node_index n) const
+  {
+    return octree.meets_domain(n) && (m_has_subdomains || !octree.is_in_region(n))
+           && octree.octree().level(n) < Octree::max_level;
+  }
+
   void run(double share)
   {
     const double limit = share * double(m_criteria.maximal_number_of_vertices());
     m_samples = tolerances().samples(m_root.domain(),
                                      [this](Subdomain_index) { return m_result.tolerance / 2; });
-    // Cells in the region are split anyway, but maybe not as much as small parts need.
     const bool spares_region = !m_has_subdomains || !(m_only_parts || m_root.is_region_everywhere());
     const auto is_in_region = [&](const Surface_sample& s) {
       return spares_region && m_root.region().depth({s.point[0], s.point[1], s.point[2]}) >= 0;
     };
     m_samples.erase(std::remove_if(m_samples.begin(), m_samples.end(), is_in_region), m_samples.end());
+    if(m_samples.empty())
+      return;
     Located_octree octree = m_root;
     Candidate candidate = try_base_octree(octree);
-    // The best number of rounds.
-    std::size_t best = m_far_points.size(), least_defects = std::size_t(-1);
+    std::size_t best = m_far_points.size(); // number of rounds
+    double least = std::numeric_limits<double>::infinity();
     for(int round = 0; !is_stopped_by(candidate) && candidate.number_of_vertices > 0; ++round) {
       if(double(candidate.number_of_vertices) > limit)
         break;
-      const Estimate estimate = estimate_boundary(octree, candidate);
-      if(estimate.number_of_defects <= least_defects) {
-        least_defects = estimate.number_of_defects;
+      Far_points far = m_has_subdomains ? far_if_projected(octree, candidate)
+                                        : far_if_fitted(octree, candidate);
+      if(m_is_stopped)
+        break;
+      const double farthest = far.empty() ? 0 : far.front().first;
+      if(farthest <= least || m_has_subdomains) {
+        least = farthest;
         best = m_far_points.size();
         m_result.number_of_vertices_for_tolerance = candidate.number_of_vertices;
       }
-      if(round == rounds || m_is_full || !split(estimate, limit, octree, candidate))
+      if(round == rounds || m_is_full || !split(far, limit, octree, candidate))
         break;
     }
     m_far_points.resize(best);
@@ -165,6 +198,9 @@ private:
     return c;
   }
 
+  bool is_wish() const { return m_criteria.tolerance() == Mixed_mesh_criteria_3::automatic; }
+  double first_multiple() const { return is_wish() ? multiples_of_wish[0] : multiples[0]; }
+
   bool is_stopped_by(const Candidate& candidate)
   {
     m_is_stopped = candidate.is_stopped;
@@ -173,61 +209,76 @@ private:
 
   enum class Outcome { NOTHING, FITS, TOO_MANY };
 
-  struct Estimate
-  {
-    std::vector<std::pair<double, Vec3>> far_points; // on the surface, with distances in tolerances
-    std::vector<Vec3>
-      defects; // places where the boundary folds or cuts itself: the surface is too fine for the cells
-    std::size_t number_of_defects;
-  };
+  // Points on the surface with their distances from the boundary in tolerances, the farthest first.
+  using Far_points = std::vector<std::pair<double, Vec3>>;
 
-  // Estimates the boundary with its vertices on the surface, to which the optimization will nearly bring
-  // them. Where its faces are folded or cut each other, the optimization could not bring all vertices to the
-  // surface.
-  Estimate estimate_boundary(const Located_octree& octree, const Candidate& candidate) const
+  Far_points far_points(const Working_mesh& mesh, const Interface_faces& boundary, Strata& strata,
+                        const Surface_projection& project) const
   {
+    Surface_attraction attraction(mesh, project, m_samples, m_criteria.number_of_threads);
+    attraction.set_boundary(boundary, [&, tolerance = tolerances()](Stratum s) {
+      return tolerance(strata.interfaces(s)[0].first);
+    });
+    attraction.measure();
+    Far_points points = attraction.far_points();
+    std::stable_sort(points.begin(), points.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    return points;
+  }
+
+  Far_points far_points(const Core_mesh& mesh) const
+  {
+    Strata strata(m_root.domain());
+    const Interface_faces boundary = strata.sorted_faces(mesh);
+    const Working_mesh fitted(mesh, strata.of_vertices(mesh.number_of_vertices(), boundary));
+    return far_points(fitted, boundary, strata, Surface_projection(m_root.domain(), strata));
+  }
+
+  // Estimates the boundary by a fit of one round: where cells are too coarse for a furrow, elements fill the
+  // furrow, and the boundary gets even farther from it than its vertices on the surface are.
+  Far_points far_if_fitted(const Located_octree& octree, const Candidate& candidate)
+  {
+    Core_mesh mesh;
+    assemble_mesh(octree, candidate.mesh, candidate.boundary, mesh);
+    const auto rough = Mixed_mesh_optimization_criteria_3()
+                         .tolerance(m_result.tolerance)
+                         .quality_bound(m_criteria.quality_bound())
+                         .number_of_rounds(1);
+    bool goes_on = true;
+    optimize_bounded(
+      mesh, m_root.domain(), {rough, m_criteria.number_of_threads}, Aspect_ratio_quality_3(),
+      [&] { return goes_on = goes_on && m_visitor.go_on(); }, 1);
+    m_is_stopped = !goes_on;
+    return far_points(mesh);
+  }
+
+  // Estimates the boundary with its vertices on the surface: between subdomains, where a fit takes long.
+  Far_points far_if_projected(const Located_octree& octree, const Candidate& candidate) const
+  {
+    // The first few rounds of sliding gain most; with 189 subdomains most boundary vertices are where three
+    // or more meet, and all rounds would take nearly all of the time.
+    constexpr int rounds_of_sliding = 5;
     Core_mesh mesh;
     assemble_mesh(octree, candidate.mesh, candidate.boundary, mesh);
     Strata strata(m_root.domain());
     const Interface_faces boundary = strata.sorted_faces(mesh);
     Working_mesh projected(mesh, strata.of_vertices(mesh.number_of_vertices(), boundary));
     Surface_projection project(m_root.domain(), strata);
-    if(m_has_subdomains)
-      project.set_approximate();
+    project.set_approximate();
     const Surface_targets targets = surface_targets(boundary.faces, projected.points, project,
-                                                    projected.strata, {},
-                                                    m_has_subdomains ? rounds_between_subdomains
-                                                                     : rounds_of_sliding);
+                                                    projected.strata, {}, rounds_of_sliding);
     for(std::size_t i = 0; i < targets.vertices.size(); ++i)
       projected.points[targets.vertices[i]] = targets.positions[i];
-    Surface_attraction attraction(projected, project, m_samples);
-    attraction.set_boundary(boundary, [&, tolerance = tolerances()](Stratum s) {
-      return tolerance(strata.interfaces(s)[0].first);
-    });
-    attraction.measure();
-    Estimate estimate{attraction.far_points(), {}, 0};
-    // Interfaces fold at first where a part is small: an increase of their folds by splits means nothing.
-    if(m_has_subdomains)
-      return estimate;
-    const std::vector<Vertex_index> crossing = vertices_of_self_intersections(projected.points,
-                                                                              boundary.faces);
-    estimate.number_of_defects = targets.number_of_folded_faces + crossing.size();
-    for(const std::vector<Vertex_index>& vertices : {targets.folded_vertices, crossing})
-      for(Vertex_index v : vertices)
-        estimate.defects.push_back(projected.points[v]);
-    return estimate;
+    return far_points(projected, boundary, strata, project);
   }
 
-  // Splits cells at all defects, and at as many far points as fit into the limit, the farthest points first.
+  // Splits cells at as many far points as fit into the limit, the farthest points first.
   // \return whether more might be split
-  bool split(const Estimate& estimate, double limit, Located_octree& octree, Candidate& candidate)
+  bool split(const Far_points& far, double limit, Located_octree& octree, Candidate& candidate)
   {
-    std::vector<std::pair<double, Vec3>> far_points = estimate.far_points;
-    std::stable_sort(far_points.begin(), far_points.end(),
-                     [](const auto& a, const auto& b) { return a.first > b.first; });
     const auto try_beyond = [&](double multiple) {
-      std::vector<Vec3> points = estimate.defects;
-      for(const auto& [distance, point] : far_points)
+      std::vector<Vec3> points;
+      for(const auto& [distance, point] : far)
         if(distance > multiple)
           points.push_back(point);
       if(points.empty())
@@ -244,10 +295,10 @@ private:
       return Outcome::TOO_MANY;
     };
     if(m_has_subdomains)
-      return split_subdomains(estimate, try_beyond, octree, candidate);
-    const bool is_wish = m_criteria.tolerance() == Mixed_mesh_criteria_3::automatic;
-    for(const double* multiple = is_wish ? std::begin(multiples_of_wish) : std::begin(multiples);
-        multiple != (is_wish ? std::end(multiples_of_wish) : std::end(multiples)); ++multiple)
+      return split_subdomains(far, try_beyond, octree, candidate);
+    const auto first = is_wish() ? std::begin(multiples_of_wish) : std::begin(multiples),
+               last = is_wish() ? std::end(multiples_of_wish) : std::end(multiples);
+    for(auto multiple = first; multiple != last; ++multiple)
       if(const Outcome outcome = try_beyond(*multiple); outcome != Outcome::TOO_MANY)
         return outcome == Outcome::FITS;
     return false;
@@ -256,15 +307,15 @@ private:
   // Splits cells of subdomains. The tolerances of small subdomains are so small that all of their surface may
   // be far: the multiple beyond which points count as far is found by bisection.
   template <class Try>
-  bool split_subdomains(const Estimate& estimate, const Try& try_beyond, Located_octree& octree,
+  bool split_subdomains(const Far_points& far, const Try& try_beyond, Located_octree& octree,
                         Candidate& candidate)
   {
-    if(estimate.far_points.empty())
+    if(far.empty())
       return false;
-    double too_near = *std::begin(multiples_of_wish);
+    double too_near = multiple_between_subdomains;
     if(const Outcome outcome = try_beyond(too_near); outcome != Outcome::TOO_MANY)
       return outcome == Outcome::FITS;
-    double far_enough = std::max_element(estimate.far_points.begin(), estimate.far_points.end())->first;
+    double far_enough = far.front().first;
     std::vector<Vec3> best;
     for(int trial = 0; trial < number_of_trials; ++trial) {
       const double multiple = std::sqrt(too_near * far_enough);

@@ -12,7 +12,6 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
-#include <CGAL/Mixed_mesh_3/internal/fitting/coarsen.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/make_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/thin_cells.h>
 #include <CGAL/Mixed_mesh_3/quality_bound.h>
@@ -35,16 +34,15 @@ constexpr double finer_multiple = 20, finer_multiple_for_distance = 5;
 
 /// Finds an octree with which the topology is right, with cells as small as walls and gaps ask for, or with
 /// all cells at the surface smaller. It becomes the best.
+/// \param octree from which to start
 /// \param least number of its vertices
 /// \return whether there is one
-inline bool find_finer_octree(Meshing_state& s, std::size_t least, std::size_t most, bool only_thin)
+inline bool find_finer_octree(Meshing_state& s, Located_octree octree, std::size_t least, std::size_t most,
+                              bool only_thin)
 {
   const Stage_scope scope(s.visitor, Stage::OCTREE);
   constexpr double most_cells_per_vertex = 2; // at most, nearly
-  Located_octree octree = s.root;
   s.are_gaps_wider = only_thin;
-  if(!refine_to_level(octree, s.coarsest_level(), most))
-    return false;
   for(int level = s.coarsest_level(); level < Octree::max_level; ++level) {
     std::vector<Octree::Node_index> leaves;
     if(only_thin)
@@ -92,37 +90,6 @@ inline void fit_roughly(Meshing_state& s, Core_mesh& mesh)
   optimize_bounded(
     mesh, s.root.domain(), {rough, s.criteria.number_of_threads}, Aspect_ratio_quality_3(),
     [&s] { return s.go_on(); }, tolerated_share_not_arrived);
-}
-
-/// Removes vertices that only tetrahedra have.
-/// \return whether it has so few then
-inline bool coarsen_to(Meshing_state& s, Core_mesh& mesh, std::size_t number_of_vertices,
-                       Coarsening_goal goal = Coarsening_goal::SHAPE)
-{
-  const double radius = s.root.is_region_everywhere() ? 0 : s.graded_radius();
-  return coarsen(
-           mesh, s.root.domain(), number_of_vertices, s.quality_bound, radius, [&s] { return s.go_on(); },
-           goal)
-         && !s.is_stopped;
-}
-
-/// Removes the boundary vertices off the surface, if they are few, and optimizes the mesh again.
-/// \param status before the optimization
-inline void remove_unarrived_vertices(Meshing_state& s, Core_mesh& mesh, Mixed_mesh_status status)
-{
-  const std::size_t off = s.number_not_arrived();
-  if(off == 0 || s.is_stopped || !s.result.has_mesh())
-    return;
-  Core_mesh other = mesh;
-  const Mixed_mesh_result_3 result = s.result;
-  s.result.status = status;
-  s.result.number_of_collapsed_vertices += off;
-  if(coarsen_to(s, other, mesh.number_of_vertices() - off))
-    optimize_boundary(s, other);
-  if(!s.is_stopped && other.number_of_vertices() > 0 && s.number_not_arrived() < off)
-    mesh = std::move(other);
-  else
-    s.result = result;
 }
 
 /// The number of vertices of elements in the region.
@@ -242,11 +209,15 @@ inline void improve_by_finer_octree(Meshing_state& s, Core_mesh& mesh, Misfit& m
   const double multiple = misfit.has_distance_only() ? finer_multiple_for_distance : finer_multiple;
   const std::size_t most = std::size_t(multiple * double(s.criteria.maximal_number_of_vertices()));
   std::size_t least = s.budget() + s.budget() / 4;
+  // The cells in the region stay small.
+  Located_octree start = s.root.is_region_everywhere() ? s.root : s.octree;
+  if(!refine_to_level(start, s.coarsest_level(), most))
+    return;
   const Mixed_mesh_result_3 result_before = s.result;
   Best_mesh best{misfit, s.result, std::nullopt};
   bool is_finer = false;
   for(int trial = 0; trial < most_trials && !s.is_stopped && !best.misfit.is_right(); ++trial) {
-    if(!find_finer_octree(s, least, most, true) && !find_finer_octree(s, least, most, false))
+    if(!find_finer_octree(s, start, least, most, true) && !find_finer_octree(s, start, least, most, false))
       break;
     is_finer = true;
     least = 2 * s.best.number_of_vertices;

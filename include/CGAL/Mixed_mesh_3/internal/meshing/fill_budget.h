@@ -70,11 +70,12 @@ inline std::vector<Located_octree::Point_3> points_on_sharp_edges(const Meshing_
 /// Cells that are split for fidelity that nobody asked for may take vertices from the region, but not a
 /// level of its surface, where displacements are prescribed: at 2,000 vertices, that can cost half of the
 /// accuracy.
-/// \return the start with that level, and as many of those cells as there is room for, if it is needed
+/// \return the start with that level, and as many of those cells as there is room for, but all that a finished
+/// mesh has shown to be needed; if it is needed
 inline std::optional<Located_octree>
 octree_for_region_first(const Meshing_state& s, const Located_octree& base, const Located_octree& filled)
 {
-  constexpr double shares[] = {1, 0.5, 0.25, 0.125};
+  constexpr double shares[] = {1, 0.5, 0.25, 0.125, 0};
   constexpr double usable_share_of_cells = 0.97; // in cells, whose vertices are not counted yet
   if(s.criteria.tolerance() != Mixed_mesh_criteria_3::automatic || !s.tolerance_search.has_far_points()
      || s.root.is_region_everywhere() || s.root.domain().subdomain_indices().size() > 1)
@@ -98,14 +99,16 @@ octree_for_region_first(const Meshing_state& s, const Located_octree& base, cons
       high = middle;
   }
   const Located_octree start = sequence.octree(low);
+  Located_octree octree = start;
   for(const double share : shares) {
-    Located_octree far = base, octree = start;
+    Located_octree far = base;
     s.tolerance_search.split_far_cells(far, share);
+    octree = start;
     octree.refine_like(far);
     if(double(octree.number_of_cells()) < usable_share_of_cells * double(number_of_cells))
-      return octree;
+      break;
   }
-  return start;
+  return octree;
 }
 
 /// Refines an octree until the budget is full, from a base level, or from where walls and gaps are resolved.

@@ -12,9 +12,8 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
-#include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/optimize_bounded.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Meshing_state.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/remove_unarrived_vertices.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/unreached_cells.h>
 #include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
@@ -87,30 +86,6 @@ inline void mark_sheets(Meshing_state& s)
     s.result.status = worse_status(s.result.status, Mixed_mesh_status::PARTS_LOST);
 }
 
-/// Brings the boundary onto the surface, with the vertices that the budget has left.
-inline void optimize_boundary(Meshing_state& s, Core_mesh& mesh)
-{
-  s.visitor.before_fitting(mesh);
-  s.result.quality_bound = s.quality_bound;
-  const std::size_t rest = s.criteria.maximal_number_of_vertices() - mesh.number_of_vertices();
-  const auto criteria = Mixed_mesh_optimization_criteria_3()
-                          .tolerance(s.result.tolerance)
-                          .quality_bound(s.quality_bound)
-                          .sharp_angle(s.criteria.sharp_angle())
-                          .number_of_bisections(s.share_of_bisections() > 0 ? rest : 0);
-  s.result.optimization = optimize_bounded(mesh, s.root.domain(), {criteria, s.criteria.number_of_threads},
-                                           Aspect_ratio_quality_3(), [&s] { return s.go_on(); });
-  const bool is_only_wished = s.criteria.tolerance() == Mixed_mesh_criteria_3::automatic
-                              && s.result.optimization.status
-                                   == Mixed_mesh_optimization_status::TOLERANCE_NOT_REACHED;
-  if(!is_only_wished)
-    s.result.status = worse_status(s.result.status, status_of(s.result.optimization.status));
-  s.result.is_kept = s.result.status == Mixed_mesh_status::STOPPED && s.best.is_manifold()
-                     && s.criteria.keep_mesh_if_stopped();
-  if(!s.result.has_mesh())
-    mesh.clear();
-}
-
 /// Notes lost cells: cells without elements, except those that the boundary has come near to.
 inline void note_lost_cells(Meshing_state& s, const Core_mesh& mesh)
 {
@@ -135,6 +110,14 @@ inline void note_share_filled(Meshing_state& s, std::size_t n)
     s.result.status = worse_status(s.result.status, Mixed_mesh_status::BUDGET_NOT_FILLED);
 }
 
+/// Whether the boundary vertices off the surface are so few that the mesh is worth mending: any other one has
+/// fewer vertices in the region.
+inline bool are_few_not_arrived(const Meshing_state& s)
+{
+  constexpr double few = 0.01;
+  return double(s.number_not_arrived()) <= few * double(s.result.optimization.number_of_boundary_vertices);
+}
+
 /// Makes the mesh of the octree.
 inline void make_mesh(Meshing_state& s, Core_mesh& mesh)
 {
@@ -151,7 +134,10 @@ inline void make_mesh(Meshing_state& s, Core_mesh& mesh)
   }
   if(s.criteria.fit_to_surface() && !s.result.is_kept) {
     const Stage_scope scope(s.visitor, Stage::OPTIMIZATION);
+    const Mixed_mesh_status status = s.result.status;
     optimize_boundary(s, mesh);
+    if(s.may_resolve_thin_parts() && !s.root.domain().has_sheets() && are_few_not_arrived(s))
+      remove_unarrived_vertices(s, mesh, status);
   }
   note_lost_cells(s, mesh);
   if(!s.result.is_lattice_on_surface)

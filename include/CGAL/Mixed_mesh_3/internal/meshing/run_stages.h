@@ -16,6 +16,7 @@
 #include <CGAL/Mixed_mesh_3/internal/meshing/fill_budget.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/make_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/resolve_thin_parts.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/retry_far_places.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
 
 namespace CGAL {
@@ -75,6 +76,7 @@ inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_
     if(!may_exchange_vertices(s) || !exchange_vertices(s, mesh, misfit)) {
       make_mesh(s, mesh);
       misfit = s.misfit_of(mesh);
+      retry_far_places(s, mesh, misfit);
       if(s.may_resolve_thin_parts())
         improve_thin_parts(s, mesh, misfit);
     }
