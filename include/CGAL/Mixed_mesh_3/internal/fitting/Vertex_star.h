@@ -74,10 +74,10 @@ public:
   Vec3 logarithmic_gradient() const { return (-3 / m_squares) * m_opposite - (1 / m_volume) * m_area; }
 
   /*!
-  Whether a cost as computed proves that the volume is positive after a move by x. With positions of at most h,
-  seen from where the vertex was, the rounding error of the volume is less than 1000 units of roundoff times
-  h^3. A cost below 10^4 and squared edges of more than h^2 / 100 in all make the volume 10^4 times as large.
-  Without underflow and overflow, for which h must not be extreme.
+  Whether a cost as computed proves that the volume is positive after a move by x. With positions of at most
+  h, seen from where the vertex was, the rounding error of the volume is less than 1000 units of roundoff
+  times h^3. A cost below 10^4 and squared edges of more than h^2 / 100 in all make the volume 10^4 times as
+  large. Without underflow and overflow, for which h must not be extreme.
   */
   bool proves_positive(const Vec3& x, double xx) const
   {
@@ -170,8 +170,8 @@ public:
     return sum;
   }
 
-  /// The sum of the powers of the costs with the vertex at another place; infinity if the sum is not less than
-  /// the limit, or if an element costs more than `most`.
+  /// The sum of the powers of the costs with the vertex at another place; infinity if the sum is not less
+  /// than the limit, or if an element costs more than `most`.
   /// \param sum what is added to the costs
   double energy_at(const Vec3& place, double exponent, double sum, double limit, double most)
   {

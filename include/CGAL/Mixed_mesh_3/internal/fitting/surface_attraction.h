@@ -332,7 +332,8 @@ private:
       if(!are_near)
         asked.push_back(k);
     }
-    // A point of the surface of each stratum, a hint where there is no nearer one: several threads need hints.
+    // A point of the surface of each stratum, a hint where there is no nearer one: several threads need
+    // hints.
     std::map<Stratum, Vec3> anywhere;
     for(std::size_t k : asked)
       if(const auto found = anywhere.try_emplace(m_strata[k]); found.second)

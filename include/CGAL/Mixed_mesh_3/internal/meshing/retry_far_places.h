@@ -34,8 +34,8 @@ inline bool is_worth_a_retry(const Meshing_state& s, const Misfit& misfit)
          && s.result.optimization.largest_distance > (is_wish ? tolerated_multiple : 1) * s.result.tolerance;
 }
 
-/// Makes the mesh once more, or a few times, with smaller cells where the last one is too far from the surface:
-/// what the fit makes of a furrow between cells is not known before. The nearest mesh is taken.
+/// Makes the mesh once more, or a few times, with smaller cells where the last one is too far from the
+/// surface: what the fit makes of a furrow between cells is not known before. The nearest mesh is taken.
 inline void retry_far_places(Meshing_state& s, Core_mesh& mesh, Misfit& misfit)
 {
   constexpr int most_retries = 2;

@@ -67,9 +67,9 @@ the place. With r = 0 this is the rule of the paper: cells that meet the region 
 
 Cells at the surface come two levels of 32^(1/2) earlier: displacements are prescribed there and elements are
 tetrahedra, which are less accurate. In a graded region they come a whole level earlier, and so do, by less,
-cells below them: errors of displacements that are prescribed at a patch are largest there. Cells at the surface
-also remove volume between the surface and the boundary, which falls like h^4: so they get a share of the error
-that does not depend on the region.
+cells below them: errors of displacements that are prescribed at a patch are largest there. Cells at the
+surface also remove volume between the surface and the boundary, which falls like h^4: so they get a share of
+the error that does not depend on the region.
 
 Cells at sharp edges come first without a region, up to a level finer than others at the surface, and cells of
 equal keys are split here and there, so that the last level is not at one end.
