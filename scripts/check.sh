@@ -20,6 +20,8 @@
 #               are compiled there, with -Wpedantic, by LAYOUT_COMPILERS (default: g++ clang++), also with the CGAL of
 #               CGAL_DIR_61
 #   benchmarks  the benchmarks compile, by clang
+#   instructions  a few meshes take at most a tenth more instructions than is recorded, in the Release build:
+#               benchmark/count_instructions.py
 #   checked     some examples, one for each way through the stages, and short tests run with CGAL's assertions and
 #               preconditions, the tests also with AddressSanitizer and UndefinedBehaviorSanitizer
 #   fuzz        targets of libFuzzer, one a reader, run for FUZZ_SECONDS each (default: 12), from test/fuzz/corpus;
@@ -38,7 +40,7 @@ source "$root/scripts/setup.sh"
 
 build=$(realpath -m "${BUILD_DIR:-$root/build}")
 quick=(format shell python layers)
-compiled=(doc headers layout benchmarks checked fuzz cgal61)
+compiled=(doc headers layout benchmarks instructions checked fuzz cgal61)
 
 # The tests that run with sanitizers, and their programs. Not those that read a surface or mesh one: with
 # sanitizers, a compiler takes long for CGAL's polygon meshes. The preset `checked` has all.
@@ -175,6 +177,12 @@ check_layout() {
 check_benchmarks() {
   configure_clang -DMIXED_MESH_3_BUILD_BENCHMARKS=ON -DMIXED_MESH_3_BENCHMARKS_SYNTAX_ONLY=ON
   build "$build/clang" benchmark/all
+}
+
+check_instructions() {
+  configure release --preset release
+  build "$build/release" mixed_mesh_3
+  benchmark/count_instructions.py "$build/release/bin/mixed_mesh_3"
 }
 
 check_checked() {

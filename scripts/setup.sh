@@ -40,7 +40,7 @@ packages_for() {
     # The peers of scripts/benchmark.sh, its plots, and what kernels are measured with.
     benchmark) echo libbenchmark-dev tetgen python3-gmsh python3-netgen python3-matplotlib ;;
     # What scripts/check.sh runs besides the compiler.
-    checks) echo clang clang-format-14 doxygen libjs-mathjax pyflakes3 shellcheck ;;
+    checks) echo clang clang-format-14 doxygen libjs-mathjax pyflakes3 shellcheck valgrind ;;
     *) fail "unknown purpose '$1': expected build, pictures, tests, image, benchmark, checks, cohort, page, python or petsc" ;;
   esac
 }
