@@ -141,8 +141,8 @@ def main():
             print("%d vertices, nu %g, %s: %.3g %.3g  %.3g %.3g"
                   % (len(blocks["points"]), ratio, fit, *(100 * x for x in now)))
             # Standard elements are the same, but for the integration over distorted pyramids: cells of the octree
-            # have none. Ours differ by as much as standard ones lock, and less with each refinement.
-            check(now[1] < (1e-11 if fit == "unfitted" else 1e-4), path, "standard elements", now[1])
+            # have hardly any. Ours differ by as much as standard ones lock, and less with each refinement.
+            check(now[1] < (1e-5 if fit == "unfitted" else 1e-4), path, "standard elements", now[1])
             check(ratio > 0.3 or now[0] < 0.02, path, "our elements where standard ones do not lock", now[0])
             if fit == "tumor":
                 moduli = np.unique(blocks["materials"][:, 0])
