@@ -202,7 +202,7 @@ class Tissue(Case):
                 self.fails(self.mesh, "--control-points", self.points, "--tumor", path, names=path, words=words)
         self.fails(self.mesh, "--control-points", self.points, "--tumor", WORK / "none.off", names="none.off",
                    words="No such file")
-        turned = self.file("turned.off", cube_off((-18, 88, 0), 31))  # at the back of the brain, in LPS
+        turned = self.file("turned.off", cube_off((10, 84, 10), 22))  # at the back of the brain, in LPS
         self.fails(self.mesh, "--control-points", self.points, "--tumor", turned, names=turned, words="x and y negated")
         self.assertEqual(self.shift(self.mesh, "--control-points", self.points, "--tumor", turned, "--space",
                                     "LPS").returncode, 0)
