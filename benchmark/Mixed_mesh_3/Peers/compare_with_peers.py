@@ -68,10 +68,10 @@ class Meshers:
     programs = work = surface = region = mixed_octree = None
 
     @classmethod
-    def coarse(cls, name, vertices):
+    def coarse(cls, name, vertices, *options):
         """The surface with so many vertices, and the seconds that this takes."""
         file = cls.work / (name + ".off")
-        out = run(cls.programs / "coarsen_surface", cls.surface, file, max(100, round(vertices)))
+        out = run(cls.programs / "coarsen_surface", cls.surface, file, max(100, round(vertices)), *options)
         return file, last_json(out)["CPU seconds"]
 
     @classmethod
@@ -84,9 +84,7 @@ class Meshers:
         sizes = Sizes(cls.surface, cls.region)
         write_background(base, sizes.points, sizes.tetrahedra(), sizes.at_points(size, GROWTH, largest))
         out = run("tetgen", "-pq1.4mO7/7", poly)
-        times = dict(re.findall(r"^(.*) seconds:\s+(\S+)$", out, re.MULTILINE))
-        seconds += sum(float(t) for name, t in times.items() if not name.startswith(("Output", "Total")))
-        return base.with_name(base.name + ".1.ele"), seconds
+        return base.with_name(base.name + ".1.ele"), seconds + seconds_of_tetgen(out)
 
     @classmethod
     def gmsh(cls, vertices, size, largest, *options):
@@ -105,6 +103,12 @@ class Meshers:
         out = run("/usr/bin/python3", HERE / "mesh_with_netgen.py", cls.surface, cls.region, mesh, size,
                   "--growth", GROWTH, "--largest", largest)
         return mesh, last_json(out)["CPU seconds"]
+
+
+def seconds_of_tetgen(out):
+    """From what it prints, without output."""
+    times = dict(re.findall(r"^(.*) seconds:\s+(\S+)$", out, re.MULTILINE))
+    return sum(float(t) for name, t in times.items() if not name.startswith(("Output", "Total")))
 
 
 def write_smesh(off, smesh):
@@ -133,34 +137,40 @@ def measure(mesh, *options):
     return last_json(run(Meshers.programs / "measure_mesh", Meshers.surface, Meshers.region, "--mesh", mesh, *options))
 
 
-def search(mesher, wanted):
-    """The scale of the sizes that gives about so many vertices: the number goes with its inverse cube, about."""
-    start = {"size": 6.5 * (660 / wanted) ** (1 / 2), "largest": 24 * (660 / wanted) ** (1 / 5)}
-
-    def trial(scale):
-        mesh, _ = mesher(wanted, scale * start["size"], scale * start["largest"])
-        return measure(mesh, "--only-time")["vertices"]
-
+def search(trial, wanted, trials=10, close=0.01, least=1):
+    """The scale of the sizes that gives about so many vertices: the number goes with its inverse cube, about.
+    Until there are too many and too few vertices, steps are of a factor `least` at least."""
     scale, best = 1., (math.inf, None)
     low, high = 0., math.inf  # scales with too many and too few vertices
-    for _ in range(10):
+    for _ in range(trials):
         n = trial(scale)
         best = min(best, (abs(math.log(n / wanted)), scale))
-        if best[0] < 0.01:
+        if best[0] < close:
             break
         if n > wanted:
             low = max(low, scale)
         else:
             high = min(high, scale)
         scale *= (n / wanted) ** 0.45
+        if high == math.inf:
+            scale = max(scale, least * low)
+        elif low == 0:
+            scale = min(scale, high / least)
         if not low < scale < high:
             scale = (low + high) / 2 if high < math.inf else 1.3 * low
-    return best[1] * start["size"], best[1] * start["largest"]
+    return best[1]
 
 
 def peer(mesher):
     def row(wanted, runs):
-        size, largest = search(mesher, wanted)
+        start = {"size": 6.5 * (660 / wanted) ** (1 / 2), "largest": 24 * (660 / wanted) ** (1 / 5)}
+
+        def trial(scale):
+            mesh, _ = mesher(wanted, scale * start["size"], scale * start["largest"])
+            return measure(mesh, "--only-time")["vertices"]
+
+        scale = search(trial, wanted)
+        size, largest = scale * start["size"], scale * start["largest"]
         made = [mesher(wanted, size, largest) for _ in range(runs)]
         return {**measure(made[-1][0]), "CPU seconds": statistics.median(seconds for _, seconds in made),
                 "size in region": size, "largest": largest}

@@ -5,8 +5,6 @@ import argparse
 import itertools
 
 import numpy
-import vtk
-from vtk.util import numpy_support
 
 
 def argument_parser(description):
@@ -73,6 +71,8 @@ class Sizes:
 
 def distances(points, surface_points, triangles):
     """Signed, negative inside."""
+    import vtk
+    from vtk.util import numpy_support
     data, cells = vtk.vtkPolyData(), vtk.vtkCellArray()
     coordinates = vtk.vtkPoints()
     coordinates.SetData(numpy_support.numpy_to_vtk(surface_points, deep=True))

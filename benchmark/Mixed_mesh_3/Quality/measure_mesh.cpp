@@ -33,6 +33,7 @@ struct Options
   std::string surface, region, mesh, output;
   std::size_t vertices = 0;
   double tolerance = CGAL::Mixed_mesh_criteria_3::automatic;
+  double step = 1;
   bool is_regular = false, is_papers = false, only_time = false;
 };
 
@@ -98,6 +99,9 @@ try {
   app.add_flag("--regular", o.is_regular, "refine everywhere alike");
   app.add_flag("--paper", o.is_papers, "only the region is refined; Algorithm 1 instead of the optimization");
   app.add_option("--output", o.output, "also write the mesh, to a .vtu file for example");
+  app.add_option("--step", o.step, "between samples, for distances")
+    ->capture_default_str()
+    ->check(CLI::PositiveNumber);
   app.add_flag("--only-time", o.only_time, "measure the time only");
   CLI11_PARSE(app, argc, argv);
   if(o.mesh.empty() && o.vertices == 0)
@@ -111,7 +115,7 @@ try {
   else
     require([&](std::string* error) { return mm3::IO::read_mixed_mesh(o.mesh, mesh, error); });
   line["vertices"] = mesh.number_of_vertices();
-  Mesh_measures::finish(line, mesh, surface, region, o.only_time, o.output);
+  Mesh_measures::finish(line, mesh, surface, region, o.only_time, o.output, o.step);
   return 0;
 } catch(const std::exception& e) {
   std::cerr << "measure_mesh: " << e.what() << '\n';

@@ -15,15 +15,19 @@
 #include "core/resources.h"
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/boundary_to_face_graph.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 
 #include <nlohmann/json.hpp>
 
@@ -33,8 +37,10 @@
 #include <cstddef>
 #include <ctime>
 #include <iostream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Mesh_measures {
@@ -137,6 +143,40 @@ std::vector<Sample> boundary_vertices(const Mesh& mesh)
   for(const auto v : CGAL::Mixed_meshes_3::boundary_vertices(mesh))
     result.push_back({to_point(mesh.point(v)), 0});
   return result;
+}
+
+/// The number of shells, and the Euler characteristic.
+inline std::array<std::ptrdiff_t, 2> shells_and_characteristic(Surface surface)
+{
+  const auto ids = surface.add_property_map<Surface::Face_index, std::size_t>("f:shell", 0).first;
+  return {std::ptrdiff_t(CGAL::Polygon_mesh_processing::connected_components(surface, ids)),
+          std::ptrdiff_t(surface.number_of_vertices()) - std::ptrdiff_t(surface.number_of_edges())
+            + std::ptrdiff_t(surface.number_of_faces())};
+}
+
+/// Whether the boundary has as many shells as the surface, and its Euler characteristic; pairs of its
+/// triangles that intersect, a quadrilateral being four. If it is no manifold, nothing is counted.
+template <class Mesh>
+nlohmann::ordered_json measure_boundary(const Mesh& mesh, const Surface& surface)
+{
+  Surface boundary;
+  if(!CGAL::boundary_to_face_graph(mesh, boundary))
+    return {{"same topology", false}, {"self-intersections", nullptr}};
+  const bool is_same = shells_and_characteristic(boundary) == shells_and_characteristic(surface);
+  const std::vector<Surface::Face_index> faces(boundary.faces().begin(), boundary.faces().end());
+  for(const Surface::Face_index f : faces) {
+    const auto h = boundary.halfedge(f);
+    std::vector<Point> p;
+    for(const auto v : boundary.vertices_around_face(h))
+      p.push_back(boundary.point(v));
+    if(p.size() == 4) {
+      const auto center = CGAL::Euler::add_center_vertex(h, boundary);
+      boundary.point(boundary.target(center)) = CGAL::centroid(p[0], p[1], p[2], p[3]);
+    }
+  }
+  std::vector<std::pair<Surface::Face_index, Surface::Face_index>> pairs;
+  CGAL::Polygon_mesh_processing::self_intersections(boundary, std::back_inserter(pairs));
+  return {{"same topology", is_same}, {"self-intersections", pairs.size()}};
 }
 
 /// The smallest and the largest dihedral angle of all elements, in degrees. Faces that are not plane have
@@ -315,6 +355,8 @@ nlohmann::ordered_json measure(const Mesh& mesh, const Surface& surface, const S
   line["volume"] = volume;
   line["volume ratio"] = volume / CGAL::to_double(CGAL::Polygon_mesh_processing::volume(surface));
 
+  line.update(measure_boundary(mesh, surface));
+
   // Elements.
   const auto rows = mm3::quality_statistics(mesh);
   line["ARC mean"] = rows.back().mean;
@@ -341,10 +383,10 @@ nlohmann::ordered_json measure(const Mesh& mesh, const Surface& surface, const S
 /// line.
 template <class Mesh>
 void finish(nlohmann::ordered_json line, const Mesh& mesh, const Surface& surface, const Surface& region,
-            bool only_time, const std::string& output_file)
+            bool only_time, const std::string& output_file, double step = 1)
 {
   if(!only_time)
-    line.update(measure(mesh, surface, region));
+    line.update(measure(mesh, surface, region, step));
   if(!output_file.empty())
     require([&](std::string* error) {
       return CGAL::Mixed_meshes_3::IO::write_mixed_mesh(output_file, mesh, {}, error);
