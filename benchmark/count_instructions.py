@@ -51,8 +51,8 @@ def main():
             change = now / old - 1 if old else float("inf")
             word = "not recorded" if not old else "too much" if change > TOO_MUCH else "more" if change > NAMED else ""
             is_too_much = is_too_much or change > TOO_MUCH
-            print(f"| {name} | {f'{old / 1e6:.0f}' if old else ''} | {now / 1e6:.0f} | {f'{change:+.1%}' if old else ''} | {word} |",
-                  flush=True)
+            cells = (name, f"{old / 1e6:.0f}" if old else "", f"{now / 1e6:.0f}", f"{change:+.1%}" if old else "", word)
+            print("| " + " | ".join(cells) + " |", flush=True)
             record[name] = now
     if options.update:
         RECORD.write_text(json.dumps(record, indent=1, sort_keys=True) + "\n")

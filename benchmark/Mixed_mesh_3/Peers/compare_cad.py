@@ -31,6 +31,7 @@ import sys
 
 from compare_with_peers import (HERE, Failure, Meshers, last_json, number, run, search, seconds_of_tetgen,
                                 write_results, write_smesh)
+from compare_programs import write_off
 from results import markdown
 
 SURFACES = ("anchor_dense", "couplingdown", "cross", "cube-meshed", "fandisk", "joint", "part", "pinion_small", "rotor",
@@ -47,10 +48,7 @@ def prepare(file, scaled):
     from sizes import read_off
     points, triangles = read_off(file)
     points = (points - points.min(0)) * 100 / numpy.linalg.norm(points.max(0) - points.min(0))
-    with open(scaled, "w") as out:
-        out.write(f"OFF\n{len(points)} {len(triangles)} 0\n")
-        out.writelines("{!r} {!r} {!r}\n".format(*map(float, p)) for p in points)
-        out.writelines("3 {} {} {}\n".format(*t) for t in triangles)
+    write_off(scaled, points.tolist(), triangles.tolist())
     return len(points)
 
 

@@ -18,7 +18,7 @@
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_star.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 
-#include <CGAL/assertions.h>
+#include <boost/container/small_vector.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +68,6 @@ class Vertex_optimizer
   std::vector<std::uint8_t> m_is_inside;         // vertices where only bad elements count
   std::vector<Attraction> m_attractions;         // one for each vertex, or none
   std::vector<double> m_costs;                   // cost of each element; negative: not known
-  std::vector<double> m_trial_costs;             // costs around a vertex that is moved: none moves beside it
   Vertex_coloring m_coloring;
   unsigned m_threads = 0; // 0: without colors
   double m_power = 4;
@@ -205,7 +204,6 @@ public:
     m_power = power;
     m_good_enough = good_enough;
     m_costs.resize(m_mesh.elements.size(), -1);
-    m_trial_costs.resize(m_mesh.elements.size());
     if(m_threads > 0)
       m_coloring.update(m_mesh);
     for(int sweep = 0; sweep < sweeps && (m_threads > 0 ? sweep_by_colors() : this->sweep()); ++sweep) {
@@ -232,20 +230,20 @@ public:
       limit = (std::max)(limit, known_cost(e));
     const Vec3 old = m_mesh.points[v];
     m_mesh.points[v] = p;
-    m_trial_costs.resize(m_mesh.elements.size());
-    for(Element_index e : m_mesh.incident[v]) {
-      m_trial_costs[e] = cost(e);
-      if(!(m_trial_costs[e] <= limit)) {
-        m_mesh.points[v] = old;
-        return false;
-      }
-    }
-    if(!is_valid(v)) {
+    const std::vector<Element_index>& around = m_mesh.incident[v];
+    boost::container::small_vector<double, 40> costs;
+    const auto is_acceptable_element = [&](Element_index e) {
+      costs.push_back(cost(e));
+      return costs.back() <= limit;
+    };
+    const auto is_positive = [&](Element_index e) { return m_mesh.is_positive(m_mesh.elements[e]); };
+    if(!std::all_of(around.begin(), around.end(), is_acceptable_element)
+       || !std::all_of(around.begin(), around.end(), is_positive)) {
       m_mesh.points[v] = old;
       return false;
     }
-    for(Element_index e : m_mesh.incident[v])
-      m_costs[e] = m_trial_costs[e];
+    for(std::size_t i = 0; i < around.size(); ++i)
+      m_costs[around[i]] = costs[i];
     activate_around(v);
     return true;
   }
@@ -299,12 +297,6 @@ private:
     if(m_costs[e] < 0)
       m_costs[e] = cost(e);
     return m_costs[e];
-  }
-
-  bool is_valid(Vertex_index v) const
-  {
-    return std::all_of(m_mesh.incident[v].begin(), m_mesh.incident[v].end(),
-                       [&](Element_index e) { return m_mesh.is_positive(m_mesh.elements[e]); });
   }
 
   // The attraction of a vertex; the weight is 0 if there is none.

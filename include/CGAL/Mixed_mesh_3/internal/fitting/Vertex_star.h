@@ -66,8 +66,8 @@ public:
   double at(const Vec3& x, double xx) const
   {
     const double volume = m_volume + dot(m_area, x);
-    const double squares = m_squares + 3 * xx - 2 * dot(m_opposite, x);
-    return volume > 0 ? squared_tetrahedron_arc(squares, volume) : std::numeric_limits<double>::infinity();
+    return volume > 0 ? squared_tetrahedron_arc(squared_edges(x, xx), volume)
+                      : std::numeric_limits<double>::infinity();
   }
 
   /// The gradient of the logarithm of the coefficient, where the vertex was.
@@ -81,9 +81,12 @@ public:
   */
   bool proves_positive(const Vec3& x, double xx) const
   {
-    const double squares = m_squares + 3 * xx - 2 * dot(m_opposite, x), most = (std::max)(m_squares, xx);
-    return squared_cost < 1e8 && 100 * squares > most && 1e-60 < most && most < 1e60;
+    const double most = (std::max)(m_squares, xx);
+    return squared_cost < 1e8 && 100 * squared_edges(x, xx) > most && 1e-60 < most && most < 1e60;
   }
+
+private:
+  double squared_edges(const Vec3& x, double xx) const { return m_squares + 3 * xx - 2 * dot(m_opposite, x); }
 };
 
 /*!

@@ -32,10 +32,9 @@ namespace internal {
 /// The result of `surface_targets()`.
 struct Surface_targets
 {
-  std::vector<Vertex_index> vertices;        ///< the boundary vertices, ascending
-  std::vector<Vec3> positions;               ///< target of each vertex, on the surface
-  std::size_t number_of_folded_faces = 0;    ///< faces that sliding could not unfold
-  std::vector<Vertex_index> folded_vertices; ///< vertices of these faces
+  std::vector<Vertex_index> vertices;     ///< the boundary vertices, ascending
+  std::vector<Vec3> positions;            ///< target of each vertex, on the surface
+  std::size_t number_of_folded_faces = 0; ///< faces that sliding could not unfold
 };
 
 /*!
@@ -198,9 +197,6 @@ Surface_targets surface_targets(const std::vector<Face>& boundary, const std::ve
       }
   }
   result.number_of_folded_faces = folds.find(targets, 0, is_folded);
-  for(std::size_t i = 0; i < n; ++i)
-    if(is_folded[i])
-      result.folded_vertices.push_back(result.vertices[i]);
   return result;
 }
 

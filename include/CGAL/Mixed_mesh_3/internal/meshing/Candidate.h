@@ -11,7 +11,9 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/Boundary_stage.h>
+#include <CGAL/Mixed_mesh_3/internal/boundary/assemble_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Gap_widener.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/thin_cells.h>
@@ -37,6 +39,12 @@ enum class Gap_rule : std::uint8_t {
 
 using Meshing_criteria = With_threads<Mixed_mesh_criteria_3>;
 
+/// Whether nobody asked for a tolerance: the default one is only wished.
+inline bool is_tolerance_wished(const Mixed_mesh_criteria_3& criteria)
+{
+  return criteria.tolerance() == Mixed_mesh_criteria_3::automatic;
+}
+
 /// The mesh of one octree on the way to the budget, on the lattice.
 struct Candidate
 {
@@ -50,6 +58,14 @@ struct Candidate
   bool is_manifold() const { return boundary.defects.empty(); }
   bool is_good() const { return is_manifold() && !is_topology_wrong; }
 };
+
+/// The mesh of an octree, on the lattice.
+inline Core_mesh assembled_mesh(const Located_octree& octree, const Candidate& candidate)
+{
+  Core_mesh mesh;
+  assemble_mesh(octree, candidate.mesh, candidate.boundary, mesh);
+  return mesh;
+}
 
 /// Runs the stages that follow the octree. To be called in the stage `OCTREE`.
 inline Candidate make_candidate(const Located_octree& octree, const Meshing_criteria& criteria,

@@ -14,7 +14,6 @@
 
 #include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
-#include <CGAL/Mixed_mesh_3/internal/boundary/assemble_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/lost_cells.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Candidate.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Misfit.h>
@@ -183,9 +182,7 @@ struct Meshing_state
 
   Misfit misfit_on_lattice(const Located_octree& o, const Candidate& candidate, std::size_t number_lost) const
   {
-    Core_mesh mesh;
-    assemble_mesh(o, candidate.mesh, candidate.boundary, mesh);
-    return Misfit(mesh, root.domain(), false, number_lost, 0, 0);
+    return Misfit(assembled_mesh(o, candidate), root.domain(), false, number_lost, 0, 0);
   }
 
   Misfit misfit_of(const Core_mesh& mesh) const

@@ -17,7 +17,6 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
-#include <CGAL/Mixed_mesh_3/internal/boundary/assemble_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/optimize_bounded.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_attraction.h>
@@ -128,13 +127,14 @@ public:
           leaves.push_back(n);
       refine(leaves);
     }
-    for(std::vector<Octree::Node_index> leaves(1); !leaves.empty();) {
+    std::vector<Octree::Node_index> leaves;
+    do {
       leaves.clear();
       for(const auto& [p, level] : m_required)
         if(const Octree::Node_index n = octree.leaf_at({p[0], p[1], p[2]}); octree.octree().level(n) < level)
           leaves.push_back(n);
       refine(leaves);
-    }
+    } while(!leaves.empty());
   }
 
 private:
@@ -198,7 +198,7 @@ private:
     return c;
   }
 
-  bool is_wish() const { return m_criteria.tolerance() == Mixed_mesh_criteria_3::automatic; }
+  bool is_wish() const { return is_tolerance_wished(m_criteria); }
   double first_multiple() const { return is_wish() ? multiples_of_wish[0] : multiples[0]; }
 
   bool is_stopped_by(const Candidate& candidate)
@@ -238,8 +238,7 @@ private:
   // furrow, and the boundary gets even farther from it than its vertices on the surface are.
   Far_points far_if_fitted(const Located_octree& octree, const Candidate& candidate)
   {
-    Core_mesh mesh;
-    assemble_mesh(octree, candidate.mesh, candidate.boundary, mesh);
+    Core_mesh mesh = assembled_mesh(octree, candidate);
     const auto rough = Mixed_mesh_optimization_criteria_3()
                          .tolerance(m_result.tolerance)
                          .quality_bound(m_criteria.quality_bound())
@@ -258,8 +257,7 @@ private:
     // The first few rounds of sliding gain most; with 189 subdomains most boundary vertices are where three
     // or more meet, and all rounds would take nearly all of the time.
     constexpr int rounds_of_sliding = 5;
-    Core_mesh mesh;
-    assemble_mesh(octree, candidate.mesh, candidate.boundary, mesh);
+    const Core_mesh mesh = assembled_mesh(octree, candidate);
     Strata strata(m_root.domain());
     const Interface_faces boundary = strata.sorted_faces(mesh);
     Working_mesh projected(mesh, strata.of_vertices(mesh.number_of_vertices(), boundary));

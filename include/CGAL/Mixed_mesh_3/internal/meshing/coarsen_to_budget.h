@@ -72,9 +72,7 @@ inline bool find_finer_octree(Meshing_state& s, Located_octree octree, std::size
 inline Core_mesh assembled_mesh(const Meshing_state& s)
 {
   const Stage_scope scope(s.visitor, Stage::ASSEMBLY);
-  Core_mesh mesh;
-  assemble_mesh(s.octree, s.best.mesh, s.best.boundary, mesh);
-  return mesh;
+  return assembled_mesh(s.octree, s.best);
 }
 
 /// Brings most of the boundary of a mesh onto the surface.

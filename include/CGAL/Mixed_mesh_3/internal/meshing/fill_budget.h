@@ -77,8 +77,8 @@ octree_for_region_first(const Meshing_state& s, const Located_octree& base, cons
 {
   constexpr double shares[] = {1, 0.5, 0.25, 0.125, 0};
   constexpr double usable_share_of_cells = 0.97; // in cells, whose vertices are not counted yet
-  if(s.criteria.tolerance() != Mixed_mesh_criteria_3::automatic || !s.tolerance_search.has_far_points()
-     || s.root.is_region_everywhere() || s.root.domain().subdomain_indices().size() > 1)
+  if(!is_tolerance_wished(s.criteria) || !s.tolerance_search.has_far_points() || s.root.is_region_everywhere()
+     || s.root.domain().subdomain_indices().size() > 1)
     return std::nullopt;
   const std::size_t number_of_cells = filled.number_of_cells();
   Refinement_sequence sequence(base, s.graded_radius());

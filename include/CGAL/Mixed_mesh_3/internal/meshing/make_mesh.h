@@ -128,7 +128,7 @@ inline void make_mesh(Meshing_state& s, Core_mesh& mesh)
   {
     const Stage_scope scope(s.visitor, Stage::ASSEMBLY);
     mark_sheets(s);
-    assemble_mesh(s.octree, s.best.mesh, s.best.boundary, mesh);
+    mesh = assembled_mesh(s.octree, s.best);
     if(s.criteria.only_tetrahedra())
       mesh = split_to_tetrahedra(mesh);
   }

@@ -37,7 +37,7 @@ inline void optimize_boundary(Meshing_state& s, Core_mesh& mesh)
                           .number_of_bisections(s.share_of_bisections() > 0 ? rest : 0);
   s.result.optimization = optimize_bounded(mesh, s.root.domain(), {criteria, s.criteria.number_of_threads},
                                            Aspect_ratio_quality_3(), [&s] { return s.go_on(); });
-  const bool is_only_wished = s.criteria.tolerance() == Mixed_mesh_criteria_3::automatic
+  const bool is_only_wished = is_tolerance_wished(s.criteria)
                               && s.result.optimization.status
                                    == Mixed_mesh_optimization_status::TOLERANCE_NOT_REACHED;
   if(!is_only_wished)

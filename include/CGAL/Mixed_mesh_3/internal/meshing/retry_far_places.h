@@ -27,11 +27,11 @@ inline bool is_worth_a_retry(const Meshing_state& s, const Misfit& misfit)
 {
   // Multiple of a tolerance that is only wished: a mesh of ten of a brain, with 2,000 to 20,000 vertices.
   constexpr double tolerated_multiple = 1.5;
-  const bool is_wish = s.criteria.tolerance() == Mixed_mesh_criteria_3::automatic;
+  const double tolerated = is_tolerance_wished(s.criteria) ? tolerated_multiple : 1;
   return s.criteria.fit_to_surface() && s.result.has_mesh() && !s.result.is_kept && !s.is_stopped
          && s.tolerance_search.has_samples() && !s.result.is_lattice_on_surface && !s.thin_start
          && misfit.is_topology_right()
-         && s.result.optimization.largest_distance > (is_wish ? tolerated_multiple : 1) * s.result.tolerance;
+         && s.result.optimization.largest_distance > tolerated * s.result.tolerance;
 }
 
 /// Makes the mesh once more, or a few times, with smaller cells where the last one is too far from the
@@ -39,6 +39,8 @@ inline bool is_worth_a_retry(const Meshing_state& s, const Misfit& misfit)
 inline void retry_far_places(Meshing_state& s, Core_mesh& mesh, Misfit& misfit)
 {
   constexpr int most_retries = 2;
+  if(!is_worth_a_retry(s, misfit))
+    return;
   Meshing_state::Snapshot best = s.snapshot();
   Core_mesh last = mesh;
   Misfit of_last = misfit;

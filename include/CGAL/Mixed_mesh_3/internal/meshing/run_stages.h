@@ -31,7 +31,7 @@ constexpr double share_of_edge_tolerated = 0.42;
 /// 10,000 vertices are nowhere farther than that from their surface, nearly.
 inline double chosen_tolerance(const Meshing_state& s)
 {
-  if(s.criteria.tolerance() != Mixed_mesh_criteria_3::automatic)
+  if(!is_tolerance_wished(s.criteria))
     return s.criteria.tolerance();
   return share_of_edge_tolerated * s.mean_edge();
 }
