@@ -141,8 +141,8 @@ struct Mixed_mesh_result_3
   /// The result of fitting and optimization; its status is `EMPTY` if these did not run.
   Mixed_mesh_optimization_result_3 optimization;
 
-  /// Whether the surface is perpendicular to the axes, and all elements are cells of one size between its
-  /// planes. Such a mesh may leave much of the budget unused.
+  /// Whether the surface is perpendicular to the axes, and all elements are boxes between its planes, in
+  /// layers of one width between two planes. Such a mesh may leave much of the budget unused.
   bool is_lattice_on_surface = false;
   bool is_kept = false; ///< whether the mesh is the one kept when the visitor stopped the run
 

@@ -107,9 +107,9 @@ Mixed_mesh_result_3 make_mixed_mesh_3(const Domain& domain, const Region& region
 
 Overload with cells parallel to the axes and the root of the criteria. If the whole surface is perpendicular
 to the axes, as the surface of a box is, cells are placed such that the surface lies in lattice planes if
-possible, with edges of a ratio of at most 1.25: then elements at the surface stay whole, vertices have the
-coordinates of the surface exactly, and without a region all elements are hexahedra, as far as the budget
-allows.
+possible: then elements at the surface stay whole, vertices have the coordinates of the surface exactly, and
+without a region all elements are hexahedra, as far as the budget allows. Cells are boxes, whose edges have a
+ratio of at most the quality bound (1.25 with a region), or more in walls that are too thin for the budget.
 */
 template <class ConcurrencyTag = Sequential_tag, class Domain, class Region, class GeomTraits,
           class NamedParameters = parameters::Default_named_parameters,

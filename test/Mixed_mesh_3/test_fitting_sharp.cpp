@@ -10,7 +10,10 @@
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/element_measures.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Sharp_features.h>
+#include <CGAL/Mixed_mesh_3/quality.h>
+#include <CGAL/Mixed_mesh_3/quality_bound.h>
 #include <CGAL/Mixed_mesh_3/validation.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/make_mixed_mesh_3.h>
 
@@ -158,6 +161,51 @@ void test_boxes()
   }
 }
 
+// Cells that are no cubes: walls thinner than the cubes of the budget, and planes on no common lattice.
+void test_flat_cells()
+{
+  struct Case
+  {
+    Polygon outline;
+    double height, largest_ratio;
+    std::size_t number_of_vertices;
+  };
+  const Polygon angle{{0, 0}, {1.9, 0}, {1.9, 0.119}, {0.137, 0.119}, {0.137, 1.31}, {0, 1.31}},
+    thin_angle{{0, 0}, {1, 0}, {1, 0.03}, {0.04, 0.03}, {0.04, 0.7}, {0, 0.7}};
+  for(const Case& t : {Case{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 0.02, 1.7, 2000}, Case{angle, 2.71, 1.2, 2000},
+                       Case{thin_angle, 3.3, 3, 2000}, Case{thin_angle, 3.3, 7, 500},
+                       Case{{{0, 0}, {2, 0}, {2, 3}, {0, 3}}, 0.003, 40, 1000}}) {
+    const Surface s = prism(t.outline, t.height);
+    Mesh mesh;
+    const auto result = CGAL::make_mixed_mesh_3(s, t.number_of_vertices, mesh);
+    BOOST_TEST(result.status == CGAL::Mixed_mesh_status::SUCCESS);
+    BOOST_TEST(result.is_lattice_on_surface && is_hexahedral(mesh));
+    BOOST_TEST(mesh.number_of_vertices() <= t.number_of_vertices);
+    BOOST_TEST(mesh.number_of_vertices() >= 0.6 * double(t.number_of_vertices));
+    const double exact = CGAL::Polygon_mesh_processing::volume(s);
+    BOOST_TEST_LT(std::abs(volume(mesh) / exact - 1), 1e-12);
+    for(const auto v : s.vertices())
+      BOOST_TEST(has_vertex(mesh, s.point(v)));
+    const double arc = mm3::quality_statistics(mesh).back().maximum;
+    BOOST_TEST_LE(arc, t.largest_ratio);
+    // A bound that cannot be met is told.
+    const bool is_flat = arc > CGAL::Mixed_mesh_criteria_3(1).quality_bound();
+    BOOST_TEST_EQ(is_flat, t.largest_ratio > 3.2);
+    BOOST_TEST_EQ(result.optimization.number_of_elements_above_bound,
+                  mm3::number_of_elements_above(mesh, result.optimization.quality_bound));
+    BOOST_TEST_EQ(result.optimization.number_of_elements_above_bound > 0, is_flat);
+    BOOST_TEST(is_flat ? result.quality_bound >= arc
+                       : result.quality_bound == result.optimization.quality_bound);
+  }
+  // A bound that is to be kept has no flat cells, with whatever result.
+  Mesh mesh;
+  const auto strict = CGAL::make_mixed_mesh_3(prism({{0, 0}, {2, 0}, {2, 3}, {0, 3}}, 0.03),
+                                              CGAL::Mixed_mesh_criteria_3(200).strict_quality_bound(true),
+                                              mesh);
+  BOOST_TEST(!strict.is_lattice_on_surface);
+  BOOST_TEST_EQ(strict.optimization.number_of_elements_above_bound, 0u);
+}
+
 // A lattice in several planes, and with a finer part.
 void test_lattice_with_region()
 {
@@ -266,6 +314,7 @@ int run(int, char*[])
 {
   test_detection();
   test_boxes();
+  test_flat_cells();
   test_lattice_with_region();
   test_turned_cube();
   test_cylinder();

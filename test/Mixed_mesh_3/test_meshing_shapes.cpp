@@ -120,8 +120,8 @@ void test_shapes()
   add_box(plate, {0, 0, 0}, {100, 100, 1});
   mesh_shape("plate", plate, 20000, {Status::SUCCESS, Status::SUCCESS});
   mesh_shape("plate, few", plate, 300, {Status::SUCCESS, Status::SUCCESS},
-             {Status::VOLUME_DIFFERS, Status::SUCCESS}); // with elements as flat as the plate
-  const auto tilt = [](const Point_3& p) {               // a rotation
+             {Status::SUCCESS, Status::SUCCESS}); // with elements as flat as the plate
+  const auto tilt = [](const Point_3& p) {        // a rotation
     const double c = 0.8, s = 0.6;
     const Point_3 q(c * p.x() - s * p.z(), p.y(), s * p.x() + c * p.z());
     return Point_3(q.x(), c * q.y() - s * q.z(), s * q.y() + c * q.z());

@@ -8,6 +8,7 @@
 
 #include "test_lattice.h"
 
+#include <CGAL/Mixed_mesh_3/internal/octree/Boxes_between_planes.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/balance.h>
 #include <CGAL/Mixed_mesh_3/validation.h>
 
@@ -18,9 +19,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <random>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -350,9 +355,189 @@ void test_located_cells()
   }
 }
 
+// ---- boxes between planes ----------------------------------------------------------------------
+
+// Boxes between random planes, random ones of which are inside.
+struct Boxes_domain
+{
+  std::array<std::vector<double>, 3> planes;
+  std::vector<char> is_inside;
+
+  struct Surface_part
+  {
+  };
+
+  std::size_t number_of_slabs(std::size_t k) const { return planes[k].size() - 1; }
+
+  bool is_inside_at(const std::array<std::ptrdiff_t, 3>& b) const
+  {
+    std::size_t i = 0;
+    for(std::size_t k = 3; k-- > 0;) {
+      if(b[k] < 0 || b[k] >= std::ptrdiff_t(number_of_slabs(k)))
+        return false;
+      i = i * number_of_slabs(k) + std::size_t(b[k]);
+    }
+    return is_inside[i];
+  }
+
+  template <class F>
+  void for_each_box(const F& f) const
+  {
+    std::array<std::ptrdiff_t, 3> b;
+    for(b[2] = 0; b[2] < std::ptrdiff_t(number_of_slabs(2)); ++b[2])
+      for(b[1] = 0; b[1] < std::ptrdiff_t(number_of_slabs(1)); ++b[1])
+        for(b[0] = 0; b[0] < std::ptrdiff_t(number_of_slabs(0)); ++b[0])
+          f(b);
+  }
+
+  Surface_part surface_part() const { return {}; }
+
+  template <class Cell>
+  CGAL::Bounded_side locate(const Cell& cell, const Surface_part&, Surface_part&) const
+  {
+    bool meets_inside = false, meets_outside = false;
+    for_each_box([&](const std::array<std::ptrdiff_t, 3>& b) {
+      for(int k = 0; k < 3; ++k) {
+        const std::vector<double>& p = planes[std::size_t(k)];
+        const std::size_t i = std::size_t(b[std::size_t(k)]);
+        if((cell.bbox().max)(k) < p[i] || (cell.bbox().min)(k) > p[i + 1])
+          return;
+      }
+      (is_inside_at(b) ? meets_inside : meets_outside) = true;
+    });
+    return !meets_inside   ? CGAL::ON_UNBOUNDED_SIDE
+           : meets_outside ? CGAL::ON_BOUNDARY
+                           : CGAL::ON_BOUNDED_SIDE;
+  }
+
+  CGAL::Bounded_side bounded_side(const Point_3& p, const Surface_part&) const
+  {
+    std::array<std::ptrdiff_t, 3> b;
+    for(int k = 0; k < 3; ++k) {
+      const std::vector<double>& planes_k = planes[std::size_t(k)];
+      b[std::size_t(k)] = std::upper_bound(planes_k.begin(), planes_k.end(), p[k]) - planes_k.begin() - 1;
+    }
+    return is_inside_at(b) ? CGAL::ON_BOUNDED_SIDE : CGAL::ON_UNBOUNDED_SIDE;
+  }
+};
+
+// The number of vertices and the ratio of edges against all cells one by one; the manifold property against
+// faces that share an edge or a vertex.
+void test_boxes_between_planes()
+{
+  using Index = std::array<std::ptrdiff_t, 3>;
+  std::mt19937 random(7);
+  int number_manifold = 0;
+  for(int repeat = 0; repeat < 400; ++repeat) {
+    Boxes_domain domain;
+    Axis_parallel_planes planes;
+    std::size_t number = 1;
+    internal::Boxes_between_planes::Layers layers;
+    for(std::size_t k = 0; k < 3; ++k) {
+      double x = double(random() % 100) - 50;
+      const std::size_t n = 1 + random() % 3;
+      number *= n;
+      for(std::size_t i = 0; i <= n; ++i) {
+        domain.planes[k].push_back(x);
+        planes[k][x] = 1;
+        x += 0.1 + double(random() % 100) / 7;
+        if(i < n)
+          layers[k].push_back(1 + std::uint32_t(random() % 4));
+      }
+    }
+    for(std::size_t i = 0; i < number; ++i)
+      domain.is_inside.push_back(random() % 3 != 0);
+    const internal::Boxes_between_planes boxes(planes, domain);
+
+    double volume = 0, ratio = 1;
+    std::set<Index> vertices; // in layers from the first plane
+    domain.for_each_box([&](const Index& b) {
+      if(!domain.is_inside_at(b))
+        return;
+      Index first{}, numbers{};
+      std::array<double, 3> widths{}, edges{};
+      for(std::size_t k = 0; k < 3; ++k) {
+        const std::size_t i = std::size_t(b[k]);
+        first[k] = std::accumulate(layers[k].begin(), layers[k].begin() + b[k], std::ptrdiff_t(0));
+        numbers[k] = layers[k][i];
+        widths[k] = domain.planes[k][i + 1] - domain.planes[k][i];
+        edges[k] = widths[k] / double(numbers[k]);
+      }
+      volume += widths[0] * widths[1] * widths[2];
+      for(double e : edges)
+        for(double f : edges)
+          ratio = (std::max)(ratio, e / f);
+      for(std::ptrdiff_t z = 0; z <= numbers[2]; ++z)
+        for(std::ptrdiff_t y = 0; y <= numbers[1]; ++y)
+          for(std::ptrdiff_t x = 0; x <= numbers[0]; ++x)
+            vertices.insert({first[0] + x, first[1] + y, first[2] + z});
+    });
+    BOOST_TEST_EQ(boxes.number_of_vertices(layers), double(vertices.size()));
+    BOOST_TEST_LE(std::abs(boxes.volume() - volume), 1e-12 * volume);
+    BOOST_TEST_LE(std::abs(boxes.largest_ratio(layers) - ratio), 1e-12 * ratio);
+
+    // The faces between inside and outside, by axis and the vertex with the smallest coordinates: manifold if
+    // each edge is in two faces, and the faces at a vertex are connected by the edges at it.
+    std::map<std::pair<std::size_t, Index>, std::vector<std::size_t>> faces_of_edge;
+    std::map<Index, std::vector<std::size_t>> faces_of_vertex;
+    std::size_t number_of_faces = 0;
+    for(std::size_t a = 0; a < 3; ++a) {
+      Index size{};
+      for(std::size_t k = 0; k < 3; ++k)
+        size[k] = std::ptrdiff_t(domain.number_of_slabs(k)) + (k == a);
+      Index f{};
+      for(f[2] = 0; f[2] < size[2]; ++f[2])
+        for(f[1] = 0; f[1] < size[1]; ++f[1])
+          for(f[0] = 0; f[0] < size[0]; ++f[0]) {
+            Index behind = f;
+            --behind[a];
+            if(domain.is_inside_at(f) == domain.is_inside_at(behind))
+              continue;
+            const std::size_t u = (a + 1) % 3, w = (a + 2) % 3;
+            for(std::ptrdiff_t i : {0, 1}) {
+              Index at_u = f, at_w = f;
+              at_w[w] += i;
+              faces_of_edge[{u, at_w}].push_back(number_of_faces);
+              at_u[u] += i;
+              faces_of_edge[{w, at_u}].push_back(number_of_faces);
+              for(std::ptrdiff_t j : {0, 1}) {
+                Index vertex = at_u;
+                vertex[w] += j;
+                faces_of_vertex[vertex].push_back(number_of_faces);
+              }
+            }
+            ++number_of_faces;
+          }
+    }
+    bool is_manifold = std::all_of(faces_of_edge.begin(), faces_of_edge.end(),
+                                   [](const auto& edge) { return edge.second.size() == 2; });
+    for(const auto& [vertex, faces] : faces_of_vertex) {
+      std::set<std::size_t> reached{faces[0]};
+      for(std::size_t round = 0; round < faces.size(); ++round)
+        for(std::size_t k = 0; k < 3; ++k)
+          for(std::ptrdiff_t back : {0, 1}) {
+            Index edge = vertex;
+            edge[k] -= back;
+            const auto i = faces_of_edge.find({k, edge});
+            if(i == faces_of_edge.end())
+              continue;
+            if(std::any_of(i->second.begin(), i->second.end(),
+                           [&](std::size_t f) { return reached.count(f); }))
+              reached.insert(i->second.begin(), i->second.end());
+          }
+      const auto is_reached = [&](std::size_t f) { return reached.count(f) > 0; };
+      is_manifold = is_manifold && std::all_of(faces.begin(), faces.end(), is_reached);
+    }
+    BOOST_TEST_EQ(boxes.is_manifold(), is_manifold);
+    number_manifold += is_manifold;
+  }
+  BOOST_TEST(number_manifold > 50 && number_manifold < 350);
+}
+
 int run(int, char*[])
 {
   test_cell_traits();
+  test_boxes_between_planes();
   test_is_balanced();
   test_located_cells();
   return boost::report_errors();

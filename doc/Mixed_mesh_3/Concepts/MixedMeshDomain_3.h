@@ -104,8 +104,8 @@ public:
 
   /// The planes that contain the surface, if all of its facets are perpendicular to the axes; else nothing.
   /// Then cells are placed such that these planes are between cells, as described for the overload of
-  /// `CGAL::make_mixed_mesh_3()` without cell traits. Called if there is `volume()`, which must be positive
-  /// then.
+  /// `CGAL::make_mixed_mesh_3()` without cell traits. Then `locate()` is asked for the boxes between the
+  /// planes.
   CGAL::Mixed_meshes_3::Axis_parallel_planes axis_parallel_planes() const;
   /// @}
 };

@@ -117,7 +117,7 @@ public:
   using Lattice_planes = std::vector<std::pair<std::uint32_t, double>>;
 
   /// Constructs an octree with given planes, whose coordinates lattice points in the planes have exactly;
-  /// between and behind the planes, cells of a size are the same up to rounding.
+  /// between two planes, and behind the last ones, lattice planes are at equal distances up to rounding.
   /// \param axes \pre at least two planes for each axis
   /// \param level level of the coarsest cells between the planes
   /// \param is_uniform whether there shall be no smaller cells
@@ -125,10 +125,10 @@ public:
     : m_planes(axes), m_level_on_surface(level), m_is_uniform(is_uniform)
   {
     for(int k = 0; k < 3; ++k) {
-      const Lattice_planes& planes = m_planes[k];
-      CGAL_precondition(planes.size() > 1 && planes.front().first == 0);
-      m_origin[k] = planes.front().second;
-      m_unit[k] = (planes.back().second - m_origin[k]) / planes.back().first;
+      CGAL_precondition(m_planes[k].size() > 1 && m_planes[k].front().first == 0);
+      m_unit[k] = std::numeric_limits<double>::infinity();
+      for(auto p = m_planes[k].begin(); p + 1 != m_planes[k].end(); ++p)
+        m_unit[k] = (std::min)(m_unit[k], unit_behind(p));
     }
   }
 
@@ -153,7 +153,7 @@ public:
             point({corner[0] + half, corner[1] + half, corner[2] + half})};
   }
 
-  /// The length of the shortest edge of a cell of the given lattice side.
+  /// The length of the shortest edge of the cells of the given lattice side.
   double length(std::uint32_t side) const { return side * (std::min)({m_unit[0], m_unit[1], m_unit[2]}); }
 
 private:
@@ -162,16 +162,27 @@ private:
   double coordinate(int k, std::uint32_t i) const
   {
     const Lattice_planes& planes = m_planes[k];
-    if(!planes.empty()) {
-      const auto plane = std::lower_bound(planes.begin(), planes.end(), i,
-                                          [](const auto& p, std::uint32_t j) { return p.first < j; });
-      if(plane != planes.end() && plane->first == i)
-        return plane->second;
-    }
-    return m_origin[k] + i * m_unit[k];
+    if(planes.empty())
+      return m_origin[k] + i * m_unit[k];
+    auto plane = std::upper_bound(planes.begin(), planes.end(), i,
+                                  [](std::uint32_t j, const auto& p) { return j < p.first; })
+                 - 1;
+    if(plane->first == i)
+      return plane->second;
+    const double origin = plane->second;
+    const std::uint32_t distance = i - plane->first;
+    if(plane + 1 == planes.end())
+      --plane;
+    return origin + distance * unit_behind(plane);
   }
 
-  std::array<double, 3> m_origin, m_unit;
+  // The distance of lattice planes between a given plane and the next.
+  static double unit_behind(Lattice_planes::const_iterator plane)
+  {
+    return (plane[1].second - plane[0].second) / (plane[1].first - plane[0].first);
+  }
+
+  std::array<double, 3> m_origin{}, m_unit; // with planes: no origin, and the least unit
   std::array<Lattice_planes, 3> m_planes;
   int m_level_on_surface = 0;
   bool m_is_uniform = false;

@@ -14,7 +14,6 @@
 
 #include <CGAL/Mixed_mesh_3/internal/meshing/make_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/thin_cells.h>
-#include <CGAL/Mixed_mesh_3/quality_bound.h>
 
 #include <algorithm>
 #include <array>
@@ -191,10 +190,6 @@ inline void try_flatter_elements(Meshing_state& s, bool is_finer, Best_mesh& bes
     best.try_octree(s, is_finer);
   }
   s.quality_bound = bound;
-  if(!best.mesh)
-    return;
-  best.result.optimization.quality_bound = bound;
-  best.result.optimization.number_of_elements_above_bound = number_of_elements_above(*best.mesh, bound);
 }
 
 /// Tries finer and finer octrees, until nothing is wrong with the coarsened mesh, then flatter elements. The

@@ -12,10 +12,13 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Meshing_state.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/remove_unarrived_vertices.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/unreached_cells.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Sharp_features.h>
+#include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
 
 #include <algorithm>
@@ -118,6 +121,27 @@ inline bool are_few_not_arrived(const Meshing_state& s)
   return double(s.number_not_arrived()) <= few * double(s.result.optimization.number_of_boundary_vertices);
 }
 
+/// The boundary of uniform cells between planes of the surface is the surface: vertices are at their final
+/// places, also where walls need cells that are flatter than the bound, as no move could mend these.
+inline void note_boundary_on_surface(Meshing_state& s, const Core_mesh& mesh)
+{
+  std::vector<std::uint8_t> is_on_boundary(mesh.number_of_vertices(), 0);
+  for(const Face& face : boundary_faces(mesh))
+    for(Vertex_index v : face.vertices())
+      is_on_boundary[v] = 1;
+  const Sharp_features features(s.root.domain().sharp_edges(s.criteria.sharp_angle()), s.mean_edge());
+  Mixed_mesh_optimization_result_3& r = s.result.optimization = {};
+  r.status = Mixed_mesh_optimization_status::SUCCESS;
+  r.number_of_boundary_vertices = r.number_of_arrived_vertices = std::size_t(
+    std::count(is_on_boundary.begin(), is_on_boundary.end(), 1));
+  r.length_of_sharp_edges = r.length_of_sharp_edges_kept = features.length();
+  for(std::size_t c = 0; c < features.corners().size(); ++c)
+    r.number_of_corners += features.is_real_corner(c);
+  r.number_of_corners_kept = r.number_of_corners;
+  r.quality_bound = s.criteria.quality_bound();
+  s.result.quality_bound = (std::max)(r.quality_bound, quality_statistics(mesh).back().maximum);
+}
+
 /// Makes the mesh of the octree.
 inline void make_mesh(Meshing_state& s, Core_mesh& mesh)
 {
@@ -135,7 +159,13 @@ inline void make_mesh(Meshing_state& s, Core_mesh& mesh)
   if(s.criteria.fit_to_surface() && !s.result.is_kept) {
     const Stage_scope scope(s.visitor, Stage::OPTIMIZATION);
     const Mixed_mesh_status status = s.result.status;
-    optimize_boundary(s, mesh);
+    const bool is_final = s.result.is_lattice_on_surface && !s.criteria.only_tetrahedra()
+                          && !s.root.domain().has_sheets();
+    if(is_final) {
+      s.visitor.before_fitting(mesh);
+      note_boundary_on_surface(s, mesh);
+    } else
+      optimize_boundary(s, mesh);
     if(s.may_resolve_thin_parts() && !s.root.domain().has_sheets() && are_few_not_arrived(s))
       remove_unarrived_vertices(s, mesh, status);
   }

@@ -18,6 +18,7 @@
 #include <CGAL/Mixed_mesh_3/internal/meshing/resolve_thin_parts.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/retry_far_places.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
+#include <CGAL/Mixed_mesh_3/quality_bound.h>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -48,6 +49,16 @@ inline void note_misfit(Meshing_state& s, const Misfit& misfit)
     s.result.status = worse_status(s.result.status, Mixed_mesh_status::TOPOLOGY_DIFFERS);
   else if(misfit.is_some_volume_wrong())
     s.result.status = worse_status(s.result.status, Mixed_mesh_status::VOLUME_DIFFERS);
+}
+
+/// Elements are counted by the bound of the criteria, also if a larger one was in force.
+inline void note_elements_above_bound(Meshing_state& s, const Core_mesh& mesh)
+{
+  const double bound = s.criteria.quality_bound();
+  if(!s.result.has_mesh() || !s.criteria.fit_to_surface() || !(s.result.quality_bound > bound))
+    return;
+  s.result.optimization.quality_bound = bound;
+  s.result.optimization.number_of_elements_above_bound = number_of_elements_above(mesh, bound);
 }
 
 /// Makes the mesh, by the stages in their order: the octree is refined, and what follows is tried, until the
@@ -82,6 +93,7 @@ inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_
     }
   }
   note_misfit(s, misfit);
+  note_elements_above_bound(s, mesh);
   return s.result;
 }
 
