@@ -439,7 +439,7 @@ internal::Working_mesh random_element(Element_kind kind, std::mt19937& random)
 }
 
 // Moves of each vertex of each kind: the star has the bits of the cost, and of the gradient, of the element
-// evaluated whole, except for tetrahedra by coefficients; positivity is proved only where the certificate does.
+// evaluated whole, except for tetrahedra by coefficients; it proves positive what the certificate does.
 template <class Quality>
 void test_star_of_element(const Quality& quality, bool has_coefficients)
 {

@@ -85,8 +85,8 @@ that processors do not predict: it takes a quarter more time.
 */
 class Aspect_ratio_parts
 {
-  // The cosine between the normals of the two triangles beside a diagonal of a quadrilateral, by its square with
-  // the sign kept: the smallest cosine has the smallest square, so one root suffices.
+  // The cosine between the normals of the two triangles beside a diagonal of a quadrilateral, by its square
+  // with the sign kept: the smallest cosine has the smallest square, so one root suffices.
   struct Warp
   {
     double square, product, squares; // product of the normals; product of their squared lengths
