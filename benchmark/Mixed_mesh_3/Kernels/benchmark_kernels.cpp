@@ -4,7 +4,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Nanoseconds an element, for each kind: its cost, its cost with the gradient by a vertex, the cost after a
-// move of the vertex as in a line search, the certificate, and the proof of the quality bound. Elements are ideal ones, distorted at random.
+// move of the vertex as in a line search, the certificate, and the proof of the quality bound. Elements are
+// ideal ones, distorted at random.
 //
 //   benchmark_kernels [options of Google Benchmark, such as --benchmark_filter=hexahedron]
 

@@ -38,8 +38,8 @@ struct Parts_around_vertex
 };
 
 /*!
-Finds the parts around vertex `v` of an element. All parts move with vertex 0, because positions are relative to
-this vertex (`relative_points()`), so that the rounding of each depends on it.
+Finds the parts around vertex `v` of an element. All parts move with vertex 0, because positions are relative
+to this vertex (`relative_points()`), so that the rounding of each depends on it.
 */
 constexpr Parts_around_vertex find_parts_around_vertex(const Reference_element& reference, int v)
 {
@@ -77,8 +77,8 @@ inline constexpr Parts_table parts_table = make_parts_table();
 
 /*!
 The values of the corners and of the quadrilaterals of an element. After a move of a vertex, only those around
-the vertex are computed again. The worst values are searched among all, in the order of the element, so that the
-cost is to the bit the cost of the element evaluated whole.
+the vertex are computed again. The worst values are searched among all, in the order of the element, so that
+the cost is to the bit the cost of the element evaluated whole.
 
 All values are computed before the search, because a search that computes and compares in turn has branches
 that processors do not predict: it takes a quarter more time.
