@@ -410,10 +410,93 @@ void test_proof_by_cost()
   BOOST_TEST_GT(claimed, 10000u);
 }
 
+// An ideal element at a random place, its vertices moved at random: up to being inverted, and flat in one
+// direction at times.
+internal::Working_mesh random_element(Element_kind kind, std::mt19937& random)
+{
+  static constexpr double ideal[number_of_element_kinds][8][3] = {
+    {{0, 0, 0}, {1, 0, 0}, {0.5, 0.87, 0}, {0.5, 0.29, 0.82}},
+    {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0.8}},
+    {{0, 0, 0}, {1, 0, 0}, {0.5, 0.87, 0}, {0, 0, 1}, {1, 0, 1}, {0.5, 0.87, 1}},
+    {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const double size = std::pow(10, 3 * uniform(random)),
+               shift = random() % 4 == 0 ? 0 : std::pow(10, -0.3 - 2 * std::abs(uniform(random)));
+  const double flatness = random() % 2 == 0 ? 1 : std::pow(10, -8 + 8 * uniform(random));
+  const Vec3 center = (100 * size) * Vec3{uniform(random), uniform(random), uniform(random)};
+  const std::size_t flat = random() % 3;
+  Mesh mesh;
+  std::vector<Vertex_index> vertices;
+  for(int i = 0; i < reference_elements[kind].number_of_vertices; ++i) {
+    Vec3 p = Vec3(ideal[kind][i][0], ideal[kind][i][1], ideal[kind][i][2])
+             + shift * Vec3{uniform(random), uniform(random), uniform(random)};
+    p[flat] *= flatness;
+    p = center + size * p;
+    vertices.push_back(mesh.add_vertex(Test_point(p[0], p[1], p[2])));
+  }
+  mesh.add_element(kind, vertices);
+  return {mesh, std::vector<internal::Stratum>(mesh.number_of_vertices(), internal::free_stratum)};
+}
+
+// Moves of each vertex of each kind: the star has the bits of the cost, and of the gradient, of the element
+// evaluated whole, except for tetrahedra by coefficients; it proves positive what the certificate does.
+template <class Quality>
+void test_star_of_element(const Quality& quality, bool has_coefficients)
+{
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for(Element_kind kind : element_kinds)
+    for(int i = 0; i < reference_elements[kind].number_of_vertices; ++i) {
+      std::size_t positive = 0, not_positive = 0, infinite = 0;
+      for(int trial = 0; trial < 500; ++trial) {
+        internal::Working_mesh mesh = random_element(kind, random);
+        const internal::Working_mesh::Element& element = mesh.elements.front();
+        const Vertex_index v = element.vertices[std::size_t(i)];
+        const bool is_exact = !(has_coefficients && kind == TETRAHEDRON);
+        const Vec3 start = mesh.points[v];
+        const double diagonal = norm(mesh.points[element.vertices[2]] - mesh.points[element.vertices[0]]);
+        internal::Vertex_star<Quality> star(mesh, quality, v);
+        Vec3 gradient{}, expected_gradient{};
+        const double energy = star.energy(4, gradient);
+        const double whole = quality(kind, mesh.relative_points(element), i, expected_gradient);
+        if(is_exact) {
+          BOOST_TEST_EQ(energy, internal::power(whole, 4));
+          if(whole < infinity)
+            BOOST_TEST(gradient == Vec3{} + (4 * internal::power(whole, 4) / whole) * expected_gradient);
+        }
+        for(int move = 0; move < 8; ++move) { // of one star: nothing may be left of the move before
+          const double step = move == 4 ? 0 : diagonal * std::pow(10, -4 + 4.2 * uniform(random));
+          mesh.points[v] = start + step * Vec3{uniform(random), uniform(random), uniform(random)};
+          const double by_star = star.energy_at(mesh.points[v], 4, 0, infinity, infinity);
+          const double cost = quality(kind, mesh.relative_points(element));
+          star.for_each_cost([&](Element_index, double c) {
+            if(is_exact)
+              BOOST_TEST_EQ(c, cost);
+            else if(cost < 1e3) // with larger ones, rounding counts
+              BOOST_TEST_LE(std::abs(c - cost), 1e-6 * cost);
+          });
+          infinite += !(by_star < infinity);
+          if(by_star < infinity) {
+            const bool is_positive = jacobian_sign(element, mesh.position()) == Jacobian_sign::POSITIVE;
+            BOOST_TEST_EQ(star.is_positive(), is_positive);
+            ++(is_positive ? positive : not_positive);
+          }
+        }
+      }
+      BOOST_TEST_GT(positive, 500u);
+      BOOST_TEST_GT(infinite, 50u);
+      if(kind == HEXAHEDRON) // positive at the corners, but not between them
+        BOOST_TEST_GT(not_positive, 10u);
+    }
+}
+
 int run(int, char*[])
 {
   test_qualities();
   test_star();
+  test_star_of_element(Aspect_ratio_quality_3(), true);
+  test_star_of_element(Aspect_ratio_quality_3(7, 0), true);
+  test_star_of_element(Scaled_jacobian_quality_3(), false); // as any quality of a user
   test_proof_by_cost();
   test_flips();
   test_removal();

@@ -14,8 +14,9 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/Aspect_ratio_parts.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/aspect_ratio.h>
-#include <CGAL/Mixed_mesh_3/internal/elements/element_measures.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/with_kind.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <array>
@@ -42,6 +43,7 @@ the two triangles of a quadrilateral face, along either diagonal.
 class Aspect_ratio_quality_3
 {
   using Points = std::array<Vec3, 8>;
+  using Parts = internal::Aspect_ratio_parts;
 
   double m_acceptable = 7;
   double m_warp_weight = 30;
@@ -61,17 +63,46 @@ public:
   bool is_acceptable(double cost) const { return cost <= m_acceptable; }
 
   /// The cost: at least 1, infinity if a corner is not positive.
-  double operator()(Element_kind kind, const Points& p) const { return evaluate<false>(kind, p, 0, nullptr); }
+  double operator()(Element_kind kind, const Points& p) const
+  {
+    Parts parts;
+    return evaluate<false>(kind, p, 0, parts, 0, nullptr);
+  }
 
   /// The cost, and its gradient by the position of vertex `v`.
   double operator()(Element_kind kind, const Points& p, int v, Vec3& gradient) const
   {
-    return evaluate<true>(kind, p, v, &gradient);
+    Parts parts;
+    return evaluate<true>(kind, p, v, parts, 0, &gradient);
   }
 
+  /// \cond not public
+  /// The cost and its gradient, with the parts from which they are.
+  double operator()(Element_kind kind, const Points& p, int v, Vec3& gradient,
+                    internal::Aspect_ratio_parts& parts) const
+  {
+    return evaluate<true>(kind, p, v, parts, 0, &gradient);
+  }
+
+  /// The cost after a move of vertex `v` only, since the parts were computed.
+  double cost_after_move(Element_kind kind, const Points& p, int v, internal::Aspect_ratio_parts& parts) const
+  {
+    return evaluate<false>(kind, p, v, parts, v, nullptr);
+  }
+  /// \endcond
+
 private:
+  // \param moved the vertex that moved since the parts were computed; 0: all parts are computed
   template <bool with_gradient>
-  double evaluate(Element_kind kind, const Points& p, int v, Vec3* gradient) const
+  double evaluate(Element_kind kind, const Points& p, int v, Parts& parts, int moved, Vec3* gradient) const
+  {
+    return internal::with_kind(kind, [&](auto k) {
+      return this->evaluate<decltype(k)::value, with_gradient>(p, v, parts, moved, gradient);
+    });
+  }
+
+  template <Element_kind kind, bool with_gradient>
+  double evaluate(const Points& p, int v, Parts& parts, int moved, Vec3* gradient) const
   {
     using namespace internal;
     if(kind == TETRAHEDRON) {
@@ -80,18 +111,9 @@ private:
         *gradient = arc * corner_gradient(reference_elements[kind].corners[0], p, v);
       return arc;
     }
-    const Reference_element& reference = reference_elements[kind];
-    double worst = 0;
-    int worst_corner = 0;
-    for(int c = 0; c < reference.number_of_corners; ++c) {
-      const auto& k = reference.corners[c];
-      const double q = squared_tetrahedron_arc(p[k[0]], p[k[1]], p[k[2]], p[k[3]]);
-      if(q > worst) {
-        worst = q;
-        worst_corner = c;
-      }
-    }
-    worst = std::sqrt(worst) / ideal_corner[kind];
+    parts.update<kind>(p, moved);
+    const double worst_corner = parts.largest_squared_arc<kind>();
+    double worst = std::sqrt(worst_corner) / ideal_corner[kind];
     if(worst == std::numeric_limits<double>::infinity()) {
       if constexpr(with_gradient)
         *gradient = Vec3{};
@@ -104,12 +126,13 @@ private:
       if constexpr(with_gradient)
         logarithmic = (1 / longest.value) * longest.gradient - (1 / shortest.value) * shortest.gradient;
     } else if constexpr(with_gradient) {
-      logarithmic = corner_gradient(reference.corners[worst_corner], p, v);
+      logarithmic = corner_gradient(parts.corner_with<kind>(worst_corner), p, v);
     }
-    Vec3 warp_gradient{};
-    const double factor = 1 + m_warp_weight * warp<with_gradient>(reference, p, v, warp_gradient);
+    const int diagonal = parts.most_warped<kind>();
+    const double factor = 1 + m_warp_weight * parts.warp(diagonal);
     if constexpr(with_gradient)
-      *gradient = (worst * factor) * logarithmic + (worst * m_warp_weight) * warp_gradient;
+      *gradient = (worst * factor) * logarithmic
+                  + (worst * m_warp_weight) * parts.warp_gradient<kind>(diagonal, p, v);
     return worst * factor;
   }
 
@@ -119,51 +142,6 @@ private:
       if(c[o[0]] == v)
         return internal::tetrahedron_arc_gradient(p[c[o[0]]], p[c[o[1]]], p[c[o[2]]], p[c[o[3]]]);
     return Vec3{};
-  }
-
-  // Computes 1 - cos of the largest warp.
-  template <bool with_gradient>
-  static double warp(const Reference_element& reference, const Points& p, int v, Vec3& gradient)
-  {
-    using namespace internal;
-    // The smallest cosine has the smallest square, if signs are kept: one root suffices.
-    double least = 1, product = 1, squares = 1; // product of the normals; of squared lengths
-    int worst_face = -1, worst_diagonal = 0;
-    for(int f = 0; f < reference.number_of_faces; ++f)
-      if(reference.faces[f].size == 4)
-        for(int diagonal = 0; diagonal < 2; ++diagonal) {
-          const auto [n, m] = triangle_normals(reference.faces[f], diagonal, p);
-          const double nm = dot(n, m), nn_mm = dot(n, n) * dot(m, m);
-          if(const double square = nm * std::abs(nm) / nn_mm; square < least) {
-            least = square;
-            product = nm;
-            squares = nn_mm;
-            worst_face = f;
-            worst_diagonal = diagonal;
-          }
-        }
-    const double worst = 1 - product / std::sqrt(squares);
-    if constexpr(with_gradient)
-      if(worst_face >= 0) {
-        const Element_face& face = reference.faces[worst_face];
-        const auto [n, m] = triangle_normals(face, worst_diagonal, p);
-        const double ln = norm(n), lm = norm(m), cosine = 1 - worst;
-        const Vec3 un = (1 / ln) * n, um = (1 / lm) * m;
-        // The derivatives of the cosine by the two normals.
-        const Vec3 gn = (1 / ln) * (um - cosine * un), gm = (1 / lm) * (un - cosine * um);
-        const auto at = [&](int i) { return int(face.vertices[(i + worst_diagonal) % 4]); };
-        const Vec3 &a = p[at(0)], &b = p[at(1)], &c = p[at(2)], &d = p[at(3)];
-        // The normals are n = (b - a) x (c - a), m = (c - a) x (d - a).
-        if(v == at(0))
-          gradient = cross(gn, b - c) + cross(gm, c - d);
-        else if(v == at(1))
-          gradient = cross(gn, c - a);
-        else if(v == at(2))
-          gradient = cross(gn, a - b) + cross(gm, d - a);
-        else if(v == at(3))
-          gradient = cross(gm, a - c);
-      }
-    return worst;
   }
 };
 

@@ -19,6 +19,7 @@
 
 #include <CGAL/assertions.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -76,12 +77,18 @@ struct Extreme_lengths
     return shortest.value > 0 ? longest.value / shortest.value : std::numeric_limits<double>::infinity();
   }
 
+  template <bool with_gradient>
   void add(const Length& l)
   {
-    if(l.value > longest.value)
-      longest = l;
-    if(l.value < shortest.value)
-      shortest = l;
+    if constexpr(with_gradient) {
+      if(l.value > longest.value)
+        longest = l;
+      if(l.value < shortest.value)
+        shortest = l;
+    } else { // without branches, which processors would not predict
+      longest.value = (std::max)(longest.value, l.value);
+      shortest.value = (std::min)(shortest.value, l.value);
+    }
   }
 };
 
@@ -151,7 +158,7 @@ Extreme_lengths extreme_lengths(Element_kind kind, const Element_points& p, int 
 {
   Extreme_lengths e{{0, {}}, {std::numeric_limits<double>::infinity(), {}}};
   const auto add_segment = [&](Extreme_lengths& extremes, const auto& a, const auto& b) {
-    extremes.add(segment<with_gradient>(Mean(p, a, v), Mean(p, b, v)));
+    extremes.template add<with_gradient>(segment<with_gradient>(Mean(p, a, v), Mean(p, b, v)));
   };
   switch(kind) {
   case HEXAHEDRON: {
@@ -164,7 +171,7 @@ Extreme_lengths extreme_lengths(Element_kind kind, const Element_points& p, int 
     constexpr int edges[4][2] = {{2, 3}, {0, 1}, {1, 2}, {3, 0}};
     for(int i = 0; i < 4; i += 2)
       add_segment(e, edges[i], edges[i + 1]);
-    e.add(pyramid_height(p, v));
+    e.template add<with_gradient>(pyramid_height(p, v));
     break;
   }
   case PRISM: {
@@ -177,7 +184,7 @@ Extreme_lengths extreme_lengths(Element_kind kind, const Element_points& p, int 
       Extreme_lengths face = none;
       add_segment(face, at_j, at_i);
       add_segment(face, top, bottom);
-      face.add(triangle_height(Mean(p, at_i, v), Mean(p, at_j, v), Mean(p, at_k, v)));
+      face.template add<with_gradient>(triangle_height(Mean(p, at_i, v), Mean(p, at_j, v), Mean(p, at_k, v)));
       if(face.ratio() > worst) {
         worst = face.ratio();
         e = face;

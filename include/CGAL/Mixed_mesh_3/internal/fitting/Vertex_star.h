@@ -29,12 +29,6 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Whether the cost of a tetrahedron is its aspect-ratio coefficient.
-template <class Quality>
-struct Has_aspect_ratio_of_tetrahedra : std::is_same<Quality, Aspect_ratio_quality_3>
-{
-};
-
 /*!
 A tetrahedron one vertex of which moves by x. The volume is linear in x, and the sum of the squared edges is
 quadratic: with their coefficients, the aspect-ratio coefficient takes a third of the operations that it takes
@@ -89,6 +83,39 @@ private:
   double squared_edges(const Vec3& x, double xx) const { return m_squares + 3 * xx - 2 * dot(m_opposite, x); }
 };
 
+/// What the cost of an element keeps while one of its vertices moves: nothing, if the quality is a user's.
+template <class Quality>
+struct Fixed_parts
+{
+  double cost(const Quality& quality, Element_kind kind, const Element_points& p, int v, Vec3& gradient)
+  {
+    return quality(kind, p, v, gradient);
+  }
+  double cost_after_move(const Quality& quality, Element_kind kind, const Element_points& p, int)
+  {
+    return quality(kind, p);
+  }
+};
+
+/// The aspect-ratio coefficient keeps the corners and the faces that the vertex does not touch: half of those
+/// of a hexahedron.
+template <>
+struct Fixed_parts<Aspect_ratio_quality_3>
+{
+  Aspect_ratio_parts parts;
+
+  double cost(const Aspect_ratio_quality_3& quality, Element_kind kind, const Element_points& p, int v,
+              Vec3& gradient)
+  {
+    return quality(kind, p, v, gradient, parts);
+  }
+  double cost_after_move(const Aspect_ratio_quality_3& quality, Element_kind kind, const Element_points& p,
+                         int v)
+  {
+    return quality.cost_after_move(kind, p, v, parts);
+  }
+};
+
 /*!
 The elements around a vertex that moves. Positions are copied once, as a vertex is tried at several places.
 
@@ -97,23 +124,15 @@ The elements around a vertex that moves. Positions are copied once, as a vertex 
 template <class Quality>
 class Vertex_star
 {
-  // An element with the positions of its vertices.
+  // An element with the positions of its vertices, as seen from the first one.
   struct Other
   {
     Element_index element;
     Element_kind kind;
-    std::uint8_t size, position; // position of the vertex that moves
+    std::uint8_t position; // position of the vertex that moves
     double cost;
-    std::array<std::array<double, 3>, 8> points;
-
-    Element_points relative_points() const
-    {
-      Element_points p;
-      p[0] = Vec3{};
-      for(std::size_t i = 1; i < size; ++i)
-        p[i] = Vec3(points[i]) - Vec3(points[0]);
-      return p;
-    }
+    Element_points points;
+    Fixed_parts<Quality> fixed;
   };
 
   const Working_mesh& m_mesh;
@@ -123,6 +142,7 @@ class Vertex_star
   boost::container::small_vector<Moving_tetrahedron, 40> m_tetrahedra;
   boost::container::small_vector<Other, 12> m_others;
 
+  static constexpr bool has_aspect_ratio = std::is_same_v<Quality, Aspect_ratio_quality_3>;
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   static double power_of_square(double square, double exponent)
@@ -137,7 +157,7 @@ public:
     for(Element_index e : mesh.incident[v]) {
       const Working_mesh::Element& element = mesh.elements[e];
       const int position = element.position(v);
-      if(Has_aspect_ratio_of_tetrahedra<Quality>::value && element.kind == TETRAHEDRON) {
+      if(has_aspect_ratio && element.kind == TETRAHEDRON) {
         const int(&o)[4] = even_permutations[position];
         const auto seen = [&](int i) { return mesh.points[element.vertices[std::size_t(o[i])]] - m_start; };
         m_tetrahedra.emplace_back(e, seen(1), seen(2), seen(3));
@@ -145,10 +165,8 @@ public:
         Other& other = m_others.emplace_back();
         other.element = e;
         other.kind = element.kind;
-        other.size = std::uint8_t(element.size());
         other.position = std::uint8_t(position);
-        for(std::size_t i = 0; i < other.size; ++i)
-          other.points[i] = mesh.points[element.vertices[i]];
+        other.points = mesh.relative_points(element);
       }
     }
   }
@@ -165,7 +183,7 @@ public:
     }
     for(Other& other : m_others) {
       Vec3 g{};
-      other.cost = m_quality(other.kind, other.relative_points(), other.position, g);
+      other.cost = other.fixed.cost(m_quality, other.kind, other.points, other.position, g);
       const double e = power(other.cost, exponent);
       sum += e;
       gradient = gradient + (exponent * e / other.cost) * g;
@@ -174,7 +192,8 @@ public:
   }
 
   /// The sum of the powers of the costs with the vertex at another place; infinity if the sum is not less
-  /// than the limit, or if an element costs more than `most`.
+  /// than the limit, or if an element costs more than `most`. \pre `energy()` was called
+  /// \param place the position of the vertex in the mesh now
   /// \param sum what is added to the costs
   double energy_at(const Vec3& place, double exponent, double sum, double limit, double most)
   {
@@ -188,8 +207,8 @@ public:
         return infinity;
     }
     for(Other& other : m_others) {
-      other.points[other.position] = place;
-      other.cost = m_quality(other.kind, other.relative_points());
+      move(other, place);
+      other.cost = other.fixed.cost_after_move(m_quality, other.kind, other.points, other.position);
       sum += power(other.cost, exponent);
       if(!(sum < limit && other.cost <= most))
         return infinity;
@@ -206,8 +225,8 @@ public:
                        [&](const Moving_tetrahedron& t) {
                          return t.proves_positive(x, xx) || m_mesh.is_positive(m_mesh.elements[t.element]);
                        })
-           && std::all_of(m_others.begin(), m_others.end(), [](const Other& other) {
-                return jacobian_sign(other.kind, other.points) == Jacobian_sign::POSITIVE;
+           && std::all_of(m_others.begin(), m_others.end(), [&](const Other& other) {
+                return m_mesh.is_positive(m_mesh.elements[other.element]);
               });
   }
 
@@ -219,6 +238,16 @@ public:
       f(t.element, std::sqrt(t.squared_cost));
     for(const Other& other : m_others)
       f(other.element, other.cost);
+  }
+
+private:
+  void move(Other& other, const Vec3& place) const
+  {
+    const Working_mesh::Element& element = m_mesh.elements[other.element];
+    if(other.position == 0) // the vertex from which the others are seen
+      other.points = m_mesh.relative_points(element);
+    else
+      other.points[other.position] = place - m_mesh.points[element.vertices[0]];
   }
 };
 

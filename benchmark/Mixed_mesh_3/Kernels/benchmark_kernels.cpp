@@ -3,8 +3,9 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Nanoseconds an element, for each kind: its cost, its cost with the gradient by a vertex, the certificate,
-// and the proof of the quality bound. Elements are ideal ones, distorted at random.
+// Nanoseconds an element, for each kind: its cost, its cost with the gradient by a vertex, the cost after a
+// move of the vertex as in a line search, the certificate, and the proof of the quality bound. Elements are
+// ideal ones, distorted at random.
 //
 //   benchmark_kernels [options of Google Benchmark, such as --benchmark_filter=hexahedron]
 
@@ -86,6 +87,16 @@ int main(int argc, char* argv[])
   add("cost and gradient", [quality, vertex](mm3::Element_kind kind, const Element& p, std::size_t i) {
     mm3::Vec3 gradient;
     return quality(kind, p, vertex(kind, i), gradient) + gradient[0];
+  });
+  add("cost after a move", [quality, vertex](mm3::Element_kind kind, const Element& p, std::size_t i) {
+    // Parts of the wrong element cost as much as those of the right one.
+    static mm3::internal::Aspect_ratio_parts parts = [&] {
+      mm3::Vec3 gradient;
+      mm3::internal::Aspect_ratio_parts first{};
+      quality(mm3::HEXAHEDRON, distorted_elements(mm3::HEXAHEDRON)[0], 0, gradient, first);
+      return first;
+    }();
+    return quality.cost_after_move(kind, p, vertex(kind, i), parts);
   });
   add("certificate", [](mm3::Element_kind kind, const Element& p, std::size_t) {
     return mm3::jacobian_sign(kind, coordinates(p));
