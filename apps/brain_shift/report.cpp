@@ -140,6 +140,8 @@ Json describe(const CGAL::Mixed_mesh_adaptation_result_3& adaptation)
           {"vertices that may move", adaptation.number_of_inner_vertices},
           {"energies of unit bumps before", adaptation.energies_before},
           {"energies of unit bumps after", adaptation.energies_after},
+          {"energies of guard loads before", adaptation.guard_energies_before},
+          {"energies of guard loads after", adaptation.guard_energies_after},
           {"mean energy, after / before", adaptation.functional},
           {"worst ARC before", adaptation.worst_aspect_ratio_before},
           {"worst ARC after", adaptation.worst_aspect_ratio_after}};

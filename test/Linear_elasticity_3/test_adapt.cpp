@@ -11,6 +11,7 @@
 
 #include <CGAL/Linear_elasticity_3/adapt_mixed_mesh_3.h>
 #include <CGAL/Linear_elasticity_3/internal/configurational_forces.h>
+#include <CGAL/Linear_elasticity_3/internal/guard_loads.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 
 #include <algorithm>
@@ -185,16 +186,90 @@ void test_error_in_energy()
       .energies_before.at(0);
   };
   const double exact = energy_of(grid(24, HEXAHEDRON));
-  for(Element_kind kind : {HEXAHEDRON, TETRAHEDRON}) {
-    Mesh mesh = grid(4, kind);
-    const double before = energy_of(mesh) - exact;
-    const Result result = CGAL::adapt_mixed_mesh_3(mesh, {material}, {data(mesh)});
-    const double after = energy_of(mesh) - exact;
-    std::cout << name_of(kind) << ": error in energy " << 100 * before / exact << " % -> "
-              << 100 * after / exact << " %, " << result.number_of_solves << " solves\n";
-    BOOST_TEST_GT(after, 0);
-    BOOST_TEST_LT(after, 0.95 * before);
+  for(Element_kind kind : {HEXAHEDRON, TETRAHEDRON})
+    for(double weight : {0., 0.3}) { // a regular grid is good for guard loads: they leave little to gain
+      Mesh mesh = grid(8, kind);
+      const double before = energy_of(mesh) - exact;
+      const Result result = CGAL::adapt_mixed_mesh_3(mesh, {material}, {data(mesh)},
+                                                     Criteria().guard_weight(weight));
+      const double after = energy_of(mesh) - exact;
+      std::cout << name_of(kind) << ", weight " << weight << ": error in energy " << 100 * before / exact
+                << " % -> " << 100 * after / exact << " %, " << result.number_of_solves << " solves\n";
+      BOOST_TEST_GT(after, 0);
+      BOOST_TEST_LT(after, (weight > 0 ? 1 : 0.98) * before);
+    }
+}
+
+// ---- guard -------------------------------------------------------------------------------------
+
+// The energies of loads on a mesh.
+std::vector<double> energies_of(Mesh mesh, const std::vector<Prescribed_displacements>& loads)
+{
+  return CGAL::adapt_mixed_mesh_3(mesh, {Elastic_material()}, loads, Criteria().maximal_number_of_solves(1))
+    .energies_before;
+}
+
+// A patch of the top is pushed, the bottom is fixed: the mesh gets worse for smooth loads unless guard loads
+// are in the functional.
+void test_guard(Element_kind kind)
+{
+  const Mesh before = any_grid(6, kind, 0.15, Moved::INNER);
+  const auto is_at = [](double x, double where) { return std::abs(x - where) < 1e-9; };
+  Prescribed_displacements bump;
+  for(Vertex_index v = 0; v < before.number_of_vertices(); ++v) {
+    const Vec3 p = position(before, v);
+    const double distance = std::hypot(p[0] - 0.5, p[1] - 0.5);
+    if(is_at(p[2], 0))
+      bump[v] = Vec3{};
+    else if(is_at(p[2], 1) && distance < 0.4)
+      bump[v] = Vec3{0, 0, -0.05 * (1 + std::cos(M_PI * distance / 0.4))};
   }
+  const std::vector<bool> is_boundary = boundary_flags(before.elements(), before.number_of_vertices());
+  const std::vector<Prescribed_displacements> guards = guard_loads(points_of(before), is_boundary, {bump});
+  BOOST_TEST_EQ(guards.size(), 6u);
+  const std::vector<double> guards_before = energies_of(before, guards);
+  for(double weight : {0., 0.3}) {
+    Mesh mesh = before;
+    const Result result = CGAL::adapt_mixed_mesh_3(mesh, {Elastic_material()}, {bump},
+                                                   Criteria().guard_weight(weight));
+    const std::vector<double> guards_after = energies_of(mesh, guards);
+    double worst = 0;
+    for(std::size_t i = 0; i < guards.size(); ++i)
+      worst = (std::max)(worst, guards_after[i] / guards_before[i]);
+    std::cout << name_of(kind) << ", weight " << weight << ": energy of the bump x " << result.functional
+              << ", worst guard load x " << worst << '\n';
+    BOOST_TEST_LT(result.functional, 0.999);
+    BOOST_TEST_EQ(worst <= 1 + 1e-9, weight > 0);
+    BOOST_TEST_EQ(result.guard_energies_after.size(), weight > 0 ? guards.size() : 0u);
+    for(std::size_t i = 0; i < result.guard_energies_after.size(); ++i) {
+      BOOST_TEST_LT(std::abs(result.guard_energies_after[i] - guards_after[i]), 1e-9 * guards_after[i]);
+      BOOST_TEST_LE(result.guard_energies_after[i], result.guard_energies_before[i]);
+    }
+    // Vertices of elements at the border stay, others move.
+    const std::vector<bool> is_at_border = vertices_at_borders(before.elements(), is_boundary, {bump});
+    std::size_t moved = 0;
+    for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
+      if(is_at_border[v])
+        BOOST_TEST(mesh.point(v) == before.point(v));
+      else
+        moved += mesh.point(v) != before.point(v);
+    BOOST_TEST_GT(moved, 0u);
+    BOOST_TEST(find_defects(mesh).positive());
+  }
+}
+
+// Loads that displace nothing, or a single vertex, have no guard loads.
+void test_no_guard_loads()
+{
+  const Mesh mesh = grid(2, HEXAHEDRON);
+  const std::vector<bool> is_boundary = boundary_flags(mesh.elements(), mesh.number_of_vertices());
+  const auto number = [&](const std::vector<Prescribed_displacements>& cases) {
+    return guard_loads(points_of(mesh), is_boundary, cases).size();
+  };
+  BOOST_TEST_EQ(number({}), 0u);
+  BOOST_TEST_EQ(number({{{0, Vec3{}}, {1, Vec3{}}}}), 0u);
+  BOOST_TEST_EQ(number({{{0, Vec3{1, 0, 0}}, {1, Vec3{}}}}), 0u);
+  BOOST_TEST_EQ(number({{{0, Vec3{1, 0, 0}}, {1, Vec3{0, 1, 0}}}}), 6u);
 }
 
 // ---- what stays, and what ends it --------------------------------------------------------------
@@ -232,26 +307,27 @@ void test_what_stays()
       count += is_where(position(before, v)[2]) && m.point(v) != before.point(v);
     return count;
   };
-  const Result result = CGAL::adapt_mixed_mesh_3(mesh, {Elastic_material()}, cases);
+  const Criteria criteria = Criteria().guard_weight(0); // the grid is good for guard loads as it is
+  const Result result = CGAL::adapt_mixed_mesh_3(mesh, {Elastic_material()}, cases, criteria);
   BOOST_TEST_EQ(result.number_of_inner_vertices, 18u);
   BOOST_TEST_EQ(moved(mesh, [](double z) { return z == 0.5; }), 0u);
   BOOST_TEST_GT(moved(mesh, [](double z) { return z != 0.5; }), 0u);
 
   Mesh constrained = before;
-  CGAL::adapt_mixed_mesh_3(constrained, {Elastic_material()}, cases, Criteria(),
+  CGAL::adapt_mixed_mesh_3(constrained, {Elastic_material()}, cases, criteria,
                            CGAL::parameters::vertex_is_constrained_map(Constrained{&before}));
   BOOST_TEST_EQ(moved(constrained, [](double z) { return z > 0.6; }), 0u);
   BOOST_TEST_GT(moved(constrained, [](double z) { return z < 0.4; }), 0u);
 
   Mesh stopped = before;
   Stop_after visitor{2};
-  const Result two = CGAL::adapt_mixed_mesh_3(stopped, {Elastic_material()}, cases, Criteria(),
+  const Result two = CGAL::adapt_mixed_mesh_3(stopped, {Elastic_material()}, cases, criteria,
                                               CGAL::parameters::visitor(std::ref(visitor)));
   BOOST_TEST(two.status == Adaptation_status::STOPPED);
   BOOST_TEST_EQ(two.number_of_solves, 3);
 
   Mesh again = before;
-  CGAL::adapt_mixed_mesh_3(again, {Elastic_material()}, cases);
+  CGAL::adapt_mixed_mesh_3(again, {Elastic_material()}, cases, criteria);
   BOOST_TEST(again.points() == mesh.points()); // bit by bit
 }
 
@@ -286,6 +362,9 @@ int run(int, char*[])
   for(int kind = 0; kind <= number_of_element_kinds; ++kind)
     test_steps(kind);
   test_error_in_energy();
+  test_guard(HEXAHEDRON);
+  test_guard(TETRAHEDRON);
+  test_no_guard_loads();
   test_what_stays();
   test_statuses();
   return boost::report_errors();

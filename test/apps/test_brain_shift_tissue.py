@@ -101,7 +101,7 @@ class Tissue(Case):
         self.assertIsNone(before["adaptation"])
         told = adapted[0]["adaptation"]
         self.assertGreater(told["steps"], 0)
-        self.assertLess(told["mean energy, after / before"], 0.999)
+        self.assertLess(told["mean energy, after / before"], 1)
         self.assertLessEqual(told["worst ARC after"], 3.2)
         self.assertIn("adaptation: energies of unit bumps", adapted[1].stdout)
         p, q = (vtk_to_numpy(self.read(WORK / name).GetPoints().GetData()) for name in ("before.vtu", "adapted.vtu"))
@@ -109,7 +109,11 @@ class Tissue(Case):
         stays = np.any((p == 0) | (p == 2 * n), axis=1) | (p[:, 2] == 4)
         self.assertTrue(moved.any())
         self.assertFalse(moved[stays].any())
-        self.assertEqual(told["vertices that may move"], int((~stays).sum()))
+        # Vertices of elements at the border of supports stay as well.
+        self.assertLessEqual(int(moved.sum()), told["vertices that may move"])
+        self.assertLess(told["vertices that may move"], int((~stays).sum()))
+        for before_guard, after in zip(told["energies of guard loads before"], told["energies of guard loads after"]):
+            self.assertLessEqual(after, before_guard)
         alone = self.file("alone.csv", HEADER + f"4,4,{2 * n},0,0,-0.2\n")
         self.fails(mesh, "--control-points", alone, "--fixed-below", 0.1, "--adapt", names="--adapt",
                    words="nothing to adapt to")

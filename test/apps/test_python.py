@@ -445,7 +445,7 @@ class Test(unittest.TestCase):
         m, _ = mm3.mesh(*BRAIN, region=REGION, vertices=400)
         cases = self.adaptation_cases(m)
         adapted, report = mm3.adapt(m, cases, solves=8)
-        self.assertLess(report["energy after / before"], 0.99)
+        self.assertLess(report["energy after / before"], 0.9995)  # few vertices are not at the border of supports
         self.assertEqual(report["solves"], 8)
         self.assertAlmostEqual(report["energy after / before"],
                                np.mean(np.divide(report["energies after"], report["energies before"])))

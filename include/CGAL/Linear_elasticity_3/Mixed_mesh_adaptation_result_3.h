@@ -62,12 +62,15 @@ struct Mixed_mesh_adaptation_result_3
   std::vector<double> energies_before;
   /// Energies after the adaptation. One of several energies may have grown; the sum of their ratios has not.
   std::vector<double> energies_after;
+  /// Energies of the guard loads before the adaptation, in microjoules: of displacements of up to 1 mm.
+  std::vector<double> guard_energies_before;
+  std::vector<double> guard_energies_after; ///< after the adaptation: none has grown
   /// The largest aspect-ratio coefficient (ARC) before the adaptation.
   double worst_aspect_ratio_before = 0;
   double worst_aspect_ratio_after = 0; ///< after the adaptation
 
-  /// The mean ratio of energies after and before, over the load cases that strain the mesh: the minimized
-  /// functional.
+  /// The mean ratio of energies after and before, over the load cases that strain the mesh. The minimized
+  /// functional has, in addition, the mean ratio over guard loads, times their weight.
   double functional = 1;
 };
 

@@ -39,25 +39,28 @@ namespace CGAL {
 \brief Moves the inner vertices of a mixed mesh along configurational forces, so that the energy of finite
 elements falls, and with it their error in energy, for the loads that are to come.
 
-The loads are displacements of some vertices; the others are free, without forces. The functional is the mean,
-over the load cases, of the energy of the solution with standard elements, divided by that on the mesh at
-first. Each step moves vertices along the gradient of the functional, relative to the size and to the energy
-of the elements around, solves again, and is undone if the functional has not fallen. Elements, their order
-and their attributes stay.
+The loads are displacements of some vertices; the others are free, without forces. The functional is the
+mean, over the load cases, of the energy of the solution with standard elements, divided by that on the mesh
+at first, and the same mean over six *guard loads*, times a weight. Guard loads displace the whole boundary
+smoothly, most where the load cases do. Each step moves vertices along the gradient of the functional,
+relative to the size and to the energy of the elements around, solves again, and is undone if the functional
+or the mean of the load cases has not fallen, or if a guard load has more energy than at first. Elements,
+their order and their attributes stay.
 
 These do not move: vertices of the boundary, where the data would move with them; of the interfaces between
-subdomains or materials; of sheets; with a prescribed displacement; and constrained ones.
+subdomains or materials; of sheets; with a prescribed displacement; of elements that have such vertices and
+also free ones of the boundary; and constrained ones.
 
-Guarantees: the functional does not grow. If elements were valid, they are after each step (their Jacobians
-are proved positive on the whole element, on the coordinates as they are); no element gets an aspect-ratio
-coefficient above the bound of the criteria, or above what it had at first, whatever is larger. Vertices
-that do not move have the same coordinates, bit by bit. The same input gives the same mesh, if the solver
-gives the same solution.
+Guarantees: the mean energy of the load cases and the energy of each guard load do not grow. If elements
+were valid, they are after each step (their Jacobians are proved positive on the whole element, on the
+coordinates as they are); no element gets an aspect-ratio coefficient above the bound of the criteria, or
+above what it had at first, whatever is larger. Vertices that do not move have the same coordinates, bit by
+bit. The same input gives the same mesh, if the solver gives the same solution.
 
 With standard elements, the energy of the solution is that of the exact one plus half the square of the
-error in the energy norm: so the error of standard elements falls in that norm. That it falls in another norm,
-for other elements such as those of `Linear_elasticity_3`, or for other loads, is not proved; see
-\ref Linear_elasticity_3_adaptation "the manual".
+error in the energy norm: so the error of standard elements falls in that norm, and that of guard loads
+does not grow. That it falls in another norm, for other elements such as those of `Linear_elasticity_3`, or
+for other loads, is not proved; see \ref Linear_elasticity_3_adaptation "the manual".
 
 \tparam SolverTraits a direct model of `SparseLinearAlgebraWithFactorTraits_d`; one for each set of
         vertices with prescribed displacements is constructed by default

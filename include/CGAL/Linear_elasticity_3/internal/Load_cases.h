@@ -94,18 +94,20 @@ private:
   // As the energy is quadratic, one step of Newton's method from any displacements is the solution.
   bool solve(Group& group, const std::vector<Vec3>& points, std::vector<Mesh_energy>& energies)
   {
-    const auto evaluate = [&](std::size_t i) {
-      return mesh_energy(m_elements, points, m_materials, m_displacements[i]);
+    const auto evaluate = [&] {
+      std::vector<const std::vector<Vec3>*> displacements;
+      for(std::size_t i : group.cases)
+        displacements.push_back(&m_displacements[i]);
+      return mesh_energies(m_elements, points, m_materials, displacements);
     };
     const std::vector<Vertex_index>& free = group.system.free_vertices();
     if(!free.empty()) {
       Eigen::MatrixXd forces(3 * Eigen::Index(free.size()), Eigen::Index(group.cases.size())), steps;
-      for(std::size_t c = 0; c < group.cases.size(); ++c) {
-        const Mesh_energy energy = evaluate(group.cases[c]);
+      const std::vector<Mesh_energy> guesses = evaluate();
+      for(std::size_t c = 0; c < group.cases.size(); ++c)
         for(std::size_t i = 0; i < free.size(); ++i)
           for(int k = 0; k < 3; ++k)
-            forces(3 * Eigen::Index(i) + k, Eigen::Index(c)) = energy.by_displacements[free[i]][k];
-      }
+            forces(3 * Eigen::Index(i) + k, Eigen::Index(c)) = guesses[c].by_displacements[free[i]][k];
       if(!factor(group, points) || !group.solver->solve(forces, steps) || !steps.allFinite())
         return false;
       for(std::size_t c = 0; c < group.cases.size(); ++c) {
@@ -115,8 +117,9 @@ private:
             u[free[i]][k] -= steps(3 * Eigen::Index(i) + k, Eigen::Index(c));
       }
     }
-    for(std::size_t i : group.cases)
-      energies[i] = evaluate(i);
+    std::vector<Mesh_energy> of_group = evaluate();
+    for(std::size_t c = 0; c < group.cases.size(); ++c)
+      energies[group.cases[c]] = std::move(of_group[c]);
     return true;
   }
 

@@ -48,10 +48,10 @@ points of the quadrature, too: when a node moves by \f$ \delta X \f$, H at a poi
 \f$ - H \delta X \otimes \nabla N_a \f$, and the volume that the point stands for by its multiple
 \f$ \delta X \cdot \nabla N_a \f$.
 
-\param points positions of the nodes; they may be relative to any of them
+\param operators at the points of quadrature
 \param displacements of the nodes
 */
-inline Element_energy element_energy(Element_kind kind, const Element_points& points,
+inline Element_energy element_energy(Element_kind kind, const std::array<Strain_operator, 8>& operators,
                                      const std::array<Vec3, 8>& displacements,
                                      const Elastic_material& material)
 {
@@ -59,7 +59,7 @@ inline Element_energy element_energy(Element_kind kind, const Element_points& po
   const double lambda = material.lambda(), mu = material.mu();
   Element_energy result;
   for(int q = 0; q < quadrature_rule(kind).number_of_points; ++q) {
-    const Strain_operator s = strain_operator(kind, points, q);
+    const Strain_operator& s = operators[std::size_t(q)];
     Matrix_3x3 h{}, stress{};
     for(int a = 0; a < n; ++a)
       for(int i = 0; i < 3; ++i)
@@ -98,33 +98,51 @@ struct Mesh_energy
   std::vector<double> of_stars; // of the elements at each vertex
 };
 
+/// The energies of several displacements of a mesh: what depends on the points only is computed once.
 /// \param materials one for all elements, or one for each
+/// \param displacements pointers to those of all vertices
 /// \pre no element is inverted
-inline Mesh_energy mesh_energy(const Element_list& elements, const std::vector<Vec3>& points,
-                               const std::vector<Elastic_material>& materials,
-                               const std::vector<Vec3>& displacements)
+inline std::vector<Mesh_energy> mesh_energies(const Element_list& elements, const std::vector<Vec3>& points,
+                                              const std::vector<Elastic_material>& materials,
+                                              const std::vector<const std::vector<Vec3>*>& displacements)
 {
-  Mesh_energy result;
-  result.by_displacements.assign(points.size(), Vec3{});
-  result.by_positions.assign(points.size(), Vec3{});
-  result.of_stars.assign(points.size(), 0);
+  Mesh_energy none;
+  none.by_displacements.assign(points.size(), Vec3{});
+  none.by_positions.assign(points.size(), Vec3{});
+  none.of_stars.assign(points.size(), 0);
+  std::vector<Mesh_energy> results(displacements.size(), none);
   for(Element_index e = 0; e < elements.size(); ++e) {
     const Element_view element = elements[e];
     // Displacements relative to those of a node: a translation has no energy, not even by rounding.
     const auto relative = [&element](const std::vector<Vec3>& values) {
       return relative_points(element, [&values](Vertex_index v) { return values[v]; });
     };
-    const Element_energy one = element_energy(element.kind(), relative(points), relative(displacements),
-                                              material_of(materials, e));
-    result.energy += one.energy;
-    for(int a = 0; a < element.size(); ++a) {
-      const Vertex_index v = element[a];
-      result.by_displacements[v] = result.by_displacements[v] + one.by_displacements[a];
-      result.by_positions[v] = result.by_positions[v] + one.by_positions[a];
-      result.of_stars[v] += one.energy;
+    const Element_points positions = relative(points);
+    std::array<Strain_operator, 8> operators;
+    for(int q = 0; q < quadrature_rule(element.kind()).number_of_points; ++q)
+      operators[std::size_t(q)] = strain_operator(element.kind(), positions, q);
+    for(std::size_t i = 0; i < displacements.size(); ++i) {
+      const Element_energy one = element_energy(element.kind(), operators, relative(*displacements[i]),
+                                                material_of(materials, e));
+      Mesh_energy& result = results[i];
+      result.energy += one.energy;
+      for(int a = 0; a < element.size(); ++a) {
+        const Vertex_index v = element[a];
+        result.by_displacements[v] = result.by_displacements[v] + one.by_displacements[a];
+        result.by_positions[v] = result.by_positions[v] + one.by_positions[a];
+        result.of_stars[v] += one.energy;
+      }
     }
   }
-  return result;
+  return results;
+}
+
+/// The energy of a mesh with displacements, with the preconditions of `mesh_energies()`.
+inline Mesh_energy mesh_energy(const Element_list& elements, const std::vector<Vec3>& points,
+                               const std::vector<Elastic_material>& materials,
+                               const std::vector<Vec3>& displacements)
+{
+  return mesh_energies(elements, points, materials, {&displacements}).front();
 }
 
 } // namespace internal
