@@ -439,12 +439,14 @@ Test_surface spiky_ball(double factor, int distance, int n)
   return s;
 }
 
-// Four plates of a twentieth of their side.
+// Four plates of a twentieth of their side. One is not quite perpendicular to the axes: else boxes would do.
 Test_surface thin_plates()
 {
   Test_surface s;
   for(int i = 0; i < 4; ++i)
     add_box(s, {0, 0, 0.3 * i}, {1, 1, 0.3 * i + 0.05});
+  Test_point& p = s.point(*s.vertices().begin());
+  p = Test_point(p.x(), p.y(), p.z() - 0.01);
   return s;
 }
 

@@ -140,10 +140,12 @@ void test_shapes()
   volume_of_mesh = mesh_shape("two spheres", two, 4000, {Status::SUCCESS, Status::SUCCESS});
   BOOST_TEST(is_near(volume_of_mesh, 2 * sphere));
 
-  // Two plates between the planes of the coarse octree: the default base level would lose one of them.
+  // Two plates between the planes of the coarse octree: the default base level would lose one of them. One
+  // vertex is not in their planes: else boxes between these planes would do.
   Surface plates;
   add_box(plates, {0, 0, 0}, {100, 100, 4});
   add_box(plates, {0, 0, 56.3}, {100, 100, 60.3});
+  plates.point(*plates.vertices().begin()) = Point_3(0, 0, -1e-9);
   const CGAL::Polyhedral_mixed_mesh_domain_3 plates_domain(plates);
   Mesh mesh;
   for(std::size_t n : {100, 500, 20000}) {

@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Domains whose surface lies in planes perpendicular to the axes: the planes cut space into boxes, each of which
-// is inside or outside as a whole.
+// Domains whose surface lies in planes perpendicular to the axes: the planes cut space into boxes, each of
+// which is inside or outside as a whole.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_OCTREE_BOXES_BETWEEN_PLANES_H
 #define CGAL_MIXED_MESH_3_INTERNAL_OCTREE_BOXES_BETWEEN_PLANES_H
@@ -192,8 +192,8 @@ private:
             {center[0], center[1], center[2]}};
   }
 
-  // Finds what is inside of the boxes from begin to end: they are halved until they are single ones, as far as
-  // the surface meets them.
+  // Finds what is inside of the boxes from begin to end: they are halved until they are single ones, as far
+  // as the surface meets them.
   template <class Domain>
   void locate(const Domain& domain, const Slab_index& begin, const Slab_index& end,
               const typename Domain::Surface_part& parent)

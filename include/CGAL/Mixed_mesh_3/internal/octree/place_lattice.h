@@ -33,8 +33,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Finds cells for a domain whose surface lies in planes perpendicular to the axes: each slab between two planes
-/// gets layers of one width.
+/// Finds cells for a domain whose surface lies in planes perpendicular to the axes: each slab between two
+/// planes gets layers of one width.
 class Lattice_placement
 {
   // Edges whose ratios differ by less are taken as equal: ratios have rounding errors.
@@ -132,9 +132,9 @@ private:
 /// The largest ratio of the edges of cells that are split: templates make elements worse than their cells.
 constexpr double largest_ratio_of_split_cells = 1.25;
 
-/// Walls are thin for a budget if the cube that a vertex has to serve has an edge of more than that many times
-/// their thickness: then a layer of cells between both sides of a wall is 2.6 times as wide as the wall is thick,
-/// and tetrahedra within the usual bounds of quality hardly fit into it.
+/// Walls are thin for a budget if the cube that a vertex has to serve has an edge of more than that many
+/// times their thickness: then a layer of cells between both sides of a wall is 2.6 times as wide as the wall
+/// is thick, and tetrahedra within the usual bounds of quality hardly fit into it.
 constexpr double least_edge_of_thin_walls = 1.5;
 
 /// The largest number of boxes between planes that are looked at.
