@@ -3,8 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Vertices that move by colors: no two vertices of an element move at the same time, and the result is the
-// same with any number of threads.
+// Vertices that move by colors or by levels: no two vertices of an element move at the same time, and the
+// result is the same with any number of threads.
 
 #include "test_fitting.h"
 #include "test_strata.h"
@@ -108,7 +108,7 @@ double largest_cost(const Working_mesh& mesh)
   return largest;
 }
 
-void test_threads()
+void test_threads(bool by_colors)
 {
   const Working_mesh start = shaken_cubes(13);
   const Aspect_ratio_quality_3 quality;
@@ -117,7 +117,9 @@ void test_threads()
   for(unsigned threads : {1, 2, 3, 7, 2}) {
     Working_mesh mesh = start;
     internal::Vertex_optimizer optimizer(mesh, quality, project, 1., 1000.);
-    optimizer.use_colors(threads);
+    optimizer.use_threads(threads);
+    if(by_colors)
+      optimizer.use_colors();
     optimizer.activate_all();
     optimizer.run(4, 1, 6);
     for(const Working_mesh::Element& element : mesh.elements)
@@ -176,7 +178,8 @@ int run(int, char*[])
 {
   test_coloring();
   test_inside();
-  test_threads();
+  for(const bool by_colors : {true, false})
+    test_threads(by_colors);
   return boost::report_errors();
 }
 

@@ -12,6 +12,7 @@
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/Mixed_mesh_3/certify_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
 #include <CGAL/Mixed_mesh_3/surface_distance.h>
 #include <CGAL/make_mixed_mesh_3.h>
 
@@ -268,6 +269,37 @@ void test_vertices_off_surface()
   BOOST_TEST_EQ(number_of_vertices_off_surface(mesh, surface, 1e-12), 4u);
 }
 
+// Slabs of several threads find the vertices that one thread finds without slabs.
+void test_slabs()
+{
+  using internal::vertices_of_self_intersections;
+  const Mesh mesh = solid(sphere({0, 0, 0}, 1, 50), {0, 0, 0});
+  const std::vector<Face> faces = boundary_faces(mesh);
+  BOOST_TEST_GT(faces.size(), 3000u);
+  std::vector<Vec3> points;
+  for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
+    points.push_back(to_vec3(mesh.point(v)));
+  for(unsigned threads : {1, 2, 5})
+    BOOST_TEST(vertices_of_self_intersections(points, faces, threads).empty());
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-0.03, 0.03); // up to half of an edge
+  for(Vec3& p : points)
+    for(double& x : p)
+      x += uniform(random);
+  const std::vector<Vertex_index> crossing = vertices_of_self_intersections(points, faces);
+  BOOST_TEST(crossing.size() > 10 && crossing.size() < points.size());
+  BOOST_TEST(std::is_sorted(crossing.begin(), crossing.end()));
+  for(unsigned threads : {2, 3, 5})
+    BOOST_TEST(vertices_of_self_intersections(points, faces, threads) == crossing);
+  // A face that cuts all slabs.
+  const auto far = std::size_t(faces.front().vertices()[0]);
+  points[far] = Vec3{3, 3, 3} - 4 * points[far];
+  const std::vector<Vertex_index> more = vertices_of_self_intersections(points, faces);
+  BOOST_TEST(more != crossing);
+  for(unsigned threads : {2, 3, 5})
+    BOOST_TEST(vertices_of_self_intersections(points, faces, threads) == more);
+}
+
 void test_self_intersections()
 {
   const Test_surface surface = sphere({0, 0, 0}, 1, 8);
@@ -361,6 +393,7 @@ int run(int argc, char* argv[])
   test_hausdorff_distance();
   test_vertices_off_surface();
   test_self_intersections();
+  test_slabs();
   test_brain(argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR);
   return boost::report_errors();
 }

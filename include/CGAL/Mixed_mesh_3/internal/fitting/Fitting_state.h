@@ -122,8 +122,9 @@ struct Fitting_state
     moves.set_steps(effort.first_step, effort.step_growth);
     if(effort.samples_coarsely)
       attraction.sample_coarsely();
+    moves.use_threads(criteria.number_of_threads);
     if(effort.moves_by_colors)
-      moves.use_colors(criteria.number_of_threads);
+      moves.use_colors();
     if(effort.layers > 0)
       moves.set_good_enough_inside(acceptable_final_cost, effort.layers);
   }
@@ -230,7 +231,7 @@ struct Fitting_state
     for(std::size_t f = 0; f < boundary.faces.size(); ++f)
       if(strata.is_on_boundary(boundary.strata[f]))
         faces.push_back(boundary.faces[f]);
-    return vertices_of_self_intersections(mesh.points, faces);
+    return vertices_of_self_intersections(mesh.points, faces, criteria.number_of_threads);
   }
 
   /// Saves all positions if no faces cut each other. \return the number of vertices of faces that cut

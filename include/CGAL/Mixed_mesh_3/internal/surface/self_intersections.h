@@ -12,10 +12,13 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
-#include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/Face.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Shared_mark.h>
+#include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
+#include <CGAL/Bbox_3.h>
 #include <CGAL/Box_intersection_d/Box_with_info_d.h>
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/enum.h>
@@ -24,6 +27,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace CGAL {
@@ -60,42 +64,95 @@ inline bool is_crossing(const std::array<Vertex_index, 3>& s, const std::array<V
   }
 }
 
+/// Boxes by slabs of about equal numbers of boxes, orthogonal to an axis; a box is in each slab it meets, so
+/// that boxes that meet are in a common slab.
+template <class Box>
+std::vector<std::vector<Box>> boxes_by_slabs(const std::vector<Box>& boxes, int axis,
+                                             std::size_t number_of_slabs)
+{
+  std::vector<double> middles;
+  for(const Box& b : boxes)
+    middles.push_back((b.min_coord(axis) + b.max_coord(axis)) / 2);
+  std::sort(middles.begin(), middles.end());
+  std::vector<double> borders;
+  for(std::size_t i = 1; i < number_of_slabs; ++i)
+    borders.push_back(middles[i * middles.size() / number_of_slabs]);
+  std::vector<std::vector<Box>> slabs(number_of_slabs);
+  for(const Box& b : boxes) {
+    const auto slab = [&](double x) {
+      return std::size_t(std::upper_bound(borders.begin(), borders.end(), x) - borders.begin());
+    };
+    for(std::size_t i = slab(b.min_coord(axis)); i <= slab(b.max_coord(axis)); ++i)
+      slabs[i].push_back(b);
+  }
+  return slabs;
+}
+
 /// The vertices of faces that meet in more than the vertices and edges they share, ascending. The test is
 /// exact.
 /// \param faces triangles, and quadrilaterals, each as two triangles; faces without area, which no valid
 ///        element has, are skipped
+/// \param threads number of threads
 /// \par Complexity
 /// O(n log n) for n faces, if few meet
 inline std::vector<Vertex_index> vertices_of_self_intersections(const std::vector<Vec3>& positions,
-                                                                const std::vector<Face>& faces)
+                                                                const std::vector<Face>& faces,
+                                                                unsigned threads = 1)
 {
   using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
+  constexpr std::size_t boxes_worth_a_slab = 1000, slabs_per_thread = 4;
   std::vector<Predicates_kernel::Point_3> points;
   points.reserve(positions.size());
   for(const Vec3& p : positions)
     points.emplace_back(p[0], p[1], p[2]);
   std::vector<std::array<Vertex_index, 3>> triangles;
-  std::vector<Box> boxes;
   for(const Face& face : faces)
-    for(int i = 2; i < face.vertices().size(); ++i) {
+    for(int i = 2; i < face.vertices().size(); ++i)
       triangles.push_back({face.vertices()[0], face.vertices()[i - 1], face.vertices()[i]});
-      const auto& t = triangles.back();
-      if(CGAL::collinear(points[t[0]], points[t[1]], points[t[2]])) {
-        triangles.pop_back();
-        continue;
-      }
-      boxes.emplace_back(points[t[0]].bbox() + points[t[1]].bbox() + points[t[2]].bbox(), boxes.size());
-    }
-  std::vector<Vertex_index> vertices;
-  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& b, const Box& c) {
-    const auto &s = triangles[b.info()], &t = triangles[c.info()];
-    if(is_crossing(s, t, points)) {
-      vertices.insert(vertices.end(), s.begin(), s.end());
-      vertices.insert(vertices.end(), t.begin(), t.end());
-    }
+  std::vector<std::uint8_t> has_area(triangles.size());
+  parallel_for(triangles.size(), threads, [&](std::size_t i) {
+    const auto& t = triangles[i];
+    has_area[i] = !CGAL::collinear(points[t[0]], points[t[1]], points[t[2]]);
   });
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  std::vector<Box> boxes;
+  Bbox_3 bbox;
+  for(std::size_t i = 0; i < triangles.size(); ++i)
+    if(has_area[i]) {
+      const auto& t = triangles[i];
+      boxes.emplace_back(points[t[0]].bbox() + points[t[1]].bbox() + points[t[2]].bbox(), i);
+      bbox += boxes.back().bbox();
+    }
+
+  // A pair that is in several slabs marks the same vertices again.
+  std::vector<Shared_mark> is_marked(positions.size());
+  const auto mark_if_crossing = [&](const Box& b, const Box& c) {
+    const auto &s = triangles[b.info()], &t = triangles[c.info()];
+    if(is_crossing(s, t, points))
+      for(int i = 0; i < 3; ++i)
+        is_marked[s[i]] = is_marked[t[i]] = true;
+  };
+  const std::size_t number_of_slabs = threads == 1 ? 1
+                                                   : (std::min)(slabs_per_thread * threads,
+                                                                boxes.size() / boxes_worth_a_slab);
+  if(number_of_slabs < 2) {
+    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), mark_if_crossing);
+  } else {
+    int axis = 0;
+    for(int k = 1; k < 3; ++k)
+      if(bbox.max(k) - bbox.min(k) > bbox.max(axis) - bbox.min(axis))
+        axis = k;
+    auto slabs = boxes_by_slabs(boxes, axis, number_of_slabs);
+    parallel_for(
+      slabs.size(), threads,
+      [&](std::size_t i) {
+        CGAL::box_self_intersection_d(slabs[i].begin(), slabs[i].end(), mark_if_crossing);
+      },
+      1);
+  }
+  std::vector<Vertex_index> vertices;
+  for(Vertex_index v = 0; v < is_marked.size(); ++v)
+    if(is_marked[v])
+      vertices.push_back(v);
   return vertices;
 }
 
