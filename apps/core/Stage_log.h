@@ -12,6 +12,7 @@
 #include "core/messages.h"
 
 #include <CGAL/Mixed_mesh_3/Default_visitor.h>
+#include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
 
 #include <algorithm>
 #include <chrono>
@@ -115,6 +116,42 @@ public:
     return f();
   }
 
+  /// A stage that depends on no other one beside it.
+  struct Stage
+  {
+    std::string name;
+    std::function<void()> run;
+  };
+
+  /// Runs independent stages, at the same time if there are several threads. The wall clock of a stage then
+  /// also runs while the stage waits for a thread or shares a processor.
+  void together(unsigned threads, const std::vector<Stage>& stages)
+  {
+    if(threads == 1) {
+      for(const Stage& stage : stages)
+        (*this)(stage.name, stage.run);
+      return;
+    }
+    std::vector<Stage_cost> costs(stages.size());
+    m_peak = peak_bytes();
+    reset_high_water_mark();
+    m_current = stages.front().name;
+    show(m_current);
+    CGAL::Mixed_meshes_3::internal::parallel_for(
+      stages.size(), threads,
+      [&](std::size_t i) {
+        const Clock::time_point start = Clock::now();
+        const double cpu = thread_cpu_seconds();
+        stages[i].run();
+        costs[i] = {stages[i].name, seconds_since(start), thread_cpu_seconds() - cpu, 0};
+      },
+      1);
+    for(Stage_cost& cost : costs) {
+      cost.peak_bytes = high_water_mark();
+      add(cost);
+    }
+  }
+
   const std::vector<Stage_cost>& costs() const { return m_costs; }
   double seconds() const { return seconds_since(m_start); }
 
@@ -171,7 +208,7 @@ private:
     m_is_running = true;
     m_round = 0;
     m_peak = peak_bytes();
-    std::ofstream("/proc/self/clear_refs") << "5"; // Linux: the high-water mark starts anew
+    reset_high_water_mark();
     m_stage_start = Clock::now();
     m_stage_cpu = std::clock();
     show(name);
@@ -180,15 +217,32 @@ private:
   void end()
   {
     m_is_running = false;
+    add({m_current, seconds_since(m_stage_start), double(std::clock() - m_stage_cpu) / CLOCKS_PER_SEC,
+         high_water_mark()});
+  }
+
+  // Adds the cost of a run of a stage to those of its other runs.
+  void add(const Stage_cost& run)
+  {
     auto cost = m_costs.begin();
-    while(cost != m_costs.end() && cost->name != m_current)
+    while(cost != m_costs.end() && cost->name != run.name)
       ++cost;
     if(cost == m_costs.end())
-      cost = m_costs.insert(m_costs.end(), Stage_cost{m_current});
-    cost->seconds += seconds_since(m_stage_start);
-    cost->cpu_seconds += double(std::clock() - m_stage_cpu) / CLOCKS_PER_SEC;
-    cost->peak_bytes = (std::max)(cost->peak_bytes, high_water_mark());
+      cost = m_costs.insert(m_costs.end(), Stage_cost{run.name});
+    cost->seconds += run.seconds;
+    cost->cpu_seconds += run.cpu_seconds;
+    cost->peak_bytes = (std::max)(cost->peak_bytes, run.peak_bytes);
   }
+
+  static double thread_cpu_seconds()
+  {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+  }
+
+  // Linux: the high-water mark starts anew.
+  static void reset_high_water_mark() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
   static double seconds_since(Clock::time_point start)
   {

@@ -68,17 +68,27 @@ Aspect_ratios aspect_ratios_of(const Mesh& mesh)
 void examine(const Mesh& mesh, const Surface& surface, const Options& options, Stage_log& log,
              Outcome& outcome)
 {
-  const mm3::Mesh_certificate certificate = log("checks", [&] { return mm3::certify_mesh(mesh); });
-  if(certificate.defects.none())
-    outcome.fidelity = log("distance to surface",
-                           [&] { return fidelity_of(mesh, surface, outcome.surface.volume); });
+  mm3::Mesh_certificate certificate{log("checks", [&] { return mm3::find_defects(mesh); })};
+  if(certificate.defects.none()) {
+    std::size_t& self_intersections = certificate.number_of_self_intersections;
+    log.together(options.threads,
+                 {{"distance to surface",
+                   [&] { outcome.fidelity = fidelity_of(mesh, surface, outcome.surface.volume); }},
+                  {"checks", [&] { self_intersections = mm3::number_of_boundary_self_intersections(mesh); }},
+                  {"topology",
+                   [&] {
+                     outcome.topology = topology_with_units(mesh, surface, options, outcome.result.status);
+                   }},
+                  {"quality", [&] {
+                     outcome.after = aspect_ratios_of(mesh);
+                     outcome.shapes = shapes_of(mesh);
+                   }}});
+  }
   outcome.fidelity.self_intersections = certificate.number_of_self_intersections;
   for(const mm3::Mesh_certificate::Check& check : certificate.checks())
     outcome.checks.push_back({check.name, check.holds});
-  require_all(outcome.checks, certificate.number_of_self_intersections);
+  require_all(outcome.checks, certificate.number_of_self_intersections); // throws if there are defects
   require_volume(options, outcome);
-  outcome.topology = log("topology",
-                         [&] { return topology_with_units(mesh, surface, options, outcome.result.status); });
   outcome.checks_of_fidelity = checks_of_fidelity(outcome, options.fit() != Fit::NONE);
 
   outcome.mesh = facts_of(mesh);
@@ -91,8 +101,4 @@ void examine(const Mesh& mesh, const Surface& surface, const Options& options, S
     });
   add_warnings(options, outcome);
   outcome.result.status = checked_status(outcome.result.status, outcome.fidelity, options.tolerance);
-  log("quality", [&] {
-    outcome.after = aspect_ratios_of(mesh);
-    outcome.shapes = shapes_of(mesh);
-  });
 }

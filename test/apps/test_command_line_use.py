@@ -258,7 +258,7 @@ class Use(Case):
             if arguments == ["--no-optimize"] and self.mesher(self.good, "--vertices", 100, *arguments).returncode:
                 continue  # built without Eigen
             hashes = set()
-            for i, threads in enumerate((1, 5) if "--tolerance" in arguments else (1, 1, 1, 2, 5)):
+            for i, threads in enumerate((1, 5) if "--tolerance" in arguments else (1, 1, 2, 3, 5)):
                 path = WORK / f"{i}.vtu"
                 run = self.mesher(DATA / "brain.off", "--region", DATA / "region.off", "--vertices",
                                   300 if "--tolerance" in arguments else 660, *arguments, "--threads", threads,
