@@ -72,6 +72,7 @@ TABLES = {
     "peers_of_one_size": lambda: without(("N",), peers(r for r in load("peers")["rows"] if r["wanted"] == 2000)),
     "paper": lambda: load("paper")["rows"],
     "scale": lambda: scale(load("scale")["rows"]),
+    "threads": lambda: load("threads")["rows"],
 }
 
 
