@@ -30,8 +30,8 @@ namespace internal {
 /*!
 The supernodes of a factor L L^T of CHOLMOD that some unknowns need: the paths from these unknowns to the root
 of the elimination tree. Where the right-hand side is zero elsewhere, the solution at these unknowns depends
-on these supernodes only (J. R. Gilbert, T. Peierls: "Sparse partial pivoting in time proportional to arithmetic
-operations", SIAM J. Sci. Stat. Comput. 9, 1988).
+on these supernodes only (J. R. Gilbert, T. Peierls: "Sparse partial pivoting in time proportional to
+arithmetic operations", SIAM J. Sci. Stat. Comput. 9, 1988).
 
 A solution reads each entry twice, and memory bounds its time; so entries are copied in single precision. The
 relative error of a solution in the energy norm is of the order of the condition number times 6e-8.
