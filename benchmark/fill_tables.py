@@ -67,11 +67,21 @@ def scale(rows):
                    "ARC max": f"{r['ARC max']:.2f}"}
 
 
+def kernels(results):
+    """Nanoseconds of each kernel for each kind of element."""
+    rows = {}
+    for b in results["benchmarks"]:
+        kernel, kind = b["name"].split("/")
+        rows.setdefault(kernel, {"kernel": kernel})[kind] = f"{b['cpu_time']:.0f}"
+    yield from rows.values()
+
+
 TABLES = {
     "peers": lambda: peers(load("peers")["rows"]),
     "peers_of_one_size": lambda: without(("N",), peers(r for r in load("peers")["rows"] if r["wanted"] == 2000)),
     "paper": lambda: load("paper")["rows"],
     "scale": lambda: scale(load("scale")["rows"]),
+    "kernels": lambda: kernels(load("kernels")),
     "threads": lambda: load("threads")["rows"],
 }
 

@@ -57,7 +57,7 @@ void test_removal(int kind)
       BOOST_TEST(is_success(problem.remove_elements(step)));
       BOOST_TEST_EQ(problem.number_of_control_points(), points.size());
       BOOST_TEST(is_success(problem.solve(wanted)));
-      if(tolerance > 1e-6)
+      if(tolerance > 1e-12) // beyond, rounding may make the model factor
         BOOST_TEST(problem.is_iterative() && problem.number_of_iterations() > 0);
       for(std::size_t i = 0; i < points.size(); ++i)
         BOOST_TEST_LT(norm(interpolated(mesh, problem.displacements(), points[i]) - wanted[i]), 1e-9);
@@ -95,6 +95,20 @@ void test_removal(int kind)
   BOOST_TEST(!again.is_iterative());
   BOOST_TEST(is_success(again.solve(wanted)));
   BOOST_TEST_LT(difference(again.displacements(), expected), 1e-9 * largest(expected));
+
+  // Iterations reach the displacements of a direct solution of the same stiffness, with the same patches: new
+  // control points make the model factor it. Some displacements of supports are not zero.
+  Elasticity factored(mesh);
+  prepared(factored);
+  BOOST_TEST(is_success(factored.remove_elements(both)));
+  BOOST_TEST(is_success(factored.set_control_points(points)));
+  BOOST_TEST(!factored.is_iterative());
+  BOOST_TEST(is_success(factored.solve(wanted)));
+  BOOST_TEST_LT(difference(removed({both}, 1e-11), factored.displacements()), 1e-9 * largest(expected));
+  BOOST_TEST_LT(difference(removed({first, second}, 1e-11), factored.displacements()),
+                1e-9 * largest(expected));
+  // Two problems of the same steps have the same bytes.
+  BOOST_TEST(removed({first, second}) == removed({first, second}));
 
   // Nothing changes if no element is removed; a control point in removed elements is outside.
   BOOST_TEST(is_success(again.remove_elements(std::vector<bool>(mesh.number_of_elements(), false))));

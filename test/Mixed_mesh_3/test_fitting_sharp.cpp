@@ -14,6 +14,7 @@
 #include <CGAL/Mixed_mesh_3/quality_bound.h>
 #include <CGAL/Mixed_mesh_3/validation.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/make_mixed_mesh_3.h>
 
@@ -23,6 +24,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iostream>
 #include <random>
 #include <utility>
 #include <vector>
@@ -248,6 +250,41 @@ void test_turned_cube()
   BOOST_TEST(std::abs(length - result.optimization.length_of_sharp_edges_kept) < 0.01);
 }
 
+// Edges and corners of acute angles: flips let vertices reach them, and the vertex nearest to an acute corner
+// is several edges away.
+void test_acute_angles()
+{
+  const std::array<std::array<Point, 4>, 2> tetrahedra{
+    {{Point(0, 0, 0), Point(1, 1, 0), Point(0, 1, 0), Point(0, 0, 1)},
+     {Point(1, 1, 1), Point(-1, 1, -1), Point(1, -1, -1), Point(-1, -1, 1)}}};
+  double kept = 0, length = 0;
+  std::size_t corners = 0;
+  for(const auto& p : tetrahedra)
+    for(bool is_turned : {false, true}) {
+      Surface s;
+      std::array<Surface::Vertex_index, 4> v;
+      for(std::size_t i = 0; i < 4; ++i)
+        v[i] = s.add_vertex(p[i]);
+      for(const auto& f : {std::array<std::size_t, 3>{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}})
+        s.add_face(v[f[0]], v[f[1]], v[f[2]]);
+      if(CGAL::Polygon_mesh_processing::volume(s) < 0)
+        CGAL::Polygon_mesh_processing::reverse_face_orientations(s);
+      Mesh mesh;
+      const auto result = CGAL::make_mixed_mesh_3(is_turned ? turned(s) : s, 1500, mesh);
+      const auto& o = result.optimization;
+      BOOST_TEST(result.status == CGAL::Mixed_mesh_status::SUCCESS);
+      BOOST_TEST_EQ(o.number_of_corners, 4u);
+      std::cout << "tetrahedron" << (is_turned ? ", turned" : "") << ": "
+                << o.length_of_sharp_edges_kept / o.length_of_sharp_edges << " of the edges, "
+                << o.number_of_corners_kept << " corners" << std::endl;
+      kept += o.length_of_sharp_edges_kept;
+      length += o.length_of_sharp_edges;
+      corners += o.number_of_corners_kept;
+    }
+  BOOST_TEST_GT(kept, 0.9 * length); // 0.7 without flips
+  BOOST_TEST_GE(corners, 13u);
+}
+
 void test_cylinder()
 {
   const Surface s = prism(circle(60), 2);
@@ -317,6 +354,7 @@ int run(int, char*[])
   test_flat_cells();
   test_lattice_with_region();
   test_turned_cube();
+  test_acute_angles();
   test_cylinder();
   return boost::report_errors();
 }

@@ -178,6 +178,8 @@ public:
     check_memory();
   }
 
+  const cholmod_factor& supernodal_factor() const { return *this->m_cholmodFactor; }
+
 private:
   // Throws if there is no factor, or if the factor has more entries than its indices can count; Eigen would
   // go on.

@@ -105,6 +105,7 @@ public:
   bool factor()
   {
     m_is_loaded = false;
+    m_stiffness.forget_factored();
     if(m_system.factor(m_stiffness, m_supports))
       return true;
     m_stiffness.clear();
@@ -115,6 +116,19 @@ public:
   bool solve(const Eigen::MatrixXd& forces, Eigen::MatrixXd& displacements)
   {
     return m_system.solve(m_supports, forces, displacements);
+  }
+
+  /// Selects vertices for `solve_selected()`. \pre factored
+  void select(const std::vector<Vertex_index>& vertices)
+  {
+    m_system.select(vertices, m_stiffness.number_of_vertices());
+  }
+
+  /// Solves for forces in free directions on the selected vertices, and returns the displacements of these,
+  /// perhaps in single precision.
+  bool solve_selected(const Eigen::VectorXd& forces, Eigen::VectorXd& displacements)
+  {
+    return m_system.solve_selected(forces, displacements);
   }
 
   /// Solves for body forces and supports, unless nothing has changed.

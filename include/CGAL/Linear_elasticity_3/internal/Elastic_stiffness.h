@@ -25,6 +25,7 @@
 #include <CGAL/assertions.h>
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cstddef>
@@ -37,6 +38,13 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
+/// The difference of two matrices K: former minus present one.
+struct Stiffness_change
+{
+  std::vector<Vertex_index> vertices; // those whose rows or columns differ
+  Eigen::SparseMatrix<double> matrix; // of these vertices: the lower triangle
+};
+
 class Elastic_stiffness
 {
   static constexpr std::size_t no_patch = std::size_t(-1);
@@ -48,6 +56,7 @@ class Elastic_stiffness
   Patches m_patches;
   std::vector<std::size_t> m_patch_of;       // patch of each element
   std::optional<Elasticity_system> m_system; // system of all vertices
+  std::vector<double> m_factored;            // values when factored, if elements have been removed since
 
 public:
   /// \param elements elements, kept by reference: they must outlive the object
@@ -117,7 +126,11 @@ public:
   }
 
   bool is_assembled() const { return m_system.has_value(); }
-  void clear() { m_system.reset(); }
+  void clear()
+  {
+    m_system.reset();
+    m_factored.clear();
+  }
 
   /// Assembles the stiffness. \pre no element is inverted
   void assemble()
@@ -137,6 +150,7 @@ public:
     }
     m_system.emplace(*m_elements, std::vector<bool>(m_points.size(), true), patch_vertices);
     m_system->clear();
+    m_factored.clear();
     for(Element_index e = 0; e < m_elements->size(); ++e)
       if(!m_is_removed[e])
         add_element(e, 1);
@@ -147,6 +161,8 @@ public:
   /// Removes elements; patches that lose elements become patches of their other elements. \pre assembled
   void subtract(const std::vector<bool>& is_removed)
   {
+    if(m_factored.empty())
+      m_factored = m_system->values();
     std::vector<std::size_t> changed_patches;
     std::vector<Element_index> removed;
     for(Element_index e = 0; e < is_removed.size(); ++e)
@@ -167,6 +183,45 @@ public:
       remove_removed(m_patches[i]);
       add_patch(i, 1);
     }
+  }
+
+  /// Forgets the stiffness that was factored before elements were removed.
+  void forget_factored() { std::vector<double>().swap(m_factored); }
+
+  /// The stiffness that elements removed since the factorization had, and patches have lost.
+  /// \pre elements have been removed, and `forget_factored()` has not been called since
+  Stiffness_change change() const
+  {
+    const std::vector<double>& values = m_system->values();
+    CGAL_precondition(m_factored.size() == values.size());
+    struct Entry
+    {
+      int row, column;
+      double value;
+    };
+    std::vector<Entry> entries;
+    std::vector<int> number(m_points.size(), -1);
+    for(int column = 0; column < m_system->number_of_unknowns(); ++column)
+      for(int i = m_system->starts()[column]; i < m_system->starts()[column + 1]; ++i)
+        if(m_factored[i] != values[i]) {
+          entries.push_back({m_system->rows()[i], column, m_factored[i] - values[i]});
+          number[std::size_t(column) / 3] = number[std::size_t(entries.back().row) / 3] = 0;
+        }
+    Stiffness_change change;
+    for(Vertex_index v = 0; v < number.size(); ++v)
+      if(number[v] == 0) {
+        number[v] = int(change.vertices.size());
+        change.vertices.push_back(v);
+      }
+    std::vector<Eigen::Triplet<double>> triplets;
+    triplets.reserve(entries.size());
+    const auto index = [&](int i) { return 3 * number[std::size_t(i) / 3] + i % 3; };
+    for(const Entry& e : entries)
+      triplets.emplace_back(index(e.row), index(e.column), e.value);
+    const int n = 3 * int(change.vertices.size());
+    change.matrix.resize(n, n);
+    change.matrix.setFromTriplets(triplets.begin(), triplets.end());
+    return change;
   }
 
   /// The matrix K of all vertices: vertices without an element have zeros. \pre assembled

@@ -358,10 +358,12 @@ Elasticity_model::solve_held(const Eigen::VectorXd& wanted, Control_solution& so
                     ? solve_corotational(wanted, solution)
                     : m_controls->constraints().solve(m_body->loaded(), m_body->load(), wanted,
                                                       m_body->system().free_motions(), solution);
-  if(m_is_iterative && !m_is_corotational && result.is_success()
-     && !solve_after_removal(*m_body, m_controls->constraints(), wanted, m_iteration_tolerance, solution,
-                             m_number_of_iterations))
-    result = failed(Status::SOLVER_FAILED);
+  if(m_is_iterative && !m_is_corotational && result.is_success()) {
+    Removal removal(*m_body, m_controls->constraints());
+    if(!removal.solve(wanted, m_iteration_tolerance, solution))
+      result = failed(Status::SOLVER_FAILED);
+    m_number_of_iterations = removal.number_of_iterations();
+  }
   const bool may_do_better = result.status == Status::SOLVER_FAILED || result.status == Status::NOT_CONVERGED;
   if(!m_is_iterative || !may_do_better)
     return result;

@@ -13,11 +13,16 @@
 
 #include <CGAL/license/Linear_elasticity_3.h>
 
+#ifdef CGAL_MIXED_MESH_3_USE_CHOLMOD
+#include <CGAL/Linear_elasticity_3/internal/Partial_factor.h>
+#endif
 #include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
 #include <CGAL/Mixed_mesh_3/internal/fem/Elasticity_system.h>
 
 #include <Eigen/Core>
 
+#include <cstddef>
+#include <memory>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -53,6 +58,12 @@ public:
   virtual bool factor() = 0;
   /// Solves for the columns of `b`. \pre the matrix is factored
   virtual bool solve(const Eigen::MatrixXd& b, Eigen::MatrixXd& x) = 0;
+
+  /// Selects unknowns for `solve_selected()`, until the matrix changes. \pre the matrix is factored
+  virtual void select(const std::vector<int>& unknowns) = 0;
+  /// Solves for a right-hand side that is zero but for the selected unknowns, and returns their solution; a
+  /// solver may do so in single precision. \pre `select()` was called since the matrix was factored
+  virtual bool solve_selected(const Eigen::VectorXd& b, Eigen::VectorXd& x) = 0;
 };
 
 /// The call of `set_near_kernel()`, for solvers that have such a function: iterative ones.
@@ -63,6 +74,16 @@ struct Set_near_kernel
     -> decltype(solver.set_near_kernel(std::move(vectors), 3))
   {
     return solver.set_near_kernel(std::move(vectors), 3);
+  }
+};
+
+/// The supernodal factor, of solvers that have one.
+struct Supernodal_factor
+{
+  template <class Solver>
+  auto operator()(Solver& solver) const -> decltype(solver.solver().supernodal_factor())
+  {
+    return solver.solver().supernodal_factor();
   }
 };
 
@@ -77,15 +98,24 @@ class Elasticity_solver_adaptor final : public Elasticity_solver
 
   std::optional<Matrix> m_matrix; // must outlive the factorization
   SolverTraits m_traits;
+  std::vector<int> m_selected;
+#ifdef CGAL_MIXED_MESH_3_USE_CHOLMOD
+  std::unique_ptr<Partial_factor> m_partial_factor; // of the selected unknowns, if the factor is supernodal
+#endif
 
 public:
   SolverTraits& traits() { return m_traits; }
 
   bool has_matrix() const override { return m_matrix.has_value(); }
-  void clear_matrix() override { m_matrix.reset(); }
+  void clear_matrix() override
+  {
+    clear_selection();
+    m_matrix.reset();
+  }
   void set_matrix(const std::vector<int>& starts, const std::vector<int>& rows,
                   const std::vector<double>& values) override
   {
+    clear_selection();
     m_matrix.emplace(make_matrix<Matrix>(starts, rows, values));
   }
 
@@ -98,10 +128,52 @@ public:
 
   bool factor() override
   {
+    clear_selection();
     typename SolverTraits::NT denominator = 1;
     return m_traits.factor(*m_matrix, denominator);
   }
   bool solve(const Eigen::MatrixXd& b, Eigen::MatrixXd& x) override { return solve_columns(m_traits, b, x); }
+
+  void select(const std::vector<int>& unknowns) override
+  {
+    if(m_selected == unknowns)
+      return;
+    clear_selection();
+    m_selected = unknowns;
+#ifdef CGAL_MIXED_MESH_3_USE_CHOLMOD
+    if constexpr(std::is_invocable_v<Supernodal_factor, SolverTraits&>)
+      if(const auto& factor = Supernodal_factor()(m_traits); Partial_factor::is_supported(factor))
+        m_partial_factor = std::make_unique<Partial_factor>(factor, unknowns);
+#endif
+  }
+
+  bool solve_selected(const Eigen::VectorXd& b, Eigen::VectorXd& x) override
+  {
+#ifdef CGAL_MIXED_MESH_3_USE_CHOLMOD
+    if(m_partial_factor) {
+      x = m_partial_factor->solve(b);
+      return x.allFinite();
+    }
+#endif
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(Eigen::Index(m_matrix->row_dimension()), 1), solution;
+    for(std::size_t i = 0; i < m_selected.size(); ++i)
+      all(m_selected[i], 0) = b[Eigen::Index(i)];
+    if(!solve(all, solution))
+      return false;
+    x.resize(b.size());
+    for(std::size_t i = 0; i < m_selected.size(); ++i)
+      x[Eigen::Index(i)] = solution(m_selected[i], 0);
+    return x.allFinite();
+  }
+
+private:
+  void clear_selection()
+  {
+    m_selected.clear();
+#ifdef CGAL_MIXED_MESH_3_USE_CHOLMOD
+    m_partial_factor.reset();
+#endif
+  }
 };
 
 } // namespace internal

@@ -40,6 +40,7 @@ class Projected_system
 {
   std::unique_ptr<Elasticity_solver> m_solver;
   std::vector<Vertex_index> m_unknowns; // vertices of the factored system
+  std::vector<Eigen::Index> m_selected; // start of each unknown vertex among those of the selected vertices
   std::vector<Free_motion> m_motions;   // free motions of the parts at the factorization
 
 public:
@@ -99,6 +100,40 @@ public:
         for(int k = 0; k < 3; ++k)
           solutions(Eigen::Index(3 * m_unknowns[i]) + k, c) = x(Eigen::Index(3 * i) + k, c);
     return solutions.allFinite();
+  }
+
+  /// Selects vertices for `solve_selected()`. \pre the system is factored
+  void select(const std::vector<Vertex_index>& vertices, std::size_t number_of_vertices)
+  {
+    std::vector<int> number(number_of_vertices, -1), unknowns;
+    for(std::size_t i = 0; i < m_unknowns.size(); ++i)
+      number[m_unknowns[i]] = int(i);
+    m_selected.clear();
+    for(std::size_t i = 0; i < vertices.size(); ++i)
+      if(const int n = number[vertices[i]]; n >= 0) {
+        m_selected.push_back(Eigen::Index(3 * i));
+        for(int k = 0; k < 3; ++k)
+          unknowns.push_back(3 * n + k);
+      }
+    if(!unknowns.empty())
+      m_solver->select(unknowns);
+  }
+
+  /// Solves for forces in free directions on the selected vertices, and returns the displacements of these,
+  /// perhaps in single precision.
+  bool solve_selected(const Eigen::VectorXd& forces, Eigen::VectorXd& displacements)
+  {
+    displacements = Eigen::VectorXd::Zero(forces.size());
+    Eigen::VectorXd b(3 * Eigen::Index(m_selected.size())), x;
+    for(std::size_t i = 0; i < m_selected.size(); ++i)
+      b.segment<3>(3 * Eigen::Index(i)) = forces.segment<3>(m_selected[i]);
+    if(b.size() == 0)
+      return true;
+    if(!m_solver->solve_selected(b, x))
+      return false;
+    for(std::size_t i = 0; i < m_selected.size(); ++i)
+      displacements.segment<3>(m_selected[i]) = x.segment<3>(3 * Eigen::Index(i));
+    return true;
   }
 
 private:

@@ -139,17 +139,8 @@ public:
       result.motion = combination(motions, m_kernel.col(0));
       return result;
     }
-    const Vector equilibrium = -(m_motions.transpose() * load);
-    Vector right = wanted - at_points(loaded) + m_augmentation * (m_g * equilibrium);
-    Vector s = m_factor ? m_factor->solve(pick(right)).eval() : Vector();
-    Vector c = Vector::Zero(m_motions.cols());
-    if(c.size() > 0) {
-      c = m_schur->solve(m_g_independent.transpose() * s - equilibrium);
-      s -= m_eliminated * c;
-    }
-    solution.forces = Vector::Zero(wanted.size());
-    for(std::size_t i = 0; i < m_independent.size(); ++i)
-      solution.forces[m_independent[i]] = s[Index(i)];
+    Vector c;
+    eliminate(wanted - at_points(loaded), -(m_motions.transpose() * load), solution.forces, c);
     solution.displacements = loaded;
     if(wanted.size() > 0)
       solution.displacements += m_response * solution.forces;
@@ -168,6 +159,32 @@ public:
       }
     }
     return result;
+  }
+
+  /// The rows of some vertices of W and R.
+  struct Rows
+  {
+    Matrix response, motions;
+  };
+
+  Rows rows_of(const std::vector<Vertex_index>& vertices) const
+  {
+    const Index n = 3 * Index(vertices.size());
+    Rows rows{Matrix(n, m_response.cols()), Matrix(n, m_motions.cols())};
+    for(std::size_t i = 0; i < vertices.size(); ++i) {
+      rows.response.middleRows<3>(3 * Index(i)) = m_response.middleRows<3>(3 * Index(vertices[i]));
+      rows.motions.middleRows<3>(3 * Index(i)) = m_motions.middleRows<3>(3 * Index(vertices[i]));
+    }
+    return rows;
+  }
+
+  /// Adds, to the displacements K^-1 f of some vertices, those by which the control points come to rest.
+  /// \param f forces on these vertices, none on others
+  void hold(const Rows& rows, const Vector& f, Vector& displacements) const
+  {
+    Vector s, c;
+    eliminate(-(rows.response.transpose() * f), -(rows.motions.transpose() * f), s, c);
+    displacements += rows.response * s + rows.motions * c;
   }
 
   /// The vertices, and their weights, whose weighted mean displacement is that of each control point.
@@ -245,6 +262,21 @@ private:
   {
     const auto largest = [](const Vector& x) { return x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0; };
     return miss * (std::max)(largest(u), largest(wanted));
+  }
+
+  // Forces s and motions c, for displacements of the control points and a sum of forces.
+  void eliminate(const Vector& displacements, const Vector& equilibrium, Vector& forces, Vector& c) const
+  {
+    const Vector right = displacements + m_augmentation * (m_g * equilibrium);
+    Vector s = m_factor ? m_factor->solve(pick(right)).eval() : Vector();
+    c = Vector::Zero(m_motions.cols());
+    if(c.size() > 0) {
+      c = m_schur->solve(m_g_independent.transpose() * s - equilibrium);
+      s -= m_eliminated * c;
+    }
+    forces = Vector::Zero(displacements.size());
+    for(std::size_t i = 0; i < m_independent.size(); ++i)
+      forces[m_independent[i]] = s[Index(i)];
   }
 
   Vector pick(const Vector& x) const

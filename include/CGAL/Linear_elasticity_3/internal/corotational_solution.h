@@ -40,7 +40,7 @@ struct Corotational_state
 /*!
 Newton's method. Each step is solved by conjugate gradients in the space of displacements that supports and
 control points allow, with the factor of the linear stiffness as the preconditioner, as after a removal
-(`solve_after_removal()`). Steps are whole: with the forces that `Corotational_elements` expects in its
+(`Removal`). Steps are whole: with the forces that `Corotational_elements` expects in its
 tangent, a line search for less energy would only hinder convergence. Whole steps are for large rotations of
 slender bodies.
 

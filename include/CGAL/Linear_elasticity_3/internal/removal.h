@@ -13,12 +13,17 @@
 #include <CGAL/license/Linear_elasticity_3.h>
 
 #include <CGAL/Linear_elasticity_3/internal/Elastic_body.h>
+#include <CGAL/Linear_elasticity_3/internal/Elastic_stiffness.h>
 #include <CGAL/Linear_elasticity_3/internal/control_constraints.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace CGAL {
@@ -26,70 +31,155 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-Conjugate gradients in the space of displacements that are zero at the control points (N. I. M. Gould,
-M. E. Hribar, J. Nocedal: "On the solution of equality constrained quadratic programming problems arising in
-optimization", SIAM J. Sci. Comput. 23, 2001).
+Conjugate gradients for the present stiffness K' with the factor of the former one, K, as the preconditioner,
+in the space of displacements that are zero at the control points (N. I. M. Gould, M. E. Hribar, J. Nocedal:
+"On the solution of equality constrained quadratic programming problems arising in optimization", SIAM J. Sci.
+Comput. 23, 2001).
 
-\param body body that was factored before the removal, and for which `solve_loads()` has been called since
-\param constraints constraints without compliance
-\param wanted displacements of the control points
-\param tolerance bound of the error in the energy norm, relative to that of the solution
-\param solution solution for the former stiffness, where the iterations start; the solution for the new
-stiffness, if the iterations converge
-\param number_of_iterations number of iterations done
-\return whether the iterations converge. If not, the system should be factored
+K - K' is zero except at the vertices of removed elements, and of patches that lost elements; the residual of
+the solution for K is zero elsewhere, too. So are residuals of all iterations: with K z = r, K' z is
+r - (K - K') z. The iterations therefore take displacements of these vertices only, by
+`Elastic_body::solve_selected()`, which may round to single precision. In the end, the forces that were found
+take one solution for all vertices in double precision, and its residual shows whether another cycle is
+necessary.
 */
-inline bool solve_after_removal(Elastic_body& body, const Control_constraints& constraints,
-                                const Eigen::VectorXd& wanted, double tolerance, Control_solution& solution,
-                                int& number_of_iterations)
+class Removal
 {
+  using Vector = Eigen::VectorXd;
+
   // Limits beyond which the system is factored instead, which takes as long as some hundreds of iterations.
   // Ten to fifteen iterations are usual; if the residual rises so often in a row, it may consist of rounding
   // errors only.
-  constexpr int largest_number_of_iterations = 100, largest_number_of_rises = 20;
-  const Elastic_stiffness& stiffness = body.stiffness();
-  const Elastic_supports& supports = body.supports();
-  Eigen::VectorXd& u = solution.displacements;
-  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(wanted.size());
-  solution.forces = nothing;
-  Control_solution step;
-  const auto precondition = [&](Eigen::VectorXd& r) {
-    Eigen::MatrixXd z;
-    if(!body.solve(r, z)
-       || !constraints.solve(z.col(0), r, nothing, body.system().free_motions(), step).is_success())
+  static constexpr int largest_number_of_iterations = 100, largest_number_of_rises = 20;
+  // The reduction of the error by a cycle, squared: beyond, rounding to single precision may dominate.
+  static constexpr double reduction = 1e-8;
+  // The part of the tolerance, squared, that a cycle aims at, so that rounding rarely causes another one.
+  static constexpr double margin = 0.81;
+
+  Elastic_body& m_body;
+  const Control_constraints& m_constraints;
+  Stiffness_change m_change;
+  Control_constraints::Rows m_rows;
+  int m_number_of_iterations = 0;
+
+public:
+  /// \param body body that was factored before the removal, and for which `solve_loads()` has been called
+  /// since
+  /// \param constraints constraints without compliance
+  Removal(Elastic_body& body, const Control_constraints& constraints)
+    : m_body(body), m_constraints(constraints), m_change(body.stiffness().change()),
+      m_rows(constraints.rows_of(m_change.vertices))
+  {
+    m_body.select(m_change.vertices);
+  }
+
+  int number_of_iterations() const { return m_number_of_iterations; }
+
+  /// \param wanted displacements of the control points
+  /// \param tolerance bound of the error in the energy norm, relative to that of the solution
+  /// \param solution solution for the former stiffness, where the iterations start; the solution for the
+  /// present stiffness, if the iterations converge
+  /// \return whether the iterations converge. If not, the system should be factored
+  bool solve(const Vector& wanted, double tolerance, Control_solution& solution)
+  {
+    const Elastic_stiffness& stiffness = m_body.stiffness();
+    Vector& u = solution.displacements;
+    double bound = -1, before = std::numeric_limits<double>::infinity();
+    while(true) {
+      const Vector internal = stiffness.product(u);
+      if(bound < 0)
+        bound = tolerance * tolerance * u.dot(internal);
+      Vector residual = m_body.force() - internal;
+      m_constraints.add_forces(solution.forces, residual);
+      Vector r = free_part(rows_of(residual)), z;
+      if(!precondition(r, z))
+        return false;
+      const double error = r.dot(z);
+      if(!(error > bound))
+        return m_constraints.is_satisfied(u, wanted);
+      if(!(error < before / 4)) // the former cycle was of little use
+        return false;
+      before = error;
+      Vector forces = Vector::Zero(r.size());
+      if(!iterate(r, z, (std::max)(margin * bound, reduction * error), forces)
+         || !add(forces, wanted, solution))
+        return false;
+    }
+  }
+
+private:
+  // Conjugate gradients, from a residual and its preconditioned one; adds up the forces that have the effect
+  // of the removal on the former body.
+  bool iterate(Vector r, Vector z, double bound, Vector& forces)
+  {
+    Vector p = z, former = r; // a direction, and the product of K and this direction
+    double rz = r.dot(z), least = rz;
+    int rises = 0; // successive rises of the residual, which may be rounding errors
+    while(rz > bound) {
+      if(m_number_of_iterations++ == largest_number_of_iterations)
+        return false;
+      const Vector q = former - free_part(m_change.matrix.selfadjointView<Eigen::Lower>() * p);
+      const double alpha = rz / p.dot(q);
+      forces += alpha * former;
+      r -= alpha * q;
+      if(!std::isfinite(alpha) || !precondition(r, z))
+        return false;
+      const double next = r.dot(z);
+      rises = next < least ? 0 : rises + 1;
+      least = (std::min)(least, next);
+      if(rises > largest_number_of_rises)
+        return false;
+      p = z + (next / rz) * p;
+      former = r + (next / rz) * former;
+      rz = next;
+    }
+    return true;
+  }
+
+  bool precondition(const Vector& r, Vector& z)
+  {
+    if(!m_body.solve_selected(r, z))
       return false;
-    constraints.add_forces(step.forces, r); // so that rounding errors do not grow
-    r = supports.free_part(std::move(r));
+    m_constraints.hold(m_rows, r, z);
+    return true;
+  }
+
+  // Adds the effect that forces on the vertices of the change have on the former body.
+  bool add(const Vector& forces, const Vector& wanted, Control_solution& solution)
+  {
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(solution.displacements.size(), 1), u;
+    for(std::size_t i = 0; i < m_change.vertices.size(); ++i)
+      all.middleRows<3>(3 * Eigen::Index(m_change.vertices[i])) = forces.segment<3>(3 * Eigen::Index(i));
+    Control_solution step;
+    if(!m_body.solve(all, u)
+       || !m_constraints
+             .solve(u.col(0), all.col(0), Vector::Zero(wanted.size()), m_body.system().free_motions(), step)
+             .is_success())
+      return false;
+    solution.displacements += step.displacements;
     solution.forces += step.forces;
     return true;
-  };
-  Eigen::VectorXd r = supports.free_part(body.force() - stiffness.product(u));
-  if(!precondition(r))
-    return false;
-  Eigen::VectorXd p = step.displacements;
-  double rz = r.dot(p);
-  const double bound = tolerance * tolerance * u.dot(stiffness.product(u));
-  double least = rz;
-  int rises = 0; // successive rises of the residual, which may be rounding errors
-  for(number_of_iterations = 0; number_of_iterations < largest_number_of_iterations; ++number_of_iterations) {
-    if(!(rz > bound))
-      return constraints.is_satisfied(u, wanted);
-    rises = rz < least ? 0 : rises + 1;
-    least = (std::min)(least, rz);
-    if(rises > largest_number_of_rises)
-      return false;
-    const Eigen::VectorXd q = supports.free_part(stiffness.product(p));
-    const double alpha = rz / p.dot(q);
-    u += alpha * p;
-    r -= alpha * q;
-    if(!std::isfinite(alpha) || !precondition(r))
-      return false;
-    const double next = r.dot(step.displacements);
-    p = step.displacements + (next / rz) * p;
-    rz = next;
   }
-  return false;
-}
+
+  Vector rows_of(const Vector& x) const
+  {
+    Vector y(3 * Eigen::Index(m_change.vertices.size()));
+    for(std::size_t i = 0; i < m_change.vertices.size(); ++i)
+      y.segment<3>(3 * Eigen::Index(i)) = x.segment<3>(3 * Eigen::Index(m_change.vertices[i]));
+    return y;
+  }
+
+  Vector free_part(Vector f) const
+  {
+    for(std::size_t i = 0; i < m_change.vertices.size(); ++i) {
+      const Eigen::Index j = 3 * Eigen::Index(i);
+      const Vec3 x = m_body.supports().free_part(m_change.vertices[i], {f[j], f[j + 1], f[j + 2]});
+      for(int k = 0; k < 3; ++k)
+        f[j + k] = x[k];
+    }
+    return f;
+  }
+};
 
 } // namespace internal
 } // namespace Mixed_meshes_3

@@ -66,7 +66,7 @@ class Feature_paths
   // Weights of the length of edges: edges as far from the polyline as they are long count about
   // `distance_weight` times as much, and middles count more than vertices. Limits in sizes: farther away
   // there is no path, and no corner takes a vertex.
-  static constexpr double distance_weight = 8, bisection_factor = 1.8, reach = 2.5, reach_of_corners = 2;
+  static constexpr double distance_weight = 8, bisection_factor = 1.8, reach = 2.5, reach_of_corners = 4;
   static constexpr int trials = 20;
 
 public:
