@@ -65,9 +65,10 @@ class BrainShiftWithPetsc(unittest.TestCase):
                 output, report = WORK / f"{name}.vtu", WORK / f"{name}.json"
                 run = self.shift("--solver", "petsc", "--output", output, "--report", report, processes=processes)
                 self.assertEqual(run.returncode, 0, run.stderr)
-                for a, b in zip(displacements(expected), displacements(output)):
+                # After the resection both iterate, with preconditioners of different precision.
+                for a, b, bound in zip(displacements(expected), displacements(output), (1e-5, 1e-7)):
                     self.assertGreater(abs(a).max(), 5)
-                    self.assertLess(abs(a - b).max(), 1e-7 * abs(a).max())
+                    self.assertLess(abs(a - b).max(), bound * abs(a).max())
                 solver = json.loads(report.read_text())["solver"]
                 self.assertEqual(solver["processes"], 2 if processes else 1)
                 self.assertGreater(solver["largest number of iterations"], 1)

@@ -111,7 +111,7 @@ class Meshes(Case):
         # thin plates; of the thinner ones, some vertices would need bad elements to get onto them
         report = WORK / "report.json"
         bounds = ((), 3.2), (("--max-arc", 4), 4), (("--max-arc", "none"), None)
-        for thickness, vertices, (bound, largest) in ((0.05, 2000, bounds[0]), *((0.02, 600, b) for b in bounds)):
+        for thickness, vertices, (bound, largest) in ((0.05, 2000, bounds[0]), *((0.02, 580, b) for b in bounds)):
             points = [(x, y, 0.3 * i + thickness * z) for i in range(4) for x, y, z in CUBE]
             points[0] = (0, 0, -1e-6)  # else boxes between the planes of the surface would do
             plates = self.file("plates.off", off(points, [f for i in range(4) for f in shifted(TRIANGLES, 8 * i)]))
@@ -123,7 +123,7 @@ class Meshes(Case):
             is_thin = thickness == 0.02
             self.assertEqual(told["status"] == "success", not is_thin)
             is_off = told["fitting"]["arrived"] < told["fitting"]["boundary vertices"]
-            self.assertEqual(is_off, is_thin and largest is not None)
+            self.assertEqual(is_off, is_thin)
             if largest is None:
                 self.assertNotIn("quality bound", quality)
                 continue
@@ -137,7 +137,7 @@ class Meshes(Case):
         for bad in "0.5", "-1", "nan", "much", "3.2,lax", ",strict":
             self.assertEqual(self.mesher(plates, "--vertices", 2000, "--max-arc", bad).returncode, 2)
         self.assertEqual(self.mesher(plates, "--vertices", 2000, "--max-arc", 4, "--no-fit").returncode, 2)
-        run = self.mesher(plates, "--vertices", 600, "--max-arc", "4,strict", "--report", report)
+        run = self.mesher(plates, "--vertices", 580, "--max-arc", "4,strict", "--report", report)
         self.assertEqual(run.returncode, 0, run.stderr)
         told = json.loads(report.read_text())
         self.assertEqual((told["options"]["max ARC"], told["options"]["max ARC is strict"]), (4, True))
