@@ -83,7 +83,7 @@ class Mesh_adaptation
   const std::vector<bool>& m_is_movable;
   const std::size_t m_number_of_cases; // the first ones; the others are guard loads
   const double m_guard_weight;
-  std::vector<Prescribed_displacements> m_loads;
+  const std::vector<Prescribed_displacements>& m_loads;
   Load_cases m_solutions;
   Bounded_moves m_moves;
   std::vector<Mesh_energy> m_energies; // of the loads
@@ -94,11 +94,10 @@ class Mesh_adaptation
 public:
   Mesh_adaptation(const Element_list& elements, std::vector<Vec3>& points,
                   const std::vector<Elastic_material>& materials, const std::vector<bool>& is_movable,
-                  const std::vector<Prescribed_displacements>& cases,
+                  const std::vector<Prescribed_displacements>& loads, std::size_t number_of_cases,
                   const Mixed_mesh_adaptation_criteria_3& criteria, const Make_elasticity_solver& make_solver)
     : m_elements(elements), m_materials(materials), m_points(points), m_is_movable(is_movable),
-      m_number_of_cases(cases.size()), m_guard_weight(criteria.guard_weight()),
-      m_loads(with_guards(elements, points, cases, m_guard_weight)),
+      m_number_of_cases(number_of_cases), m_guard_weight(criteria.guard_weight()), m_loads(loads),
       m_solutions(elements, points.size(), materials, m_loads, make_solver),
       m_moves(elements, points, criteria.quality_bound())
   {
@@ -118,20 +117,6 @@ public:
   }
 
 private:
-  // The load cases and, if guards have a weight, the guard loads.
-  static std::vector<Prescribed_displacements> with_guards(const Element_list& elements,
-                                                           const std::vector<Vec3>& points,
-                                                           std::vector<Prescribed_displacements> cases,
-                                                           double weight)
-  {
-    if(weight > 0) {
-      const std::vector<Prescribed_displacements> guards = guard_loads(
-        points, boundary_flags(elements, points.size()), cases);
-      cases.insert(cases.end(), guards.begin(), guards.end());
-    }
-    return cases;
-  }
-
   void keep_energies(std::vector<double>& of_cases, std::vector<double>& of_guards) const
   {
     for(std::size_t i = 0; i < m_energies.size(); ++i)
@@ -309,12 +294,17 @@ CGAL_LINEAR_ELASTICITY_3_INLINE Mixed_mesh_adaptation_result_3 adapt_points(
   for(const Prescribed_displacements& displacements : cases)
     for(const auto& one : displacements)
       is_movable[one.first] = false;
-  const std::vector<bool> is_at_border = vertices_at_borders(elements,
-                                                             boundary_flags(elements, points.size()), cases);
+  const std::vector<bool> is_on_boundary = boundary_flags(elements, points.size());
+  const std::vector<bool> is_at_border = vertices_at_borders(elements, is_on_boundary, cases);
   for(std::size_t v = 0; v < points.size(); ++v)
     is_movable[v] = is_movable[v] && !is_at_border[v];
-  return Mesh_adaptation(elements, points, materials, is_movable, cases, criteria, make_solver)(criteria,
-                                                                                                go_on);
+  std::vector<Prescribed_displacements> loads = cases;
+  if(criteria.guard_weight() > 0) {
+    const std::vector<Prescribed_displacements> guards = guard_loads(points, is_on_boundary, cases);
+    loads.insert(loads.end(), guards.begin(), guards.end());
+  }
+  return Mesh_adaptation(elements, points, materials, is_movable, loads, cases.size(), criteria,
+                         make_solver)(criteria, go_on);
 }
 
 } // namespace internal

@@ -107,9 +107,8 @@ void measure_features(Fitting_state<Quality>& s)
   for(const auto& [edge, stratum] : s.mesh.sharp_edges)
     if(s.is_arrived[edge.first] && s.is_arrived[edge.second])
       result.length_of_sharp_edges_kept += length_kept(s, edge, polylines[stratum - first_sharp_stratum]);
-  result.number_of_corners = result.number_of_corners_kept = 0;
-  for(std::size_t c = 0; c < s.features->corners().size(); ++c)
-    result.number_of_corners += s.features->is_real_corner(c);
+  result.number_of_corners = s.features->number_of_real_corners();
+  result.number_of_corners_kept = 0;
   const std::size_t first_corner = first_sharp_stratum + polylines.size();
   for(Vertex_index v = 0; v < s.mesh.points.size(); ++v)
     if(s.mesh.strata[v] >= first_corner && s.is_arrived[v])

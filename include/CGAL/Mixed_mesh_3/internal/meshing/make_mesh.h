@@ -125,19 +125,12 @@ inline bool are_few_not_arrived(const Meshing_state& s)
 /// places, also where walls need cells that are flatter than the bound, as no move could mend these.
 inline void note_boundary_on_surface(Meshing_state& s, const Core_mesh& mesh)
 {
-  std::vector<std::uint8_t> is_on_boundary(mesh.number_of_vertices(), 0);
-  for(const Face& face : boundary_faces(mesh))
-    for(Vertex_index v : face.vertices())
-      is_on_boundary[v] = 1;
   const Sharp_features features(s.root.domain().sharp_edges(s.criteria.sharp_angle()), s.mean_edge());
   Mixed_mesh_optimization_result_3& r = s.result.optimization = {};
   r.status = Mixed_mesh_optimization_status::SUCCESS;
-  r.number_of_boundary_vertices = r.number_of_arrived_vertices = std::size_t(
-    std::count(is_on_boundary.begin(), is_on_boundary.end(), 1));
+  r.number_of_boundary_vertices = r.number_of_arrived_vertices = boundary_vertices(mesh).size();
   r.length_of_sharp_edges = r.length_of_sharp_edges_kept = features.length();
-  for(std::size_t c = 0; c < features.corners().size(); ++c)
-    r.number_of_corners += features.is_real_corner(c);
-  r.number_of_corners_kept = r.number_of_corners;
+  r.number_of_corners = r.number_of_corners_kept = features.number_of_real_corners();
   r.quality_bound = s.criteria.quality_bound();
   s.result.quality_bound = (std::max)(r.quality_bound, quality_statistics(mesh).back().maximum);
 }

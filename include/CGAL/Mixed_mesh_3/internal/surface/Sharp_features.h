@@ -148,6 +148,10 @@ public:
   const std::vector<Vec3>& corners() const { return m_corners; }
   /// Whether a corner is a real one, and not a place where a polyline is cut.
   bool is_real_corner(std::size_t c) const { return m_is_real[c] != 0; }
+  std::size_t number_of_real_corners() const
+  {
+    return m_is_real.size() - std::size_t(std::count(m_is_real.begin(), m_is_real.end(), 0));
+  }
 
   double length() const
   {
