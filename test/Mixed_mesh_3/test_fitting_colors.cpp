@@ -93,7 +93,7 @@ void test_coloring()
   const Vertex_index middle = transaction.add_vertex({2.5, 2.5, 2.5}, internal::free_stratum);
   std::size_t i = 0;
   for(const std::vector<Vertex_index>& same : std::vector(coloring.vertices())) {
-    transaction.add({TETRAHEDRON, {}, false, {same[0], same[1], same[2], middle}});
+    transaction.add({TETRAHEDRON, false, {}, {same[0], same[1], same[2], middle}});
     transaction.remove(Element_index(i++));
   }
   coloring.update(mesh);

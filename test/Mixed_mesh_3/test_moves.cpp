@@ -184,13 +184,15 @@ bool is_same_to_the_byte(const Working_mesh& a, const Working_mesh& b)
 // Whether each vertex has the elements of the list that have it.
 bool has_right_incidences(const Working_mesh& mesh)
 {
-  std::vector<std::vector<Element_index>> incident(mesh.points.size()), sorted = mesh.incident;
+  std::vector<std::vector<Element_index>> incident(mesh.points.size()), sorted;
   for(Element_index e = 0; e < mesh.elements.size(); ++e)
     if(!mesh.elements[e].is_removed)
       for(Vertex_index v : mesh.elements[e])
         incident[v].push_back(e);
-  for(std::vector<Element_index>& around : sorted)
-    std::sort(around.begin(), around.end());
+  for(Vertex_index v = 0; v < mesh.incident.size(); ++v) {
+    sorted.emplace_back(mesh.incident[v].begin(), mesh.incident[v].end());
+    std::sort(sorted.back().begin(), sorted.back().end());
+  }
   return sorted == incident && mesh.strata.size() == mesh.points.size();
 }
 
@@ -345,7 +347,8 @@ class Random_moves
       const Element_index e = random_element();
       switch(below(9)) {
       case 0: // a vertex loses its elements
-        for(Element_index other : std::vector<Element_index>(m_mesh.incident[a]))
+        for(Element_index other :
+            std::vector<Element_index>(m_mesh.incident[a].begin(), m_mesh.incident[a].end()))
           remove(transaction, other);
         break;
       case 1: remove(transaction, e); break;

@@ -82,11 +82,8 @@ public:
       for(Element_index e = 0; e < elements.size(); ++e) {
         const Element_view element = elements[e];
         for(int i = 0; i < element.reference().number_of_faces; ++i) {
-          const Element_face& face = element.reference().faces[i];
-          std::array<Vertex_index, 4> v{no_vertex, no_vertex, no_vertex, no_vertex};
-          for(int k = 0; k < face.size; ++k)
-            v[std::size_t(k)] = element[face.vertices[k]];
-          if(!std::all_of(v.begin(), v.begin() + face.size, is_candidate))
+          std::array<Vertex_index, 4> v = vertices(element, i);
+          if(!std::all_of(v.begin(), v.begin() + element.reference().faces[i].size, is_candidate))
             continue;
           sort_vertices(v);
           f(v, e, i);
@@ -97,14 +94,23 @@ public:
     for_each([&](const std::array<Vertex_index, 4>& v, Element_index, int) { ++ends[v[0] + 1]; });
     for(std::size_t v = 0; v < number_of_vertices; ++v)
       ends[v + 1] += ends[v];
-    std::vector<Entry> entries(ends.back());
+    // The faces of all buckets take 5 bytes each; entries, of 24, are made for one bucket at a time.
+    std::vector<Element_index> of_element(ends.back());
+    std::vector<std::uint8_t> local_indices(ends.back());
     for_each([&](const std::array<Vertex_index, 4>& v, Element_index e, int i) {
-      entries[ends[v[0]]++] = {std::uint64_t(v[1]) << 32 | v[2], v[3], e, std::uint8_t(i)};
+      const std::size_t place = ends[v[0]]++;
+      of_element[place] = e;
+      local_indices[place] = std::uint8_t(i);
     });
-    auto first = entries.begin();
+    std::vector<Entry> entries;
+    std::size_t begin = 0;
     for(std::size_t v = 0; v < number_of_vertices; ++v) {
-      const auto last = entries.begin() + std::ptrdiff_t(ends[v]);
-      std::sort(first, last);
+      entries.clear();
+      for(; begin < ends[v]; ++begin)
+        entries.push_back(entry(elements, of_element[begin], local_indices[begin]));
+      std::sort(entries.begin(), entries.end());
+      auto first = entries.begin();
+      const auto last = entries.end();
       while(first != last) {
         auto next = first;
         while(next != last && !(*first < *next))
@@ -113,6 +119,23 @@ public:
         first = next;
       }
     }
+  }
+
+private:
+  static std::array<Vertex_index, 4> vertices(const Element_view& element, int local_index)
+  {
+    const Element_face& face = element.reference().faces[local_index];
+    std::array<Vertex_index, 4> v{no_vertex, no_vertex, no_vertex, no_vertex};
+    for(int k = 0; k < face.size; ++k)
+      v[std::size_t(k)] = element[face.vertices[k]];
+    return v;
+  }
+
+  static Entry entry(const Element_list& elements, Element_index e, std::uint8_t local_index)
+  {
+    std::array<Vertex_index, 4> v = vertices(elements[e], local_index);
+    sort_vertices(v);
+    return {std::uint64_t(v[1]) << 32 | v[2], v[3], e, local_index};
   }
 };
 

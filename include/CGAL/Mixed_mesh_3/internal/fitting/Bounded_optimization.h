@@ -152,12 +152,12 @@ private:
   // Optimizes with elements that may get worse than the bound on the way.
   Outcome optimize_freely(bool is_without_attraction, const std::function<bool()>& go_on) const
   {
-    Outcome outcome;
-    outcome.mesh = m_mesh;
     Fitting_mode mode;
     mode.is_without_attraction = is_without_attraction;
-    const Fitting_outcome fitted = optimize_surface(outcome.mesh, m_domain, m_criteria, m_quality, mode,
-                                                    m_features, m_is_held, go_on);
+    Fitting_outcome fitted = optimize_surface(m_mesh, m_domain, m_criteria, m_quality, mode, m_features,
+                                              m_is_held, go_on);
+    Outcome outcome;
+    outcome.mesh = std::move(fitted.mesh);
     outcome.result = fitted.result;
     outcome.meets_guarantees = is_within_bound(outcome.mesh) && outcome.result.is_boundary_simple;
     outcome.has_attraction = (m_criteria.tolerance() > 0 || m_criteria.number_of_bisections() > 0)
@@ -194,10 +194,10 @@ private:
   Result optimize_within(Core_mesh& mesh, const std::function<bool()>& go_on)
   {
     for(std::size_t i = 0;; ++i) {
-      mesh = m_mesh;
       const Fitting_mode mode{true, true}; // the attraction would make a hard case harder
-      const Fitting_outcome fitted = optimize_surface(mesh, m_domain, m_criteria, m_quality, mode, m_features,
-                                                      m_is_held, go_on);
+      Fitting_outcome fitted = optimize_surface(m_mesh, m_domain, m_criteria, m_quality, mode, m_features,
+                                                m_is_held, go_on);
+      mesh = std::move(fitted.mesh);
       const Result& result = fitted.result;
       if(result.is_boundary_simple || result.status == Status::STOPPED || i > std::size(rings)
          || (i == 0 && is_start_crossing()))

@@ -112,7 +112,9 @@ struct Fitting_state
                 const Fitting_mode& m)
     : domain(surface), criteria(c), quality(q), mode(m), strata(domain), project(domain, strata),
       boundary(strata.sorted_faces(start)),
-      mesh(start, strata.of_vertices(start.number_of_vertices(), boundary)), effort(mesh.points.size()),
+      mesh(start, strata.of_vertices(start.number_of_vertices(), boundary),
+           (std::min)(criteria.number_of_bisections(), start.number_of_vertices())),
+      effort(mesh.points.size()),
       moves(mesh, quality, project, criteria.sliding_threshold(), intermediate_bound()),
       mean_edge_lengths(measure_edges()), tolerances(enlarged_tolerances()), samples(surface_samples()),
       attraction(mesh, project, samples, criteria.number_of_threads), is_arrived(mesh.points.size(), 0),

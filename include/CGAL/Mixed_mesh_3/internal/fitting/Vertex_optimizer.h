@@ -36,6 +36,7 @@ namespace internal {
 /// energy.
 struct Attraction
 {
+  Vertex_index vertex = no_vertex;
   Vec3 place{};
   double weight = 0;
 };
@@ -68,7 +69,8 @@ class Vertex_optimizer
   std::vector<std::uint8_t> m_is_fixed;
   std::vector<std::uint8_t> m_may_leave_surface; // boundary vertices that need not stay on the surface
   std::vector<std::uint8_t> m_is_inside;         // vertices where only bad elements count
-  std::vector<Attraction> m_attractions;         // one for each vertex, or none
+  std::vector<Attraction> m_attractions;         // by vertex, ascending
+  std::vector<std::uint32_t> m_attraction_of;    // number of attraction of each vertex, from 1; 0: none
   std::vector<double> m_costs;                   // cost of each element; negative: not known
   Vertex_coloring m_coloring;
   Vertex_levels m_levels;
@@ -197,13 +199,16 @@ public:
         m_is_active[u] = true;
   }
 
-  /// Replaces the attractions.
+  /// Replaces the attractions, of some vertices, ascending.
   void attract(std::vector<Attraction> attractions)
   {
     m_attractions = std::move(attractions);
-    for(Vertex_index v = 0; v < m_attractions.size(); ++v)
-      if(m_attractions[v].weight > 0)
-        activate_around(v);
+    m_attraction_of.assign(m_mesh.points.size(), 0);
+    for(std::size_t i = 0; i < m_attractions.size(); ++i) {
+      m_attraction_of[m_attractions[i].vertex] = std::uint32_t(i + 1);
+      if(m_attractions[i].weight > 0)
+        activate_around(m_attractions[i].vertex);
+    }
   }
 
   /// Sweeps over the active vertices, until none is active or the number of sweeps is reached.
@@ -241,7 +246,7 @@ public:
       limit = (std::max)(limit, known_cost(e));
     const Vec3 old = m_mesh.points[v];
     m_mesh.points[v] = p;
-    const std::vector<Element_index>& around = m_mesh.incident[v];
+    const auto around = m_mesh.incident[v];
     boost::container::small_vector<double, 40> costs;
     const auto is_acceptable_element = [&](Element_index e) {
       costs.push_back(cost(e));
@@ -322,7 +327,8 @@ private:
   // The attraction of a vertex; the weight is 0 if there is none.
   Attraction attraction(Vertex_index v) const
   {
-    return v < m_attractions.size() ? m_attractions[v] : Attraction();
+    return v < m_attraction_of.size() && m_attraction_of[v] != 0 ? m_attractions[m_attraction_of[v] - 1]
+                                                                 : Attraction();
   }
 
   double attraction_energy(Vertex_index v) const

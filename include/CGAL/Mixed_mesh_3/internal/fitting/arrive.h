@@ -78,7 +78,8 @@ bool arrive(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
   // Small steps are checked: vertices whose faces would cut others are held. There is no check without a
   // bound: where elements may get that bad, too many vertices would be held.
   const bool is_careful = s.mode.is_without_attraction && s.has_bound() && s.crossing_vertices().empty();
-  auto simple = s.snapshot();
+  using Snapshot = typename Fitting_state<Quality>::Snapshot;
+  Snapshot simple = is_careful ? s.snapshot() : Snapshot();
   double acceptable = initial_acceptable_cost;
   for(int round = 0; round < rounds && !s.underway.empty(); ++round) {
     if(!go_on())

@@ -30,9 +30,10 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The outcome of a run of the optimization; the mesh itself is changed.
+/// The outcome of a run of the optimization.
 struct Fitting_outcome
 {
+  Core_mesh mesh;
   Mixed_mesh_optimization_result_3 result;
   std::vector<Vertex_index> crossing; ///< vertices of boundary faces that cut each other
   bool is_without_attraction;         ///< no attraction: by the mode, or as too much did not arrive
@@ -68,11 +69,12 @@ void set_status(Fitting_state<Quality>& s, bool is_stopped)
 /*!
 Runs all passes once.
 
+\param start mesh that the result is made of; the only one beside the working mesh while passes run
 \param features sharp edges that paths of the boundary's edges are to follow; may be empty
 \param is_held whether each boundary vertex stays where it is
 */
 template <class Quality>
-Fitting_outcome optimize_surface(Core_mesh& mesh, const Any_surface& domain,
+Fitting_outcome optimize_surface(const Core_mesh& start, const Any_surface& domain,
                                  const With_threads<Mixed_mesh_optimization_criteria_3>& criteria,
                                  const Quality& quality, const Fitting_mode& mode,
                                  const Sharp_features& features, const std::vector<std::uint8_t>& is_held,
@@ -86,7 +88,7 @@ Fitting_outcome optimize_surface(Core_mesh& mesh, const Any_surface& domain,
   // time.
   constexpr double max_share_crossing = 0.07;
 
-  Fitting_state<Quality> s(mesh, domain, criteria, quality, mode);
+  Fitting_state<Quality> s(start, domain, criteria, quality, mode);
   s.is_held = is_held;
   s.project.set_features(features);
   if(!features.empty()) {
@@ -100,7 +102,7 @@ Fitting_outcome optimize_surface(Core_mesh& mesh, const Any_surface& domain,
     if(crossing > max_share_crossing * boundary && s.has_bound() && !mode.keeps_bound) {
       s.result.is_boundary_simple = false; // only small steps lead to a boundary that does not cut itself
       s.result.status = Mixed_mesh_optimization_status::NOT_ALL_ARRIVED;
-      return {s.result, {}, true};
+      return {start, s.result, {}, true};
     }
     s.mode.is_without_attraction = s.mode.is_without_attraction
                                    || double(s.underway.size()) > max_share_underway * boundary;
@@ -116,9 +118,8 @@ Fitting_outcome optimize_surface(Core_mesh& mesh, const Any_surface& domain,
   }
   if(s.features)
     measure_features(s);
-  s.mesh.store(mesh);
   set_status(s, !goes_on);
-  return {s.result, std::move(crossing), s.mode.is_without_attraction};
+  return {s.mesh.changed(start), s.result, std::move(crossing), s.mode.is_without_attraction};
 }
 
 } // namespace internal

@@ -24,6 +24,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <utility>
@@ -54,7 +55,11 @@ class Surface_attraction
   std::vector<Triangle> m_triangles; // triangles of the boundary
   std::vector<Stratum> m_strata;     // strata of the triangles
   std::vector<double> m_stiffness;   // factor of each vertex: grows when drawn in vain
-  std::vector<Vec3> m_shifts;        // weighted mean of the shifts of each vertex
+  // Vertices of the boundary, ascending. In a large mesh they are few: what is known of them only is in
+  // arrays in this order, and the corners of triangles are their positions here.
+  std::vector<Vertex_index> m_vertices;
+  std::vector<std::array<std::uint32_t, 3>> m_corners;
+  std::vector<Vec3> m_shifts; // weighted mean of the shifts of each boundary vertex
   std::vector<double> m_weights;
   std::vector<std::pair<double, Vec3>> m_far_points; // points with their distances
   std::vector<double> m_farthest;                    // distance of the farthest sample of each triangle
@@ -62,8 +67,8 @@ class Surface_attraction
   double m_most_steps = 8; // largest number of steps along the edge of a triangle
   // Most samples are near: a sample need not be measured again until the boundary next to it has moved so far
   // that the sample might draw.
-  std::vector<Vec3> m_last_points;        // last positions of the vertices
-  std::vector<double> m_moved;            // way of each vertex since the last measurement
+  std::vector<Vec3> m_last_points;        // last positions of the boundary vertices
+  std::vector<double> m_moved;            // way of each boundary vertex since the last measurement
   std::vector<double> m_slack_of_samples; // distance that the boundary may move until the sample draws
   std::vector<std::size_t> m_nearest;     // triangle of each sample
   // Samples of the boundary: those of triangle t are at the positions from `m_starts[t]` on.
@@ -108,6 +113,7 @@ public:
         m_tolerances_of_triangles.push_back(tolerance(boundary.strata[f]));
       }
     }
+    number_vertices();
     m_slack_of_samples.assign(m_samples.size(), 0);
     m_nearest.assign(m_samples.size(), 0);
     m_steps_of_triangles.assign(m_triangles.size(), 0);
@@ -145,37 +151,55 @@ public:
   /// A query to an AABB tree for each sample of the surface, and of the boundary
   void measure()
   {
-    m_shifts.assign(m_mesh.points.size(), Vec3{});
-    m_weights.assign(m_mesh.points.size(), 0);
+    m_shifts.assign(m_vertices.size(), Vec3{});
+    m_weights.assign(m_vertices.size(), 0);
     m_far_points.clear();
     m_largest_distance = 0;
     m_farthest.assign(m_triangles.size(), 0);
-    m_moved.assign(m_mesh.points.size(), 0);
-    for(std::size_t v = 0; v < m_last_points.size(); ++v)
-      m_moved[v] = norm(m_mesh.points[v] - m_last_points[v]);
-    m_last_points = m_mesh.points;
+    m_moved.assign(m_vertices.size(), 0);
+    for(std::size_t i = 0; i < m_last_points.size(); ++i)
+      m_moved[i] = norm(m_mesh.points[m_vertices[i]] - m_last_points[i]);
+    m_last_points.clear();
+    for(Vertex_index v : m_vertices)
+      m_last_points.push_back(m_mesh.points[v]);
     measure_from_surface();
     measure_from_boundary();
   }
 
-  /// The attractions of the vertices, by the last measurement.
+  /// The attractions of the vertices that are drawn, ascending, by the last measurement.
   /// \param scale factor of the weights; 1 where costs to the fourth power are minimized
   std::vector<Attraction> attractions(double scale)
   {
-    std::vector<Attraction> result(m_mesh.points.size());
-    for(Vertex_index v = 0; v < m_mesh.points.size(); ++v) {
-      if(!(m_weights[v] > 0))
+    std::vector<Attraction> result;
+    for(std::size_t i = 0; i < m_vertices.size(); ++i) {
+      if(!(m_weights[i] > 0))
         continue;
+      const Vertex_index v = m_vertices[i];
       const Vec3& p = m_mesh.points[v];
       const double length = mean_edge_length(v);
-      result[v] = {m_project(p + (1 / m_weights[v]) * m_shifts[v], p, m_mesh.strata[v]),
-                   scale * weight * m_stiffness[v] / (length * length)};
+      result.push_back({v, m_project(p + (1 / m_weights[i]) * m_shifts[i], p, m_mesh.strata[v]),
+                        scale * weight * m_stiffness[v] / (length * length)});
       m_stiffness[v] = (std::min)(stiffening * m_stiffness[v], stiffest);
     }
     return result;
   }
 
 private:
+  void number_vertices()
+  {
+    m_vertices.clear();
+    for(const Triangle& t : m_triangles)
+      m_vertices.insert(m_vertices.end(), t.begin(), t.end());
+    std::sort(m_vertices.begin(), m_vertices.end());
+    m_vertices.erase(std::unique(m_vertices.begin(), m_vertices.end()), m_vertices.end());
+    const auto number = [this](Vertex_index v) {
+      return std::uint32_t(std::lower_bound(m_vertices.begin(), m_vertices.end(), v) - m_vertices.begin());
+    };
+    m_corners.clear();
+    for(const Triangle& t : m_triangles)
+      m_corners.push_back({number(t[0]), number(t[1]), number(t[2])});
+  }
+
   double mean_edge_length(Vertex_index v) const
   {
     double sum = 0;
@@ -192,9 +216,10 @@ private:
   static double threshold(double tolerance) { return tolerated_share * tolerance; }
 
   // Whether a sample at a distance of the threshold minus the slack is still nearer than the threshold.
-  bool is_near(double& slack, const Triangle& t, double tolerance)
+  bool is_near(double& slack, std::size_t triangle, double tolerance)
   {
-    slack -= (std::max)({m_moved[t[0]], m_moved[t[1]], m_moved[t[2]]});
+    const std::array<std::uint32_t, 3>& corners = m_corners[triangle];
+    slack -= (std::max)({m_moved[corners[0]], m_moved[corners[1]], m_moved[corners[2]]});
     if(!(slack > 0))
       return false;
     m_largest_distance = (std::max)(m_largest_distance, threshold(tolerance) - slack);
@@ -206,7 +231,7 @@ private:
   void add(std::size_t number, const std::array<double, 3>& b, const Vec3& shift, const Vec3& where,
            double share, double tolerance)
   {
-    const Triangle& t = m_triangles[number];
+    const std::array<std::uint32_t, 3>& corners = m_corners[number];
     const double distance = norm(shift), excess = distance - 0.7 * threshold(tolerance);
     m_largest_distance = (std::max)(m_largest_distance, distance);
     m_farthest[number] = (std::max)(m_farthest[number], distance);
@@ -217,8 +242,8 @@ private:
     for(int i = 0; i < 3; ++i)
       if(b[i] > nearly_0) {
         const double w = share * b[i] * excess * excess;
-        m_shifts[t[i]] = m_shifts[t[i]] + w * shift;
-        m_weights[t[i]] += w * b[i];
+        m_shifts[corners[i]] = m_shifts[corners[i]] + w * shift;
+        m_weights[corners[i]] += w * b[i];
       }
   }
 
@@ -228,7 +253,7 @@ private:
       return;
     std::vector<std::size_t> asked;
     for(std::size_t i = 0; i < m_samples.size(); ++i)
-      if(!is_near(m_slack_of_samples[i], m_triangles[m_nearest[i]], m_samples[i].tolerance))
+      if(!is_near(m_slack_of_samples[i], m_nearest[i], m_samples[i].tolerance))
         asked.push_back(i);
     if(asked.empty())
       return;
@@ -328,7 +353,7 @@ private:
     for(std::size_t k = 0; k < m_triangles.size(); ++k) {
       bool are_near = true;
       for(std::size_t i = m_starts[k]; i < m_starts[k + 1]; ++i)
-        are_near = is_near(m_slacks[i], m_triangles[k], m_tolerances_of_triangles[k]) && are_near;
+        are_near = is_near(m_slacks[i], k, m_tolerances_of_triangles[k]) && are_near;
       if(!are_near)
         asked.push_back(k);
     }

@@ -25,6 +25,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -45,11 +46,14 @@ inline bool is_tolerance_wished(const Mixed_mesh_criteria_3& criteria)
   return criteria.tolerance() == Mixed_mesh_criteria_3::automatic;
 }
 
-/// The mesh of one octree on the way to the budget, on the lattice.
+/// The mesh of one octree on the way to the budget, on the lattice. Once the mesh is assembled, the lattice
+/// mesh is released, as it would take a tenth of the memory while the boundary is fitted; the few steps that
+/// need it afterwards make it again.
 struct Candidate
 {
   std::size_t number_of_vertices = 0;
   bool is_stopped = false; // the visitor stopped the run
+  Gap_rule gap_rule = Gap_rule::NONE;
   Lattice_mesh mesh;
   Boundary_pieces boundary;
 
@@ -57,6 +61,16 @@ struct Candidate
 
   bool is_manifold() const { return boundary.defects.empty(); }
   bool is_good() const { return is_manifold() && !is_topology_wrong; }
+
+  bool is_released() const { return number_of_vertices > 0 && mesh.vertices.empty(); }
+  /// Releases the lattice mesh and its boundary, except for defects of the boundary.
+  void release()
+  {
+    mesh = {};
+    Boundary_pieces rest;
+    rest.defects = std::move(boundary.defects);
+    boundary = std::move(rest);
+  }
 };
 
 /// The mesh of an octree, on the lattice.
@@ -65,6 +79,25 @@ inline Core_mesh assembled_mesh(const Located_octree& octree, const Candidate& c
   Core_mesh mesh;
   assemble_mesh(octree, candidate.mesh, candidate.boundary, mesh);
   return mesh;
+}
+
+/// Makes the lattice mesh of a candidate and its boundary, by the stages that follow the octree.
+inline void make_lattice_mesh(const Located_octree& octree, const Meshing_criteria& criteria,
+                              Any_visitor& visitor, Candidate& c)
+{
+  {
+    const Stage_scope scope(visitor, Stage::TRANSITIONS);
+    c.mesh = apply_transitions(octree, criteria.transition_templates(), criteria.number_of_threads);
+    if(c.gap_rule == Gap_rule::NORMALS)
+      widen_gaps(octree, c.mesh);
+    else if(c.gap_rule == Gap_rule::LINES)
+      widen_gaps_by_lines(octree, c.mesh);
+  }
+  {
+    const Stage_scope scope(visitor, Stage::BOUNDARY);
+    c.boundary = split_boundary(octree, c.mesh, criteria.boundary_mode(), criteria.number_of_threads);
+  }
+  c.number_of_vertices = c.boundary.number_of_vertices;
 }
 
 /// Runs the stages that follow the octree. To be called in the stage `OCTREE`.
@@ -76,19 +109,8 @@ inline Candidate make_candidate(const Located_octree& octree, const Meshing_crit
   c.is_stopped = !visitor.go_on();
   if(c.is_stopped)
     return c;
-  {
-    const Stage_scope scope(visitor, Stage::TRANSITIONS);
-    c.mesh = apply_transitions(octree, criteria.transition_templates(), criteria.number_of_threads);
-    if(gap_rule == Gap_rule::NORMALS)
-      widen_gaps(octree, c.mesh);
-    else if(gap_rule == Gap_rule::LINES)
-      widen_gaps_by_lines(octree, c.mesh);
-  }
-  {
-    const Stage_scope scope(visitor, Stage::BOUNDARY);
-    c.boundary = split_boundary(octree, c.mesh, criteria.boundary_mode(), criteria.number_of_threads);
-  }
-  c.number_of_vertices = c.boundary.number_of_vertices;
+  c.gap_rule = gap_rule;
+  make_lattice_mesh(octree, criteria, visitor, c);
   visitor.progress(c.number_of_vertices, criteria.maximal_number_of_vertices());
   return c;
 }

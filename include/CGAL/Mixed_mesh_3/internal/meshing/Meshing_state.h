@@ -26,6 +26,8 @@
 #include <CGAL/Mixed_mesh_criteria_3.h>
 #include <CGAL/Mixed_mesh_result_3.h>
 
+#include <CGAL/assertions.h>
+
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -152,6 +154,13 @@ struct Meshing_state
     result.number_of_cells = octree.number_of_cells();
   }
 
+  /// Makes the lattice mesh of the best again, if it was released.
+  void make_best_again()
+  {
+    if(best.is_released())
+      make_lattice_mesh(octree, criteria, visitor, best);
+  }
+
   /// The octree and its mesh on the lattice; the boundary is not fitted yet.
   struct Snapshot
   {
@@ -173,9 +182,10 @@ struct Meshing_state
     are_gaps_wider = s.are_gaps_wider;
   }
 
-  /// The misfit of the best, whose boundary is not fitted.
+  /// The misfit of the best, whose boundary is not fitted. \pre the best is not released
   Misfit misfit_on_lattice() const
   {
+    CGAL_precondition(!best.is_released());
     return best.number_of_vertices == 0 ? Misfit::without_mesh()
                                         : misfit_on_lattice(octree, best, lost.size());
   }

@@ -129,6 +129,7 @@ inline void coarsen_and_optimize(Meshing_state& s, const Core_mesh& fine, std::s
 inline void make_coarsened_mesh(Meshing_state& s, Core_mesh& mesh)
 {
   mesh.clear();
+  s.make_best_again();
   describe_octree(s);
   if(!s.result.has_mesh())
     return;

@@ -139,6 +139,7 @@ inline void note_boundary_on_surface(Meshing_state& s, const Core_mesh& mesh)
 inline void make_mesh(Meshing_state& s, Core_mesh& mesh)
 {
   mesh.clear();
+  s.make_best_again();
   describe_octree(s);
   if(!s.result.has_mesh())
     return;
@@ -146,6 +147,7 @@ inline void make_mesh(Meshing_state& s, Core_mesh& mesh)
     const Stage_scope scope(s.visitor, Stage::ASSEMBLY);
     mark_sheets(s);
     mesh = assembled_mesh(s.octree, s.best);
+    s.best.release();
     if(s.criteria.only_tetrahedra())
       mesh = split_to_tetrahedra(mesh);
   }

@@ -55,7 +55,7 @@ public:
 
   bool is_in_one_subdomain(Vertex_index v) const
   {
-    const std::vector<Element_index>& around = m_mesh.incident[v];
+    const auto around = m_mesh.incident[v];
     return std::all_of(around.begin(), around.end(),
                        [&](Element_index e) { return subdomain(e) == subdomain(around.front()); });
   }
@@ -141,7 +141,7 @@ public:
   bool operator()(Vertex_index v, Vertex_index w, double most)
   {
     Transaction transaction(m_mesh);
-    const std::vector<Element_index> around = m_mesh.incident[v];
+    const std::vector<Element_index> around(m_mesh.incident[v].begin(), m_mesh.incident[v].end());
     for(Element_index e : around) {
       transaction.remove(e);
       if(!has(e, w))

@@ -93,7 +93,7 @@ struct Flip_context
     for(Element_index e : old)
       transaction.remove(e);
     for(const Tetrahedron& t : tetrahedra)
-      transaction.add({TETRAHEDRON, attributes, false, {t[0], t[1], t[2], t[3]}});
+      transaction.add({TETRAHEDRON, false, attributes, {t[0], t[1], t[2], t[3]}});
     return transaction.accept(quality, (std::max)(bound, transaction.worst_before(quality)));
   }
 

@@ -18,6 +18,7 @@
 #include <CGAL/Mixed_mesh_3/certificate.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/element_measures.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Incident_elements.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Strata.h>
 
 #include <CGAL/assertions.h>
@@ -51,8 +52,8 @@ struct Working_mesh
   struct Element
   {
     Element_kind kind;
+    bool is_removed; // beside the kind, where it takes no memory
     Element_attributes attributes;
-    bool is_removed;
     std::array<Vertex_index, 8> vertices;
 
     const Reference_element& reference() const { return reference_elements[kind]; }
@@ -74,7 +75,7 @@ struct Working_mesh
 
   std::vector<Vec3> points;
   std::vector<Element> elements;
-  std::vector<std::vector<Element_index>> incident;   ///< elements of each vertex, in any fixed order
+  Incident_elements incident;                         ///< elements of each vertex, in any fixed order
   std::vector<Stratum> strata;                        ///< strata of the vertices
   using Edge = std::pair<Vertex_index, Vertex_index>; ///< smaller vertex first
   std::map<Edge, Stratum> sharp_edges;                ///< edges of the boundary along sharp edges
@@ -82,17 +83,24 @@ struct Working_mesh
   Transaction* transaction = nullptr;                 ///< the innermost one that is open
 
   /// \param strata_of_vertices strata that the vertices have to be on
+  /// \param more number of vertices that are to be added, for which there will be room. Room that is not used
+  /// takes addresses, but no memory; arrays that outgrow their room are copied, and exist twice for a while
   template <class Mesh>
-  Working_mesh(const Mesh& mesh, std::vector<Stratum> strata_of_vertices)
-    : incident(mesh.number_of_vertices()), strata(std::move(strata_of_vertices))
+  Working_mesh(const Mesh& mesh, std::vector<Stratum> strata_of_vertices, std::size_t more = 0)
+    : strata(std::move(strata_of_vertices))
   {
-    points.reserve(mesh.number_of_vertices());
+    constexpr std::size_t elements_of_vertex = 12; // bisected, and flipped later
+    points.reserve(mesh.number_of_vertices() + more);
     for(const auto& p : mesh.points())
       points.push_back(to_vec3(p));
-    elements.reserve(mesh.number_of_elements());
+    std::vector<std::uint32_t> numbers(mesh.number_of_vertices(), 0);
+    for(Vertex_index v : mesh.elements().connectivity())
+      ++numbers[v];
+    incident.make_room(numbers);
+    elements.reserve(mesh.number_of_elements() + elements_of_vertex * more);
     for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
       const Element_view element = mesh.element(Element_index(e));
-      Element mine{element.kind(), mesh.attributes(Element_index(e)), false, {}};
+      Element mine{element.kind(), false, mesh.attributes(Element_index(e)), {}};
       std::copy(element.begin(), element.end(), mine.vertices.begin());
       add(mine);
     }
@@ -102,11 +110,14 @@ struct Working_mesh
   bool is_on_boundary(Vertex_index v) const { return strata[v] != free_stratum; }
 
   /// The faces of the boundary and of interfaces, for use after boundary elements have been removed: not in
-  /// the order of the elements, and with the numbers of elements in `element_list()`.
+  /// the order of the elements, and with numbers of elements that mean nothing here.
   Interface_faces interface_faces(Strata& all) const
   {
-    return all.faces(element_list(), attributes(), points.size(),
-                     [this](Vertex_index v) { return is_on_boundary(v); });
+    const auto is_candidate = [this](Vertex_index v) { return is_on_boundary(v); };
+    const auto may_have_face = [&](const Element& element) {
+      return !element.is_removed && std::count_if(element.begin(), element.end(), is_candidate) >= 3;
+    };
+    return all.faces(element_list(may_have_face), attributes(may_have_face), points.size(), is_candidate);
   }
 
   bool is_sharp(Vertex_index a, Vertex_index b) const { return sharp_stratum(a, b) != free_stratum; }
@@ -160,48 +171,67 @@ struct Working_mesh
     return jacobian_sign(element, position()) == Jacobian_sign::POSITIVE;
   }
 
-  /// Writes changes back to a mesh.
+  /// Writes changes back to the mesh that this one was made of.
   template <class Mesh>
   void store(Mesh& mesh) const
   {
-    using Point_3 = typename Mesh::Point_3;
-    std::vector<Point_3> new_points;
-    new_points.reserve(points.size());
-    for(std::size_t v = 0; v < points.size(); ++v)
-      new_points.push_back(v < mesh.number_of_vertices() && to_vec3(mesh.points()[v]) == points[v]
-                             ? mesh.points()[v]
-                             : Point_3(points[v][0], points[v][1], points[v][2]));
-    if(std::none_of(elements.begin(), elements.end(), [](const Element& e) { return e.is_removed; })) {
-      mesh.points() = std::move(new_points);
-      return;
-    }
-    if(merged.empty())
-      mesh.assign(std::move(new_points), element_list(), attributes());
+    if(has_elements_of_start())
+      mesh.points() = changed_points(mesh);
     else
-      store_without_merged(mesh, std::move(new_points));
+      mesh = with_changed_elements(mesh);
   }
 
-  /// Elements that are not removed.
-  Element_list element_list() const
+  /// The changed mesh.
+  /// \param start the mesh that this one was made of
+  template <class Mesh>
+  Mesh changed(const Mesh& start) const
   {
-    Element_list list;
+    if(!has_elements_of_start())
+      return with_changed_elements(start);
+    Mesh mesh;
+    mesh.assign(changed_points(start), start.elements(), start.attributes());
+    return mesh;
+  }
+
+private:
+  static bool is_present(const Element& element) { return !element.is_removed; }
+
+  // An empty list, with room for the elements chosen.
+  template <class Is_chosen>
+  Element_list list_with_room(const Is_chosen& is_chosen) const
+  {
+    std::size_t number = 0, number_of_vertices = 0;
     for(const Element& element : elements)
-      if(!element.is_removed)
+      if(is_chosen(element)) {
+        ++number;
+        number_of_vertices += std::size_t(element.size());
+      }
+    Element_list list;
+    list.reserve(number, number_of_vertices);
+    return list;
+  }
+
+  template <class Is_chosen>
+  Element_list element_list(const Is_chosen& is_chosen) const
+  {
+    Element_list list = list_with_room(is_chosen);
+    for(const Element& element : elements)
+      if(is_chosen(element))
         list.add(element.kind, element.vertices.data());
     return list;
   }
 
-  /// Attributes of the elements that are not removed.
-  std::vector<Element_attributes> attributes() const
+  template <class Is_chosen>
+  std::vector<Element_attributes> attributes(const Is_chosen& is_chosen) const
   {
     std::vector<Element_attributes> list;
+    list.reserve(std::size_t(std::count_if(elements.begin(), elements.end(), is_chosen)));
     for(const Element& element : elements)
-      if(!element.is_removed)
+      if(is_chosen(element))
         list.push_back(element.attributes);
     return list;
   }
 
-private:
   friend class Transaction;
 
   // Changes, each with the one that undoes it.
@@ -209,15 +239,14 @@ private:
   void add_vertex(const Vec3& p, Stratum stratum)
   {
     points.push_back(p);
-    incident.emplace_back();
+    incident.add_vertex();
     strata.push_back(stratum);
   }
 
   void remove_last_vertex()
   {
-    CGAL_assertion(incident.back().empty());
     points.pop_back();
-    incident.pop_back();
+    incident.remove_last_vertex();
     strata.pop_back();
   }
 
@@ -229,18 +258,18 @@ private:
     const Element_index e = Element_index(elements.size());
     elements.push_back(element);
     for(Vertex_index v : elements.back()) // `element` may have been in the list
-      incident[v].push_back(e);
+      incident.push_back(v, e);
     return e;
   }
 
   void remove_last()
   {
     for(Vertex_index v : elements.back())
-      incident[v].pop_back();
+      incident.pop_back(v);
     elements.pop_back();
   }
 
-  using Places = std::array<std::ptrdiff_t, 8>; // of an element among those of its vertices
+  using Places = std::array<std::size_t, 8>; // of an element among those of its vertices
 
   Places remove(Element_index e)
   {
@@ -248,12 +277,8 @@ private:
     elements[e].is_removed = true;
     Places places{};
     auto place = places.begin();
-    for(Vertex_index v : elements[e]) {
-      const auto found = std::find(incident[v].begin(), incident[v].end(), e);
-      CGAL_assertion(found != incident[v].end());
-      *place++ = found - incident[v].begin();
-      incident[v].erase(found);
-    }
+    for(Vertex_index v : elements[e])
+      *place++ = incident.erase(v, e);
     return places;
   }
 
@@ -262,11 +287,38 @@ private:
     elements[e].is_removed = false;
     auto place = places.begin();
     for(Vertex_index v : elements[e])
-      incident[v].insert(incident[v].begin() + *place++, e);
+      incident.insert(v, *place++, e);
   }
 
-  template <class Mesh, class Point_3>
-  void store_without_merged(Mesh& mesh, std::vector<Point_3> all_points) const
+  bool has_elements_of_start() const { return std::all_of(elements.begin(), elements.end(), is_present); }
+
+  // Positions that have not changed keep their points.
+  template <class Mesh>
+  std::vector<typename Mesh::Point_3> changed_points(const Mesh& start) const
+  {
+    using Point_3 = typename Mesh::Point_3;
+    std::vector<Point_3> changed;
+    changed.reserve(points.size());
+    for(std::size_t v = 0; v < points.size(); ++v)
+      changed.push_back(v < start.number_of_vertices() && to_vec3(start.points()[v]) == points[v]
+                          ? start.points()[v]
+                          : Point_3(points[v][0], points[v][1], points[v][2]));
+    return changed;
+  }
+
+  template <class Mesh>
+  Mesh with_changed_elements(const Mesh& start) const
+  {
+    Mesh mesh;
+    if(merged.empty())
+      mesh.assign(changed_points(start), element_list(is_present), attributes(is_present));
+    else
+      assign_without_merged(changed_points(start), mesh);
+    return mesh;
+  }
+
+  template <class Point_3, class Mesh>
+  void assign_without_merged(const std::vector<Point_3>& all_points, Mesh& mesh) const
   {
     std::vector<Vertex_index> numbers(points.size(), 0);
     for(Vertex_index v : merged)
@@ -277,14 +329,14 @@ private:
         numbers[v] = Vertex_index(new_points.size());
         new_points.push_back(all_points[v]);
       }
-    Element_list list;
+    Element_list list = list_with_room(is_present);
     for(Element element : elements)
       if(!element.is_removed) {
         for(int i = 0; i < element.size(); ++i)
           element.vertices[std::size_t(i)] = numbers[element.vertices[std::size_t(i)]];
         list.add(element.kind, element.vertices.data());
       }
-    mesh.assign(std::move(new_points), std::move(list), attributes());
+    mesh.assign(std::move(new_points), std::move(list), attributes(is_present));
   }
 };
 

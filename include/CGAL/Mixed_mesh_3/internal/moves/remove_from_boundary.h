@@ -26,7 +26,7 @@ namespace internal {
 /// Whether another element has all of some vertices, with neither an interface nor a sheet between.
 inline bool is_shared(const Working_mesh& mesh, Element_index e, std::initializer_list<Vertex_index> vertices)
 {
-  const std::vector<Element_index>& around = mesh.incident[*vertices.begin()];
+  const auto around = mesh.incident[*vertices.begin()];
   const Element_attributes& mine = mesh.elements[e].attributes;
   return std::any_of(around.begin(), around.end(), [&](Element_index other) {
     const Working_mesh::Element& element = mesh.elements[other];
