@@ -34,7 +34,7 @@ std::string after_semicolon(const std::string& text) { return text.empty() ? tex
 
 } // namespace
 
-Fidelity fidelity_of(const Mesh& mesh, const Surface& surface, double volume_of_surface)
+Fidelity distances_and_volumes_of(const Mesh& mesh, const Surface& surface, double volume_of_surface)
 {
   const mm3::Hausdorff_distance distance = mm3::hausdorff_distance(mesh, surface);
   Fidelity f;
@@ -42,6 +42,12 @@ Fidelity fidelity_of(const Mesh& mesh, const Surface& surface, double volume_of_
   f.from_surface = distance_of(distance.from_surface);
   f.volume_of_mesh = mm3::volume(mesh);
   f.volume_of_surface = volume_of_surface;
+  return f;
+}
+
+Fidelity fidelity_of(const Mesh& mesh, const Surface& surface, double volume_of_surface)
+{
+  Fidelity f = distances_and_volumes_of(mesh, surface, volume_of_surface);
   f.vertices = mm3::boundary_vertices(mesh).size();
   f.vertices_off = mm3::number_of_vertices_off_surface(mesh, surface, on_surface);
   return f;

@@ -69,6 +69,10 @@ struct Topology
   bool is_same = true;
 };
 
+/// Measures the fidelity but for the numbers of vertices, which another thread may count meanwhile. \pre the
+/// boundary is a closed manifold
+Fidelity distances_and_volumes_of(const Mesh& mesh, const Surface& surface, double volume_of_surface);
+
 /// Measures the fidelity. \pre the boundary is a closed manifold
 Fidelity fidelity_of(const Mesh& mesh, const Surface& surface, double volume_of_surface);
 

@@ -10,9 +10,12 @@
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/certify_mesh.h>
 #include <CGAL/Mixed_mesh_3/quality_bound.h>
+#include <CGAL/Mixed_mesh_3/surface_distance.h>
 
+#include <cstddef>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 
@@ -71,18 +74,28 @@ void examine(const Mesh& mesh, const Surface& surface, const Options& options, S
   mm3::Mesh_certificate certificate{log("checks", [&] { return mm3::find_defects(mesh); })};
   if(certificate.defects.none()) {
     std::size_t& self_intersections = certificate.number_of_self_intersections;
-    log.together(options.threads,
-                 {{"distance to surface",
-                   [&] { outcome.fidelity = fidelity_of(mesh, surface, outcome.surface.volume); }},
-                  {"checks", [&] { self_intersections = mm3::number_of_boundary_self_intersections(mesh); }},
-                  {"topology",
-                   [&] {
-                     outcome.topology = topology_with_units(mesh, surface, options, outcome.result.status);
-                   }},
-                  {"quality", [&] {
-                     outcome.after = aspect_ratios_of(mesh);
-                     outcome.shapes = shapes_of(mesh);
-                   }}});
+    std::size_t vertices = 0, vertices_off = 0; // not in the fidelity, which another thread writes
+    log.together(
+      options.threads,
+      {{"distance to surface",
+        [&] { outcome.fidelity = distances_and_volumes_of(mesh, surface, outcome.surface.volume); }},
+       {"distance to surface",
+        [&] { vertices_off = mm3::number_of_vertices_off_surface(mesh, surface, on_surface); }},
+       {"checks", [&] { self_intersections = mm3::number_of_boundary_self_intersections(mesh); }},
+       {"checks",
+        [&] {
+          const std::vector<mm3::Face> faces = mm3::boundary_faces(mesh);
+          outcome.boundary_faces = faces.size();
+          vertices = mm3::vertices_of(faces).size();
+        }},
+       {"topology",
+        [&] { outcome.topology = topology_with_units(mesh, surface, options, outcome.result.status); }},
+       {"quality", [&] {
+          outcome.after = aspect_ratios_of(mesh);
+          outcome.shapes = shapes_of(mesh);
+        }}});
+    outcome.fidelity.vertices = vertices;
+    outcome.fidelity.vertices_off = vertices_off;
   }
   outcome.fidelity.self_intersections = certificate.number_of_self_intersections;
   for(const mm3::Mesh_certificate::Check& check : certificate.checks())
@@ -92,7 +105,6 @@ void examine(const Mesh& mesh, const Surface& surface, const Options& options, S
   outcome.checks_of_fidelity = checks_of_fidelity(outcome, options.fit() != Fit::NONE);
 
   outcome.mesh = facts_of(mesh);
-  outcome.boundary_faces = mm3::boundary_faces(mesh).size();
   for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e)
     outcome.elements_in_region += mesh.is_in_region(e);
   if(options.has_quality_bound())
