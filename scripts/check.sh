@@ -20,6 +20,8 @@
 #               are compiled there, with -Wpedantic, by LAYOUT_COMPILERS (default: g++ clang++), also with the CGAL of
 #               CGAL_DIR_61
 #   benchmarks  the benchmarks compile, by clang
+#   same_bytes  meshes have the same bytes if clang++ compiles the mesher, or g++ for all instructions of this
+#               processor, as in the Release build
 #   instructions  a few meshes take at most a tenth more instructions than is recorded, in the Release build:
 #               benchmark/count_instructions.py
 #   checked     some examples, one for each way through the stages, and short tests run with CGAL's assertions and
@@ -30,7 +32,7 @@
 #               folder that has its include/CGAL/version.h
 #
 # A part that fails does not keep the next ones from running. BUILD_DIR overrides the folder of the build
-# directories, build: release and checked, as the presets have them, clang, cgal61 and layout.
+# directories, build: release and checked, as the presets have them, clang, native, cgal61 and layout.
 
 set -euo pipefail
 
@@ -40,7 +42,7 @@ source "$root/scripts/setup.sh"
 
 build=$(realpath -m "${BUILD_DIR:-$root/build}")
 quick=(format shell python layers)
-compiled=(doc headers layout benchmarks instructions checked fuzz cgal61)
+compiled=(doc headers layout benchmarks same_bytes instructions checked fuzz cgal61)
 
 # The tests that run with sanitizers, and their programs. Not those that read a surface or mesh one: with
 # sanitizers, a compiler takes long for CGAL's polygon meshes. The preset `checked` has all.
@@ -177,6 +179,25 @@ check_layout() {
 check_benchmarks() {
   configure_clang -DMIXED_MESH_3_BUILD_BENCHMARKS=ON -DMIXED_MESH_3_BENCHMARKS_SYNTAX_ONLY=ON
   build "$build/clang" benchmark/all
+}
+
+check_same_bytes() {
+  local of meshes=$build/same_bytes
+  configure release --preset release
+  configure_clang
+  configure native -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=-march=native -DBUILD_TESTING=OFF
+  for of in release clang native; do
+    build "$build/$of" mixed_mesh_3
+    mkdir -p "$meshes/$of"
+    mesh() {
+      "$build/$of/bin/mixed_mesh_3" "${@:2}" --quiet --output "$meshes/$of/$1.msh"
+    }
+    mesh brain_660 data/brain.off --region data/region.off --vertices 660
+    mesh brain_10000 data/brain.off --region data/region.off --vertices 10000 --threads 2
+    mesh tetrahedra data/brain.off --vertices 3000 --tetrahedra
+    mesh subdomains data/brain.off --subdomain data/tumour.off --vertices 4000
+    diff -r "$meshes/release" "$meshes/$of" || fail "meshes differ between the builds release and $of"
+  done
 }
 
 check_instructions() {

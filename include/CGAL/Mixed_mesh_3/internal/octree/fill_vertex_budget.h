@@ -32,6 +32,9 @@ class Budget_search
   // Shares of the budget: at 99.8 % large steps end, because with millions of vertices a further trial costs
   // more than it gains. Below 99 % single cells are tried.
   static constexpr double share_that_is_full = 0.998, share_for_single_cells = 0.99;
+  // Number of vertices between a full budget and the whole one from which on the search aims at their middle:
+  // trials of the whole budget miss it by a few vertices, on either side.
+  static constexpr double wide_range = 100;
   static constexpr std::size_t number_of_single_cells = 24;
 
   // Limit of the number of cells. Cells that meet the domain have one vertex or more each, unless the domain
@@ -40,6 +43,7 @@ class Budget_search
   static constexpr double most_cells_per_vertex = 8, most_cells_at_least = 1000;
 
   const std::size_t m_budget;
+  const double m_goal; // number of vertices that trials aim at
   const Try& m_try;
   Refinement_sequence m_sequence;
   Located_octree m_octree;
@@ -49,8 +53,8 @@ class Budget_search
 public:
   Budget_search(const Located_octree& start, std::size_t budget, double radius, const Try& try_octree,
                 std::vector<Refinement_sequence::Point> points)
-    : m_budget(budget), m_try(try_octree), m_sequence(start, radius, std::move(points)), m_octree(start),
-      m_best(m_try(start))
+    : m_budget(budget), m_goal(goal_for(double(budget))), m_try(try_octree),
+      m_sequence(start, radius, std::move(points)), m_octree(start), m_best(m_try(start))
   {
     search();
     add_single_cells();
@@ -59,6 +63,12 @@ public:
   std::pair<Located_octree, Candidate> best() && { return {std::move(m_octree), std::move(m_best)}; }
 
 private:
+  static double goal_for(double budget)
+  {
+    const double range = (1 - share_that_is_full) * budget;
+    return range < wide_range ? budget : budget - range / 2;
+  }
+
   std::size_t size() const { return m_best.number_of_vertices; }
   bool is_done() const { return m_best.is_stopped || size() >= m_budget; }
 
@@ -126,7 +136,7 @@ private:
         rate = double(n_high - n_low) / (std::max)(1., double(m_sequence.number_of_cells(high)) - cells);
       const bool is_slow = step > 2 && step % 2 == 1 && high != unknown;
       const std::size_t wanted = is_slow ? low + (high - low) / 2
-                                         : steps_for(cells + double(m_budget - n_low) / rate);
+                                         : steps_for(cells + (m_goal - double(n_low)) / rate);
       const std::size_t steps = available((std::min)((std::max)(wanted, low + 1), high - 1));
       if(steps <= low)
         return; // there is nothing left to split, or too many cells
