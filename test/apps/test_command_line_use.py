@@ -163,16 +163,16 @@ class Use(Case):
             self.assertEqual(sorted(WORK.iterdir()), before)
 
     def test_stopped(self):
-        """By its own limit, or by a signal, in the middle of the optimization: what there is passes all checks of
-        validity, and those of fidelity if all vertices have arrived by then, as they have unless the machine is busy."""
+        """By its own limit, or by a signal, in the middle of the optimization: what there is passes all checks."""
         arguments = [DATA / "brain.off", "--region", DATA / "region.off", "--vertices", 10000, "--output", self.output]
         report = WORK / "report.json"
 
         def repeated(f):
-            """Where the machine is suddenly faster or slower than before, the middle is missed."""
+            """Where the machine is suddenly faster or slower than before, the middle is missed: the run has ended, or
+            vertices have not arrived yet."""
             for _ in range(5):
                 result = f()
-                if result[0] == 4:
+                if result[0] == 4 and "all checks hold" in result[1]:
                     break
             return result
 
@@ -205,7 +205,7 @@ class Use(Case):
         status, out, errors = repeated(interrupted)
         self.assertEqual(status, 4, errors)
         self.assertIn("warning: stopped by a signal after ", errors)
-        self.assertRegex(out, "all checks hold|valid, but not: .*boundary vertices on the surface")
+        self.assertIn("all checks hold", out)
         # after 2 s, whatever it is doing, and with one line
         self.output.unlink()
         command = [MESHER, DATA / "brain.off", "--vertices", "300000", "--output", self.output]
