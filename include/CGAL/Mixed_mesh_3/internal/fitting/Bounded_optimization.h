@@ -17,6 +17,7 @@
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/element_points.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_removal.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/optimize_surface.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
@@ -36,13 +37,16 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-Runs the optimization as often as needed, each time from the start, and takes the result within the bound in
-which most of the boundary has arrived:
+Runs the optimization as often as needed, each time from the start but one, and takes the result within the
+bound in which most of the boundary has arrived:
 
 - *freely*: on the way to the surface, elements may get worse than the bound, and better again; elements above
 the bound in the end are mended, as a last resort by boundary vertices that leave the surface. If all of the
 boundary arrives, and no element is above the bound in the end, as for most surfaces, this result is taken;
-- *without attraction*: the same, but places that are too far do not draw the boundary;
+- *without the vertices that have not arrived*, if these are few and may be removed: from that result, with
+fewer vertices;
+- *without attraction*: the same, but places that are too far do not draw the boundary, and vertices are held
+on their way where their faces would cut others;
 - *within the bound*, which no step exceeds;
 - where faces cut each other in the end, once more, with their vertices *held*, and each time more of the
 vertices around them; in the end all of the boundary, which then does not cut itself if it did not at the
@@ -66,6 +70,7 @@ class Bounded_optimization
   const Quality& m_quality;
   const bool m_has_subdomains;                // or sheets
   const double m_tolerated_share_not_arrived; // share of the boundary vertices
+  const Vertex_removal m_remove;              // none: all vertices stay
   const Sharp_edges m_sharp_edges;
   const double m_edge_length; // mean of the boundary; any value if there are no sharp edges
   const Sharp_features m_features;
@@ -74,6 +79,12 @@ class Bounded_optimization
   // Tolerated share of vertices between subdomains that have not arrived; tolerated loss of the length of
   // sharp edges.
   static constexpr double tolerated_share_on_interfaces = 0.01, tolerated_loss = 0.02;
+  // Share of the boundary vertices that may be removed.
+  static constexpr double removable_share = 0.01;
+
+  // The attraction would make hard cases harder.
+  static constexpr Fitting_mode freely{false, false}, without_attraction{false, true},
+    within_bound{true, true};
 
   // Number of rings of faces around crossing faces that are held in addition, in successive attempts.
   static constexpr int rings[] = {0, 1, 2, 4, 8};
@@ -82,12 +93,12 @@ public:
   /// \param tolerated_share_not_arrived share of the boundary vertices: if no more have not arrived,
   /// no other run is needed
   Bounded_optimization(Core_mesh& mesh, const Any_surface& domain, const Criteria& criteria,
-                       const Quality& quality, double tolerated_share_not_arrived)
+                       const Quality& quality, double tolerated_share_not_arrived, Vertex_removal remove)
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality),
       m_has_subdomains(domain.subdomain_indices().size() > 1 || domain.has_sheets()),
       m_tolerated_share_not_arrived(
         (std::max)(tolerated_share_not_arrived, m_has_subdomains ? tolerated_share_on_interfaces : 0)),
-      m_sharp_edges(domain.sharp_edges(criteria.sharp_angle())),
+      m_remove(std::move(remove)), m_sharp_edges(domain.sharp_edges(criteria.sharp_angle())),
       m_edge_length(m_sharp_edges.edges.empty() ? 1 : mean_edge_length()),
       m_features(m_sharp_edges, m_edge_length), m_is_held(mesh.number_of_vertices(), 0)
   {
@@ -110,24 +121,29 @@ private:
     Result result;
     bool meets_guarantees = false; // within the bound, and the boundary does not cut itself
     bool has_attraction = false;   // places that are too far draw the boundary
+    bool has_crossed = false;      // not finished, as some faces cut each other after the arrival
   };
 
   Result optimize(const std::function<bool()>& go_on)
   {
-    Outcome best = optimize_freely(false, go_on);
-    if(best.result.status == Status::STOPPED)
-      return best.meets_guarantees ? take(best) : stopped(best.result);
-    if(best.meets_guarantees && (is_fitted(best.result) || !has_bound())) // no other run would do better
-      return take(best);
-    // The attraction of the boundary to places that are too far may be what keeps vertices from arriving.
-    if(best.has_attraction) {
-      Outcome without_attraction = optimize_freely(true, go_on);
-      if(without_attraction.result.status == Status::STOPPED)
-        return stopped(without_attraction.result);
-      if(is_better(without_attraction, best))
-        best = std::move(without_attraction);
-      if(best.meets_guarantees && is_fitted(best.result))
-        return take(best);
+    Outcome best;
+    for(const Fitting_mode& mode : {freely, without_attraction}) {
+      Outcome outcome = optimize_freely(mode, go_on);
+      if(outcome.result.status == Status::STOPPED)
+        return outcome.meets_guarantees && !mode.is_without_attraction ? take(outcome)
+                                                                       : stopped(outcome.result);
+      if(outcome.meets_guarantees && (is_fitted(outcome.result) || !has_bound()))
+        return take(outcome); // no other run would do better
+      if(outcome.meets_guarantees && may_remove_unarrived(outcome.result)) {
+        Outcome rest = optimize_without_unarrived(outcome, go_on);
+        if(rest.meets_guarantees && is_fitted(rest.result))
+          return take(rest);
+      }
+      const bool may_be_attraction = outcome.has_attraction || outcome.has_crossed;
+      if(is_better(outcome, best))
+        best = std::move(outcome);
+      if(!may_be_attraction)
+        break;
     }
     Outcome bounded;
     bounded.result = optimize_within(bounded.mesh, go_on);
@@ -143,6 +159,11 @@ private:
            && (!b.meets_guarantees || number_not_arrived(a.result) < number_not_arrived(b.result));
   }
 
+  bool may_remove_unarrived(const Result& r) const
+  {
+    return m_remove && number_not_arrived(r) <= removable_share * double(r.number_of_boundary_vertices);
+  }
+
   Result take(Outcome& outcome)
   {
     m_mesh = std::move(outcome.mesh);
@@ -150,10 +171,8 @@ private:
   }
 
   // Optimizes with elements that may get worse than the bound on the way.
-  Outcome optimize_freely(bool is_without_attraction, const std::function<bool()>& go_on) const
+  Outcome optimize_freely(const Fitting_mode& mode, const std::function<bool()>& go_on) const
   {
-    Fitting_mode mode;
-    mode.is_without_attraction = is_without_attraction;
     Fitting_outcome fitted = optimize_surface(m_mesh, m_domain, m_criteria, m_quality, mode, m_features,
                                               m_is_held, go_on);
     Outcome outcome;
@@ -162,6 +181,27 @@ private:
     outcome.meets_guarantees = is_within_bound(outcome.mesh) && outcome.result.is_boundary_simple;
     outcome.has_attraction = (m_criteria.tolerance() > 0 || m_criteria.number_of_bisections() > 0)
                              && !fitted.is_without_attraction;
+    outcome.has_crossed = fitted.has_crossed;
+    return outcome;
+  }
+
+  // Removes the vertices that have not arrived, and optimizes the mesh that is left.
+  Outcome optimize_without_unarrived(const Outcome& first, const std::function<bool()>& go_on) const
+  {
+    Core_mesh start = first.mesh;
+    const Result& r = first.result;
+    if(!m_remove(start, r.number_of_boundary_vertices - r.number_of_arrived_vertices))
+      return {};
+    Criteria criteria = m_criteria;
+    if(criteria.number_of_bisections() > 0)
+      criteria.number_of_bisections(m_mesh.number_of_vertices() + criteria.number_of_bisections()
+                                    - start.number_of_vertices());
+    const Bounded_optimization rest(start, m_domain, criteria, m_quality, m_tolerated_share_not_arrived, {});
+    Outcome outcome = rest.optimize_freely(freely, go_on);
+    outcome.result.number_of_flips += r.number_of_flips;
+    outcome.result.number_of_bisections += r.number_of_bisections;
+    outcome.result.number_of_merged_vertices += r.number_of_merged_vertices;
+    outcome.result.number_of_rounds += r.number_of_rounds;
     return outcome;
   }
 
@@ -194,9 +234,8 @@ private:
   Result optimize_within(Core_mesh& mesh, const std::function<bool()>& go_on)
   {
     for(std::size_t i = 0;; ++i) {
-      const Fitting_mode mode{true, true}; // the attraction would make a hard case harder
-      Fitting_outcome fitted = optimize_surface(m_mesh, m_domain, m_criteria, m_quality, mode, m_features,
-                                                m_is_held, go_on);
+      Fitting_outcome fitted = optimize_surface(m_mesh, m_domain, m_criteria, m_quality, within_bound,
+                                                m_features, m_is_held, go_on);
       mesh = std::move(fitted.mesh);
       const Result& result = fitted.result;
       if(result.is_boundary_simple || result.status == Status::STOPPED || i > std::size(rings)
@@ -271,9 +310,11 @@ template <class Quality>
 Mixed_mesh_optimization_result_3
 optimize_bounded(Core_mesh& mesh, const Any_surface& surface,
                  const With_threads<Mixed_mesh_optimization_criteria_3>& criteria, const Quality& quality,
-                 const std::function<bool()>& go_on, double tolerated_share_not_arrived = 0)
+                 const std::function<bool()>& go_on, double tolerated_share_not_arrived = 0,
+                 const Vertex_removal& remove = {})
 {
-  return Bounded_optimization<Quality>(mesh, surface, criteria, quality, tolerated_share_not_arrived)(go_on);
+  return Bounded_optimization<Quality>(mesh, surface, criteria, quality, tolerated_share_not_arrived,
+                                       remove)(go_on);
 }
 
 } // namespace internal

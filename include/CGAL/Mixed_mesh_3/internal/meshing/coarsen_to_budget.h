@@ -41,6 +41,10 @@ inline bool find_finer_octree(Meshing_state& s, Located_octree octree, std::size
 {
   const Stage_scope scope(s.visitor, Stage::OCTREE);
   constexpr double most_cells_per_vertex = 2; // at most, nearly
+  // Share of the number of vertices that is expected from the octree before: the number for each cell hardly
+  // changes, and a trial takes as long as all the smaller ones.
+  constexpr double sure_share = 0.9;
+  double vertices_per_cell = 0; // of the octree before
   s.are_gaps_wider = only_thin;
   for(int level = s.coarsest_level(); level < Octree::max_level; ++level) {
     std::vector<Octree::Node_index> leaves;
@@ -53,11 +57,13 @@ inline bool find_finer_octree(Meshing_state& s, Located_octree octree, std::size
     if(leaves.empty())
       continue;
     octree.refine(leaves);
-    if(double(octree.number_of_cells()) > most_cells_per_vertex * double(most))
+    const double cells = double(octree.number_of_cells());
+    if(cells > most_cells_per_vertex * double(most) || sure_share * vertices_per_cell * cells > double(most))
       return false;
     Candidate candidate = s.try_octree(octree);
     if(candidate.is_stopped || candidate.number_of_vertices > most)
       return false;
+    vertices_per_cell = double(candidate.number_of_vertices) / cells;
     if(candidate.number_of_vertices < least || !candidate.is_manifold()
        || s.misfit_on_lattice(octree, candidate, 0).is_topology_wrong())
       continue;
@@ -117,7 +123,7 @@ inline void coarsen_and_optimize(Meshing_state& s, const Core_mesh& fine, std::s
   mesh = std::move(coarse);
   s.result.number_of_collapsed_vertices = fine.number_of_vertices() - mesh.number_of_vertices();
   const Mixed_mesh_status status = s.result.status;
-  optimize_boundary(s, mesh);
+  optimize_boundary(s, mesh, vertex_removal(s));
   remove_unarrived_vertices(s, mesh, status);
   note_lost_cells(s, mesh);
   note_share_filled(s, mesh.number_of_vertices());

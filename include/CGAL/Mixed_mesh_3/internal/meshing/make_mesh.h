@@ -154,14 +154,15 @@ inline void make_mesh(Meshing_state& s, Core_mesh& mesh)
   if(s.criteria.fit_to_surface() && !s.result.is_kept) {
     const Stage_scope scope(s.visitor, Stage::OPTIMIZATION);
     const Mixed_mesh_status status = s.result.status;
+    const bool may_remove = s.may_resolve_thin_parts() && !s.root.domain().has_sheets();
     const bool is_final = s.result.is_lattice_on_surface && !s.criteria.only_tetrahedra()
                           && !s.root.domain().has_sheets();
     if(is_final) {
       s.visitor.before_fitting(mesh);
       note_boundary_on_surface(s, mesh);
     } else
-      optimize_boundary(s, mesh);
-    if(s.may_resolve_thin_parts() && !s.root.domain().has_sheets() && are_few_not_arrived(s))
+      optimize_boundary(s, mesh, may_remove ? vertex_removal(s) : Vertex_removal());
+    if(may_remove && are_few_not_arrived(s))
       remove_unarrived_vertices(s, mesh, status);
   }
   note_lost_cells(s, mesh);

@@ -25,18 +25,25 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /// Brings the boundary onto the surface, with the vertices that the budget has left.
-inline void optimize_boundary(Meshing_state& s, Core_mesh& mesh)
+/// \param remove how vertices are removed that have not arrived, if they are few; empty: they stay
+inline void optimize_boundary(Meshing_state& s, Core_mesh& mesh, const Vertex_removal& remove)
 {
   s.visitor.before_fitting(mesh);
   s.result.quality_bound = s.quality_bound;
-  const std::size_t rest = s.criteria.maximal_number_of_vertices() - mesh.number_of_vertices();
+  const std::size_t before = mesh.number_of_vertices(),
+                    rest = s.criteria.maximal_number_of_vertices() - before;
   const auto criteria = Mixed_mesh_optimization_criteria_3()
                           .tolerance(s.result.tolerance)
                           .quality_bound(s.quality_bound)
                           .sharp_angle(s.criteria.sharp_angle())
                           .number_of_bisections(s.share_of_bisections() > 0 ? rest : 0);
-  s.result.optimization = optimize_bounded(mesh, s.root.domain(), {criteria, s.criteria.number_of_threads},
-                                           Aspect_ratio_quality_3(), [&s] { return s.go_on(); });
+  s.result.optimization = optimize_bounded(
+    mesh, s.root.domain(), {criteria, s.criteria.number_of_threads}, Aspect_ratio_quality_3(),
+    [&s] { return s.go_on(); }, 0, remove);
+  if(remove)
+    s.result.number_of_collapsed_vertices += before + s.result.optimization.number_of_bisections
+                                             - s.result.optimization.number_of_merged_vertices
+                                             - mesh.number_of_vertices();
   const bool is_only_wished = is_tolerance_wished(s.criteria)
                               && s.result.optimization.status
                                    == Mixed_mesh_optimization_status::TOLERANCE_NOT_REACHED;
@@ -60,6 +67,14 @@ inline bool coarsen_to(Meshing_state& s, Core_mesh& mesh, std::size_t number_of_
          && !s.is_stopped;
 }
 
+/// How vertices are removed while the boundary is brought onto the surface.
+inline Vertex_removal vertex_removal(Meshing_state& s)
+{
+  return [&s](Core_mesh& mesh, std::size_t number) {
+    return coarsen_to(s, mesh, mesh.number_of_vertices() - number);
+  };
+}
+
 /// Removes the boundary vertices off the surface, if they are few, and optimizes the mesh again.
 /// \param status before the optimization
 inline void remove_unarrived_vertices(Meshing_state& s, Core_mesh& mesh, Mixed_mesh_status status)
@@ -72,7 +87,7 @@ inline void remove_unarrived_vertices(Meshing_state& s, Core_mesh& mesh, Mixed_m
   s.result.status = status;
   s.result.number_of_collapsed_vertices += off;
   if(coarsen_to(s, other, mesh.number_of_vertices() - off))
-    optimize_boundary(s, other);
+    optimize_boundary(s, other, {});
   if(!s.is_stopped && other.number_of_vertices() > 0 && s.number_not_arrived() < off)
     mesh = std::move(other);
   else
