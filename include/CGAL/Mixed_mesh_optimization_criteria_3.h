@@ -45,8 +45,8 @@ public:
   /// The value set, or the default.
   double tolerance() const { return m_tolerance; }
 
-  /// Sets the number of rounds of moves and flips. Default: 4; 12 with a tolerance and at most 20,000
-  /// vertices; 2 with more than 100,000.
+  /// Sets the number of rounds of moves and flips. Default: 4, or 12 with a tolerance; 3 with more than
+  /// 20,000 vertices; 2 with more than 100,000.
   /// \pre at least 1
   Mixed_mesh_optimization_criteria_3& number_of_rounds(int rounds)
   {
@@ -57,10 +57,10 @@ public:
   /// The number of rounds for a mesh of a number of vertices.
   int number_of_rounds_for(std::size_t number_of_vertices) const
   {
-    const bool has_many_rounds = m_tolerance > 0 && number_of_vertices <= 20000;
     return m_number_of_rounds > 0        ? m_number_of_rounds
-           : has_many_rounds             ? 12
            : number_of_vertices > 100000 ? 2
+           : number_of_vertices > 20000  ? 3
+           : m_tolerance > 0             ? 12
                                          : 4;
   }
 

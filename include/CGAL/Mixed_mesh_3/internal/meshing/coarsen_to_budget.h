@@ -31,43 +31,88 @@ namespace internal {
 // and else.
 constexpr double finer_multiple = 20, finer_multiple_for_distance = 5;
 
-/// Finds an octree with which the topology is right, with cells as small as walls and gaps ask for, or with
-/// all cells at the surface smaller. It becomes the best.
-/// \param octree from which to start
-/// \param least number of its vertices
-/// \return whether there is one
-inline bool find_finer_octree(Meshing_state& s, Located_octree octree, std::size_t least, std::size_t most,
-                              bool only_thin)
+/// Octrees that get finer, level by level: where walls and gaps ask for it, or at the whole surface.
+class Finer_octrees
 {
-  const Stage_scope scope(s.visitor, Stage::OCTREE);
-  constexpr double most_cells_per_vertex = 2; // at most, nearly
+  Located_octree m_octree;
+  bool m_only_thin;
+  int m_level;
+  bool m_is_over = false;
+  double m_vertices_per_cell = 0; // of the last one that was tried
+
+  static constexpr double most_cells_per_vertex = 2; // at most, nearly
   // Share of the number of vertices that is expected from the octree before: the number for each cell hardly
   // changes, and a trial takes as long as all the smaller ones.
-  constexpr double sure_share = 0.9;
-  double vertices_per_cell = 0; // of the octree before
-  s.are_gaps_wider = only_thin;
-  for(int level = s.coarsest_level(); level < Octree::max_level; ++level) {
+  static constexpr double sure_share = 0.9;
+
+public:
+  Finer_octrees(Located_octree start, bool only_thin, int level)
+    : m_octree(std::move(start)), m_only_thin(only_thin), m_level(level)
+  {
+  }
+
+  const Located_octree& octree() const { return m_octree; }
+  bool only_thin() const { return m_only_thin; }
+  bool is_over() const { return m_is_over; }
+  std::size_t number_of_cells() const { return m_octree.number_of_cells(); }
+
+  /// Goes on to the next octree that may have at most that number of vertices. \return whether there is one
+  bool advance(std::size_t most)
+  {
     std::vector<Octree::Node_index> leaves;
-    if(only_thin)
-      leaves = thin_cells(octree, level, 1);
-    else
-      for(Octree::Node_index n : octree.leaves_to_refine(level, false))
-        if(octree.side(n) == ON_BOUNDARY)
-          leaves.push_back(n);
-    if(leaves.empty())
+    for(; leaves.empty() && m_level < Octree::max_level; ++m_level)
+      leaves = m_only_thin ? thin_cells(m_octree, m_level, 1) : cells_at_surface();
+    m_octree.refine(leaves);
+    m_is_over = leaves.empty()
+                || (std::max)(1 / most_cells_per_vertex, sure_share * m_vertices_per_cell)
+                       * double(number_of_cells())
+                     > double(most);
+    return !m_is_over;
+  }
+
+  /// Notes the number of vertices of the octree; those after it have more.
+  void note(std::size_t number_of_vertices, std::size_t most)
+  {
+    m_vertices_per_cell = double(number_of_vertices) / double(number_of_cells());
+    m_is_over = number_of_vertices > most;
+  }
+
+private:
+  std::vector<Octree::Node_index> cells_at_surface() const
+  {
+    std::vector<Octree::Node_index> leaves;
+    for(Octree::Node_index n : m_octree.leaves_to_refine(m_level, false))
+      if(m_octree.side(n) == ON_BOUNDARY)
+        leaves.push_back(n);
+    return leaves;
+  }
+};
+
+/// Finds an octree with which the topology is right, with cells as small as walls and gaps ask for, or with
+/// all cells at the surface smaller: the one with fewer cells, nearly. It becomes the best.
+/// \param start from which to start
+/// \param least number of its vertices
+/// \return whether there is one
+inline bool find_finer_octree(Meshing_state& s, const Located_octree& start, std::size_t least,
+                              std::size_t most)
+{
+  const Stage_scope scope(s.visitor, Stage::OCTREE);
+  Finer_octrees thin(start, true, s.coarsest_level()), all(start, false, s.coarsest_level());
+  while(!thin.is_over() || !all.is_over()) {
+    const bool is_thin_next = all.is_over()
+                              || (!thin.is_over() && thin.number_of_cells() <= all.number_of_cells());
+    Finer_octrees& next = is_thin_next ? thin : all;
+    if(!next.advance(most))
       continue;
-    octree.refine(leaves);
-    const double cells = double(octree.number_of_cells());
-    if(cells > most_cells_per_vertex * double(most) || sure_share * vertices_per_cell * cells > double(most))
+    s.are_gaps_wider = next.only_thin();
+    Candidate candidate = s.try_octree(next.octree());
+    if(candidate.is_stopped)
       return false;
-    Candidate candidate = s.try_octree(octree);
-    if(candidate.is_stopped || candidate.number_of_vertices > most)
-      return false;
-    vertices_per_cell = double(candidate.number_of_vertices) / cells;
-    if(candidate.number_of_vertices < least || !candidate.is_manifold()
-       || s.misfit_on_lattice(octree, candidate, 0).is_topology_wrong())
+    next.note(candidate.number_of_vertices, most);
+    if(next.is_over() || candidate.number_of_vertices < least || !candidate.is_manifold()
+       || s.misfit_on_lattice(next.octree(), candidate, 0).is_topology_wrong())
       continue;
-    s.take(std::move(octree), std::move(candidate));
+    s.take(next.octree(), std::move(candidate));
     return true;
   }
   return false;
@@ -217,7 +262,7 @@ inline void improve_by_finer_octree(Meshing_state& s, Core_mesh& mesh, Misfit& m
   Best_mesh best{misfit, s.result, std::nullopt};
   bool is_finer = false;
   for(int trial = 0; trial < most_trials && !s.is_stopped && !best.misfit.is_right(); ++trial) {
-    if(!find_finer_octree(s, start, least, most, true) && !find_finer_octree(s, start, least, most, false))
+    if(!find_finer_octree(s, start, least, most))
       break;
     is_finer = true;
     least = 2 * s.best.number_of_vertices;
