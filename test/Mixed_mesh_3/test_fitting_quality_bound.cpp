@@ -586,8 +586,8 @@ void test_merging()
   BOOST_TEST(kept.elements().connectivity() == start.elements().connectivity());
 }
 
-// Few vertices that have not arrived are removed at once, if they may be: no more are off the surface then, and
-// other runs are spared.
+// Few vertices that have not arrived are removed at once, if they may be: no more are off the surface then,
+// and other runs are spared.
 void test_removal()
 {
   std::size_t number_of_calls = 0, number_removed = 0, rounds_without = 0, rounds_with = 0;
