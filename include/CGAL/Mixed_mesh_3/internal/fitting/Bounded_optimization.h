@@ -83,8 +83,7 @@ class Bounded_optimization
   static constexpr double removable_share = 0.01;
 
   // The attraction would make hard cases harder.
-  static constexpr Fitting_mode freely{false, false}, without_attraction{false, true},
-    within_bound{true, true};
+  static constexpr Fitting_mode without_attraction{false, true, false}, within_bound{true, true, false};
 
   // Number of rings of faces around crossing faces that are held in addition, in successive attempts.
   static constexpr int rings[] = {0, 1, 2, 4, 8};
@@ -127,7 +126,7 @@ private:
   Result optimize(const std::function<bool()>& go_on)
   {
     Outcome best;
-    for(const Fitting_mode& mode : {freely, without_attraction}) {
+    for(const Fitting_mode& mode : {freely(), without_attraction}) {
       Outcome outcome = optimize_freely(mode, go_on);
       if(outcome.result.status == Status::STOPPED)
         return outcome.meets_guarantees && !mode.is_without_attraction ? take(outcome)
@@ -150,6 +149,9 @@ private:
     bounded.meets_guarantees = true;
     return take(bounded.result.status == Status::STOPPED || is_better(bounded, best) ? bounded : best);
   }
+
+  // The first mode: a run that is good only if all of the boundary arrives may end early.
+  Fitting_mode freely() const { return {false, false, m_tolerated_share_not_arrived == 0}; }
 
   bool has_bound() const { return m_criteria.quality_bound() < std::numeric_limits<double>::infinity(); }
 
@@ -197,7 +199,7 @@ private:
       criteria.number_of_bisections(m_mesh.number_of_vertices() + criteria.number_of_bisections()
                                     - start.number_of_vertices());
     const Bounded_optimization rest(start, m_domain, criteria, m_quality, m_tolerated_share_not_arrived, {});
-    Outcome outcome = rest.optimize_freely(freely, go_on);
+    Outcome outcome = rest.optimize_freely(freely(), go_on);
     outcome.result.number_of_flips += r.number_of_flips;
     outcome.result.number_of_bisections += r.number_of_bisections;
     outcome.result.number_of_merged_vertices += r.number_of_merged_vertices;

@@ -56,6 +56,8 @@ struct Fitting_mode
   /// Whether boundary vertices are not drawn to places that are too far, which are only measured; edges are
   /// bisected late.
   bool is_without_attraction = false;
+  /// Whether the run ends once it is likely that not all of the boundary will arrive.
+  bool needs_all = false;
 };
 
 /*!

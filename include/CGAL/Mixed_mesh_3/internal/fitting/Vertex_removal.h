@@ -4,8 +4,6 @@
 // $URL$
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// The optimization as a function that is compiled once.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_VERTEX_REMOVAL_H
 #define CGAL_MIXED_MESH_3_INTERNAL_FITTING_VERTEX_REMOVAL_H

@@ -108,8 +108,7 @@ Fitting_outcome optimize_surface(const Core_mesh& start, const Any_surface& doma
     const bool is_hard = crossing > max_share_crossing * boundary
                          || (mode.is_without_attraction
                              && double(s.underway.size()) > max_share_held * boundary);
-    if(s.has_bound() && !mode.keeps_bound
-       && (is_hard || (crossing > max_crossing && !mode.is_without_attraction))) {
+    if(s.has_bound() && !mode.keeps_bound && (is_hard || (crossing > max_crossing && mode.needs_all))) {
       s.result.is_boundary_simple = false; // only small steps lead to a boundary that does not cut itself
       s.result.status = Mixed_mesh_optimization_status::NOT_ALL_ARRIVED;
       return {start, s.result, {}, is_hard, !is_hard};
