@@ -79,11 +79,9 @@ class Bounded_optimization
   // Tolerated share of vertices between subdomains that have not arrived; tolerated loss of the length of
   // sharp edges.
   static constexpr double tolerated_share_on_interfaces = 0.01, tolerated_loss = 0.02;
-  // Share of the boundary vertices that may be removed.
-  static constexpr double removable_share = 0.01;
 
   // The attraction would make hard cases harder.
-  static constexpr Fitting_mode without_attraction{false, true, false}, within_bound{true, true, false};
+  static constexpr Fitting_mode without_attraction{false, true}, within_bound{true, true};
 
   // Number of rings of faces around crossing faces that are held in addition, in successive attempts.
   static constexpr int rings[] = {0, 1, 2, 4, 8};
@@ -118,9 +116,8 @@ private:
   {
     Core_mesh mesh;
     Result result;
-    bool meets_guarantees = false; // within the bound, and the boundary does not cut itself
-    bool has_attraction = false;   // places that are too far draw the boundary
-    bool has_crossed = false;      // not finished, as some faces cut each other after the arrival
+    bool meets_guarantees = false;  // within the bound, and the boundary does not cut itself
+    bool may_be_attraction = false; // that keeps vertices from arriving, or makes faces cut each other
   };
 
   Result optimize(const std::function<bool()>& go_on)
@@ -138,7 +135,7 @@ private:
         if(rest.meets_guarantees && is_fitted(rest.result))
           return take(rest);
       }
-      const bool may_be_attraction = outcome.has_attraction || outcome.has_crossed;
+      const bool may_be_attraction = outcome.may_be_attraction;
       if(is_better(outcome, best))
         best = std::move(outcome);
       if(!may_be_attraction)
@@ -181,9 +178,9 @@ private:
     outcome.mesh = std::move(fitted.mesh);
     outcome.result = fitted.result;
     outcome.meets_guarantees = is_within_bound(outcome.mesh) && outcome.result.is_boundary_simple;
-    outcome.has_attraction = (m_criteria.tolerance() > 0 || m_criteria.number_of_bisections() > 0)
-                             && !fitted.is_without_attraction;
-    outcome.has_crossed = fitted.has_crossed;
+    outcome.may_be_attraction = fitted.has_crossed
+                                || ((m_criteria.tolerance() > 0 || m_criteria.number_of_bisections() > 0)
+                                    && !fitted.is_without_attraction);
     return outcome;
   }
 

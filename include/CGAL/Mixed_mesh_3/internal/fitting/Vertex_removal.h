@@ -23,6 +23,10 @@ namespace internal {
 /// first, and returns whether it has removed so many.
 using Vertex_removal = std::function<bool(Core_mesh&, std::size_t)>;
 
+/// Share of the boundary vertices off the surface that is small enough for them to be removed: the mesh is
+/// worth mending, as any other one has fewer vertices in the region.
+constexpr double removable_share = 0.01;
+
 } // namespace internal
 } // namespace Mixed_meshes_3
 } // namespace CGAL

@@ -13,6 +13,7 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_removal.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Meshing_state.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/remove_unarrived_vertices.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
@@ -113,12 +114,11 @@ inline void note_share_filled(Meshing_state& s, std::size_t n)
     s.result.status = worse_status(s.result.status, Mixed_mesh_status::BUDGET_NOT_FILLED);
 }
 
-/// Whether the boundary vertices off the surface are so few that the mesh is worth mending: any other one has
-/// fewer vertices in the region.
+/// Whether the boundary vertices off the surface are so few that they may be removed.
 inline bool are_few_not_arrived(const Meshing_state& s)
 {
-  constexpr double few = 0.01;
-  return double(s.number_not_arrived()) <= few * double(s.result.optimization.number_of_boundary_vertices);
+  return double(s.number_not_arrived())
+         <= removable_share * double(s.result.optimization.number_of_boundary_vertices);
 }
 
 /// The boundary of uniform cells between planes of the surface is the surface: vertices are at their final
