@@ -75,6 +75,7 @@ class Bounded_optimization
   const double m_edge_length; // mean of the boundary; any value if there are no sharp edges
   const Sharp_features m_features;
   std::vector<std::uint8_t> m_is_held; // one value for each vertex
+  bool m_is_within_bound = false;      // known of the mesh taken
 
   // Tolerated share of vertices between subdomains that have not arrived; tolerated loss of the length of
   // sharp edges.
@@ -104,10 +105,10 @@ public:
   Result operator()(const std::function<bool()>& go_on)
   {
     Result result = optimize(go_on);
-    const double bound = bound_for_doubles(m_criteria);
     result.quality_bound = m_criteria.quality_bound();
-    for(std::size_t e = 0; e < m_mesh.number_of_elements(); ++e)
-      result.number_of_elements_above_bound += cost(m_mesh, e) > bound;
+    if(!m_is_within_bound)
+      for(std::size_t e = 0; e < m_mesh.number_of_elements(); ++e)
+        result.number_of_elements_above_bound += cost(m_mesh, e) > bound();
     return result;
   }
 
@@ -116,6 +117,7 @@ private:
   {
     Core_mesh mesh;
     Result result;
+    bool is_within_bound = false;   // known to have no element above the bound
     bool meets_guarantees = false;  // within the bound, and the boundary does not cut itself
     bool may_be_attraction = false; // that keeps vertices from arriving, or makes faces cut each other
   };
@@ -147,9 +149,14 @@ private:
     return take(bounded.result.status == Status::STOPPED || is_better(bounded, best) ? bounded : best);
   }
 
-  // The first mode: a run that is good only if all of the boundary arrives may end early.
-  Fitting_mode freely() const { return {false, false, m_tolerated_share_not_arrived == 0}; }
+  // The first mode: a run that is good only if all of the boundary arrives may end early; one of which nothing
+  // need arrive is an estimate.
+  Fitting_mode freely() const
+  {
+    return {false, false, m_tolerated_share_not_arrived == 0, m_tolerated_share_not_arrived < 1};
+  }
 
+  double bound() const { return bound_for_doubles(m_criteria); }
   bool has_bound() const { return m_criteria.quality_bound() < std::numeric_limits<double>::infinity(); }
 
   bool is_better(const Outcome& a, const Outcome& b) const
@@ -166,6 +173,7 @@ private:
   Result take(Outcome& outcome)
   {
     m_mesh = std::move(outcome.mesh);
+    m_is_within_bound = outcome.is_within_bound;
     return outcome.result;
   }
 
@@ -177,7 +185,10 @@ private:
     Outcome outcome;
     outcome.mesh = std::move(fitted.mesh);
     outcome.result = fitted.result;
-    outcome.meets_guarantees = is_within_bound(outcome.mesh) && outcome.result.is_boundary_simple;
+    const double largest = largest_cost(outcome.mesh);
+    outcome.is_within_bound = largest <= bound();
+    outcome.meets_guarantees = (outcome.is_within_bound || largest <= largest_cost(m_mesh))
+                               && outcome.result.is_boundary_simple;
     outcome.may_be_attraction = fitted.has_crossed
                                 || ((m_criteria.tolerance() > 0 || m_criteria.number_of_bisections() > 0)
                                     && !fitted.is_without_attraction);
@@ -295,12 +306,6 @@ private:
     for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
       largest = (std::max)(largest, cost(mesh, e));
     return largest;
-  }
-
-  bool is_within_bound(const Core_mesh& mesh) const
-  {
-    const double cost = largest_cost(mesh);
-    return cost <= bound_for_doubles(m_criteria) || cost <= largest_cost(m_mesh);
   }
 };
 

@@ -58,6 +58,8 @@ struct Fitting_mode
   bool is_without_attraction = false;
   /// Whether the run ends once it is likely that not all of the boundary will arrive.
   bool needs_all = false;
+  /// Whether the largest distance is measured in the end, which an estimate of the boundary does not need.
+  bool measures_distance = true;
 };
 
 /*!

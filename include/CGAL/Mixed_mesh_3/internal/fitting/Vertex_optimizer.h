@@ -229,10 +229,15 @@ public:
   /// The vertices of the elements that cost more than `cost`, ascending.
   std::vector<Vertex_index> vertices_above(double cost)
   {
+    std::vector<std::uint8_t> is_above(m_mesh.points.size(), 0);
+    for(Element_index e = 0; e < m_mesh.elements.size(); ++e)
+      if(const Working_mesh::Element& element = m_mesh.elements[e];
+         !element.is_removed && known_cost(e) > cost)
+        for(Vertex_index v : element)
+          is_above[v] = 1;
     std::vector<Vertex_index> vertices;
-    for(Vertex_index v = 0; v < m_mesh.points.size(); ++v)
-      if(std::any_of(m_mesh.incident[v].begin(), m_mesh.incident[v].end(),
-                     [&](Element_index e) { return known_cost(e) > cost; }))
+    for(Vertex_index v = 0; v < is_above.size(); ++v)
+      if(is_above[v])
         vertices.push_back(v);
     return vertices;
   }

@@ -85,7 +85,7 @@ bool arrive(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
     if(!go_on())
       return false;
     s.advance(acceptable);
-    s.moves.run(4, s.effort.good_enough_to_arrive, s.sweeps_after_boundary);
+    s.moves.run(4, s.effort.good_enough_to_arrive, s.effort.sweeps_to_arrive);
     if(is_careful && (round % rounds_until_check == rounds_until_check - 1 || s.underway.empty())) {
       const std::vector<Vertex_index> crossing = s.crossing_vertices();
       if(!crossing.empty()) {

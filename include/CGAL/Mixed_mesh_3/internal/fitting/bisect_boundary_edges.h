@@ -18,8 +18,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <map>
+#include <cstdint>
 #include <queue>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -40,6 +41,11 @@ class Boundary_bisector
 {
   using Edge = std::pair<Vertex_index, Vertex_index>; // smaller vertex first
 
+  struct Hash
+  {
+    std::size_t operator()(const Edge& e) const { return std::uint64_t(e.first) << 32 | e.second; }
+  };
+
   struct Triangles
   {
     std::array<Vertex_index, 2> apexes; // apexes of two of the triangles
@@ -52,8 +58,8 @@ class Boundary_bisector
   const Project& m_project;
   const Gain& m_gain;
   const double m_worst;
-  std::map<Edge, Triangles> m_triangles;                // triangles at each edge
-  std::priority_queue<std::pair<double, Edge>> m_queue; // edges by gain
+  std::unordered_map<Edge, Triangles, Hash> m_triangles; // triangles at each edge
+  std::priority_queue<std::pair<double, Edge>> m_queue;  // edges by gain
 
   static Edge edge(Vertex_index a, Vertex_index b) { return std::minmax(a, b); }
 
@@ -97,6 +103,7 @@ public:
                     const Interface_faces& boundary, double worst)
     : m_mesh(mesh), m_quality(quality), m_project(project), m_gain(gain), m_worst(worst)
   {
+    m_triangles.reserve(3 * boundary.faces.size() / 2);
     for(std::size_t f = 0; f < boundary.faces.size(); ++f) {
       const Face_vertices& v = boundary.faces[f].vertices();
       for(int i = 0; i < v.size(); ++i) {
@@ -110,7 +117,7 @@ public:
       }
     }
     for(const auto& [e, triangles] : m_triangles)
-      push(e.first, e.second);
+      push(e.first, e.second); // in any order: the queue has a total one
   }
 
   /// \return the edges that were bisected, at most `number`; their middles are the last vertices

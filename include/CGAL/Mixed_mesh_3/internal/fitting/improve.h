@@ -53,8 +53,8 @@ bool improve(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
   for(int round = 0; round < rounds; ++round) {
     if(!go_on())
       return false;
-    if(has_tolerance && round % rounds_to_flip == rounds_to_flip - 1)
-      s.save_points_if_simple();
+    if(has_tolerance && round > 0 && round % rounds_to_flip == rounds_to_flip - 1)
+      s.save_points_if_simple(); // before the first round, the arrival was tested
     const int phase = round < second_phase ? 0 : 1;
     const auto [power, least_cost_to_flip, weight] = phases[phase];
     if(s.criteria.flips() && round % rounds_to_flip == 0)

@@ -268,8 +268,11 @@ private:
                    for(std::size_t k = first; k < (std::min)(first + samples_in_turn, asked.size()); ++k) {
                      const Vec3& s = m_samples[asked[k]].point;
                      std::size_t& nearest = m_nearest[asked[k]];
-                     // The triangle is the nearest one of the last measurement.
-                     const Triangle_tree::Closest closest = tree.closest(s, tree.closest(s, nearest));
+                     // Hints: the nearest triangle of the last measurement, and of the last sample.
+                     Triangle_tree::Closest hint = tree.closest(s, nearest);
+                     if(k > first)
+                       hint = tree.nearer(s, hint, tree.closest(s, m_nearest[asked[k - 1]]));
+                     const Triangle_tree::Closest closest = tree.closest(s, hint);
                      nearest = closest.triangle;
                      found[k] = closest.point;
                    }

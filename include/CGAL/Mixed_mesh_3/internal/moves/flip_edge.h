@@ -14,6 +14,8 @@
 
 #include <CGAL/Mixed_mesh_3/internal/moves/Flip_context.h>
 
+#include <boost/container/static_vector.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,10 +29,14 @@ namespace internal {
 /// The largest number of tetrahedra around an edge that is flipped.
 inline constexpr int largest_ring = 7;
 
+// Vertices of a ring, and the tetrahedra around an edge: short arrays, without allocation.
+using Ring = boost::container::static_vector<Vertex_index, largest_ring + 1>;
+using Ring_links = boost::container::static_vector<std::array<Vertex_index, 2>, largest_ring>;
+using Ring_elements = boost::container::static_vector<Element_index, largest_ring>;
+
 /// The ring of an edge in a flat place of the boundary, beside which there are sharp edges. An edge of the
 /// boundary between the ends of the ring will replace the edge.
-inline std::vector<Vertex_index> open_ring(const Working_mesh& mesh, Vertex_index a, Vertex_index b,
-                                           const std::vector<std::array<Vertex_index, 2>>& links)
+inline Ring open_ring(const Working_mesh& mesh, Vertex_index a, Vertex_index b, const Ring_links& links)
 {
   constexpr double flat = 1e-9; // volume divided by the third power of the longest edge
   if(mesh.sharp_edges.empty() || mesh.is_sharp(a, b) || links.size() >= std::size_t(largest_ring))
@@ -40,7 +46,7 @@ inline std::vector<Vertex_index> open_ring(const Working_mesh& mesh, Vertex_inde
   });
   if(first == links.end())
     return {};
-  std::vector<Vertex_index> ring{(*first)[0]};
+  Ring ring{(*first)[0]};
   for(auto next = first; next != links.end() && ring.size() <= links.size();
       next = std::find_if(links.begin(), links.end(), [&](const auto& l) { return l[0] == ring.back(); }))
     ring.push_back((*next)[1]);
@@ -60,10 +66,9 @@ inline std::vector<Vertex_index> open_ring(const Working_mesh& mesh, Vertex_inde
 /// positive. Empty unless all elements of the edge are tetrahedra, and the edge is inside or can be flipped
 /// on the boundary: the ring of a boundary edge is open.
 /// \param elements gets the tetrahedra, if the ring is not empty
-inline std::vector<Vertex_index> ring_of(const Working_mesh& mesh, Vertex_index a, Vertex_index b,
-                                         std::vector<Element_index>& elements)
+inline Ring ring_of(const Working_mesh& mesh, Vertex_index a, Vertex_index b, Ring_elements& elements)
 {
-  std::vector<std::array<Vertex_index, 2>> links;
+  Ring_links links;
   for(Element_index e : mesh.incident[a]) {
     const Working_mesh::Element& element = mesh.elements[e];
     const int j = element.position(b);
@@ -83,15 +88,18 @@ inline std::vector<Vertex_index> ring_of(const Working_mesh& mesh, Vertex_index 
     links.push_back(is_even ? std::array<Vertex_index, 2>{c, d} : std::array<Vertex_index, 2>{d, c});
   }
   if(links.size() < 3)
-    return links.size() == 2 ? open_ring(mesh, a, b, links) : std::vector<Vertex_index>();
-  std::vector<Vertex_index> ring{links[0][0]};
+    return links.size() == 2 ? open_ring(mesh, a, b, links) : Ring();
+  Ring ring{links[0][0]};
   while(ring.size() <= links.size()) {
     const auto next = std::find_if(links.begin(), links.end(),
                                    [&](const auto& l) { return l[0] == ring.back(); });
     if(next == links.end())
       return open_ring(mesh, a, b, links); // the edge is on the boundary
-    if((*next)[1] == ring.front())
-      return ring.size() == links.size() ? ring : std::vector<Vertex_index>();
+    if((*next)[1] == ring.front()) {
+      if(ring.size() != links.size())
+        ring.clear();
+      return ring;
+    }
     ring.push_back((*next)[1]);
   }
   return {};
@@ -102,8 +110,8 @@ inline std::vector<Vertex_index> ring_of(const Working_mesh& mesh, Vertex_index 
 template <class Quality>
 bool flip_edge(Flip_context<Quality>& context, Transaction& transaction, Vertex_index a, Vertex_index b)
 {
-  std::vector<Element_index> old;
-  const std::vector<Vertex_index> ring = ring_of(context.mesh, a, b, old);
+  Ring_elements old;
+  const Ring ring = ring_of(context.mesh, a, b, old);
   const int n = int(ring.size());
   if(n < 3)
     return false;

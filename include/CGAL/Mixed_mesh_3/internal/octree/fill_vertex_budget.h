@@ -134,7 +134,8 @@ private:
       const double cells = double(m_sequence.number_of_cells(low));
       if(high != unknown)
         rate = double(n_high - n_low) / (std::max)(1., double(m_sequence.number_of_cells(high)) - cells);
-      const bool is_slow = step > 2 && step % 2 == 1 && high != unknown;
+      // Halving ends a search that the rate leads astray. A wide range is met at once or nearly.
+      const bool is_slow = step > (m_goal < double(m_budget) ? 4 : 2) && step % 2 == 1 && high != unknown;
       const std::size_t wanted = is_slow ? low + (high - low) / 2
                                          : steps_for(cells + (m_goal - double(n_low)) / rate);
       const std::size_t steps = available((std::min)((std::max)(wanted, low + 1), high - 1));

@@ -13,13 +13,12 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+#include <CGAL/Mixed_mesh_3/internal/base/box_pairs.h>
 #include <CGAL/Mixed_mesh_3/internal/base/compatibility.h>
 
-#include <CGAL/Box_intersection_d/Box_with_info_d.h>
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_plus_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/box_intersection_d.h>
 #include <CGAL/enum.h>
 #include <CGAL/intersections.h>
 #include <CGAL/number_utils.h>
@@ -135,14 +134,13 @@ private:
   static std::vector<Pair> meetings(const std::vector<Input_point>& points,
                                     const std::vector<Triangle>& triangles, std::size_t most)
   {
-    using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
-    std::vector<Box> boxes;
+    std::vector<Numbered_box> boxes;
     for(std::size_t t = 0; t < triangles.size(); ++t)
       boxes.emplace_back(points[triangles[t][0]].bbox() + points[triangles[t][1]].bbox()
                            + points[triangles[t][2]].bbox(),
                          t);
     std::vector<Pair> pairs;
-    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+    for_each_pair_of_boxes(boxes, [&](const Numbered_box& a, const Numbered_box& b) {
       if(!do_meet(triangles[a.info()], triangles[b.info()], points))
         return;
       pairs.push_back(std::minmax(a.info(), b.info()));

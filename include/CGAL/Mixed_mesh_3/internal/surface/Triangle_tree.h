@@ -142,6 +142,12 @@ public:
     return {m_triangles[m_positions[triangle]](p), triangle};
   }
 
+  /// The nearer of two points; the first one if they are as near.
+  static const Closest& nearer(const Vec3& p, const Closest& a, const Closest& b)
+  {
+    return squared_distance(p, b.point) < squared_distance(p, a.point) ? b : a;
+  }
+
 private:
   static constexpr int width = 4; // children of a node, and most triangles of a leaf
 

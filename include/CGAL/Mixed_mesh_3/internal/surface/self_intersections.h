@@ -15,12 +15,11 @@
 #include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Shared_mark.h>
+#include <CGAL/Mixed_mesh_3/internal/base/box_pairs.h>
 #include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <CGAL/Bbox_3.h>
-#include <CGAL/Box_intersection_d/Box_with_info_d.h>
-#include <CGAL/box_intersection_d.h>
 #include <CGAL/enum.h>
 #include <CGAL/intersections.h>
 
@@ -99,7 +98,7 @@ inline std::vector<Vertex_index> vertices_of_self_intersections(const std::vecto
                                                                 const std::vector<Face>& faces,
                                                                 unsigned threads = 1)
 {
-  using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
+  using Box = Numbered_box;
   constexpr std::size_t boxes_worth_a_slab = 1000, slabs_per_thread = 4;
   std::vector<Predicates_kernel::Point_3> points;
   points.reserve(positions.size());
@@ -135,7 +134,7 @@ inline std::vector<Vertex_index> vertices_of_self_intersections(const std::vecto
                                                    : (std::min)(slabs_per_thread * threads,
                                                                 boxes.size() / boxes_worth_a_slab);
   if(number_of_slabs < 2) {
-    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), mark_if_crossing);
+    for_each_pair_of_boxes(boxes, mark_if_crossing);
   } else {
     int axis = 0;
     for(int k = 1; k < 3; ++k)
@@ -143,11 +142,7 @@ inline std::vector<Vertex_index> vertices_of_self_intersections(const std::vecto
         axis = k;
     auto slabs = boxes_by_slabs(boxes, axis, number_of_slabs);
     parallel_for(
-      slabs.size(), threads,
-      [&](std::size_t i) {
-        CGAL::box_self_intersection_d(slabs[i].begin(), slabs[i].end(), mark_if_crossing);
-      },
-      1);
+      slabs.size(), threads, [&](std::size_t i) { for_each_pair_of_boxes(slabs[i], mark_if_crossing); }, 1);
   }
   std::vector<Vertex_index> vertices;
   for(Vertex_index v = 0; v < is_marked.size(); ++v)
