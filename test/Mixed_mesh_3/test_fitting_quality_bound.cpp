@@ -606,7 +606,7 @@ void test_removal()
             ++rounds;
             return true;
           },
-          0, remove);
+          {}, remove);
       };
       internal::Core_mesh kept = internal::as_core_mesh(start), removed = kept;
       const std::size_t before = number_of_calls;

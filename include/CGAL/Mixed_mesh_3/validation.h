@@ -43,7 +43,7 @@ inline bool is_balanced(const internal::Octree& octree, Adjacency adjacency)
 {
   using internal::Octree;
   // A leaf finds a coarser neighbor by looking for a neighbor of its own size.
-  const auto directions = internal::neighbor_directions(adjacency);
+  const internal::Directions& directions = internal::neighbor_directions(adjacency);
   for(Octree::Node_index n = 0; n < octree.size(); ++n)
     if(octree.is_leaf(n))
       for(const auto& d : directions) {

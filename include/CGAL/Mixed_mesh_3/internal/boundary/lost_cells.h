@@ -44,7 +44,7 @@ inline std::vector<Octree::Node_index> lost_cells(const Located_octree& located,
     if(is_meshed[n])
       is_meshed[octree.parent(n)] = 1;
 
-  const auto directions = neighbor_directions(Adjacency::VERTEX);
+  const Directions& directions = neighbor_directions(Adjacency::VERTEX);
   std::vector<Octree::Node_index> lost;
   for(Octree::Node_index n = 0; n < octree.size(); ++n)
     if(octree.is_leaf(n) && located.meets_domain(n) && !is_meshed[n]

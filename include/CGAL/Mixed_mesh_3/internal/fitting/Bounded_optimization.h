@@ -17,6 +17,7 @@
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/element_points.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Optimization_effort.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_removal.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/optimize_surface.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
@@ -68,7 +69,8 @@ class Bounded_optimization
   const Any_surface& m_domain;
   const Criteria& m_criteria;
   const Quality& m_quality;
-  const bool m_has_subdomains;                // or sheets
+  const bool m_has_subdomains; // or sheets
+  const Fitting_estimate m_estimate;
   const double m_tolerated_share_not_arrived; // share of the boundary vertices
   const Vertex_removal m_remove;              // none: all vertices stay
   const Sharp_edges m_sharp_edges;
@@ -88,14 +90,12 @@ class Bounded_optimization
   static constexpr int rings[] = {0, 1, 2, 4, 8};
 
 public:
-  /// \param tolerated_share_not_arrived share of the boundary vertices: if no more have not arrived,
-  /// no other run is needed
   Bounded_optimization(Core_mesh& mesh, const Any_surface& domain, const Criteria& criteria,
-                       const Quality& quality, double tolerated_share_not_arrived, Vertex_removal remove)
+                       const Quality& quality, const Fitting_estimate& estimate, Vertex_removal remove)
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality),
-      m_has_subdomains(domain.subdomain_indices().size() > 1 || domain.has_sheets()),
-      m_tolerated_share_not_arrived(
-        (std::max)(tolerated_share_not_arrived, m_has_subdomains ? tolerated_share_on_interfaces : 0)),
+      m_has_subdomains(domain.subdomain_indices().size() > 1 || domain.has_sheets()), m_estimate(estimate),
+      m_tolerated_share_not_arrived((std::max)(estimate.tolerated_share_not_arrived,
+                                               m_has_subdomains ? tolerated_share_on_interfaces : 0)),
       m_remove(std::move(remove)), m_sharp_edges(domain.sharp_edges(criteria.sharp_angle())),
       m_edge_length(m_sharp_edges.edges.empty() ? 1 : mean_edge_length()),
       m_features(m_sharp_edges, m_edge_length), m_is_held(mesh.number_of_vertices(), 0)
@@ -149,11 +149,10 @@ private:
     return take(bounded.result.status == Status::STOPPED || is_better(bounded, best) ? bounded : best);
   }
 
-  // The first mode: a run that is good only if all of the boundary arrives may end early; one of which nothing
-  // need arrive is an estimate.
+  // The first mode: a run that is good only if all of the boundary arrives may end early.
   Fitting_mode freely() const
   {
-    return {false, false, m_tolerated_share_not_arrived == 0, m_tolerated_share_not_arrived < 1};
+    return {false, false, m_tolerated_share_not_arrived == 0, m_estimate.number_of_vertices};
   }
 
   double bound() const { return bound_for_doubles(m_criteria); }
@@ -206,7 +205,7 @@ private:
     if(criteria.number_of_bisections() > 0)
       criteria.number_of_bisections(m_mesh.number_of_vertices() + criteria.number_of_bisections()
                                     - start.number_of_vertices());
-    const Bounded_optimization rest(start, m_domain, criteria, m_quality, m_tolerated_share_not_arrived, {});
+    const Bounded_optimization rest(start, m_domain, criteria, m_quality, m_estimate, {});
     Outcome outcome = rest.optimize_freely(freely(), go_on);
     outcome.result.number_of_flips += r.number_of_flips;
     outcome.result.number_of_bisections += r.number_of_bisections;
@@ -314,11 +313,10 @@ template <class Quality>
 Mixed_mesh_optimization_result_3
 optimize_bounded(Core_mesh& mesh, const Any_surface& surface,
                  const With_threads<Mixed_mesh_optimization_criteria_3>& criteria, const Quality& quality,
-                 const std::function<bool()>& go_on, double tolerated_share_not_arrived = 0,
+                 const std::function<bool()>& go_on, const Fitting_estimate& estimate = {},
                  const Vertex_removal& remove = {})
 {
-  return Bounded_optimization<Quality>(mesh, surface, criteria, quality, tolerated_share_not_arrived,
-                                       remove)(go_on);
+  return Bounded_optimization<Quality>(mesh, surface, criteria, quality, estimate, remove)(go_on);
 }
 
 } // namespace internal

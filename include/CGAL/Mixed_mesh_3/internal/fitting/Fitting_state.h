@@ -58,8 +58,8 @@ struct Fitting_mode
   bool is_without_attraction = false;
   /// Whether the run ends once it is likely that not all of the boundary will arrive.
   bool needs_all = false;
-  /// Whether the largest distance is measured in the end, which an estimate of the boundary does not need.
-  bool measures_distance = true;
+  /// The number of vertices of an estimate; 0: none.
+  std::size_t number_of_vertices_estimated = 0;
 };
 
 /*!
@@ -118,7 +118,7 @@ struct Fitting_state
       boundary(strata.sorted_faces(start)),
       mesh(start, strata.of_vertices(start.number_of_vertices(), boundary),
            (std::min)(criteria.number_of_bisections(), start.number_of_vertices())),
-      effort(mesh.points.size()),
+      effort(mode.number_of_vertices_estimated > 0 ? mode.number_of_vertices_estimated : mesh.points.size()),
       moves(mesh, quality, project, criteria.sliding_threshold(), intermediate_bound()),
       mean_edge_lengths(measure_edges()), tolerances(enlarged_tolerances()), samples(surface_samples()),
       attraction(mesh, project, samples, criteria.number_of_threads), is_arrived(mesh.points.size(), 0),

@@ -16,6 +16,16 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
+/// What suffices where the boundary of a mesh is only estimated.
+struct Fitting_estimate
+{
+  /// Share of the boundary vertices that may have not arrived without a further run.
+  double tolerated_share_not_arrived = 0;
+  /// Number of vertices of the mesh that a coarser one is fitted for: the effort for that number suffices, and
+  /// the largest distance is not measured. 0: the number of vertices is that of the mesh.
+  std::size_t number_of_vertices = 0;
+};
+
 /*!
 Effort for each vertex: the more vertices, the less effort. Most of many vertices are inside, where much time
 gains little. Pairs are for the fourth power of the costs, which serves all elements, and the eighth, which

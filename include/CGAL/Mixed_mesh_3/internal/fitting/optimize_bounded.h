@@ -15,6 +15,7 @@
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Optimization_effort.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_removal.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Any_surface.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
@@ -28,14 +29,13 @@ namespace internal {
 
 /// Runs `Bounded_optimization`; the cost of an element is its aspect-ratio coefficient.
 /// \param go_on function that is asked before each round
-/// \param tolerated_share_not_arrived share of the boundary vertices that may have not arrived without a
-/// further run
+/// \param estimate what suffices, if not all of the boundary needs to arrive
 /// \param remove how few boundary vertices that have not arrived are removed; empty: they stay
 Mixed_mesh_optimization_result_3
 optimize_bounded(Core_mesh& mesh, const Any_surface& surface,
                  const With_threads<Mixed_mesh_optimization_criteria_3>& criteria,
                  const Aspect_ratio_quality_3& quality, const std::function<bool()>& go_on,
-                 double tolerated_share_not_arrived = 0, const Vertex_removal& remove = {});
+                 const Fitting_estimate& estimate = {}, const Vertex_removal& remove = {});
 
 } // namespace internal
 } // namespace Mixed_meshes_3

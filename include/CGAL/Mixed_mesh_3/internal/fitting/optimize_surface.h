@@ -120,7 +120,7 @@ Fitting_outcome optimize_surface(const Core_mesh& start, const Any_surface& doma
   std::vector<Vertex_index> crossing = retreat_from_self_intersections(s);
   if(goes_on && crossing.empty())
     goes_on = finish(s, crossing, go_on);
-  if(criteria.tolerance() > 0 && mode.measures_distance) {
+  if(criteria.tolerance() > 0 && mode.number_of_vertices_estimated == 0) {
     s.attract_boundary(); // all distances are measured again
     s.attraction.measure();
     s.result.largest_distance = s.attraction.largest_distance();

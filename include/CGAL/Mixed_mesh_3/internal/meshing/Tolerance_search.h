@@ -244,9 +244,9 @@ private:
                          .quality_bound(m_criteria.quality_bound())
                          .number_of_rounds(1);
     bool goes_on = true;
-    optimize_bounded(
-      mesh, m_root.domain(), {rough, m_criteria.number_of_threads}, Aspect_ratio_quality_3(),
-      [&] { return goes_on = goes_on && m_visitor.go_on(); }, 1);
+    optimize_bounded(mesh, m_root.domain(), {rough, m_criteria.number_of_threads}, Aspect_ratio_quality_3(),
+                     [&] { return goes_on = goes_on && m_visitor.go_on(); },
+                     {1, m_criteria.maximal_number_of_vertices()});
     m_is_stopped = !goes_on;
     return far_points(mesh);
   }

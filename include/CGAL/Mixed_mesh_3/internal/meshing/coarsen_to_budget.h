@@ -135,9 +135,8 @@ inline void fit_roughly(Meshing_state& s, Core_mesh& mesh)
                        .quality_bound(s.quality_bound)
                        .sharp_angle(s.criteria.sharp_angle())
                        .number_of_rounds(1);
-  optimize_bounded(
-    mesh, s.root.domain(), {rough, s.criteria.number_of_threads}, Aspect_ratio_quality_3(),
-    [&s] { return s.go_on(); }, tolerated_share_not_arrived);
+  optimize_bounded(mesh, s.root.domain(), {rough, s.criteria.number_of_threads}, Aspect_ratio_quality_3(),
+                   [&s] { return s.go_on(); }, {tolerated_share_not_arrived});
 }
 
 /// The number of vertices of elements in the region.

@@ -40,7 +40,7 @@ inline void optimize_boundary(Meshing_state& s, Core_mesh& mesh, const Vertex_re
                           .number_of_bisections(s.share_of_bisections() > 0 ? rest : 0);
   s.result.optimization = optimize_bounded(
     mesh, s.root.domain(), {criteria, s.criteria.number_of_threads}, Aspect_ratio_quality_3(),
-    [&s] { return s.go_on(); }, 0, remove);
+    [&s] { return s.go_on(); }, {}, remove);
   if(remove)
     s.result.number_of_collapsed_vertices += before + s.result.optimization.number_of_bisections
                                              - s.result.optimization.number_of_merged_vertices

@@ -17,7 +17,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -38,6 +40,9 @@ struct Flip_context
   const double bound; ///< largest cost that a tetrahedron may get
   double exponent = 4;
   std::size_t number_of_removals = 0; ///< see `Tetrahedron_flipper::number_of_removals()`
+  /// Bits for the edges of each tetrahedron that were tried in vain: until something around an edge changes, it
+  /// need not be tried from each of the tetrahedra around it.
+  std::vector<std::uint8_t> edges_in_vain = {};
 
   bool is_tetrahedron(Element_index e) const
   {
@@ -47,6 +52,30 @@ struct Flip_context
   double cost(const Vertex_index* v) const
   {
     return power(quality(TETRAHEDRON, mesh.relative_points(Element_view(TETRAHEDRON, v))), exponent);
+  }
+
+  /// Whether the edge of the vertices i and j of a tetrahedron was tried in vain. \pre i < j
+  bool is_in_vain(Element_index e, int i, int j) const
+  {
+    return e < edges_in_vain.size() && (edges_in_vain[e] & bit_of_edge(i, j)) != 0;
+  }
+
+  template <class Elements>
+  void note_in_vain(const Elements& tetrahedra, Vertex_index a, Vertex_index b)
+  {
+    for(Element_index e : tetrahedra)
+      if(e < edges_in_vain.size()) {
+        const auto [i, j] = std::minmax({mesh.elements[e].position(a), mesh.elements[e].position(b)});
+        edges_in_vain[e] = std::uint8_t(edges_in_vain[e] | bit_of_edge(i, j));
+      }
+  }
+
+  /// Forgets what was tried in vain around a vertex of a tetrahedron that has changed.
+  void forget_around(Vertex_index v)
+  {
+    edges_in_vain.resize(mesh.elements.size(), 0);
+    for(Element_index e : mesh.incident[v])
+      edges_in_vain[e] = 0;
   }
 
   /// The cost of a new tetrahedron: infinity if it is above `most`.
@@ -107,6 +136,8 @@ struct Flip_context
   }
 
 private:
+  static unsigned bit_of_edge(int i, int j) { return 1u << (i == 0 ? j - 1 : i + j); }
+
   // Whether a face of an element without compartment would be on a sheet if the element had these attributes.
   bool would_meet_sheet(Element_index e, const Element_attributes& attributes) const
   {

@@ -113,8 +113,11 @@ bool flip_edge(Flip_context<Quality>& context, Transaction& transaction, Vertex_
   Ring_elements old;
   const Ring ring = ring_of(context.mesh, a, b, old);
   const int n = int(ring.size());
-  if(n < 3)
+  if(n < 3) {
+    if(context.mesh.sharp_edges.empty()) // else it may depend on elements farther away
+      context.note_in_vain(old, a, b);
     return false;
+  }
   const auto [limit, most] = context.limits(old);
   std::array<std::array<double, largest_ring>, largest_ring> best{};
   std::array<std::array<int, largest_ring>, largest_ring> middle{};
@@ -134,8 +137,10 @@ bool flip_edge(Flip_context<Quality>& context, Transaction& transaction, Vertex_
         }
       }
     }
-  if(!(best[0][n - 1] < limit))
+  if(!(best[0][n - 1] < limit)) {
+    context.note_in_vain(old, a, b);
     return false;
+  }
   std::vector<Tetrahedron> tetrahedra;
   const auto collect = [&](const auto& self, int i, int k) -> void {
     if(k - i < 2)
@@ -159,9 +164,10 @@ bool flip_edges(Flip_context<Quality>& context, Element_index e)
 {
   Transaction transaction(context.mesh);
   const auto v = context.mesh.elements[e].vertices;
-  for(std::size_t i = 0; i < 4; ++i)
-    for(std::size_t j = i + 1; j < 4; ++j)
-      if(flip_edge(context, transaction, v[i], v[j]))
+  for(int i = 0; i < 4; ++i)
+    for(int j = i + 1; j < 4; ++j)
+      if(!context.is_in_vain(e, i, j)
+         && flip_edge(context, transaction, v[std::size_t(i)], v[std::size_t(j)]))
         return true;
   return false;
 }

@@ -53,6 +53,11 @@ public:
     m_context.exponent = exponent;
     const double least = power(worst, exponent);
     const Working_mesh& mesh = m_context.mesh;
+    m_context.edges_in_vain.assign(mesh.elements.size(), 0);
+    const auto change = [&](Vertex_index v) {
+      m_context.forget_around(v);
+      changed(v);
+    };
     std::size_t flips = 0;
     for(Element_index e = 0; e < mesh.elements.size(); ++e)
       if(m_context.is_tetrahedron(e) && m_context.cost(mesh.elements[e].vertices.data()) > least) {
@@ -61,13 +66,14 @@ public:
         if(!flip_edges(m_context, e) && !flip_faces(m_context, e)) {
           if(!remove_from_boundary(m_context, e))
             continue;
-          std::for_each_n(vertices.begin(), 4, changed);
+          std::for_each_n(vertices.begin(), 4, change);
         }
         ++flips;
         for(std::size_t n = first_new; n < mesh.elements.size(); ++n)
           for(Vertex_index v : mesh.elements[n])
-            changed(v);
+            change(v);
       }
+    m_context.edges_in_vain.clear();
     return flips;
   }
 

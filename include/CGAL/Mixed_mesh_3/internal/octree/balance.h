@@ -27,18 +27,24 @@ namespace Mixed_meshes_3 {
 
 namespace internal {
 
+using Directions = std::vector<std::array<int, 3>>;
+
 /// The directions to the neighbors of a cell across faces, edges, vertices.
-inline std::vector<std::array<int, 3>> neighbor_directions(Adjacency adjacency)
+inline const Directions& neighbor_directions(Adjacency adjacency)
 {
-  std::vector<std::array<int, 3>> directions;
-  for(int x = -1; x <= 1; ++x)
-    for(int y = -1; y <= 1; ++y)
-      for(int z = -1; z <= 1; ++z) {
-        const int rank = std::abs(x) + std::abs(y) + std::abs(z);
-        if(rank >= 1 && rank <= int(adjacency))
-          directions.push_back({x, y, z});
-      }
-  return directions;
+  const auto directions_up_to = [](int largest_rank) {
+    Directions directions;
+    for(int x = -1; x <= 1; ++x)
+      for(int y = -1; y <= 1; ++y)
+        for(int z = -1; z <= 1; ++z) {
+          const int rank = std::abs(x) + std::abs(y) + std::abs(z);
+          if(rank >= 1 && rank <= largest_rank)
+            directions.push_back({x, y, z});
+        }
+    return directions;
+  };
+  static const std::array<Directions, 3> all{directions_up_to(1), directions_up_to(2), directions_up_to(3)};
+  return all[std::size_t(adjacency) - 1];
 }
 
 /*!
@@ -57,7 +63,7 @@ template <class Split>
 void balance(const Octree& octree, const std::vector<Octree::Node_index>& refined, Adjacency adjacency,
              const Split& split)
 {
-  const auto directions = neighbor_directions(adjacency);
+  const Directions& directions = neighbor_directions(adjacency);
   std::array<std::vector<Octree::Node_index>, Octree::max_level + 1> queue;
   for(Octree::Node_index n : refined)
     queue[octree.level(n)].push_back(n);
@@ -77,7 +83,7 @@ void balance(const Octree& octree, const std::vector<Octree::Node_index>& refine
 inline bool are_balanced(const Octree& octree, const std::vector<Octree::Node_index>& refined,
                          Adjacency adjacency)
 {
-  const auto directions = neighbor_directions(adjacency);
+  const Directions& directions = neighbor_directions(adjacency);
   return std::all_of(refined.begin(), refined.end(), [&](Octree::Node_index n) {
     return std::all_of(directions.begin(), directions.end(), [&](const std::array<int, 3>& d) {
       const Octree::Node_index m = octree.neighbor(n, d);
@@ -91,7 +97,7 @@ inline bool are_balanced(const Octree& octree, const std::vector<Octree::Node_in
 inline std::vector<std::uint16_t> edge_patterns(const Octree& octree)
 {
   // The bits of the edges that a leaf shares with its neighbor in direction -d.
-  const auto directions = neighbor_directions(Adjacency::EDGE);
+  const Directions& directions = neighbor_directions(Adjacency::EDGE);
   std::vector<std::uint16_t> shared;
   for(const auto& d : directions) {
     std::uint16_t bits = 0;

@@ -42,20 +42,31 @@ inline bool is_crossing(const std::array<Vertex_index, 3>& s, const std::array<V
     return Kernel::Triangle_3(points[v[0]], points[v[1]], points[v[2]]);
   };
   // The vertices are turned such that the shared ones come first.
-  const auto turned = [](std::array<Vertex_index, 3> a, const std::array<Vertex_index, 3>& b, int& shared) {
-    const auto end = std::stable_partition(a.begin(), a.end(), [&](Vertex_index v) {
-      return std::count(b.begin(), b.end(), v) > 0;
-    });
-    shared = int(end - a.begin());
-    return a;
+  std::size_t shared = 0;
+  const auto turned = [&shared](const std::array<Vertex_index, 3>& v,
+                                const std::array<Vertex_index, 3>& other) {
+    std::array<Vertex_index, 3> result{};
+    std::size_t n = 0;
+    const auto append = [&](bool is_shared) {
+      for(Vertex_index u : v)
+        if((std::find(other.begin(), other.end(), u) != other.end()) == is_shared)
+          result[n++] = u;
+    };
+    append(true);
+    shared = n;
+    append(false);
+    return result;
   };
-  int shared = 0;
-  const std::array<Vertex_index, 3> a = turned(s, t, shared), b = turned(t, s, shared);
+  const std::array<Vertex_index, 3> a = turned(s, t), b = turned(t, s);
+  // Few of the edges opposite to a shared vertex have a box that meets the box of the other triangle.
+  const auto meets = [&](const std::array<Vertex_index, 3>& v, const std::array<Vertex_index, 3>& other) {
+    const Kernel::Segment_3 opposite(points[v[1]], points[v[2]]);
+    const Kernel::Triangle_3 whole = triangle(other);
+    return CGAL::do_overlap(opposite.bbox(), whole.bbox()) && CGAL::do_intersect(opposite, whole);
+  };
   switch(shared) {
   case 0: return CGAL::do_intersect(triangle(s), triangle(t));
-  case 1:
-    return CGAL::do_intersect(Kernel::Segment_3(points[a[1]], points[a[2]]), triangle(t))
-           || CGAL::do_intersect(Kernel::Segment_3(points[b[1]], points[b[2]]), triangle(s));
+  case 1: return meets(a, t) || meets(b, s);
   case 2: // folded flat
     return CGAL::coplanar(points[a[0]], points[a[1]], points[a[2]], points[b[2]])
            && CGAL::coplanar_orientation(points[a[0]], points[a[1]], points[a[2]], points[b[2]]) == POSITIVE;

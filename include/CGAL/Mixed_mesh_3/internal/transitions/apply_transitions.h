@@ -73,7 +73,7 @@ private:
   void choose_leaves()
   {
     m_slots.assign(m_octree.size(), no_slot);
-    const auto directions = neighbor_directions(Adjacency::VERTEX);
+    const Directions& directions = neighbor_directions(Adjacency::VERTEX);
     for(Node_index n = 0; n < m_octree.size(); ++n) {
       if(!m_octree.is_leaf(n))
         continue;
