@@ -287,6 +287,38 @@ void test_flips()
   }
 }
 
+// Edges that were tried in vain are not tried again from the other tetrahedra around them: the flips are those
+// of trying all edges of all tetrahedra.
+void test_edges_in_vain()
+{
+  const Aspect_ratio_quality_3 quality;
+  std::size_t all_flips = 0;
+  for(unsigned seed = 0; seed < 8; ++seed) {
+    Mesh mesh = grid(4, TETRAHEDRON);
+    distort(mesh, 0.12, seed);
+    if(!is_positive(mesh))
+      continue;
+    internal::Working_mesh working = working_mesh(mesh, boundary_faces(mesh)), reference = working;
+    internal::Tetrahedron_flipper flipper(working, quality, infinity);
+    const std::size_t flips = flipper.run(4, 1.1, [](Vertex_index) {});
+    std::size_t reference_flips = 0;
+    for(Element_index e = 0; e < reference.elements.size(); ++e) {
+      internal::Flip_context<Aspect_ratio_quality_3> context{reference, quality, infinity};
+      if(context.is_tetrahedron(e)
+         && context.cost(reference.elements[e].vertices.data()) > internal::power(1.1, 4))
+        reference_flips += internal::flip_edges(context, e) || internal::flip_faces(context, e)
+                           || internal::remove_from_boundary(context, e);
+    }
+    all_flips += flips;
+    BOOST_TEST_EQ(flips, reference_flips);
+    BOOST_TEST(std::equal(working.elements.begin(), working.elements.end(), reference.elements.begin(),
+                          reference.elements.end(), [](const auto& a, const auto& b) {
+                            return a.is_removed == b.is_removed && a.vertices == b.vertices;
+                          }));
+  }
+  BOOST_TEST_GT(all_flips, 100u);
+}
+
 // A flat tetrahedron on two pyramids, on whose common edge cd it lies: nothing can be flipped there.
 void test_removal()
 {
@@ -499,6 +531,7 @@ int run(int, char*[])
   test_star_of_element(Scaled_jacobian_quality_3(), false); // as any quality of a user
   test_proof_by_cost();
   test_flips();
+  test_edges_in_vain();
   test_removal();
   return boost::report_errors();
 }

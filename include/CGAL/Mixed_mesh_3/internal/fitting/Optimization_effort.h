@@ -21,8 +21,8 @@ struct Fitting_estimate
 {
   /// Share of the boundary vertices that may have not arrived without a further run.
   double tolerated_share_not_arrived = 0;
-  /// Number of vertices of the mesh that a coarser one is fitted for: the effort for that number suffices, and
-  /// the largest distance is not measured. 0: the number of vertices is that of the mesh.
+  /// Number of vertices of the mesh that a coarser one is fitted for: the effort for that number suffices,
+  /// and the largest distance is not measured. 0: none.
   std::size_t number_of_vertices = 0;
 };
 

@@ -40,8 +40,8 @@ struct Flip_context
   const double bound; ///< largest cost that a tetrahedron may get
   double exponent = 4;
   std::size_t number_of_removals = 0; ///< see `Tetrahedron_flipper::number_of_removals()`
-  /// Bits for the edges of each tetrahedron that were tried in vain: until something around an edge changes, it
-  /// need not be tried from each of the tetrahedra around it.
+  /// Bits for the edges of each tetrahedron that were tried in vain: until something around an edge changes,
+  /// it need not be tried from each of the tetrahedra around it.
   std::vector<std::uint8_t> edges_in_vain = {};
 
   bool is_tetrahedron(Element_index e) const
