@@ -287,8 +287,8 @@ void test_flips()
   }
 }
 
-// Edges that were tried in vain are not tried again from the other tetrahedra around them: the flips are those
-// of trying all edges of all tetrahedra.
+// Edges that were tried in vain are not tried again from the other tetrahedra around them: the flips are
+// those of trying all edges of all tetrahedra.
 void test_edges_in_vain()
 {
   const Aspect_ratio_quality_3 quality;
