@@ -58,7 +58,7 @@ struct Fitting_mode
   bool is_without_attraction = false;
   /// Whether the run ends once it is likely that not all of the boundary will arrive.
   bool needs_all = false;
-  /// The number of vertices of an estimate; 0: none.
+  /// For an estimate, `Fitting_estimate::number_of_vertices`.
   std::size_t number_of_vertices_estimated = 0;
 };
 

@@ -60,6 +60,7 @@ struct Flip_context
     return e < edges_in_vain.size() && (edges_in_vain[e] & bit_of_edge(i, j)) != 0;
   }
 
+  /// Notes that an edge of these tetrahedra was tried in vain.
   template <class Elements>
   void note_in_vain(const Elements& tetrahedra, Vertex_index a, Vertex_index b)
   {

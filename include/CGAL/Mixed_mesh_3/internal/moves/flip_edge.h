@@ -65,7 +65,7 @@ inline Ring open_ring(const Working_mesh& mesh, Vertex_index a, Vertex_index b, 
 /// The other vertices of the tetrahedra around an edge, in order such that (a, b, r[i], r[i + 1]) is
 /// positive. Empty unless all elements of the edge are tetrahedra, and the edge is inside or can be flipped
 /// on the boundary: the ring of a boundary edge is open.
-/// \param elements gets the tetrahedra, if the ring is not empty
+/// \param elements gets tetrahedra around the edge: all, if the ring is not empty
 inline Ring ring_of(const Working_mesh& mesh, Vertex_index a, Vertex_index b, Ring_elements& elements)
 {
   Ring_links links;
