@@ -122,9 +122,9 @@ struct Mixed_mesh_result_3
   /// else 0.
   std::size_t number_of_vertices_for_thin_parts = 0;
   /// The number of vertices removed by edge collapses: where vertices are exchanged
-  /// (`Mixed_mesh_criteria_3::exchange_vertices()`), and where the topology takes more vertices than the
-  /// budget, so that the mesh is made of a finer one, all of tetrahedra. The numbers of cells and octree are
-  /// then those of the finer mesh.
+  /// (`Mixed_mesh_criteria_3::exchange_vertices()`), and where the mesh is made of a finer one, all of
+  /// tetrahedra: without a region, or because the topology takes more vertices than the budget. The numbers
+  /// of cells and octree are then those of the finer mesh.
   std::size_t number_of_collapsed_vertices = 0;
   /// The largest distance between boundary and surface: the tolerance of the criteria, or, if the criteria
   /// leave it open, the default for this domain and budget.

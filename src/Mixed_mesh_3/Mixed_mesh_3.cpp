@@ -3,9 +3,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The library Mixed_mesh_3_compiled: the method.
+// The library Mixed_mesh_3_compiled: the method but for the optimization.
 
-#include <CGAL/Mixed_mesh_3/internal/fitting/optimize_bounded_impl.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/mesh_domain_impl.h>
 
 #ifndef CGAL_MIXED_MESH_3_COMPILED

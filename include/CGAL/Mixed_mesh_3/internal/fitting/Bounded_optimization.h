@@ -17,6 +17,7 @@
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/element_points.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Followed_features.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Optimization_effort.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_removal.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/optimize_surface.h>
@@ -75,7 +76,9 @@ class Bounded_optimization
   const Vertex_removal m_remove;              // none: all vertices stay
   const Sharp_edges m_sharp_edges;
   const double m_edge_length; // mean of the boundary; any value if there are no sharp edges
-  const Sharp_features m_features;
+  Sharp_features m_features;
+  const Sharp_strata m_sharp_at_start; // empty: not chosen yet
+  Sharp_strata m_sharp;                // of the mesh taken
   std::vector<std::uint8_t> m_is_held; // one value for each vertex
   bool m_is_within_bound = false;      // known of the mesh taken
 
@@ -91,16 +94,22 @@ class Bounded_optimization
 
 public:
   Bounded_optimization(Core_mesh& mesh, const Any_surface& domain, const Criteria& criteria,
-                       const Quality& quality, const Fitting_estimate& estimate, Vertex_removal remove)
+                       const Quality& quality, const Fitting_estimate& estimate, Vertex_removal remove,
+                       const Followed_features* followed = nullptr)
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality),
       m_has_subdomains(domain.subdomain_indices().size() > 1 || domain.has_sheets()), m_estimate(estimate),
       m_tolerated_share_not_arrived((std::max)(estimate.tolerated_share_not_arrived,
                                                m_has_subdomains ? tolerated_share_on_interfaces : 0)),
       m_remove(std::move(remove)), m_sharp_edges(domain.sharp_edges(criteria.sharp_angle())),
       m_edge_length(m_sharp_edges.edges.empty() ? 1 : mean_edge_length()),
-      m_features(m_sharp_edges, m_edge_length), m_is_held(mesh.number_of_vertices(), 0)
+      m_features(is_chosen(followed) ? followed->features : Sharp_features(m_sharp_edges, m_edge_length)),
+      m_sharp_at_start(is_chosen(followed) ? followed->strata : Sharp_strata()), m_sharp(m_sharp_at_start),
+      m_is_held(mesh.number_of_vertices(), 0)
   {
   }
+
+  /// The features that the mesh follows in the end.
+  Followed_features followed_features() && { return {std::move(m_features), std::move(m_sharp)}; }
 
   Result operator()(const std::function<bool()>& go_on)
   {
@@ -116,20 +125,33 @@ private:
   struct Outcome
   {
     Core_mesh mesh;
+    Sharp_strata sharp;
     Result result;
     bool is_within_bound = false;   // known to have no element above the bound
     bool meets_guarantees = false;  // within the bound, and the boundary does not cut itself
     bool may_be_attraction = false; // that keeps vertices from arriving, or makes faces cut each other
   };
 
+  static bool is_chosen(const Followed_features* followed)
+  {
+    return followed != nullptr && !followed->strata.empty();
+  }
+
   Result optimize(const std::function<bool()>& go_on)
   {
+    if(!m_sharp_at_start
+          .empty()) { // the boundary is on the surface, but for few vertices, and does not cut itself
+      Outcome outcome = optimize_freely({true, false}, go_on);
+      return take(outcome);
+    }
     Outcome best;
     for(const Fitting_mode& mode : {freely(), without_attraction}) {
       Outcome outcome = optimize_freely(mode, go_on);
       if(outcome.result.status == Status::STOPPED)
         return outcome.meets_guarantees && !mode.is_without_attraction ? take(outcome)
                                                                        : stopped(outcome.result);
+      if(m_estimate.leaves_rest)
+        return take(outcome);
       if(outcome.meets_guarantees && (is_fitted(outcome.result) || !has_bound()))
         return take(outcome); // no other run would do better
       if(outcome.meets_guarantees && may_remove_unarrived(outcome.result)) {
@@ -144,7 +166,7 @@ private:
         break;
     }
     Outcome bounded;
-    bounded.result = optimize_within(bounded.mesh, go_on);
+    bounded.result = optimize_within(bounded, go_on);
     bounded.meets_guarantees = true;
     return take(bounded.result.status == Status::STOPPED || is_better(bounded, best) ? bounded : best);
   }
@@ -152,7 +174,8 @@ private:
   // The first mode: a run that is good only if all of the boundary arrives may end early.
   Fitting_mode freely() const
   {
-    return {false, false, m_tolerated_share_not_arrived == 0, m_estimate.number_of_vertices};
+    return {false, m_estimate.leaves_rest, m_tolerated_share_not_arrived == 0, m_estimate.number_of_vertices,
+            m_estimate.leaves_rest};
   }
 
   double bound() const { return bound_for_doubles(m_criteria); }
@@ -172,6 +195,7 @@ private:
   Result take(Outcome& outcome)
   {
     m_mesh = std::move(outcome.mesh);
+    m_sharp = std::move(outcome.sharp);
     m_is_within_bound = outcome.is_within_bound;
     return outcome.result;
   }
@@ -180,9 +204,10 @@ private:
   Outcome optimize_freely(const Fitting_mode& mode, const std::function<bool()>& go_on) const
   {
     Fitting_outcome fitted = optimize_surface(m_mesh, m_domain, m_criteria, m_quality, mode, m_features,
-                                              m_is_held, go_on);
+                                              m_sharp_at_start, m_is_held, go_on);
     Outcome outcome;
     outcome.mesh = std::move(fitted.mesh);
+    outcome.sharp = std::move(fitted.sharp);
     outcome.result = fitted.result;
     const double largest = largest_cost(outcome.mesh);
     outcome.is_within_bound = largest <= bound();
@@ -225,7 +250,8 @@ private:
   // The number of vertices that have not arrived, plus the lost length of sharp edges in lengths of edges.
   double number_not_arrived(const Result& r) const
   {
-    const double lost = r.length_of_sharp_edges - r.length_of_sharp_edges_kept;
+    // No run follows sharp edges again that are lost already.
+    const double lost = m_sharp_at_start.empty() ? r.length_of_sharp_edges - r.length_of_sharp_edges_kept : 0;
     return double(r.number_of_boundary_vertices - r.number_of_arrived_vertices)
            + (lost > 0 ? lost / m_edge_length : 0);
   }
@@ -240,12 +266,13 @@ private:
   }
 
   // Optimizes within the bound, and repeats until no faces cut each other.
-  Result optimize_within(Core_mesh& mesh, const std::function<bool()>& go_on)
+  Result optimize_within(Outcome& outcome, const std::function<bool()>& go_on)
   {
     for(std::size_t i = 0;; ++i) {
       Fitting_outcome fitted = optimize_surface(m_mesh, m_domain, m_criteria, m_quality, within_bound,
-                                                m_features, m_is_held, go_on);
-      mesh = std::move(fitted.mesh);
+                                                m_features, m_sharp_at_start, m_is_held, go_on);
+      outcome.mesh = std::move(fitted.mesh);
+      outcome.sharp = std::move(fitted.sharp);
       const Result& result = fitted.result;
       if(result.is_boundary_simple || result.status == Status::STOPPED || i > std::size(rings)
          || (i == 0 && is_start_crossing()))
@@ -314,9 +341,13 @@ Mixed_mesh_optimization_result_3
 optimize_bounded(Core_mesh& mesh, const Any_surface& surface,
                  const With_threads<Mixed_mesh_optimization_criteria_3>& criteria, const Quality& quality,
                  const std::function<bool()>& go_on, const Fitting_estimate& estimate = {},
-                 const Vertex_removal& remove = {})
+                 const Vertex_removal& remove = {}, Followed_features* followed = nullptr)
 {
-  return Bounded_optimization<Quality>(mesh, surface, criteria, quality, estimate, remove)(go_on);
+  Bounded_optimization<Quality> run(mesh, surface, criteria, quality, estimate, remove, followed);
+  const Mixed_mesh_optimization_result_3 result = run(go_on);
+  if(followed != nullptr)
+    *followed = std::move(run).followed_features();
+  return result;
 }
 
 } // namespace internal

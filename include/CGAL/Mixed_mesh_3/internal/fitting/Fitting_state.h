@@ -60,6 +60,10 @@ struct Fitting_mode
   bool needs_all = false;
   /// For an estimate, `Fitting_estimate::number_of_vertices`.
   std::size_t number_of_vertices_estimated = 0;
+  /// `Fitting_estimate::leaves_rest`.
+  bool leaves_rest = false;
+  /// Whether vertices stay on their way to sharp edges, or are merged along these.
+  bool keeps_sharp_edges = false;
 };
 
 /*!

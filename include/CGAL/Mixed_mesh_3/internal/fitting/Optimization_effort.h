@@ -24,6 +24,9 @@ struct Fitting_estimate
   /// Number of vertices of the mesh that a coarser one is fitted for: the effort for that number suffices,
   /// and the largest distance is not measured. 0: none.
   std::size_t number_of_vertices = 0;
+  /// Whether what does not arrive is left as it is, as those vertices will be removed: one run, in which
+  /// vertices stay on their way to sharp edges, and bad elements are not mended.
+  bool leaves_rest = false;
 };
 
 /*!

@@ -73,6 +73,9 @@ bool arrive(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
   // Flips in earlier rounds keep less.
   constexpr int rounds_until_flips = 8, rounds_to_flip = 4;
   constexpr double power_of_flips = 4, least_cost_to_flip = 1.2;
+  // Where the rest is left, rounds without an arrival until elements are flipped, once, and until the end.
+  constexpr int rounds_until_in_vain = 3;
+  constexpr double least_cost_to_flip_in_vain = 2;
 
   set_targets(s);
   // Small steps are checked: vertices whose faces would cut others are held. There is no check without a
@@ -80,11 +83,24 @@ bool arrive(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
   const bool is_careful = s.mode.is_without_attraction && s.has_bound() && s.crossing_vertices().empty();
   using Snapshot = typename Fitting_state<Quality>::Snapshot;
   Snapshot simple = is_careful ? s.snapshot() : Snapshot();
-  double acceptable = initial_acceptable_cost;
+  const double largest_acceptable = s.mode.leaves_rest ? s.final_bound() : largest_acceptable_cost;
+  double acceptable = (std::min)(initial_acceptable_cost, largest_acceptable);
+  int rounds_without_arrival = 0;
+  bool has_flipped = false;
   for(int round = 0; round < rounds && !s.underway.empty(); ++round) {
     if(!go_on())
       return false;
+    const std::size_t before = s.underway.size();
     s.advance(acceptable);
+    rounds_without_arrival = s.underway.size() < before ? 0 : rounds_without_arrival + 1;
+    if(s.mode.leaves_rest && rounds_without_arrival == rounds_until_in_vain) {
+      if(has_flipped)
+        break;
+      has_flipped = true;
+      rounds_without_arrival = 0;
+      typename Fitting_state<Quality>::Flipper flipper(s.mesh, s.quality, s.intermediate_bound());
+      s.result.number_of_flips += s.flip(flipper, power_of_flips, least_cost_to_flip_in_vain);
+    }
     s.moves.run(4, s.effort.good_enough_to_arrive, s.effort.sweeps_to_arrive);
     if(is_careful && (round % rounds_until_check == rounds_until_check - 1 || s.underway.empty())) {
       const std::vector<Vertex_index> crossing = s.crossing_vertices();
@@ -94,15 +110,16 @@ bool arrive(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
       }
       simple = s.snapshot();
     }
-    if(s.features && s.criteria.flips() && round >= rounds_until_flips
+    if(s.features && s.criteria.flips() && !s.mode.leaves_rest && round >= rounds_until_flips
        && round % rounds_to_flip == rounds_to_flip - 1 && !s.underway.empty()) {
       typename Fitting_state<Quality>::Flipper flipper(s.mesh, s.quality, s.intermediate_bound());
       s.result.number_of_flips += s.flip(flipper, power_of_flips, least_cost_to_flip);
     }
-    acceptable = (std::min)(acceptable_growth * acceptable, largest_acceptable_cost);
+    acceptable = (std::min)(acceptable_growth * acceptable, largest_acceptable);
     if(round % rounds_until_new_target == rounds_until_new_target - 1)
       s.choose_new_targets();
-    if(s.features && round >= rounds_for_features && (round - rounds_for_features) % 3 == 0)
+    if(s.features && !s.mode.leaves_rest && !s.mode.keeps_sharp_edges && round >= rounds_for_features
+       && (round - rounds_for_features) % 3 == 0)
       give_up_features(s, round > rounds_for_features);
   }
   return true;

@@ -172,7 +172,8 @@ private:
         continue;
       path = without_short_cuts(path, polyline);
       const Stratum stratum = Stratum(first_sharp_stratum + number);
-      const std::vector<double> lengths = ascending_lengths(path, polyline);
+      std::vector<double> lengths = ascending_lengths(path, polyline);
+      take_turns(polyline, lengths);
       for(std::size_t i = 0; i + 1 < path.size(); ++i) {
         m_mesh.sharp_edges[edge(path[i].first, path[i + 1].first)] = stratum;
         if(i > 0)
@@ -218,14 +219,17 @@ private:
     {
       double cost = std::numeric_limits<double>::infinity();
       double distance = 0; // distance from the polyline
+      double length = 0;   // arc length of the closest point
       Node from;
     };
     std::map<Node, State> states;
-    const auto distance = [&](const Node& n) {
-      const Vec3 p = place(n);
-      return norm(p - polyline.closest(p).point);
-    };
     const Node start{first, first}, end{last, last};
+    const auto locate = [&](const Node& n, State& state) {
+      const Vec3 p = place(n);
+      const Feature_polyline::Position closest = polyline.closest(p);
+      state.distance = norm(p - closest.point);
+      state.length = n == end ? polyline.length() : closest.length;
+    };
     using Entry = std::pair<double, Node>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
     states[start].cost = 0;
@@ -247,7 +251,7 @@ private:
         const auto [found, is_new] = states.try_emplace(m);
         State& next = found->second;
         if(is_new)
-          next.distance = distance(m);
+          locate(m, next);
         const double h = size(m);
         if(next.distance > reach * h)
           return;
@@ -255,7 +259,8 @@ private:
         const double off = norm(middle - polyline.closest(middle).point);
         const double squares = state.distance * state.distance + next.distance * next.distance
                                + 2 * off * off;
-        const double length = norm(b - a) + 0.05 * h;
+        // A step to another arm of the polyline leaves out what is between.
+        const double length = (std::max)(norm(b - a), std::abs(next.length - state.length)) + 0.05 * h;
         const double c = cost
                          + length * (1 + distance_weight * squares / (4 * h * h))
                              * (is_vertex(m) ? 1 : bisection_factor);
@@ -372,6 +377,31 @@ private:
     return i == 0                 ? 0
            : i + 1 == path.size() ? polyline.length()
                                   : polyline.closest(m_places[path[i].first]).length;
+  }
+
+  // Each vertex of the polyline where it turns takes the vertex of the path that is nearest to it, as an edge past
+  // it would cut it off.
+  static void take_turns(const Feature_polyline& polyline, std::vector<double>& lengths)
+  {
+    constexpr double least_turn =
+      0.996;                      // cosine of 5 degrees: an edge past it is off by a fiftieth of its length
+    constexpr double reach = 0.6; // share of the distance of a neighbor on the path
+    std::size_t first = 1;
+    for(double turn : polyline.turns(least_turn)) {
+      while(first + 1 < lengths.size() && lengths[first] < turn
+            && std::abs(lengths[first + 1] - turn) < std::abs(lengths[first] - turn))
+        ++first;
+      if(first + 1 >= lengths.size())
+        return;
+      const double before = lengths[first - 1], after = lengths[first + 1], old = lengths[first];
+      if(before < turn && turn < after && turn - old < reach * (after - old)
+         && old - turn < reach * (old - before)) {
+        lengths[first] = turn;
+        ++first;
+      }
+      if(first + 1 >= lengths.size())
+        return;
+    }
   }
 
   // Arc lengths of the closest points, moved apart until they are in order.

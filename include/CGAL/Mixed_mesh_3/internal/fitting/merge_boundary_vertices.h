@@ -64,7 +64,8 @@ public:
     Vertex_index best = no_vertex;
     double least = std::nextafter(m_worst, std::numeric_limits<double>::infinity()); // the first cost is less
     for(Vertex_index w : m_collapser.ends_of_edges(v, faces))
-      if(is_candidate(w) && m_collapser.keeps_topology(v, w, faces) && is_near(place, v, w, faces)) {
+      if(is_candidate(w) && m_mesh.keeps_sharp_edges(v, w) && m_collapser.keeps_topology(v, w, faces)
+         && is_near(place, v, w, faces)) {
         const double worst = m_collapser.worst_after(v, w, least);
         if(worst < least) {
           best = w;

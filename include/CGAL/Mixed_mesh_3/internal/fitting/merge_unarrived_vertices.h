@@ -75,7 +75,8 @@ bool merge_unarrived_vertices(Fitting_state<Quality>& s, const std::function<boo
   Failed_merges failed;
   s.moves.attract({});
   s.moves.set_bound(bound);
-  if(!s.moves.vertices_above(bound).empty())
+  const std::size_t bad_before = s.moves.vertices_above(bound).size();
+  if(bad_before > 0 && !s.mode.keeps_bound)
     return true; // merges would not improve elements
   for(int round = 0; round < rounds && !s.vertices_not_arrived().empty(); ++round) {
     if(!go_on())
@@ -90,7 +91,7 @@ bool merge_unarrived_vertices(Fitting_state<Quality>& s, const std::function<boo
       improve_worst(s, flipper, i);
     const std::vector<Vertex_index> crossing = s.crossing_vertices();
     std::vector<Vertex_index> bad = s.moves.vertices_above(bound);
-    if(bad.empty() && crossing.empty()) {
+    if(bad.size() <= bad_before && crossing.empty()) {
       transaction.keep();
       continue;
     }

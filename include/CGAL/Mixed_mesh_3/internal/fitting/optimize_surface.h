@@ -38,6 +38,7 @@ struct Fitting_outcome
   std::vector<Vertex_index> crossing; ///< vertices of boundary faces that cut each other
   bool is_without_attraction;         ///< no attraction: by the mode, or as too much did not arrive
   bool has_crossed = false;           ///< not finished, as some faces cut each other after the arrival
+  Sharp_strata sharp;                 ///< of the mesh
 };
 
 /// Runs the passes that finish a boundary that does not cut itself.
@@ -51,7 +52,23 @@ bool finish(Fitting_state<Quality>& s, std::vector<Vertex_index>& crossing,
   if(!crossing.empty())
     return true;
   return_to_surface(s);
-  return !s.criteria.flips() || s.domain.has_sheets() || merge_unarrived_vertices(s, go_on);
+  if(!s.criteria.flips() || s.domain.has_sheets())
+    return true;
+  if(!merge_unarrived_vertices(s, go_on))
+    return false;
+  if(!s.mode.keeps_sharp_edges)
+    return true;
+  // As a last resort, vertices leave their sharp edges.
+  std::vector<Vertex_index> off = s.vertices_not_arrived();
+  off.erase(std::remove_if(off.begin(), off.end(),
+                           [&](Vertex_index v) { return s.mesh.strata[v] < first_sharp_stratum; }),
+            off.end());
+  for(Vertex_index v : off)
+    s.leave_feature(v);
+  if(off.empty())
+    return true;
+  return_to_surface(s);
+  return merge_unarrived_vertices(s, go_on);
 }
 
 template <class Quality>
@@ -72,14 +89,15 @@ Runs all passes once.
 
 \param start mesh that the result is made of; the only one beside the working mesh while passes run
 \param features sharp edges that paths of the boundary's edges are to follow; may be empty
+\param sharp paths that follow them already; empty: they are to be chosen
 \param is_held whether each boundary vertex stays where it is
 */
 template <class Quality>
 Fitting_outcome optimize_surface(const Core_mesh& start, const Any_surface& domain,
                                  const With_threads<Mixed_mesh_optimization_criteria_3>& criteria,
                                  const Quality& quality, const Fitting_mode& mode,
-                                 const Sharp_features& features, const std::vector<std::uint8_t>& is_held,
-                                 const std::function<bool()>& go_on)
+                                 const Sharp_features& features, const Sharp_strata& sharp,
+                                 const std::vector<std::uint8_t>& is_held, const std::function<bool()>& go_on)
 {
   // Share of the boundary vertices: if more have not arrived after the first pass, the vertices that draw
   // others would be in their way, and take most of the time.
@@ -99,7 +117,12 @@ Fitting_outcome optimize_surface(const Core_mesh& start, const Any_surface& doma
   s.project.set_features(features);
   if(!features.empty()) {
     s.features = &features;
-    choose_feature_paths(s);
+    if(sharp.empty())
+      choose_feature_paths(s);
+    else {
+      s.mesh.set_sharp_strata(sharp);
+      s.mode.keeps_sharp_edges = true;
+    }
   }
   bool goes_on = arrive(s, go_on);
   if(goes_on) {
@@ -108,17 +131,18 @@ Fitting_outcome optimize_surface(const Core_mesh& start, const Any_surface& doma
     const bool is_hard = crossing > max_share_crossing * boundary
                          || (mode.is_without_attraction
                              && double(s.underway.size()) > max_share_held * boundary);
-    if(s.has_bound() && !mode.keeps_bound && (is_hard || (crossing > max_crossing && mode.needs_all))) {
+    if(s.has_bound() && !mode.keeps_bound && !mode.leaves_rest && sharp.empty()
+       && (is_hard || (crossing > max_crossing && mode.needs_all))) {
       s.result.is_boundary_simple = false; // only small steps lead to a boundary that does not cut itself
       s.result.status = Mixed_mesh_optimization_status::NOT_ALL_ARRIVED;
-      return {start, s.result, {}, is_hard, !is_hard};
+      return {start, s.result, {}, is_hard, !is_hard, sharp};
     }
     s.mode.is_without_attraction = s.mode.is_without_attraction
                                    || double(s.underway.size()) > max_share_underway * boundary;
     goes_on = improve(s, go_on);
   }
   std::vector<Vertex_index> crossing = retreat_from_self_intersections(s);
-  if(goes_on && crossing.empty())
+  if(goes_on && crossing.empty() && !mode.leaves_rest)
     goes_on = finish(s, crossing, go_on);
   if(criteria.tolerance() > 0 && mode.number_of_vertices_estimated == 0) {
     s.attract_boundary(); // all distances are measured again
@@ -128,7 +152,8 @@ Fitting_outcome optimize_surface(const Core_mesh& start, const Any_surface& doma
   if(s.features)
     measure_features(s);
   set_status(s, !goes_on);
-  return {s.mesh.changed(start), s.result, std::move(crossing), s.mode.is_without_attraction};
+  return {s.mesh.changed(start),        s.result, std::move(crossing),
+          s.mode.is_without_attraction, false,    s.mesh.sharp_strata()};
 }
 
 } // namespace internal

@@ -39,6 +39,9 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
+/// The tolerance by default, as a share of the edge of the cube that a vertex of the budget has to serve.
+constexpr double share_of_edge_tolerated = 0.42;
+
 /// Share of the tolerance that the distance should be within at the points where it is measured: the distance
 /// between these points is larger by about a tenth at most.
 constexpr double share_of_tolerance = 0.9;

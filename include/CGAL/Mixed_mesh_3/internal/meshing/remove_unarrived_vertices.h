@@ -27,7 +27,9 @@ namespace internal {
 
 /// Brings the boundary onto the surface, with the vertices that the budget has left.
 /// \param remove how vertices are removed that have not arrived, if they are few; empty: they stay
-inline void optimize_boundary(Meshing_state& s, Core_mesh& mesh, const Vertex_removal& remove)
+/// \param followed sharp features that the mesh follows already
+inline void optimize_boundary(Meshing_state& s, Core_mesh& mesh, const Vertex_removal& remove,
+                              Followed_features* followed = nullptr)
 {
   s.visitor.before_fitting(mesh);
   s.result.quality_bound = s.quality_bound;
@@ -40,7 +42,7 @@ inline void optimize_boundary(Meshing_state& s, Core_mesh& mesh, const Vertex_re
                           .number_of_bisections(s.share_of_bisections() > 0 ? rest : 0);
   s.result.optimization = optimize_bounded(
     mesh, s.root.domain(), {criteria, s.criteria.number_of_threads}, Aspect_ratio_quality_3(),
-    [&s] { return s.go_on(); }, {}, remove);
+    [&s] { return s.go_on(); }, {}, remove, followed);
   if(remove)
     s.result.number_of_collapsed_vertices += before + s.result.optimization.number_of_bisections
                                              - s.result.optimization.number_of_merged_vertices

@@ -17,15 +17,15 @@
 #include <CGAL/Mixed_mesh_3/internal/meshing/make_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/resolve_thin_parts.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/retry_far_places.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/simplify_to_budget.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
 #include <CGAL/Mixed_mesh_3/quality_bound.h>
+
+#include <utility>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
-
-/// The tolerance by default, as a share of the edge of the cube that a vertex of the budget has to serve.
-constexpr double share_of_edge_tolerated = 0.42;
 
 /// The tolerance of the criteria, or by default one that the budget can serve. Smaller ones take too many
 /// vertices from the region, larger ones leave furrows unresolved: with 0.42 of an edge, brains of 660 to
@@ -61,40 +61,66 @@ inline void note_elements_above_bound(Meshing_state& s, const Core_mesh& mesh)
   s.result.optimization.number_of_elements_above_bound = number_of_elements_above(mesh, bound);
 }
 
-/// Makes the mesh, by the stages in their order: the octree is refined, and what follows is tried, until the
-/// budget is full.
-/// \param root the octree with nothing but its root
-inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_criteria& criteria,
-                                      Any_visitor& visitor, Core_mesh& mesh)
+/// Makes the mesh of a state from an octree that has the vertices of the budget: what follows the octree is tried,
+/// until the budget is full.
+inline void run_within_budget(Meshing_state& s, Core_mesh& mesh, Misfit& misfit)
 {
-  Meshing_state s(root, criteria, visitor);
-  s.result.vertex_budget = criteria.maximal_number_of_vertices();
-  s.result.tolerance = chosen_tolerance(s);
   {
-    const Stage_scope scope(visitor, Stage::OCTREE);
+    const Stage_scope scope(s.visitor, Stage::OCTREE);
     if(!fill_lattice(s)) {
       if(s.result.tolerance > 0)
         s.tolerance_search.run();
       if(!s.tolerance_search.is_stopped()) {
-        if(criteria.thin_parts() == Thin_parts::FIRST)
+        if(s.criteria.thin_parts() == Thin_parts::FIRST)
           resolve_thin_parts(s, true);
         fill_budget(s);
       }
     }
   }
+  if(s.may_resolve_thin_parts() && resolve_topology(s, mesh, misfit))
+    return;
+  if(may_exchange_vertices(s) && exchange_vertices(s, mesh, misfit))
+    return;
+  make_mesh(s, mesh);
+  misfit = s.misfit_of(mesh);
+  retry_far_places(s, mesh, misfit);
+  if(s.may_resolve_thin_parts())
+    improve_thin_parts(s, mesh, misfit);
+}
+
+/// Makes the mesh. Where it begins with a fine one and something is wrong in the end, the octree of the budget is
+/// tried as well, and the better mesh is taken.
+/// \param root the octree with nothing but its root
+inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_criteria& criteria,
+                                      Any_visitor& visitor, Core_mesh& mesh)
+{
+  Mixed_mesh_result_3 result;
   Misfit misfit = Misfit::without_mesh();
-  if(!s.may_resolve_thin_parts() || !resolve_topology(s, mesh, misfit)) {
-    if(!may_exchange_vertices(s) || !exchange_vertices(s, mesh, misfit)) {
-      make_mesh(s, mesh);
-      misfit = s.misfit_of(mesh);
-      retry_far_places(s, mesh, misfit);
-      if(s.may_resolve_thin_parts())
-        improve_thin_parts(s, mesh, misfit);
+  const auto run = [&](const auto& make) {
+    Meshing_state s(root, criteria, visitor);
+    s.result.vertex_budget = criteria.maximal_number_of_vertices();
+    s.result.tolerance = chosen_tolerance(s);
+    Core_mesh other;
+    Misfit of_other = Misfit::without_mesh();
+    make(s, other, of_other);
+    note_misfit(s, of_other);
+    note_elements_above_bound(s, other);
+    if(mesh.is_empty() || (of_other < misfit && !s.is_stopped)) {
+      result = s.result;
+      misfit = of_other;
+      mesh = std::move(other);
     }
-  }
-  note_misfit(s, misfit);
-  note_elements_above_bound(s, mesh);
-  return s.result;
+    return s.is_stopped;
+  };
+  mesh.clear();
+  const bool begins = begins_fine(root, criteria);
+  const bool is_stopped = begins && run([](Meshing_state& s, Core_mesh& m, Misfit& of_mesh) {
+                            make_simplified_mesh(s, m);
+                            of_mesh = s.misfit_of(m);
+                          });
+  if(!begins || (!is_stopped && !misfit.is_right()))
+    run(run_within_budget);
+  return result;
 }
 
 } // namespace internal

@@ -85,6 +85,13 @@ public:
     return triangles;
   }
 
+  template <class Visit>
+  void for_each_at(Vertex_index v, const Visit& visit) const
+  {
+    for(Number i : m_at_vertex[v])
+      visit(m_triangles[i]);
+  }
+
   /// Whether triangles would meet in more than vertices and edges they share, if w replaced v in all
   /// triangles. The test is exact.
   bool would_cross(Vertex_index v, Vertex_index w) const

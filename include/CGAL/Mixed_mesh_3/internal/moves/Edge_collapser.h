@@ -121,59 +121,7 @@ public:
                                            boundary_faces_at(w, subdomain(m_mesh.incident[v].front()))));
   }
 
-  /// The largest cost of the new elements; infinity if the cost is above `most` or an element is not
-  /// positive.
-  double worst_after(Vertex_index v, Vertex_index w, double most) const
-  {
-    double worst = 0;
-    for(Element_index e : m_mesh.incident[v])
-      if(!has(e, w)) {
-        const Working_mesh::Element element = m_mesh.elements[e].with_other_vertex(v, w);
-        worst = (std::max)(worst, m_quality(element.kind, m_mesh.relative_points(element)));
-        if(!(worst <= most) || !m_mesh.is_positive(element))
-          return infinity;
-      }
-    return worst;
-  }
-
-  /// Collapses the edge vw, so that w takes the place of v, if all new elements are positive and cost at most
-  /// `most`. \pre `keeps_topology(v, w)`
-  bool operator()(Vertex_index v, Vertex_index w, double most)
-  {
-    Transaction transaction(m_mesh);
-    const std::vector<Element_index> around(m_mesh.incident[v].begin(), m_mesh.incident[v].end());
-    for(Element_index e : around) {
-      transaction.remove(e);
-      if(!has(e, w))
-        transaction.add(m_mesh.elements[e].with_other_vertex(v, w));
-    }
-    transaction.merge(v);
-    return transaction.accept(m_quality, most);
-  }
-
-private:
-  bool has(Element_index e, Vertex_index v) const { return m_mesh.elements[e].has(v); }
-
-  Subdomain_index subdomain(Element_index e) const { return m_mesh.elements[e].attributes.subdomain_index; }
-
-  // The other vertices of boundary faces of v.
-  static std::vector<Vertex_index> neighbors(Vertex_index v, const std::vector<Face_key>& faces)
-  {
-    std::vector<Vertex_index> all;
-    for(const Face_key& face : faces)
-      for(Vertex_index u : face)
-        if(u != v && u != no_vertex)
-          all.push_back(u);
-    sort_uniquely(all);
-    return all;
-  }
-
-  static void sort_uniquely(std::vector<Vertex_index>& vertices)
-  {
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  }
-
+  /// The link condition in the mesh. All elements at the edge are tetrahedra.
   bool is_link_of_edge(Vertex_index v, Vertex_index w)
   {
     m_at_edge.clear();
@@ -217,6 +165,73 @@ private:
         }
       }
     return true;
+  }
+
+  /// The largest cost of the new elements; infinity if the cost is above `most` or an element is not
+  /// positive.
+  double worst_after(Vertex_index v, Vertex_index w, double most) const
+  {
+    double worst = 0;
+    for(Element_index e : m_mesh.incident[v])
+      if(!has(e, w)) {
+        const Working_mesh::Element element = m_mesh.elements[e].with_other_vertex(v, w);
+        worst = (std::max)(worst, m_quality(element.kind, m_mesh.relative_points(element)));
+        if(!(worst <= most) || !m_mesh.is_positive(element))
+          return infinity;
+      }
+    return worst;
+  }
+
+  /// The largest cost of the elements of a vertex.
+  double worst_at(Vertex_index v) const
+  {
+    double worst = 0;
+    for(Element_index e : m_mesh.incident[v])
+      worst = (std::max)(worst,
+                         m_quality(m_mesh.elements[e].kind, m_mesh.relative_points(m_mesh.elements[e])));
+    return worst;
+  }
+
+  /// Collapses the edge vw, so that w takes the place of v, if all new elements are positive and cost at most
+  /// `most`. \pre `keeps_topology(v, w)`
+  bool operator()(Vertex_index v, Vertex_index w, double most)
+  {
+    Transaction transaction(m_mesh);
+    if(m_mesh.is_sharp(v, w)) // two edges of a polyline become one
+      for(Vertex_index u : m_mesh.sharp_neighbors(v))
+        if(u != w)
+          transaction.set_sharp_edge(u, w, m_mesh.sharp_stratum(u, v));
+    const std::vector<Element_index> around(m_mesh.incident[v].begin(), m_mesh.incident[v].end());
+    for(Element_index e : around) {
+      transaction.remove(e);
+      if(!has(e, w))
+        transaction.add(m_mesh.elements[e].with_other_vertex(v, w));
+    }
+    transaction.merge(v);
+    return transaction.accept(m_quality, most);
+  }
+
+private:
+  bool has(Element_index e, Vertex_index v) const { return m_mesh.elements[e].has(v); }
+
+  Subdomain_index subdomain(Element_index e) const { return m_mesh.elements[e].attributes.subdomain_index; }
+
+  // The other vertices of boundary faces of v.
+  static std::vector<Vertex_index> neighbors(Vertex_index v, const std::vector<Face_key>& faces)
+  {
+    std::vector<Vertex_index> all;
+    for(const Face_key& face : faces)
+      for(Vertex_index u : face)
+        if(u != v && u != no_vertex)
+          all.push_back(u);
+    sort_uniquely(all);
+    return all;
+  }
+
+  static void sort_uniquely(std::vector<Vertex_index>& vertices)
+  {
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   }
 
   // The sorted vertices in the link of the edge, for each element of v without w that has two or more of

@@ -41,6 +41,15 @@ inline constexpr Stratum free_stratum = 0, boundary_stratum = 1;
 /// The first stratum on sharp edges: the numbers of polylines, then those of corners, follow from here on.
 inline constexpr Stratum first_sharp_stratum = Stratum(1) << 31;
 
+/// The sharp edges and corners that the boundary of a mesh follows: a mesh hands them on to the next stage.
+struct Sharp_strata
+{
+  std::vector<Stratum> of_vertices;                               ///< `free_stratum`: on no sharp edge
+  std::map<std::pair<Vertex_index, Vertex_index>, Stratum> edges; ///< smaller vertex first
+
+  bool empty() const { return of_vertices.empty(); }
+};
+
 /// An interface between a subdomain and a later one, or the outside, 0; or all sheets.
 struct Interface
 {

@@ -108,9 +108,11 @@ public:
     set(m_mesh, stratum);
   }
 
-  /// Makes the edges of a vertex not sharp: all sharp edges of the mesh are looked at.
+  /// Makes the edges of a vertex not sharp: all sharp edges of the mesh are looked at, if the vertex is on one.
   void leave_sharp_edges(Vertex_index v, Stratum stratum)
   {
+    if(m_mesh.strata[v] < first_sharp_stratum)
+      return set_stratum(v, stratum);
     for(auto e = m_mesh.sharp_edges.begin(); e != m_mesh.sharp_edges.end();)
       if(const auto [a, b] = (e++)->first; a == v || b == v)
         set_sharp_edge(a, b, free_stratum);

@@ -136,6 +136,32 @@ struct Working_mesh
     return strata[a] == strata[b] && strata[a] >= first_sharp_stratum;
   }
 
+  /// The other ends of the sharp edges of a vertex.
+  std::vector<Vertex_index> sharp_neighbors(Vertex_index v) const
+  {
+    std::vector<Vertex_index> ends;
+    if(strata[v] < first_sharp_stratum)
+      return ends;
+    for(Element_index e : incident[v])
+      for(Vertex_index u : elements[e])
+        if(u != v && is_sharp(u, v) && std::find(ends.begin(), ends.end(), u) == ends.end())
+          ends.push_back(u);
+    return ends;
+  }
+
+  /// Whether sharp edges stay as they are, but for a vertex, if a vertex of the boundary goes into another one: a
+  /// corner stays, and a vertex between two edges of a polyline goes along these, unless they would close it. A
+  /// vertex whose polyline does not go through it is like others.
+  bool keeps_sharp_edges(Vertex_index v, Vertex_index into) const
+  {
+    const std::vector<Vertex_index> ends = sharp_neighbors(v);
+    if(ends.empty())
+      return true;
+    return ends.size() == 2 && sharp_stratum(v, ends[0]) == strata[v]
+           && sharp_stratum(v, ends[1]) == strata[v]
+           && std::find(ends.begin(), ends.end(), into) != ends.end() && !is_sharp(ends[0], ends[1]);
+  }
+
   /// The elements that have both vertices.
   std::vector<Element_index> elements_at_edge(Vertex_index a, Vertex_index b) const
   {
@@ -169,6 +195,28 @@ struct Working_mesh
   bool is_positive(const Element_view& element) const
   {
     return jacobian_sign(element, position()) == Jacobian_sign::POSITIVE;
+  }
+
+  /// Takes over the sharp edges of the mesh that this one was made of.
+  void set_sharp_strata(const Sharp_strata& sharp)
+  {
+    for(Vertex_index v = 0; v < sharp.of_vertices.size(); ++v)
+      if(sharp.of_vertices[v] != free_stratum)
+        strata[v] = sharp.of_vertices[v];
+    sharp_edges = sharp.edges;
+  }
+
+  /// The sharp edges, by the numbers that vertices have in the changed mesh.
+  Sharp_strata sharp_strata() const
+  {
+    const std::vector<Vertex_index> numbers = numbers_without_merged();
+    Sharp_strata sharp;
+    for(Vertex_index v = 0; v < points.size(); ++v)
+      if(numbers[v] != no_vertex)
+        sharp.of_vertices.push_back(strata[v] >= first_sharp_stratum ? strata[v] : free_stratum);
+    for(const auto& [edge, stratum] : sharp_edges)
+      sharp.edges.emplace(Edge(numbers[edge.first], numbers[edge.second]), stratum);
+    return sharp;
   }
 
   /// Writes changes back to the mesh that this one was made of.
@@ -317,18 +365,27 @@ private:
     return mesh;
   }
 
-  template <class Point_3, class Mesh>
-  void assign_without_merged(const std::vector<Point_3>& all_points, Mesh& mesh) const
+  // The numbers of vertices once those are gone that were merged; these have none.
+  std::vector<Vertex_index> numbers_without_merged() const
   {
     std::vector<Vertex_index> numbers(points.size(), 0);
     for(Vertex_index v : merged)
       numbers[v] = no_vertex;
+    Vertex_index next = 0;
+    for(Vertex_index& n : numbers)
+      if(n != no_vertex)
+        n = next++;
+    return numbers;
+  }
+
+  template <class Point_3, class Mesh>
+  void assign_without_merged(const std::vector<Point_3>& all_points, Mesh& mesh) const
+  {
+    const std::vector<Vertex_index> numbers = numbers_without_merged();
     std::vector<Point_3> new_points;
     for(std::size_t v = 0; v < points.size(); ++v)
-      if(numbers[v] != no_vertex) {
-        numbers[v] = Vertex_index(new_points.size());
+      if(numbers[v] != no_vertex)
         new_points.push_back(all_points[v]);
-      }
     Element_list list = list_with_room(is_present);
     for(Element element : elements)
       if(!element.is_removed) {

@@ -87,6 +87,36 @@ public:
     return best;
   }
 
+  /// Arc lengths of the vertices where the direction changes by an angle whose cosine is less than given.
+  std::vector<double> turns(double cosine) const
+  {
+    std::vector<double> lengths;
+    for(std::size_t i = 1; i + 1 < m_points.size(); ++i) {
+      const Vec3 a = m_points[i] - m_points[i - 1], b = m_points[i + 1] - m_points[i];
+      if(dot(a, b) < cosine * norm(a) * norm(b))
+        lengths.push_back(m_lengths[i]);
+    }
+    return lengths;
+  }
+
+  /// Whether the part between two arc lengths is near to an edge from a to b, compared with the length of the
+  /// edge.
+  bool is_near(const Vec3& a, double length_at_a, const Vec3& b, double length_at_b) const
+  {
+    constexpr int samples = 8;
+    constexpr double near_enough = 0.04; // 20 edges for a circle
+    const Vec3 along = b - a;
+    const double square = dot(along, along);
+    for(int i = 1; i < samples; ++i) {
+      const Vec3 q = at(length_at_a + (length_at_b - length_at_a) * i / samples) - a;
+      const double share = (std::min)((std::max)(dot(q, along) / square, 0.), 1.);
+      const Vec3 off = q - share * along;
+      if(!(dot(off, off) <= near_enough * near_enough * square))
+        return false;
+    }
+    return true;
+  }
+
   Vec3 at(double length) const
   {
     const auto after = std::upper_bound(m_lengths.begin(), m_lengths.end(), length);

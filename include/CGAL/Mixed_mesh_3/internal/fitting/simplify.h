@@ -1,0 +1,117 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The pass that removes vertices of a fine mesh until a budget is met.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_SIMPLIFY_H
+#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_SIMPLIFY_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Followed_features.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Mesh_simplifier.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Strata.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/Any_surface.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
+
+#include <CGAL/Bbox_3.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// The places where vertices should be, and the vertices that a mesh should be without: those of the boundary that
+/// are not on the surface, or whose faces cut each other.
+struct Wanted_places
+{
+  std::vector<Vec3> places;
+  std::vector<std::uint8_t> is_unwanted;
+
+  Wanted_places(const Working_mesh& mesh, const std::vector<Face>& boundary,
+                const Surface_projection& project, const Bbox_3& box)
+    : places(mesh.points), is_unwanted(mesh.points.size(), 0)
+  {
+    const double on_surface = 1e-9 * norm({box.x_span(), box.y_span(), box.z_span()});
+    for(Vertex_index v : vertices_of_self_intersections(mesh.points, boundary))
+      is_unwanted[v] = 1;
+    for(Vertex_index v = 0; v < places.size(); ++v)
+      if(mesh.is_on_boundary(v)) {
+        const Vec3 q = project(mesh.points[v], mesh.strata[v]);
+        if(norm(q - mesh.points[v]) > on_surface) {
+          places[v] = q;
+          is_unwanted[v] = 1;
+        }
+      }
+  }
+};
+
+/*!
+Removes vertices of a mesh whose boundary is on the surface, until it has a given number.
+
+What does not suffice is given up in this order: that sharp edges of the mesh stay near to curved ones, then the
+quality bound, then the distance.
+
+\param followed sharp features that the mesh follows, which the result follows as well
+\param distance no place that a boundary vertex has left is farther from the boundary
+\param quality_bound no new element costs more; becomes a larger one if there would be more vertices otherwise
+\param largest_bound the largest one that it may become
+\return whether the mesh has so few vertices then
+\par Complexity
+Some 60 microseconds for each vertex that is removed
+*/
+inline bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_surface& surface,
+                     std::size_t number_of_vertices, double distance, double& quality_bound,
+                     double largest_bound, const std::function<bool()>& go_on)
+{
+  // Bounds that are tried, one after the other, so that elements are no flatter than needed.
+  constexpr double step_of_bound = 1.25;
+  Strata strata(surface);
+  const Interface_faces faces = strata.sorted_faces(mesh);
+  const Aspect_ratio_quality_3 quality;
+  Working_mesh working(mesh, strata.of_vertices(mesh.number_of_vertices(), faces));
+  working.set_sharp_strata(followed.strata);
+  Surface_projection project(surface, strata);
+  project.set_features(followed.features);
+  const Wanted_places wanted(working, faces.faces, project, surface.bbox());
+  const double share = double(number_of_vertices) / double(mesh.number_of_vertices());
+  Mesh_simplifier<Aspect_ratio_quality_3> simplifier(working, quality, faces.faces, wanted.places,
+                                                     wanted.is_unwanted, followed.features,
+                                                     std::size_t(share * double(faces.faces.size())));
+  std::size_t n = mesh.number_of_vertices();
+  const auto remove = [&](double d, bool follows_curves) {
+    if(n > number_of_vertices && go_on())
+      n -= simplifier(quality_bound, d, follows_curves, n - number_of_vertices, go_on);
+  };
+  remove(distance, true);
+  remove(distance, false);
+  while(n > number_of_vertices && quality_bound < largest_bound && go_on()) {
+    quality_bound = (std::min)(step_of_bound * quality_bound, largest_bound);
+    remove(distance, false);
+  }
+  remove(std::numeric_limits<double>::infinity(), false);
+  followed.strata = working.sharp_strata();
+  working.store(mesh);
+  return n <= number_of_vertices;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_SIMPLIFY_H

@@ -1,0 +1,173 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Fine first, then fewer: a mesh that is fine enough to be faithful is fitted once, and loses vertices until the
+// budget is met.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_SIMPLIFY_TO_BUDGET_H
+#define CGAL_MIXED_MESH_3_INTERNAL_MESHING_SIMPLIFY_TO_BUDGET_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/internal/fitting/Followed_features.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/simplify.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/coarsen_to_budget.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/fill_budget.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/make_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/sharp_cells.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// Whether a fine mesh is made first: for a domain of one subdomain without sheets, refined everywhere alike.
+inline bool begins_fine(const Located_octree& root, const Mixed_mesh_criteria_3& c)
+{
+  return root.is_region_everywhere() && root.domain().subdomain_indices().size() == 1
+         && !root.domain().has_sheets() && c.fit_to_surface()
+         && c.boundary_mode() == Boundary_mode::VERTEX_ORDER
+         && c.base_level() == Mixed_mesh_criteria_3::automatic && c.thin_parts() == Thin_parts::WHERE_NEEDED;
+}
+
+/// The number of vertices of the fine mesh, for a budget.
+inline std::size_t number_of_fine_vertices(std::size_t budget)
+{
+  // With 3 times the budget, mean distances of parts with edges are larger by a tenth to a half, with 4 the time
+  // is that of as many moves as the optimization of the whole. Beyond some number, the surface of a fine mesh has
+  // vertices enough, and removing more would take more time than all other stages.
+  constexpr double multiple = 4, most_removed = 30000;
+  return budget + std::size_t((std::min)((multiple - 1) * double(budget), most_removed));
+}
+
+/// How many times the budget cells may have that are split for narrow places and for the topology.
+constexpr double most_cells_for_narrow_places = 8, most_vertices_for_topology = 16;
+
+/// Lets the octree begin with cells that are small enough for sharp edges that are near to each other, and for
+/// curved ones, as far as the budget allows.
+/// \param size edge of the cells that the fine mesh has anyway
+inline void resolve_sharp_edges(Meshing_state& s, double size)
+{
+  constexpr double reach = 2;         // wider places are resolved by the cells that there are anyway
+  constexpr double samples = 8;       // in a cell
+  constexpr double smallest = 1. / 8; // of these cells
+  const Sharp_edges edges = s.root.domain().sharp_edges(s.criteria.sharp_angle());
+  if(edges.edges.empty())
+    return;
+  const std::vector<Narrow_place> places = narrow_places(Sharp_features(edges, size), reach * size,
+                                                         size / samples);
+  const double most = most_cells_for_narrow_places * double(s.criteria.maximal_number_of_vertices());
+  for(double share = smallest; !places.empty() && share < reach; share *= 2) {
+    Located_octree octree = s.root;
+    if(!refine_to_level(octree, s.coarsest_level(), s.budget()))
+      return;
+    split_narrow_cells(octree, places, share * size);
+    if(double(octree.number_of_cells()) <= most) {
+      s.thin_start = std::move(octree);
+      return;
+    }
+  }
+}
+
+/// Refines the octree for the fine mesh: until it has its number of vertices, and sharp edges and topology are
+/// resolved.
+inline void fill_fine_octree(Meshing_state& s)
+{
+  const Stage_scope scope(s.visitor, Stage::OCTREE);
+  if(fill_lattice(s))
+    return;
+  const std::size_t budget = s.criteria.maximal_number_of_vertices();
+  std::size_t number = number_of_fine_vertices(budget);
+  resolve_sharp_edges(s, std::cbrt(volume_of_domain(s.root) / double(number)));
+  if(s.thin_start) // what is beside these places needs cells as well
+    number += s.try_octree(*s.thin_start).number_of_vertices;
+  s.number_exchanged = number - s.budget();
+  fill_budget(s);
+  s.number_exchanged = 0;
+}
+
+/// Brings the boundary of the fine mesh onto the surface and its sharp edges. Vertices that do not arrive are left
+/// where they are, as they will be removed first.
+inline void fit_fine_mesh(Meshing_state& s, Core_mesh& mesh, Followed_features& followed)
+{
+  const auto rough = Mixed_mesh_optimization_criteria_3()
+                       .quality_bound(s.quality_bound)
+                       .sharp_angle(s.criteria.sharp_angle())
+                       .number_of_bisections(s.criteria.maximal_number_of_vertices() / 10) // on sharp edges
+                       .number_of_rounds(1);
+  optimize_bounded(
+    mesh, s.root.domain(), {rough, s.criteria.number_of_threads}, Aspect_ratio_quality_3(),
+    [&s] { return s.go_on(); }, {0, 0, true}, {}, &followed);
+}
+
+/// Makes a mesh with the vertices of the budget out of a finer one.
+/// \param mesh empty; stays so if there is none
+inline void make_simplified_mesh(Meshing_state& s, Core_mesh& mesh)
+{
+  // Largest bound in bounds that were asked for: in thin walls there is room for flatter elements only.
+  constexpr double largest_multiple = 5;
+  const std::size_t budget = s.criteria.maximal_number_of_vertices();
+  fill_fine_octree(s);
+  const auto note_stop = [&s] { s.result.status = Mixed_mesh_status::STOPPED; };
+  if(s.is_stopped)
+    return note_stop(); // the octree has more vertices than the budget
+  if(s.result.is_lattice_on_surface)
+    return make_mesh(s, mesh);
+  if(s.misfit_on_lattice().is_topology_wrong())
+    find_finer_octree(s, s.octree, 0, std::size_t(most_vertices_for_topology * double(budget)));
+  s.make_best_again();
+  s.result.number_of_vertices_needed = 0; // it is simplified
+  describe_octree(s);
+  if(!s.result.has_mesh())
+    return;
+  Core_mesh fine = split_to_tetrahedra(assembled_mesh(s));
+  s.best.release();
+  const Stage_scope scope(s.visitor, Stage::OPTIMIZATION);
+  Followed_features followed;
+  fit_fine_mesh(s, fine, followed);
+  const std::size_t number = fine.number_of_vertices();
+  double bound = s.has_quality_bound() ? s.quality_bound
+                                       : Mixed_mesh_optimization_criteria_3::default_quality_bound;
+  const double distance = s.result.tolerance > 0 ? s.result.tolerance
+                                                 : share_of_edge_tolerated * s.mean_edge();
+  const double largest = s.criteria.is_quality_bound_strict() ? bound : largest_multiple * bound;
+  const bool is_kept = s.criteria.keep_mesh_if_stopped() && s.best.is_manifold(); // within the budget only
+  if(s.is_stopped && !is_kept)
+    return note_stop();
+  const bool is_simplified = simplify(fine, followed, s.root.domain(), budget, distance, bound, largest,
+                                      [&] { return s.go_on() || is_kept; });
+  if(!is_simplified) {
+    s.result.status = s.is_stopped ? Mixed_mesh_status::STOPPED : Mixed_mesh_status::BUDGET_TOO_SMALL;
+    return;
+  }
+  if(s.has_quality_bound())
+    s.quality_bound = bound;
+  mesh = std::move(fine);
+  s.result.number_of_vertices_needed = mesh.number_of_vertices();
+  s.result.number_of_collapsed_vertices = number - mesh.number_of_vertices();
+  s.result.number_of_transition_vertices = s.result.number_of_boundary_vertices_inserted = 0;
+  s.result.number_of_vertices_in_region = number_of_vertices_in_region(mesh);
+  if(s.is_stopped) {
+    s.result.is_kept = true;
+    return note_stop();
+  }
+  optimize_boundary(s, mesh, {}, &followed);
+  note_lost_cells(s, mesh);
+  note_share_filled(s, mesh.number_of_vertices());
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_MESHING_SIMPLIFY_TO_BUDGET_H

@@ -1,0 +1,12 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The library Mixed_mesh_3_compiled: the optimization, which takes as long to compile as all other stages.
+
+#include <CGAL/Mixed_mesh_3/internal/fitting/optimize_bounded_impl.h>
+
+#ifndef CGAL_MIXED_MESH_3_COMPILED
+#error "build this file with CGAL_MIXED_MESH_3_COMPILED defined"
+#endif
