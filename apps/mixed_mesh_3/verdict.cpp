@@ -122,8 +122,9 @@ void add_warnings(const Options& o, Outcome& outcome)
   if((double(outcome.mesh.vertices) < full && !outcome.result.is_lattice_on_surface)
      || outcome.result.status == CGAL::Mixed_mesh_status::BUDGET_NOT_FILLED)
     warnings.push_back("only " + std::to_string(outcome.mesh.vertices) + " of " + std::to_string(o.vertices)
-                       + " vertices used: the region cannot be refined "
-                         "further, or each further cell tried would exceed the budget");
+                       + " vertices used: " + (o.regions.empty() ? "the mesh" : "the region")
+                       + " cannot be refined further, or "
+                       + "each further cell tried would exceed the budget");
   if(outcome.result.number_of_lost_cells != 0)
     warnings.push_back(lost_parts(outcome.result, o));
   if(o.fit() != Fit::NONE && f.vertices_off != 0)
@@ -131,8 +132,7 @@ void add_warnings(const Options& o, Outcome& outcome)
                        + " boundary vertices are not on " + o.surface
                        + (o.has_quality_bound()
                             ? ": elements would be worse than --max-arc allows, or inverted"
-                            : ": elements would be inverted")
-                       + ", or coordinates are too large to tell");
+                            : ": elements would be inverted"));
   if(outcome.elements_above_bound != 0)
     warnings.push_back("--max-arc " + rounded(o.largest_arc) + ": "
                        + counted(outcome.elements_above_bound, "element is", "elements are") + " above it"

@@ -260,11 +260,15 @@ py::dict fit(Mesh& mesh, const Soup& soup, const Progress& progress)
 }
 
 // A closed surface from a file: points, triangles, and repairs.
-py::tuple read_surface_arrays(const std::string& path, bool is_strict, double wrap_diameter)
+py::tuple read_surface_arrays(const std::string& path, bool is_strict, double wrap_diameter,
+                              double weld_distance, bool keep_largest, double least_volume)
 {
   mm3::IO::Read_anatomical_surface_options options;
   options.is_strict = is_strict;
   options.wrap_diameter = wrap_diameter;
+  options.weld_distance = weld_distance;
+  options.keep_largest = keep_largest;
+  options.least_volume = least_volume;
   Surface surface;
   std::string error;
   mm3::IO::Surface_input input;

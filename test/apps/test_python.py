@@ -221,6 +221,17 @@ class Test(unittest.TestCase):
             self.assertGreater(len(mm3.read_surface(path, wrap=0.5)[0]), 100)
         with self.assertRaisesRegex(ValueError, "open.off: .*not closed"):
             mm3.read_surface(path, strict=True)
+        cracks = FOLDER / "cracks.off"  # triangles with points of their own, the first one 1e-3 to the side
+        points = CUBE[0][CUBE[1]].reshape(-1, 3).astype(float)
+        points[:3] += 1e-3
+        far = points + 3
+        cracks.write_text("OFF\n72 24 0\n" + "".join("%r %r %r\n" % tuple(map(float, p)) for p in [*points, *0.5 * far])
+                          + "".join(f"3 {3 * i} {3 * i + 1} {3 * i + 2}\n" for i in range(24)))
+        with self.assertWarnsRegex(UserWarning, "cracks.off: welded [0-9]+ points"):
+            self.assertEqual(mm3.read_surface(cracks, weld=0.01)[0].shape, (16, 3))
+        for options in ({"largest": True}, {"drop_below": 0.5}):
+            with self.assertWarnsRegex(UserWarning, "dropped 1 of 2 components, the largest of volume 0.125"):
+                self.assertEqual(mm3.read_surface(cracks, weld=0.01, **options)[0].shape, (8, 3))
         with self.assertRaisesRegex(ValueError, "missing.stl"):
             mm3.read_surface("missing.stl")
         with self.assertRaisesRegex(ValueError, "missing.nii"):

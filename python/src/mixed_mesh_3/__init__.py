@@ -169,14 +169,18 @@ def example_data():
             for name, file in (("brain", "brain"), ("region", "region"), ("tumor", "tumour"))}
 
 
-def read_surface(path, *, strict=False, wrap=0.0):
+def read_surface(path, *, strict=False, wrap=0.0, weld=0.0, largest=False, drop_below=0.0):
     """A closed surface from a file: (points, triangles), in the unit of the file.
 
     Files: .off, .obj, .stl, .ply, .vtp, .vtk, .gii, or binary surfaces of FreeSurfer. Defects are repaired if possible,
     with a UserWarning; strict: such surfaces are rejected. wrap: the surface is wrapped; openings narrower than this
-    diameter are closed. Raises ValueError with the file and its defect.
+    diameter are closed. weld: where the surface is not closed, points up to this distance apart are one point; 0: a
+    millionth of the surface's diagonal. largest: only the largest component is kept, with its cavities. drop_below:
+    components and cavities of less volume are dropped. Raises ValueError with the file and its defect.
     """
-    *surface, mended = _core.read_surface(_os.fspath(path), bool(strict), _not_negative("wrap", wrap))
+    *surface, mended = _core.read_surface(_os.fspath(path), bool(strict), _not_negative("wrap", wrap),
+                                          _not_negative("weld", weld), bool(largest),
+                                          _not_negative("drop_below", drop_below))
     for text in mended:
         _warnings.warn(f"{path}: {text}", stacklevel=2)
     return tuple(surface)
@@ -187,7 +191,7 @@ def read_image(path):
     return _core.read_image(_os.fspath(path))
 
 
-def mesh(points, triangles, *, region=None, subdomains=None, vertices=660, tolerance=0.0, grading=0.35, exchange=True,
+def mesh(points, triangles, *, region=None, subdomains=None, vertices=2000, tolerance=0.0, grading=0.35, exchange=True,
          base_level=None, quality_bound=3.2, sharp_angle=50.0, progress=None):
     """Meshes the inside of a closed surface, fine in a region of interest.
 
@@ -245,7 +249,7 @@ def label_surface(image, affine, labels, *, smoothing=None, vertices=20000):
                                _count("vertices", vertices))
 
 
-def mesh_labels(image, affine, labels=None, *, smoothing=None, vertices=660, **options):
+def mesh_labels(image, affine, labels=None, *, smoothing=None, vertices=2000, **options):
     """Meshes an image of labels.
 
     labels: the values to mesh; None: all that are not 0. The label with most voxels surrounds the others, and has the

@@ -15,6 +15,7 @@
 #include <CGAL/Mixed_mesh_3/IO/Read_surface_options.h>
 #include <CGAL/Mixed_mesh_3/IO/Surface_input.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/surface/note_repair.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/polygon_soup.h>
 #include <CGAL/Mixed_mesh_3/internal/repair/Solid_reading.h>
 #include <CGAL/Mixed_mesh_3/internal/repair/fill_holes.h>
@@ -50,12 +51,6 @@ inline void check_repair(const Read_surface_options& options, const Surface_defe
 {
   if(options.is_strict)
     throw defect;
-}
-
-inline void note_repair(const std::string& text, Surface_input& input)
-{
-  input.warnings.push_back(text);
-  input.repairs.push_back(text);
 }
 
 inline std::string percent(double share)

@@ -13,11 +13,15 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/Surface_soup.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/surface/note_repair.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/polygon_soup.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/surface/weld_points.h>
+#include <CGAL/Mixed_mesh_3/IO/Read_surface_options.h>
 #include <CGAL/Mixed_mesh_3/IO/Surface_input.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
+#include <CGAL/Bbox_3.h>
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 
 #include <algorithm>
@@ -25,7 +29,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -149,47 +152,38 @@ struct Superfluous
   }
 };
 
-// Merges points at edges of one face only; returns the number of removed points. If a surface is closed as
-// given, points at the same place belong to sheets that touch.
-inline std::size_t merge_border_points(Points& points, Polygons& polygons)
+// Welds points at borders if fewer edges are open then, and no more than before have several faces.
+// \param distance largest distance of points that are the same point; 0: as float numbers differ by rounding
+inline void weld(double distance, Points& points, Polygons& polygons, Superfluous& superfluous,
+                 Surface_input& input)
 {
-  std::vector<bool> is_at_border(points.size(), false);
-  for_each_edge(polygons, [&is_at_border](auto first, auto last) {
-    if(last - first == 1)
-      is_at_border[first->low()] = is_at_border[first->high()] = true;
-  });
-  std::vector<std::size_t> border;
-  for(std::size_t v = 0; v < points.size(); ++v)
-    if(is_at_border[v])
-      border.push_back(v);
-  std::sort(border.begin(), border.end(), [&points](std::size_t a, std::size_t b) {
-    return points[a] != points[b] ? points[a] < points[b] : a < b;
-  });
-  std::vector<std::size_t> place(points.size()); // first point at each place, then its new index
-  std::iota(place.begin(), place.end(), std::size_t(0));
-  for(std::size_t i = 1; i < border.size(); ++i)
-    if(points[border[i]] == points[border[i - 1]])
-      place[border[i]] = place[border[i - 1]];
-  std::size_t n = 0;
-  for(std::size_t v = 0; v < points.size(); ++v) {
-    if(place[v] == v) {
-      points[n] = points[v];
-      place[v] = n++;
-    } else {
-      place[v] = place[place[v]];
-    }
+  constexpr double rounding = 1e-6; // share of the diagonal: some ten times the last digit of a float
+  if(!(distance > 0)) {
+    const Bbox_3 b = CGAL::bbox_3(points.begin(), points.end());
+    distance = rounding * norm(Vec3{b.x_span(), b.y_span(), b.z_span()});
   }
-  const std::size_t merged = points.size() - n;
-  points.erase(points.begin() + std::ptrdiff_t(n), points.end());
-  for(auto& polygon : polygons)
-    for(std::size_t& v : polygon)
-      v = place[v];
-  return merged;
+  Points welded_points = points;
+  Polygons welded = polygons;
+  const Welding welding = weld_border_points(distance, welded_points, welded);
+  if(welding.number_of_points == 0)
+    return;
+  Superfluous more = superfluous;
+  more.remove(welded_points, welded);
+  const Edge_counts before = count_edges(polygons), after = count_edges(welded);
+  if(welded.empty() || after.open >= before.open || after.nonmanifold > before.nonmanifold)
+    return;
+  points = std::move(welded_points);
+  polygons = std::move(welded);
+  superfluous = more;
+  note_repair("welded " + counted(welding.number_of_points, "point", "points") + " to others, up to "
+                + number_text(welding.distance) + " away",
+              input);
 }
 
-// Takes the faces of a soup, without superfluous ones.
-inline void take_faces(const std::string& path, Surface_soup soup, Points& points, Polygons& polygons,
-                       Surface_input& input)
+// Takes the faces of a soup, without superfluous ones. What is not closed is welded; if strict, only if the
+// distance is given.
+inline void take_faces(const std::string& path, const Read_surface_options& options, Surface_soup soup,
+                       Points& points, Polygons& polygons, Surface_input& input)
 {
   check_indices(path, soup);
   check_coordinates(path, soup);
@@ -210,6 +204,8 @@ inline void take_faces(const std::string& path, Surface_soup soup, Points& point
       input.warnings.push_back("merged " + counted(merged, "duplicate point", "duplicate points"));
     if(merged != 0)
       superfluous.remove(points, polygons);
+    if(count_edges(polygons).open != 0 && (!options.is_strict || options.weld_distance > 0))
+      weld(options.weld_distance, points, polygons, superfluous, input);
   }
   superfluous.warn(input);
   if(polygons.empty())
