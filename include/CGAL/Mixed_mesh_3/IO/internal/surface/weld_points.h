@@ -174,11 +174,12 @@ inline Welding weld_border_points(double distance, Points& points, Polygons& pol
     for(std::size_t k = 0; k < 3; ++k)
       error[k] = (std::max)(error[k], std::abs(d[k]));
   }
-  welding.number_of_points = merge_points(std::move(first), points, polygons);
-  // An error is the difference of two coordinates, of which neither may be at an end of the range.
+  // Before points are merged, as any of them may have the exact coordinate. An error is the difference of two
+  // coordinates, of which neither may be at an end of the range.
   for(int k = 0; k < 3; ++k)
     if(error[std::size_t(k)] > 0)
       align_coordinates(k, (std::min)(2 * error[std::size_t(k)], distance), points);
+  welding.number_of_points = merge_points(std::move(first), points, polygons);
   return welding;
 }
 
