@@ -28,15 +28,17 @@ Input_names names_of(const Options& o)
           may_help ? "--tolerance" : "", regions};
 }
 
-std::string lost_parts(const CGAL::Mixed_mesh_result_3& result, const Options& o)
+std::string lost_parts(const Outcome& outcome, const Options& o)
 {
+  const CGAL::Mixed_mesh_result_3& result = outcome.result;
   const CGAL::Bbox_3& b = result.lost_cells;
   std::ostringstream where;
   where << '[' << b.xmin() << ", " << b.xmax() << "] x [" << b.ymin() << ", " << b.ymax() << "] x ["
         << b.zmin() << ", " << b.zmax() << ']';
   return o.surface + ": parts thinner than a cell are lost: " + std::to_string(result.number_of_lost_cells)
          + " octree cells that they meet are away from the mesh, within " + where.str()
-         + "; try more vertices or a larger --base-level";
+         + "; try more vertices or a larger --base-level"
+         + (outcome.surface.components > 1 ? ", or --drop-below, if they are specks" : "");
 }
 
 std::string missed_tolerance(const Fidelity& f, const Options& o)
@@ -126,7 +128,7 @@ void add_warnings(const Options& o, Outcome& outcome)
                        + " cannot be refined further, or "
                        + "each further cell tried would exceed the budget");
   if(outcome.result.number_of_lost_cells != 0)
-    warnings.push_back(lost_parts(outcome.result, o));
+    warnings.push_back(lost_parts(outcome, o));
   if(o.fit() != Fit::NONE && f.vertices_off != 0)
     warnings.push_back(std::to_string(f.vertices_off) + " of " + std::to_string(f.vertices)
                        + " boundary vertices are not on " + o.surface
