@@ -414,7 +414,18 @@ void test_welding()
   const Result box = read("cracks.off", box_with_cracks(0.05), options);
   BOOST_TEST(box.is_read && box.surface.number_of_vertices() == 8);
   options.weld_distance = 1e-3;
-  is_refused(read("cracks.off", box_with_cracks(0.05), options), "not closed: 36 border edges");
+  const Result refused = read("cracks.off", box_with_cracks(0.05), options);
+  is_refused(refused, "not closed: 36 border edges");
+  // The distance that is proposed closes the surface, and the next smaller one of 1, 2, 5, ... does not.
+  BOOST_TEST_EQ(refused.input.weld_distance, 0.1);
+  options.weld_distance = 0.05;
+  BOOST_TEST(!read("cracks.off", box_with_cracks(0.05), options).is_read);
+  // No distance is proposed for a hole, large or small, or for cracks wider than a hundredth of the diagonal.
+  BOOST_TEST_EQ(read("hole.off", off(cube_points, triangle_lines().substr(8 * 6))).input.weld_distance, 0);
+  options.weld_distance = 0;
+  BOOST_TEST_EQ(read("hole.off", off(cube_points, triangle_lines().substr(8)), options).input.weld_distance,
+                0);
+  BOOST_TEST_EQ(read("cracks.off", box_with_cracks(5), options).input.weld_distance, 0);
   // What is closed stays as it is, however near points are to each other.
   options.weld_distance = 1;
   const Result near = read("near.off",

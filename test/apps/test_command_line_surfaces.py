@@ -197,6 +197,8 @@ class Surfaces(Case):
             self.assertEqual((told["status"], told["mesh"]["hexahedra"]), ("success", told["mesh"]["elements"]))
             self.assertAlmostEqual(told["surface"]["ratio of volumes"], 1, delta=1e-12)
             self.assertEqual(told["options"]["weld"], more[1] if more else None)
+        refused = self.fails(path, "--vertices", 500, names=path, words="not closed")
+        self.assertRegex(refused.stderr, "; --weld 0.01 or --wrap [0-9.]+ would close it$")
         self.fails(path, "--vertices", 500, "--weld", 0, names="--weld", status=2)
         self.fails(path, "--vertices", 500, "--strict", names=path, words="not closed: 36 border edges")
 

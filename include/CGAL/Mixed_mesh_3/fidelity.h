@@ -348,8 +348,8 @@ located in the solid of the other side. A body, or cavity, belongs to the body o
 in. The correspondence is reliable for parts that are thicker than the distance between the surface and the
 boundary of the mesh; bodies that are nowhere so thick may be called missing and added instead.
 
-Specks, parts of less than 10^-6 of the volume of the solid, are counted, but are no differences: whether a
-mesh has them does not matter. Equal numbers do not hide differences: a missing body and another body that falls into two are both reported.
+Specks, parts of less than 10^-6 of the volume, are counted, but are no differences. Equal numbers do not hide
+differences: a missing body and another body that falls into two are both reported.
 Not detected are the loss of a part of a body without a change of topology, unless the volume tells (see
 `hausdorff_distance()`), and knots: a ring that is tied differently has the same handles.
 

@@ -26,8 +26,8 @@ struct Read_surface_options
   /// openings narrower than the diameter are closed, and details smaller than a thirtieth of it are lost.
   double wrap_diameter = 0;
 
-  /// The largest distance of points that are welded where the surface is not closed: cracks narrower than that
-  /// are closed. By default, 10^-6 of the diagonal of the bounding box, which equal points differ by if a
+  /// The largest distance of points that are welded where the surface is not closed: narrower cracks are
+  /// closed. By default, 10^-6 of the diagonal of the bounding box, which equal points differ by if a
   /// program has rounded each for itself; nothing if `is_strict` is set.
   double weld_distance = 0;
 

@@ -89,8 +89,8 @@ CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::build(const Triangle_soup& soup)
   count_shells(soup);
 }
 
-// Counts the shells, without specks. Around a cavity, points inside the shell, but near to it, are outside of the domain, for
-// either orientation of the triangles.
+// Counts the shells, without specks. Around a cavity, points inside the shell, but near to it, are outside of
+// the domain, for either orientation of the triangles.
 CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::count_shells(const Triangle_soup& soup)
 {
   const auto& triangles = soup.triangles;

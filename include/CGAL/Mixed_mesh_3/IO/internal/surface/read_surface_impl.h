@@ -86,6 +86,7 @@ CGAL_MIXED_MESH_3_INLINE void make_surface(const std::string& name, const Read_s
       components = make_solid(options, std::move(points), std::move(polygons), mesh, input);
     } catch(const Surface_defect& defect) {
       input.wrap_diameter = defect.wrap_diameter;
+      input.weld_distance = defect.weld_distance;
       refuse(name, defect.text);
     }
   }

@@ -44,6 +44,7 @@ struct Surface_defect
 {
   std::string text;
   double wrap_diameter = 0; ///< diameter with which a wrap is possible
+  double weld_distance = 0; ///< distance at which welding closes the surface; 0: none
 };
 
 // Checks whether repairs are allowed; if not, the defect ends the reading.

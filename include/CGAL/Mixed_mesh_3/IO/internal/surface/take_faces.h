@@ -152,16 +152,23 @@ struct Superfluous
   }
 };
 
+inline double diagonal_of(const Points& points)
+{
+  const Bbox_3 b = CGAL::bbox_3(points.begin(), points.end());
+  return norm(Vec3{b.x_span(), b.y_span(), b.z_span()});
+}
+
+// Largest distance of points that are the same point, as a share of the diagonal: some ten times the last
+// digit of a float.
+constexpr double rounding_of_points = 1e-6;
+
 // Welds points at borders if fewer edges are open then, and no more than before have several faces.
 // \param distance largest distance of points that are the same point; 0: as float numbers differ by rounding
 inline void weld(double distance, Points& points, Polygons& polygons, Superfluous& superfluous,
                  Surface_input& input)
 {
-  constexpr double rounding = 1e-6; // share of the diagonal: some ten times the last digit of a float
-  if(!(distance > 0)) {
-    const Bbox_3 b = CGAL::bbox_3(points.begin(), points.end());
-    distance = rounding * norm(Vec3{b.x_span(), b.y_span(), b.z_span()});
-  }
+  if(!(distance > 0))
+    distance = rounding_of_points * diagonal_of(points);
   Points welded_points = points;
   Polygons welded = polygons;
   const Welding welding = weld_border_points(distance, welded_points, welded);
@@ -178,6 +185,38 @@ inline void weld(double distance, Points& points, Polygons& polygons, Superfluou
   note_repair("welded " + counted(welding.number_of_points, "point", "points") + " to others, up to "
                 + number_text(welding.distance) + " away",
               input);
+}
+
+// The least of the distances ..., 1, 2, 5, 10, ... at which welding closes a surface, by pairs of points and
+// not by chains, which would close a hole by pulling its border together; 0 if there is none up to a
+// hundredth of the diagonal.
+// \param least distance at which welding did not close the surface; 0: as for weld()
+inline double closing_weld_distance(double least, const Points& points, const Polygons& polygons)
+{
+  constexpr double largest_share = 0.01;
+  const double diagonal = diagonal_of(points);
+  if(!(least > 0))
+    least = rounding_of_points * diagonal;
+  const std::size_t nonmanifold = count_edges(polygons).nonmanifold;
+  for(int exponent = int(std::floor(std::log10(least)));; ++exponent)
+    for(const double digit : {1., 2., 5.}) {
+      const double distance = digit * std::pow(10., exponent);
+      if(distance > largest_share * diagonal)
+        return 0;
+      if(distance <= least)
+        continue;
+      Points welded_points = points;
+      Polygons welded = polygons;
+      const Welding welding = weld_border_points(distance, welded_points, welded);
+      if(welding.number_of_points == 0)
+        continue;
+      if(welding.distance > distance)
+        return 0; // a chain, as at each larger distance
+      Superfluous().remove(welded_points, welded);
+      const Edge_counts edges = count_edges(welded);
+      if(!welded.empty() && edges.open == 0 && edges.nonmanifold <= nonmanifold)
+        return distance;
+    }
 }
 
 // Takes the faces of a soup, without superfluous ones. What is not closed is welded; if strict, only if the
