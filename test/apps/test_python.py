@@ -247,11 +247,10 @@ class Test(unittest.TestCase):
 
     def test_warnings(self):
         """What a report warns of is a warning: a boundary off the surface, and a surface that is mended."""
-        spikes = BRAIN[0].copy()
-        spikes[::37] *= 1.4
+        inner = {label: (CUBE[0] * 0.3 + shift, CUBE[1]) for label, shift in ((2, 0.6), (3, 0.1))}
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            mesh, report = mm3.mesh(spikes, BRAIN[1], vertices=300)
+            mesh, report = mm3.mesh(*CUBE, subdomains=inner, vertices=2000)
         self.assertGreater(report["boundary vertices not on surface"], 0)
         self.assertEqual([str(w.message) for w in caught], report["warnings"])
         self.assertEqual({w.filename for w in caught}, {__file__})
@@ -301,8 +300,10 @@ class Test(unittest.TestCase):
         square = (np.array([[0.5, -1, -1], [0.5, 2, -1], [0.5, 2, 2], [0.5, -1, 2]]), np.array([[0, 1, 2], [0, 2, 3]]))
         cut, report = mm3.mesh(*CUBE, sheets=[square], vertices=500)
         sheet, = report["sheets"]
-        self.assertAlmostEqual(sheet["area"], 1, delta=1e-9)
-        np.testing.assert_allclose(cut.points[sheet["faces"][sheet["faces"] >= 0], 0], 0.5, atol=1e-9)
+        self.assertAlmostEqual(sheet["area"], 1, delta=0.05)
+        self.assertEqual(len(np.unique(sheet["faces"][sheet["faces"] >= 0])), sheet["vertices"])
+        np.testing.assert_allclose(cut.points[sheet["faces"][sheet["faces"] >= 0], 0], 0.5,
+                                   atol=sheet["largest distance"] + 1e-9)
         with self.assertWarnsRegex(UserWarning, "sheet 0: has no faces"):
             mm3.mesh(*CUBE, sheets=[(square[0] + [3, 0, 0], square[1])], vertices=100)
 

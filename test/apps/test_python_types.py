@@ -62,7 +62,9 @@ class Test(unittest.TestCase):
                               env=environment)
 
     def test_stubs_are_those_of_the_package(self):
-        run = self.run_mypy("mypy.stubtest", "mixed_mesh_3", "--ignore-missing-stub", "--concise")
+        # Classes of the module have a metaclass of pybind11; their members are compared.
+        (FOLDER / "allowed").write_text("mixed_mesh_3.Mesh\nmixed_mesh_3.Elasticity\n", encoding="utf-8")
+        run = self.run_mypy("mypy.stubtest", "mixed_mesh_3", "--ignore-missing-stub", "--concise", "--allowlist", "allowed")
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
 
     def test_calls(self):

@@ -208,10 +208,8 @@ inline double closing_weld_distance(double least, const Points& points, const Po
       Points welded_points = points;
       Polygons welded = polygons;
       const Welding welding = weld_border_points(distance, welded_points, welded);
-      if(welding.number_of_points == 0)
+      if(welding.number_of_points == 0 || welding.distance > distance)
         continue;
-      if(welding.distance > distance)
-        return 0; // a chain, as at each larger distance
       Superfluous().remove(welded_points, welded);
       const Edge_counts edges = count_edges(welded);
       if(!welded.empty() && edges.open == 0 && edges.nonmanifold <= nonmanifold)
