@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The lines of README, one after the other, as a reader meets them: shell, C++, and Python in the same folder.
 
-  test_readme.py BUILD SOURCE FOLDER        BUILD holds bin/ and python/
+  test_readme.py BUILD SOURCE PROGRAM FOLDER        BUILD holds bin/ and python/, PROGRAM is that in C++
 
-Not run are the two commands and what needs a network, or builds all again: scripts/, cmake, and pip. What these make is
-that of BUILD: the programs, and the module.
+Not run are the two commands and what needs a network, or builds all again: scripts/, cmake, pip, and g++. What these
+make is that of BUILD: the programs, and the module.
 """
 
 import os
@@ -16,14 +16,13 @@ import subprocess
 import sys
 import unittest
 
-BUILD, SOURCE, FOLDER = (pathlib.Path(a).resolve() for a in sys.argv[1:4])
+BUILD, SOURCE, PROGRAM, FOLDER = (pathlib.Path(a).resolve() for a in sys.argv[1:5])
 if not list((BUILD / "python" / "mixed_mesh_3").glob("_core*")):
     print("skipped: the module was not built, see MIXED_MESH_3_BUILD_PYTHON")
     sys.exit(77)
 
 # A block of lines with four spaces, or between fences with a language.
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$|((?:^    .+\n)+)", re.MULTILINE | re.DOTALL)
-FILES = {"cpp": "program.cpp", "python": "program.py"}
 NOT_RUN = re.compile(r"\s*(\./)?(scripts/|cmake |ENV/bin/pip )")
 
 
@@ -67,14 +66,17 @@ class Test(unittest.TestCase):
             languages.append(language)
             if language == "sh":
                 lines += commands(text)
-            else:  # the reader has it in a file; Python is started, and the file is what is typed then
-                (FOLDER / FILES[language]).write_text(text, encoding="utf-8")
-                lines += ["ENV/bin/python program.py"] if language == "python" else []
+            elif language == "python":  # the file is what is typed after Python is started
+                (FOLDER / "program.py").write_text(text, encoding="utf-8")
+                lines.append("ENV/bin/python program.py")
         self.assertTrue({"sh", "cpp", "python"} == set(languages), languages)
         lines = [line for line in lines if line != "ENV/bin/python"]
         for expected in ("export PATH", "mixed_mesh_3 data/brain.off", "g++ ", "ENV/bin/python program.py"):
             self.assertEqual(sum(line.startswith(expected) for line in lines), 1, (expected, lines))
         self.assertEqual(len(lines), 4, lines)
+        # The program is compiled already.
+        lines = [re.sub(r"^g\+\+ .* program\.cpp .*&& \./a\.out$", f"'{PROGRAM}'", line) for line in lines]
+        self.assertIn(f"'{PROGRAM}'", lines)
         # A command at a time, so that each has its own files.
         start = [lines[0]]
         for line in lines[1:]:

@@ -30,7 +30,7 @@ int status_of(const Work& work)
     alarm(20); // ends it with another status if the signal is lost
     work([&] { // lets the parent send the signal, and waits for it
       const ssize_t written = write(ready[1], "", 1);
-      usleep(written == 1 ? 500000 : 0);
+      sleep(written == 1 ? 2 : 0);
     });
     _exit(7);
   }

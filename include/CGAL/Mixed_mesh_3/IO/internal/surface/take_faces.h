@@ -198,17 +198,19 @@ inline double closing_weld_distance(double least, const Points& points, const Po
   if(!(least > 0))
     least = rounding_of_points * diagonal;
   const std::size_t nonmanifold = count_edges(polygons).nonmanifold;
+  double longest = 0; // a chain: at a distance below half of it, it still is one
   for(int exponent = int(std::floor(std::log10(least)));; ++exponent)
     for(const double digit : {1., 2., 5.}) {
       const double distance = digit * std::pow(10., exponent);
       if(distance > largest_share * diagonal)
         return 0;
-      if(distance <= least)
+      if(distance <= least || distance < longest / 2)
         continue;
       Points welded_points = points;
       Polygons welded = polygons;
       const Welding welding = weld_border_points(distance, welded_points, welded);
-      if(welding.number_of_points == 0 || welding.distance > distance)
+      longest = welding.distance;
+      if(welding.number_of_points == 0 || longest > distance)
         continue;
       Superfluous().remove(welded_points, welded);
       const Edge_counts edges = count_edges(welded);
