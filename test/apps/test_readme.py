@@ -22,7 +22,7 @@ if not list((BUILD / "python" / "mixed_mesh_3").glob("_core*")):
     sys.exit(77)
 
 # A block of lines with four spaces, or between fences with a language.
-BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$|((?:^    .+\n)+)", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$|((?:^    [^\n]+\n)+)", re.MULTILINE | re.DOTALL)
 NOT_RUN = re.compile(r"\s*(\./)?(scripts/|cmake |ENV/bin/pip )")
 
 
