@@ -185,7 +185,7 @@ class Use(Case):
         def repeated(f):
             """Where the machine is suddenly faster or slower than before, the middle is missed: the run has ended, or
             vertices have not arrived yet."""
-            for _ in range(5):
+            for _ in range(10):
                 result = f()
                 if result[0] == 4 and "all checks hold" in result[1]:
                     break
