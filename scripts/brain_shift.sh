@@ -61,4 +61,10 @@ pictures: $out/brain_shift_before.png
           $out/brain_shift_shifted.png
           $out/brain_shift_resected.png
           $out/brain_shift_image.png
+programs: $build/bin/mixed_mesh_3, $build/bin/brain_shift
+
+Next, look at the mesh in a browser, and shift it by measurements of your own:
+
+    export PATH="$build/bin:\$PATH"
+    brain_shift $out/brain.vtu --control-points $root/data/control_points.csv --control-radius 8 --page shift.html
 END

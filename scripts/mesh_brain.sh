@@ -45,4 +45,10 @@ pictures: $out/brain_surface.png
           $out/brain_kinds.png
           $out/brain_ARC.png
           $out/brain_quality.png
+program:  $build/bin/mixed_mesh_3
+
+Next, mesh a surface of your own, and open its page in a browser:
+
+    export PATH="$build/bin:\$PATH"
+    mixed_mesh_3 SURFACE.stl --output mesh.vtu --page mesh.html
 END

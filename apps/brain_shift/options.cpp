@@ -333,8 +333,8 @@ void set_up(CLI::App& app, Options& o)
   app.add_flag("--quiet", o.quiet, "Print errors and warnings only");
   app.set_version_flag("--version", "brain_shift 0.1 (CGAL " CGAL_VERSION_STR ")");
   app.footer("Lengths are in mm. Example:\n"
-             "  brain_shift brain.vtu --control-points data/control_points.csv --tumor data/tumour.off "
-             "--output shift.vtu");
+             "  brain_shift brain.vtu --control-points data/control_points.csv --control-radius 8 "
+             "--tumor data/tumour.off --output shift.vtu");
 }
 
 // Three numbers with commas between them.
@@ -535,6 +535,16 @@ std::vector<std::string> outputs_of(const Options& o)
   return outputs;
 }
 
+std::vector<std::string> inputs_of(const Options& o)
+{
+  std::vector<std::string> inputs{o.mesh,      o.control_points,  o.control_points_after,
+                                  o.landmarks, o.landmarks_after, o.tumor,
+                                  o.image,     o.labels};
+  for(const auto& patches : {o.fixed_patches, o.sliding_patches, o.touching_patches, o.openings})
+    inputs.insert(inputs.end(), patches.begin(), patches.end());
+  return inputs;
+}
+
 void check_feasible(const Options& o)
 {
   // A temporary file exists while the program tests whether a file can be written.
@@ -552,12 +562,7 @@ void check_feasible(const Options& o)
   for(const std::string& path : {o.report, o.page, o.febio})
     if(!path.empty())
       outputs.push_back(path);
-  std::vector<std::string> inputs{o.mesh,      o.control_points,  o.control_points_after,
-                                  o.landmarks, o.landmarks_after, o.tumor,
-                                  o.image,     o.labels};
-  for(const auto& patches : {o.fixed_patches, o.sliding_patches, o.touching_patches, o.openings})
-    inputs.insert(inputs.end(), patches.begin(), patches.end());
-  Output_paths paths(inputs);
+  Output_paths paths(inputs_of(o));
   for(const std::string& path : outputs) {
     require([&](std::string* error) { return mm3::IO::check_output_directory(path, error); });
     paths.add(path);

@@ -82,6 +82,9 @@ std::string labels_output(const Options& options);
 /// The images that are written.
 std::vector<std::string> image_outputs(const Options& options);
 
+/// All files that are read.
+std::vector<std::string> inputs_of(const Options& options);
+
 /// All files that are written.
 std::vector<std::string> outputs_of(const Options& options);
 

@@ -19,6 +19,7 @@
 #include "brain_shift/simulate.h"
 #include "brain_shift/subdomains.h"
 #include "core/Deferred_signals.h"
+#include "core/Prompt_termination.h"
 #include "core/Stage_log.h"
 #include "core/messages.h"
 #include "core/resources.h"
@@ -32,7 +33,9 @@
 #include <cstddef>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
@@ -168,6 +171,10 @@ Page_data page_data(const Inputs& inputs, const std::vector<bool>& is_removed, c
                     const Outcome& outcome)
 {
   Page_data data{o.command, inputs.subdomain_names, true, {{"shifted", flat(outcome.before.displacements)}}};
+  data.files = inputs_of(o);
+  data.files.push_back(o.output_image);
+  for(const std::string& path : outputs_of(o))
+    data.files.push_back(path);
   if(outcome.after)
     data.steps.push_back({"resected", flat(outcome.after->displacements), is_removed});
   return data;
@@ -208,6 +215,7 @@ void run(const Options& o)
   if(!o.quiet && outputs_of(o).empty())
     std::cerr << "note: nothing will be written, without --output, --output-deformed, --output-image, "
                  "--febio, --report and --page\n";
+  std::optional<Prompt_termination> termination(std::in_place);
   Stage_log log(!o.quiet);
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);
@@ -215,6 +223,7 @@ void run(const Options& o)
   if(outcome.landmarks)
     warn_of_landmarks(o, outcome);
   const Remaining_mesh remaining = remaining_mesh(inputs.mesh, is_removed, outcome);
+  termination.reset(); // files are removed first
   write_files(inputs, is_removed, remaining, o, log, outcome);
   log.finish_progress();
   for(const std::string& warning : outcome.warnings)

@@ -86,6 +86,13 @@ void add_surface_options(CLI::App& app, CGAL::Mixed_meshes_3::IO::Read_anatomica
     ->check(number("greater than 0", [](double x) { return x > 0; }))
     ->type_name("D")
     ->excludes(strict);
+  app
+    .add_option(
+      "--weld", options.weld_distance,
+      "Where a surface is not closed, points up to D apart are one point: cracks narrower than D are closed "
+      "(default: a millionth of the surface's diagonal)")
+    ->check(number("greater than 0", [](double x) { return x > 0; }))
+    ->type_name("D");
 }
 
 std::string command_of(const char* name, int argc, const char* const* argv)

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 using Status = CGAL::Mixed_mesh_status;
@@ -118,6 +119,38 @@ std::string sentence_on_volume(double ratio, const Input_names& names)
   return names.surface + ": the mesh has " + as_part_of(ratio)
          + " the surface's volume: it is too coarse for the domain; try more vertices or a larger "
          + names.base_level + (names.tolerance.empty() ? "" : ", or " + names.tolerance);
+}
+
+std::string sentence_on_vertices_off(const Fidelity& fidelity, const Input_names& names)
+{
+  return std::to_string(fidelity.vertices_off) + " of " + std::to_string(fidelity.vertices)
+         + " boundary vertices are not on " + names.surface
+         + (names.quality_bound.empty()
+              ? ": elements would be inverted"
+              : ": elements would be worse than " + names.quality_bound + " allows, or inverted");
+}
+
+std::string sentence_on_lost_parts(const CGAL::Mixed_mesh_result_3& result, const Input_names& names)
+{
+  const CGAL::Bbox_3& b = result.lost_cells;
+  std::ostringstream where;
+  where << '[' << b.xmin() << ", " << b.xmax() << "] x [" << b.ymin() << ", " << b.ymax() << "] x ["
+        << b.zmin() << ", " << b.zmax() << ']';
+  return names.surface
+         + ": parts thinner than a cell are lost: " + std::to_string(result.number_of_lost_cells)
+         + " octree cells that they meet are away from the mesh, within " + where.str()
+         + "; try more vertices or a larger " + names.base_level;
+}
+
+std::string sentence_on_tolerance(const Fidelity& fidelity, const std::string& option,
+                                  const Input_names& names)
+{
+  const bool is_on_mesh = fidelity.from_mesh.distance > fidelity.from_surface.distance;
+  const Distance& d = is_on_mesh ? fidelity.from_mesh : fidelity.from_surface;
+  const std::string at = " at " + place(d.from) + " is " + rounded(d.distance) + " away from ";
+  return option + ": not reached, "
+         + (is_on_mesh ? "the mesh" + at + names.surface : names.surface + at + "the mesh")
+         + "; try more vertices";
 }
 
 std::string reason_for_no_likeness(const CGAL::Mixed_mesh_result_3& result, const Fidelity& fidelity,

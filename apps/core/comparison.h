@@ -93,6 +93,7 @@ struct Input_names
   std::string budget, base_level;   // options, the first with its value
   std::string tolerance;            // the option that would help, or empty
   std::vector<std::string> regions; // files
+  std::string quality_bound = {};   // the option, or empty if there is no bound
 };
 
 /// The reason why there is no mesh; empty if there is one.
@@ -105,6 +106,17 @@ std::string reason_for_no_likeness(const CGAL::Mixed_mesh_result_3& result, cons
 
 /// A sentence on a volume that differs.
 std::string sentence_on_volume(double ratio, const Input_names& names);
+
+/// A sentence on boundary vertices that are not on the surface, of which there are some.
+std::string sentence_on_vertices_off(const Fidelity& fidelity, const Input_names& names);
+
+/// A sentence on parts thinner than a cell, of which there are some.
+std::string sentence_on_lost_parts(const CGAL::Mixed_mesh_result_3& result, const Input_names& names);
+
+/// A sentence on a tolerance that is missed.
+/// \param option the tolerance as the user gave it
+std::string sentence_on_tolerance(const Fidelity& fidelity, const std::string& option,
+                                  const Input_names& names);
 
 /// The number of vertices that thin parts need beyond the budget, in words; empty if the budget suffices, or
 /// the number is not known.

@@ -24,8 +24,10 @@ Surface read_with(const Read& read, const std::string& path,
   IO::Surface_input input;
   require([&](std::string* error) {
     const bool is_read = read(surface, error, &input);
-    if(input.wrap_diameter > 0 && !options.is_strict)
-      *error += "; --wrap " + rounded(input.wrap_diameter) + " would close it";
+    const bool weld = input.weld_distance > 0, wrap = input.wrap_diameter > 0 && !options.is_strict;
+    if(weld || wrap)
+      *error += "; " + (weld ? "--weld " + rounded(input.weld_distance) : "") + (weld && wrap ? " or " : "")
+                + (wrap ? "--wrap " + rounded(input.wrap_diameter) : "") + " would close it";
     return is_read;
   });
   for(const std::string& warning : input.warnings)

@@ -71,6 +71,16 @@ public:
     return *m_domain;
   }
 
+  // The surface of the domain from a file, without components that the options drop.
+  Subdomain whole(const Subdomain_option& s, mm3::Subdomain_index index)
+  {
+    auto options = m_options.surface_options;
+    options.keep_largest = m_options.completion.keep_largest;
+    options.least_volume = m_options.completion.least_volume;
+    return subdomain(s, index,
+                     [&](Surface_facts& facts) { return read_surface(s.file, options, facts, m_warnings); });
+  }
+
   // The surface of the domain, or of the part around other parts, from its image.
   Subdomain whole(const Subdomain_option& s, const Label_image& image, mm3::Subdomain_index index)
   {
@@ -229,7 +239,7 @@ std::vector<Subdomain> read_subdomains(const Input_options& o, Surface_reader& r
   const Subdomain_option whole{surrounding_name(o), o.surface, o.voxels};
   if(!has_labels)
     subdomains.push_back(is_image(o.surface) ? read.whole(whole, read.domain(o.voxels, o.voxels, outcome), 1)
-                                             : read(whole, 1));
+                                             : read.whole(whole, 1));
   subdomains.insert(subdomains.end(), labels.begin(), labels.end());
   return subdomains;
 }

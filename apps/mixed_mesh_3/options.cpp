@@ -145,6 +145,19 @@ CLI::Option* add_several(CLI::App& app, const char* name, const char* what,
     ->allow_extra_args(false);
 }
 
+// Adds the options that choose components of the domain.
+void add_components(CLI::App& app, Options& o)
+{
+  app.add_flag("--largest", o.completion.keep_largest,
+               "Keep only the largest component of the domain SURFACE, with its cavities");
+  app
+    .add_option("--drop-below", o.completion.least_volume,
+                "Drop components of the domain with less volume, cavities of a surface as well: in ml if "
+                "SURFACE is an image, else in the cube of its unit")
+    ->check(number("greater than 0", [](double x) { return x > 0; }))
+    ->type_name("V");
+}
+
 // Adds the options for a domain and regions from a segmentation.
 void add_labels(CLI::App& app, Options& o)
 {
@@ -190,12 +203,6 @@ void add_labels(CLI::App& app, Options& o)
     ->type_name("MM")
     ->group(group);
   app.add_flag("--fill-holes", o.completion.fill_holes, "Add to the domain what it encloses")->group(group);
-  app.add_flag("--largest", o.completion.keep_largest, "Keep only the largest component of the domain")
-    ->group(group);
-  app.add_option("--drop-below", o.completion.least_volume, "Drop components of the domain with less volume")
-    ->check(number("greater than 0", [](double x) { return x > 0; }))
-    ->type_name("ML")
-    ->group(group);
   app
     .add_flag(
       "--hull", o.completion.is_hull,
@@ -213,6 +220,7 @@ void add_files(CLI::App& app, Options& o)
                 "or an image of labels: .nii, .nii.gz")
     ->required();
   add_surface_options(app, o.surface_options);
+  add_components(app, o);
   add_several(
     app, "--region",
     "Closed surface of a region of interest, in the same coordinates; an error counts W times as much "
@@ -250,8 +258,7 @@ void add_budget(CLI::App& app, Options& o)
         o.vertices = o.fewest_vertices ? most_automatic_vertices : std::stoul(text);
       },
       "Vertex budget: the mesh has at most that many vertices; auto: as few as --tolerance allows, found by "
-      "meshes with five to ten budgets of up to 200,000")
-    ->required()
+      "meshes with five to ten budgets of up to 200,000 (default: 2000)")
     ->check(CLI::Validator(
       [](std::string& text) {
         // The limit is that of 32-bit indices in files.
@@ -490,9 +497,9 @@ void check_options(Options& o)
   for(Region_option& r : o.regions)
     if(r.file.empty())
       r.file = o.surface;
-  if(!has_image && o.completion.is_needed())
-    throw CLI::ValidationError(o.surface, "--close, --fill-holes, --largest, --drop-below and --hull need an "
-                                          "image: .nii or .nii.gz; --wrap closes a surface");
+  if(!has_image && (o.completion.closing_radius || o.completion.fill_holes || o.completion.is_hull))
+    throw CLI::ValidationError(o.surface, "--close, --fill-holes and --hull need an image: .nii or .nii.gz; "
+                                          "--wrap closes a surface");
   if(!has_image
      && (!o.voxels.ranges.empty() || !o.labels.empty() || o.has_each_label
          || std::any_of(o.regions.begin(), o.regions.end(),
@@ -530,27 +537,39 @@ std::optional<int> parse_command_line(int argc, char** argv, Options& options)
   return parse("mixed_mesh_3", app, argc, argv, [&] { check_options(options); });
 }
 
+std::vector<std::string> inputs_of(const Options& o)
+{
+  std::vector<std::string> inputs{o.surface};
+  for(const Region_option& r : o.regions)
+    inputs.push_back(r.file);
+  for(const auto& parts : {o.subdomains, o.sheets})
+    for(const Subdomain_option& s : parts)
+      inputs.push_back(s.file);
+  inputs.insert(inputs.end(), o.cavities.begin(), o.cavities.end());
+  return inputs;
+}
+
+std::vector<std::string> outputs_of(const Options& o)
+{
+  std::vector<std::string> outputs = o.outputs;
+  for(const std::string& path : {o.report, o.page})
+    if(!path.empty())
+      outputs.push_back(path);
+  return outputs;
+}
+
 void check_feasible(const Options& o)
 {
   // A temporary file exists while the program tests whether a file can be written.
   const Deferred_signals deferred({SIGINT, SIGTERM, SIGHUP}, Deferred_signals::Second::DEFERRED);
-  std::vector<std::string> inputs{o.surface};
-  for(const Region_option& r : o.regions)
-    inputs.push_back(r.file);
-  for(const Subdomain_option& s : o.subdomains)
-    inputs.push_back(s.file);
-  inputs.insert(inputs.end(), o.cavities.begin(), o.cavities.end());
-  Output_paths outputs(inputs);
+  Output_paths outputs(inputs_of(o));
   for(const std::string& path : o.outputs)
     require([&](std::string* error) { return mm3::IO::check_output_path(path, error, o.order); });
   for(const std::string& path : {o.report, o.page})
     if(!path.empty())
       require([&](std::string* error) { return mm3::IO::check_output_directory(path, error); });
-  for(const std::string& path : o.outputs)
+  for(const std::string& path : outputs_of(o))
     outputs.add(path);
-  for(const std::string& path : {o.report, o.page})
-    if(!path.empty())
-      outputs.add(path);
   // The number is more than measured with 100,000 and 200,000 vertices; a direct solver takes more.
   const double bytes_per_vertex = o.fit() == Fit::ALGORITHM_1 ? 3000 : o.tetrahedra ? 1500 : 1100;
   check_memory("--vertices " + std::to_string(o.vertices) + ":", double(o.vertices) * bytes_per_vertex);

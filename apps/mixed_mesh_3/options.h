@@ -56,7 +56,7 @@ struct Input_options
   Label_completion completion;          // completion of the domain
   std::optional<double> smoothing;
   CGAL::Mixed_meshes_3::IO::Read_anatomical_surface_options surface_options;
-  std::size_t vertices = 0;     // surfaces of images are no finer than the mesh can follow
+  std::size_t vertices = 2000;  // surfaces of images are no finer than the mesh can follow
   bool fewest_vertices = false; // at most the number above
 
   /// Whether the surface's file, or the user, says that coordinates are those of the patient, in mm.
@@ -108,6 +108,10 @@ std::string surrounding_name(const Input_options& options);
 
 /// Returns the exit status if the program ends with its command line: help, the version, or wrong use.
 std::optional<int> parse_command_line(int argc, char** argv, Options& options);
+
+/// The surfaces and images, and the files that are written.
+std::vector<std::string> inputs_of(const Options& options);
+std::vector<std::string> outputs_of(const Options& options);
 
 /// Throws if files cannot be written, or if the mesh would not fit into memory.
 void check_feasible(const Options& options);

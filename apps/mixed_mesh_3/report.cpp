@@ -67,6 +67,8 @@ Json describe(const Options& o)
                  {"wrap",
                   o.surface_options.wrap_diameter > 0 ? Json(o.surface_options.wrap_diameter) : Json()},
                  {"threads", o.threads}};
+  const double weld = o.surface_options.weld_distance;
+  report["weld"] = weld > 0 ? Json(weld) : Json();
   if(o.fit() == Fit::ALGORITHM_1)
     report["Algorithm 1"] = {{"steps", o.steps},
                              {"Poisson's ratio", o.poisson_ratio},
@@ -343,8 +345,12 @@ std::string completion_in_words(const Completion_facts& c)
       text << std::exchange(separator, "; ") << what;
   };
   const auto number = [](std::size_t n) { return counted(n, "voxel", "voxels"); };
-  add(c.closing_radius > 0, "closed by " + rounded(c.closing_radius) + " mm, " + number(c.closed) + " added");
-  add(c.filled > 0, number(c.filled) + " filled in");
+  const auto share = [&c](std::size_t n) {
+    return " (" + rounded(100 * double(n) / double(c.voxels)) + " % of its voxels)";
+  };
+  add(c.closing_radius > 0,
+      "closed by " + rounded(c.closing_radius) + " mm, " + number(c.closed) + " added" + share(c.closed));
+  add(c.filled > 0, number(c.filled) + " filled in" + share(c.filled));
   add(c.components_removed > 0,
       counted(c.components_removed, "component", "components") + " of " + number(c.removed) + " dropped");
   return text.str().empty() ? "" : text.str() + '\n';

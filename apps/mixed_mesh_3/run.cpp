@@ -210,7 +210,10 @@ void write_files(const Mesh& mesh, const std::vector<mm3::IO::Facet_set>& facet_
     log("write " + path, [&] { write_mesh(files, path, mesh, write_options); });
   if(!o.page.empty())
     log("write " + o.page, [&] {
-      const Page_data data{o.command, subdomain_names, o.is_in_patient_space()};
+      Page_data data{o.command, subdomain_names, o.is_in_patient_space()};
+      data.files = inputs_of(o);
+      for(const std::string& path : outputs_of(o))
+        data.files.push_back(path);
       write_text(files, o.page, page(mesh, data, report(o, outcome, log)));
     });
   outcome.seconds = log.seconds();

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -24,28 +23,9 @@ Input_names names_of(const Options& o)
   for(const Region_option& r : o.regions)
     regions.push_back(r.file);
   const bool may_help = o.fit() == Fit::OPTIMIZATION && o.tolerance == 0;
-  return {o.surface, "--vertices " + std::to_string(o.vertices), "--base-level",
-          may_help ? "--tolerance" : "", regions};
-}
-
-std::string lost_parts(const CGAL::Mixed_mesh_result_3& result, const Options& o)
-{
-  const CGAL::Bbox_3& b = result.lost_cells;
-  std::ostringstream where;
-  where << '[' << b.xmin() << ", " << b.xmax() << "] x [" << b.ymin() << ", " << b.ymax() << "] x ["
-        << b.zmin() << ", " << b.zmax() << ']';
-  return o.surface + ": parts thinner than a cell are lost: " + std::to_string(result.number_of_lost_cells)
-         + " octree cells that they meet are away from the mesh, within " + where.str()
-         + "; try more vertices or a larger --base-level";
-}
-
-std::string missed_tolerance(const Fidelity& f, const Options& o)
-{
-  const bool is_on_mesh = f.from_mesh.distance > f.from_surface.distance;
-  const Distance& d = is_on_mesh ? f.from_mesh : f.from_surface;
-  const std::string at = " at " + place(d.from) + " is " + rounded(d.distance) + " away from ";
-  return "--tolerance " + rounded(o.tolerance) + ": not reached, "
-         + (is_on_mesh ? "the mesh" + at + o.surface : o.surface + at + "the mesh") + "; try more vertices";
+  return {o.surface,      "--vertices " + std::to_string(o.vertices),
+          "--base-level", may_help ? "--tolerance" : "",
+          regions,        o.has_quality_bound() ? "--max-arc" : ""};
 }
 
 // Whether a surface is full of gaps, like that of an atlas, and unlike that of an organ.
@@ -122,17 +102,14 @@ void add_warnings(const Options& o, Outcome& outcome)
   if((double(outcome.mesh.vertices) < full && !outcome.result.is_lattice_on_surface)
      || outcome.result.status == CGAL::Mixed_mesh_status::BUDGET_NOT_FILLED)
     warnings.push_back("only " + std::to_string(outcome.mesh.vertices) + " of " + std::to_string(o.vertices)
-                       + " vertices used: the region cannot be refined "
-                         "further, or each further cell tried would exceed the budget");
+                       + " vertices used: " + (o.regions.empty() ? "the mesh" : "the region")
+                       + " cannot be refined further, or "
+                       + "each further cell tried would exceed the budget");
   if(outcome.result.number_of_lost_cells != 0)
-    warnings.push_back(lost_parts(outcome.result, o));
+    warnings.push_back(sentence_on_lost_parts(outcome.result, names_of(o))
+                       + (outcome.surface.components > 1 ? ", or --drop-below, if they are specks" : ""));
   if(o.fit() != Fit::NONE && f.vertices_off != 0)
-    warnings.push_back(std::to_string(f.vertices_off) + " of " + std::to_string(f.vertices)
-                       + " boundary vertices are not on " + o.surface
-                       + (o.has_quality_bound()
-                            ? ": elements would be worse than --max-arc allows, or inverted"
-                            : ": elements would be inverted")
-                       + ", or coordinates are too large to tell");
+    warnings.push_back(sentence_on_vertices_off(f, names_of(o)));
   if(outcome.elements_above_bound != 0)
     warnings.push_back("--max-arc " + rounded(o.largest_arc) + ": "
                        + counted(outcome.elements_above_bound, "element is", "elements are") + " above it"
@@ -141,7 +118,7 @@ void add_warnings(const Options& o, Outcome& outcome)
                                 + ": thin walls have room for flatter elements only"
                             : ""));
   if(f.misses(o.tolerance))
-    warnings.push_back(missed_tolerance(f, o));
+    warnings.push_back(sentence_on_tolerance(f, "--tolerance " + rounded(o.tolerance), names_of(o)));
   // The cells around the boundary add some volume before it is fitted; corners cut off take some.
   const bool is_fitted = o.fit() != Fit::NONE;
   const double ratio = f.ratio_of_volumes();

@@ -118,7 +118,9 @@ function focus() {
 
 const start = focus();
 const state = {
-  color: steps.length > 0 ? "displacement" : "kind",
+  color: steps.length > 0     ? "displacement" :
+    new Set(labelOf).size > 1 ? "label" :
+                                "kind",
   step: steps.length,                                        // 0: as it was
   amount: 1,                                                 // times the displacement
   axis: 0,                                                   // of the cut; -1: none

@@ -11,6 +11,8 @@
 
 #include <CGAL/Bbox_3.h>
 
+#include <boost/algorithm/string/replace.hpp>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -136,11 +138,45 @@ Json describe(const Page_data::Step& step)
   return {{"name", step.name}, {"displacements", displacements.text()}, {"removed", is_removed.text()}};
 }
 
+// Replaces each path in a text by the name of the file.
+std::string without_folders(std::string text, const std::vector<std::string>& paths)
+{
+  for(const std::string& path : paths) {
+    const std::string quoted = boost::algorithm::replace_all_copy(path, "'", "'\\''"); // in a command
+    for(const std::string& p : {path, quoted})
+      boost::algorithm::replace_all(text, p, p.substr(p.rfind('/') + 1));
+  }
+  return text;
+}
+
+// Replaces paths in all texts.
+void remove_folders(Json& json, const std::vector<std::string>& paths)
+{
+  if(json.is_string())
+    json = without_folders(json.get<std::string>(), paths);
+  else if(json.is_structured())
+    for(Json& part : json)
+      remove_folders(part, paths);
+}
+
+// The files that are in folders, longest path first, as one path may begin another.
+std::vector<std::string> in_folders(std::vector<std::string> paths)
+{
+  paths.erase(std::remove_if(paths.begin(), paths.end(),
+                             [](const std::string& path) { return path.find('/') == std::string::npos; }),
+              paths.end());
+  std::stable_sort(paths.begin(), paths.end(),
+                   [](const std::string& p, const std::string& q) { return p.size() > q.size(); });
+  return paths;
+}
+
 Json describe(const Mesh& mesh, const Page_data& data, Json report)
 {
+  const std::vector<std::string> paths = in_folders(data.files);
+  remove_folders(report, paths);
   for(const char* measured : {"stages", "seconds", "ms", "peak memory MiB"})
     report.erase(measured);
-  Json result = {{"command", data.command},
+  Json result = {{"command", without_folders(data.command, paths)},
                  {"is in patient space", data.is_in_patient_space},
                  {"report", std::move(report)},
                  {"kinds", describe_kinds()}};

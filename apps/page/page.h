@@ -34,6 +34,8 @@ struct Page_data
   /// says that it assumes so.
   bool is_in_patient_space = false;
   std::vector<Step> steps = {};
+  /// The files of the command: the page has their names, without folders, which may name a patient.
+  std::vector<std::string> files = {};
 };
 
 /// The text of the page. Times and memory, which differ from run to run, are left out of the report, so that

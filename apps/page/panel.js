@@ -295,6 +295,11 @@ function showFacts() {
     facts.push(
       ["at most from the surface", number(fidelity["Hausdorff distance"].distance) + unit()],
       ["of the surface\u2019s volume", percent(fidelity["ratio of volumes"])]);
+  const completion = report.inputs.surface?.completion;
+  if (completion) {
+    const added = completion["voxels added by closing"] + completion["voxels filled in"];
+    facts.push(["of its voxels added to the image", percent(added / completion.voxels)]);
+  }
   if (shift)
     facts.push(
       ["largest shift", number(shift["largest displacement"]) + "\u00a0mm"],

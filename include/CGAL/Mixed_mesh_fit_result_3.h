@@ -35,7 +35,7 @@ inline const char* description(Mixed_mesh_fit_status status)
   switch(status) {
   case Mixed_mesh_fit_status::SUCCESS: return "success";
   case Mixed_mesh_fit_status::CAP_REACHED: return "cap reached";
-  case Mixed_mesh_fit_status::NOT_ALL_ARRIVED: return "not all arrived";
+  case Mixed_mesh_fit_status::NOT_ALL_ARRIVED: return "boundary partly off the surface";
   case Mixed_mesh_fit_status::SOLVER_FAILED: return "solver failed";
   case Mixed_mesh_fit_status::STOPPED: return "stopped";
   case Mixed_mesh_fit_status::INVALID_MESH: return "invalid mesh";

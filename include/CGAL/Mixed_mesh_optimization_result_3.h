@@ -36,7 +36,7 @@ inline const char* description(Mixed_mesh_optimization_status status)
   switch(status) {
   case Mixed_mesh_optimization_status::SUCCESS: return "success";
   case Mixed_mesh_optimization_status::TOLERANCE_NOT_REACHED: return "tolerance not reached";
-  case Mixed_mesh_optimization_status::NOT_ALL_ARRIVED: return "not all arrived";
+  case Mixed_mesh_optimization_status::NOT_ALL_ARRIVED: return "boundary partly off the surface";
   case Mixed_mesh_optimization_status::STOPPED: return "stopped";
   case Mixed_mesh_optimization_status::INVALID_MESH: return "invalid mesh";
   case Mixed_mesh_optimization_status::EMPTY: return "empty";

@@ -72,9 +72,9 @@ inline const char* description(Mixed_mesh_status status)
   case Mixed_mesh_status::BUDGET_NOT_FILLED: return "budget not filled";
   case Mixed_mesh_status::TOLERANCE_NOT_REACHED: return "tolerance not reached";
   case Mixed_mesh_status::PARTS_LOST: return "parts lost";
-  case Mixed_mesh_status::NOT_ALL_ARRIVED: return "not all arrived";
+  case Mixed_mesh_status::NOT_ALL_ARRIVED: return "boundary partly off the surface";
   case Mixed_mesh_status::VOLUME_DIFFERS: return "volume differs";
-  case Mixed_mesh_status::TOPOLOGY_DIFFERS: return "topology differs";
+  case Mixed_mesh_status::TOPOLOGY_DIFFERS: return "other bodies, holes or cavities";
   case Mixed_mesh_status::BOUNDARY_NOT_MANIFOLD: return "boundary not manifold";
   case Mixed_mesh_status::REGION_NOT_MET: return "region not met";
   case Mixed_mesh_status::EMPTY: return "empty";

@@ -22,6 +22,33 @@ py::array_t<T> array_of_triples(const std::vector<Triple>& triples)
   return array;
 }
 
+// A surface by `make`, one of the library's functions for arrays.
+template <class Make>
+Surface make_surface_with(const Make& make, const Doubles& points, const Integers& triangles,
+                          const std::string& name, std::vector<std::string>& warnings)
+{
+  if(triangles.ndim() != 2)
+    throw std::invalid_argument(name + ": expected triangles of shape (n, 3)");
+  std::vector<std::vector<std::int64_t>> polygons;
+  const auto rows = triangles.unchecked<2>();
+  for(py::ssize_t i = 0; i < rows.shape(0); ++i)
+    polygons.emplace_back(&rows(i, 0), &rows(i, 0) + rows.shape(1));
+  const std::vector<Vector> coordinates = vectors_of(points, name);
+  Surface surface;
+  std::string error;
+  mm3::IO::Surface_input input;
+  bool is_made;
+  {
+    const py::gil_scoped_release release;
+    is_made = make(coordinates, polygons, name, mm3::IO::Read_surface_options(), surface, &error, &input);
+  }
+  if(!is_made)
+    throw std::invalid_argument(error);
+  for(const std::string& warning : input.warnings)
+    warnings.push_back(name + ": " + warning);
+  return surface;
+}
+
 } // namespace
 
 std::vector<Vector> vectors_of(const Doubles& array, const std::string& name)
@@ -54,26 +81,15 @@ py::array_t<bool> array_of(const std::vector<bool>& marks)
 Surface surface_of(const Doubles& points, const Integers& triangles, const std::string& name,
                    std::vector<std::string>& warnings)
 {
-  if(triangles.ndim() != 2)
-    throw std::invalid_argument(name + ": expected triangles of shape (n, 3)");
-  std::vector<std::vector<std::int64_t>> polygons;
-  const auto rows = triangles.unchecked<2>();
-  for(py::ssize_t i = 0; i < rows.shape(0); ++i)
-    polygons.emplace_back(&rows(i, 0), &rows(i, 0) + rows.shape(1));
-  const std::vector<Vector> coordinates = vectors_of(points, name);
-  Surface surface;
-  std::string error;
-  mm3::IO::Surface_input input;
-  bool is_closed;
-  {
-    const py::gil_scoped_release release;
-    is_closed = mm3::IO::make_closed_surface(coordinates, polygons, name, {}, surface, &error, &input);
-  }
-  if(!is_closed)
-    throw std::invalid_argument(error);
-  for(const std::string& warning : input.warnings)
-    warnings.push_back(name + ": " + warning);
-  return surface;
+  return make_surface_with([](auto&&... arguments) { return mm3::IO::make_closed_surface(arguments...); },
+                           points, triangles, name, warnings);
+}
+
+Surface sheet_of(const Doubles& points, const Integers& triangles, const std::string& name,
+                 std::vector<std::string>& warnings)
+{
+  return make_surface_with([](auto&&... arguments) { return mm3::IO::make_sheet(arguments...); }, points,
+                           triangles, name, warnings);
 }
 
 py::tuple arrays_of(const Surface& surface)

@@ -50,6 +50,11 @@ py::array_t<bool> array_of(const std::vector<bool>& marks);
 Surface surface_of(const Doubles& points, const Integers& triangles, const std::string& name,
                    std::vector<std::string>& warnings);
 
+/// A surface that need not enclose anything.
+/// \throw std::invalid_argument names the defect
+Surface sheet_of(const Doubles& points, const Integers& triangles, const std::string& name,
+                 std::vector<std::string>& warnings);
+
 /// (n, 3) points and (m, 3) triangles of a surface, without unused entries.
 py::tuple arrays_of(const Surface& surface);
 

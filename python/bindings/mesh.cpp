@@ -7,6 +7,7 @@
 
 #include "arrays.h"
 
+#include <CGAL/Mixed_mesh_3/IO/read_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
 #include <CGAL/Mixed_mesh_3/certify_mesh.h>
@@ -16,8 +17,16 @@
 
 #include <pybind11/stl.h>
 
+#include <array>
+#include <cstddef>
+#include <deque>
+#include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -31,7 +40,8 @@ std::shared_ptr<Mesh> mesh_of_arrays(const Doubles& points, const Kinds& kinds, 
   for(const Vector& p : vectors_of(points, "points"))
     mesh->add_vertex({p[0], p[1], p[2]});
   if(kinds.ndim() != 1 || connectivity.ndim() != 1)
-    throw std::invalid_argument("kinds, connectivity: expected arrays of one dimension");
+    throw std::invalid_argument("kinds, connectivity: expected arrays of one dimension; or cells of shape "
+                                "(n, 4) or (n, 8), and labels=");
   if(labels && (labels->ndim() != 1 || labels->shape(0) != kinds.shape(0)))
     throw std::invalid_argument("labels: expected one for each element");
   const auto is_in_region = in_region ? marks_of(*in_region, std::size_t(kinds.shape(0)), "in_region")
@@ -65,6 +75,55 @@ std::shared_ptr<Mesh> mesh_of_arrays(const Doubles& points, const Kinds& kinds, 
   if(next != connectivity.shape(0))
     throw std::invalid_argument("connectivity: goes on after the last element");
   return mesh;
+}
+
+// Names of the kinds of elements in meshio, in the order of `Element_kind`.
+constexpr std::array<const char*, mm3::number_of_element_kinds> kind_names = {"tetra", "pyramid", "wedge",
+                                                                              "hexahedron"};
+
+mm3::Element_kind kind_named(const std::string& name)
+{
+  for(const mm3::Element_kind kind : mm3::element_kinds)
+    if(name == kind_names[std::size_t(kind)])
+      return kind;
+  throw std::invalid_argument("cells: there are no elements of the kind '" + name
+                              + "'; expected tetra, pyramid, wedge or hexahedron");
+}
+
+mm3::Element_kind kind_of_size(py::ssize_t number_of_vertices)
+{
+  for(const mm3::Element_kind kind : mm3::element_kinds)
+    if(mm3::reference_elements[kind].number_of_vertices == number_of_vertices)
+      return kind;
+  throw std::invalid_argument("cells: expected shape (n, 4), (n, 5), (n, 6) or (n, 8)");
+}
+
+// A mesh of elements of one kind, (n, 4), (n, 5), (n, 6) or (n, 8) vertices, or of a dictionary of kinds.
+std::shared_ptr<Mesh> mesh_of_cells(const Doubles& points, const py::object& cells,
+                                    const std::optional<Integers>& labels,
+                                    const std::optional<Marks>& in_region)
+{
+  std::vector<std::uint8_t> kinds;
+  std::vector<std::int64_t> connectivity;
+  const auto add = [&](std::optional<mm3::Element_kind> kind, const py::handle& vertices) {
+    const auto array = vertices.cast<Integers>();
+    if(array.ndim() != 2)
+      throw std::invalid_argument("cells: expected integers of shape (n, 4), (n, 5), (n, 6) or (n, 8)");
+    if(!kind)
+      kind = kind_of_size(array.shape(1));
+    if(array.shape(1) != mm3::reference_elements[*kind].number_of_vertices)
+      throw std::invalid_argument(std::string("cells: a ") + kind_names[std::size_t(*kind)]
+                                  + " does not have " + std::to_string(array.shape(1)) + " vertices");
+    kinds.insert(kinds.end(), std::size_t(array.shape(0)), std::uint8_t(*kind));
+    connectivity.insert(connectivity.end(), array.data(), array.data() + array.size());
+  };
+  if(py::isinstance<py::dict>(cells))
+    for(const auto& [name, vertices] : cells.cast<py::dict>())
+      add(kind_named(name.cast<std::string>()), vertices);
+  else
+    add(std::nullopt, cells);
+  return mesh_of_arrays(points, Kinds(py::ssize_t(kinds.size()), kinds.data()),
+                        Integers(py::ssize_t(connectivity.size()), connectivity.data()), labels, in_region);
 }
 
 // Arrays that refer to the mesh, which lives as long as the arrays, and does not change.
@@ -139,11 +198,31 @@ py::array_t<double> quality(const Mesh& mesh, const std::string& measure)
                               + "'; expected ARC, scaled Jacobian or volume");
 }
 
-void save(const Mesh& mesh, const std::string& path, int order, bool has_only_tetrahedra)
+// Values of vertices or elements by name, (n) or (n, components), which have to outlive the result.
+std::vector<mm3::IO::Data_array> data_arrays(const std::map<std::string, Doubles>& data,
+                                             std::deque<std::vector<double>>& values)
+{
+  std::vector<mm3::IO::Data_array> arrays;
+  for(const auto& [name, array] : data) {
+    if(array.ndim() != 1 && array.ndim() != 2)
+      throw std::invalid_argument("data \"" + name + "\": expected shape (n) or (n, components)");
+    values.emplace_back(array.data(), array.data() + array.size());
+    arrays.push_back({name, &values.back(), array.ndim() == 1 ? 1 : int(array.shape(1))});
+  }
+  return arrays;
+}
+
+void save(const Mesh& mesh, const std::string& path, int order, bool has_only_tetrahedra,
+          const mm3::IO::Subdomain_names& names, const std::map<std::string, Doubles>& point_data,
+          const std::map<std::string, Doubles>& cell_data)
 {
   mm3::IO::Write_options options;
   options.order = order;
   options.tetrahedra = has_only_tetrahedra;
+  options.subdomain_names = names;
+  std::deque<std::vector<double>> values;
+  options.vertex_data = data_arrays(point_data, values);
+  options.element_data = data_arrays(cell_data, values);
   std::string error;
   bool is_written;
   {
@@ -152,6 +231,22 @@ void save(const Mesh& mesh, const std::string& path, int order, bool has_only_te
   }
   if(!is_written)
     throw std::invalid_argument(error);
+}
+
+// A mesh from a file, and the names of its subdomains.
+std::pair<std::shared_ptr<Mesh>, mm3::IO::Subdomain_names> read_mesh(const std::string& path)
+{
+  auto mesh = std::make_shared<Mesh>();
+  mm3::IO::Subdomain_names names;
+  std::string error;
+  bool is_read;
+  {
+    const py::gil_scoped_release release;
+    is_read = mm3::IO::read_mixed_mesh(path, *mesh, names, &error);
+  }
+  if(!is_read)
+    throw std::invalid_argument(error);
+  return {mesh, names};
 }
 
 // The table of element kinds, from which the page of a mesh computes the faces to draw.
@@ -189,13 +284,26 @@ void add_mesh(py::module_& module)
   const auto in_region = [](const Mesh& mesh) {
     return of_elements<bool>(mesh, [&](mm3::Element_index e) { return mesh.attributes(e).is_in_region; });
   };
-  const auto copy = [](const Mesh& mesh) { return std::make_shared<Mesh>(mesh); };
+  const auto copy = [](const py::object& self) {
+    const py::object result = py::cast(std::make_shared<Mesh>(self.cast<const Mesh&>()));
+    result.attr("__dict__").attr("update")(self.attr("__dict__"));
+    return result;
+  };
   py::class_<Mesh, std::shared_ptr<Mesh>>(
-    module, "Mesh",
-    "A mesh of tetrahedra, pyramids, prisms and hexahedra. Its arrays look into it, and cannot be written.")
+    module, "Mesh", py::dynamic_attr(),
+    "A mesh of tetrahedra, pyramids, prisms and hexahedra. Its arrays look into it, and cannot be "
+    "written.\n\n"
+    "Mesh(points, cells, labels=, in_region=): cells are vertices of elements of one kind, of shape (n, 4), "
+    "(n, 5), (n, 6) or (n, 8), or a dictionary as the property `cells` has it. Mesh(points, kinds, "
+    "connectivity, labels, in_region): arrays as the properties have them. Labels are 1, and nothing is in "
+    "the "
+    "region, if that is not told. names: {label: name} of subdomains, which save() writes.")
     .def(py::init(&mesh_of_arrays), py::arg("points"), py::arg("kinds"), py::arg("connectivity"),
          py::arg("labels") = py::none(), py::arg("in_region") = py::none(),
-         "Of arrays as those below; labels are 1 and nothing is in the region if that is not told.")
+         "Arrays as the properties have them.")
+    .def(py::init(&mesh_of_cells), py::arg("points"), py::arg("cells"), py::kw_only(),
+         py::arg("labels") = py::none(), py::arg("in_region") = py::none(),
+         "Elements of one kind, or a dictionary of kinds.")
     .def_property_readonly(
       "points",
       [](const py::object& self) {
@@ -217,22 +325,26 @@ void add_mesh(py::module_& module)
     .def_property_readonly("labels", labels, "The subdomain of each element.")
     .def_property_readonly("in_region", in_region, "Whether each element meets the region of interest.")
     .def("__copy__", copy)
-    .def("__deepcopy__", [copy](const Mesh& mesh, const py::dict&) { return copy(mesh); })
+    .def("__deepcopy__", [copy](const py::object& self, const py::dict&) { return copy(self); })
     .def(py::pickle(
       [labels, in_region](const py::object& self) {
         const auto& mesh = self.cast<const Mesh&>();
         return py::make_tuple(self.attr("points"), self.attr("kinds"),
                               self.attr("connectivity").attr("astype")("int64"),
-                              labels(mesh).attr("astype")("int64"), in_region(mesh));
+                              labels(mesh).attr("astype")("int64"), in_region(mesh), self.attr("__dict__"));
       },
       [](const py::tuple& state) {
-        return mesh_of_arrays(state[0].cast<Doubles>(), state[1].cast<Kinds>(), state[2].cast<Integers>(),
-                              state[3].cast<Integers>(), state[4].cast<Marks>());
+        return std::make_pair(mesh_of_arrays(state[0].cast<Doubles>(), state[1].cast<Kinds>(),
+                                             state[2].cast<Integers>(), state[3].cast<Integers>(),
+                                             state[4].cast<Marks>()),
+                              state[5].cast<py::dict>());
       }));
   module.def("certify", &certify);
   module.def("defects", &defects);
   module.def("quality", &quality);
   module.def("save", &save);
+  module.def("read_mesh", &read_mesh);
   module.def("element_kinds", &element_kinds);
+  module.attr("KINDS") = py::tuple(py::cast(kind_names));
   module.attr("CGAL_version") = CGAL_VERSION_STR;
 }

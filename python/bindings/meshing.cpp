@@ -6,10 +6,13 @@
 // Meshes from surfaces.
 
 #include "arrays.h"
+#include "core/Thread_limit.h"
 #include "core/comparison.h"
+#include "core/messages.h"
 
 #include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
 #include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
+#include <CGAL/Mixed_mesh_3/sheets.h>
 #include <CGAL/Mixed_mesh_image_3/IO/read_anatomical_surface.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
@@ -23,6 +26,7 @@
 #include <chrono>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -45,6 +49,8 @@ class Python_visitor : public mm3::Default_visitor
   using Progress = std::function<void(const char*, std::size_t, std::size_t)>;
 
   Progress m_progress;
+  const Clock::time_point m_start = Clock::now();
+  const double m_time_limit; // in seconds
   const char* m_stage = "";
   Clock::time_point m_last = Clock::now();
   std::exception_ptr m_exception;
@@ -61,7 +67,12 @@ class Python_visitor : public mm3::Default_visitor
   }
 
 public:
-  explicit Python_visitor(Progress progress) : m_progress(std::move(progress)) {}
+  explicit Python_visitor(Progress progress, double time_limit = std::numeric_limits<double>::infinity())
+    : m_progress(std::move(progress)), m_time_limit(time_limit)
+  {
+  }
+
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - m_start).count(); }
 
   void begin_stage(mm3::Stage stage)
   {
@@ -85,7 +96,7 @@ public:
           throw py::error_already_set();
       });
     }
-    return !m_exception;
+    return !m_exception && seconds() <= m_time_limit;
   }
 
   void rethrow() const
@@ -127,11 +138,21 @@ void compare(const Mesh& mesh, const Surface& surface, double tolerance,
     topology = topology_of(mesh, surface, true, status);
     fidelity = fidelity_of(mesh, surface, topology.surface.volume);
   }
-  const std::string defect = reason_for_no_likeness(result, fidelity, names);
-  if(!defect.empty())
-    throw Meshing_error(defect);
-  for(const Difference& difference : topology.differences)
-    warnings.push_back(names.surface + ": " + difference.sentence);
+  if(result.status != Status::STOPPED) { // else the reason is known
+    const std::string defect = reason_for_no_likeness(result, fidelity, names);
+    if(!defect.empty())
+      throw Meshing_error(defect);
+    if(result.number_of_lost_cells != 0)
+      warnings.push_back(sentence_on_lost_parts(result, names));
+    if(fidelity.vertices_off != 0)
+      warnings.push_back(sentence_on_vertices_off(fidelity, names));
+    if(fidelity.misses(tolerance))
+      warnings.push_back(sentence_on_tolerance(fidelity, "tolerance=" + rounded(tolerance), names));
+    if(!fidelity.has_right_volume())
+      warnings.push_back(sentence_on_volume(fidelity.ratio_of_volumes(), names));
+    for(const Difference& difference : topology.differences)
+      warnings.push_back(names.surface + ": " + difference.sentence);
+  }
   report["status"] = std::string(mm3::description(checked_status(status, fidelity, tolerance)));
   report["volume"] = fidelity.volume_of_mesh;
   report["volume of surface"] = fidelity.volume_of_surface;
@@ -142,13 +163,46 @@ void compare(const Mesh& mesh, const Surface& surface, double tolerance,
   report["number of vertices needed"] = result.number_of_vertices_for_thin_parts;
 }
 
+// The faces of each sheet, (n, 4) vertices, the last one -1 of triangles; a sheet without faces has a
+// warning.
+py::list sheets_of(const Mesh& mesh, const Domain& domain, std::vector<std::string>& warnings)
+{
+  py::list sheets;
+  for(const mm3::Sheet_in_mesh& sheet : mm3::find_sheets(mesh, domain, on_surface)) {
+    const std::string name = "sheet " + std::to_string(sheets.size());
+    if(sheet.faces.empty())
+      warnings.push_back(name + ": has no faces in the mesh; try more vertices, if it is inside the surface");
+    py::array_t<std::int64_t> faces({py::ssize_t(sheet.faces.size()), py::ssize_t(4)});
+    auto rows = faces.mutable_unchecked<2>();
+    for(std::size_t f = 0; f < sheet.faces.size(); ++f) {
+      const auto element = mesh.element(sheet.faces[f].element());
+      const mm3::Element_face& face = mm3::reference_elements[element.kind()]
+                                        .faces[sheet.faces[f].local_index()];
+      for(int i = 0; i < 4; ++i)
+        rows(py::ssize_t(f), i) = i < face.size ? std::int64_t(element[face.vertices[i]]) : -1;
+    }
+    py::dict row;
+    row["faces"] = faces;
+    row["area"] = sheet.area;
+    row["vertices"] = sheet.number_of_vertices;
+    row["vertices not on surface"] = sheet.number_of_vertices_off;
+    row["largest distance"] = sheet.largest_distance;
+    sheets.append(row);
+  }
+  return sheets;
+}
+
 std::pair<std::shared_ptr<Mesh>, py::dict>
 make_mesh(const Soup& soup, const std::vector<Weighted_soup>& regions,
           const std::vector<Labeled_soup>& subdomains, std::size_t vertices, bool fewest_vertices,
           double tolerance, double grading, bool exchange, std::optional<int> base_level,
-          double quality_bound, double sharp_angle, const Progress& progress)
+          double quality_bound, double sharp_angle, const Progress& progress, const std::vector<Soup>& sheets,
+          double time_limit, std::optional<std::size_t> threads)
 {
   std::vector<std::string> warnings;
+  std::optional<Thread_limit> limit;
+  if(threads)
+    limit.emplace(*threads);
   Domain domain;
   Surface boundary; // also of cavities
   for(const auto& [points, triangles, label] : subdomains) {
@@ -162,6 +216,9 @@ make_mesh(const Soup& soup, const std::vector<Weighted_soup>& regions,
   const Surface surface = surface_of(std::get<0>(soup), std::get<1>(soup), "surface", warnings);
   domain.add(surface, 1);
   CGAL::copy_face_graph(surface, boundary);
+  for(std::size_t i = 0; i < sheets.size(); ++i)
+    domain.add_sheet(
+      sheet_of(std::get<0>(sheets[i]), std::get<1>(sheets[i]), "sheet " + std::to_string(i), warnings));
   CGAL::Polyhedral_mixed_mesh_regions_3 all_regions;
   for(std::size_t i = 0; i < regions.size(); ++i) {
     const auto& [points, triangles, weight] = regions[i];
@@ -177,12 +234,13 @@ make_mesh(const Soup& soup, const std::vector<Weighted_soup>& regions,
                     .grading(grading)
                     .exchange_vertices(exchange)
                     .quality_bound(quality_bound)
-                    .sharp_angle(sharp_angle);
+                    .sharp_angle(sharp_angle)
+                    .keep_mesh_if_stopped(true);
   if(base_level)
     criteria.base_level(*base_level);
   if(tolerance > 0)
     criteria.tolerance(tolerance);
-  Python_visitor visitor(progress);
+  Python_visitor visitor(progress, time_limit);
   auto mesh = std::make_shared<Mesh>();
   CGAL::Mixed_mesh_result_3 result;
   {
@@ -192,19 +250,27 @@ make_mesh(const Soup& soup, const std::vector<Weighted_soup>& regions,
                                                                         std::ref(visitor)));
   }
   visitor.rethrow();
-  const Input_names names{"surface", "vertices=" + std::to_string(vertices), "base_level",
+  const Input_names names{"surface",
+                          "vertices=" + std::to_string(vertices),
+                          "base_level",
                           tolerance == 0 ? "tolerance" : "",
-                          std::vector<std::string>(regions.size(), "region")};
+                          std::vector<std::string>(regions.size(), "region"),
+                          quality_bound == 0 ? "" : "quality_bound"};
   const std::string reason = reason_for_no_mesh(result, names);
   if(!reason.empty())
     throw Meshing_error(reason);
-  if(fewest_vertices && result.status > Status::BUDGET_NOT_FILLED)
+  if(result.status == Status::STOPPED)
+    warnings.push_back("stopped by time_limit after " + duration(visitor.seconds())
+                       + ": the mesh is what there was then, and its boundary may be off the surface");
+  else if(fewest_vertices && result.status > Status::BUDGET_NOT_FILLED)
     throw Meshing_error("vertices: not even " + std::to_string(result.vertex_budget)
                         + " are within the tolerance: " + mm3::description(result.status));
   py::dict report;
   report["vertex budget"] = result.vertex_budget;
   compare(*mesh, boundary, tolerance, result, names, report, warnings);
   *mesh = sorted_by_kind(*mesh);
+  if(!sheets.empty())
+    report["sheets"] = sheets_of(*mesh, domain, warnings);
   report["warnings"] = warnings;
   return {mesh, report};
 }
@@ -260,11 +326,15 @@ py::dict fit(Mesh& mesh, const Soup& soup, const Progress& progress)
 }
 
 // A closed surface from a file: points, triangles, and repairs.
-py::tuple read_surface_arrays(const std::string& path, bool is_strict, double wrap_diameter)
+py::tuple read_surface_arrays(const std::string& path, bool is_strict, double wrap_diameter,
+                              double weld_distance, bool keep_largest, double least_volume)
 {
   mm3::IO::Read_anatomical_surface_options options;
   options.is_strict = is_strict;
   options.wrap_diameter = wrap_diameter;
+  options.weld_distance = weld_distance;
+  options.keep_largest = keep_largest;
+  options.least_volume = least_volume;
   Surface surface;
   std::string error;
   mm3::IO::Surface_input input;

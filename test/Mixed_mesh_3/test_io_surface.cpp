@@ -60,7 +60,7 @@ void is_repaired(const std::string& name, const std::string& contents, const std
   BOOST_TEST(CGAL::is_closed(r.surface));
   for(const auto v : r.surface.vertices())
     BOOST_TEST(!r.surface.is_isolated(v));
-  BOOST_TEST_LE(std::abs(r.input.volume - volume), 1e-13);
+  BOOST_TEST_LE(std::abs(r.input.volume - volume), 1e-13 * (std::max)(volume, 1.));
   IO::Read_surface_options strict;
   strict.is_strict = true;
   const Result refused = read(name, contents, strict);
@@ -373,6 +373,99 @@ void test_holes_and_wraps()
     }
 }
 
+// A box of triangles with points of their own, whose coordinates are off by up to that much, in steps.
+std::string box_with_cracks(double width)
+{
+  const double size[] = {100, 50, 20};
+  unsigned step = 0;
+  std::ostringstream points;
+  points.precision(17);
+  std::string faces;
+  for(const auto& t : triangles()) {
+    for(const int v : t)
+      for(int k = 0; k < 3; ++k) {
+        step = step * 1664525 + 1013904223;
+        points << size[k] * cube_coordinate(v, k) + width * (step >> 30) / 3 << (k == 2 ? '\n' : ' ');
+      }
+    const std::size_t first = faces.empty() ? 0
+                                            : 3 * std::size_t(std::count(faces.begin(), faces.end(), '\n'));
+    faces += "3 " + std::to_string(first) + " " + std::to_string(first + 1) + " " + std::to_string(first + 2)
+             + "\n";
+  }
+  return off(points.str(), faces);
+}
+
+void test_welding()
+{
+  // The last digits of points differ: the box is closed, and its planes are planes again.
+  for(double width : {1e-9, 1e-6, 5e-5}) {
+    is_repaired("cracks.off", box_with_cracks(width), "not closed", 1e5);
+    const Result box = read("cracks.off", box_with_cracks(width));
+    BOOST_TEST_EQ(box.surface.number_of_vertices(), 8u);
+    BOOST_TEST_EQ(box.surface.number_of_faces(), 12u);
+    BOOST_TEST(box.is_read && box.bbox() == CGAL::Bbox_3(0, 0, 0, 100, 50, 20));
+    BOOST_TEST_EQ(box.input.repairs.size(), 1u);
+    BOOST_TEST(has_warning(box, "points to others, up to "));
+  }
+  // Cracks of a given width, even where repairs are not wanted.
+  IO::Read_surface_options options;
+  options.is_strict = true;
+  options.weld_distance = 0.1;
+  const Result box = read("cracks.off", box_with_cracks(0.05), options);
+  BOOST_TEST(box.is_read && box.surface.number_of_vertices() == 8);
+  options.weld_distance = 1e-3;
+  const Result refused = read("cracks.off", box_with_cracks(0.05), options);
+  is_refused(refused, "not closed: 36 border edges");
+  // The distance that is proposed closes the surface, and the next smaller one of 1, 2, 5, ... does not.
+  BOOST_TEST_EQ(refused.input.weld_distance, 0.1);
+  options.weld_distance = 0.05;
+  BOOST_TEST(!read("cracks.off", box_with_cracks(0.05), options).is_read);
+  // No distance is proposed for a hole, large or small, or for cracks wider than a hundredth of the diagonal.
+  BOOST_TEST_EQ(read("hole.off", off(cube_points, triangle_lines().substr(8 * 6))).input.weld_distance, 0);
+  options.weld_distance = 0;
+  BOOST_TEST_EQ(read("hole.off", off(cube_points, triangle_lines().substr(8)), options).input.weld_distance,
+                0);
+  BOOST_TEST_EQ(read("cracks.off", box_with_cracks(5), options).input.weld_distance, 0);
+  // What is closed stays as it is, however near points are to each other.
+  options.weld_distance = 1;
+  const Result near = read("near.off",
+                           off(cube_points + moved_points(1.001, 0, 0), triangle_lines() + triangle_lines(8)),
+                           options);
+  BOOST_TEST(near.is_read && near.input.repairs.empty());
+  BOOST_TEST_EQ(near.surface.number_of_vertices(), 16u);
+  is_cube(read("cube.off", off(), options));
+}
+
+void test_dropped_components()
+{
+  // A cube with a cavity, and a whole one, which is the larger body.
+  std::string small;
+  for(int v = 0; v < 8; ++v)
+    for(int k = 0; k < 3; ++k)
+      small += std::to_string(0.25 + cube_coordinate(v, k) / 2) + (k == 2 ? "\n" : " ");
+  const std::string contents = off(cube_points + small + moved_points(2, 0, 0),
+                                   triangle_lines() + triangle_lines(8) + triangle_lines(16));
+  const auto read_with = [&contents](bool keep_largest, double least_volume) {
+    IO::Read_surface_options options;
+    options.keep_largest = keep_largest;
+    options.least_volume = least_volume;
+    return read("bodies.off", contents, options);
+  };
+  const auto is_left = [](const Result& r, std::size_t components, double volume, const std::string& words) {
+    BOOST_TEST(r.is_read);
+    BOOST_TEST_EQ(r.input.number_of_components, components);
+    BOOST_TEST_LE(std::abs(r.input.volume - volume), 1e-15);
+    BOOST_TEST(CGAL::is_closed(r.surface));
+    BOOST_TEST_EQ(r.surface.number_of_vertices(), 8 * components);
+    BOOST_TEST(words.empty() ? r.input.repairs.empty() : has_warning(r, words));
+  };
+  is_left(read_with(true, 0), 1, 1, "dropped 2 of 3 components, the largest of volume 0.875");
+  is_left(read_with(false, 0.1), 3, 1.875, "");
+  is_left(read_with(false, 0.5), 2, 2, "dropped 1 of 3 components, the largest of volume 0.125");
+  is_left(read_with(false, 0.9), 1, 1, "dropped 2 of 3 components, the largest of volume 0.875");
+  is_refused(read_with(false, 2), "no component has a volume of 2 or more, the largest has 1");
+}
+
 void test_flat_and_tiny()
 {
   std::string flat, turned;
@@ -425,6 +518,8 @@ int run(int argc, char* argv[])
   test_vtk();
   test_touching_bodies();
   test_holes_and_wraps();
+  test_welding();
+  test_dropped_components();
   test_flat_and_tiny();
   test_names();
   for(const char* name : {"cube.off", "cube_binary.off", "cube.obj", "cube.stl", "cube.ply", "cube.vtk"})

@@ -136,7 +136,7 @@ void test_taken_faces()
   soup.polygons.push_back({3, 3, 4});
   soup.points.push_back({9, 9, 9});
   Surface_input input;
-  take_faces("soup", soup, taken_points, taken, input);
+  take_faces("soup", {}, soup, taken_points, taken, input);
   BOOST_TEST_EQ(taken_points.size(), 8u);
   BOOST_TEST_EQ(taken.size(), 12u);
   BOOST_TEST_EQ(count_edges(taken).open, 0u);

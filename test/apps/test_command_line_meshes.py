@@ -83,7 +83,7 @@ class Meshes(Case):
             self.assertEqual(topology["same topology"], bodies == 2)
             words = r"warning: .*gap.off: 2 bodies are joined near \(1\.00005, "
             if bodies == 1:
-                self.assertEqual(told["status"], "topology differs")
+                self.assertEqual(told["status"], "other bodies, holes or cavities")
                 self.assertRegex(run.stderr, words)
                 self.assertRegex(topology["differences"][0]["text"], "^2 bodies are joined near ")
                 self.assertAlmostEqual(topology["differences"][0]["at"][0], 1.00005)

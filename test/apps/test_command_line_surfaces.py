@@ -6,6 +6,8 @@
 """
 
 import json
+import random
+import struct
 import sys
 import unittest
 from math import cos, pi, sin
@@ -167,6 +169,57 @@ class Surfaces(Case):
         self.fails(path, "--vertices", 500, "--wrap", 1e-5, names=path, words="more than a million triangles")
         self.fails(path, "--vertices", 500, "--wrap", 0, names="--wrap", words="greater than 0", status=2)
         self.fails(path, "--vertices", 500, "--wrap", 1, "--strict", names="--wrap", words="--strict", status=2)
+
+    def stl_box(self, size, width=0.0):
+        """A file in binary STL, whose coordinates are off by the last bit of a float, or by up to a width."""
+        number = random.Random(1)
+        triangles = b""
+        for t in TRIANGLES:
+            corners = [s * x for v in t for s, x in zip(size, CUBE[v])]
+            if width > 0:
+                corners = [x + width * number.random() for x in corners]
+            bits = [struct.unpack("<i", struct.pack("<f", x))[0] for x in corners]
+            triangles += struct.pack("<3f", 0, 0, 0) + struct.pack("<9i", *(b + number.getrandbits(1) for b in bits)) + b"\0\0"
+        return self.file("box.stl", (b" " * 80 + struct.pack("<I", len(TRIANGLES)) + triangles).decode("latin-1"))
+
+    def test_weld(self):
+        """Points that differ in the last bit are welded: the mesh of a box is exact. Cracks are, if that is wanted."""
+        report = WORK / "report.json"
+        for more, width in (((), 0), (("--weld", 0.01), 0.005)):
+            path = self.stl_box((100, 50, 20), width)
+            run = self.mesher(path, "--vertices", 500, *more, "--report", report)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertRegex(run.stderr, r"warning: .*box.stl: welded \d+ points to others, up to \S+ away")
+            told = json.loads(report.read_text())
+            self.assertEqual(told["inputs"]["surface"]["vertices"], 8)
+            if width == 0:
+                self.assertAlmostEqual(told["inputs"]["surface"]["volume"], 100000, delta=1e-9)
+            self.assertEqual((told["status"], told["mesh"]["hexahedra"]), ("success", told["mesh"]["elements"]))
+            self.assertAlmostEqual(told["surface"]["ratio of volumes"], 1, delta=1e-12)
+            self.assertEqual(told["options"]["weld"], more[1] if more else None)
+        refused = self.fails(path, "--vertices", 500, names=path, words="not closed")
+        self.assertRegex(refused.stderr, "; --weld 0.01 or --wrap [0-9.]+ would close it$")
+        self.fails(path, "--vertices", 500, "--weld", 0, names="--weld", status=2)
+        self.fails(path, "--vertices", 500, "--strict", names=path, words="not closed: 36 border edges")
+
+    def test_components(self):
+        """Components are dropped, and specks are not missed."""
+        report = WORK / "report.json"
+        points = CUBE + moved(CUBE, 0.005, (1.5, 0, 0)) + moved(CUBE, 0.5, (3, 0, 0))
+        path = self.file("three.off", off(points, TRIANGLES + shifted(TRIANGLES, 8) + shifted(TRIANGLES, 16)))
+        for options, volume, dropped in ((("--largest",), 1, "2 of 3"), (("--drop-below", 0.01), 1.125, "1 of 3"),
+                                         (("--drop-below", 0.5), 1, "2 of 3")):
+            run = self.mesher(path, "--vertices", 500, *options, "--report", report)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertIn(f"three.off: dropped {dropped} components, the largest of volume ", run.stderr)
+            told = json.loads(report.read_text())
+            self.assertAlmostEqual(told["inputs"]["surface"]["volume"], volume, delta=1e-12)
+            self.assertEqual(told["status"], "success")
+        run = self.mesher(path, "--vertices", 500, "--report", report)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertNotIn("missing", run.stderr)
+        self.assertEqual(json.loads(report.read_text())["topology"]["differences"], [])
+        self.fails(path, "--vertices", 500, "--drop-below", 2, names=path, words="no component has a volume of 2")
 
     def test_harmless_surfaces(self):
         for name, contents, words in HARMLESS_SURFACES:

@@ -150,7 +150,7 @@ def test_data(data, report, medit):
     assert abs(max(ratios) - report["quality"]["after"]["all"]["ARC max"]) < 1e-5
     assert unpacked(data["in region"], "B").count(1) == report["mesh"]["elements in region"]
     shared = {key: value for key, value in report.items() if key not in ("stages", "seconds", "peak memory MiB")}
-    assert data["report"] == shared
+    assert data["report"] == json.loads(json.dumps(shared).replace(f"{DATA}/", "")) # without folders
 
 
 def test_picture(page, data, report):
@@ -335,7 +335,7 @@ def test_hostile_names():
     arguments = [f"x</{name}", "--vertices", "200", "--page", "hostile.html"]
     make(MESHER, *arguments)
     data = data_of(WORK / "hostile.html")
-    assert shlex.split(data["command"]) == ["mixed_mesh_3", *arguments]
+    assert shlex.split(data["command"]) == ["mixed_mesh_3", name, *arguments[1:]] # without its folder
     raw = os.fsencode(WORK) + b"/\xff.off"
     shutil.copy(DATA / "brain.off", raw)
     make(MESHER, raw, "--vertices", "200", "--page", "raw.html")
@@ -372,7 +372,7 @@ def test_warnings():
         page.open(WORK / "coarse.html")
         page.look()
         texts = page.run("return [...document.querySelectorAll('#places li.warning > span:nth-child(2)')].map(s => s.textContent)")
-        assert texts == report["warnings"]
+        assert texts == [text.replace(f"{DATA}/", "") for text in report["warnings"]]  # without folders
         page.choose("cuts", 0)
         page.run("document.querySelectorAll('#places li')[arguments[0]].querySelector('button').click()", numbers[0])
         page.look()
@@ -386,7 +386,7 @@ def test_warnings():
 
 def test_crowded_places():
     """Badges that would overlap are one, which leads to each of its places in turn; near by, they come apart."""
-    cubes = [moved(CUBE, 10)] + [moved(CUBE, 0.01, (12 + 0.1 * i, 0.2 * j, 0.2 * k)) for i in range(3) for j in range(4)
+    cubes = [moved(CUBE, 10)] + [moved(CUBE, 0.11, (12 + 0.13 * i, 0.2 * j, 0.2 * k)) for i in range(3) for j in range(4)
                                  for k in range(4)]
     surface = WORK / "specks.off"
     surface.write_text(off([p for cube in cubes for p in cube],

@@ -20,6 +20,7 @@ import sys
 import threading
 import time
 import unittest
+import warnings
 
 try:
     import numpy as np
@@ -144,6 +145,75 @@ class Test(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "ends before"):
             mm3.Mesh(m.points, [0], [0, 1, 2])
 
+        # Of cells: a dictionary of kinds, as a mesh has it, or elements of one kind.
+        again = mm3.Mesh(m.points, m.cells, labels=m.labels, in_region=m.in_region)
+        for name in ("points", "kinds", "connectivity", "offsets", "labels", "in_region"):
+            np.testing.assert_array_equal(getattr(again, name), getattr(m, name))
+        for kind, cells in m.cells.items():
+            one = mm3.Mesh(m.points, cells.tolist(), labels=np.full(len(cells), 5))
+            self.assertEqual((list(one.cells), set(one.labels)), ([kind], {5}))
+            np.testing.assert_array_equal(one.cells[kind], cells)
+        for cells, text in (([[0, 1, 2]], r"shape \(n, 4\), \(n, 5\), \(n, 6\) or \(n, 8\)"), ([0, 1, 2, 3], "shape"),
+                            ({"tetra": [[0] * 8]}, "a tetra does not have 8 vertices"), ({"quad": [[0] * 4]}, "'quad'")):
+            with self.assertRaisesRegex(ValueError, text):
+                mm3.Mesh(m.points, cells)
+        with self.assertRaisesRegex(ValueError, "and labels="):
+            mm3.Mesh(m.points, m.cells["tetra"], np.ones(len(m.cells["tetra"]), int))
+
+    def test_read_mesh(self):
+        """What is saved is read back, with labels, names and data."""
+        labels = np.arange(len(self.mesh.kinds)) % 2 + 1
+        mesh = mm3.Mesh(self.mesh.points, self.mesh.cells, labels=labels)
+        mesh.names = {2: "tumor"}
+        self.assertEqual(pickle.loads(pickle.dumps(mesh)).names, {2: "tumor"})
+        copied = copy.copy(mesh)
+        copied.names = {2: "other"}
+        self.assertEqual(mesh.names, {2: "tumor"})
+        shift = np.random.default_rng(1).random((len(mesh.points), 3))
+        for name in ("named.vtu", "named.msh"):
+            data = {"cell_data": {"size": mm3.quality(mesh, "volume")}} if name.endswith("vtu") else {}
+            mesh.save(FOLDER / name, point_data={"shift": shift, "height": mesh.points[:, 2]}, **data)
+            again = mm3.read_mesh(FOLDER / name)
+            self.assertEqual(again.names, {2: "tumor"})
+            np.testing.assert_array_equal(again.points, mesh.points)
+            self.assertEqual(np.bincount(again.labels).tolist(), np.bincount(labels).tolist())
+        reader = vtk.vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(FOLDER / "named.vtu"))
+        reader.Update()
+        grid = reader.GetOutput()
+        np.testing.assert_array_equal(vtk_to_numpy(grid.GetPointData().GetArray("shift")), shift)
+        np.testing.assert_array_equal(vtk_to_numpy(grid.GetPointData().GetArray("height")), mesh.points[:, 2])
+        np.testing.assert_array_equal(vtk_to_numpy(grid.GetCellData().GetArray("size")), mm3.quality(mesh, "volume"))
+        mesh.save(FOLDER / "renamed.vtu", names={1: "brain"})
+        self.assertEqual(mm3.read_mesh(FOLDER / "renamed.vtu").names, {1: "brain"})
+        for name, data, text in (("a.inp", {"u": shift}, 'data "u" can be written to'),
+                                 ("a.vtu", {"u": shift[1:]}, 'data "u" does not have the size')):
+            with self.assertRaisesRegex(ValueError, text):
+                mesh.save(FOLDER / name, point_data=data)
+        (FOLDER / "bad.vtu").write_text("no mesh")
+        with self.assertRaisesRegex(ValueError, "bad.vtu: "):
+            mm3.read_mesh(FOLDER / "bad.vtu")
+
+    def test_from_meshio(self):
+        try:
+            import meshio
+        except ImportError as missing:
+            self.skipTest(missing)
+        m = self.mesh
+        labels = [m.labels[m.kinds == mm3.KINDS.index(kind)] + 6 for kind in m.cells]
+        triangles = ("triangle", np.zeros((2, 3), int))
+        there = meshio.Mesh(m.points, [triangles, *m.cells.items()],
+                            cell_data={"gmsh:physical": [np.array([1, 1]), *labels]},
+                            field_data={"tissue": np.array([7, 3]), "skin": np.array([1, 2])})
+        again = mm3.from_meshio(there)
+        for name in ("points", "kinds", "connectivity"):
+            np.testing.assert_array_equal(getattr(again, name), getattr(m, name))
+        self.assertEqual((set(again.labels), again.names), ({7}, {7: "tissue"}))
+        again = mm3.from_meshio(m.to_meshio())
+        np.testing.assert_array_equal(again.labels, m.labels)
+        with self.assertRaisesRegex(ValueError, "expected cells of the types"):
+            mm3.from_meshio(meshio.Mesh(m.points, [triangles]))
+
     def test_errors_are_those_of_the_program(self):
         points, triangles = CUBE
         for text, arguments, options, error in [
@@ -175,6 +245,81 @@ class Test(unittest.TestCase):
             mm3.mesh(*BRAIN, vertices=300000)
         self.assertLess(time.monotonic() - start, 60)
 
+    def test_warnings(self):
+        """What a report warns of is a warning: a boundary off the surface, and a surface that is mended."""
+        inner = {label: (CUBE[0] * 0.3 + shift, CUBE[1]) for label, shift in ((2, 0.6), (3, 0.1))}
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            mesh, report = mm3.mesh(*CUBE, subdomains=inner, vertices=2000)
+        self.assertGreater(report["boundary vertices not on surface"], 0)
+        self.assertEqual([str(w.message) for w in caught], report["warnings"])
+        self.assertEqual({w.filename for w in caught}, {__file__})
+        self.assertRegex("\n".join(report["warnings"]), r"\d+ of \d+ boundary vertices are not on surface: elements would be "
+                         "worse than quality_bound allows, or inverted")
+        with self.assertWarnsRegex(UserWarning, "surface: .*filled 1 hole"):
+            mm3.mesh(CUBE[0], CUBE[1][1:], vertices=100)
+        with self.assertWarnsRegex(UserWarning, "surface: .*filled 1 hole"):
+            mm3.optimize(mm3.mesh(*CUBE, vertices=100)[0], CUBE[0], CUBE[1][1:])
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            mm3.mesh(*CUBE, vertices=100)
+
+    def test_parts(self):
+        """Names of subdomains, a ball as region, cavities, sheets, and threads."""
+        points, triangles = CUBE
+        inner = lambda size, shift: (points * size + shift, triangles)
+        mesh, _ = mm3.mesh(*CUBE, subdomains={"left": inner(0.3, 0.1), 2: inner(0.3, 0.6)}, vertices=2000)
+        self.assertEqual((set(mesh.labels), mesh.names), ({1, 2, 3}, {3: "left"}))
+        centers = {label: np.mean([mesh.points[mesh.connectivity[a:b]].mean(axis=0) for a, b, l in
+                                   zip(mesh.offsets, mesh.offsets[1:], mesh.labels) if l == label]) for label in (2, 3)}
+        self.assertAlmostEqual(centers[3], 0.25, delta=0.05)
+        self.assertAlmostEqual(centers[2], 0.75, delta=0.05)
+        np.testing.assert_array_equal(mm3.resect(mesh, label="left"), mesh.labels == 3)
+        model = mm3.Elasticity(mesh, materials={"left": (10, 0.3)})
+        model.fix(np.flatnonzero(mesh.points[:, 2] == 0))
+        with self.assertRaisesRegex(ValueError, "no subdomain with the name 'right'"):
+            mm3.Elasticity(mesh, materials={"right": (10, 0.3)})
+        for vertices, text in (([0, 0], "twice"), ([-1], "from 0 to"), ([0.5], "truth values, or indices")):
+            with self.assertRaisesRegex(ValueError, text):
+                model.fix(vertices)
+
+        ball, _ = mm3.mesh(*BRAIN, region=((0, 0, 0), 20), vertices=660)
+        weighted, _ = mm3.mesh(*BRAIN, region=[((0, 0, 0), 20, 1.0)], vertices=660)
+        np.testing.assert_array_equal(ball.points, weighted.points)
+        in_ball = np.linalg.norm(ball.points[np.unique(np.concatenate(
+            [ball.connectivity[a:b] for a, b, is_in in zip(ball.offsets, ball.offsets[1:], ball.in_region) if is_in]))],
+            axis=1)
+        self.assertLess(in_ball.min(), 20)
+        self.assertLess(in_ball.max(), 45)
+        for region, text in ((((0, 0, 0), -1), "radius"), (((0, 0), 1), "three coordinates")):
+            with self.assertRaisesRegex(ValueError, text):
+                mm3.mesh(*CUBE, region=region)
+
+        hollow, _ = mm3.mesh(*CUBE, cavities=[inner(0.25, 0.25)], vertices=1000)
+        self.assertAlmostEqual(mm3.quality(hollow, "volume").sum(), 1 - 1 / 64, delta=1e-3)
+        square = (np.array([[0.5, -1, -1], [0.5, 2, -1], [0.5, 2, 2], [0.5, -1, 2]]), np.array([[0, 1, 2], [0, 2, 3]]))
+        cut, report = mm3.mesh(*CUBE, sheets=[square], vertices=500)
+        sheet, = report["sheets"]
+        self.assertAlmostEqual(sheet["area"], 1, delta=0.05)
+        self.assertEqual(len(np.unique(sheet["faces"][sheet["faces"] >= 0])), sheet["vertices"])
+        np.testing.assert_allclose(cut.points[sheet["faces"][sheet["faces"] >= 0], 0], 0.5,
+                                   atol=sheet["largest distance"] + 1e-9)
+        with self.assertWarnsRegex(UserWarning, "sheet 0: has no faces"):
+            mm3.mesh(*CUBE, sheets=[(square[0] + [3, 0, 0], square[1])], vertices=100)
+
+        one, _ = mm3.mesh(*BRAIN, region=REGION, vertices=660, threads=1)
+        np.testing.assert_array_equal(one.points, self.mesh.points)
+
+    def test_time_limit(self):
+        start = time.monotonic()
+        with self.assertWarnsRegex(UserWarning, "stopped by time_limit after"):
+            mesh, report = mm3.mesh(*BRAIN, vertices=20000, time_limit=2)
+        self.assertLess(time.monotonic() - start, 30)
+        self.assertEqual(report["status"], "stopped")
+        self.assertTrue(mm3.certify(mesh).all())
+        with self.assertRaisesRegex(mm3.MeshingError, "stopped before there was a mesh"):
+            mm3.mesh(*BRAIN, vertices=20000, time_limit=1e-6)
+
     def test_subdomains(self):
         mesh, report = mm3.mesh(*BRAIN, region=REGION, subdomains={2: TUMOR}, vertices=1000)
         self.assertEqual(set(mesh.labels), {1, 2})
@@ -198,6 +343,15 @@ class Test(unittest.TestCase):
         inner = mesh.points[np.unique(np.concatenate(
             [mesh.connectivity[a:b] for a, b, label in zip(mesh.offsets, mesh.offsets[1:], mesh.labels) if label == 7]))]
         np.testing.assert_allclose(inner.mean(axis=0), center[:3], atol=1)
+        mesh, _ = mm3.mesh_labels(image, affine, vertices=800, region_labels=[7], names={1: "brain", 7: "tumor"})
+        self.assertEqual(mesh.names, {1: "brain", 7: "tumor"})
+        self.assertTrue(0 < mesh.in_region.mean() < 1)
+        hollow = np.where((x ** 2).sum(axis=0) < 16, 0, image)  # what the hull fills belongs to the label around
+        whole, _ = mm3.mesh_labels(hollow, affine, vertices=800, hull=True)
+        self.assertAlmostEqual(mm3.quality(whole, "volume").sum() / ((image > 0).sum() * 8), 1, delta=0.1)
+        self.assertEqual(set(whole.labels), {1, 7})
+        with self.assertRaisesRegex(ValueError, "region or region_labels, not both"):
+            mm3.mesh_labels(image, affine, region_labels=[7], region=CUBE)
         with self.assertRaisesRegex(ValueError, "no voxels"):
             mm3.mesh_labels(image, affine, labels=[3])
         with self.assertRaisesRegex(ValueError, "no inverse"):
@@ -221,10 +375,21 @@ class Test(unittest.TestCase):
             self.assertGreater(len(mm3.read_surface(path, wrap=0.5)[0]), 100)
         with self.assertRaisesRegex(ValueError, "open.off: .*not closed"):
             mm3.read_surface(path, strict=True)
-        with self.assertRaisesRegex(ValueError, "missing.stl"):
-            mm3.read_surface("missing.stl")
-        with self.assertRaisesRegex(ValueError, "missing.nii"):
-            mm3.read_image("missing.nii")
+        cracks = FOLDER / "cracks.off"  # triangles with points of their own, the first one 1e-3 to the side
+        points = CUBE[0][CUBE[1]].reshape(-1, 3).astype(float)
+        points[:3] += 1e-3
+        far = points + 3
+        cracks.write_text("OFF\n72 24 0\n" + "".join("%r %r %r\n" % tuple(map(float, p)) for p in [*points, *0.5 * far])
+                          + "".join(f"3 {3 * i} {3 * i + 1} {3 * i + 2}\n" for i in range(24)))
+        with self.assertWarnsRegex(UserWarning, "cracks.off: welded [0-9]+ points"):
+            self.assertEqual(mm3.read_surface(cracks, weld=0.01)[0].shape, (16, 3))
+        for options in ({"largest": True}, {"drop_below": 0.5}):
+            with self.assertWarnsRegex(UserWarning, "dropped 1 of 2 components, the largest of volume 0.125"):
+                self.assertEqual(mm3.read_surface(cracks, weld=0.01, **options)[0].shape, (8, 3))
+        for read, name in ((mm3.read_surface, "missing.stl"), (mm3.read_image, "missing.nii"),
+                           (mm3.read_mesh, "missing.vtu")):
+            with self.assertRaisesRegex(FileNotFoundError, name):
+                read(name)
         try:
             import nibabel
         except ImportError as missing:
@@ -281,6 +446,8 @@ class Test(unittest.TestCase):
         self.assertTrue(0 < mesh.in_region.sum() < len(labels))
         for name in ("Mesh", "Elasticity", "mesh", "read_surface"):
             self.assertGreater(len(getattr(mm3, name).__doc__), 50)
+        for name in vars(mm3.Elasticity):
+            self.assertTrue(name.startswith("_") or getattr(mm3.Elasticity, name).__doc__, name)
         self.assertRegex(mm3.__version__, "^[0-9.]+$")
         self.assertTrue(all(hasattr(mm3, name) for name in mm3.__all__))
 

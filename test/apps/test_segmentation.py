@@ -209,7 +209,8 @@ class Test_segmentation(unittest.TestCase):
         path = self.image("atlas.nii.gz", values, to_world)
         told, run = self.mesh(path, "--vertices", 1000, "--hull", "--close", 9)
         self.assertEqual((run.stderr, told["status"]), ("", "success"))
-        self.assertRegex(run.stdout, "image: closed by 9 mm, [0-9]+ voxels added; [0-9]+ voxels filled in; "
+        self.assertRegex(run.stdout, r"image: closed by 9 mm, [0-9]+ voxels added \([0-9.]+ % of its voxels\); "
+                                     r"[0-9]+ voxels filled in \([0-9.]+ % of its voxels\); "
                                      "1 component of 1 voxel dropped\n")
         self.assertEqual(told["topology"]["surface"]["bodies"], 1)
         self.assertEqual(told["topology"]["surface"]["handles"] + told["topology"]["surface"]["cavities"], 0)

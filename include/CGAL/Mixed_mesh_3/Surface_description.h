@@ -22,7 +22,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 
 /// \ingroup PkgMixedMesh3Domains
-/// The numbers that describe a closed surface. A domain may return them by `MixedMeshDomain_3::shells()`.
+/// The numbers that describe a closed surface. A domain may return them by `MixedMeshDomain_3::shells()`. The
+/// domains of this package leave out specks, shells of less than 10^-6 of the volume of the largest one.
 struct Shell_counts
 {
   std::size_t number_of_shells = 0;        ///< connected components: bodies and cavities

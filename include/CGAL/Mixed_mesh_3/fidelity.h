@@ -13,6 +13,7 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/shell_counts.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Nested_shells.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/compare_shells.h>
 #include <CGAL/Mixed_mesh_3/surface_distance.h>
@@ -133,13 +134,14 @@ class Solid_comparer
 
   const Nested_shells& m_surface;
   const Nested_shells& m_mesh;
-  const double m_volume_tolerance;
+  const double m_volume_tolerance, m_least_volume;
   const std::vector<Region_location> m_in_mesh, m_in_surface; // regions of each in the other
   std::vector<Solid_difference> m_differences;
 
 public:
   Solid_comparer(const Nested_shells& surface, const Nested_shells& mesh, double volume_tolerance)
     : m_surface(surface), m_mesh(mesh), m_volume_tolerance(volume_tolerance),
+      m_least_volume(volume_share_of_speck * topology_of(surface).volume),
       m_in_mesh(locate_regions(surface, mesh)), m_in_surface(locate_regions(mesh, surface))
   {
   }
@@ -192,7 +194,8 @@ private:
 
   void add(Kind kind, const Point_3& p, double volume, const std::string& sentence)
   {
-    m_differences.push_back({kind, p, volume, sentence});
+    if(volume >= m_least_volume)
+      m_differences.push_back({kind, p, volume, sentence});
   }
 
   static double least_volume(const Nested_shells& shells, const Regions& regions)
@@ -345,7 +348,8 @@ located in the solid of the other side. A body, or cavity, belongs to the body o
 in. The correspondence is reliable for parts that are thicker than the distance between the surface and the
 boundary of the mesh; bodies that are nowhere so thick may be called missing and added instead.
 
-Equal numbers do not hide differences: a missing body and another body that falls into two are both reported.
+Specks, parts of less than 10^-6 of the volume, are counted, but are no differences. Equal numbers do not hide
+differences: a missing body and another body that falls into two are both reported.
 Not detected are the loss of a part of a body without a change of topology, unless the volume tells (see
 `hausdorff_distance()`), and knots: a ring that is tied differently has the same handles.
 

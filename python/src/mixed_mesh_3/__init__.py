@@ -12,6 +12,7 @@ are sorted by kind, as in files.
 """
 
 import copy as _copy
+import errno as _errno
 import numbers as _numbers
 import operator as _operator
 import os as _os
@@ -27,13 +28,16 @@ from ._page import Page, make_page as _make_page
 
 __version__ = "0.1.0"
 __all__ = ["Elasticity", "ElasticityError", "KINDS", "Mesh", "MeshingError", "Page", "adapt", "boundary_vertices", "certify",
-           "complete_label", "defects", "example_data", "fit", "label_surface", "mesh", "mesh_labels", "optimize", "quality", "read_image",
-           "read_surface", "resect", "warp"]
+           "complete_label", "defects", "example_data", "fit", "from_meshio", "label_surface", "mesh", "mesh_labels",
+           "optimize", "quality", "read_image", "read_mesh", "read_surface", "resect", "warp"]
 
 #: The kinds of elements, with the names of meshio: the values of Mesh.kinds are indices of this tuple.
-KINDS = ("tetra", "pyramid", "wedge", "hexahedron")
+KINDS = _core.KINDS
 _SIZES = (4, 5, 6, 8)
 _VTK_TYPES = (10, 14, 13, 12)
+#: Poisson's ratio of all materials, if not given, as in the programs; and the largest with which adapt() computes.
+_POISSON_RATIO = 0.45
+_LARGEST_POISSON_RATIO_OF_ADAPTATION = 0.3  # standard elements, which it needs, lock above
 _VTK_WEDGE = (0, 2, 1, 3, 5, 4)  # the mirror image of the wedge of meshio, Gmsh and this package
 
 
@@ -72,14 +76,30 @@ def _to_pyvista(self):
     return grid
 
 
-def _save(self, path, *, order=1, tetrahedra=False):
+def _names(self):
+    """The names of subdomains, {label: name}, which save() writes and copies keep."""
+    return self.__dict__.setdefault("_names", {})
+
+
+def _set_names(self, names):
+    self.__dict__["_names"] = {int(label): str(name) for label, name in names.items()}
+
+
+def _save(self, path, *, order=1, tetrahedra=False, names=None, point_data=None, cell_data=None):
     """Writes a file as the program does: .vtu, .msh (Gmsh 4.1), .msh2 (Gmsh 2.2), .mesh, .inp or .feb.
 
     order: the order of the elements. Elements of order 2 are quadratic and straight-sided, with a node in the middle of
     each edge, numbered after the vertices; not in .mesh, and in .inp without pyramids only. tetrahedra: whether all
-    elements are split into tetrahedra. Raises ValueError with the message of the program.
+    elements are split into tetrahedra. names: {label: name} of subdomains; None: those of the mesh. .msh2 and .mesh have no
+    place for them. point_data: {name: values} of vertices, (n,) or (n, components), for .vtu, .msh, .msh2 and .feb;
+    cell_data: of elements, for .vtu. Raises ValueError with the message of the program.
     """
-    _core.save(self, _os.fspath(path), _count("order", order), bool(tetrahedra))
+    _core.save(self, _os.fspath(path), _count("order", order), bool(tetrahedra),
+               self.names if names is None else dict(names), _data(point_data), _data(cell_data))
+
+
+def _data(data):
+    return {str(name): _np.asarray(values, dtype=float) for name, values in (data or {}).items()}
 
 
 def _show(self, displacements=None, *, removed=None, report=None, title="mesh", height=620):
@@ -98,6 +118,7 @@ def _repr(self):
 
 
 Mesh.cells = property(_cells)
+Mesh.names = property(_names, _set_names)
 Mesh.to_meshio = _to_meshio
 Mesh.to_pyvista = _to_pyvista
 Mesh.save = _save
@@ -146,8 +167,57 @@ def _soup(name, soup):
     return points, triangles
 
 
-def _materials(materials, density):
-    return {label: (*m, density)[:3] for label, m in (materials or {}).items()}
+def _label(mesh, label):
+    """The label of a subdomain that is given by label or name."""
+    if not isinstance(label, str):
+        return label
+    for number, name in mesh.names.items():
+        if name == label:
+            return number
+    raise ValueError(f"there is no subdomain with the name {label!r}, see Mesh.names")
+
+
+def _materials(mesh, materials, density):
+    return {_label(mesh, label): (*m, density)[:3] for label, m in (materials or {}).items()}
+
+
+def _marks(name, chosen, size):
+    """Truth values of all vertices or elements, of which some are chosen: by truth values, or by indices."""
+    chosen = _np.asarray(chosen)
+    if chosen.dtype == bool or not chosen.size:
+        return chosen if chosen.size else _np.zeros(size, bool)
+    if chosen.dtype.kind not in "iu" or chosen.ndim != 1:
+        raise ValueError(f"{name}: expected {size} truth values, or indices")
+    if chosen.min() < 0 or chosen.max() >= size:
+        raise ValueError(f"{name}: expected indices from 0 to {size - 1}")
+    marks = _np.zeros(size, bool)
+    marks[chosen] = True
+    if marks.sum() != chosen.size:
+        raise ValueError(f"{name}: an index is there twice; truth values are of the type bool")
+    return marks
+
+
+def _ball(name, center, radius):
+    """A polyhedron with its 642 vertices on a sphere, as points and triangles."""
+    radius = _number(f"{name}: radius", radius, lambda x: 0 < x < _np.inf, "greater than 0")
+    center = _np.asarray(center, dtype=float)
+    if center.shape != (3,):
+        raise ValueError(f"{name}: expected a center of three coordinates, and a radius")
+    t = (1 + 5 ** 0.5) / 2
+    points = _np.array([[-1, t, 0], [1, t, 0], [-1, -t, 0], [1, -t, 0], [0, -1, t], [0, 1, t],
+                        [0, -1, -t], [0, 1, -t], [t, 0, -1], [t, 0, 1], [-t, 0, -1], [-t, 0, 1]])
+    triangles = _np.array([[0, 11, 5], [0, 5, 1], [0, 1, 7], [0, 7, 10], [0, 10, 11], [1, 5, 9], [5, 11, 4], [11, 10, 2],
+                           [10, 7, 6], [7, 1, 8], [3, 9, 4], [3, 4, 2], [3, 2, 6], [3, 6, 8], [3, 8, 9], [4, 9, 5],
+                           [2, 4, 11], [6, 2, 10], [8, 6, 7], [9, 8, 1]])
+    for _ in range(3):  # each triangle becomes four
+        edges, middles = _np.unique(_np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=2).reshape(-1, 2), axis=0,
+                                    return_inverse=True)
+        ab, bc, ca = (len(points) + middles.reshape(-1, 3)).T
+        a, b, c = triangles.T
+        points = _np.concatenate([points, points[edges].mean(axis=1)])
+        triangles = _np.concatenate([_np.stack(corners, axis=1)
+                                     for corners in ((a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca))])
+    return center + radius * points / _np.linalg.norm(points, axis=1)[:, None], triangles
 
 
 def _regions(region):
@@ -157,8 +227,43 @@ def _regions(region):
     result = []
     for r in regions:
         soup, weight = (r[:2], r[2]) if isinstance(r, tuple) and len(r) == 3 else (r, 1.0)
-        result.append((*_soup("region", soup), _number("region: weight", weight)))
+        is_ball = isinstance(soup, tuple) and len(soup) == 2 and isinstance(soup[1], _numbers.Real)
+        surface = _ball("region", *soup) if is_ball else _soup("region", soup)
+        result.append((*surface, _number("region: weight", weight)))
     return result
+
+
+def _subdomains(subdomains):
+    """The surfaces of subdomains with their labels, and the names of labels: a name gets the next label that is free."""
+    labels = {key for key in subdomains if not isinstance(key, str)}
+    names, result = {}, []
+    free = 2
+    for key, surface in subdomains.items():
+        label = key
+        if isinstance(key, str):
+            while free in labels:
+                free += 1
+            label = free
+            labels.add(label)
+            names[label] = key
+        result.append((*_soup(f"subdomain {key}", surface), label))
+    return result, names
+
+
+def _surfaces(name, surfaces):
+    return [_soup(f"{name} {i}", surface) for i, surface in enumerate(surfaces)]
+
+
+def _warn(texts, stacklevel):
+    for text in texts:
+        _warnings.warn(text, stacklevel=stacklevel + 1)
+
+
+def _existing(path):
+    path = _os.fspath(path)
+    if not _os.path.exists(path):
+        raise FileNotFoundError(_errno.ENOENT, _os.strerror(_errno.ENOENT), path)
+    return path
 
 
 def example_data():
@@ -169,54 +274,102 @@ def example_data():
             for name, file in (("brain", "brain"), ("region", "region"), ("tumor", "tumour"))}
 
 
-def read_surface(path, *, strict=False, wrap=0.0):
+def read_surface(path, *, strict=False, wrap=0.0, weld=0.0, largest=False, drop_below=0.0):
     """A closed surface from a file: (points, triangles), in the unit of the file.
 
     Files: .off, .obj, .stl, .ply, .vtp, .vtk, .gii, or binary surfaces of FreeSurfer. Defects are repaired if possible,
     with a UserWarning; strict: such surfaces are rejected. wrap: the surface is wrapped; openings narrower than this
-    diameter are closed. Raises ValueError with the file and its defect.
+    diameter are closed. weld: where the surface is not closed, points up to this distance apart are one point; 0: a
+    millionth of the surface's diagonal. largest: only the largest component is kept, with its cavities. drop_below:
+    components and cavities of less volume are dropped. Raises FileNotFoundError, or ValueError with the file and its
+    defect.
     """
-    *surface, mended = _core.read_surface(_os.fspath(path), bool(strict), _not_negative("wrap", wrap))
-    for text in mended:
-        _warnings.warn(f"{path}: {text}", stacklevel=2)
+    *surface, mended = _core.read_surface(_existing(path), bool(strict), _not_negative("wrap", wrap),
+                                          _not_negative("weld", weld), bool(largest),
+                                          _not_negative("drop_below", drop_below))
+    _warn([f"{path}: {text}" for text in mended], 2)
     return tuple(surface)
 
 
 def read_image(path):
     """A NIfTI image (.nii, .nii.gz): its values, and its affine map from indices to mm, (4, 4), as in nibabel."""
-    return _core.read_image(_os.fspath(path))
+    return _core.read_image(_existing(path))
 
 
-def mesh(points, triangles, *, region=None, subdomains=None, vertices=660, tolerance=0.0, grading=0.35, exchange=True,
-         base_level=None, quality_bound=3.2, sharp_angle=50.0, progress=None):
+def read_mesh(path):
+    """A mesh of linear elements from a file: .vtu, .msh, .mesh, .ele (TetGen) or .vol (Netgen), with its labels and their
+    names. Elements of lower dimension are skipped. The mesh is not checked, see defects(). Raises FileNotFoundError, or
+    ValueError with the file and its defect."""
+    result, names = _core.read_mesh(_existing(path))
+    result.names = names
+    return result
+
+
+def from_meshio(mesh):
+    """A mesh from a meshio.Mesh: its tetrahedra, pyramids, wedges and hexahedra of order 1; other cells are skipped.
+
+    Labels are those of the cell data "label", "subdomain", "gmsh:physical" or "medit:ref", else 1; they have the names of
+    the field data. Raises ValueError if there are no such elements.
+    """
+    chosen = [(i, block) for i, block in enumerate(mesh.cells) if block.type in KINDS]
+    if not chosen:
+        raise ValueError(f"from_meshio(): expected cells of the types {', '.join(KINDS)}")
+    kinds = _np.concatenate([_np.full(len(block.data), KINDS.index(block.type), _np.uint8) for _, block in chosen])
+    connectivity = _np.concatenate([_np.asarray(block.data, dtype=_np.int64).ravel() for _, block in chosen])
+    labels = None
+    for name in ("label", "subdomain", "gmsh:physical", "medit:ref"):
+        if labels is None and name in mesh.cell_data:
+            labels = _np.concatenate([_np.asarray(mesh.cell_data[name][i]) for i, _ in chosen]).astype(_np.int64)
+    result = Mesh(mesh.points, kinds, connectivity, labels)
+    present = set() if labels is None else set(labels.tolist())
+    result.names = {int(data[0]): name for name, data in mesh.field_data.items()
+                    if len(data) == 2 and data[1] == 3 and int(data[0]) in present}
+    return result
+
+
+def mesh(points, triangles, *, region=None, subdomains=None, cavities=(), sheets=(), vertices=2000, tolerance=0.0,
+         grading=0.35, exchange=True, base_level=None, quality_bound=3.2, sharp_angle=50.0, time_limit=None, threads=None,
+         progress=None):
     """Meshes the inside of a closed surface, fine in a region of interest.
 
-    region: (points, triangles) of a closed surface, or a list of them, each with an optional weight as its third entry;
-        None: the whole domain.
-    subdomains: {label: (points, triangles)}: inner parts; where they overlap, the first one counts; labels from 2 on,
-        the rest has the label 1, and 0 is a cavity.
+    region: (points, triangles) of a closed surface, or (center, radius) of a ball, or a list of them, each with an
+        optional weight as its third entry; None: the whole domain.
+    subdomains: {label: (points, triangles)} or {name: (points, triangles)}: inner parts; where they overlap, the first
+        one counts; labels from 2 on, the rest has the label 1, and 0 is a cavity. A name gets the next label that is
+        free, see Mesh.names.
+    cavities: surfaces, (points, triangles), whose inside is not meshed.
+    sheets: surfaces, (points, triangles), that need not be closed: faces of elements are on them. The entry "sheets" of
+        the report has these faces.
     vertices: the largest number of vertices; "auto": as few as the tolerance allows, found by five to ten meshes of up
         to 200,000 vertices.
     tolerance: the largest distance between boundary and surface, in mm; 0: a distance that the budget allows.
     exchange: whether vertices far from the region may be exchanged for vertices in the region, with at most 2,500 vertices.
     quality_bound: the largest aspect-ratio coefficient of an element.
+    time_limit: after that number of seconds, the mesh is what there is then, with the status "stopped". None: no limit.
+    threads: the largest number of threads; None: as many as there are processors. The mesh is the same.
     progress: called as progress(stage, vertices, budget); an exception of this function ends the run, as Ctrl-C does.
 
     Returns the mesh and a report: a dictionary with "status", "warnings", "Hausdorff distance", "seconds" and other
-    measures. Raises ValueError if a surface does not bound a solid and cannot be repaired, MeshingError if there is no
-    mesh.
+    measures. Each of the warnings is a UserWarning, too. Raises ValueError if a surface does not bound a solid and cannot
+    be repaired, MeshingError if there is no mesh.
     """
     start = _time.perf_counter()
     if vertices == "auto" and not tolerance > 0:
         raise ValueError('vertices: "auto" needs a tolerance')
+    parts, names = _subdomains(subdomains or {})
     result, report = _core.mesh(
         _soup("surface", (points, triangles)), _regions(region),
-        [(*_soup(f"subdomain {label}", s), label) for label, s in (subdomains or {}).items()],
+        [(*surface, 0) for surface in _surfaces("cavity", cavities)] + parts,
         _most_vertices(vertices), vertices == "auto", _not_negative("tolerance", tolerance),
         _not_negative("grading", grading), bool(exchange), base_level,
         _number("quality_bound", quality_bound, lambda x: x == 0 or x >= 1, "of at least 1, or 0 for none"),
-        _number("sharp_angle", sharp_angle, lambda x: 0 <= x <= 180, "from 0 to 180"), progress)
+        _number("sharp_angle", sharp_angle, lambda x: 0 <= x <= 180, "from 0 to 180"), progress,
+        _surfaces("sheet", sheets),
+        _np.inf if time_limit is None else _number("time_limit", time_limit, lambda x: x > 0, "greater than 0"),
+        None if threads is None else _count("threads", threads))
     report["seconds"] = _time.perf_counter() - start
+    result.names = names
+    _warn(report["warnings"], 2)
     return result, report
 
 
@@ -245,19 +398,38 @@ def label_surface(image, affine, labels, *, smoothing=None, vertices=20000):
                                _count("vertices", vertices))
 
 
-def mesh_labels(image, affine, labels=None, *, smoothing=None, vertices=660, **options):
-    """Meshes an image of labels.
-
-    labels: the values to mesh; None: all that are not 0. The label with most voxels surrounds the others, and has the
-    label 1 in the mesh; the others keep their values (from 2 on). options: as for mesh().
-    """
-    image = _np.asarray(image)
+def _chosen_labels(image, labels):
+    """The values of an image that count as labels, and the numbers of their voxels."""
     values, counts = _np.unique(image[image != 0] if labels is None else image[_np.isin(image, labels)], return_counts=True)
     if not values.size:
         raise ValueError("image: there are no voxels with these labels")
     if (values != _np.floor(values)).any() or (values < 1).any():
         raise ValueError("image: labels are whole numbers from 1 on")
+    return values, counts
+
+
+def mesh_labels(image, affine, labels=None, *, region_labels=None, names=None, hull=False, smoothing=None, vertices=2000,
+                **options):
+    """Meshes an image of labels.
+
+    labels: the values to mesh; None: all that are not 0. The label with most voxels surrounds the others, and has the
+    label 1 in the mesh; the others keep their values (from 2 on). region_labels: the values of the region of interest,
+    which is fine. names: {value: name} of labels, for Mesh.names. hull: the solid organ is meshed, as complete_label()
+    makes it; what it adds belongs to the label with most voxels. options: as for mesh().
+    """
+    image = _np.asarray(image)
+    values, counts = _chosen_labels(image, labels)
     largest = int(counts.argmax())
+    if region_labels is not None:
+        if options.get("region") is not None:
+            raise ValueError("mesh_labels(): expected region or region_labels, not both")
+        options["region"] = label_surface(image, affine, region_labels, smoothing=smoothing)
+        if not len(options["region"][0]):
+            raise ValueError("region_labels: nothing is left of them after smoothing")
+    if hull:
+        solid = complete_label(image, affine, values, hull=True) != 0
+        image = _np.where(solid, _np.where(_np.isin(image, values), image, values[largest]), 0)
+        counts = _np.array([(image == value).sum() for value in values])
 
     def surface(of, share):  # no finer than the mesh can follow
         finer, least = (3, 1000) if share < 1 else (1, 2000)
@@ -265,12 +437,12 @@ def mesh_labels(image, affine, labels=None, *, smoothing=None, vertices=660, **o
         return label_surface(image, affine, of, smoothing=smoothing, vertices=int(size))
 
     parts = {}
-    for value, count in zip(values, counts):
-        if value == values[largest]:
+    for i, value in enumerate(values):
+        if i == largest:
             continue
         if value == 1:
             raise ValueError("image: label 1 is that of what is around the others; give it to the label with most voxels")
-        points, triangles = surface(value, count / counts.sum())
+        points, triangles = surface(value, counts[i] / counts.sum())
         if len(points):  # otherwise smoothing has removed the label
             parts[int(value)] = (points, triangles)
     around = surface(values, 1)
@@ -279,6 +451,8 @@ def mesh_labels(image, affine, labels=None, *, smoothing=None, vertices=660, **o
     result, report = mesh(*around, subdomains=parts, vertices=vertices, **options)
     meshed = set(_np.unique(result.labels)) - {1}
     report["labels lost"] = sorted({int(v) for i, v in enumerate(values) if i != largest} - meshed)
+    _warn([f"label {label} is lost: too small for the cells, or for smoothing" for label in report["labels lost"]], 2)
+    result.names = {1 if value == values[largest] else int(value): name for value, name in (names or {}).items()}
     return result, report
 
 
@@ -287,15 +461,19 @@ def optimize(mesh, points, triangles, *, tolerance=0.0, quality_bound=3.2, bisec
     """A mesh with its boundary on the surface and better elements, and a report; the given mesh does not change. Without
     flips, the mesh has the same vertices and elements, as for an atlas after fit()."""
     result = _copy.copy(mesh)
-    return result, _core.optimize(result, _soup("surface", (points, triangles)), _not_negative("tolerance", tolerance),
-                                  quality_bound, bisections, flips, progress)
+    report = _core.optimize(result, _soup("surface", (points, triangles)), _not_negative("tolerance", tolerance),
+                            quality_bound, bisections, flips, progress)
+    _warn(report["warnings"], 2)
+    return result, report
 
 
 def fit(mesh, points, triangles, *, progress=None):
     """A mesh with its boundary brought onto another surface by elastic relaxation (an atlas to a subject), and a
     report; the given mesh does not change."""
     result = _copy.copy(mesh)
-    return result, _core.fit(result, _soup("surface", (points, triangles)), progress)
+    report = _core.fit(result, _soup("surface", (points, triangles)), progress)
+    _warn(report["warnings"], 2)
+    return result, report
 
 
 def certify(mesh):
@@ -313,29 +491,38 @@ def quality(mesh, measure="ARC"):
     return _core.quality(mesh, measure)
 
 
-def adapt(mesh, cases, *, young_modulus=1.0, poisson_ratio=0.3, materials=None, quality_bound=3.2, solves=20):
+def adapt(mesh, cases, *, young_modulus=1.0, poisson_ratio=_POISSON_RATIO, materials=None, quality_bound=3.2,
+          solves=20):
     """A mesh whose inner vertices are where elements have less energy, and less error, under the loads to come, and a
     report; the given mesh does not change.
 
     cases: load cases, each (vertices, displacements): an array of truth values that marks the vertices with prescribed
     displacements, enough to hold rigid motions, and the displacements, (n, 3) in mm, 0 where a vertex is held. Without
     known loads, unit bumps of the boundary around the opening, along its normal and two tangents, are a good choice.
-    materials: as for Elasticity. Standard elements lock at a high Poisson's ratio, and the energy would be that of locking.
+    materials: as for Elasticity. Standard elements lock at a high Poisson's ratio, and the energy would be that of locking:
+    as in brain_shift, the ratio is taken as 0.3 if it is larger.
     quality_bound: the largest aspect-ratio coefficient of an element. solves: how often the cases are solved at most.
     """
+    def softer(material):
+        young, poisson, density = material
+        return young, min(poisson, _LARGEST_POISSON_RATIO_OF_ADAPTATION) if poisson < 0.5 else poisson, density
+
     result = _copy.copy(mesh)
     return result, _core.adapt(
-        result, [(_np.asarray(vertices), _np.asarray(displacements, dtype=float)) for vertices, displacements in cases],
-        _materials(materials, 0.0), (young_modulus, poisson_ratio, 0.0),
+        result, [(_marks("cases: vertices", vertices, len(mesh.points)), _np.asarray(displacements, dtype=float))
+                 for vertices, displacements in cases],
+        {label: softer(m) for label, m in _materials(mesh, materials, 0.0).items()},
+        softer((young_modulus, poisson_ratio, 0.0)),
         _number("quality_bound", quality_bound, lambda x: x == 0 or x >= 1, "of at least 1, or 0 for none"),
         _count("solves", solves))
 
 
 def resect(mesh, points=None, triangles=None, *, label=None):
-    """The elements that a closed surface encloses, or that have a label, to be removed: an array of truth values."""
+    """The elements that a closed surface encloses, or that have a label, or its name, to be removed: an array of truth
+    values."""
     if (points is None) == (label is None):
         raise ValueError("resect(): expected points and triangles, or a label")
-    return _core.resect_elements(mesh, mesh.labels == label) if points is None else _core.resect(mesh, points, triangles)
+    return _core.resect_elements(mesh, mesh.labels == _label(mesh, label)) if points is None else _core.resect(mesh, points, triangles)
 
 
 def warp(image, affine, mesh, displacements, *, removed=None, is_of_labels=False):
@@ -358,11 +545,41 @@ class Elasticity(_core.Elasticity):
         displacements = model.solve(displacements_of_points)
 
     young_modulus is in kPa, density in kg/mm^3. materials: {label: (young_modulus, poisson_ratio)}, with an optional
-    density as third entry, for labels with another material. Errors raise ElasticityError, with the reason.
+    density as third entry, for labels, or names of labels, with another material. Vertices are chosen by an array of truth
+    values, or by indices. Errors raise ElasticityError, with the reason.
     """
 
-    def __init__(self, mesh, young_modulus=1.0, poisson_ratio=0.45, density=1e-6, *, materials=None):
-        super().__init__(mesh, _materials(materials, density), (young_modulus, poisson_ratio, density))
+    def __init__(self, mesh, young_modulus=1.0, poisson_ratio=_POISSON_RATIO, density=1e-6, *, materials=None):
+        super().__init__(mesh, _materials(mesh, materials, density), (young_modulus, poisson_ratio, density))
+        self._numbers = len(mesh.points), len(mesh.kinds)
+
+    def fix(self, vertices):
+        """Vertices that stay where they are. Supports are set before the first control points and the first solution, and
+        hold the rigid motions that control points leave free."""
+        super().fix(_marks("fix()", vertices, self._numbers[0]))
+
+    def slide(self, vertices):
+        """Boundary vertices that move along the boundary only: the displacement along its normal there is 0, in both
+        directions."""
+        super().slide(_marks("slide()", vertices, self._numbers[0]))
+
+    def touch(self, vertices, gap=0.0):
+        """Boundary vertices that may leave the skull and slide, but not move outwards by more than the gap, in mm. solve()
+        finds which of them are in contact; contact_forces() are positive there."""
+        super().touch(_marks("touch()", vertices, self._numbers[0]), gap)
+
+    def remove(self, elements):
+        """Elements that are taken away, a resection, for the solutions that follow: truth values, as of resect(), or
+        indices."""
+        super().remove(_marks("remove()", elements, self._numbers[1]))
+
+    def set_gravity(self, acceleration):
+        """The acceleration of gravity in mm/s^2, (3,): the weight acts beside other loads."""
+        super().set_gravity(acceleration)
+
+    def set_corotational(self, is_corotational):
+        """Whether rotations may be finite: each element turns with its part of the body, and solve() iterates."""
+        super().set_corotational(is_corotational)
 
     def set_control_points(self, points, *, largest_distance=0.0, compliance=0.0, radius=0.0, weights=()):
         """Sets the points at which displacements are given. largest_distance: up to this distance outside, the nearest

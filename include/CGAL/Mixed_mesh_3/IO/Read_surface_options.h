@@ -25,6 +25,17 @@ struct Read_surface_options
   /// The diameter with which the surface is wrapped if not 0, with defects or without, and not repaired:
   /// openings narrower than the diameter are closed, and details smaller than a thirtieth of it are lost.
   double wrap_diameter = 0;
+
+  /// The largest distance of points that are welded where the surface is not closed: narrower cracks are
+  /// closed. By default, 10^-6 of the diagonal of the bounding box, which equal points differ by if a
+  /// program has rounded each for itself; nothing if `is_strict` is set.
+  double weld_distance = 0;
+
+  /// Whether to keep only the body of the largest volume, with its cavities.
+  bool keep_largest = false;
+
+  /// Components of less volume, bodies and cavities, are dropped; in the cube of the unit of the points.
+  double least_volume = 0;
 };
 
 } // namespace IO

@@ -30,6 +30,7 @@ struct Surface_input
   std::vector<std::string> warnings; ///< one line each, without the file's name
   std::vector<std::string> repairs;  ///< warnings of a surface other than that of the file
   double wrap_diameter = 0;          ///< diameter with which a refused surface can be wrapped; 0: none
+  double weld_distance = 0;          ///< distance at which welding closes a refused surface; 0: none
 };
 
 } // namespace IO

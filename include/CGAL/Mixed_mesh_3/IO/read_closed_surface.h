@@ -62,11 +62,28 @@ bool make_surface_as(decltype(make_surface)& make, const Soup& soup, const std::
       CGAL::copy_face_graph(surface, mesh);
     }
   });
-  if(input != nullptr && is_success)
+  if(input != nullptr && is_success) {
     *input = std::move(found);
-  else if(input != nullptr)
+  } else if(input != nullptr) {
     input->wrap_diameter = found.wrap_diameter;
+    input->weld_distance = found.weld_distance;
+  }
   return is_success;
+}
+
+/// The points and polygons of arrays.
+template <class Points, class Polygons>
+Surface_soup soup_of(const Points& points, const Polygons& polygons)
+{
+  Surface_soup soup;
+  for(const auto& p : points)
+    soup.points.push_back({double(p[0]), double(p[1]), double(p[2])});
+  for(const auto& polygon : polygons) {
+    soup.polygons.emplace_back();
+    for(const auto v : polygon)
+      soup.polygons.back().push_back(vertex_index(v));
+  }
+  return soup;
 }
 
 } // namespace internal
@@ -142,18 +159,9 @@ template <class Points, class Polygons, class Mesh>
                                        Mesh& mesh, std::string* error = nullptr,
                                        Surface_input* input = nullptr)
 {
-  const auto soup_of_arrays = [&] {
-    internal::Surface_soup soup;
-    for(const auto& p : points)
-      soup.points.push_back({double(p[0]), double(p[1]), double(p[2])});
-    for(const auto& polygon : polygons) {
-      soup.polygons.emplace_back();
-      for(const auto v : polygon)
-        soup.polygons.back().push_back(internal::vertex_index(v));
-    }
-    return soup;
-  };
-  return internal::make_surface_as(internal::make_surface, soup_of_arrays, name, options, mesh, error, input);
+  return internal::make_surface_as(
+    internal::make_surface, [&] { return internal::soup_of(points, polygons); }, name, options, mesh, error,
+    input);
 }
 
 /*!
@@ -172,6 +180,24 @@ template <class Mesh>
 {
   return internal::make_surface_as(
     internal::make_sheet, [&] { return internal::read_surface_file(path); }, path, options, mesh, error,
+    input);
+}
+
+/*!
+\ingroup PkgMixedMesh3IO
+
+Makes a sheet of arrays, as `read_sheet()` does of a file.
+
+\param points,polygons,name,options,mesh,error,input parameters of `make_closed_surface()`
+\return whether the sheet was made; if not, `mesh` is unchanged
+*/
+template <class Points, class Polygons, class Mesh>
+[[nodiscard]] bool make_sheet(const Points& points, const Polygons& polygons, const std::string& name,
+                              const Read_surface_options& options, Mesh& mesh, std::string* error = nullptr,
+                              Surface_input* input = nullptr)
+{
+  return internal::make_surface_as(
+    internal::make_sheet, [&] { return internal::soup_of(points, polygons); }, name, options, mesh, error,
     input);
 }
 

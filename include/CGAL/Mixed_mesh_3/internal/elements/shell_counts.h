@@ -26,6 +26,10 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
+/// The share of the volume of a solid below which a part is a speck: whether a mesh has the part does not
+/// matter.
+constexpr double volume_share_of_speck = 1e-6;
+
 /// The shells of a closed surface: for each vertex, the number of its shell.
 struct Shells_of_vertices
 {

@@ -89,8 +89,8 @@ CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::build(const Triangle_soup& soup)
   count_shells(soup);
 }
 
-// Counts the shells. Around a cavity, points inside the shell, but near to it, are outside of the domain, for
-// either orientation of the triangles.
+// Counts the shells, without specks. Around a cavity, points inside the shell, but near to it, are outside of
+// the domain, for either orientation of the triangles.
 CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::count_shells(const Triangle_soup& soup)
 {
   const auto& triangles = soup.triangles;
@@ -102,6 +102,18 @@ CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::count_shells(const Triangle_soup
     return;
   const auto point = [&](std::size_t v) { return to_vec3(soup.points[v]); };
   const std::vector<double> volumes = volumes_of_shells(shells, triangles, point);
+  double largest_volume = 0;
+  for(double volume : volumes)
+    largest_volume = (std::max)(largest_volume, std::abs(volume));
+  auto kept = triangles;
+  kept.erase(std::remove_if(kept.begin(), kept.end(),
+                            [&](const auto& t) {
+                              return std::abs(volumes[shells.shell_of[t[0]]])
+                                     < volume_share_of_speck * largest_volume;
+                            }),
+             kept.end());
+  if(kept.size() != triangles.size())
+    return count_shells({soup.points, std::move(kept)});
   std::vector<const std::array<std::size_t, 3>*> largest(volumes.size(), nullptr);
   std::vector<double> areas(volumes.size(), -1); // doubled
   const auto normal = [&](const std::array<std::size_t, 3>& t) {

@@ -18,6 +18,7 @@
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/repair_surface.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/separate_bodies.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/surface_crossings.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/surface/take_faces.h>
 
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
@@ -136,7 +137,12 @@ inline Edge_counts make_closed_manifold(const Read_surface_options& options, Poi
   Edge_counts edges = count_edges(polygons);
   if(edges.open != 0) {
     const std::size_t open = edges.open;
-    close(options, points, polygons, input);
+    try {
+      close(options, points, polygons, input);
+    } catch(Surface_defect& defect) {
+      defect.weld_distance = closing_weld_distance(options.weld_distance, points, polygons);
+      throw;
+    }
     edges = count_edges(polygons);
     if(edges.open != 0)
       throw Surface_defect{not_closed(open), wrap_diameter_for(points)};

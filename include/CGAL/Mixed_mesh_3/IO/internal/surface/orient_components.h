@@ -56,7 +56,9 @@ struct Surface_component
   std::vector<Surface::Face_index> faces;
   Bbox_3 bbox;
   double volume = 0;
-  bool is_cavity = false;
+  std::vector<std::size_t> around; // components that it is inside of
+
+  bool is_cavity() const { return around.size() % 2 == 1; }
 
   bool has_box_within(const Bbox_3& box) const
   {
@@ -87,11 +89,10 @@ std::vector<Surface_component> components_of(const Surface& mesh, std::size_t nu
   return components;
 }
 
-// Marks the components that are inside an odd number of others. A component that cuts another one is not
-// inside it.
+// Finds the components that are inside others. A component that cuts another one is not inside it.
 // \param cutting pairs of components that cut each other, both ways
-inline void mark_cavities(const Surface& mesh, const std::set<std::pair<std::size_t, std::size_t>>& cutting,
-                          std::vector<Surface_component>& components)
+inline void nest_components(const Surface& mesh, const std::set<std::pair<std::size_t, std::size_t>>& cutting,
+                            std::vector<Surface_component>& components)
 {
   using Side = CGAL::Side_of_triangle_mesh<Surface, Predicates_kernel>;
   for(std::size_t o = 0; o < components.size(); ++o) {
@@ -110,7 +111,8 @@ inline void mark_cavities(const Surface& mesh, const std::set<std::pair<std::siz
         for(const auto& p : Triangle_view(c->faces[i], mesh).points)
           if(s == ON_BOUNDARY)
             s = side(p);
-      c->is_cavity ^= s == ON_BOUNDED_SIDE;
+      if(s == ON_BOUNDED_SIDE)
+        c->around.push_back(o);
     }
   }
 }
@@ -129,11 +131,11 @@ inline Component_counts orient_components(Surface& mesh, const std::vector<Face_
     cutting.insert({c, d});
     cutting.insert({d, c});
   }
-  mark_cavities(mesh, cutting, components);
+  nest_components(mesh, cutting, components);
   Component_counts counts{components.size(), 0, 0};
   for(const Surface_component& c : components) {
-    counts.cavities += c.is_cavity;
-    if((c.volume < 0) != c.is_cavity) {
+    counts.cavities += c.is_cavity();
+    if((c.volume < 0) != c.is_cavity()) {
       PMP::reverse_face_orientations(c.faces, mesh);
       ++counts.reversed;
     }

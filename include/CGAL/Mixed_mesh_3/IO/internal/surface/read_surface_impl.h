@@ -13,6 +13,7 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/surface/drop_components.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/make_solid.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/read_surface_file.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/repair_surface.h>
@@ -68,7 +69,7 @@ CGAL_MIXED_MESH_3_INLINE void make_surface(const std::string& name, const Read_s
 {
   Points points;
   Polygons polygons;
-  take_faces(name, std::move(soup), points, polygons, input);
+  take_faces(name, options, std::move(soup), points, polygons, input);
   if(is_flat(points))
     refuse(name, "the surface is flat: it encloses no volume");
 
@@ -85,9 +86,12 @@ CGAL_MIXED_MESH_3_INLINE void make_surface(const std::string& name, const Read_s
       components = make_solid(options, std::move(points), std::move(polygons), mesh, input);
     } catch(const Surface_defect& defect) {
       input.wrap_diameter = defect.wrap_diameter;
+      input.weld_distance = defect.weld_distance;
       refuse(name, defect.text);
     }
   }
+  if(options.keep_largest || options.least_volume > 0)
+    components = drop_components(name, options, components, mesh, input);
   input.number_of_components = components.all;
   if(components.all > 1)
     input.warnings.push_back("has " + std::to_string(components.all) + " components"
@@ -102,13 +106,13 @@ CGAL_MIXED_MESH_3_INLINE void make_surface(const std::string& name, const Read_s
     refuse(name, "the surface encloses no volume");
 }
 
-CGAL_MIXED_MESH_3_INLINE void make_sheet(const std::string& name, const Read_surface_options&,
+CGAL_MIXED_MESH_3_INLINE void make_sheet(const std::string& name, const Read_surface_options& options,
                                          Surface_soup soup, Surface& mesh, Surface_input& input)
 {
   namespace PMP = CGAL::Polygon_mesh_processing;
   Points points;
   Polygons polygons;
-  take_faces(name, std::move(soup), points, polygons, input);
+  take_faces(name, options, std::move(soup), points, polygons, input);
   const Edge_counts edges = count_edges(polygons);
   if(edges.nonmanifold != 0)
     refuse(name, describe_nonmanifold("the sheet", edges.nonmanifold));

@@ -15,6 +15,7 @@
 #include <CGAL/Mixed_mesh_3/IO/Read_surface_options.h>
 #include <CGAL/Mixed_mesh_3/IO/Surface_input.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/surface/note_repair.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/polygon_soup.h>
 #include <CGAL/Mixed_mesh_3/internal/repair/Solid_reading.h>
 #include <CGAL/Mixed_mesh_3/internal/repair/fill_holes.h>
@@ -43,6 +44,7 @@ struct Surface_defect
 {
   std::string text;
   double wrap_diameter = 0; ///< diameter with which a wrap is possible
+  double weld_distance = 0; ///< distance at which welding closes the surface; 0: none
 };
 
 // Checks whether repairs are allowed; if not, the defect ends the reading.
@@ -50,12 +52,6 @@ inline void check_repair(const Read_surface_options& options, const Surface_defe
 {
   if(options.is_strict)
     throw defect;
-}
-
-inline void note_repair(const std::string& text, Surface_input& input)
-{
-  input.warnings.push_back(text);
-  input.repairs.push_back(text);
 }
 
 inline std::string percent(double share)

@@ -13,11 +13,15 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/Surface_soup.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/surface/note_repair.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/polygon_soup.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/surface/weld_points.h>
+#include <CGAL/Mixed_mesh_3/IO/Read_surface_options.h>
 #include <CGAL/Mixed_mesh_3/IO/Surface_input.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
+#include <CGAL/Bbox_3.h>
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 
 #include <algorithm>
@@ -25,7 +29,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -149,47 +152,77 @@ struct Superfluous
   }
 };
 
-// Merges points at edges of one face only; returns the number of removed points. If a surface is closed as
-// given, points at the same place belong to sheets that touch.
-inline std::size_t merge_border_points(Points& points, Polygons& polygons)
+inline double diagonal_of(const Points& points)
 {
-  std::vector<bool> is_at_border(points.size(), false);
-  for_each_edge(polygons, [&is_at_border](auto first, auto last) {
-    if(last - first == 1)
-      is_at_border[first->low()] = is_at_border[first->high()] = true;
-  });
-  std::vector<std::size_t> border;
-  for(std::size_t v = 0; v < points.size(); ++v)
-    if(is_at_border[v])
-      border.push_back(v);
-  std::sort(border.begin(), border.end(), [&points](std::size_t a, std::size_t b) {
-    return points[a] != points[b] ? points[a] < points[b] : a < b;
-  });
-  std::vector<std::size_t> place(points.size()); // first point at each place, then its new index
-  std::iota(place.begin(), place.end(), std::size_t(0));
-  for(std::size_t i = 1; i < border.size(); ++i)
-    if(points[border[i]] == points[border[i - 1]])
-      place[border[i]] = place[border[i - 1]];
-  std::size_t n = 0;
-  for(std::size_t v = 0; v < points.size(); ++v) {
-    if(place[v] == v) {
-      points[n] = points[v];
-      place[v] = n++;
-    } else {
-      place[v] = place[place[v]];
-    }
-  }
-  const std::size_t merged = points.size() - n;
-  points.erase(points.begin() + std::ptrdiff_t(n), points.end());
-  for(auto& polygon : polygons)
-    for(std::size_t& v : polygon)
-      v = place[v];
-  return merged;
+  const Bbox_3 b = CGAL::bbox_3(points.begin(), points.end());
+  return norm(Vec3{b.x_span(), b.y_span(), b.z_span()});
 }
 
-// Takes the faces of a soup, without superfluous ones.
-inline void take_faces(const std::string& path, Surface_soup soup, Points& points, Polygons& polygons,
-                       Surface_input& input)
+// Largest distance of points that are the same point, as a share of the diagonal: some ten times the last
+// digit of a float.
+constexpr double rounding_of_points = 1e-6;
+
+// Welds points at borders if fewer edges are open then, and no more than before have several faces.
+// \param distance largest distance of points that are the same point; 0: as float numbers differ by rounding
+inline void weld(double distance, Points& points, Polygons& polygons, Superfluous& superfluous,
+                 Surface_input& input)
+{
+  if(!(distance > 0))
+    distance = rounding_of_points * diagonal_of(points);
+  Points welded_points = points;
+  Polygons welded = polygons;
+  const Welding welding = weld_border_points(distance, welded_points, welded);
+  if(welding.number_of_points == 0)
+    return;
+  Superfluous more = superfluous;
+  more.remove(welded_points, welded);
+  const Edge_counts before = count_edges(polygons), after = count_edges(welded);
+  if(welded.empty() || after.open >= before.open || after.nonmanifold > before.nonmanifold)
+    return;
+  points = std::move(welded_points);
+  polygons = std::move(welded);
+  superfluous = more;
+  note_repair("welded " + counted(welding.number_of_points, "point", "points") + " to others, up to "
+                + number_text(welding.distance) + " away",
+              input);
+}
+
+// The least of the distances ..., 1, 2, 5, 10, ... at which welding closes a surface, by pairs of points and
+// not by chains, which would close a hole by pulling its border together; 0 if there is none up to a
+// hundredth of the diagonal.
+// \param least distance at which welding did not close the surface; 0: as for weld()
+inline double closing_weld_distance(double least, const Points& points, const Polygons& polygons)
+{
+  constexpr double largest_share = 0.01;
+  const double diagonal = diagonal_of(points);
+  if(!(least > 0))
+    least = rounding_of_points * diagonal;
+  const std::size_t nonmanifold = count_edges(polygons).nonmanifold;
+  double longest = 0; // a chain: at a distance below half of it, it still is one
+  for(int exponent = int(std::floor(std::log10(least)));; ++exponent)
+    for(const double digit : {1., 2., 5.}) {
+      const double distance = digit * std::pow(10., exponent);
+      if(distance > largest_share * diagonal)
+        return 0;
+      if(distance <= least || distance < longest / 2)
+        continue;
+      Points welded_points = points;
+      Polygons welded = polygons;
+      const Welding welding = weld_border_points(distance, welded_points, welded);
+      longest = welding.distance;
+      if(welding.number_of_points == 0 || longest > distance)
+        continue;
+      Superfluous().remove(welded_points, welded);
+      const Edge_counts edges = count_edges(welded);
+      if(!welded.empty() && edges.open == 0 && edges.nonmanifold <= nonmanifold)
+        return distance;
+    }
+}
+
+// Takes the faces of a soup, without superfluous ones. What is not closed is welded; if strict, only if the
+// distance is given.
+inline void take_faces(const std::string& path, const Read_surface_options& options, Surface_soup soup,
+                       Points& points, Polygons& polygons, Surface_input& input)
 {
   check_indices(path, soup);
   check_coordinates(path, soup);
@@ -210,6 +243,8 @@ inline void take_faces(const std::string& path, Surface_soup soup, Points& point
       input.warnings.push_back("merged " + counted(merged, "duplicate point", "duplicate points"));
     if(merged != 0)
       superfluous.remove(points, polygons);
+    if(count_edges(polygons).open != 0 && (!options.is_strict || options.weld_distance > 0))
+      weld(options.weld_distance, points, polygons, superfluous, input);
   }
   superfluous.warn(input);
   if(polygons.empty())
