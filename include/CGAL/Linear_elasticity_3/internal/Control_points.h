@@ -22,6 +22,9 @@
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Element_locator_3.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/edge_functions.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/with_kind.h>
+#include <CGAL/Mixed_mesh_3/internal/fem/Element_nodes.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/assertions.h>
@@ -68,13 +71,22 @@ public:
   /// The number of an element in the whole mesh.
   Element_index element(const Element_location_3& location) const { return m_elements[location.element]; }
 
-  Control_weights weights(const Element_location_3& location) const
+  /// The values of the shape functions of an element's nodes.
+  Control_weights weights(const Element_location_3& location, const Element_nodes& all) const
   {
     Control_weights weights;
     const Element_view element = m_mesh.element(location.element);
     for(int i = 0; i < element.size(); ++i)
       if(location.weights[i] != 0)
         weights.emplace_back(element[i], location.weights[i]);
+    const Nodes_of_element nodes = all[this->element(location)];
+    if(nodes.order() == 2) {
+      const auto of_edges = with_kind(element.kind(),
+                                      [&](auto kind) { return edge_functions<kind>(location.coordinates); });
+      for(int i = element.size(); i < nodes.size(); ++i)
+        if(const double w = of_edges[std::size_t(nodes.function(i) - element.size())].value; w != 0)
+          weights.emplace_back(nodes[i], w);
+    }
     return weights;
   }
 
@@ -145,7 +157,7 @@ public:
   /// Whether the points act on the remaining body only.
   bool are_on(const Elastic_body& body) const
   {
-    return (!m_constraints || m_constraints->is_on(body.supports().kept_vertices()))
+    return (!m_constraints || m_constraints->is_on(body.supports().kept_nodes()))
            && std::none_of(m_elements.begin(), m_elements.end(),
                            [&](Element_index e) { return body.stiffness().is_removed(e); });
   }
@@ -169,7 +181,7 @@ public:
         return result;
       }
       elements.push_back(m_located->element(location));
-      weights.push_back(m_located->weights(location));
+      weights.push_back(m_located->weights(location, body.stiffness().nodes()));
       if(m_options.radius > 0)
         m_located->spread(body.stiffness().points(), p, m_options.radius, weights.back());
     }

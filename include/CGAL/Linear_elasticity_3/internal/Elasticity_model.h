@@ -23,6 +23,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -58,7 +59,7 @@ class Elasticity_model
   std::unique_ptr<Corotational_state> m_state;
   // of the last solution
   Eigen::VectorXd m_control_forces, m_control_residuals;
-  std::vector<Vec3> m_displacements;
+  std::vector<Vec3> m_displacements, m_edge_coefficients;
   std::vector<double> m_contact_forces;       // of vertices
   mutable std::optional<double> m_energy = 0; // of the last displacements; computed when asked for
 
@@ -86,7 +87,17 @@ public:
   void set_corotational(bool is_corotational);
   const std::vector<double>& residuals() const;
 
+  /// Sets the elements whose displacements are quadratic; none if empty.
+  void set_quadratic_elements(const std::vector<bool>& is_quadratic);
+  /// Has those elements quadratic that have a vertex within a distance of some elements.
+  void set_quadratic_within(double distance, const std::vector<bool>& of_elements);
+  /// Both ends of each edge with a coefficient, the smaller one first.
+  const std::vector<std::array<Vertex_index, 2>>& quadratic_edges() const;
+  const std::vector<Vec3>& edge_coefficients() const { return m_edge_coefficients; }
+
   void prescribe(Vertex_index v, const Vec3& displacement);
+  /// \param displacement displacement of a point of the boundary, if it is held
+  void prescribe_boundary(const std::function<std::optional<Vec3>(const Vec3&)>& displacement);
   void slide(Vertex_index v, const Vec3& normal);
   void slide_along_boundary(const std::function<bool(Vertex_index)>& is_sliding);
   void touch(Vertex_index v, const Vec3& normal, double gap);
@@ -119,6 +130,8 @@ private:
   // For contacts that have changed.
   Result factor_again();
   bool has_contacts() const;
+  // Whether quadratic displacements can be had with everything else that was asked for.
+  bool is_order_supported() const;
   // Whether it failed with other contacts than at first.
   bool may_start_anew(const Result& result) const;
   // From the contacts as they are.
