@@ -36,6 +36,30 @@ void set_supports(Elasticity& elasticity, const Supports& supports)
   elasticity.touch_along_boundary([&](mm3::Vertex_index v) { return has(v, Support::TOUCHING); });
 }
 
+// Chooses the order of displacements.
+void set_order(Elasticity& elasticity, const Options& o, Outcome& outcome)
+{
+  constexpr double width = 4; // mm around the region; with less, elements behind it are the ones that err
+  const Mesh& mesh = elasticity.mesh();
+  Order_facts& facts = outcome.order;
+  const bool may_be_2 = o.order == Displacement_order::DEFAULT
+                        && Elasticity::recommended_order(mesh.number_of_vertices()) == 2;
+  if(may_be_2)
+    facts.reason = option_of_order_1(o);
+  if(o.order == Displacement_order::REGION) {
+    facts.order = "region";
+    elasticity.order_2_within(width);
+    if(elasticity.order() == 1)
+      throw std::runtime_error(o.mesh + ": the mesh has no region of interest, for --order region");
+  } else if(o.order == Displacement_order::QUADRATIC || (may_be_2 && facts.reason.empty())) {
+    facts.order = "2";
+    elasticity.order(2);
+  }
+  facts.edges = elasticity.quadratic_edges();
+  facts.nodes = mesh.number_of_vertices() + facts.edges.size();
+  facts.unknowns = 3 * facts.nodes;
+}
+
 // Elements that the displacement inverts: their Jacobian is zero or negative somewhere.
 std::vector<std::size_t> find_inverted_elements(const Mesh& mesh, const std::vector<Vector>& displacements,
                                                 const std::vector<bool>& is_removed)
@@ -79,7 +103,7 @@ void measure_controls(const Elasticity& elasticity, const Outcome& outcome, cons
     Control control;
     control.is_used = is_used[i];
     if(control.is_used) {
-      control.displacement = displacement_at(outcome.locations[i], elasticity.mesh(), shift.displacements);
+      control.displacement = elasticity.displacement(outcome.locations[i]);
       control.miss = norm(control.displacement - Vector(outcome.points[i].displacement));
       shift.largest_miss = (std::max)(shift.largest_miss, control.miss);
       squares += control.miss * control.miss;
@@ -104,6 +128,7 @@ Shift shift_of(const Elasticity& elasticity, const Options& o, const std::vector
   const Mesh& mesh = elasticity.mesh();
   Shift shift;
   shift.displacements = elasticity.displacements();
+  shift.edge_coefficients = elasticity.edge_coefficients();
   shift.energy = elasticity.energy();
   if(elasticity.is_corotational()) {
     shift.residuals = elasticity.residuals();
@@ -140,17 +165,20 @@ void tell_of_solver([[maybe_unused]] Elasticity& elasticity, [[maybe_unused]] Ou
 
 // Notes the memory of a factorization before it begins: afterwards there may be no memory for a note. Numbers
 // are those of the table in the manual: the factor of CHOLMOD grows with n^(4/3), that of PETSc with n.
-void tell_of_factor([[maybe_unused]] const Mesh& mesh, [[maybe_unused]] const Options& o,
-                    [[maybe_unused]] Stage_log& log)
+void tell_of_factor([[maybe_unused]] const Mesh& mesh, [[maybe_unused]] const Order_facts& order,
+                    [[maybe_unused]] const Options& o, [[maybe_unused]] Stage_log& log)
 {
 #if !MIXED_MESH_3_HAS_PETSC
-  constexpr double measured = 53799, bytes = 12e3, bytes_by_iteration = 5e3; // unknowns, and bytes for each
-  constexpr double sure = 0.6; // share of the estimate that any mesh needs
-  const double unknowns = 3 * double(mesh.number_of_vertices());
+  constexpr double measured = 53799, bytes_by_iteration = 5e3; // unknowns, and bytes for each
+  const double bytes = order.edges.empty() ? 12e3 : 9e3;       // edges have fewer neighbors than vertices
+  constexpr double sure = 0.6;                                 // share of the estimate that any mesh needs
+  const double unknowns = double(order.unknowns);
   const double needed = bytes * unknowns * std::cbrt(unknowns / measured);
   if(!o.quiet && needed > double(1 << 30))
-    log.note("factoring the matrix of " + std::to_string(mesh.number_of_vertices()) + " vertices takes about "
-             + gibibytes(needed) + " of memory, and its time grows with the square of their number; "
+    log.note("factoring the matrix of " + std::to_string(mesh.number_of_vertices()) + " vertices "
+             + (order.edges.empty() ? "" : "and " + std::to_string(order.edges.size()) + " edges ")
+             + "takes about " + gibibytes(needed)
+             + " of memory, and its time grows with the square of their number; "
              + "--solver petsc iterates, with about " + gibibytes(bytes_by_iteration * unknowns));
   check_memory(o.mesh + ": without --solver petsc, the factor", sure * needed);
 #endif
@@ -191,7 +219,7 @@ void measure_landmarks(const Elasticity& elasticity, const Options& o, Outcome& 
   if(o.are_landmarks_control_points)
     measure_left_out(elasticity, outcome);
   else
-    measure_shift(elasticity.mesh(), outcome);
+    measure_shift(elasticity, outcome);
 }
 
 // Solves after the removal of elements.
@@ -231,7 +259,8 @@ std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_
   outcome.supports = find_supports(mesh, patches, o, outcome.points);
   set_supports(elasticity, outcome.supports);
 
-  tell_of_factor(mesh, o, log);
+  set_order(elasticity, o, outcome);
+  tell_of_factor(mesh, outcome.order, o, log);
   // The mesh is factored before surgery; then each measurement takes milliseconds.
   log("factor", [&] { check(elasticity.factor(), o, controls); });
   elasticity.set_corotational(o.corotational);

@@ -19,6 +19,7 @@
 #include <CGAL/Linear_elasticity_3/internal/Elasticity_solver.h>
 #include <CGAL/Mixed_mesh_3.h>
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
+#include <CGAL/Mixed_mesh_3/Element_location_3.h>
 #include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
@@ -158,6 +159,11 @@ public:
     m_model.set_quadratic_elements(order == 1 ? std::vector<bool>()
                                               : std::vector<bool>(mesh().number_of_elements(), true));
   }
+
+  /// The order that a user would choose for a mesh: 2 up to 3,000 vertices, else 1. So a solution takes less
+  /// than 0.1 s. Brains in tetrahedra take, with order 2, 0.5 s for the factor, 12 ms for a solution and 80 MiB
+  /// with 660 vertices; 5.5 s, 90 ms and 620 MiB with 3,000; 10 s, 170 ms and 980 MiB with 5,000.
+  static int recommended_order(std::size_t number_of_vertices) { return number_of_vertices <= 3000 ? 2 : 1; }
 
   /// The largest order of an element.
   int order() const { return m_model.quadratic_edges().empty() ? 1 : 2; }
@@ -429,6 +435,13 @@ public:
       middles[i] = middles[i] + 0.5 * (displacements()[v] + displacements()[w]);
     }
     return middles;
+  }
+
+  /// The displacement at a point of an element, in mm.
+  /// \param location location in the mesh as it was: see `Element_locator_3`
+  Vector displacement(const Mixed_meshes_3::Element_location_3& location) const
+  {
+    return m_model.displacement(location);
   }
 
   /// The force that each control point needs for its displacement, in mN.

@@ -78,12 +78,17 @@ class Elasticity
 
   std::shared_ptr<const Mesh> m_mesh;
   std::unique_ptr<Solver> m_solver;
-  bool m_is_corotational = false;
+  bool m_is_corotational = false, m_is_touching = false;
+  bool m_has_order = false; // whether an order was asked for
 
   void factor()
   {
-    if(!m_solver->is_factored())
-      check(m_solver->factor());
+    if(m_solver->is_factored())
+      return;
+    if(!m_has_order)
+      m_solver->order(
+        m_is_corotational || m_is_touching ? 1 : Solver::recommended_order(m_mesh->number_of_vertices()));
+    check(m_solver->factor());
   }
 
   void require_supports_open(const char* name) const
@@ -100,6 +105,24 @@ public:
     : m_mesh(std::move(mesh)),
       m_solver(std::make_unique<Solver>(*m_mesh, materials_of(*m_mesh, materials, other)))
   {
+  }
+
+  void set_order(int order)
+  {
+    require_supports_open("set_order");
+    if(order != 1 && order != 2)
+      throw std::invalid_argument("order: expected 1 or 2");
+    m_solver->order(order);
+    m_has_order = true;
+  }
+
+  void set_order_2_within(double distance)
+  {
+    require_supports_open("set_order_2_within");
+    if(!(distance >= 0))
+      throw std::invalid_argument("order: expected a distance that is not negative");
+    m_solver->order_2_within(distance);
+    m_has_order = true;
   }
 
   void fix(const Marks& vertices)
@@ -124,6 +147,7 @@ public:
     if(!std::isfinite(gap))
       throw std::invalid_argument("touch(): the gap is not finite");
     const std::vector<bool> marks = marks_of(vertices, m_mesh->number_of_vertices(), "touch");
+    m_is_touching = true;
     m_solver->touch_along_boundary([&](mm3::Vertex_index v) { return marks[v]; }, gap);
   }
 
@@ -133,6 +157,8 @@ public:
   {
     m_is_corotational = is_corotational;
     m_solver->set_corotational(is_corotational);
+    if(is_corotational && !m_has_order && m_solver->order() == 2)
+      m_solver->order(1); // to be factored again
   }
 
   void set_control_points(const Doubles& points, double largest_distance, double compliance, double radius,
@@ -183,6 +209,20 @@ public:
     factor();
     check(m_solver->remove_elements(marks));
   }
+
+  int order() const { return m_solver->order(); }
+
+  py::array_t<mm3::Vertex_index> edges() const
+  {
+    const auto& edges = m_solver->quadratic_edges();
+    py::array_t<mm3::Vertex_index> result({py::ssize_t(edges.size()), py::ssize_t(2)});
+    for(std::size_t i = 0; i < edges.size(); ++i)
+      for(int k = 0; k < 2; ++k)
+        result.mutable_at(py::ssize_t(i), k) = edges[i][std::size_t(k)];
+    return result;
+  }
+
+  py::array_t<double> edge_coefficients() const { return array_of(m_solver->edge_coefficients()); }
 
   double energy() const { return m_solver->energy(); }
   py::array_t<double> control_forces() const { return array_of(m_solver->control_forces()); }
@@ -288,6 +328,11 @@ void add_elasticity(py::module_& module)
   py::register_exception<Elasticity_error>(module, "ElasticityError", PyExc_RuntimeError);
   py::class_<Elasticity>(module, "Elasticity")
     .def(py::init<std::shared_ptr<const Mesh>, const std::map<int, Material>&, const Material&>())
+    .def("set_order", &Elasticity::set_order)
+    .def("set_order_2_within", &Elasticity::set_order_2_within)
+    .def_property_readonly("order", &Elasticity::order)
+    .def_property_readonly("edges", &Elasticity::edges)
+    .def_property_readonly("edge_coefficients", &Elasticity::edge_coefficients)
     .def("fix", &Elasticity::fix)
     .def("slide", &Elasticity::slide)
     .def("touch", &Elasticity::touch, py::arg("vertices"), py::arg("gap") = 0.)

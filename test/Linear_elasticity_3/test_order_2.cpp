@@ -8,6 +8,9 @@
 
 #include "elasticity_test.h"
 
+#include <CGAL/Mixed_mesh_3/Element_locator_3.h>
+#include <CGAL/Mixed_mesh_3/Recovered_displacement_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/edge_bubbles.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/edge_functions.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/with_kind.h>
 #include <CGAL/Mixed_mesh_3/internal/fem/Elasticity_system.h>
@@ -135,6 +138,30 @@ void test_edge_functions()
   }
 }
 
+// A field of edge functions is one of bubbles.
+template <Element_kind Kind>
+void test_bubbles()
+{
+  std::array<Vec3, largest_number_of_edges> coefficients{};
+  for(int i = 0; i < reference_elements[Kind].number_of_edges; ++i)
+    coefficients[std::size_t(i)] = {0.1 * i + 1, 2 - 0.3 * i * i, 0.7 * i};
+  const std::array<Vec3, 8> zeros{};
+  const Quadratic_field<Kind> field(zeros.data(), bubbles_of_edges(Kind, coefficients));
+  for(const Vec3& p : {Vec3{0.2, 0.15, 0.3}, Vec3{0.5, 0.1, 0.05}, Vec3{0.3, 0, 0.6}}) {
+    Vec3 expected{};
+    std::array<Vec3, 3> derivatives{};
+    for(std::size_t i = 0; i < coefficients.size(); ++i) {
+      const Differentiated f = edge_functions<Kind>(p)[i];
+      expected = expected + f.value * coefficients[i];
+      for(int k = 0; k < 3; ++k)
+        derivatives[k] = derivatives[k] + f.gradient[k] * coefficients[i];
+    }
+    BOOST_TEST_LT(norm(field(p) - expected), 1e-13);
+    for(int k = 0; k < 3; ++k)
+      BOOST_TEST_LT(norm(field.derivatives(p)[k] - derivatives[k]), 1e-13);
+  }
+}
+
 // ---- stiffness ---------------------------------------------------------------------------------
 
 // The stiffness of vertices and edges, by the system of quadratic elements.
@@ -191,6 +218,33 @@ void test_quadratic_field(const Mesh& mesh)
     BOOST_TEST_LT(difference(problem.displacements(), expected), 1e-10 * largest(expected));
     BOOST_TEST_LT(difference(problem.middle_displacements(), at_middles(problem, exact.displacement)),
                   1e-10 * largest(expected));
+  }
+}
+
+// The displacement between vertices is the quadratic one, at points of the mesh and of the displaced mesh.
+void test_displacement_between_vertices(const Mesh& mesh)
+{
+  const Exact_solution exact = quadratic_solution(false);
+  const Elastic_material material{2, 0.3};
+  Elasticity problem(mesh, material);
+  problem.order(2);
+  constexpr double small = 0.05; // no element turns inside out
+  const auto u = [&](const Vec3& p) { return small * exact.displacement(p); };
+  prescribe_on_boundary(problem, u);
+  BOOST_TEST(is_success(problem.factor()));
+  problem.set_body_force(small * exact.force(material));
+  BOOST_TEST(is_success(problem.solve()));
+  const Recovered_displacement_3<Mesh> between(mesh, problem.displacements(), problem.quadratic_edges(),
+                                               problem.edge_coefficients());
+  BOOST_TEST_EQ(between.number_of_linear_elements(), 0u);
+  const Element_locator_3<Mesh> before(mesh), after(between);
+  for(const Vec3& p : {Vec3{0.5, 0.4, 0.6}, Vec3{0.31, 0.42, 0.53}, Vec3{0.6, 0.25, 0.7}}) {
+    const auto location = before.locate(p);
+    BOOST_TEST(location.has_value());
+    BOOST_TEST_LT(norm(problem.displacement(*location) - u(p)), 1e-10);
+    BOOST_TEST_LT(norm(between(*location) - u(p)), 1e-10);
+    const auto moved = after.locate(p + u(p));
+    BOOST_TEST(moved && norm(between(*moved) - u(p)) < 1e-8);
   }
 }
 
@@ -479,10 +533,14 @@ void test_order_1()
 int run(int, char*[])
 {
   for(Element_kind kind : element_kinds)
-    with_kind(kind, [](auto k) { test_edge_functions<k>(); });
+    with_kind(kind, [](auto k) {
+      test_edge_functions<k>();
+      test_bubbles<k>();
+    });
   test_six_modes();
   for(int kind = 0; kind <= all_kinds; ++kind) {
     test_quadratic_field(affine_grid(4, kind));
+    test_displacement_between_vertices(affine_grid(4, kind));
     test_zone(kind);
     test_control_points(kind);
   }

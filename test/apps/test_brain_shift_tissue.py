@@ -55,7 +55,7 @@ class Tissue(Case):
     def test_materials(self):
         mesh, move = self.column()
         run = lambda *more, points=move(0.3): self.succeeds(mesh, "--control-points", self.file("top.csv", points),
-                                                            "--output", WORK / "column.vtu", *more)[0]
+                                                            "--order", 1, "--output", WORK / "column.vtu", *more)[0]
         fixed = ("--fixed-below", 0.1, "--poisson-ratio", 0)
         for materials, moduli in (((), (2, 2)), (("--material", "3=4,0"), (4, 2)),
                                   (("--material", "5=8,0", "--material", "3=0.5,0"), (0.5, 8)),

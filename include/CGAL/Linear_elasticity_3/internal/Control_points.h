@@ -43,6 +43,24 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
+/// The values of the shape functions of an element's nodes at a point, but zeros.
+inline Control_weights node_weights(const Element_view& element, const Nodes_of_element& nodes,
+                                    const Element_location_3& location)
+{
+  Control_weights weights;
+  for(int i = 0; i < element.size(); ++i)
+    if(location.weights[i] != 0)
+      weights.emplace_back(element[i], location.weights[i]);
+  if(nodes.order() == 1)
+    return weights;
+  const auto of_edges = with_kind(element.kind(),
+                                  [&](auto kind) { return edge_functions<kind>(location.coordinates); });
+  for(int i = element.size(); i < nodes.size(); ++i)
+    if(const double w = of_edges[std::size_t(nodes.function(i) - element.size())].value; w != 0)
+      weights.emplace_back(nodes[i], w);
+  return weights;
+}
+
 /// The elements that are left, and the location of points in them.
 class Located_elements
 {
@@ -52,7 +70,8 @@ class Located_elements
   std::vector<Element_index> m_elements; // numbers of the elements in the whole mesh
   Mesh m_mesh;                           // mesh of the elements, with all vertices
   Element_locator_3<Mesh> m_locator;     // refers to m_mesh
-  std::vector<double> m_areas;           // areas of the vertices of the boundary, when needed
+  // Of the vertices of the boundary areas, and of its edges integrals of their functions, when needed.
+  std::vector<double> m_areas, m_edge_integrals;
 
 public:
   Located_elements(const Element_list& elements, const std::vector<Vec3>& points,
@@ -74,36 +93,31 @@ public:
   /// The values of the shape functions of an element's nodes.
   Control_weights weights(const Element_location_3& location, const Element_nodes& all) const
   {
-    Control_weights weights;
-    const Element_view element = m_mesh.element(location.element);
-    for(int i = 0; i < element.size(); ++i)
-      if(location.weights[i] != 0)
-        weights.emplace_back(element[i], location.weights[i]);
-    const Nodes_of_element nodes = all[this->element(location)];
-    if(nodes.order() == 2) {
-      const auto of_edges = with_kind(element.kind(),
-                                      [&](auto kind) { return edge_functions<kind>(location.coordinates); });
-      for(int i = element.size(); i < nodes.size(); ++i)
-        if(const double w = of_edges[std::size_t(nodes.function(i) - element.size())].value; w != 0)
-          weights.emplace_back(nodes[i], w);
-    }
-    return weights;
+    return node_weights(m_mesh.element(location.element), all[element(location)], location);
   }
 
-  /// Spreads weights over the boundary around a point, by area; unchanged if there are too few vertices.
-  void spread(const std::vector<Vec3>& points, const Vec3& p, double radius, Control_weights& weights)
+  /// Spreads weights over the boundary around a point, by area; unchanged if there are too few vertices. Edges
+  /// with both ends there have theirs, so that the weighted sum is the mean of the field.
+  void spread(const std::vector<Vec3>& points, const Element_nodes& nodes, const Vec3& p, double radius,
+              Control_weights& weights)
   {
-    if(m_areas.empty())
+    if(m_areas.empty()) {
       m_areas = boundary_vertex_areas(m_mesh);
+      m_edge_integrals = boundary_edge_integrals(m_mesh, nodes.ends());
+    }
+    const auto is_near = [&](Vertex_index v) { return m_areas[v] > 0 && norm(points[v] - p) <= radius; };
     Control_weights around;
     double sum = 0;
     for(Vertex_index v = 0; v < points.size(); ++v)
-      if(m_areas[v] > 0 && norm(points[v] - p) <= radius) {
+      if(is_near(v)) {
         around.emplace_back(v, m_areas[v]);
         sum += m_areas[v];
       }
     if(around.size() < 3)
       return;
+    for(std::size_t i = 0; i < m_edge_integrals.size(); ++i)
+      if(m_edge_integrals[i] > 0 && is_near(nodes.ends()[i][0]) && is_near(nodes.ends()[i][1]))
+        around.emplace_back(Vertex_index(nodes.number_of_vertices() + i), m_edge_integrals[i]);
     for(auto& [v, w] : around)
       w /= sum;
     weights = std::move(around);
@@ -183,7 +197,8 @@ public:
       elements.push_back(m_located->element(location));
       weights.push_back(m_located->weights(location, body.stiffness().nodes()));
       if(m_options.radius > 0)
-        m_located->spread(body.stiffness().points(), p, m_options.radius, weights.back());
+        m_located->spread(body.stiffness().points(), body.stiffness().nodes(), p, m_options.radius,
+                          weights.back());
     }
     const Result result = constrain(body, std::move(weights));
     if(result.is_success()) {

@@ -19,6 +19,7 @@
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/edge_bubbles.h>
 #include <CGAL/Mixed_mesh_3/internal/fem/Element_nodes.h>
 
 #include <CGAL/assertions.h>
@@ -52,9 +53,6 @@ struct Contact
   double gap;  // mm
   bool is_closed;
 };
-
-/// Both ends of an edge, the smaller one first.
-using Edge_ends = std::array<Vertex_index, 2>;
 
 class Elastic_supports
 {

@@ -19,6 +19,7 @@
 #include <CGAL/Linear_elasticity_3/internal/Elasticity_solver.h>
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/Element_location_3.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <Eigen/Core>
@@ -116,6 +117,8 @@ public:
   Result solve(const std::vector<Vec3>& displacements);
 
   const std::vector<Vec3>& displacements() const { return m_displacements; }
+  /// The displacement at a point of an element.
+  Vec3 displacement(const Element_location_3& location) const;
   std::vector<Vec3> control_forces() const;
   std::vector<Vec3> control_residuals() const;
   std::vector<Control_weights> control_weights() const;

@@ -277,6 +277,17 @@ Elasticity_model::solve(const std::vector<Vec3>& displacements)
   return result;
 }
 
+CGAL_LINEAR_ELASTICITY_3_INLINE Vec3 Elasticity_model::displacement(const Element_location_3& location) const
+{
+  const Element_nodes& nodes = m_body->stiffness().nodes();
+  const std::size_t n = nodes.number_of_vertices();
+  Vec3 u{};
+  for(const auto& [node, weight] :
+      node_weights(nodes.elements()[location.element], nodes[location.element], location))
+    u = u + weight * (node < n ? m_displacements[node] : m_edge_coefficients[node - n]);
+  return u;
+}
+
 CGAL_LINEAR_ELASTICITY_3_INLINE std::vector<Vec3> Elasticity_model::control_forces() const
 {
   return vectors_of(m_control_forces);

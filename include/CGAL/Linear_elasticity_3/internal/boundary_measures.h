@@ -16,7 +16,10 @@
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <map>
 #include <vector>
 
 namespace CGAL {
@@ -69,6 +72,30 @@ std::vector<double> boundary_vertex_areas(const Mesh& mesh)
       areas[v] += share;
   }
   return areas;
+}
+
+/// The integral of the function of each edge over the boundary: a third of the areas of the faces with the
+/// edge, both for triangles and quadrilaterals.
+/// \param ends both ends of each edge, the smaller one first
+template <class Mesh>
+std::vector<double> boundary_edge_integrals(const Mesh& mesh,
+                                            const std::vector<std::array<Vertex_index, 2>>& ends)
+{
+  std::map<std::array<Vertex_index, 2>, double> of_ends;
+  for(const Face& face : boundary_faces(mesh)) {
+    const double share = area(mesh, face) / 3;
+    const Face_vertices& v = face.vertices();
+    for(int i = 0; i < v.size(); ++i) {
+      const auto [a, b] = std::minmax({v[i], v[(i + 1) % v.size()]});
+      of_ends[{a, b}] += share;
+    }
+  }
+  std::vector<double> integrals;
+  for(const auto& edge : ends) {
+    const auto place = of_ends.find(edge);
+    integrals.push_back(place == of_ends.end() ? 0 : place->second);
+  }
+  return integrals;
 }
 
 } // namespace internal

@@ -183,7 +183,7 @@ bool has_all_kinds(const Mesh& mesh, int order, const char* Element_names::*name
   });
 }
 
-/// Values at the vertices as values at the nodes. Keeps references to those of vertices with order 1.
+/// Values at the vertices, or at the nodes, as values at the nodes. Keeps references to those that are.
 class Node_data
 {
   std::deque<std::vector<double>> m_values;
@@ -196,6 +196,8 @@ public:
     if(nodes.order() == 1)
       return;
     for(Data_array& array : m_arrays) {
+      if(array.has_size(nodes.size()))
+        continue;
       const std::size_t n = std::size_t(array.number_of_components);
       const std::vector<double>& of_vertices = *array.values;
       std::vector<double>& values = m_values.emplace_back();
