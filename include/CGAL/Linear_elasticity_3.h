@@ -143,9 +143,9 @@ public:
   /// ones on the same mesh, and take more unknowns: seven times as many, if all elements are tetrahedra.
   ///
   /// The displacement in an element of order 2 is the sum over its vertices, as with order 1, plus the sum of
-  /// a function for each edge, which is 1 in the middle of the edge and 0 on other edges, times a coefficient.
-  /// Edges are straight. Fields are continuous across elements of all kinds and both orders. Dilatations are
-  /// not averaged, as elements of order 2 do not lock with Poisson's ratios up to 0.49.
+  /// a function for each edge, which is 1 in the middle of the edge and 0 on other edges, times a
+  /// coefficient. Edges are straight. Fields are continuous across elements of all kinds and both orders.
+  /// Dilatations are not averaged, as elements of order 2 do not lock with Poisson's ratios up to 0.49.
   ///
   /// With order 2 anywhere, contacts, finite rotations, and solvers with `set_near_kernel()` are refused:
   /// `factor()` and `solve()` return `ORDER_NOT_SUPPORTED`.
@@ -161,8 +161,8 @@ public:
   }
 
   /// The order that a user would choose for a mesh: 2 up to 3,000 vertices, else 1. So a solution takes less
-  /// than 0.1 s. Brains in tetrahedra take, with order 2, 0.5 s for the factor, 12 ms for a solution and 80 MiB
-  /// with 660 vertices; 5.5 s, 90 ms and 620 MiB with 3,000; 10 s, 170 ms and 980 MiB with 5,000.
+  /// than 0.1 s. Brains in tetrahedra take, with order 2, 0.5 s for the factor, 12 ms for a solution and 80
+  /// MiB with 660 vertices; 5.5 s, 90 ms and 620 MiB with 3,000; 10 s, 170 ms and 980 MiB with 5,000.
   static int recommended_order(std::size_t number_of_vertices) { return number_of_vertices <= 3000 ? 2 : 1; }
 
   /// The largest order of an element.
@@ -181,8 +181,8 @@ public:
     m_model.set_quadratic_within(distance, is_in_region);
   }
 
-  /// Both ends of each edge that has a coefficient, the smaller one first. With order 2 of all elements, edges
-  /// are numbered as their middles are in files of order 2; with order 1, there are none.
+  /// Both ends of each edge that has a coefficient, the smaller one first. With order 2 of all elements,
+  /// edges are numbered as their middles are in files of order 2; with order 1, there are none.
   const std::vector<std::array<Vertex_index, 2>>& quadratic_edges() const
   {
     return m_model.quadratic_edges();
@@ -205,8 +205,8 @@ public:
 
   /// Gives the boundary a displacement, in mm, where a function has a value: vertices, and with order 2 the
   /// middles of the edges between them. The order may be chosen before or afterwards.
-  /// \param displacement `std::optional<Vector>(const Vector& point)`, called for the vertices of the boundary
-  /// and for the middles of its edges
+  /// \param displacement `std::optional<Vector>(const Vector& point)`, called for the vertices of the
+  /// boundary and for the middles of its edges
   template <class Displacement>
   void prescribe_boundary(const Displacement& displacement)
   {
@@ -262,7 +262,8 @@ public:
   Assembles and factors the system for the supports.
 
   \return `NO_ELEMENTS`, `ORDER_NOT_SUPPORTED`, `INVERTED_ELEMENT`, `SOLVER_FAILED` or `SUCCESS`. The status
-  is `SUCCESS` even if supports leave rigid motions free: control points may hold them, as `solve()` will tell.
+  is `SUCCESS` even if supports leave rigid motions free: control points may hold them, as `solve()` will
+  tell.
   \par Complexity
   Complexity of the sparse factorization: with nested dissection O(n^2) operations and O(n^(4/3)) memory for n
         vertices

@@ -33,8 +33,8 @@ enum class Linear_elasticity_status {
   SOLVER_FAILED, ///< the system is not positive definite: elements are connected by hinges only
   NOT_CONVERGED, ///< no equilibrium of finite rotations was found, or none of contacts: the loads are too
                  ///< large, or it is unstable
-  ORDER_NOT_SUPPORTED ///< displacements of order 2 cannot be had with contacts, with finite rotations, or with
-                      ///< an iterative solver that wants rigid motions
+  ORDER_NOT_SUPPORTED ///< displacements of order 2 cannot be had with contacts, with finite rotations, or
+                      ///< with an iterative solver that wants rigid motions
 };
 
 /// \ingroup PkgLinearElasticity3Ref

@@ -105,8 +105,8 @@ b_{ij} = 0 \f$. The criterion is that at a vertex, the middle of an edge or the 
 I + \nabla u \f$ is less than a quarter of its value with shape functions only, which leaves room for other
 places between these points.
 
-The displacement in elements of order 2 is a sum over pairs of vertices, too. It is given by the coefficients of
-edges, `Linear_elasticity_3::edge_coefficients()`, and nothing is recovered then.
+The displacement in elements of order 2 is a sum over pairs of vertices, too. It is given by the coefficients
+of edges, `Linear_elasticity_3::edge_coefficients()`, and nothing is recovered then.
 
 The mesh must outlive the object and not change.
 
@@ -250,8 +250,8 @@ public:
   \param edges both ends of each edge with a coefficient, the smaller one first
   \param coefficients vector for each of `edges`: the displacement of its middle minus the mean of its ends
   \param removed_elements true for each element that has been removed; empty: none
-  \pre there is a displacement for each vertex, and a coefficient for each edge; `removed_elements` is empty or
-  has a value for each element
+  \pre there is a displacement for each vertex, and a coefficient for each edge; `removed_elements` is empty
+  or has a value for each element
   */
   template <class Displacements>
   Recovered_displacement_3(const Mesh& mesh, const Displacements& displacements,

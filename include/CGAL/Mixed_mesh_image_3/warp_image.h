@@ -58,8 +58,8 @@ struct Warp_options
   /// The way in which displacements between vertices are computed from the displacements of the vertices.
   Displacement_interpolation interpolation = Displacement_interpolation::RECOVERED;
   /// Both ends of each edge with a coefficient, in elements of order 2: see
-  /// `Linear_elasticity_3::quadratic_edges()`. If there are any, displacements of elements of order 2 take the
-  /// place of `RECOVERED` ones.
+  /// `Linear_elasticity_3::quadratic_edges()`. If there are any, displacements of elements of order 2 take
+  /// the place of `RECOVERED` ones.
   std::vector<std::array<Vertex_index, 2>> quadratic_edges;
   /// The coefficient of each of `quadratic_edges`, in millimeters.
   std::vector<Vec3> edge_coefficients;

@@ -96,8 +96,8 @@ public:
     return node_weights(m_mesh.element(location.element), all[element(location)], location);
   }
 
-  /// Spreads weights over the boundary around a point, by area; unchanged if there are too few vertices. Edges
-  /// with both ends there have theirs, so that the weighted sum is the mean of the field.
+  /// Spreads weights over the boundary around a point, by area; unchanged if there are too few vertices.
+  /// Edges with both ends there have theirs, so that the weighted sum is the mean of the field.
   void spread(const std::vector<Vec3>& points, const Element_nodes& nodes, const Vec3& p, double radius,
               Control_weights& weights)
   {

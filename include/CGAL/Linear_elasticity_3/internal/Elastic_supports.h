@@ -97,10 +97,10 @@ public:
   }
 
   /*!
-  Supports the edges that are nodes, as the supports of vertices imply: an edge of a face of the boundary whose
-  vertices are all supported is held in the directions in which both ends are held, with the coefficient 0. So
-  the face moves as if it were linear, and an edge through the inside is free, as is an edge with a free end.
-  To be called before `find_parts()`.
+  Supports the edges that are nodes, as the supports of vertices imply: an edge of a face of the boundary
+  whose vertices are all supported is held in the directions in which both ends are held, with the coefficient
+  0. So the face moves as if it were linear, and an edge through the inside is free, as is an edge with a free
+  end. To be called before `find_parts()`.
   */
   void support_edges(const Elastic_stiffness& stiffness)
   {

@@ -137,7 +137,8 @@ public:
   }
 
 private:
-  // The six rigid motions of the unknowns, which are vertices, in the directions that are free: columns of about the same size.
+  // The six rigid motions of the unknowns, which are vertices, in the directions that are free: columns of
+  // about the same size.
   Eigen::MatrixXd rigid_motions(const std::vector<Vec3>& points, const Elastic_supports& supports) const
   {
     const double n = double(m_unknowns.size());

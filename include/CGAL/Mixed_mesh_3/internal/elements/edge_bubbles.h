@@ -79,11 +79,11 @@ using Bubble_factors = std::array<std::array<double, largest_number_of_edges>, 2
 /*!
 The functions of edges as sums over pairs of vertices, phi_e = sum of c_e,ij N_i N_j.
 
-An edge along x of the unit square has phi = 4 x (1 - x) y = 4 x (1 - x) (y^2 + y (1 - y)): 4 times the product
-of its own ends, and, as both diagonals have the product x (1 - x) y (1 - y), twice that of each. In the same
-way, each of the four diagonals of a hexahedron takes 1 from each edge. In general, the factor is 4, 2 or 1 if
-the smallest face of the element with both vertices is an edge, a quadrilateral or the hexahedron itself, and
-this face has the edge; else it is 0. On triangles there are edges only, with phi = 4 N_i N_j.
+An edge along x of the unit square has phi = 4 x (1 - x) y = 4 x (1 - x) (y^2 + y (1 - y)): 4 times the
+product of its own ends, and, as both diagonals have the product x (1 - x) y (1 - y), twice that of each. In
+the same way, each of the four diagonals of a hexahedron takes 1 from each edge. In general, the factor is 4,
+2 or 1 if the smallest face of the element with both vertices is an edge, a quadrilateral or the hexahedron
+itself, and this face has the edge; else it is 0. On triangles there are edges only, with phi = 4 N_i N_j.
 */
 inline Bubble_factors make_bubble_factors(Element_kind kind)
 {

@@ -44,9 +44,9 @@ The shape function of each edge, in the order of `Reference_element::edges`: 1 i
 the other edges. With the shape functions N of the vertices, and the ends i and j,
 
     tetrahedron    4 N_i N_j
-    pyramid        4 N_i N_j for an edge to the apex; (1 - t)^2 (1 - a^2) (1 +- b) / 2 for an edge along a, with
-                   a = r / (1 - t), b = s / (1 - t), or the other way around
-    prism          4 l_i l_j (1 +- t) / 2 for an edge of a triangle; l_i (1 - t^2) for the others, l barycentric
+    pyramid        4 N_i N_j for an edge to the apex; (1 - t)^2 (1 - a^2) (1 +- b) / 2 for an edge along a,
+                   with a = r / (1 - t), b = s / (1 - t), or the other way around
+    prism          4 l_i l_j (1 +- t) / 2 for edges of triangles, l barycentric; l_i (1 - t^2) for the others
     hexahedron     (1 - r^2) (1 +- s) (1 +- t) / 4, and the same along s and t
 
 On a triangle, these are 4 l_i l_j for the edges of the triangle, and zero for others; on a quadrilateral with

@@ -81,8 +81,8 @@ void for_each_quadrature_point(int order, const Add& add)
           for(int j : {-1, 1})
             add(i * gauss * (1 - t), j * gauss * (1 - t), t, weight);
       } else {
-        // On the square exact for degree 5: W. Burnside, "An approximate quadrature formula", Messenger of Math.
-        // 37, 1908.
+        // On the square exact for degree 5: W. Burnside, "An approximate quadrature formula", Messenger of
+        // Math. 37, 1908.
         const double a = std::sqrt(7. / 15) * (1 - t), b = std::sqrt(7. / 9) * (1 - t);
         for(int i : {-1, 1}) {
           add(i * a, 0, t, 40. / 49 * weight);
