@@ -390,7 +390,13 @@ class Test(unittest.TestCase):
         shift = model.solve(np.tile([0, 0, -3.0], (5, 1)))
         np.testing.assert_array_equal(shift, expected)
         self.assertGreater(model.energy, 0)
-        model.set_corotational(True)
+        self.assertEqual((model.order, len(model.edge_coefficients)), (2, len(model.edges)))
+        linear = mm3.Elasticity(self.mesh, order=1)
+        linear.fix(is_boundary & (z < lowest + 0.2 * (highest - lowest)))
+        linear.set_control_points(self.mesh.points[top])
+        shift = linear.solve(np.tile([0, 0, -3.0], (5, 1)))
+        self.assertEqual((linear.order, len(linear.edges)), (1, 0))
+        model.set_corotational(True) # order 1, which finite rotations need
         np.testing.assert_allclose(model.solve(np.tile([0, 0, -1e-3], (5, 1))), shift * 1e-3 / 3, atol=1e-6)
         model.set_corotational(False)
         with self.assertRaisesRegex(ValueError, "not negative"):
