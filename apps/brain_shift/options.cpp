@@ -251,7 +251,8 @@ void add_method(CLI::App& app, Options& o)
       "--order", o.order,
       "Displacements in elements: 1, linear; 2, quadratic, many times as accurate on the same mesh, and "
       "slower; region: quadratic in the region of the mesh and 4 mm around. 2 and region not with --contact, "
-      "--corotational, --febio or petsc (default: 2 up to 3000 vertices without these, else 1)")
+      "--corotational, --febio or petsc (default: 2 up to 3000 vertices with --control-radius and without "
+      "these, if it inverts no element, else 1)")
     ->transform(CLI::CheckedTransformer(orders).description("{1,2,region}"))
     ->type_name("ORDER");
   app.add_flag(

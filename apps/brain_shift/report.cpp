@@ -235,7 +235,7 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
                                           {"largest number of iterations", outcome.petsc->iterations}}
                                    : Json{{"name", "direct"}};
   report["order"] = {{"order", outcome.order.order},
-                     {"needs order 1", outcome.order.reason.empty() ? Json() : Json(outcome.order.reason)},
+                     {"because of", outcome.order.reason.empty() ? Json() : Json(outcome.order.reason)},
                      {"nodes", outcome.order.nodes},
                      {"unknowns", outcome.order.unknowns}};
   report["subdomains"] = describe_subdomains(outcome.subdomains);
@@ -290,7 +290,7 @@ void print_summary(const Options& o, const Outcome& outcome, const Stage_log& lo
   }
   const Order_facts& order = outcome.order;
   std::cout << (order.order == "region" ? "order 2 in the region" : "order " + order.order)
-            << (order.reason.empty() ? "" : ", as " + order.reason + " needs it") << ": " << order.nodes
+            << (order.reason.empty() ? "" : " because of " + order.reason) << ": " << order.nodes
             << " nodes, " << order.unknowns << " unknowns\n";
   std::cout << "before surgery: factor " << time("factor") << ", control points " << time("control points")
             << '\n';

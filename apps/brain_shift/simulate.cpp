@@ -13,8 +13,12 @@
 #include "core/resources.h"
 
 #include <CGAL/Mixed_mesh_3/certificate.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/Quadratic_field.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/edge_bubbles.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/with_kind.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -36,7 +40,8 @@ void set_supports(Elasticity& elasticity, const Supports& supports)
   elasticity.touch_along_boundary([&](mm3::Vertex_index v) { return has(v, Support::TOUCHING); });
 }
 
-// Chooses the order of displacements.
+// Chooses the order of displacements. The force on a single point makes a dent that is the deeper, the finer
+// the displacement, and inverts elements sooner.
 void set_order(Elasticity& elasticity, const Options& o, Outcome& outcome)
 {
   constexpr double width = 4; // mm around the region; with less, elements behind it are the ones that err
@@ -45,7 +50,9 @@ void set_order(Elasticity& elasticity, const Options& o, Outcome& outcome)
   const bool may_be_2 = o.order == Displacement_order::DEFAULT
                         && Elasticity::recommended_order(mesh.number_of_vertices()) == 2;
   if(may_be_2)
-    facts.reason = option_of_order_1(o);
+    facts.reason = option_of_order_1(o).empty() && o.control_radius == 0
+                     ? "control points without --control-radius"
+                     : option_of_order_1(o);
   if(o.order == Displacement_order::REGION) {
     facts.order = "region";
     elasticity.order_2_within(width);
@@ -60,16 +67,59 @@ void set_order(Elasticity& elasticity, const Options& o, Outcome& outcome)
   facts.unknowns = 3 * facts.nodes;
 }
 
-// Elements that the displacement inverts: their Jacobian is zero or negative somewhere.
-std::vector<std::size_t> find_inverted_elements(const Mesh& mesh, const std::vector<Vector>& displacements,
+// Whether the map of an element with edges of order 2 is inverted in a vertex or in the middle of an edge.
+bool is_inverted(const mm3::Element_view& element, const std::array<Vector, 8>& points,
+                 const mm3::internal::Bubbles& bubbles)
+{
+  return mm3::internal::with_kind(element.kind(), [&](auto kind) {
+    const mm3::internal::Quadratic_field<kind> map(points.data(), bubbles);
+    const mm3::Reference_element& reference = element.reference();
+    const auto corner = [&](int i) {
+      const auto& c = reference.coordinates[i];
+      return Vector{double(c[0]), double(c[1]), double(c[2])};
+    };
+    const auto is_inverted_at = [&](const Vector& r) {
+      const std::array<Vector, 3> d = map.derivatives(r);
+      return !(dot(cross(d[0], d[1]), d[2]) > 0);
+    };
+    for(int i = 0; i < element.size(); ++i)
+      if((kind != mm3::PYRAMID || i < 4) && is_inverted_at(corner(i))) // no derivatives at the apex
+        return true;
+    for(int i = 0; i < reference.number_of_edges; ++i)
+      if(is_inverted_at(0.5 * (corner(reference.edges[i][0]) + corner(reference.edges[i][1]))))
+        return true;
+    return false;
+  });
+}
+
+// Elements that the displacement inverts: their Jacobian is zero or negative somewhere; with edges of order
+// 2, in a vertex or in the middle of an edge.
+std::vector<std::size_t> find_inverted_elements(const Mesh& mesh, const Shift& shift,
+                                                const std::vector<std::array<mm3::Vertex_index, 2>>& edges,
                                                 const std::vector<bool>& is_removed)
 {
+  const mm3::internal::Edge_vectors coefficients(mesh.number_of_vertices(), edges, shift.edge_coefficients);
+  const auto displaced = [&](mm3::Vertex_index v) {
+    return mm3::to_vec3(mesh.point(v)) + shift.displacements[v];
+  };
   std::vector<std::size_t> inverted;
-  for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e)
-    if(!is_removed[e] && mm3::jacobian_sign(mesh.element(e), [&](mm3::Vertex_index v) {
-                           return mm3::to_vec3(mesh.point(v)) + displacements[v];
-                         }) != mm3::Jacobian_sign::POSITIVE)
+  for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e) {
+    if(is_removed[e])
+      continue;
+    const auto element = mesh.element(e);
+    std::array<Vector, mm3::internal::largest_number_of_edges> of_edges{};
+    for(int i = 0; i < element.reference().number_of_edges; ++i)
+      of_edges[std::size_t(i)] = coefficients(element[element.reference().edges[i][0]],
+                                              element[element.reference().edges[i][1]]);
+    const bool is_linear = std::all_of(of_edges.begin(), of_edges.end(),
+                                       [](const Vector& a) { return a == Vector{}; });
+    std::array<Vector, 8> points{};
+    for(int i = 0; i < element.size(); ++i)
+      points[std::size_t(i)] = displaced(element[i]);
+    if(is_linear ? mm3::jacobian_sign(element, displaced) != mm3::Jacobian_sign::POSITIVE
+                 : is_inverted(element, points, mm3::internal::bubbles_of_edges(element.kind(), of_edges)))
       inverted.push_back(e);
+  }
   return inverted;
 }
 
@@ -135,7 +185,7 @@ Shift shift_of(const Elasticity& elasticity, const Options& o, const std::vector
     shift.iterations = elasticity.number_of_iterations();
   }
   measure(mesh, shift);
-  const std::vector<std::size_t> inverted = find_inverted_elements(mesh, shift.displacements,
+  const std::vector<std::size_t> inverted = find_inverted_elements(mesh, shift, outcome.order.edges,
                                                                    elasticity.removed_elements());
   shift.inverted_elements = inverted.size();
   if(!inverted.empty())
@@ -249,10 +299,8 @@ void remove(Elasticity& elasticity, const std::vector<bool>& is_removed, const O
                       [&] { return shift_of(elasticity, o, is_used, "shift after resection", outcome); });
 }
 
-} // namespace
-
-std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_patches& patches,
-                           const Options& o, Stage_log& log, Outcome& outcome)
+std::vector<bool> simulate_in_order(const Mesh& mesh, const Tumor& tumor, const Boundary_patches& patches,
+                                    const Options& o, Stage_log& log, Outcome& outcome)
 {
   const Controls controls{o.control_points, outcome.points, o.compliance};
   Elasticity elasticity(mesh, materials_of_elements(mesh, outcome.subdomains));
@@ -286,4 +334,21 @@ std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_
   remove(elasticity, is_removed, o, log, outcome);
   tell_of_solver(elasticity, outcome);
   return is_removed;
+}
+
+} // namespace
+
+std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_patches& patches,
+                           const Options& o, Stage_log& log, Outcome& outcome)
+{
+  const Outcome without = outcome;
+  const std::vector<bool> is_removed = simulate_in_order(mesh, tumor, patches, o, log, outcome);
+  const bool is_inverted = outcome.before.inverted_elements > 0 || outcome.last().inverted_elements > 0;
+  if(o.order != Displacement_order::DEFAULT || outcome.order.order == "1" || !is_inverted)
+    return is_removed;
+  Options linear = o;
+  linear.order = Displacement_order::LINEAR;
+  outcome = without;
+  outcome.order.reason = "elements that order 2 would invert";
+  return simulate_in_order(mesh, tumor, patches, linear, log, outcome);
 }

@@ -78,17 +78,12 @@ class Elasticity
 
   std::shared_ptr<const Mesh> m_mesh;
   std::unique_ptr<Solver> m_solver;
-  bool m_is_corotational = false, m_is_touching = false;
-  bool m_has_order = false; // whether an order was asked for
+  bool m_is_corotational = false;
 
   void factor()
   {
-    if(m_solver->is_factored())
-      return;
-    if(!m_has_order)
-      m_solver->order(
-        m_is_corotational || m_is_touching ? 1 : Solver::recommended_order(m_mesh->number_of_vertices()));
-    check(m_solver->factor());
+    if(!m_solver->is_factored())
+      check(m_solver->factor());
   }
 
   void require_supports_open(const char* name) const
@@ -113,7 +108,6 @@ public:
     if(order != 1 && order != 2)
       throw std::invalid_argument("order: expected 1 or 2");
     m_solver->order(order);
-    m_has_order = true;
   }
 
   void set_order_2_within(double distance)
@@ -122,7 +116,6 @@ public:
     if(!(distance >= 0))
       throw std::invalid_argument("order: expected a distance that is not negative");
     m_solver->order_2_within(distance);
-    m_has_order = true;
   }
 
   void fix(const Marks& vertices)
@@ -147,7 +140,6 @@ public:
     if(!std::isfinite(gap))
       throw std::invalid_argument("touch(): the gap is not finite");
     const std::vector<bool> marks = marks_of(vertices, m_mesh->number_of_vertices(), "touch");
-    m_is_touching = true;
     m_solver->touch_along_boundary([&](mm3::Vertex_index v) { return marks[v]; }, gap);
   }
 
@@ -157,8 +149,6 @@ public:
   {
     m_is_corotational = is_corotational;
     m_solver->set_corotational(is_corotational);
-    if(is_corotational && !m_has_order && m_solver->order() == 2)
-      m_solver->order(1); // to be factored again
   }
 
   void set_control_points(const Doubles& points, double largest_distance, double compliance, double radius,

@@ -458,6 +458,27 @@ void test_control_points(int kind)
   BOOST_TEST_LT(largest(free.edge_coefficients()), 1e-9);
 }
 
+// Means over a part of the boundary: edges of triangles have as much weight as vertices, those of
+// quadrilaterals 4/3, also at the rim of the part.
+void test_means(int kind)
+{
+  const Mesh mesh = any_grid(4, kind, 0.1);
+  Elasticity problem(mesh);
+  problem.order(2);
+  prescribe(problem, vertices_where(mesh, [](const Vec3& p) { return p[2] < 0.1; }), zero);
+  BOOST_TEST(is_success(problem.factor()));
+  for(double radius : {0.4, 0.7, 3.}) {
+    BOOST_TEST(is_success(problem.set_control_points(std::vector<Vec3>{{0.5, 0.5, 1}}, 1, 0, radius)));
+    const auto weights = problem.control_weights();
+    double of_vertices = 0, of_edges = 0;
+    for(const auto& [node, w] : weights.front())
+      (node < mesh.number_of_vertices() ? of_vertices : of_edges) += w;
+    BOOST_TEST_LT(std::abs(of_vertices - 1), 1e-12);
+    BOOST_TEST(of_edges > (kind == HEXAHEDRON ? 4. / 3 : 1) - 1e-12);
+    BOOST_TEST(of_edges < (kind == TETRAHEDRON ? 1 : 4. / 3) + 1e-12);
+  }
+}
+
 void test_removal()
 {
   const Mesh mesh = any_grid(4, all_kinds, 0.1);
@@ -543,6 +564,7 @@ int run(int, char*[])
     test_displacement_between_vertices(affine_grid(4, kind));
     test_zone(kind);
     test_control_points(kind);
+    test_means(kind);
   }
   test_convergence();
   test_supports();

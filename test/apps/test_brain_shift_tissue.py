@@ -53,8 +53,9 @@ class Tissue(Case):
         return mesh, move
 
     def test_order(self):
-        """Order 2 is the default, unless what is asked for needs order 1; files have the middles of edges if asked."""
-        run = lambda *more: self.succeeds(self.mesh, "--control-points", self.points, *more)
+        """Order 2 is the default with a radius, unless what is asked for needs order 1; files have the middles of edges
+        if asked."""
+        run = lambda *more: self.succeeds(self.mesh, "--control-points", self.points, "--control-radius", 8, *more)
         default, out = run("--output", WORK / "default.vtu")
         quadratic, _ = run("--order", 2, "--output", WORK / "quadratic.vtu", "--output-order", 2)
         linear, told = run("--order", 1, "--output", WORK / "linear.vtu", "--output-order", 2)
@@ -76,8 +77,12 @@ class Tissue(Case):
         self.assertTrue(np.array_equal(u[0], u[1][:nodes[0]]))
         self.assertGreater(np.abs(u[1] - u[2]).max(), 0.1)
         contact, out = run("--contact", "skull")
-        self.assertEqual(contact["order"], {**linear["order"], "needs order 1": "--contact"})
-        self.assertIn(f"order 1, as --contact needs it: {nodes[0]} nodes", out.stdout)
+        self.assertEqual(contact["order"], {**linear["order"], "because of": "--contact"})
+        self.assertIn(f"order 1 because of --contact: {nodes[0]} nodes", out.stdout)
+        single, _ = self.succeeds(self.mesh, "--control-points", self.points)
+        self.assertEqual(single["order"], {**linear["order"], "because of": "control points without --control-radius"})
+        narrow, _ = self.succeeds(self.mesh, "--control-points", self.points, "--control-radius", 4)
+        self.assertEqual(narrow["order"], {**linear["order"], "because of": "elements that order 2 would invert"})
         for option in (("--contact", "skull"), ("--corotational",), ("--febio", WORK / "no.feb")):
             for order in (2, "region"):
                 self.fails(self.mesh, "--control-points", self.points, *option, "--order", order, names="--order", status=2,

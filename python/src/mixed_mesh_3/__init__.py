@@ -361,15 +361,15 @@ class Elasticity(_core.Elasticity):
 
     young_modulus is in kPa, density in kg/mm^3. materials: {label: (young_modulus, poisson_ratio)}, with an optional
     density as third entry, for labels with another material. order: of displacements in elements, 1 or 2, or "region" for 2
-    in the region of the mesh and 4 mm around; by default 2 up to 3000 vertices, without contact and finite rotations. With
-    order 2, the middle of edges[i] has the mean displacement of both ends plus edge_coefficients[i]. Errors raise ElasticityError, with the reason.
+    in the region of the mesh and 4 mm around, both without contact and finite rotations. With order 2, the middle of
+    edges[i] has the mean displacement of both ends plus edge_coefficients[i]. Errors raise ElasticityError, with the reason.
     """
 
-    def __init__(self, mesh, young_modulus=1.0, poisson_ratio=0.45, density=1e-6, *, materials=None, order=None):
+    def __init__(self, mesh, young_modulus=1.0, poisson_ratio=0.45, density=1e-6, *, materials=None, order=1):
         super().__init__(mesh, _materials(materials, density), (young_modulus, poisson_ratio, density))
         if order == "region":
             self.set_order_2_within(4.0)
-        elif order is not None:
+        else:
             self.set_order(order)
 
     def set_control_points(self, points, *, largest_distance=0.0, compliance=0.0, radius=0.0, weights=()):

@@ -67,11 +67,11 @@ class Located_elements
   using Kernel = CGAL::Simple_cartesian<double>; // points are in doubles
   using Mesh = Mixed_mesh_3<Kernel>;
 
-  std::vector<Element_index> m_elements; // numbers of the elements in the whole mesh
-  Mesh m_mesh;                           // mesh of the elements, with all vertices
-  Element_locator_3<Mesh> m_locator;     // refers to m_mesh
-  // Of the vertices of the boundary areas, and of its edges integrals of their functions, when needed.
-  std::vector<double> m_areas, m_edge_integrals;
+  std::vector<Element_index> m_elements;        // numbers of the elements in the whole mesh
+  Mesh m_mesh;                                  // mesh of the elements, with all vertices
+  Element_locator_3<Mesh> m_locator;            // refers to m_mesh
+  std::optional<Boundary_integrals> m_boundary; // when needed, as the nodes of edges
+  Nodes_of_edges m_nodes_of_edges;
 
 public:
   Located_elements(const Element_list& elements, const std::vector<Vec3>& points,
@@ -96,31 +96,30 @@ public:
     return node_weights(m_mesh.element(location.element), all[element(location)], location);
   }
 
-  /// Spreads weights over the boundary around a point, by area; unchanged if there are too few vertices.
-  /// Edges with both ends there have theirs, so that the weighted sum is the mean of the field.
+  /// Spreads weights over the boundary around a point, by area; unchanged if there are too few vertices. The
+  /// weighted sum is a mean of the field, also between vertices.
   void spread(const std::vector<Vec3>& points, const Element_nodes& nodes, const Vec3& p, double radius,
               Control_weights& weights)
   {
-    if(m_areas.empty()) {
-      m_areas = boundary_vertex_areas(m_mesh);
-      m_edge_integrals = boundary_edge_integrals(m_mesh, nodes.ends());
+    if(!m_boundary) {
+      m_boundary.emplace(m_mesh);
+      for(std::size_t i = 0; i < nodes.ends().size(); ++i)
+        m_nodes_of_edges.emplace(nodes.ends()[i], Vertex_index(nodes.number_of_vertices() + i));
     }
-    const auto is_near = [&](Vertex_index v) { return m_areas[v] > 0 && norm(points[v] - p) <= radius; };
-    Control_weights around;
-    double sum = 0;
-    for(Vertex_index v = 0; v < points.size(); ++v)
-      if(is_near(v)) {
-        around.emplace_back(v, m_areas[v]);
-        sum += m_areas[v];
+    const auto integrals = (*m_boundary)([&](Vertex_index v) { return norm(points[v] - p) <= radius; },
+                                         m_nodes_of_edges);
+    int number_of_vertices = 0;
+    double area = 0;
+    for(const auto& [node, integral] : integrals)
+      if(node < nodes.number_of_vertices()) {
+        ++number_of_vertices;
+        area += integral;
       }
-    if(around.size() < 3)
+    if(number_of_vertices < 3)
       return;
-    for(std::size_t i = 0; i < m_edge_integrals.size(); ++i)
-      if(m_edge_integrals[i] > 0 && is_near(nodes.ends()[i][0]) && is_near(nodes.ends()[i][1]))
-        around.emplace_back(Vertex_index(nodes.number_of_vertices() + i), m_edge_integrals[i]);
-    for(auto& [v, w] : around)
-      w /= sum;
-    weights = std::move(around);
+    weights.clear();
+    for(const auto& [node, integral] : integrals)
+      weights.emplace_back(node, integral / area);
   }
 
 private:
