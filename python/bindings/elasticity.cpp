@@ -202,10 +202,10 @@ public:
 
   int order() const { return m_solver->order(); }
 
-  py::array_t<mm3::Vertex_index> edges() const
+  py::array_t<std::uint32_t> edges() const
   {
     const auto& edges = m_solver->quadratic_edges();
-    py::array_t<mm3::Vertex_index> result({py::ssize_t(edges.size()), py::ssize_t(2)});
+    py::array_t<std::uint32_t> result({py::ssize_t(edges.size()), py::ssize_t(2)});
     for(std::size_t i = 0; i < edges.size(); ++i)
       for(int k = 0; k < 2; ++k)
         result.mutable_at(py::ssize_t(i), k) = edges[i][std::size_t(k)];
