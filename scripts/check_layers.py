@@ -23,7 +23,7 @@ MAY_REACH = {
     "octree": "base oracle",
     "transitions": "base octree",
     "boundary": "base elements octree transitions",
-    "fem": "base",
+    "fem": "base elements",
     "moves": "base oracle elements surface measures",
     "fitting": "base oracle elements surface moves fem measures",
     "meshing": "base oracle elements surface octree transitions boundary moves fitting measures models",

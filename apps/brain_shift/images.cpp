@@ -197,6 +197,8 @@ void write_images(mm3::IO::Output_files& files, const mm3::Voxel_image_3& image,
 {
   mm3::Warp_options warp;
   warp.interpolation = o.interpolation;
+  warp.quadratic_edges = outcome.order.edges;
+  warp.edge_coefficients = outcome.last().edge_coefficients;
   if(tumor.is_given())
     warp.resected_elements = is_removed;
   if(tumor.surface != nullptr) // also the parts that it cuts off the remaining elements

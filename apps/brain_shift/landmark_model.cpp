@@ -32,8 +32,7 @@ Errors errors_of_targets(Elasticity& elasticity, const Options& o, Outcome& outc
   }
   for(std::size_t i = 0; i < errors.size(); ++i)
     if(!landmarks.is_given[i])
-      errors[i] = Vector(landmarks.points[i].displacement)
-                  - displacement_at(landmarks.locations[i], elasticity.mesh(), elasticity.displacements());
+      errors[i] = Vector(landmarks.points[i].displacement) - elasticity.displacement(landmarks.locations[i]);
   return errors;
 }
 
@@ -57,12 +56,11 @@ void measure_left_out(const Elasticity& elasticity, Outcome& outcome)
     errors.push_back(std::isfinite(error[0]) ? std::optional<Vector>(error) : std::nullopt);
 }
 
-void measure_shift(const Mesh& mesh, Outcome& outcome)
+void measure_shift(const Elasticity& elasticity, Outcome& outcome)
 {
   Landmark_facts& landmarks = *outcome.landmarks;
   landmarks.of_shift.emplace();
   for(std::size_t i = 0; i < landmarks.points.size(); ++i)
-    landmarks.of_shift->push_back(
-      Vector(landmarks.points[i].displacement)
-      - displacement_at(landmarks.locations[i], mesh, outcome.before.displacements));
+    landmarks.of_shift->push_back(Vector(landmarks.points[i].displacement)
+                                  - elasticity.displacement(landmarks.locations[i]));
 }

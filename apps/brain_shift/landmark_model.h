@@ -26,6 +26,6 @@ void measure_by_outermost(Elasticity& elasticity, const Options& options, Outcom
 void measure_left_out(const Elasticity& elasticity, Outcome& outcome);
 
 /// Measures the errors at the landmarks after the shift by control points that are not landmarks.
-void measure_shift(const Mesh& mesh, Outcome& outcome);
+void measure_shift(const Elasticity& elasticity, Outcome& outcome);
 
 #endif // MIXED_MESH_3_APPS_BRAIN_SHIFT_LANDMARK_MODEL_H

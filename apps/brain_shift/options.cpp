@@ -242,6 +242,19 @@ void add_control(CLI::App& app, Options& o)
 
 void add_method(CLI::App& app, Options& o)
 {
+  const std::vector<std::pair<std::string, Displacement_order>> orders{{"1", Displacement_order::LINEAR},
+                                                                       {"2", Displacement_order::QUADRATIC},
+                                                                       {"region",
+                                                                        Displacement_order::REGION}};
+  app
+    .add_option(
+      "--order", o.order,
+      "Displacements in elements: 1, linear; 2, quadratic, many times as accurate on the same mesh, and "
+      "slower; region: quadratic in the region of the mesh and 4 mm around. 2 and region not with --contact, "
+      "--corotational, --febio or petsc (default: 2 up to 3000 vertices with --control-radius and without "
+      "these, if it inverts no element, else 1)")
+    ->transform(CLI::CheckedTransformer(orders).description("{1,2,region}"))
+    ->type_name("ORDER");
   app.add_flag(
     "--corotational", o.corotational,
     "Finite rotations: elements that turn with the tissue, by Newton's method; strains should still be "
@@ -269,6 +282,13 @@ void add_outputs(CLI::App& app, Options& o, CLI::Option* image)
       ".msh, .feb; can be given several times")
     ->type_name("FILE")
     ->allow_extra_args(false);
+  app
+    .add_option("--output-order", o.output_order,
+                "Order of the elements of --output: with 2, they have nodes in the middle of edges, and the "
+                "displacements there, too")
+    ->check(CLI::IsMember({1, 2}))
+    ->type_name("ORDER")
+    ->capture_default_str();
   app
     .add_option("--output-deformed", o.deformed_outputs,
                 "Mesh that is left, deformed: .vtu, .msh, .mesh, .inp, .feb; can be given several times")
@@ -308,8 +328,8 @@ void add_outputs(CLI::App& app, Options& o, CLI::Option* image)
                                                                            Interpolation::RECOVERED}};
   app
     .add_option("--interpolation", o.interpolation,
-                "Displacement between vertices, for the image: recovered, by shape functions and gradients "
-                "(default), or linear, by shape functions only")
+                "Displacement between vertices, for the image: recovered, by shape functions and gradients, "
+                "or with --order 2 as it was computed (default); or linear, between vertices only")
     ->transform(CLI::CheckedTransformer(interpolations, CLI::ignore_case).description("{linear,recovered}"))
     ->type_name("HOW");
   app.add_option("--report", o.report, "Report with counts, displacements, forces, parameters and times")
@@ -470,6 +490,9 @@ void check_use(const CLI::App& app, bool has_petsc, Options& o)
   if(o.uses_petsc != has_petsc)
     throw CLI::ValidationError("--solver", has_petsc ? "this program is for petsc only"
                                                      : "this program was built without PETSc");
+  if(o.order == Displacement_order::QUADRATIC || o.order == Displacement_order::REGION)
+    if(const std::string other = option_of_order_1(o); !other.empty())
+      throw CLI::ValidationError("--order", "only order 1 can be had with " + other);
   if(!o.image.empty() && !has_nifti)
     throw CLI::ValidationError("--image", "this program was built without nifti_clib");
 }
@@ -485,6 +508,15 @@ std::optional<int> parse_command_line(int argc, char** argv, bool has_petsc, Opt
   set_up(app, options);
   options.command = command_of("brain_shift", argc, argv);
   return parse("brain_shift", app, argc, argv, [&] { check_use(app, has_petsc, options); });
+}
+
+std::string option_of_order_1(const Options& o)
+{
+  return !o.touching_patches.empty() ? "--contact"
+         : o.corotational            ? "--corotational"
+         : !o.febio.empty()          ? "--febio"
+         : o.uses_petsc              ? "--solver petsc"
+                                     : "";
 }
 
 std::string labels_output(const Options& o) { return o.output_image + "_labels.nii.gz"; }

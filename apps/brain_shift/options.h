@@ -36,6 +36,10 @@ struct Labeled_material
   CGAL::Mixed_meshes_3::Elastic_material material;
 };
 
+/// Where displacements are quadratic: nowhere, everywhere, in the region of interest, or where the program
+/// decides.
+enum class Displacement_order { DEFAULT, LINEAR, QUADRATIC, REGION };
+
 struct Options
 {
   std::string mesh, control_points, control_points_after, landmarks, landmarks_after, tumor, tumor_label,
@@ -49,6 +53,8 @@ struct Options
   double max_distance = 5, compliance = 0, landmark_compliance = 0, control_radius = 0;
   std::size_t landmarks_given = 0; // the outermost ones; 0: the default number
   bool corotational = false, leave_one_out = false, adapt = false;
+  Displacement_order order = Displacement_order::DEFAULT;
+  int output_order = 1;                            // order of the elements of --output
   CGAL::Mixed_meshes_3::Elastic_material material; // material of subdomains without one of their own
   CGAL::Mixed_meshes_3::Displacement_interpolation interpolation =
     CGAL::Mixed_meshes_3::Displacement_interpolation::RECOVERED;
@@ -75,6 +81,9 @@ struct Options
 /// Returns the exit status if the program ends with its command line: help, the version, or wrong use.
 /// \param has_petsc whether the program is brain_shift_petsc, which is the same one for --solver petsc
 std::optional<int> parse_command_line(int argc, char** argv, bool has_petsc, Options& options);
+
+/// The option that can only be had with linear displacements; empty if there is none.
+std::string option_of_order_1(const Options& options);
 
 /// The label image that is written.
 std::string labels_output(const Options& options);

@@ -72,10 +72,20 @@ struct Control
   std::optional<Vector> left_out; // error if it is not used; none if the others do not hold the mesh
 };
 
+/// The order of displacements, and its cost.
+struct Order_facts
+{
+  std::string order = "1"; // as the option has it
+  std::string reason;      // why it is 1, if it could be 2 by default
+  std::vector<std::array<CGAL::Mixed_meshes_3::Vertex_index, 2>> edges; // ends of those with coefficients
+  std::size_t nodes = 0, unknowns = 0;
+};
+
 /// A displacement of the mesh, and its measures.
 struct Shift
 {
-  std::vector<Vector> displacements; // displacements of vertices
+  std::vector<Vector> displacements;     // displacements of vertices
+  std::vector<Vector> edge_coefficients; // coefficients of `Order_facts::edges`
   double largest = 0;
   Vector at{}; // place of the largest one
   double energy = 0;
@@ -152,6 +162,7 @@ struct Outcome
   std::optional<Image_facts> image;
   std::optional<CGAL::Mixed_mesh_adaptation_result_3> adaptation;
   std::optional<Landmark_facts> landmarks;
+  Order_facts order;
   Supports supports;
   std::optional<Petsc_facts> petsc;
   Shift before; // the resection

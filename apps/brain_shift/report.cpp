@@ -68,7 +68,8 @@ Json parameters_of(const Options& o)
           {"rotations", o.corotational ? "finite (corotational elements)" : "small"},
           {"space of surfaces", space_of(o.surface_options)},
           {"interpolation between vertices",
-           o.interpolation == mm3::Displacement_interpolation::LINEAR ? "linear" : "recovered"}};
+           o.interpolation == mm3::Displacement_interpolation::LINEAR ? "linear" : "recovered"},
+          {"order of output", o.output_order}};
 }
 
 Json describe_subdomains(const std::vector<Subdomain_facts>& subdomains)
@@ -233,6 +234,10 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
                                           {"processes", outcome.petsc->processes},
                                           {"largest number of iterations", outcome.petsc->iterations}}
                                    : Json{{"name", "direct"}};
+  report["order"] = {{"order", outcome.order.order},
+                     {"because of", outcome.order.reason.empty() ? Json() : Json(outcome.order.reason)},
+                     {"nodes", outcome.order.nodes},
+                     {"unknowns", outcome.order.unknowns}};
   report["subdomains"] = describe_subdomains(outcome.subdomains);
   report["supports"] = {{"boundary vertices", outcome.supports.boundary_vertices},
                         {"fixed", outcome.supports.fixed},
@@ -283,6 +288,10 @@ void print_summary(const Options& o, const Outcome& outcome, const Stage_log& lo
               << rounded(a.worst_aspect_ratio_after) << "; " << a.number_of_steps << " steps, "
               << time("adapt mesh") << '\n';
   }
+  const Order_facts& order = outcome.order;
+  std::cout << (order.order == "region" ? "order 2 in the region" : "order " + order.order)
+            << (order.reason.empty() ? "" : " because of " + order.reason) << ": " << order.nodes
+            << " nodes, " << order.unknowns << " unknowns\n";
   std::cout << "before surgery: factor " << time("factor") << ", control points " << time("control points")
             << '\n';
   if(outcome.petsc)

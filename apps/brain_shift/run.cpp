@@ -26,6 +26,8 @@
 #include "core/write_files.h"
 #include "page/page.h"
 
+#include <CGAL/Mixed_mesh_3/internal/elements/Middle_nodes.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/edge_bubbles.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 
 #include <algorithm>
@@ -130,15 +132,31 @@ std::vector<double> flat(const std::vector<Vector>& vectors)
   return values;
 }
 
+// The displacements of the nodes of elements of an order: the vertices, and the middles of edges.
+std::vector<double> of_nodes(const Mesh& mesh, int order, const Order_facts& facts, const Shift& shift)
+{
+  std::vector<Vector> values = shift.displacements;
+  if(order == 2) {
+    const mm3::internal::Edge_vectors coefficients(mesh.number_of_vertices(), facts.edges,
+                                                   shift.edge_coefficients);
+    const mm3::internal::Middle_nodes middles = mm3::internal::quadratic_connectivity(
+      mesh.elements(), mesh.number_of_vertices());
+    for(const auto& [v, w] : middles.ends)
+      values.push_back(0.5 * (values[v] + values[w]) + coefficients(v, w));
+  }
+  return flat(values);
+}
+
 // Writes the former mesh, with displacements.
 void write_meshes(mm3::IO::Output_files& files, const Inputs& inputs, const std::vector<bool>& is_removed,
                   const Options& o, const Outcome& outcome)
 {
   const Mesh& mesh = inputs.mesh;
-  const std::vector<double> last = flat(outcome.last().displacements),
-                            before = flat(outcome.before.displacements),
+  const std::vector<double> last = of_nodes(mesh, o.output_order, outcome.order, outcome.last()),
+                            before = of_nodes(mesh, o.output_order, outcome.order, outcome.before),
                             resected(is_removed.begin(), is_removed.end());
   mm3::IO::Write_options data;
+  data.order = o.output_order;
   data.vertex_data.push_back({"displacement", &last, 3});
   if(outcome.resection)
     data.vertex_data.push_back({"displacement_before_resection", &before, 3});

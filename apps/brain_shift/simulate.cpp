@@ -13,8 +13,12 @@
 #include "core/resources.h"
 
 #include <CGAL/Mixed_mesh_3/certificate.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/Quadratic_field.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/edge_bubbles.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/with_kind.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -36,16 +40,86 @@ void set_supports(Elasticity& elasticity, const Supports& supports)
   elasticity.touch_along_boundary([&](mm3::Vertex_index v) { return has(v, Support::TOUCHING); });
 }
 
-// Elements that the displacement inverts: their Jacobian is zero or negative somewhere.
-std::vector<std::size_t> find_inverted_elements(const Mesh& mesh, const std::vector<Vector>& displacements,
+// Chooses the order of displacements. The force on a single point makes a dent that is the deeper, the finer
+// the displacement, and inverts elements sooner.
+void set_order(Elasticity& elasticity, const Options& o, Outcome& outcome)
+{
+  constexpr double width = 4; // mm around the region; with less, elements behind it are the ones that err
+  const Mesh& mesh = elasticity.mesh();
+  Order_facts& facts = outcome.order;
+  const bool may_be_2 = o.order == Displacement_order::DEFAULT
+                        && Elasticity::recommended_order(mesh.number_of_vertices()) == 2;
+  if(may_be_2)
+    facts.reason = option_of_order_1(o).empty() && o.control_radius == 0
+                     ? "control points without --control-radius"
+                     : option_of_order_1(o);
+  if(o.order == Displacement_order::REGION) {
+    facts.order = "region";
+    elasticity.order_2_within(width);
+    if(elasticity.order() == 1)
+      throw std::runtime_error(o.mesh + ": the mesh has no region of interest, for --order region");
+  } else if(o.order == Displacement_order::QUADRATIC || (may_be_2 && facts.reason.empty())) {
+    facts.order = "2";
+    elasticity.order(2);
+  }
+  facts.edges = elasticity.quadratic_edges();
+  facts.nodes = mesh.number_of_vertices() + facts.edges.size();
+  facts.unknowns = 3 * facts.nodes;
+}
+
+// Whether the map of an element with edges of order 2 is inverted in a vertex or in the middle of an edge.
+bool is_inverted(const mm3::Element_view& element, const std::array<Vector, 8>& points,
+                 const mm3::internal::Bubbles& bubbles)
+{
+  return mm3::internal::with_kind(element.kind(), [&](auto kind) {
+    const mm3::internal::Quadratic_field<kind> map(points.data(), bubbles);
+    const mm3::Reference_element& reference = element.reference();
+    const auto corner = [&](int i) {
+      const auto& c = reference.coordinates[i];
+      return Vector{double(c[0]), double(c[1]), double(c[2])};
+    };
+    const auto is_inverted_at = [&](const Vector& r) {
+      const std::array<Vector, 3> d = map.derivatives(r);
+      return !(dot(cross(d[0], d[1]), d[2]) > 0);
+    };
+    for(int i = 0; i < element.size(); ++i)
+      if((kind != mm3::PYRAMID || i < 4) && is_inverted_at(corner(i))) // no derivatives at the apex
+        return true;
+    for(int i = 0; i < reference.number_of_edges; ++i)
+      if(is_inverted_at(0.5 * (corner(reference.edges[i][0]) + corner(reference.edges[i][1]))))
+        return true;
+    return false;
+  });
+}
+
+// Elements that the displacement inverts: their Jacobian is zero or negative somewhere; with edges of order
+// 2, in a vertex or in the middle of an edge.
+std::vector<std::size_t> find_inverted_elements(const Mesh& mesh, const Shift& shift,
+                                                const std::vector<std::array<mm3::Vertex_index, 2>>& edges,
                                                 const std::vector<bool>& is_removed)
 {
+  const mm3::internal::Edge_vectors coefficients(mesh.number_of_vertices(), edges, shift.edge_coefficients);
+  const auto displaced = [&](mm3::Vertex_index v) {
+    return mm3::to_vec3(mesh.point(v)) + shift.displacements[v];
+  };
   std::vector<std::size_t> inverted;
-  for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e)
-    if(!is_removed[e] && mm3::jacobian_sign(mesh.element(e), [&](mm3::Vertex_index v) {
-                           return mm3::to_vec3(mesh.point(v)) + displacements[v];
-                         }) != mm3::Jacobian_sign::POSITIVE)
+  for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e) {
+    if(is_removed[e])
+      continue;
+    const auto element = mesh.element(e);
+    std::array<Vector, mm3::internal::largest_number_of_edges> of_edges{};
+    for(int i = 0; i < element.reference().number_of_edges; ++i)
+      of_edges[std::size_t(i)] = coefficients(element[element.reference().edges[i][0]],
+                                              element[element.reference().edges[i][1]]);
+    const bool is_linear = std::all_of(of_edges.begin(), of_edges.end(),
+                                       [](const Vector& a) { return a == Vector{}; });
+    std::array<Vector, 8> points{};
+    for(int i = 0; i < element.size(); ++i)
+      points[std::size_t(i)] = displaced(element[i]);
+    if(is_linear ? mm3::jacobian_sign(element, displaced) != mm3::Jacobian_sign::POSITIVE
+                 : is_inverted(element, points, mm3::internal::bubbles_of_edges(element.kind(), of_edges)))
       inverted.push_back(e);
+  }
   return inverted;
 }
 
@@ -79,7 +153,7 @@ void measure_controls(const Elasticity& elasticity, const Outcome& outcome, cons
     Control control;
     control.is_used = is_used[i];
     if(control.is_used) {
-      control.displacement = displacement_at(outcome.locations[i], elasticity.mesh(), shift.displacements);
+      control.displacement = elasticity.displacement(outcome.locations[i]);
       control.miss = norm(control.displacement - Vector(outcome.points[i].displacement));
       shift.largest_miss = (std::max)(shift.largest_miss, control.miss);
       squares += control.miss * control.miss;
@@ -104,13 +178,14 @@ Shift shift_of(const Elasticity& elasticity, const Options& o, const std::vector
   const Mesh& mesh = elasticity.mesh();
   Shift shift;
   shift.displacements = elasticity.displacements();
+  shift.edge_coefficients = elasticity.edge_coefficients();
   shift.energy = elasticity.energy();
   if(elasticity.is_corotational()) {
     shift.residuals = elasticity.residuals();
     shift.iterations = elasticity.number_of_iterations();
   }
   measure(mesh, shift);
-  const std::vector<std::size_t> inverted = find_inverted_elements(mesh, shift.displacements,
+  const std::vector<std::size_t> inverted = find_inverted_elements(mesh, shift, outcome.order.edges,
                                                                    elasticity.removed_elements());
   shift.inverted_elements = inverted.size();
   if(!inverted.empty())
@@ -140,17 +215,20 @@ void tell_of_solver([[maybe_unused]] Elasticity& elasticity, [[maybe_unused]] Ou
 
 // Notes the memory of a factorization before it begins: afterwards there may be no memory for a note. Numbers
 // are those of the table in the manual: the factor of CHOLMOD grows with n^(4/3), that of PETSc with n.
-void tell_of_factor([[maybe_unused]] const Mesh& mesh, [[maybe_unused]] const Options& o,
-                    [[maybe_unused]] Stage_log& log)
+void tell_of_factor([[maybe_unused]] const Mesh& mesh, [[maybe_unused]] const Order_facts& order,
+                    [[maybe_unused]] const Options& o, [[maybe_unused]] Stage_log& log)
 {
 #if !MIXED_MESH_3_HAS_PETSC
-  constexpr double measured = 53799, bytes = 12e3, bytes_by_iteration = 5e3; // unknowns, and bytes for each
-  constexpr double sure = 0.6; // share of the estimate that any mesh needs
-  const double unknowns = 3 * double(mesh.number_of_vertices());
+  constexpr double measured = 53799, bytes_by_iteration = 5e3; // unknowns, and bytes for each
+  const double bytes = order.edges.empty() ? 12e3 : 9e3;       // edges have fewer neighbors than vertices
+  constexpr double sure = 0.6;                                 // share of the estimate that any mesh needs
+  const double unknowns = double(order.unknowns);
   const double needed = bytes * unknowns * std::cbrt(unknowns / measured);
   if(!o.quiet && needed > double(1 << 30))
-    log.note("factoring the matrix of " + std::to_string(mesh.number_of_vertices()) + " vertices takes about "
-             + gibibytes(needed) + " of memory, and its time grows with the square of their number; "
+    log.note("factoring the matrix of " + std::to_string(mesh.number_of_vertices()) + " vertices "
+             + (order.edges.empty() ? "" : "and " + std::to_string(order.edges.size()) + " edges ")
+             + "takes about " + gibibytes(needed)
+             + " of memory, and its time grows with the square of their number; "
              + "--solver petsc iterates, with about " + gibibytes(bytes_by_iteration * unknowns));
   check_memory(o.mesh + ": without --solver petsc, the factor", sure * needed);
 #endif
@@ -191,7 +269,7 @@ void measure_landmarks(const Elasticity& elasticity, const Options& o, Outcome& 
   if(o.are_landmarks_control_points)
     measure_left_out(elasticity, outcome);
   else
-    measure_shift(elasticity.mesh(), outcome);
+    measure_shift(elasticity, outcome);
 }
 
 // Solves after the removal of elements.
@@ -221,17 +299,16 @@ void remove(Elasticity& elasticity, const std::vector<bool>& is_removed, const O
                       [&] { return shift_of(elasticity, o, is_used, "shift after resection", outcome); });
 }
 
-} // namespace
-
-std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_patches& patches,
-                           const Options& o, Stage_log& log, Outcome& outcome)
+std::vector<bool> simulate_in_order(const Mesh& mesh, const Tumor& tumor, const Boundary_patches& patches,
+                                    const Options& o, Stage_log& log, Outcome& outcome)
 {
   const Controls controls{o.control_points, outcome.points, o.compliance};
   Elasticity elasticity(mesh, materials_of_elements(mesh, outcome.subdomains));
   outcome.supports = find_supports(mesh, patches, o, outcome.points);
   set_supports(elasticity, outcome.supports);
 
-  tell_of_factor(mesh, o, log);
+  set_order(elasticity, o, outcome);
+  tell_of_factor(mesh, outcome.order, o, log);
   // The mesh is factored before surgery; then each measurement takes milliseconds.
   log("factor", [&] { check(elasticity.factor(), o, controls); });
   elasticity.set_corotational(o.corotational);
@@ -257,4 +334,21 @@ std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_
   remove(elasticity, is_removed, o, log, outcome);
   tell_of_solver(elasticity, outcome);
   return is_removed;
+}
+
+} // namespace
+
+std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_patches& patches,
+                           const Options& o, Stage_log& log, Outcome& outcome)
+{
+  const Outcome without = outcome;
+  const std::vector<bool> is_removed = simulate_in_order(mesh, tumor, patches, o, log, outcome);
+  const bool is_inverted = outcome.before.inverted_elements > 0 || outcome.last().inverted_elements > 0;
+  if(o.order != Displacement_order::DEFAULT || outcome.order.order == "1" || !is_inverted)
+    return is_removed;
+  Options linear = o;
+  linear.order = Displacement_order::LINEAR;
+  outcome = without;
+  outcome.order.reason = "elements that order 2 would invert";
+  return simulate_in_order(mesh, tumor, patches, linear, log, outcome);
 }

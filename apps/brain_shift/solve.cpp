@@ -76,13 +76,3 @@ void solve(Elasticity& elasticity, const Options& o, const Controls& controls)
   if(!is_solution(elasticity, result))
     refuse(result, o, controls);
 }
-
-Vector displacement_at(const CGAL::Mixed_meshes_3::Element_location_3& location, const Mesh& mesh,
-                       const std::vector<Vector>& displacements)
-{
-  Vector displacement{};
-  const auto element = mesh.element(location.element);
-  for(int k = 0; k < element.size(); ++k)
-    displacement = displacement + location.weights[std::size_t(k)] * displacements[element[k]];
-  return displacement;
-}

@@ -51,8 +51,4 @@ bool is_solution(const Elasticity& elasticity, const CGAL::Linear_elasticity_res
 /// \throw std::runtime_error like `check()`
 void solve(Elasticity& elasticity, const Options& options, const Controls& controls);
 
-/// The displacement of a point of the mesh.
-Vector displacement_at(const CGAL::Mixed_meshes_3::Element_location_3& location, const Mesh& mesh,
-                       const std::vector<Vector>& displacements);
-
 #endif // MIXED_MESH_3_APPS_BRAIN_SHIFT_SOLVE_H

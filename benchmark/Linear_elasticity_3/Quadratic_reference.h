@@ -138,12 +138,19 @@ private:
     }
   }
 
+  // A middle is prescribed if both of its ends are, as in `Linear_elasticity_3::prescribe_boundary()`: at the
+  // border of a patch, edges with a free end are free.
   void number_unknowns(const Boundary_displacement& load)
   {
+    const std::size_t first_middle = m_mesh.number_of_vertices();
+    const auto is_given = [&](std::size_t v) { return m_is_on_boundary[v] && load(m_points[v]); };
     m_unknown.assign(m_points.size(), -1);
     m_number_of_unknowns = 0;
     for(std::size_t v = 0; v < m_points.size(); ++v)
-      if(!m_is_on_boundary[v] || !load(m_points[v]))
+      if(!is_given(v)
+         || (v >= first_middle
+             && (m_unknown[std::size_t(m_ends[v - first_middle][0])] >= 0
+                 || m_unknown[std::size_t(m_ends[v - first_middle][1])] >= 0)))
         m_unknown[v] = m_number_of_unknowns++;
   }
 

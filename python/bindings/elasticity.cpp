@@ -102,6 +102,22 @@ public:
   {
   }
 
+  void set_order(int order)
+  {
+    require_supports_open("set_order");
+    if(order != 1 && order != 2)
+      throw std::invalid_argument("order: expected 1 or 2");
+    m_solver->order(order);
+  }
+
+  void set_order_2_within(double distance)
+  {
+    require_supports_open("set_order_2_within");
+    if(!(distance >= 0))
+      throw std::invalid_argument("order: expected a distance that is not negative");
+    m_solver->order_2_within(distance);
+  }
+
   void fix(const Marks& vertices)
   {
     require_supports_open("fix");
@@ -183,6 +199,20 @@ public:
     factor();
     check(m_solver->remove_elements(marks));
   }
+
+  int order() const { return m_solver->order(); }
+
+  py::array_t<std::uint32_t> edges() const
+  {
+    const auto& edges = m_solver->quadratic_edges();
+    py::array_t<std::uint32_t> result({py::ssize_t(edges.size()), py::ssize_t(2)});
+    for(std::size_t i = 0; i < edges.size(); ++i)
+      for(int k = 0; k < 2; ++k)
+        result.mutable_at(py::ssize_t(i), k) = edges[i][std::size_t(k)];
+    return result;
+  }
+
+  py::array_t<double> edge_coefficients() const { return array_of(m_solver->edge_coefficients()); }
 
   double energy() const { return m_solver->energy(); }
   py::array_t<double> control_forces() const { return array_of(m_solver->control_forces()); }
@@ -288,6 +318,11 @@ void add_elasticity(py::module_& module)
   py::register_exception<Elasticity_error>(module, "ElasticityError", PyExc_RuntimeError);
   py::class_<Elasticity>(module, "Elasticity")
     .def(py::init<std::shared_ptr<const Mesh>, const std::map<int, Material>&, const Material&>())
+    .def("set_order", &Elasticity::set_order)
+    .def("set_order_2_within", &Elasticity::set_order_2_within)
+    .def_property_readonly("order", &Elasticity::order)
+    .def_property_readonly("edges", &Elasticity::edges)
+    .def_property_readonly("edge_coefficients", &Elasticity::edge_coefficients)
     .def("fix", &Elasticity::fix)
     .def("slide", &Elasticity::slide)
     .def("touch", &Elasticity::touch, py::arg("vertices"), py::arg("gap") = 0.)

@@ -121,7 +121,8 @@ py::tuple label_surface(const Voxels& values, const Doubles& affine, const std::
 }
 
 py::tuple warp(const Voxels& values, const Doubles& affine, const Mesh& mesh, const Doubles& displacements,
-               const std::optional<Marks>& removed, bool is_of_labels)
+               const std::optional<Marks>& removed, bool is_of_labels,
+               const std::vector<std::array<std::uint32_t, 2>>& edges, const Doubles& edge_coefficients)
 {
   const mm3::Voxel_image_3 image = image_of(values, affine);
   const std::vector<Vector> vectors = vectors_of(displacements, "displacements");
@@ -130,6 +131,14 @@ py::tuple warp(const Voxels& values, const Doubles& affine, const Mesh& mesh, co
   mm3::Warp_options options;
   options.image_interpolation = is_of_labels ? mm3::Image_interpolation::NEAREST
                                              : mm3::Image_interpolation::LINEAR;
+  options.edge_coefficients = vectors_of(edge_coefficients, "edge_coefficients");
+  if(options.edge_coefficients.size() != edges.size())
+    throw std::invalid_argument("edge_coefficients: expected one for each edge");
+  for(const auto& [v, w] : edges) {
+    if(!(v < w && w < mesh.number_of_vertices()))
+      throw std::invalid_argument("edges: expected pairs of vertices, the smaller one first");
+    options.quadratic_edges.push_back({mm3::Vertex_index(v), mm3::Vertex_index(w)});
+  }
   if(removed)
     options.resected_elements = marks_of(*removed, mesh.number_of_elements(), "removed");
   mm3::Warped_image_3 warped;

@@ -236,6 +236,58 @@ inline Vec3 linear_field(const Vec3& p)
 
 inline Vec3 rigid_motion(const Vec3& p) { return Vec3{0.3, 0.1, -0.2} + cross(Vec3{0.2, -0.5, 0.7}, p); }
 
+struct Exact_solution
+{
+  const char* name;
+  Function displacement;
+  std::function<Vec3(const Elastic_material&)> force; // by volume, constant
+};
+
+// The field u_i = 1/2 p^T q_i p: the divergence of the stress is constant.
+// \param is_incompressible whether the field has no change of volume; else the force grows with the bulk
+// modulus
+inline Exact_solution quadratic_solution(bool is_incompressible)
+{
+  using Forms = std::array<std::array<Vec3, 3>, 3>;
+  Forms q = {{{{{0.8, 0.3, -0.4}, {0.3, -0.6, 0.5}, {-0.4, 0.5, 0.7}}},
+              {{{-0.5, 0.6, 0.2}, {0.6, 0.9, -0.3}, {0.2, -0.3, 0.4}}},
+              {{{0.3, -0.7, 0.5}, {-0.7, 0.2, 0.6}, {0.5, 0.6, -0.8}}}}};
+  for(int i = 0; i < 3 && is_incompressible; ++i) { // in the entries q_kki where k and i differ
+    const int k = (i + 1) % 3;
+    const double divergence = q[0][0][i] + q[1][1][i] + q[2][2][i];
+    q[k][k][i] -= divergence;
+    q[k][i][k] -= divergence;
+  }
+  return {is_incompressible ? "quadratic, incompressible" : "quadratic",
+          [q](const Vec3& p) {
+            Vec3 u{};
+            for(int i = 0; i < 3; ++i)
+              for(int j = 0; j < 3; ++j)
+                u[i] += p[j] * dot(q[i][j], p) / 2;
+            return u;
+          },
+          [q](const Elastic_material& m) {
+            Vec3 f{};
+            for(int i = 0; i < 3; ++i)
+              for(int k = 0; k < 3; ++k)
+                f[i] -= (m.lambda() + m.mu()) * q[k][k][i] + m.mu() * q[i][k][k];
+            return f;
+          }};
+}
+
+// The gradient of a harmonic function: in equilibrium and without change of volume for any material.
+inline Exact_solution harmonic_solution()
+{
+  return {"harmonic",
+          [](const Vec3& p) {
+            const double e = std::exp(1.5 * p[0]) / 3;
+            const double s = std::sin(0.9 * p[1]), cs = std::cos(0.9 * p[1]);
+            const double t = std::sin(1.2 * p[2]), ct = std::cos(1.2 * p[2]);
+            return Vec3{1.5 * e * s * t, 0.9 * e * cs * t, 1.2 * e * s * ct};
+          },
+          [](const Elastic_material&) { return Vec3{}; }};
+}
+
 inline Vec3 interpolated(const Mesh& mesh, const Field& u, const Vec3& p)
 {
   const Element_location_3 location = Element_locator_3<Mesh>(mesh).nearest(p);

@@ -636,6 +636,20 @@ void test_order_2(const fs::path& directory)
   BOOST_TEST(contents(inp).find("TYPE=C3D10,") != std::string::npos);
   fs::remove(inp);
 
+  // Values of all nodes are written as they are, not the means of ends; not with another mesh's nodes.
+  const IO::internal::Mesh_nodes<Mesh> nodes(mesh, 2);
+  std::vector<double> values(nodes.size(), 0);
+  values.back() = 4321.5;
+  options.vertex_data.push_back({"of_nodes", &values});
+  BOOST_TEST(refused("io_refused.vtu", "data \"of_nodes\" does not have the size of the mesh"));
+  options.tetrahedra = false;
+  const std::string msh = (directory / "io_of_nodes.msh2").string();
+  BOOST_TEST(IO::write_mixed_mesh(msh, mesh, options));
+  BOOST_TEST(contents(msh).find(" 4321.5") != std::string::npos);
+  fs::remove(msh);
+  options.order = 1;
+  BOOST_TEST(refused("io_refused.vtu", "data \"of_nodes\" does not have the size of the mesh"));
+
   for(Element_kind kind : element_kinds)
     for(const char* extension : {".vtu", ".msh", ".msh2"}) {
       Mesh read;

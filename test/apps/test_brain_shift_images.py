@@ -166,7 +166,7 @@ class Images(Case):
         """Labels come from the nearest voxel, and keep their type."""
         labels = np.floor(np.indices(self.values.shape).sum(0) / 5).astype(np.int16) % 7 * 100 - 200
         nibabel.save(nibabel.Nifti1Image(labels, self.affine), WORK / "labels.nii.gz")
-        arguments = [self.mesh, "--control-points", self.points, "--image", self.image]
+        arguments = [self.mesh, "--control-points", self.points, "--image", self.image, "--order", 1]
         told, _ = self.succeeds(*arguments, "--labels", WORK / "labels.nii.gz", "--tumor", self.tumor, "--field",
                                 "nifti", "--output-image", WORK / "labeled")
         self.assertEqual(told["inputs"]["labels"], str(WORK / "labels.nii.gz"))

@@ -201,7 +201,7 @@ class Supports(Case):
         width, middle = 60, VALUES[:, :3].mean(0)
         opening = self.file("opening_of_contact.off", cube_off(middle, width))
         common = (self.mesh, "--control-points", self.points, "--control-radius", 8, "--fixed-below", 0.05,
-                  "--opening", opening)
+                  "--opening", opening, "--order", 1) # contact needs it
         free, _ = self.succeeds(*common)
         sliding, _ = self.succeeds(*common, "--slide", "skull")
         told, out = self.succeeds(*common, "--contact", "skull", "--output", WORK / "contact.feb")

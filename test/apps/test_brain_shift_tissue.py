@@ -52,10 +52,46 @@ class Tissue(Case):
         move = lambda length: HEADER + "".join(f"{x},{y},4,0,0,{-length}\n" for x, y, z in CUBE if z == 0)
         return mesh, move
 
+    def test_order(self):
+        """Order 2 is the default with a radius, unless what is asked for needs order 1; files have the middles of edges
+        if asked."""
+        run = lambda *more: self.succeeds(self.mesh, "--control-points", self.points, "--control-radius", 8, *more)
+        default, out = run("--output", WORK / "default.vtu")
+        quadratic, _ = run("--order", 2, "--output", WORK / "quadratic.vtu", "--output-order", 2)
+        linear, told = run("--order", 1, "--output", WORK / "linear.vtu", "--output-order", 2)
+        region, _ = run("--order", "region")
+        nodes = [r["order"]["nodes"] for r in (linear, region, quadratic)]
+        self.assertEqual(nodes[0], linear["inputs"]["mesh"]["vertices"])
+        self.assertEqual(nodes, sorted(set(nodes)))
+        self.assertEqual([r["order"]["order"] for r in (linear, region, quadratic)], ["1", "region", "2"])
+        self.assertEqual(quadratic["order"], {**default["order"], "unknowns": 3 * nodes[2]})
+        self.assertEqual(quadratic["shift"], default["shift"])
+        self.assertIn(f"order 2: {nodes[2]} nodes, {3 * nodes[2]} unknowns\n", out.stdout)
+        self.assertIn(f"order 1: {nodes[0]} nodes, {3 * nodes[0]} unknowns\n", told.stdout)
+        # more freedom, less energy
+        energies = [r["shift"]["energy"] for r in (quadratic, region, linear)]
+        self.assertEqual(energies, sorted(energies))
+        files = [self.read(WORK / f"{name}.vtu") for name in ("default", "quadratic", "linear")]
+        u = [vtk_to_numpy(f.GetPointData().GetArray("displacement")) for f in files]
+        self.assertEqual([len(x) for x in u], [nodes[0], nodes[2], nodes[2]])
+        self.assertTrue(np.array_equal(u[0], u[1][:nodes[0]]))
+        self.assertGreater(np.abs(u[1] - u[2]).max(), 0.1)
+        contact, out = run("--contact", "skull")
+        self.assertEqual(contact["order"], {**linear["order"], "because of": "--contact"})
+        self.assertIn(f"order 1 because of --contact: {nodes[0]} nodes", out.stdout)
+        single, _ = self.succeeds(self.mesh, "--control-points", self.points)
+        self.assertEqual(single["order"], {**linear["order"], "because of": "control points without --control-radius"})
+        narrow, _ = self.succeeds(self.mesh, "--control-points", self.points, "--control-radius", 4)
+        self.assertEqual(narrow["order"], {**linear["order"], "because of": "elements that order 2 would invert"})
+        for option in (("--contact", "skull"), ("--corotational",), ("--febio", WORK / "no.feb")):
+            for order in (2, "region"):
+                self.fails(self.mesh, "--control-points", self.points, *option, "--order", order, names="--order", status=2,
+                           words="only order 1 can be had with " + option[0])
+
     def test_materials(self):
         mesh, move = self.column()
         run = lambda *more, points=move(0.3): self.succeeds(mesh, "--control-points", self.file("top.csv", points),
-                                                            "--output", WORK / "column.vtu", *more)[0]
+                                                            "--order", 1, "--output", WORK / "column.vtu", *more)[0]
         fixed = ("--fixed-below", 0.1, "--poisson-ratio", 0)
         for materials, moduli in (((), (2, 2)), (("--material", "3=4,0"), (4, 2)),
                                   (("--material", "5=8,0", "--material", "3=0.5,0"), (0.5, 8)),

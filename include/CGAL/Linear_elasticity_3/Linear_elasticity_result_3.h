@@ -31,8 +31,10 @@ enum class Linear_elasticity_status {
   CONTROL_POINT_OUTSIDE, ///< `control_point` is `distance` outside the mesh
   CONTRADICTORY_CONTROL_POINTS, ///< the displacement of `control_point` cannot be had with the others
   SOLVER_FAILED, ///< the system is not positive definite: elements are connected by hinges only
-  NOT_CONVERGED  ///< no equilibrium of finite rotations was found, or none of contacts: the loads are too
+  NOT_CONVERGED, ///< no equilibrium of finite rotations was found, or none of contacts: the loads are too
                  ///< large, or it is unstable
+  ORDER_NOT_SUPPORTED ///< displacements of order 2 cannot be had with contacts, with finite rotations, or
+                      ///< with an iterative solver that wants rigid motions
 };
 
 /// \ingroup PkgLinearElasticity3Ref
@@ -85,6 +87,9 @@ struct Linear_elasticity_result_3
       break;
     case Linear_elasticity_status::NOT_CONVERGED:
       out << "no equilibrium was found: too much is asked for, or the body buckles";
+      break;
+    case Linear_elasticity_status::ORDER_NOT_SUPPORTED:
+      out << "displacements of order 2 cannot be had with contacts, finite rotations or iterative solvers";
       break;
     }
     return out.str();

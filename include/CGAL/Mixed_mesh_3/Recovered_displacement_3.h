@@ -14,11 +14,13 @@
 #include <CGAL/Mixed_mesh_3/Element_location_3.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/Quadratic_field.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/edge_bubbles.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/recover_gradients.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/with_kind.h>
 
 #include <CGAL/assertions.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <iterator>
@@ -33,7 +35,8 @@ namespace Mixed_meshes_3 {
 /// The way in which displacements between vertices are computed from the displacements of the vertices.
 enum class Displacement_interpolation {
   LINEAR,   ///< shape functions of the elements
-  RECOVERED ///< shape functions and gradients of the displacement: see `Recovered_displacement_3`
+  RECOVERED ///< shape functions and gradients of the displacement, or the functions of edges in elements of
+            ///< order 2: see `Recovered_displacement_3`
 };
 
 /// \ingroup PkgMixedMesh3Fields
@@ -102,6 +105,9 @@ b_{ij} = 0 \f$. The criterion is that at a vertex, the middle of an edge or the 
 I + \nabla u \f$ is less than a quarter of its value with shape functions only, which leaves room for other
 places between these points.
 
+The displacement in elements of order 2 is a sum over pairs of vertices, too. It is given by the coefficients
+of edges, `Linear_elasticity_3::edge_coefficients()`, and nothing is recovered then.
+
 The mesh must outlive the object and not change.
 
 \tparam Mesh a `Mixed_mesh_3`
@@ -117,7 +123,8 @@ private:
   const Mesh* m_mesh;
   std::vector<Vec3> m_displacements;
   std::vector<bool> m_is_removed;
-  internal::Vertex_gradients m_gradients;
+  std::optional<internal::Vertex_gradients> m_gradients; // none if edges have coefficients
+  internal::Edge_vectors m_coefficients;
   std::vector<bool> m_is_linear; // vertices: a pair of them has no bubble
   std::size_t m_number_of_linear_elements = 0;
 
@@ -134,7 +141,7 @@ private:
 
   Vec3 position(Vertex_index v) const { return to_vec3(m_mesh->point(v)); }
 
-  // The bubble b_ij of any two vertices.
+  // The bubble b_ij of any two vertices, by their gradients.
   Vec3 bubble(Vertex_index v, Vertex_index w) const
   {
     Vec3 sum{};
@@ -142,11 +149,11 @@ private:
       return sum;
     const Vec3 edge = position(w) - position(v);
     int n = 0;
-    auto j = m_gradients.begin(w);
-    for(auto i = m_gradients.begin(v); i != m_gradients.end(v); ++i) {
-      while(j != m_gradients.end(w) && j->subdomain < i->subdomain)
+    auto j = m_gradients->begin(w);
+    for(auto i = m_gradients->begin(v); i != m_gradients->end(v); ++i) {
+      while(j != m_gradients->end(w) && j->subdomain < i->subdomain)
         ++j;
-      if(j == m_gradients.end(w))
+      if(j == m_gradients->end(w))
         break;
       if(j->subdomain != i->subdomain)
         continue;
@@ -155,6 +162,19 @@ private:
       ++n;
     }
     return n == 0 ? sum : (0.5 / n) * sum;
+  }
+
+  // The bubbles of an element, by the coefficients of its edges.
+  internal::Bubbles bubbles_of_edges(const Element_view& element) const
+  {
+    std::array<Vec3, internal::largest_number_of_edges> coefficients{};
+    for(int i = 0; i < element.reference().number_of_edges; ++i) {
+      const Vertex_index v = element[element.reference().edges[i][0]],
+                         w = element[element.reference().edges[i][1]];
+      if(!(m_is_linear[v] && m_is_linear[w]))
+        coefficients[std::size_t(i)] = m_coefficients(v, w);
+    }
+    return internal::bubbles_of_edges(element.kind(), coefficients);
   }
 
   // Whether the element keeps its orientation at the test points.
@@ -213,9 +233,32 @@ public:
                            std::vector<bool> removed_elements = {},
                            Gradient_recovery recovery = Gradient_recovery::AVERAGE)
     : m_mesh(&mesh), m_displacements(vectors(mesh, displacements)), m_is_removed(std::move(removed_elements)),
-      m_gradients(
-        mesh, [this](Element_index e) { return !is_removed(e); }, m_displacements,
-        recovery == Gradient_recovery::LEAST_SQUARES),
+      m_is_linear(mesh.number_of_vertices(), false)
+  {
+    CGAL_precondition(m_is_removed.empty() || m_is_removed.size() == mesh.number_of_elements());
+    m_gradients.emplace(
+      mesh, [this](Element_index e) { return !is_removed(e); }, m_displacements,
+      recovery == Gradient_recovery::LEAST_SQUARES);
+    find_linear_elements();
+  }
+
+  /*!
+  Takes the displacement of elements of order 2.
+
+  \param mesh the mesh, before the displacement
+  \param displacements vector for each vertex, with components `[0]`, `[1]`, `[2]`
+  \param edges both ends of each edge with a coefficient, the smaller one first
+  \param coefficients vector for each of `edges`: the displacement of its middle minus the mean of its ends
+  \param removed_elements true for each element that has been removed; empty: none
+  \pre there is a displacement for each vertex, and a coefficient for each edge; `removed_elements` is empty
+  or has a value for each element
+  */
+  template <class Displacements>
+  Recovered_displacement_3(const Mesh& mesh, const Displacements& displacements,
+                           const std::vector<std::array<Vertex_index, 2>>& edges,
+                           const std::vector<Vec3>& coefficients, std::vector<bool> removed_elements = {})
+    : m_mesh(&mesh), m_displacements(vectors(mesh, displacements)), m_is_removed(std::move(removed_elements)),
+      m_coefficients(mesh.number_of_vertices(), edges, coefficients),
       m_is_linear(mesh.number_of_vertices(), false)
   {
     CGAL_precondition(m_is_removed.empty() || m_is_removed.size() == mesh.number_of_elements());
@@ -226,13 +269,19 @@ public:
   Vec3 operator()(const Element_location_3& location) const
   {
     const Element_view element = m_mesh->element(location.element);
+    internal::Bubbles of_edges{};
+    if(!m_gradients)
+      of_edges = bubbles_of_edges(element);
     Vec3 u{};
     for(int j = 0; j < element.size(); ++j) {
       const double weight = location.weights[j];
       u = u + weight * m_displacements[element[j]];
       for(int i = 0; i < j; ++i)
         if(weight * location.weights[i] != 0)
-          u = u + (weight * location.weights[i]) * bubble(element[i], element[j]);
+          u = u
+              + (weight * location.weights[i])
+                  * (m_gradients ? bubble(element[i], element[j])
+                                 : of_edges[std::size_t(internal::pair_index(i, j))]);
     }
     return u;
   }
@@ -271,13 +320,14 @@ public:
   std::optional<internal::Bubbles> bubbles(const Element_view& element) const
   {
     internal::Bubbles b{};
-    bool is_any = false;
-    for(int j = 1; j < element.size(); ++j)
-      for(int i = 0; i < j; ++i) {
-        const Vec3 c = bubble(element[i], element[j]);
-        b[std::size_t(internal::pair_index(i, j))] = c;
-        is_any = is_any || c[0] != 0 || c[1] != 0 || c[2] != 0;
-      }
+    if(m_gradients) {
+      for(int j = 1; j < element.size(); ++j)
+        for(int i = 0; i < j; ++i)
+          b[std::size_t(internal::pair_index(i, j))] = bubble(element[i], element[j]);
+    } else {
+      b = bubbles_of_edges(element);
+    }
+    const bool is_any = std::any_of(b.begin(), b.end(), [](const Vec3& c) { return c != Vec3{}; });
     return is_any ? std::optional<internal::Bubbles>(b) : std::nullopt;
   }
   /// \endcond

@@ -57,6 +57,12 @@ struct Warp_options
   std::optional<double> fade_distance;
   /// The way in which displacements between vertices are computed from the displacements of the vertices.
   Displacement_interpolation interpolation = Displacement_interpolation::RECOVERED;
+  /// Both ends of each edge with a coefficient, in elements of order 2: see
+  /// `Linear_elasticity_3::quadratic_edges()`. If there are any, displacements of elements of order 2 take
+  /// the place of `RECOVERED` ones.
+  std::vector<std::array<Vertex_index, 2>> quadratic_edges;
+  /// The coefficient of each of `quadratic_edges`, in millimeters.
+  std::vector<Vec3> edge_coefficients;
   /// The way in which values between the voxels of the image are computed from the values of voxels.
   Image_interpolation image_interpolation = Image_interpolation::LINEAR;
   /// Elements that have been removed, true for each; empty: none. The displacements of vertices that only
@@ -259,7 +265,7 @@ outside the remaining mesh that come from a resected element.
 \param mesh the mesh before the deformation
 \param displacements displacements of the vertices, in millimeters
 \param options removed elements and points, and treatment of the outside
-\pre there is a displacement for each vertex
+\pre there is a displacement for each vertex, and a coefficient for each of the quadratic edges
 \return the image, both fields, and the mask
 \throw std::runtime_error a line, if the image and the mesh do not overlap, or if a displacement is not finite
 \par Complexity
@@ -273,8 +279,13 @@ Warped_image_3 warp_image(const Voxel_image_3& image, const Mesh& mesh, const Di
   CGAL_precondition(image.values.size() == grid.number_of_voxels());
   const internal::Mesh_in_grid mesh_in_grid(grid, mesh, displacements, options);
   std::optional<Recovered_displacement_3<Mesh>> recovered;
-  if(options.interpolation == Displacement_interpolation::RECOVERED)
-    recovered.emplace(mesh, mesh_in_grid.displacements, options.resected_elements);
+  if(options.interpolation == Displacement_interpolation::RECOVERED) {
+    if(options.quadratic_edges.empty())
+      recovered.emplace(mesh, mesh_in_grid.displacements, options.resected_elements);
+    else
+      recovered.emplace(mesh, mesh_in_grid.displacements, options.quadratic_edges, options.edge_coefficients,
+                        options.resected_elements);
+  }
   const auto bubbles_of = [&recovered](const Element_view& element) {
     return recovered ? recovered->bubbles(element) : std::nullopt;
   };

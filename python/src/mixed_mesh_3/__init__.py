@@ -525,13 +525,15 @@ def resect(mesh, points=None, triangles=None, *, label=None):
     return _core.resect_elements(mesh, mesh.labels == _label(mesh, label)) if points is None else _core.resect(mesh, points, triangles)
 
 
-def warp(image, affine, mesh, displacements, *, removed=None, is_of_labels=False):
+def warp(image, affine, mesh, displacements, *, removed=None, is_of_labels=False, edges=(), edge_coefficients=()):
     """An image that follows the displacements of a mesh's vertices.
 
-    removed: elements that were resected. is_of_labels: values are those of the nearest voxel. Returns the image, the
+    edges, edge_coefficients: those of Elasticity, for displacements of order 2. removed: elements that were resected.
+    is_of_labels: values are those of the nearest voxel. Returns the image, the
     forward and backward displacement fields, of shape (i, j, k, 3) in mm, and a mask: 0 outside, 1 tissue, 2 resected.
     """
-    warped, *rest = _core.warp(image, affine, mesh, displacements, removed, is_of_labels)
+    warped, *rest = _core.warp(image, affine, mesh, displacements, removed, is_of_labels, edges,
+                               _np.reshape(edge_coefficients, (-1, 3)))
     return (warped.astype(_np.asarray(image).dtype) if is_of_labels else warped, *rest)
 
 
@@ -546,12 +548,18 @@ class Elasticity(_core.Elasticity):
 
     young_modulus is in kPa, density in kg/mm^3. materials: {label: (young_modulus, poisson_ratio)}, with an optional
     density as third entry, for labels, or names of labels, with another material. Vertices are chosen by an array of truth
-    values, or by indices. Errors raise ElasticityError, with the reason.
+    values, or by indices. order: of displacements in elements, 1 or 2, or "region" for 2 in the region of the mesh and 4 mm
+    around, both without contact and finite rotations. With order 2, the middle of edges[i] has the mean displacement of both
+    ends plus edge_coefficients[i]. Errors raise ElasticityError, with the reason.
     """
 
-    def __init__(self, mesh, young_modulus=1.0, poisson_ratio=_POISSON_RATIO, density=1e-6, *, materials=None):
+    def __init__(self, mesh, young_modulus=1.0, poisson_ratio=_POISSON_RATIO, density=1e-6, *, materials=None, order=1):
         super().__init__(mesh, _materials(mesh, materials, density), (young_modulus, poisson_ratio, density))
         self._numbers = len(mesh.points), len(mesh.kinds)
+        if order == "region":
+            self.set_order_2_within(4.0)
+        else:
+            self.set_order(order)
 
     def fix(self, vertices):
         """Vertices that stay where they are. Supports are set before the first control points and the first solution, and

@@ -19,7 +19,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The weights of the vertices whose weighted mean displacement is that of a control point.
+/// The weights of the nodes whose weighted sum of displacements is that of a control point: the weights of
+/// vertices, which are first, add up to 1.
 using Control_weights = std::vector<std::pair<Vertex_index, double>>;
 
 /// The options of control points; see `Linear_elasticity_3::set_control_points()`.

@@ -22,6 +22,9 @@
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Element_locator_3.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/edge_functions.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/with_kind.h>
+#include <CGAL/Mixed_mesh_3/internal/fem/Element_nodes.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/assertions.h>
@@ -40,16 +43,35 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
+/// The values of the shape functions of an element's nodes at a point, but zeros.
+inline Control_weights node_weights(const Element_view& element, const Nodes_of_element& nodes,
+                                    const Element_location_3& location)
+{
+  Control_weights weights;
+  for(int i = 0; i < element.size(); ++i)
+    if(location.weights[i] != 0)
+      weights.emplace_back(element[i], location.weights[i]);
+  if(nodes.order() == 1)
+    return weights;
+  const auto of_edges = with_kind(element.kind(),
+                                  [&](auto kind) { return edge_functions<kind>(location.coordinates); });
+  for(int i = element.size(); i < nodes.size(); ++i)
+    if(const double w = of_edges[std::size_t(nodes.function(i) - element.size())].value; w != 0)
+      weights.emplace_back(nodes[i], w);
+  return weights;
+}
+
 /// The elements that are left, and the location of points in them.
 class Located_elements
 {
   using Kernel = CGAL::Simple_cartesian<double>; // points are in doubles
   using Mesh = Mixed_mesh_3<Kernel>;
 
-  std::vector<Element_index> m_elements; // numbers of the elements in the whole mesh
-  Mesh m_mesh;                           // mesh of the elements, with all vertices
-  Element_locator_3<Mesh> m_locator;     // refers to m_mesh
-  std::vector<double> m_areas;           // areas of the vertices of the boundary, when needed
+  std::vector<Element_index> m_elements;        // numbers of the elements in the whole mesh
+  Mesh m_mesh;                                  // mesh of the elements, with all vertices
+  Element_locator_3<Mesh> m_locator;            // refers to m_mesh
+  std::optional<Boundary_integrals> m_boundary; // when needed, as the nodes of edges
+  Nodes_of_edges m_nodes_of_edges;
 
 public:
   Located_elements(const Element_list& elements, const std::vector<Vec3>& points,
@@ -68,33 +90,36 @@ public:
   /// The number of an element in the whole mesh.
   Element_index element(const Element_location_3& location) const { return m_elements[location.element]; }
 
-  Control_weights weights(const Element_location_3& location) const
+  /// The values of the shape functions of an element's nodes.
+  Control_weights weights(const Element_location_3& location, const Element_nodes& all) const
   {
-    Control_weights weights;
-    const Element_view element = m_mesh.element(location.element);
-    for(int i = 0; i < element.size(); ++i)
-      if(location.weights[i] != 0)
-        weights.emplace_back(element[i], location.weights[i]);
-    return weights;
+    return node_weights(m_mesh.element(location.element), all[element(location)], location);
   }
 
-  /// Spreads weights over the boundary around a point, by area; unchanged if there are too few vertices.
-  void spread(const std::vector<Vec3>& points, const Vec3& p, double radius, Control_weights& weights)
+  /// Spreads weights over the boundary around a point, by area; unchanged if there are too few vertices. The
+  /// weighted sum is a mean of the field, also between vertices.
+  void spread(const std::vector<Vec3>& points, const Element_nodes& nodes, const Vec3& p, double radius,
+              Control_weights& weights)
   {
-    if(m_areas.empty())
-      m_areas = boundary_vertex_areas(m_mesh);
-    Control_weights around;
-    double sum = 0;
-    for(Vertex_index v = 0; v < points.size(); ++v)
-      if(m_areas[v] > 0 && norm(points[v] - p) <= radius) {
-        around.emplace_back(v, m_areas[v]);
-        sum += m_areas[v];
+    if(!m_boundary) {
+      m_boundary.emplace(m_mesh);
+      for(std::size_t i = 0; i < nodes.ends().size(); ++i)
+        m_nodes_of_edges.emplace(nodes.ends()[i], Vertex_index(nodes.number_of_vertices() + i));
+    }
+    const auto integrals = (*m_boundary)([&](Vertex_index v) { return norm(points[v] - p) <= radius; },
+                                         m_nodes_of_edges);
+    int number_of_vertices = 0;
+    double area = 0;
+    for(const auto& [node, integral] : integrals)
+      if(node < nodes.number_of_vertices()) {
+        ++number_of_vertices;
+        area += integral;
       }
-    if(around.size() < 3)
+    if(number_of_vertices < 3)
       return;
-    for(auto& [v, w] : around)
-      w /= sum;
-    weights = std::move(around);
+    weights.clear();
+    for(const auto& [node, integral] : integrals)
+      weights.emplace_back(node, integral / area);
   }
 
 private:
@@ -145,7 +170,7 @@ public:
   /// Whether the points act on the remaining body only.
   bool are_on(const Elastic_body& body) const
   {
-    return (!m_constraints || m_constraints->is_on(body.supports().kept_vertices()))
+    return (!m_constraints || m_constraints->is_on(body.supports().kept_nodes()))
            && std::none_of(m_elements.begin(), m_elements.end(),
                            [&](Element_index e) { return body.stiffness().is_removed(e); });
   }
@@ -169,9 +194,10 @@ public:
         return result;
       }
       elements.push_back(m_located->element(location));
-      weights.push_back(m_located->weights(location));
+      weights.push_back(m_located->weights(location, body.stiffness().nodes()));
       if(m_options.radius > 0)
-        m_located->spread(body.stiffness().points(), p, m_options.radius, weights.back());
+        m_located->spread(body.stiffness().points(), body.stiffness().nodes(), p, m_options.radius,
+                          weights.back());
     }
     const Result result = constrain(body, std::move(weights));
     if(result.is_success()) {

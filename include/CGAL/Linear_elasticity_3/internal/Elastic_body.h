@@ -20,10 +20,12 @@
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/fem/Element_nodes.h>
 
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -77,6 +79,16 @@ public:
     m_is_loaded = false;
   }
 
+  /// Sets the elements whose displacements are quadratic; none if empty. The body is no longer assembled.
+  void set_quadratic_elements(const std::vector<bool>& is_quadratic)
+  {
+    clear();
+    const Element_list& elements = m_stiffness.elements();
+    const std::size_t n = m_stiffness.number_of_vertices();
+    m_stiffness.set_nodes(is_quadratic.empty() ? Element_nodes(elements, n)
+                                               : Element_nodes(elements, n, is_quadratic));
+  }
+
   bool is_assembled() const { return m_stiffness.is_assembled(); }
 
   void clear()
@@ -88,6 +100,7 @@ public:
   void assemble()
   {
     m_stiffness.assemble();
+    m_supports.support_edges(m_stiffness);
     m_supports.find_parts(m_stiffness);
   }
 
@@ -112,19 +125,19 @@ public:
     return false;
   }
 
-  /// Solves for several columns of forces on all vertices.
+  /// Solves for several columns of forces on all nodes.
   bool solve(const Eigen::MatrixXd& forces, Eigen::MatrixXd& displacements)
   {
     return m_system.solve(m_supports, forces, displacements);
   }
 
-  /// Selects vertices for `solve_selected()`. \pre factored
-  void select(const std::vector<Vertex_index>& vertices)
+  /// Selects nodes for `solve_selected()`. \pre factored
+  void select(const std::vector<Vertex_index>& nodes)
   {
-    m_system.select(vertices, m_stiffness.number_of_vertices());
+    m_system.select(nodes, m_stiffness.number_of_nodes());
   }
 
-  /// Solves for forces in free directions on the selected vertices, and returns the displacements of these,
+  /// Solves for forces in free directions on the selected nodes, and returns the displacements of these,
   /// perhaps in single precision.
   bool solve_selected(const Eigen::VectorXd& forces, Eigen::VectorXd& displacements)
   {
@@ -136,10 +149,10 @@ public:
   {
     if(m_is_loaded)
       return true;
-    const Eigen::Index n = 3 * Eigen::Index(m_stiffness.number_of_vertices());
+    const Eigen::Index n = 3 * Eigen::Index(m_stiffness.number_of_nodes());
     Eigen::VectorXd force = Eigen::VectorXd::Zero(n), supported = Eigen::VectorXd::Zero(n);
     bool is_supported = false, has_force = false;
-    for(Vertex_index v = 0; v < m_stiffness.number_of_vertices(); ++v)
+    for(Vertex_index v = 0; v < m_stiffness.number_of_nodes(); ++v)
       if(m_supports.is_kept(v))
         for(int k = 0; k < 3; ++k) {
           const double u = m_supports.of_vertices()[v].displacement[k];

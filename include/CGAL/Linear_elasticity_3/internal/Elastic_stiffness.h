@@ -19,6 +19,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/element_measures.h>
 #include <CGAL/Mixed_mesh_3/internal/fem/Elasticity_system.h>
+#include <CGAL/Mixed_mesh_3/internal/fem/Element_nodes.h>
 #include <CGAL/Mixed_mesh_3/internal/fem/element_stiffness.h>
 #include <CGAL/Mixed_mesh_3/internal/fem/quadrature.h>
 
@@ -41,8 +42,8 @@ namespace internal {
 /// The difference of two matrices K: former minus present one.
 struct Stiffness_change
 {
-  std::vector<Vertex_index> vertices; // those whose rows or columns differ
-  Eigen::SparseMatrix<double> matrix; // of these vertices: the lower triangle
+  std::vector<Vertex_index> nodes;    // those whose rows or columns differ
+  Eigen::SparseMatrix<double> matrix; // of these nodes: the lower triangle
 };
 
 class Elastic_stiffness
@@ -51,11 +52,12 @@ class Elastic_stiffness
 
   const Element_list* m_elements;
   std::vector<Vec3> m_points;
+  Element_nodes m_nodes;
   std::vector<Elastic_material> m_materials; // one for all, or one for each element
   std::vector<bool> m_is_removed;            // one value for each element
   Patches m_patches;
   std::vector<std::size_t> m_patch_of;       // patch of each element
-  std::optional<Elasticity_system> m_system; // system of all vertices
+  std::optional<Elasticity_system> m_system; // system of all nodes
   std::vector<double> m_factored;            // values when factored, if elements have been removed since
 
 public:
@@ -64,8 +66,8 @@ public:
   /// \param materials one material for all elements, or one for each
   Elastic_stiffness(const Element_list& elements, std::vector<Vec3> points,
                     std::vector<Elastic_material> materials)
-    : m_elements(&elements), m_points(std::move(points)), m_materials(std::move(materials)),
-      m_is_removed(elements.size(), false)
+    : m_elements(&elements), m_points(std::move(points)), m_nodes(elements, m_points.size()),
+      m_materials(std::move(materials)), m_is_removed(elements.size(), false)
   {
     CGAL_precondition(m_materials.size() == 1 || m_materials.size() == elements.size());
     for([[maybe_unused]] const Elastic_material& m : m_materials)
@@ -77,10 +79,23 @@ public:
   const std::vector<Vec3>& points() const { return m_points; }
   std::size_t number_of_vertices() const { return m_points.size(); }
 
-  /// The treatment of dilatation for an element that is not in a patch, and for one that is.
+  /// The nodes: vertices, and edges of quadratic elements.
+  const Element_nodes& nodes() const { return m_nodes; }
+  std::size_t number_of_nodes() const { return m_nodes.number_of_nodes(); }
+  /// Sets the nodes. \pre not assembled
+  void set_nodes(Element_nodes nodes)
+  {
+    CGAL_precondition(!is_assembled());
+    m_nodes = std::move(nodes);
+  }
+
+  /// The treatment of dilatation for an element with quadratic displacements, which do not lock, for one that
+  /// is not in a patch, and for one that is.
   Dilatation dilatation(Element_index e) const
   {
-    return m_patch_of[e] == no_patch ? Dilatation::MEAN : Dilatation::PATCH;
+    return m_nodes.has_edges(e)        ? Dilatation::POINTWISE
+           : m_patch_of[e] == no_patch ? Dilatation::MEAN
+                                       : Dilatation::PATCH;
   }
   /// The remaining elements of each patch. \pre assembled
   const Patches& patches() const { return m_patches; }
@@ -118,8 +133,9 @@ public:
       if(!m_is_removed[e]) {
         const Element_view element = (*m_elements)[e];
         const Element_points points = points_of(element);
-        for(int q = 0; q < quadrature_rule(element.kind()).number_of_points; ++q)
-          if(!(strain_operator(element.kind(), points, q).volume > 0))
+        const Quadrature_rule& rule = rule_of(e);
+        for(int q = 0; q < rule.number_of_points; ++q)
+          if(!(strain_operator(rule, points, q).volume > 0))
             return e;
       }
     return Element_index(m_elements->size());
@@ -137,7 +153,7 @@ public:
   {
     const auto is_together = [this](Element_index e, Element_index f) {
       const Elastic_material &a = material(e), &b = material(f);
-      return !m_is_removed[e] && !m_is_removed[f]
+      return !m_is_removed[e] && !m_is_removed[f] && !m_nodes.has_edges(e) && !m_nodes.has_edges(f)
              && std::tie(a.young_modulus, a.poisson_ratio) == std::tie(b.young_modulus, b.poisson_ratio);
     };
     m_patches = dilatation_patches(*m_elements, m_points.size(), is_together);
@@ -148,7 +164,7 @@ public:
       for(Element_index e : m_patches[i])
         m_patch_of[e] = i;
     }
-    m_system.emplace(*m_elements, std::vector<bool>(m_points.size(), true), patch_vertices);
+    m_system.emplace(m_nodes, std::vector<bool>(number_of_nodes(), true), patch_vertices);
     m_system->clear();
     m_factored.clear();
     for(Element_index e = 0; e < m_elements->size(); ++e)
@@ -200,7 +216,7 @@ public:
       double value;
     };
     std::vector<Entry> entries;
-    std::vector<int> number(m_points.size(), -1);
+    std::vector<int> number(number_of_nodes(), -1);
     for(int column = 0; column < m_system->number_of_unknowns(); ++column)
       for(int i = m_system->starts()[column]; i < m_system->starts()[column + 1]; ++i)
         if(m_factored[i] != values[i]) {
@@ -210,34 +226,34 @@ public:
     Stiffness_change change;
     for(Vertex_index v = 0; v < number.size(); ++v)
       if(number[v] == 0) {
-        number[v] = int(change.vertices.size());
-        change.vertices.push_back(v);
+        number[v] = int(change.nodes.size());
+        change.nodes.push_back(v);
       }
     std::vector<Eigen::Triplet<double>> triplets;
     triplets.reserve(entries.size());
     const auto index = [&](int i) { return 3 * number[std::size_t(i) / 3] + i % 3; };
     for(const Entry& e : entries)
       triplets.emplace_back(index(e.row), index(e.column), e.value);
-    const int n = 3 * int(change.vertices.size());
+    const int n = 3 * int(change.nodes.size());
     change.matrix.resize(n, n);
     change.matrix.setFromTriplets(triplets.begin(), triplets.end());
     return change;
   }
 
-  /// The matrix K of all vertices: vertices without an element have zeros. \pre assembled
+  /// The matrix K of all nodes: nodes without an element have zeros. \pre assembled
   const Elasticity_system& system() const
   {
     CGAL_precondition(is_assembled());
     return *m_system;
   }
 
-  /// The product K u. The columns of a vertex are three, two and one entry on the diagonal, then three rows
+  /// The product K u. The columns of a node are three, two and one entry on the diagonal, then three rows
   /// for each neighbor, which are the same in each column. \pre assembled
   Eigen::VectorXd product(const Eigen::VectorXd& u) const
   {
     CGAL_precondition(is_assembled());
     Eigen::VectorXd f = Eigen::VectorXd::Zero(u.size());
-    for(std::size_t v = 0; v < m_points.size(); ++v) {
+    for(std::size_t v = 0; v < number_of_nodes(); ++v) {
       const int* start = &m_system->starts()[3 * v];
       const double* const columns[3] = {&m_system->values()[start[0]], &m_system->values()[start[1]] - 1,
                                         &m_system->values()[start[2]] - 2};
@@ -264,7 +280,7 @@ public:
     return f;
   }
 
-  /// Adds the forces on the vertices that result from forces by volume and an acceleration of the mass.
+  /// Adds the forces on the nodes that result from forces by volume and an acceleration of the mass.
   /// \param forces_by_volume one force for all elements, or one for each
   void add_body_forces(const std::vector<Vec3>& forces_by_volume, const Vec3& acceleration,
                        Eigen::VectorXd& force) const
@@ -276,17 +292,23 @@ public:
       const Element_points points = points_of(element);
       const Vec3& by_volume = forces_by_volume.size() == 1 ? forces_by_volume.front() : forces_by_volume[e];
       const Vec3 density = by_volume + material(e).density * acceleration;
-      const Quadrature_rule& rule = quadrature_rule(element.kind());
+      const Nodes_of_element nodes = m_nodes[e];
+      const Quadrature_rule& rule = rule_of(e);
       for(int q = 0; q < rule.number_of_points; ++q) {
-        const double volume = strain_operator(element.kind(), points, q).volume;
-        for(int a = 0; a < element.size(); ++a)
+        const double volume = strain_operator(rule, points, q).volume;
+        for(int a = 0; a < nodes.size(); ++a)
           for(int k = 0; k < 3; ++k)
-            force[3 * Eigen::Index(element[a]) + k] += volume * rule.values[q][a] * density[k];
+            force[3 * Eigen::Index(nodes[a]) + k] += volume * rule.values[q][nodes.function(a)] * density[k];
       }
     }
   }
 
 private:
+  const Quadrature_rule& rule_of(Element_index e) const
+  {
+    return quadrature_rule((*m_elements)[e].kind(), m_nodes.has_edges(e) ? 2 : 1);
+  }
+
   std::vector<Vertex_index> vertices_of(const std::vector<Element_index>& elements) const
   {
     std::vector<Vertex_index> vertices;

@@ -14,17 +14,23 @@
 #include <CGAL/license/Linear_elasticity_3.h>
 
 #include <CGAL/Linear_elasticity_3/internal/Elastic_stiffness.h>
+#include <CGAL/Linear_elasticity_3/internal/boundary_measures.h>
 #include <CGAL/Linear_elasticity_3/internal/rigid_modes.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/edge_bubbles.h>
+#include <CGAL/Mixed_mesh_3/internal/fem/Element_nodes.h>
 
 #include <CGAL/assertions.h>
 
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -50,10 +56,11 @@ struct Contact
 
 class Elastic_supports
 {
-  std::vector<Support> m_permanent; // support of each vertex, without contacts
+  std::vector<Support> m_permanent; // support of each node, without contacts
   std::vector<Support> m_supports;  // supports with closed contacts
   std::map<Vertex_index, Contact> m_contacts;
-  std::vector<bool> m_is_kept; // whether an element is left at each vertex
+  std::map<Edge_ends, std::optional<Vec3>> m_given_edges;
+  std::vector<bool> m_is_kept; // whether an element is left at each node
   std::vector<Elastic_part> m_parts;
 
 public:
@@ -81,6 +88,52 @@ public:
     m_contacts[v] = {(1 / norm(normal)) * normal, gap, gap <= 0};
   }
 
+  /// Holds an edge whose ends are prescribed, or leaves the edge free; else supports follow from those of
+  /// faces.
+  /// \param coefficient coefficient of the edge: the displacement of its middle minus the mean of its ends
+  void prescribe_edge(const Edge_ends& ends, const std::optional<Vec3>& coefficient)
+  {
+    m_given_edges[ends] = coefficient;
+  }
+
+  /*!
+  Supports the edges that are nodes, as the supports of vertices imply: an edge of a face of the boundary
+  whose vertices are all supported is held in the directions in which both ends are held, with the coefficient
+  0. So the face moves as if it were linear, and an edge through the inside is free, as is an edge with a free
+  end. To be called before `find_parts()`.
+  */
+  void support_edges(const Elastic_stiffness& stiffness)
+  {
+    const Element_nodes& nodes = stiffness.nodes();
+    m_permanent.resize(nodes.number_of_vertices());
+    std::vector<Edge_ends> of_faces;
+    if(nodes.has_edges())
+      for(const Face& face :
+          boundary_faces(Elements_of_vertices(nodes.elements(), nodes.number_of_vertices()),
+                         [this](Vertex_index v) { return m_permanent[v].size > 0; })) {
+        const Face_vertices& v = face.vertices();
+        for(int i = 0; i < v.size(); ++i) {
+          const auto [a, b] = std::minmax({v[i], v[(i + 1) % v.size()]});
+          of_faces.push_back({a, b});
+        }
+      }
+    std::sort(of_faces.begin(), of_faces.end());
+    for(const Edge_ends& ends : nodes.ends()) {
+      const Support a = m_permanent[ends[0]], b = m_permanent[ends[1]];
+      Support support;
+      if(const auto given = m_given_edges.find(ends); given != m_given_edges.end()) {
+        if(given->second && a.size == 3 && b.size == 3) {
+          support = a;
+          support.displacement = *given->second;
+        }
+      } else if(std::binary_search(of_faces.begin(), of_faces.end(), ends)) {
+        support = common_support(a, b);
+      }
+      m_permanent.push_back(support);
+    }
+    m_supports = m_permanent;
+  }
+
   /// Sets the displacement of a vertex. \pre the vertex is prescribed
   void set_displacement(Vertex_index v, const Vec3& displacement)
   {
@@ -88,7 +141,7 @@ public:
     m_permanent[v].displacement = m_supports[v].displacement = displacement;
   }
 
-  /// The supports of vertices, including closed contacts.
+  /// The supports of nodes, including closed contacts.
   const std::vector<Support>& of_vertices() const { return m_supports; }
 
   const std::map<Vertex_index, Contact>& contacts() const { return m_contacts; }
@@ -125,11 +178,13 @@ public:
     apply_contacts();
     m_parts.clear();
     m_is_kept.assign(m_supports.size(), false);
+    for(Element_index e = 0; e < stiffness.elements().size(); ++e)
+      if(!stiffness.is_removed(e))
+        for(Vertex_index node : stiffness.nodes()[e])
+          m_is_kept[node] = true;
     for(std::vector<Vertex_index>& vertices :
-        connected_vertices(stiffness.elements(), m_supports.size(),
+        connected_vertices(stiffness.elements(), stiffness.number_of_vertices(),
                            [&](Element_index e) { return !stiffness.is_removed(e); })) {
-      for(Vertex_index v : vertices)
-        m_is_kept[v] = true;
       std::vector<Rigid_mode> modes = free_rigid_modes(vertices, stiffness.points(), m_supports);
       m_parts.push_back({std::move(vertices), std::move(modes)});
     }
@@ -146,13 +201,13 @@ public:
     return n;
   }
 
-  const std::vector<bool>& kept_vertices() const { return m_is_kept; }
+  const std::vector<bool>& kept_nodes() const { return m_is_kept; }
   bool is_kept(Vertex_index v) const { return m_is_kept[v]; }
-  /// Whether a vertex may move in some direction when its contacts are open.
+  /// Whether a node may move in some direction when its contacts are open.
   bool may_be_free(Vertex_index v) const { return m_is_kept[v] && m_permanent[v].size < 3; }
-  /// Whether a vertex may move in some direction.
+  /// Whether a node may move in some direction.
   bool is_free(Vertex_index v) const { return m_is_kept[v] && m_supports[v].size < 3; }
-  /// Whether a vertex may move in all directions.
+  /// Whether a node may move in all directions.
   bool is_unsupported(Vertex_index v) const { return m_supports[v].size == 0 && m_is_kept[v]; }
 
   /// The component of a vector in free directions; zero if no element is left.
@@ -161,7 +216,7 @@ public:
     return m_is_kept[v] ? m_supports[v].free_part(u) : Vec3{};
   }
 
-  /// The components in free directions of a vector of three components for each vertex.
+  /// The components in free directions of a vector of three components for each node.
   Eigen::VectorXd free_part(Eigen::VectorXd f) const
   {
     for(Vertex_index v = 0; v < m_supports.size(); ++v) {

@@ -19,10 +19,12 @@
 #include <CGAL/Linear_elasticity_3/internal/Elasticity_solver.h>
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/Element_location_3.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -58,7 +60,7 @@ class Elasticity_model
   std::unique_ptr<Corotational_state> m_state;
   // of the last solution
   Eigen::VectorXd m_control_forces, m_control_residuals;
-  std::vector<Vec3> m_displacements;
+  std::vector<Vec3> m_displacements, m_edge_coefficients;
   std::vector<double> m_contact_forces;       // of vertices
   mutable std::optional<double> m_energy = 0; // of the last displacements; computed when asked for
 
@@ -86,7 +88,17 @@ public:
   void set_corotational(bool is_corotational);
   const std::vector<double>& residuals() const;
 
+  /// Sets the elements whose displacements are quadratic; none if empty.
+  void set_quadratic_elements(const std::vector<bool>& is_quadratic);
+  /// Has those elements quadratic that have a vertex within a distance of some elements.
+  void set_quadratic_within(double distance, const std::vector<bool>& of_elements);
+  /// Both ends of each edge with a coefficient, the smaller one first.
+  const std::vector<std::array<Vertex_index, 2>>& quadratic_edges() const;
+  const std::vector<Vec3>& edge_coefficients() const { return m_edge_coefficients; }
+
   void prescribe(Vertex_index v, const Vec3& displacement);
+  /// \param displacement displacement of a point of the boundary, if it is held
+  void prescribe_boundary(const std::function<std::optional<Vec3>(const Vec3&)>& displacement);
   void slide(Vertex_index v, const Vec3& normal);
   void slide_along_boundary(const std::function<bool(Vertex_index)>& is_sliding);
   void touch(Vertex_index v, const Vec3& normal, double gap);
@@ -105,6 +117,8 @@ public:
   Result solve(const std::vector<Vec3>& displacements);
 
   const std::vector<Vec3>& displacements() const { return m_displacements; }
+  /// The displacement at a point of an element.
+  Vec3 displacement(const Element_location_3& location) const;
   std::vector<Vec3> control_forces() const;
   std::vector<Vec3> control_residuals() const;
   std::vector<Control_weights> control_weights() const;
@@ -119,6 +133,8 @@ private:
   // For contacts that have changed.
   Result factor_again();
   bool has_contacts() const;
+  // Whether quadratic displacements can be had with everything else that was asked for.
+  bool is_order_supported() const;
   // Whether it failed with other contacts than at first.
   bool may_start_anew(const Result& result) const;
   // From the contacts as they are.

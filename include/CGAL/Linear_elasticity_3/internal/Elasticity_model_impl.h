@@ -24,6 +24,7 @@
 #include <CGAL/Linear_elasticity_3/internal/removal.h>
 #include <CGAL/Mixed_mesh_3/Elastic_material.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
@@ -32,9 +33,11 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -86,9 +89,65 @@ CGAL_LINEAR_ELASTICITY_3_INLINE const std::vector<double>& Elasticity_model::res
   return m_state->residuals;
 }
 
+CGAL_LINEAR_ELASTICITY_3_INLINE void
+Elasticity_model::set_quadratic_elements(const std::vector<bool>& is_quadratic)
+{
+  energy(); // of the last displacements, in the body as it was
+  m_body->set_quadratic_elements(is_quadratic);
+  m_edge_coefficients.clear(); // those of other edges
+}
+
+CGAL_LINEAR_ELASTICITY_3_INLINE void
+Elasticity_model::set_quadratic_within(double distance, const std::vector<bool>& of_elements)
+{
+  const Elastic_stiffness& stiffness = m_body->stiffness();
+  std::vector<bool> is_other = of_elements;
+  is_other.flip();
+  const Located_elements located(stiffness.elements(), stiffness.points(), is_other);
+  std::vector<bool> is_near(stiffness.number_of_vertices(), false);
+  if(std::find(of_elements.begin(), of_elements.end(), true) != of_elements.end())
+    for(Vertex_index v = 0; v < is_near.size(); ++v)
+      is_near[v] = located.nearest(stiffness.points()[v]).distance <= distance;
+  std::vector<bool> is_quadratic = of_elements;
+  for(Element_index e = 0; e < is_quadratic.size(); ++e)
+    for(Vertex_index v : stiffness.elements()[e])
+      is_quadratic[e] = is_quadratic[e] || is_near[v];
+  set_quadratic_elements(is_quadratic);
+}
+
+CGAL_LINEAR_ELASTICITY_3_INLINE const std::vector<std::array<Vertex_index, 2>>&
+Elasticity_model::quadratic_edges() const
+{
+  return m_body->stiffness().nodes().ends();
+}
+
 CGAL_LINEAR_ELASTICITY_3_INLINE void Elasticity_model::prescribe(Vertex_index v, const Vec3& displacement)
 {
   m_body->supports().prescribe(v, displacement);
+}
+
+CGAL_LINEAR_ELASTICITY_3_INLINE void
+Elasticity_model::prescribe_boundary(const std::function<std::optional<Vec3>(const Vec3&)>& displacement)
+{
+  const Elastic_stiffness& stiffness = m_body->stiffness();
+  const std::vector<Vec3>& points = stiffness.points();
+  const std::vector<Face> faces = boundary_faces(
+    Elements_of_vertices(stiffness.elements(), stiffness.number_of_vertices()));
+  std::vector<std::optional<Vec3>> at_vertices(points.size());
+  for(Vertex_index v : vertices_of(faces))
+    if(at_vertices[v] = displacement(points[v]); at_vertices[v])
+      m_body->supports().prescribe(v, *at_vertices[v]);
+  for(const Face& face : faces)
+    for(int i = 0; i < face.vertices().size(); ++i) {
+      const auto [v,
+                  w] = std::minmax({face.vertices()[i], face.vertices()[(i + 1) % face.vertices().size()]});
+      if(!at_vertices[v] || !at_vertices[w])
+        continue;
+      std::optional<Vec3> coefficient = displacement(0.5 * (points[v] + points[w]));
+      if(coefficient)
+        coefficient = *coefficient - 0.5 * (*at_vertices[v] + *at_vertices[w]);
+      m_body->supports().prescribe_edge({v, w}, coefficient);
+    }
 }
 
 CGAL_LINEAR_ELASTICITY_3_INLINE void Elasticity_model::slide(Vertex_index v, const Vec3& normal)
@@ -152,6 +211,8 @@ CGAL_LINEAR_ELASTICITY_3_INLINE Linear_elasticity_result_3 Elasticity_model::fac
   m_controls->forget_elements();
   if(m_body->stiffness().is_all_removed())
     return failed(Status::NO_ELEMENTS);
+  if(!is_order_supported())
+    return failed(Status::ORDER_NOT_SUPPORTED);
   Result result;
   result.element = m_body->stiffness().find_inverted_element();
   if(result.element != m_body->stiffness().elements().size())
@@ -196,6 +257,8 @@ Elasticity_model::solve(const std::vector<Vec3>& displacements)
   for(std::size_t i = 0; i < displacements.size(); ++i)
     for(int k = 0; k < 3; ++k)
       wanted[Eigen::Index(3 * i) + k] = displacements[i][k];
+  if(!is_order_supported()) // contacts or finite rotations may have been asked for since `factor()`
+    return failed(Status::ORDER_NOT_SUPPORTED);
   // What is too inexact to tell which contacts pull.
   if(m_is_iterative && has_contacts())
     if(const Result result = factor_again(); !result.is_success())
@@ -212,6 +275,17 @@ Elasticity_model::solve(const std::vector<Vec3>& displacements)
     factor_again();
   }
   return result;
+}
+
+CGAL_LINEAR_ELASTICITY_3_INLINE Vec3 Elasticity_model::displacement(const Element_location_3& location) const
+{
+  const Element_nodes& nodes = m_body->stiffness().nodes();
+  const std::size_t n = nodes.number_of_vertices();
+  Vec3 u{};
+  for(const auto& [node, weight] :
+      node_weights(nodes.elements()[location.element], nodes[location.element], location))
+    u = u + weight * (node < n ? m_displacements[node] : m_edge_coefficients[node - n]);
+  return u;
 }
 
 CGAL_LINEAR_ELASTICITY_3_INLINE std::vector<Vec3> Elasticity_model::control_forces() const
@@ -251,6 +325,12 @@ CGAL_LINEAR_ELASTICITY_3_INLINE Linear_elasticity_result_3 Elasticity_model::fac
 CGAL_LINEAR_ELASTICITY_3_INLINE bool Elasticity_model::has_contacts() const
 {
   return !m_body->supports().contacts().empty();
+}
+
+CGAL_LINEAR_ELASTICITY_3_INLINE bool Elasticity_model::is_order_supported() const
+{
+  return !m_body->stiffness().nodes().has_edges()
+         || !(has_contacts() || m_is_corotational || m_body->solver().wants_near_kernel());
 }
 
 CGAL_LINEAR_ELASTICITY_3_INLINE bool Elasticity_model::may_start_anew(const Result& result) const
@@ -310,11 +390,13 @@ CGAL_LINEAR_ELASTICITY_3_INLINE void Elasticity_model::keep(const Control_soluti
   for(const auto& [v, contact] : m_body->supports().contacts())
     if(contact.is_closed && m_body->supports().is_kept(v))
       m_contact_forces[v] = (std::max)(0., contact_force(m_body->supports(), v, contact, reaction));
-  m_displacements.assign(m_body->stiffness().number_of_vertices(), Vec3{});
+  m_displacements = vectors_of(solution.displacements);
   for(Vertex_index v = 0; v < m_displacements.size(); ++v)
-    if(m_body->supports().is_kept(v))
-      for(int k = 0; k < 3; ++k)
-        m_displacements[v][k] = solution.displacements[3 * Eigen::Index(v) + k];
+    if(!m_body->supports().is_kept(v))
+      m_displacements[v] = Vec3{};
+  const auto first_edge = m_displacements.begin() + std::ptrdiff_t(m_body->stiffness().number_of_vertices());
+  m_edge_coefficients.assign(first_edge, m_displacements.end());
+  m_displacements.erase(first_edge, m_displacements.end());
   m_energy.reset();
   if(m_is_corotational)
     m_energy = m_corotational->energy();
@@ -324,10 +406,12 @@ CGAL_LINEAR_ELASTICITY_3_INLINE void Elasticity_model::keep(const Control_soluti
 CGAL_LINEAR_ELASTICITY_3_INLINE double Elasticity_model::energy() const
 {
   if(!m_energy) {
-    Eigen::VectorXd u(3 * Eigen::Index(m_displacements.size()));
-    for(Vertex_index v = 0; v < m_displacements.size(); ++v)
-      for(int k = 0; k < 3; ++k)
-        u[3 * Eigen::Index(v) + k] = m_displacements[v][k];
+    Eigen::VectorXd u(3 * Eigen::Index(m_displacements.size() + m_edge_coefficients.size()));
+    Eigen::Index i = 0;
+    for(const std::vector<Vec3>* values : {&m_displacements, &m_edge_coefficients})
+      for(const Vec3& value : *values)
+        for(int k = 0; k < 3; ++k)
+          u[i++] = value[k];
     m_energy = u.dot(m_body->stiffness().product(u)) / 2;
   }
   return *m_energy;

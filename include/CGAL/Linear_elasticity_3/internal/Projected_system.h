@@ -39,8 +39,8 @@ namespace internal {
 class Projected_system
 {
   std::unique_ptr<Elasticity_solver> m_solver;
-  std::vector<Vertex_index> m_unknowns; // vertices of the factored system
-  std::vector<Eigen::Index> m_selected; // start of each unknown vertex among those of the selected vertices
+  std::vector<Vertex_index> m_unknowns; // nodes of the factored system
+  std::vector<Eigen::Index> m_selected; // start of each unknown node among those of the selected nodes
   std::vector<Free_motion> m_motions;   // free motions of the parts at the factorization
 
 public:
@@ -65,7 +65,7 @@ public:
     const std::vector<double> springs = find_springs(stiffness, supports);
     if(!m_solver->has_matrix()) { // else the numbers stay, for the symbolic factorization
       m_unknowns.clear();
-      for(Vertex_index v = 0; v < stiffness.number_of_vertices(); ++v)
+      for(Vertex_index v = 0; v < stiffness.number_of_nodes(); ++v)
         if(supports.may_be_free(v))
           m_unknowns.push_back(v);
     }
@@ -80,7 +80,7 @@ public:
     return false;
   }
 
-  /// Solves for right-hand sides of all vertices; the solutions are in the free directions.
+  /// Solves for right-hand sides of all nodes; the solutions are in the free directions.
   bool solve(const Elastic_supports& supports, const Eigen::MatrixXd& forces, Eigen::MatrixXd& solutions)
   {
     const Eigen::Index n = 3 * Eigen::Index(m_unknowns.size());
@@ -102,15 +102,15 @@ public:
     return solutions.allFinite();
   }
 
-  /// Selects vertices for `solve_selected()`. \pre the system is factored
-  void select(const std::vector<Vertex_index>& vertices, std::size_t number_of_vertices)
+  /// Selects nodes for `solve_selected()`. \pre the system is factored
+  void select(const std::vector<Vertex_index>& nodes, std::size_t number_of_nodes)
   {
-    std::vector<int> number(number_of_vertices, -1), unknowns;
+    std::vector<int> number(number_of_nodes, -1), unknowns;
     for(std::size_t i = 0; i < m_unknowns.size(); ++i)
       number[m_unknowns[i]] = int(i);
     m_selected.clear();
-    for(std::size_t i = 0; i < vertices.size(); ++i)
-      if(const int n = number[vertices[i]]; n >= 0) {
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+      if(const int n = number[nodes[i]]; n >= 0) {
         m_selected.push_back(Eigen::Index(3 * i));
         for(int k = 0; k < 3; ++k)
           unknowns.push_back(3 * n + k);
@@ -119,7 +119,7 @@ public:
       m_solver->select(unknowns);
   }
 
-  /// Solves for forces in free directions on the selected vertices, and returns the displacements of these,
+  /// Solves for forces in free directions on the selected nodes, and returns the displacements of these,
   /// perhaps in single precision.
   bool solve_selected(const Eigen::VectorXd& forces, Eigen::VectorXd& displacements)
   {
@@ -137,7 +137,8 @@ public:
   }
 
 private:
-  // The six rigid motions of the unknowns, in the directions that are free: columns of about the same size.
+  // The six rigid motions of the unknowns, which are vertices, in the directions that are free: columns of
+  // about the same size.
   Eigen::MatrixXd rigid_motions(const std::vector<Vec3>& points, const Elastic_supports& supports) const
   {
     const double n = double(m_unknowns.size());
@@ -163,7 +164,7 @@ private:
   std::vector<double> find_springs(const Elastic_stiffness& stiffness, const Elastic_supports& supports)
   {
     const Elasticity_system& all = stiffness.system();
-    std::vector<double> springs(3 * stiffness.number_of_vertices(), 0);
+    std::vector<double> springs(3 * stiffness.number_of_nodes(), 0);
     m_motions.clear();
     for(const Elastic_part& part : supports.parts()) {
       for(std::size_t unknown : springs_for(part, stiffness.points(), supports))
@@ -219,18 +220,17 @@ private:
   {
     std::vector<int> starts{0}, rows;
     std::vector<double> values;
-    reduce(stiffness.system(), stiffness.number_of_vertices(), springs, starts, rows, values);
+    reduce(stiffness.system(), stiffness.number_of_nodes(), springs, starts, rows, values);
     project(supports, starts, rows, values, largest);
     m_solver->set_matrix(starts, rows, values);
   }
 
   // Reduces the matrix to the rows and columns of the unknowns, with springs: the lower triangle in
   // compressed columns.
-  void reduce(const Elasticity_system& all, std::size_t number_of_vertices,
-              const std::vector<double>& springs, std::vector<int>& starts, std::vector<int>& rows,
-              std::vector<double>& values) const
+  void reduce(const Elasticity_system& all, std::size_t number_of_nodes, const std::vector<double>& springs,
+              std::vector<int>& starts, std::vector<int>& rows, std::vector<double>& values) const
   {
-    std::vector<Vertex_index> number(number_of_vertices, no_vertex);
+    std::vector<Vertex_index> number(number_of_nodes, no_vertex);
     for(std::size_t i = 0; i < m_unknowns.size(); ++i)
       number[m_unknowns[i]] = Vertex_index(i);
     for(Vertex_index v : m_unknowns) {
@@ -249,7 +249,7 @@ private:
     }
   }
 
-  // Replaces each block (v, w) by P_v (v, w) P_w, for vertices that slide or have no element any more, and
+  // Replaces each block (v, w) by P_v (v, w) P_w, for nodes that slide or have no element any more, and
   // adds `scale` where nothing is left of a block.
   void project(const Elastic_supports& supports, const std::vector<int>& starts, const std::vector<int>& rows,
                std::vector<double>& values, double scale) const

@@ -5,7 +5,7 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Shares of the vertices in the boundary of a mesh: a normal, an area.
+// Integrals over the boundary of a mesh: shares of vertices and edges in normals and areas.
 
 #ifndef CGAL_LINEAR_ELASTICITY_3_INTERNAL_BOUNDARY_MEASURES_H
 #define CGAL_LINEAR_ELASTICITY_3_INTERNAL_BOUNDARY_MEASURES_H
@@ -13,10 +13,16 @@
 #include <CGAL/license/Linear_elasticity_3.h>
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
+#include <CGAL/Mixed_mesh_3/Face.h>
+#include <CGAL/Mixed_mesh_3/Index.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -58,18 +64,55 @@ inline std::vector<Vec3> boundary_vertex_normals(const Element_list& elements,
   return normals;
 }
 
-/// The sum of the equal shares of the areas of the faces around each vertex, zero inside.
-template <class Mesh>
-std::vector<double> boundary_vertex_areas(const Mesh& mesh)
+/// The nodes of edges by both ends, the smaller one first.
+using Nodes_of_edges = std::map<std::array<Vertex_index, 2>, Vertex_index>;
+
+/// The boundary faces and their areas, to integrate fields over a part of the boundary.
+class Boundary_integrals
 {
-  std::vector<double> areas(mesh.number_of_vertices(), 0);
-  for(const Face& face : boundary_faces(mesh)) {
-    const double share = area(mesh, face) / face.vertices().size();
-    for(Vertex_index v : face.vertices())
-      areas[v] += share;
+  std::vector<std::pair<Face, double>> m_faces; // with areas
+
+public:
+  template <class Mesh>
+  explicit Boundary_integrals(const Mesh& mesh)
+  {
+    for(const Face& face : boundary_faces(mesh))
+      m_faces.emplace_back(face, area(mesh, face));
   }
-  return areas;
-}
+
+  /*!
+  The integrals of the functions of nodes, other than zero, over the part of the boundary around some
+  vertices.
+
+  Each face counts by the share of its vertices that are in the part, so that edges count less toward the rim.
+  An edge's function has a third of the area of each face with the edge, of triangles and quadrilaterals. Of
+  vertices' functions, those of vertices in the part have equal shares of the areas of the faces around them.
+
+  \param is_in_part `bool(Vertex_index)`
+  \param edges edges that are nodes
+  */
+  template <class Is_in_part>
+  std::map<Vertex_index, double> operator()(const Is_in_part& is_in_part, const Nodes_of_edges& edges) const
+  {
+    std::map<Vertex_index, double> integrals;
+    for(const auto& [face, area] : m_faces) {
+      const Face_vertices& v = face.vertices();
+      const double share = area / v.size();
+      int inside = 0;
+      for(Vertex_index w : v)
+        if(is_in_part(w)) {
+          integrals[w] += share;
+          ++inside;
+        }
+      for(int i = 0; inside > 0 && i < v.size(); ++i) {
+        const auto [a, b] = std::minmax({v[i], v[(i + 1) % v.size()]});
+        if(const auto edge = edges.find({a, b}); edge != edges.end())
+          integrals[edge->second] += inside * share / 3;
+      }
+    }
+    return integrals;
+  }
+};
 
 } // namespace internal
 } // namespace Mixed_meshes_3

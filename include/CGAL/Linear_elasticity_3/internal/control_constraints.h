@@ -37,7 +37,7 @@ namespace internal {
 
 struct Control_solution
 {
-  Eigen::VectorXd displacements, forces; // three for each vertex; three for each control point
+  Eigen::VectorXd displacements, forces; // three for each node; three for each control point
 };
 
 /*!
@@ -78,6 +78,8 @@ class Control_constraints
 
 public:
   /// \param compliances compliance of each control point: all zero, or all positive
+  /// \param points positions of the vertices, the first nodes: rigid motions do not move the others
+  /// \param supports supports of the nodes
   /// \param solve `bool(forces, displacements)`: K^-1, for several columns
   Control_constraints(std::vector<Control_weights> weights, const std::vector<double>& compliances,
                       const std::vector<Free_motion>& motions, const std::vector<Vec3>& points,
@@ -87,7 +89,7 @@ public:
   {
     for(std::size_t p = 0; p < m_weights.size(); ++p)
       m_compliances.segment<3>(3 * Index(p)).setConstant(compliances[p]);
-    const Index n = 3 * Index(points.size()), rows = 3 * Index(m_weights.size());
+    const Index n = 3 * Index(supports.size()), rows = 3 * Index(m_weights.size());
     m_motions = Matrix::Zero(n, Index(motions.size()));
     for(std::size_t m = 0; m < motions.size(); ++m)
       for(Vertex_index v : motions[m].vertices) {
@@ -161,7 +163,7 @@ public:
     return result;
   }
 
-  /// The rows of some vertices of W and R.
+  /// The rows of some nodes of W and R.
   struct Rows
   {
     Matrix response, motions;
@@ -178,8 +180,8 @@ public:
     return rows;
   }
 
-  /// Adds, to the displacements K^-1 f of some vertices, those by which the control points come to rest.
-  /// \param f forces on these vertices, none on others
+  /// Adds, to the displacements K^-1 f of some nodes, those by which the control points come to rest.
+  /// \param f forces on these nodes, none on others
   void hold(const Rows& rows, const Vector& f, Vector& displacements) const
   {
     Vector s, c;
@@ -187,15 +189,15 @@ public:
     displacements += rows.response * s + rows.motions * c;
   }
 
-  /// The vertices, and their weights, whose weighted mean displacement is that of each control point.
+  /// The nodes, and their weights, whose weighted sum of displacements is that of each control point.
   const std::vector<Control_weights>& weights() const { return m_weights; }
 
-  /// Whether the control points move only vertices of a set.
-  bool is_on(const std::vector<bool>& vertices) const
+  /// Whether the control points move only nodes of a set.
+  bool is_on(const std::vector<bool>& nodes) const
   {
     for(const Control_weights& weights : m_weights)
       for(const auto& weight : weights)
-        if(!vertices[weight.first])
+        if(!nodes[weight.first])
           return false;
     return true;
   }

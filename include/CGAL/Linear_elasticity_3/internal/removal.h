@@ -36,11 +36,11 @@ in the space of displacements that are zero at the control points (N. I. M. Goul
 "On the solution of equality constrained quadratic programming problems arising in optimization", SIAM J. Sci.
 Comput. 23, 2001).
 
-K - K' is zero except at the vertices of removed elements, and of patches that lost elements; the residual of
+K - K' is zero except at the nodes of removed elements, and of patches that lost elements; the residual of
 the solution for K is zero elsewhere, too. So are residuals of all iterations: with K z = r, K' z is
-r - (K - K') z. The iterations therefore take displacements of these vertices only, by
+r - (K - K') z. The iterations therefore take displacements of these nodes only, by
 `Elastic_body::solve_selected()`, which may round to single precision. In the end, the forces that were found
-take one solution for all vertices in double precision, and its residual shows whether another cycle is
+take one solution for all nodes in double precision, and its residual shows whether another cycle is
 necessary.
 */
 class Removal
@@ -68,9 +68,9 @@ public:
   /// \param constraints constraints without compliance
   Removal(Elastic_body& body, const Control_constraints& constraints)
     : m_body(body), m_constraints(constraints), m_change(body.stiffness().change()),
-      m_rows(constraints.rows_of(m_change.vertices))
+      m_rows(constraints.rows_of(m_change.nodes))
   {
-    m_body.select(m_change.vertices);
+    m_body.select(m_change.nodes);
   }
 
   int number_of_iterations() const { return m_number_of_iterations; }
@@ -144,12 +144,12 @@ private:
     return true;
   }
 
-  // Adds the effect that forces on the vertices of the change have on the former body.
+  // Adds the effect that forces on the nodes of the change have on the former body.
   bool add(const Vector& forces, const Vector& wanted, Control_solution& solution)
   {
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(solution.displacements.size(), 1), u;
-    for(std::size_t i = 0; i < m_change.vertices.size(); ++i)
-      all.middleRows<3>(3 * Eigen::Index(m_change.vertices[i])) = forces.segment<3>(3 * Eigen::Index(i));
+    for(std::size_t i = 0; i < m_change.nodes.size(); ++i)
+      all.middleRows<3>(3 * Eigen::Index(m_change.nodes[i])) = forces.segment<3>(3 * Eigen::Index(i));
     Control_solution step;
     if(!m_body.solve(all, u)
        || !m_constraints
@@ -163,17 +163,17 @@ private:
 
   Vector rows_of(const Vector& x) const
   {
-    Vector y(3 * Eigen::Index(m_change.vertices.size()));
-    for(std::size_t i = 0; i < m_change.vertices.size(); ++i)
-      y.segment<3>(3 * Eigen::Index(i)) = x.segment<3>(3 * Eigen::Index(m_change.vertices[i]));
+    Vector y(3 * Eigen::Index(m_change.nodes.size()));
+    for(std::size_t i = 0; i < m_change.nodes.size(); ++i)
+      y.segment<3>(3 * Eigen::Index(i)) = x.segment<3>(3 * Eigen::Index(m_change.nodes[i]));
     return y;
   }
 
   Vector free_part(Vector f) const
   {
-    for(std::size_t i = 0; i < m_change.vertices.size(); ++i) {
+    for(std::size_t i = 0; i < m_change.nodes.size(); ++i) {
       const Eigen::Index j = 3 * Eigen::Index(i);
-      const Vec3 x = m_body.supports().free_part(m_change.vertices[i], {f[j], f[j + 1], f[j + 2]});
+      const Vec3 x = m_body.supports().free_part(m_change.nodes[i], {f[j], f[j + 1], f[j + 2]});
       for(int k = 0; k < 3; ++k)
         f[j + k] = x[k];
     }

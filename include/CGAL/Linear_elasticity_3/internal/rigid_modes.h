@@ -28,7 +28,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The support of a vertex: orthonormal directions in which its displacement is given, and that displacement.
+/// The support of a node: orthonormal directions in which its displacement is given, and that displacement.
 struct Support
 {
   int size = 0;
@@ -53,6 +53,26 @@ struct Support
     return u;
   }
 };
+
+/// The support, without displacement, in the directions in which both of two supports hold: directions of the
+/// two that are up to 60 degrees apart, as normals of a curved boundary are, count as their mean direction.
+inline Support common_support(const Support& a, const Support& b)
+{
+  Eigen::Matrix3d held = Eigen::Matrix3d::Zero(); // the sum of two projections: eigenvalues are 1 + cosines
+  for(const Support* support : {&a, &b})
+    for(int i = 0; i < support->size; ++i) {
+      const Eigen::Vector3d d(support->directions[std::size_t(i)].data());
+      held += d * d.transpose();
+    }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(held);
+  Support common;
+  for(int i = 0; i < 3; ++i)
+    if(solver.eigenvalues()[i] > 1.5) {
+      const Eigen::Vector3d d = solver.eigenvectors().col(i);
+      common.add({d[0], d[1], d[2]});
+    }
+  return common;
+}
 
 /// A rigid motion: displacement `translation + rotation x (p - center)` at `p`.
 struct Rigid_mode

@@ -311,9 +311,10 @@ bool write_VTU(std::ostream& stream, const Mesh& mesh, const VTU_options& option
   const std::size_t m = mesh.number_of_elements();
 
   VTU_arrays vertex_data, element_data = own_element_arrays(mesh);
+  const Mesh_nodes<Mesh> nodes(mesh, options.order);
   bool fits = true;
   for(const Data_array& data : options.vertex_data)
-    fits = fits && data.has_size(mesh.number_of_vertices());
+    fits = fits && (data.has_size(mesh.number_of_vertices()) || data.has_size(nodes.size()));
   for(const Data_array& data : options.element_data)
     if((fits = fits && data.has_size(m)))
       element_data.push_back(element_data_array(mesh, data));
@@ -321,7 +322,6 @@ bool write_VTU(std::ostream& stream, const Mesh& mesh, const VTU_options& option
     stream.setstate(std::ios_base::failbit);
     return false;
   }
-  const Mesh_nodes<Mesh> nodes(mesh, options.order);
   const Node_data node_data(nodes, options.vertex_data);
   for(const Data_array& data : node_data.arrays())
     vertex_data.push_back(vertex_data_array(data));

@@ -52,8 +52,9 @@ struct Write_options
   /// more, at its rounded midpoint, numbered after the vertices in the order in which elements have the edges
   /// first; faces have those of their edges. Such elements have the map of the linear ones, up to the
   /// rounding of the middle nodes: what the certificate proves of those holds for them. Values at the
-  /// vertices are interpolated linearly. All formats but `Format::MEDIT` have them, `Format::INP` without
-  /// pyramids.
+  /// vertices are interpolated linearly, unless there are values for all nodes: those of the vertices, then
+  /// those of the edges, in the order of `Linear_elasticity_3::quadratic_edges()` with order 2 everywhere.
+  /// All formats but `Format::MEDIT` have them, `Format::INP` without pyramids.
   int order = 1;
 };
 

@@ -16,13 +16,16 @@
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/fem/Element_nodes.h>
 #include <CGAL/Mixed_mesh_3/internal/fem/element_stiffness.h>
+#include <CGAL/Mixed_mesh_3/internal/fem/quadrature.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <iterator>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -37,7 +40,7 @@ is coordinate `k` of free node `i`. The pattern is computed once; values are fil
 */
 class Elasticity_system
 {
-  const Element_list* m_elements;
+  Element_nodes m_nodes;
   std::vector<Element_index> m_active;     // elements with a free node
   std::vector<Vertex_index> m_free;        // the free nodes
   std::vector<Vertex_index> m_unknowns;    // number among the free nodes, or no_vertex
@@ -48,21 +51,31 @@ class Elasticity_system
   Element_stiffness m_element_stiffness; // stiffness of the element being added
 
 public:
+  /// The system of linear elements.
   /// \param elements kept by reference: must outlive the system
   /// \param is_free whether the displacement of each vertex is unknown
+  Elasticity_system(const Element_list& elements, const std::vector<bool>& is_free)
+    : Elasticity_system(Element_nodes(elements, is_free.size()), is_free)
+  {
+  }
+
+  /// \param nodes numbering; its elements must outlive the system
+  /// \param is_free whether the displacement of each node is unknown
   /// \param patches sets of nodes, besides those of the elements, that will be passed to `add_patch()`
-  Elasticity_system(const Element_list& elements, const std::vector<bool>& is_free,
+  Elasticity_system(Element_nodes nodes, const std::vector<bool>& is_free,
                     const std::vector<std::vector<Vertex_index>>& patches = {})
-    : m_elements(&elements), m_unknowns(is_free.size(), no_vertex)
+    : m_nodes(std::move(nodes)), m_unknowns(is_free.size(), no_vertex)
   {
     for(Vertex_index v = 0; v < is_free.size(); ++v)
       if(is_free[v]) {
         m_unknowns[v] = Vertex_index(m_free.size());
         m_free.push_back(v);
       }
-    for(Element_index e = 0; e < elements.size(); ++e)
-      if(std::any_of(elements[e].begin(), elements[e].end(), [&](Vertex_index v) { return is_free[v]; }))
+    for(Element_index e = 0; e < m_nodes.elements().size(); ++e) {
+      const Nodes_of_element element = m_nodes[e];
+      if(std::any_of(element.begin(), element.end(), [&](Vertex_index v) { return is_free[v]; }))
         m_active.push_back(e);
+    }
     find_neighbors(patches);
     build_pattern();
   }
@@ -85,20 +98,22 @@ public:
   }
 
   /// Adds an element. An element added before becomes stiffer, or softer if Young's modulus is negative.
-  /// \param points positions of all nodes
+  /// \param points positions of all vertices
   /// \param displacements displacements of all nodes; those of the free nodes are ignored
   /// \pre the element has a free node
   void add(Element_index e, const Elastic_material& material, const std::vector<Vec3>& points,
            const std::vector<Vec3>& displacements, Dilatation dilatation = Dilatation::POINTWISE)
   {
-    const Element_view element = (*m_elements)[e];
+    const Element_view element = m_nodes.elements()[e];
     std::array<Vec3, 8> p{};
     for(int a = 1; a < element.size(); ++a)
       p[a] = points[element[a]] - points[element[0]];
-    compute_element_stiffness(element.kind(), p, material, dilatation, m_element_stiffness);
-    for(int a = 0; a < element.size(); ++a)
+    const Nodes_of_element nodes = m_nodes[e];
+    compute_element_stiffness(quadrature_rule(element.kind(), nodes.order()), p, material, dilatation,
+                              m_element_stiffness);
+    for(int a = 0; a < nodes.size(); ++a)
       for(int b = 0; b <= a; ++b)
-        add(element[a], element[b], m_element_stiffness[a][b], displacements);
+        add(nodes[a], nodes[b], m_element_stiffness[nodes.function(a)][nodes.function(b)], displacements);
   }
 
   /// Adds resistance to the mean dilatation over several elements.
@@ -129,7 +144,7 @@ private:
     };
     const auto for_each_pair = [&](const auto& f) {
       for(Element_index e : m_active)
-        for_each_pair_of((*m_elements)[e], f);
+        for_each_pair_of(m_nodes[e], f);
       for(const std::vector<Vertex_index>& patch : patches)
         for_each_pair_of(patch, f);
     };

@@ -26,13 +26,14 @@ namespace internal {
 
 using Matrix_3x3 = std::array<Vec3, 3>; // rows
 
-/// The blocks of pairs of nodes `[a][b]`, `b <= a`; the others are their transposes.
-using Element_stiffness = std::array<std::array<Matrix_3x3, 8>, 8>;
+/// The blocks of pairs of shape functions `[a][b]`, `b <= a`; the others are their transposes.
+using Element_stiffness =
+  std::array<std::array<Matrix_3x3, largest_number_of_functions>, largest_number_of_functions>;
 
 /// The resistance to a change of volume: by the dilatation at each point of the quadrature, or by its mean
 /// over the element (Nagtegaal, Parks, Rice, 1974; Hughes' B-bar), or for an element of a patch partly
 /// pointwise and partly by the mean over the patch, which is added separately. With the pointwise dilatation
-/// only, all kinds lock if the material is nearly incompressible.
+/// only, all kinds of order 1 lock if the material is nearly incompressible.
 enum class Dilatation { POINTWISE, MEAN, PATCH };
 
 /// The share of the bulk modulus that is pointwise in a patch: the largest share that does not lock. Without
@@ -43,21 +44,24 @@ inline double pointwise_share(const Elastic_material& material)
   return (std::min)(1., largest_multiple_of_mu * material.mu() / material.bulk_modulus());
 }
 
+/// \param rule quadrature rule of the kind, of order 1 or 2
 /// \par Complexity
-/// Constant: 8 points and 36 blocks for a hexahedron, 1 point and 10 blocks for a tetrahedron
-inline void compute_element_stiffness(Element_kind kind, const std::array<Vec3, 8>& points,
+/// Constant: with order 1, 8 points and 36 blocks for a hexahedron, 1 point and 10 blocks for a tetrahedron;
+/// with order 2, 14 points and 210 blocks, 4 points and 55 blocks
+inline void compute_element_stiffness(const Quadrature_rule& rule, const std::array<Vec3, 8>& points,
                                       const Elastic_material& material, Dilatation dilatation,
                                       Element_stiffness& stiffness)
 {
-  const int n = reference_elements[kind].number_of_vertices;
+  const int n = rule.number_of_functions;
   double volume = 0;
-  std::array<Vec3, 8> divergence{}; // integral of the divergence, by the displacement of each node
+  std::array<Vec3, largest_number_of_functions>
+    divergence{}; // integral of the divergence, by the displacement of each node
   for(int a = 0; a < n; ++a)
     for(int b = 0; b <= a; ++b)
       stiffness[a][b] = Matrix_3x3{};
   // The integrals of the dyadic products of gradients come first, as they do not depend on the material.
-  for(int q = 0; q < quadrature_rule(kind).number_of_points; ++q) {
-    const Strain_operator s = strain_operator(kind, points, q);
+  for(int q = 0; q < rule.number_of_points; ++q) {
+    const Strain_operator s = strain_operator(rule, points, q);
     volume += s.volume;
     for(int a = 0; a < n; ++a) {
       const Vec3 ga = s.volume * s.gradients[a];
@@ -83,6 +87,14 @@ inline void compute_element_stiffness(Element_kind kind, const std::array<Vec3, 
           stiffness[a][b][i][j] = lambda * d[i][j] + mu * d[j][i] + (i == j ? shear : 0)
                                   + mean * divergence[a][i] * divergence[b][j];
     }
+}
+
+/// The stiffness of order 1.
+inline void compute_element_stiffness(Element_kind kind, const std::array<Vec3, 8>& points,
+                                      const Elastic_material& material, Dilatation dilatation,
+                                      Element_stiffness& stiffness)
+{
+  compute_element_stiffness(quadrature_rule(kind), points, material, dilatation, stiffness);
 }
 
 } // namespace internal

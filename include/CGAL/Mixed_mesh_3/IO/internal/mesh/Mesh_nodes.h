@@ -18,6 +18,7 @@
 #include <CGAL/Mixed_mesh_3/IO/internal/mesh/element_names.h>
 #include <CGAL/Mixed_mesh_3/Index.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/Middle_nodes.h>
 
 #include <CGAL/assertions.h>
 
@@ -28,8 +29,6 @@
 #include <cstdint>
 #include <deque>
 #include <iterator>
-#include <stdexcept>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -37,44 +36,8 @@ namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
 
-/// The middle nodes of quadratic elements: one an edge, whatever elements have it.
-struct Middle_nodes
-{
-  std::vector<std::array<Vertex_index, 2>> ends; ///< of the edge of each middle node, the smaller one first
-  std::vector<std::size_t> offsets;              ///< where each element begins in `of_elements`
-  std::vector<Vertex_index> of_elements; ///< in the order of `Reference_element::edges`; numbers from 0
-};
-
-/// Numbers edges as elements have them first. Edges that begin in a vertex are in a list, so that the order
-/// takes neither sorting nor hashing.
-/// \par Complexity
-/// Linear in the number of elements, if vertices have boundedly many
-inline Middle_nodes quadratic_connectivity(const Element_list& elements, std::size_t number_of_vertices)
-{
-  constexpr Vertex_index none = Mixed_meshes_3::internal::no_vertex;
-  Middle_nodes result;
-  std::vector<Vertex_index> last(number_of_vertices, none), before; // edges by smaller end
-  for(Element_index e = 0; e < elements.size(); ++e) {
-    const Element_view element = elements[e];
-    result.offsets.push_back(result.of_elements.size());
-    for(int i = 0; i < element.reference().number_of_edges; ++i) {
-      const auto& edge = element.reference().edges[i];
-      const auto [a, b] = std::minmax({element[edge[0]], element[edge[1]]});
-      Vertex_index number = last[a];
-      while(number != none && result.ends[number][1] != b)
-        number = before[number];
-      if(number == none) {
-        if(result.ends.size() >= none - number_of_vertices)
-          throw std::length_error("Mixed_mesh_3: more than 2^32 nodes");
-        number = Vertex_index(result.ends.size());
-        result.ends.push_back({a, b});
-        before.push_back(std::exchange(last[a], number));
-      }
-      result.of_elements.push_back(number);
-    }
-  }
-  return result;
-}
+using Mixed_meshes_3::internal::Middle_nodes;
+using Mixed_meshes_3::internal::quadratic_connectivity;
 
 /// The mean, rounded once: halves are exact, but where the sum overflows or two of them underflow.
 inline double rounded_mean(double x, double y)
@@ -220,7 +183,7 @@ bool has_all_kinds(const Mesh& mesh, int order, const char* Element_names::*name
   });
 }
 
-/// Values at the vertices as values at the nodes. Keeps references to those of vertices with order 1.
+/// Values at the vertices, or at the nodes, as values at the nodes. Keeps references to those that are.
 class Node_data
 {
   std::deque<std::vector<double>> m_values;
@@ -233,6 +196,8 @@ public:
     if(nodes.order() == 1)
       return;
     for(Data_array& array : m_arrays) {
+      if(array.has_size(nodes.size()))
+        continue;
       const std::size_t n = std::size_t(array.number_of_components);
       const std::vector<double>& of_vertices = *array.values;
       std::vector<double>& values = m_values.emplace_back();

@@ -51,6 +51,9 @@ inline std::string order_defect(const Mesh_format& format, int order)
 // What is wrong with values to be written; empty if nothing is.
 inline std::string data_defect(const Core_mesh& mesh, const Mesh_format& format, const Write_options& options)
 {
+  const auto is_of_nodes = [&](const Data_array& array) {
+    return options.order == 2 && !options.tetrahedra && array.has_size(Mesh_nodes(mesh, 2).size());
+  };
   const auto defect = [&](const Data_array& array, bool is_vertex_data, std::size_t size) -> std::string {
     if(!format.can_have(array, is_vertex_data)) {
       const auto has_all = [](const Mesh_format& f) { return f.data == Format_data::ALL; };
@@ -60,7 +63,9 @@ inline std::string data_defect(const Core_mesh& mesh, const Mesh_format& format,
                   ? ", and of one or three components to " + extensions_with(has_some, "and") + ", only"
                   : " only");
     }
-    return array.has_size(size) ? "" : "data \"" + array.name + "\" does not have the size of the mesh";
+    return array.has_size(size) || (is_vertex_data && is_of_nodes(array))
+             ? ""
+             : "data \"" + array.name + "\" does not have the size of the mesh";
   };
   std::string result;
   for(const Data_array& array : options.vertex_data)
