@@ -69,6 +69,12 @@ Topology topology_of(const Mesh& mesh, const Surface& surface, bool is_fitted, S
   return t;
 }
 
+double share_of_sharp_edges(const CGAL::Mixed_mesh_result_3& result)
+{
+  const CGAL::Mixed_mesh_optimization_result_3& r = result.optimization;
+  return r.length_of_sharp_edges > 0 ? r.length_of_sharp_edges_kept / r.length_of_sharp_edges : 1;
+}
+
 Status checked_status(Status status, const Fidelity& fidelity, double tolerance)
 {
   return status == Status::SUCCESS && fidelity.misses(tolerance) ? Status::TOLERANCE_NOT_REACHED : status;

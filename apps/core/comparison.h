@@ -24,6 +24,11 @@
 constexpr double volume_tolerance = 0.05;
 constexpr double on_surface = 1e-9; // share of the diagonal of the surface's box
 
+constexpr double least_share_of_sharp_edges = 0.95; // of their length; the rest is cut off
+
+/// The share of the length of sharp edges that edges of the mesh follow; 1 if there are none.
+double share_of_sharp_edges(const CGAL::Mixed_mesh_result_3& result);
+
 /// The distance of a surface, at its farthest point, from another one.
 struct Distance
 {

@@ -45,6 +45,7 @@ using internal::Core_mesh;
 using internal::Followed_features;
 using internal::Stratum;
 using internal::Working_mesh;
+using internal::no_vertex;
 
 // The volume between a point and planes: the sum over triangles is that of the definition.
 void test_quadric()
@@ -293,7 +294,7 @@ void test_cube()
     start.points()[v] = straight.point(v);
   std::set<std::array<double, 3>> last;
   double bound = 3.2;
-  for(std::size_t n : {900, 600, 300, 200}) {
+  for(std::size_t n : {900, 600, 300, 250}) {
     Core_mesh mesh = internal::as_core_mesh(start), again = mesh;
     Followed_features followed = features_of_cube(domain, start), followed_again = followed;
     BOOST_TEST(internal::simplify(mesh, followed, surface, n, 0.1, bound, 3.2, [] { return true; }));

@@ -666,8 +666,6 @@ void test_exchange(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& d
     Mesh mesh;
     BOOST_TEST_EQ(run(domain, front, criteria, mesh).number_of_collapsed_vertices, 0u);
   }
-  Mesh mesh;
-  BOOST_TEST_EQ(run(domain, Everywhere_mixed_mesh_region_3(), 660, mesh).number_of_collapsed_vertices, 0u);
 }
 
 // The number of cells without vertices, of which a spike may have any number, is bounded.

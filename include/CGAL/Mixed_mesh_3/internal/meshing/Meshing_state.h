@@ -195,7 +195,7 @@ struct Meshing_state
 
   Misfit misfit_on_lattice(const Located_octree& o, const Candidate& candidate, std::size_t number_lost) const
   {
-    return Misfit(assembled_mesh(o, candidate), root.domain(), false, number_lost, 0, 0);
+    return Misfit(assembled_mesh(o, candidate), root.domain(), false, number_lost, 0, 0, 0);
   }
 
   Misfit misfit_of(const Core_mesh& mesh) const
@@ -204,7 +204,17 @@ struct Meshing_state
       return Misfit::without_mesh();
     const double tolerance = criteria.tolerance(), distance = result.optimization.largest_distance;
     return Misfit(mesh, root.domain(), criteria.fit_to_surface(), result.number_of_lost_cells,
-                  number_not_arrived(), tolerance > 0 ? distance / (share_of_tolerance * tolerance) - 1 : 0);
+                  number_not_arrived(), number_of_lost_edges(),
+                  tolerance > 0 ? distance / (share_of_tolerance * tolerance) - 1 : 0);
+  }
+
+  /// The length of sharp edges that the mesh optimized last cuts off, beyond a tolerated share, in mean edges.
+  std::size_t number_of_lost_edges() const
+  {
+    constexpr double tolerated_share = 0.05;
+    const Mixed_mesh_optimization_result_3& fit = result.optimization;
+    const double lost = (1 - tolerated_share) * fit.length_of_sharp_edges - fit.length_of_sharp_edges_kept;
+    return lost > 0 ? std::size_t(std::ceil(lost / mean_edge())) : 0;
   }
 
   /// The number of boundary vertices of the mesh optimized last that are not on the surface.

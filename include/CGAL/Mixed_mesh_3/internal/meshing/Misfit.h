@@ -31,7 +31,8 @@ namespace internal {
 class Misfit
 {
   bool m_is_mesh = true;
-  std::size_t m_topology = 0, m_number_of_lost_cells = 0, m_number_not_arrived = 0;
+  std::size_t m_topology = 0, m_number_of_lost_cells = 0, m_number_not_arrived = 0,
+              m_number_of_lost_edges = 0;
   double m_volume = 0, m_distance = 0; // relative excess over the tolerated values
   double m_volume_of_small_shells = 0; // the same, of shells that no other mesh would represent better
   std::optional<Shell_counts> m_shells_of_domain, m_shells;
@@ -50,11 +51,12 @@ public:
 
   /// \param mesh mesh whose boundary is a manifold, except where it is pinched
   /// \param is_fitted whether its volume should be that of the domain
+  /// \param number_of_lost_edges the length of sharp edges that the mesh cuts off, in mean edges
   /// \param distance relative excess of the distance from the surface over the tolerance
   Misfit(const Core_mesh& mesh, const Any_domain& domain, bool is_fitted, std::size_t number_of_lost_cells,
-         std::size_t number_not_arrived, double distance)
+         std::size_t number_not_arrived, std::size_t number_of_lost_edges, double distance)
     : m_number_of_lost_cells(number_of_lost_cells), m_number_not_arrived(number_not_arrived),
-      m_distance((std::max)(0., distance))
+      m_number_of_lost_edges(number_of_lost_edges), m_distance((std::max)(0., distance))
   {
     m_shells_of_domain = domain.shells();
     if(!m_shells_of_domain)
@@ -88,6 +90,12 @@ public:
   /// Whether there is no misfit, all boundary vertices are on the surface, and the boundary is within the
   /// tolerance.
   bool is_right() const { return is_none() && m_number_not_arrived == 0 && m_distance == 0; }
+  /// Whether sharp edges are kept, and at most that many vertices are not on the surface, while nothing else is wrong.
+  bool is_nearly_right(std::size_t most_not_arrived) const
+  {
+    return is_none() && m_volume_of_small_shells == 0 && m_distance == 0 && m_number_of_lost_edges == 0
+           && m_number_not_arrived <= most_not_arrived;
+  }
   bool has_distance_only() const { return is_none() && m_number_not_arrived == 0; }
 
   bool is_topology_right() const { return m_is_mesh && m_topology == 0; }
@@ -114,10 +122,16 @@ private:
     return std::size_t(a < b ? b - a : a - b);
   }
 
-  std::tuple<bool, std::size_t, bool, double, std::size_t, double, std::size_t> key() const
+  std::tuple<bool, std::size_t, bool, double, std::size_t, double, std::size_t, double> key() const
   {
-    return {!m_is_mesh,           m_topology, m_number_of_lost_cells > 0, m_volume,
-            m_number_not_arrived, m_distance, m_number_of_lost_cells};
+    return {!m_is_mesh,
+            m_topology,
+            m_number_of_lost_cells > 0,
+            m_volume,
+            m_number_not_arrived + m_number_of_lost_edges,
+            m_distance,
+            m_number_of_lost_cells,
+            m_volume_of_small_shells};
   }
 };
 

@@ -105,20 +105,24 @@ inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_
     make(s, other, of_other);
     note_misfit(s, of_other);
     note_elements_above_bound(s, other);
+    // Few vertices off the surface are less to see than sharp edges that are cut off.
+    const std::size_t few = s.result.optimization.length_of_sharp_edges > 0 ? std::size_t(
+                              removable_share * double(s.result.optimization.number_of_boundary_vertices))
+                                                                            : 0;
+    const bool is_last = s.is_stopped || of_other.is_nearly_right(few);
     if(mesh.is_empty() || (of_other < misfit && !s.is_stopped)) {
       result = s.result;
       misfit = of_other;
       mesh = std::move(other);
     }
-    return s.is_stopped;
+    return is_last;
   };
   mesh.clear();
-  const bool begins = begins_fine(root, criteria);
-  const bool is_stopped = begins && run([](Meshing_state& s, Core_mesh& m, Misfit& of_mesh) {
-                            make_simplified_mesh(s, m);
-                            of_mesh = s.misfit_of(m);
-                          });
-  if(!begins || (!is_stopped && !misfit.is_right()))
+  const auto simplify_fine_mesh = [](Meshing_state& s, Core_mesh& m, Misfit& of_mesh) {
+    make_simplified_mesh(s, m);
+    of_mesh = s.misfit_of(m);
+  };
+  if(!begins_fine(root, criteria) || !run(simplify_fine_mesh))
     run(run_within_budget);
   return result;
 }
