@@ -57,7 +57,8 @@ std::vector<Check> checks_of_fidelity(const Outcome& outcome, bool is_fitted)
     checks.push_back({"volume within 5 % of the surface's", outcome.fidelity.has_right_volume()});
     checks.push_back({"boundary vertices on the surface", outcome.fidelity.vertices_off == 0});
     if(outcome.result.optimization.length_of_sharp_edges > 0)
-      checks.push_back({"sharp edges kept", share_of_sharp_edges(outcome.result) >= least_share_of_sharp_edges});
+      checks.push_back(
+        {"sharp edges kept", share_of_sharp_edges(outcome.result) >= least_share_of_sharp_edges});
   }
   return checks;
 }

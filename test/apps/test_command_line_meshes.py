@@ -50,7 +50,7 @@ class Meshes(Case):
         self.assertIn("TYPE=C3D10,", (WORK / "quadratic.inp").read_text())
 
         def refused(*words):
-            run = self.mesher(DATA / "brain.off", "--vertices", 300, *words)
+            run = self.mesher(DATA / "brain.off", "--region", DATA / "region.off", "--vertices", 660, "--no-exchange", *words)
             return run.returncode, run.stderr.strip().split("\n")[-1]
 
         for name, words in (("a.mesh", "elements of order 2 can be written to .vtu, .msh, .msh2, .inp and .feb only"),
