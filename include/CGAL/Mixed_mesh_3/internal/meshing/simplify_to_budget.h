@@ -13,6 +13,8 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Followed_features.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/simplify.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/coarsen_to_budget.h>
@@ -20,6 +22,7 @@
 #include <CGAL/Mixed_mesh_3/internal/meshing/make_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/sharp_cells.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
 
 #include <algorithm>
 #include <cmath>
@@ -110,6 +113,15 @@ inline void fit_fine_mesh(Meshing_state& s, Core_mesh& mesh, Followed_features& 
     [&s] { return s.go_on(); }, {0, 0, true}, {}, &followed);
 }
 
+/// Whether faces of the boundary cut each other.
+inline bool cuts_itself(const Core_mesh& mesh)
+{
+  std::vector<Vec3> points;
+  for(const auto& p : mesh.points())
+    points.push_back(to_vec3(p));
+  return !vertices_of_self_intersections(points, boundary_faces(mesh)).empty();
+}
+
 /// Makes a mesh with the vertices of the budget out of a finer one.
 /// \param mesh empty; stays so if there is none
 inline void make_simplified_mesh(Meshing_state& s, Core_mesh& mesh)
@@ -158,10 +170,21 @@ inline void make_simplified_mesh(Meshing_state& s, Core_mesh& mesh)
   s.result.number_of_transition_vertices = s.result.number_of_boundary_vertices_inserted = 0;
   s.result.number_of_vertices_in_region = number_of_vertices_in_region(mesh);
   if(s.is_stopped) {
-    s.result.is_kept = true;
+    s.result.is_kept = !cuts_itself(mesh);
+    if(!s.result.is_kept)
+      mesh.clear();
     return note_stop();
   }
   optimize_boundary(s, mesh, {}, &followed);
+  const Mixed_mesh_optimization_result_3& fit = s.result.optimization;
+  if(mesh.is_empty())
+    return;
+  // What is guaranteed is not given up: there is no mesh then, and the octree of the budget is tried.
+  if(!fit.is_boundary_simple || (s.has_quality_bound() && fit.number_of_elements_above_bound > 0)) {
+    mesh.clear();
+    s.result.status = Mixed_mesh_status::BUDGET_TOO_SMALL;
+    return;
+  }
   note_lost_cells(s, mesh);
   note_share_filled(s, mesh.number_of_vertices());
 }
