@@ -3,9 +3,9 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Simplification with sharp edges: the topology of the mesh and of its boundary stays, by brute force, no element
-// is inverted, by rationals, and the boundary does not cut itself; sharp edges stay simple paths between the same
-// corners; meshes of fewer vertices come from those of more.
+// Simplification with sharp edges: the topology of the mesh and of its boundary stays, by brute force, no
+// element is inverted, by rationals, and the boundary does not cut itself; sharp edges stay simple paths
+// between the same corners; meshes of fewer vertices come from those of more.
 
 #include "test_cells.h"
 #include "test_fitting.h"

@@ -42,14 +42,14 @@ namespace internal {
 Removes vertices by edge collapses, those first whose loss is least.
 
 The loss of a collapse of v into w is the cube of the longest new edge, the volume in which the solution gets
-coarser, plus, on the boundary, a multiple of the volume between w and the planes of the boundary of the start that
-v and w stand for.
+coarser, plus, on the boundary, a multiple of the volume between w and the planes of the boundary of the start
+that v and w stand for.
 
 A vertex goes into a vertex of its own stratum or of one in its closure: a corner stays, a vertex of a sharp
 edge goes along it, one of the boundary along the boundary, one inside anywhere. A collapse keeps the topology
-of the mesh, of its boundary and of its sharp edges; the boundary does not cut itself, and its faces do not turn
-far. Unwanted vertices go first, whatever is lost, and others do not go into them. The meshes of fewer and fewer
-vertices are a sequence: those of one are among those of the one before.
+of the mesh, of its boundary and of its sharp edges; the boundary does not cut itself, and its faces do not
+turn far. Unwanted vertices go first, whatever is lost, and others do not go into them. The meshes of fewer
+and fewer vertices are a sequence: those of one are among those of the one before.
 
 \tparam Quality a model of `MixedMeshQuality_3`
 */
@@ -108,7 +108,8 @@ class Mesh_simplifier
   static constexpr double share_of_unwanted = 1e-30; // of the loss: unwanted vertices go before all others
   static constexpr double bound_of_unwanted = 8;     // with 20, elements above the bound are left in the end
   // Weight of the volume at the boundary, beside the cubes of edges. With 100, brains of 2,000 vertices are a
-  // tenth farther from their surface in the mean, and the mean aspect-ratio coefficient is 1.32 instead of 1.36.
+  // tenth farther from their surface in the mean, and the mean aspect-ratio coefficient is 1.32 instead of
+  // 1.36.
   static constexpr double weight_of_surface = 400;
   static constexpr double least_cosine = 0.2; // between a face and the one that takes its place
 
@@ -343,8 +344,8 @@ private:
     return number_at_edge == 2 && common.size() == 2 && !is_sphere;
   }
 
-  // Whether the new faces are near to all places that vertices have left, and do not turn far, unless the vertex
-  // is not where it should be.
+  // Whether the new faces are near to all places that vertices have left, and do not turn far, unless the
+  // vertex is not where it should be.
   bool stays_near(Vertex_index v, Vertex_index w) const
   {
     const std::vector<Vec3>& p = m_mesh.points;

@@ -379,8 +379,8 @@ private:
                                   : polyline.closest(m_places[path[i].first]).length;
   }
 
-  // Each vertex of the polyline where it turns takes the vertex of the path that is nearest to it, as an edge past
-  // it would cut it off.
+  // Each vertex of the polyline where it turns takes the vertex of the path that is nearest to it, as an edge
+  // past it would cut it off.
   static void take_turns(const Feature_polyline& polyline, std::vector<double>& lengths)
   {
     constexpr double least_turn =

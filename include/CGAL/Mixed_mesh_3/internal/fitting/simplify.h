@@ -36,8 +36,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The places where vertices should be, and the vertices that a mesh should be without: those of the boundary that
-/// are not on the surface, or whose faces cut each other.
+/// The places where vertices should be, and the vertices that a mesh should be without: those of the boundary
+/// that are not on the surface, or whose faces cut each other.
 struct Wanted_places
 {
   std::vector<Vec3> places;
@@ -64,8 +64,8 @@ struct Wanted_places
 /*!
 Removes vertices of a mesh whose boundary is on the surface, until it has a given number.
 
-What does not suffice is given up in this order: that sharp edges of the mesh stay near to curved ones, then the
-quality bound, then the distance.
+What does not suffice is given up in this order: that sharp edges of the mesh stay near to curved ones, then
+the quality bound, then the distance.
 
 \param followed sharp features that the mesh follows, which the result follows as well
 \param distance no place that a boundary vertex has left is farther from the boundary

@@ -208,7 +208,8 @@ struct Meshing_state
                   tolerance > 0 ? distance / (share_of_tolerance * tolerance) - 1 : 0);
   }
 
-  /// The length of sharp edges that the mesh optimized last cuts off, beyond a tolerated share, in mean edges.
+  /// The length of sharp edges that the mesh optimized last cuts off, beyond a tolerated share, in mean
+  /// edges.
   std::size_t number_of_lost_edges() const
   {
     constexpr double tolerated_share = 0.05;

@@ -90,7 +90,8 @@ public:
   /// Whether there is no misfit, all boundary vertices are on the surface, and the boundary is within the
   /// tolerance.
   bool is_right() const { return is_none() && m_number_not_arrived == 0 && m_distance == 0; }
-  /// Whether sharp edges are kept, and at most that many vertices are not on the surface, while nothing else is wrong.
+  /// Whether sharp edges are kept, and at most that many vertices are not on the surface, while nothing else
+  /// is wrong.
   bool is_nearly_right(std::size_t most_not_arrived) const
   {
     return is_none() && m_volume_of_small_shells == 0 && m_distance == 0 && m_number_of_lost_edges == 0

@@ -61,8 +61,8 @@ inline void note_elements_above_bound(Meshing_state& s, const Core_mesh& mesh)
   s.result.optimization.number_of_elements_above_bound = number_of_elements_above(mesh, bound);
 }
 
-/// Makes the mesh of a state from an octree that has the vertices of the budget: what follows the octree is tried,
-/// until the budget is full.
+/// Makes the mesh of a state from an octree that has the vertices of the budget: what follows the octree is
+/// tried, until the budget is full.
 inline void run_within_budget(Meshing_state& s, Core_mesh& mesh, Misfit& misfit)
 {
   {
@@ -88,8 +88,8 @@ inline void run_within_budget(Meshing_state& s, Core_mesh& mesh, Misfit& misfit)
     improve_thin_parts(s, mesh, misfit);
 }
 
-/// Makes the mesh. Where it begins with a fine one and something is wrong in the end, the octree of the budget is
-/// tried as well, and the better mesh is taken.
+/// Makes the mesh. Where it begins with a fine one and something is wrong in the end, the octree of the
+/// budget is tried as well, and the better mesh is taken.
 /// \param root the octree with nothing but its root
 inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_criteria& criteria,
                                       Any_visitor& visitor, Core_mesh& mesh)

@@ -28,7 +28,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// A point of a sharp edge, with its distance from the nearest other sharp edge: the width of what is between.
+/// A point of a sharp edge, with its distance from the nearest other sharp edge: the width of what is
+/// between.
 struct Narrow_place
 {
   Vec3 point;

@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Fine first, then fewer: a mesh that is fine enough to be faithful is fitted once, and loses vertices until the
-// budget is met.
+// Fine first, then fewer: a mesh that is fine enough to be faithful is fitted once, and loses vertices until
+// the budget is met.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_SIMPLIFY_TO_BUDGET_H
 #define CGAL_MIXED_MESH_3_INTERNAL_MESHING_SIMPLIFY_TO_BUDGET_H
@@ -46,9 +46,9 @@ inline bool begins_fine(const Located_octree& root, const Mixed_mesh_criteria_3&
 /// The number of vertices of the fine mesh, for a budget.
 inline std::size_t number_of_fine_vertices(std::size_t budget)
 {
-  // With 3 times the budget, mean distances of parts with edges are larger by a tenth to a half, with 4 the time
-  // is that of as many moves as the optimization of the whole. Beyond some number, the surface of a fine mesh has
-  // vertices enough, and removing more would take more time than all other stages.
+  // With 3 times the budget, mean distances of parts with edges are larger by a tenth to a half, with 4 the
+  // time is that of as many moves as the optimization of the whole. Beyond some number, the surface of a fine
+  // mesh has vertices enough, and removing more would take more time than all other stages.
   constexpr double multiple = 4, most_removed = 30000;
   return budget + std::size_t((std::min)((multiple - 1) * double(budget), most_removed));
 }
@@ -56,8 +56,8 @@ inline std::size_t number_of_fine_vertices(std::size_t budget)
 /// How many times the budget cells may have that are split for narrow places and for the topology.
 constexpr double most_cells_for_narrow_places = 8, most_vertices_for_topology = 16;
 
-/// Lets the octree begin with cells that are small enough for sharp edges that are near to each other, and for
-/// curved ones, as far as the budget allows.
+/// Lets the octree begin with cells that are small enough for sharp edges that are near to each other, and
+/// for curved ones, as far as the budget allows.
 /// \param size edge of the cells that the fine mesh has anyway
 inline void resolve_sharp_edges(Meshing_state& s, double size)
 {
@@ -82,8 +82,8 @@ inline void resolve_sharp_edges(Meshing_state& s, double size)
   }
 }
 
-/// Refines the octree for the fine mesh: until it has its number of vertices, and sharp edges and topology are
-/// resolved.
+/// Refines the octree for the fine mesh: until it has its number of vertices, and sharp edges and topology
+/// are resolved.
 inline void fill_fine_octree(Meshing_state& s)
 {
   const Stage_scope scope(s.visitor, Stage::OCTREE);
@@ -99,8 +99,8 @@ inline void fill_fine_octree(Meshing_state& s)
   s.number_exchanged = 0;
 }
 
-/// Brings the boundary of the fine mesh onto the surface and its sharp edges. Vertices that do not arrive are left
-/// where they are, as they will be removed first.
+/// Brings the boundary of the fine mesh onto the surface and its sharp edges. Vertices that do not arrive are
+/// left where they are, as they will be removed first.
 inline void fit_fine_mesh(Meshing_state& s, Core_mesh& mesh, Followed_features& followed)
 {
   const auto rough = Mixed_mesh_optimization_criteria_3()
@@ -182,7 +182,8 @@ inline void make_simplified_mesh(Meshing_state& s, Core_mesh& mesh)
   // What is guaranteed is not given up: there is no mesh then, and the octree of the budget is tried.
   if(!fit.is_boundary_simple || (s.has_quality_bound() && fit.number_of_elements_above_bound > 0)) {
     mesh.clear();
-    s.result.status = Mixed_mesh_status::BUDGET_TOO_SMALL;
+    s.result.is_kept = false;
+    s.result.status = s.is_stopped ? Mixed_mesh_status::STOPPED : Mixed_mesh_status::BUDGET_TOO_SMALL;
     return;
   }
   note_lost_cells(s, mesh);

@@ -108,7 +108,8 @@ public:
     set(m_mesh, stratum);
   }
 
-  /// Makes the edges of a vertex not sharp: all sharp edges of the mesh are looked at, if the vertex is on one.
+  /// Makes the edges of a vertex not sharp: all sharp edges of the mesh are looked at, if the vertex is on
+  /// one.
   void leave_sharp_edges(Vertex_index v, Stratum stratum)
   {
     if(m_mesh.strata[v] < first_sharp_stratum)

@@ -149,9 +149,9 @@ struct Working_mesh
     return ends;
   }
 
-  /// Whether sharp edges stay as they are, but for a vertex, if a vertex of the boundary goes into another one: a
-  /// corner stays, and a vertex between two edges of a polyline goes along these, unless they would close it. A
-  /// vertex whose polyline does not go through it is like others.
+  /// Whether sharp edges stay as they are, but for a vertex, if a vertex of the boundary goes into another
+  /// one: a corner stays, and a vertex between two edges of a polyline goes along these, unless they would
+  /// close it. A vertex whose polyline does not go through it is like others.
   bool keeps_sharp_edges(Vertex_index v, Vertex_index into) const
   {
     const std::vector<Vertex_index> ends = sharp_neighbors(v);
