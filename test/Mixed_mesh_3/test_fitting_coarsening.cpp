@@ -101,13 +101,7 @@ void test_collapses()
   Counts counts;
   std::mt19937 random(1);
   for(unsigned seed = 1; seed <= 40; ++seed) {
-    // The cells are random, so that there are bodies, handles and cavities, if the boundary is a manifold.
-    std::array<bool, 27> is_there{};
-    for(bool& b : is_there)
-      b = random() % 8 != 0;
-    const Mesh start = cells_of_grid(3, seed, [&](const Cell& c) {
-      return is_there[std::size_t(c[0] + 3 * c[1] + 9 * c[2])] ? 1 : 0;
-    });
+    const Mesh start = cells::random_cells(seed, random);
     if(find_defects(start).none())
       collapse_at_random(start, seed, 60, counts);
   }
@@ -132,11 +126,8 @@ void test_coarsen()
   const Test_surface cube = box(Test_point(0, 0, 0), Test_point(1, 1, 1));
   const CGAL::Polyhedral_mixed_mesh_domain_3 domain(cube);
   const internal::Surface_reference<CGAL::Polyhedral_mixed_mesh_domain_3> surface(domain);
-  const Mesh straight = grid(10, TETRAHEDRON);
-  Mesh start = straight;
+  Mesh start = grid(10, TETRAHEDRON);
   distort(start, 0.01, 1);
-  for(Vertex_index v : boundary_vertices(straight))
-    start.points()[v] = straight.point(v);
   std::size_t last = start.number_of_vertices();
   for(std::size_t n : {600, 300, 200}) {
     internal::Core_mesh mesh = internal::as_core_mesh(start), again = mesh;

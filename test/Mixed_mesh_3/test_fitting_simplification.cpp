@@ -231,12 +231,7 @@ void test_sharp_edges_stay()
   Counts counts;
   std::mt19937 random(1);
   for(unsigned seed = 1; seed <= 12; ++seed) {
-    std::array<bool, 27> is_there{};
-    for(bool& b : is_there)
-      b = random() % 8 != 0;
-    const Mesh start = cells_of_grid(3, seed, [&](const Cell& c) {
-      return is_there[std::size_t(c[0] + 3 * c[1] + 9 * c[2])] ? 1 : 0;
-    });
+    const Mesh start = cells::random_cells(seed, random);
     if(find_defects(start).none())
       simplify_at_random(start, seed, counts);
   }
@@ -287,11 +282,8 @@ void test_cube()
   const Test_surface cube = box(Test_point(0, 0, 0), Test_point(1, 1, 1));
   const CGAL::Polyhedral_mixed_mesh_domain_3 domain(cube);
   const internal::Surface_reference<CGAL::Polyhedral_mixed_mesh_domain_3> surface(domain);
-  const Mesh straight = grid(10, TETRAHEDRON);
-  Mesh start = straight;
+  Mesh start = grid(10, TETRAHEDRON);
   distort(start, 0.01, 1);
-  for(Vertex_index v : boundary_vertices(straight))
-    start.points()[v] = straight.point(v);
   std::set<std::array<double, 3>> last;
   double bound = 3.2;
   for(std::size_t n : {900, 600, 300, 250}) {

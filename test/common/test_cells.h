@@ -15,6 +15,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <random>
 #include <vector>
 
 namespace cells {
@@ -47,6 +48,18 @@ inline Mesh cells_of_grid(int n, unsigned seed, const std::function<Subdomain_in
     mesh.add_element(TETRAHEDRON, v, attributes);
   }
   return mesh;
+}
+
+// The cells of a grid of three along each axis, but some at random: there are bodies, handles and cavities,
+// if the boundary is a manifold.
+inline Mesh random_cells(unsigned seed, std::mt19937& random)
+{
+  std::array<bool, 27> is_there{};
+  for(bool& b : is_there)
+    b = random() % 8 != 0;
+  return cells_of_grid(3, seed, [&](const Cell& c) {
+    return is_there[std::size_t(c[0] + 3 * c[1] + 9 * c[2])] ? 1 : 0;
+  });
 }
 
 } // namespace cells

@@ -100,7 +100,8 @@ public:
       m_has_subdomains(domain.subdomain_indices().size() > 1 || domain.has_sheets()), m_estimate(estimate),
       m_tolerated_share_not_arrived((std::max)(estimate.tolerated_share_not_arrived,
                                                m_has_subdomains ? tolerated_share_on_interfaces : 0)),
-      m_remove(std::move(remove)), m_sharp_edges(domain.sharp_edges(criteria.sharp_angle())),
+      m_remove(std::move(remove)),
+      m_sharp_edges(is_chosen(followed) ? Sharp_edges() : domain.sharp_edges(criteria.sharp_angle())),
       m_edge_length(m_sharp_edges.edges.empty() ? 1 : mean_edge_length()),
       m_features(is_chosen(followed) ? followed->features : Sharp_features(m_sharp_edges, m_edge_length)),
       m_sharp_at_start(is_chosen(followed) ? followed->strata : Sharp_strata()), m_sharp(m_sharp_at_start),
@@ -139,8 +140,9 @@ private:
 
   Result optimize(const std::function<bool()>& go_on)
   {
-    if(!m_sharp_at_start
-          .empty()) { // the boundary is on the surface, but for few vertices, and does not cut itself
+    // A mesh that follows sharp edges already is on the surface, but for few vertices, and does not cut
+    // itself.
+    if(!m_sharp_at_start.empty()) {
       Outcome outcome = optimize_freely({true, false}, go_on);
       return take(outcome);
     }
@@ -250,8 +252,7 @@ private:
   // The number of vertices that have not arrived, plus the lost length of sharp edges in lengths of edges.
   double number_not_arrived(const Result& r) const
   {
-    // No run follows sharp edges again that are lost already.
-    const double lost = m_sharp_at_start.empty() ? r.length_of_sharp_edges - r.length_of_sharp_edges_kept : 0;
+    const double lost = r.length_of_sharp_edges - r.length_of_sharp_edges_kept;
     return double(r.number_of_boundary_vertices - r.number_of_arrived_vertices)
            + (lost > 0 ? lost / m_edge_length : 0);
   }
@@ -275,7 +276,7 @@ private:
       outcome.sharp = std::move(fitted.sharp);
       const Result& result = fitted.result;
       if(result.is_boundary_simple || result.status == Status::STOPPED || i > std::size(rings)
-         || (i == 0 && is_start_crossing()))
+         || (i == 0 && cuts_itself(m_mesh)))
         return result;
       if(i == std::size(rings))
         std::fill(m_is_held.begin(), m_is_held.end(), 1);
@@ -295,14 +296,6 @@ private:
         sum += norm(to_vec3(m_mesh.points()[v[i]]) - to_vec3(m_mesh.points()[v[(i + 1) % v.size()]]));
     }
     return sum / number;
-  }
-
-  bool is_start_crossing() const
-  {
-    std::vector<Vec3> points;
-    for(const auto& p : m_mesh.points())
-      points.push_back(to_vec3(p));
-    return !vertices_of_self_intersections(points, boundary_faces(m_mesh)).empty();
   }
 
   void hold(const std::vector<Vertex_index>& vertices, int number_of_rings)

@@ -15,7 +15,6 @@
 #include <CGAL/Mixed_mesh_3/internal/fitting/Plane_quadric.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Boundary_triangles.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Edge_collapser.h>
-#include <CGAL/Mixed_mesh_3/internal/moves/Transaction.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Sharp_features.h>
 
@@ -307,9 +306,7 @@ private:
     const Stratum s = m_mesh.sharp_stratum(v, w);
     const Feature_polyline& polyline = m_features.polylines()[s - first_sharp_stratum];
     const auto length_at = [&](Vertex_index u) {
-      return m_mesh.strata[u] < m_first_corner ? polyline.closest(m_mesh.points[u]).length
-             : m_mesh.strata[u] - m_first_corner == polyline.corners[0] ? 0
-                                                                        : polyline.length();
+      return m_features.arc_length(m_mesh.points[u], m_mesh.strata[u] - first_sharp_stratum, polyline);
     };
     for(Vertex_index u : m_mesh.sharp_neighbors(v))
       if(u != w && !polyline.is_near(m_mesh.points[u], length_at(u), m_mesh.points[w], length_at(w)))

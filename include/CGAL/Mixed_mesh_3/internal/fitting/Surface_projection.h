@@ -12,6 +12,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Strata.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Any_surface.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Sharp_features.h>
 
@@ -77,6 +78,21 @@ public:
       return to_vec3(m_domain->closest_point(point(p), point(hint)));
     const std::vector<Interface>& interfaces = m_strata->interfaces(stratum);
     return interfaces.size() == 1 ? closest(p, hint, interfaces[0]) : junction(p, interfaces);
+  }
+
+  /// The positions of a mesh, with boundary vertices where they should be: on their surfaces. Vertices that
+  /// are there already keep their positions.
+  std::vector<Vec3> places(const Working_mesh& mesh) const
+  {
+    std::vector<Vec3> result = mesh.points;
+    const double on_surface = accuracy * diagonal();
+    for(Vertex_index v = 0; v < result.size(); ++v)
+      if(mesh.is_on_boundary(v)) {
+        const Vec3 q = (*this)(mesh.points[v], mesh.strata[v]);
+        if(norm(q - mesh.points[v]) > on_surface)
+          result[v] = q;
+      }
+    return result;
   }
 
   /// Whether several threads may ask for points of that stratum at the same time.

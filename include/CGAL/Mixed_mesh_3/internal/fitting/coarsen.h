@@ -21,8 +21,6 @@
 #include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Any_surface.h>
 
-#include <CGAL/Bbox_3.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -116,15 +114,7 @@ inline bool coarsen(Core_mesh& mesh, const Any_surface& surface, std::size_t num
   const double share = double(number_of_vertices) / double(mesh.number_of_vertices()),
                edge = sum / double(3 * boundary.size()) / std::sqrt(share);
   const Surface_projection project(surface, strata);
-  const Bbox_3 box = surface.bbox();
-  const double on_surface = 1e-9 * norm({box.x_span(), box.y_span(), box.z_span()});
-  std::vector<Vec3> targets = working.points;
-  for(Vertex_index v = 0; v < targets.size(); ++v)
-    if(working.is_on_boundary(v)) {
-      const Vec3 q = project(working.points[v], working.strata[v]);
-      if(norm(q - working.points[v]) > on_surface)
-        targets[v] = q;
-    }
+  const std::vector<Vec3> targets = project.places(working);
   std::vector<double> weights = weights_of_vertices(working, radius);
   for(Vertex_index v = 0; v < weights.size(); ++v)
     if(working.is_on_boundary(v))

@@ -383,8 +383,8 @@ private:
   // past it would cut it off.
   static void take_turns(const Feature_polyline& polyline, std::vector<double>& lengths)
   {
-    constexpr double least_turn =
-      0.996;                      // cosine of 5 degrees: an edge past it is off by a fiftieth of its length
+    // Cosine of 5 degrees: an edge past such a turn is off by a fiftieth of its length.
+    constexpr double least_turn = 0.996;
     constexpr double reach = 0.6; // share of the distance of a neighbor on the path
     std::size_t first = 1;
     for(double turn : polyline.turns(least_turn)) {

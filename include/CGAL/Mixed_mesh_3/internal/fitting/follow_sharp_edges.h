@@ -66,16 +66,6 @@ void give_up_features(Fitting_state<Quality>& s, bool beside)
   s.choose_new_targets();
 }
 
-/// Arc length of a vertex along its polyline, or of the corner that the vertex is on.
-template <class Quality>
-double arc_length(const Fitting_state<Quality>& s, Vertex_index v, const Feature_polyline& polyline)
-{
-  const std::size_t first_corner = first_sharp_stratum + s.features->polylines().size();
-  return s.mesh.strata[v] < first_corner                          ? polyline.closest(s.mesh.points[v]).length
-         : s.mesh.strata[v] - first_corner == polyline.corners[0] ? 0
-                                                                  : polyline.length();
-}
-
 /// The length of the part of its polyline that an edge is near to.
 /// \pre both ends have arrived
 template <class Quality>
@@ -85,7 +75,10 @@ double length_kept(const Fitting_state<Quality>& s, const Working_mesh::Edge& ed
   constexpr int samples = 16;
   constexpr double near_enough = 0.05; // in lengths of the edge
   const Vec3 &p = s.mesh.points[edge.first], along = s.mesh.points[edge.second] - p;
-  const double first = arc_length(s, edge.first, polyline), last = arc_length(s, edge.second, polyline);
+  const auto arc_length = [&](Vertex_index v) {
+    return s.features->arc_length(s.mesh.points[v], s.mesh.strata[v] - first_sharp_stratum, polyline);
+  };
+  const double first = arc_length(edge.first), last = arc_length(edge.second);
   double kept = 0;
   for(int i = 0; i < samples; ++i) {
     const Vec3 q = polyline.at(first + (i + 0.5) / samples * (last - first)) - p;

@@ -23,8 +23,6 @@
 #include <CGAL/Mixed_mesh_3/internal/oracle/Any_surface.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
 
-#include <CGAL/Bbox_3.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -36,30 +34,20 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The places where vertices should be, and the vertices that a mesh should be without: those of the boundary
-/// that are not on the surface, or whose faces cut each other.
-struct Wanted_places
+/// For each vertex, whether a mesh should be without it: vertices of the boundary that are not on the
+/// surface, or whose faces cut each other.
+inline std::vector<std::uint8_t> unwanted_vertices(const Working_mesh& mesh,
+                                                   const std::vector<Face>& boundary,
+                                                   const std::vector<Vec3>& places)
 {
-  std::vector<Vec3> places;
-  std::vector<std::uint8_t> is_unwanted;
-
-  Wanted_places(const Working_mesh& mesh, const std::vector<Face>& boundary,
-                const Surface_projection& project, const Bbox_3& box)
-    : places(mesh.points), is_unwanted(mesh.points.size(), 0)
-  {
-    const double on_surface = 1e-9 * norm({box.x_span(), box.y_span(), box.z_span()});
-    for(Vertex_index v : vertices_of_self_intersections(mesh.points, boundary))
+  std::vector<std::uint8_t> is_unwanted(places.size(), 0);
+  for(Vertex_index v : vertices_of_self_intersections(mesh.points, boundary))
+    is_unwanted[v] = 1;
+  for(Vertex_index v = 0; v < places.size(); ++v)
+    if(places[v] != mesh.points[v])
       is_unwanted[v] = 1;
-    for(Vertex_index v = 0; v < places.size(); ++v)
-      if(mesh.is_on_boundary(v)) {
-        const Vec3 q = project(mesh.points[v], mesh.strata[v]);
-        if(norm(q - mesh.points[v]) > on_surface) {
-          places[v] = q;
-          is_unwanted[v] = 1;
-        }
-      }
-  }
-};
+  return is_unwanted;
+}
 
 /*!
 Removes vertices of a mesh whose boundary is on the surface, until it has a given number.
@@ -88,10 +76,11 @@ inline bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_sur
   working.set_sharp_strata(followed.strata);
   Surface_projection project(surface, strata);
   project.set_features(followed.features);
-  const Wanted_places wanted(working, faces.faces, project, surface.bbox());
+  const std::vector<Vec3> places = project.places(working);
+  const std::vector<std::uint8_t> is_unwanted = unwanted_vertices(working, faces.faces, places);
   const double share = double(number_of_vertices) / double(mesh.number_of_vertices());
-  Mesh_simplifier<Aspect_ratio_quality_3> simplifier(working, quality, faces.faces, wanted.places,
-                                                     wanted.is_unwanted, followed.features,
+  Mesh_simplifier<Aspect_ratio_quality_3> simplifier(working, quality, faces.faces, places, is_unwanted,
+                                                     followed.features,
                                                      std::size_t(share * double(faces.faces.size())));
   std::size_t n = mesh.number_of_vertices();
   const auto remove = [&](double d, bool follows_curves) {

@@ -106,9 +106,9 @@ inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_
     note_misfit(s, of_other);
     note_elements_above_bound(s, other);
     // Few vertices off the surface are less to see than sharp edges that are cut off.
-    const std::size_t few = s.result.optimization.length_of_sharp_edges > 0 ? std::size_t(
-                              removable_share * double(s.result.optimization.number_of_boundary_vertices))
-                                                                            : 0;
+    const Mixed_mesh_optimization_result_3& fit = s.result.optimization;
+    const double tolerated = fit.length_of_sharp_edges > 0 ? removable_share : 0;
+    const std::size_t few = std::size_t(tolerated * double(fit.number_of_boundary_vertices));
     const bool is_last = s.is_stopped || of_other.is_nearly_right(few);
     if(mesh.is_empty() || (of_other < misfit && !s.is_stopped)) {
       result = s.result;

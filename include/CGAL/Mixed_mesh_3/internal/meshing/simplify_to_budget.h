@@ -13,8 +13,6 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
-#include <CGAL/Mixed_mesh_3/boundary_faces.h>
-#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Followed_features.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/simplify.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/coarsen_to_budget.h>
@@ -111,15 +109,6 @@ inline void fit_fine_mesh(Meshing_state& s, Core_mesh& mesh, Followed_features& 
   optimize_bounded(
     mesh, s.root.domain(), {rough, s.criteria.number_of_threads}, Aspect_ratio_quality_3(),
     [&s] { return s.go_on(); }, {0, 0, true}, {}, &followed);
-}
-
-/// Whether faces of the boundary cut each other.
-inline bool cuts_itself(const Core_mesh& mesh)
-{
-  std::vector<Vec3> points;
-  for(const auto& p : mesh.points())
-    points.push_back(to_vec3(p));
-  return !vertices_of_self_intersections(points, boundary_faces(mesh)).empty();
 }
 
 /// Makes a mesh with the vertices of the budget out of a finer one.

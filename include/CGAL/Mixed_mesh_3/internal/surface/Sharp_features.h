@@ -183,6 +183,16 @@ public:
     return m_is_real.size() - std::size_t(std::count(m_is_real.begin(), m_is_real.end(), 0));
   }
 
+  /// The arc length of a point along a polyline that the point is on.
+  /// \param number of the feature that the point belongs to: polylines are numbered first, then corners
+  double arc_length(const Vec3& p, std::size_t number, const Feature_polyline& polyline) const
+  {
+    const std::size_t first_corner = m_polylines.size();
+    return number < first_corner                          ? polyline.closest(p).length
+           : number - first_corner == polyline.corners[0] ? 0
+                                                          : polyline.length();
+  }
+
   double length() const
   {
     double sum = 0;

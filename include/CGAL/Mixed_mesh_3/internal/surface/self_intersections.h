@@ -12,6 +12,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Shared_mark.h>
@@ -160,6 +161,17 @@ inline std::vector<Vertex_index> vertices_of_self_intersections(const std::vecto
     if(is_marked[v])
       vertices.push_back(v);
   return vertices;
+}
+
+/// Whether faces of the boundary of a mesh meet in more than the vertices and edges they share.
+template <class Mesh>
+bool cuts_itself(const Mesh& mesh)
+{
+  std::vector<Vec3> points;
+  points.reserve(mesh.number_of_vertices());
+  for(const auto& p : mesh.points())
+    points.push_back(to_vec3(p));
+  return !vertices_of_self_intersections(points, boundary_faces(mesh)).empty();
 }
 
 } // namespace internal
