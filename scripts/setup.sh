@@ -26,7 +26,8 @@ packages_for() {
     # VTK opens an X display even to render off-screen: Xvfb and Mesa's software renderer provide it.
     pictures) echo python3-vtk9 xvfb libgl1-mesa-dri ;;
     # Peers that read back the files that we write; plastimatch deforms images by fields.
-    tests) echo mypy plastimatch python3-getfem python3-gmsh python3-meshio python3-nibabel python3-vtk9 ;;
+    tests) echo mypy plastimatch calculix-ccx python3-getfem python3-gmsh python3-meshio python3-nibabel \
+                python3-vtk9 ;;
     # An MRI image of a brain, of which data/brain.off is the surface.
     image) echo mricron-data ;;
     # What workflow/Snakefile runs with, and its scripts.
