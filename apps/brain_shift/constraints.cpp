@@ -16,7 +16,7 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 
 namespace {
 
-// A vertex and an axis.
+// A node and an axis.
 using Component = std::pair<mm3::Vertex_index, int>;
 using Terms = std::map<Component, double>;
 
@@ -125,6 +125,18 @@ mm3::IO::FEB_constraint constraint_of(const Component& component, const Dependen
   return c;
 }
 
+// Adds a component of a node's value to an equation of displacements. The value of an edge is the
+// displacement of its middle minus the mean of its ends.
+void add_value(const Motion_constraints& constraints, mm3::Vertex_index node, int axis, double factor,
+               Terms& equation)
+{
+  const std::size_t vertices = constraints.held_directions.size() - constraints.edges.size();
+  equation[{node, axis}] += factor;
+  if(node >= vertices)
+    for(mm3::Vertex_index end : constraints.edges[node - vertices])
+      equation[{end, axis}] -= factor / 2;
+}
+
 } // namespace
 
 Explicit_constraints solve_for_displacements(const Motion_constraints& constraints)
@@ -135,14 +147,18 @@ Explicit_constraints solve_for_displacements(const Motion_constraints& constrain
     if(elimination.is_fixed(v)) {
       result.fixed_vertices.push_back(v);
     } else {
-      for(const Vector& d : constraints.held_directions[v])
-        elimination.add({{{v, 0}, d[0]}, {{v, 1}, d[1]}, {{v, 2}, d[2]}}, 0, false);
+      for(const Vector& d : constraints.held_directions[v]) {
+        Terms equation;
+        for(int axis = 0; axis < 3; ++axis)
+          add_value(constraints, v, axis, d[axis], equation);
+        elimination.add(equation, 0, false);
+      }
     }
   for(std::size_t i = 0; i < constraints.means.size(); ++i)
     for(int axis = 0; axis < 3; ++axis) {
       Terms mean;
       for(const auto& [v, weight] : constraints.weights[i])
-        mean[{v, axis}] += weight;
+        add_value(constraints, v, axis, weight, mean);
       elimination.add(mean, constraints.means[i][axis], true);
     }
   for(const auto& [component, dependent] : elimination.dependent())

@@ -10,14 +10,18 @@
 #include "core/resources.h"
 
 #include <CGAL/Mixed_mesh_3/IO/FEB_model.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/Middle_nodes.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <ostream>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 
@@ -25,26 +29,37 @@ namespace {
 
 constexpr std::size_t nowhere = std::size_t(-1);
 
-// The number of each vertex of the former mesh in the remaining mesh.
-std::vector<std::size_t> numbers_left(const Remaining_mesh& remaining, std::size_t number_before)
-{
-  std::vector<std::size_t> numbers(number_before, nowhere);
-  for(std::size_t v = 0; v < remaining.vertices.size(); ++v)
-    numbers[remaining.vertices[v]] = v;
-  return numbers;
-}
+using Ends = std::array<mm3::Vertex_index, 2>;
 
+// The constraints of the remaining nodes. Edges have the order in which elements of order 2 are written.
 Motion_constraints constraints_left(const Remaining_mesh& remaining, const Motion_constraints& constraints)
 {
-  const auto numbers = numbers_left(remaining, constraints.held_directions.size());
-  Motion_constraints left{{}, constraints.weights, constraints.means};
-  for(mm3::Vertex_index v : remaining.vertices)
-    left.held_directions.push_back(constraints.held_directions[v]);
+  const std::size_t vertices_before = constraints.held_directions.size() - constraints.edges.size();
+  std::vector<mm3::Vertex_index> nodes(remaining.vertices.begin(),
+                                       remaining.vertices.end()); // former numbers
+  Motion_constraints left{{}, constraints.weights, constraints.means, {}};
+  if(!constraints.edges.empty()) {
+    std::map<std::array<mm3::Vertex_index, 2>, mm3::Vertex_index> numbers;
+    for(const auto& ends : constraints.edges)
+      numbers.emplace(ends, mm3::Vertex_index(vertices_before + numbers.size()));
+    left.edges = mm3::internal::quadratic_connectivity(remaining.mesh.elements(),
+                                                       remaining.mesh.number_of_vertices())
+                   .ends;
+    for(const auto& [v, w] : left.edges) {
+      const auto [a, b] = std::minmax({nodes[v], nodes[w]});
+      nodes.push_back(numbers.at({a, b}));
+    }
+  }
+  std::vector<std::size_t> numbers(constraints.held_directions.size(), nowhere);
+  for(std::size_t i = 0; i < nodes.size(); ++i) {
+    numbers[nodes[i]] = i;
+    left.held_directions.push_back(constraints.held_directions[nodes[i]]);
+  }
   for(Motion_constraints::Weights& weights : left.weights)
-    for(auto& [v, weight] : weights) {
-      if(numbers[v] == nowhere)
-        throw std::logic_error("a control point has a vertex that is removed");
-      v = mm3::Vertex_index(numbers[v]);
+    for(auto& [node, weight] : weights) {
+      if(numbers[node] == nowhere)
+        throw std::logic_error("a control point has a node that is removed");
+      node = mm3::Vertex_index(numbers[node]);
     }
   return left;
 }
@@ -70,6 +85,7 @@ void write_febio(mm3::IO::Output_files& files, const Remaining_mesh& remaining,
   }
   Explicit_constraints constraints = solve_for_displacements(
     constraints_left(remaining, outcome.constraints));
+  model.order = outcome.constraints.edges.empty() ? 1 : 2;
   model.fixed_vertices = std::move(constraints.fixed_vertices);
   model.supports = std::move(constraints.supports);
   model.controls = std::move(constraints.controls);
@@ -77,7 +93,7 @@ void write_febio(mm3::IO::Output_files& files, const Remaining_mesh& remaining,
   model.subdomain_names = subdomain_names;
   model.displacements_file = std::filesystem::path(o.febio).stem().string() + "_displacements.csv";
   model.comments.push_back(counted(outcome.constraints.means.size(), "control point", "control points")
-                           + " of brain_shift; several vertices that have a mean displacement, or slide, are "
+                           + " of brain_shift; several nodes that have a mean displacement, or slide, are "
                              "linear constraints.");
   if(o.compliance > 0)
     model.comments.emplace_back(

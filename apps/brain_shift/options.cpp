@@ -251,8 +251,8 @@ void add_method(CLI::App& app, Options& o)
       "--order", o.order,
       "Displacements in elements: 1, linear; 2, quadratic, many times as accurate on the same mesh, and "
       "slower; region: quadratic in the region of the mesh and 4 mm around. 2 and region not with --contact, "
-      "--corotational, --febio or petsc (default: 2 up to 3000 vertices with --control-radius and without "
-      "these, if it inverts no element, else 1)")
+      "--corotational or petsc, region not with --febio (default: 2 up to 3000 vertices with "
+      "--control-radius and without these, if it inverts no element, else 1)")
     ->transform(CLI::CheckedTransformer(orders).description("{1,2,region}"))
     ->type_name("ORDER");
   app.add_flag(
@@ -493,6 +493,9 @@ void check_use(const CLI::App& app, bool has_petsc, Options& o)
   if(o.order == Displacement_order::QUADRATIC || o.order == Displacement_order::REGION)
     if(const std::string other = option_of_order_1(o); !other.empty())
       throw CLI::ValidationError("--order", "only order 1 can be had with " + other);
+  if(o.order == Displacement_order::REGION && !o.febio.empty())
+    throw CLI::ValidationError("--order",
+                               "elements of a model of FEBio (--febio) have order 1 or 2 everywhere");
   if(!o.image.empty() && !has_nifti)
     throw CLI::ValidationError("--image", "this program was built without nifti_clib");
 }
@@ -514,7 +517,6 @@ std::string option_of_order_1(const Options& o)
 {
   return !o.touching_patches.empty() ? "--contact"
          : o.corotational            ? "--corotational"
-         : !o.febio.empty()          ? "--febio"
          : o.uses_petsc              ? "--solver petsc"
                                      : "";
 }

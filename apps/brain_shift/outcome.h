@@ -101,13 +101,15 @@ struct Shift
   int iterations = 0;
 };
 
-/// Constraints that hold and move the vertices: the equations of supports and control points.
+/// Constraints that hold and move the nodes, which are vertices and then the edges of order 2: the equations
+/// of supports and control points. The value of an edge is its coefficient.
 struct Motion_constraints
 {
   using Weights = std::vector<std::pair<CGAL::Mixed_meshes_3::Vertex_index, double>>;
-  std::vector<std::vector<Vector>> held_directions; // orthonormal, for each vertex: no displacement there
-  std::vector<Weights> weights;                     // weights of the vertices averaged at each control point
+  std::vector<std::vector<Vector>> held_directions; // orthonormal, for each node: its value is zero there
+  std::vector<Weights> weights;                     // weights of the nodes averaged at each control point
   std::vector<Vector> means;                        // mean displacements, at each control point
+  std::vector<std::array<CGAL::Mixed_meshes_3::Vertex_index, 2>> edges; // ends of the edges
 };
 
 /// Numbers of the removed and of the remaining elements.

@@ -239,8 +239,12 @@ void tell_of_factor([[maybe_unused]] const Mesh& mesh, [[maybe_unused]] const Or
 Motion_constraints constraints_of(const Elasticity& elasticity, std::vector<Vector> displacements,
                                   const Options& o)
 {
-  Motion_constraints constraints{{}, elasticity.control_weights(), std::move(displacements)};
-  for(mm3::Vertex_index v = 0; v < elasticity.mesh().number_of_vertices(); ++v)
+  Motion_constraints constraints{{},
+                                 elasticity.control_weights(),
+                                 std::move(displacements),
+                                 elasticity.quadratic_edges()};
+  const std::size_t nodes = elasticity.mesh().number_of_vertices() + elasticity.quadratic_edges().size();
+  for(mm3::Vertex_index v = 0; v < nodes; ++v)
     constraints.held_directions.push_back(elasticity.held_directions(v));
   if(o.compliance > 0) {
     const std::vector<Vector> residuals = elasticity.control_residuals();

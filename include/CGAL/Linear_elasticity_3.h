@@ -461,7 +461,8 @@ public:
   }
 
   /// The directions in which supports hold a vertex, orthogonal to each other and of length 1: none if the
-  /// vertex is free, three if it is prescribed. The directions of closed contacts are among them.
+  /// vertex is free, three if it is prescribed. The directions of closed contacts are among them. After
+  /// `factor()` with order 2, also those in which an edge is held, numbered as in `control_weights()`.
   std::vector<Vector> held_directions(Vertex_index v) const { return m_model.held_directions(v); }
 
   /*!

@@ -28,6 +28,15 @@ HEADER = "x,y,z,dx,dy,dz\n"
 # The largest Poisson's ratio with which brain_shift's tetrahedra are standard elements is 2/7.
 TISSUE = ["--poisson-ratio", "0.28"]
 SIZES = {"tet4": 4, "pyra5": 5, "penta6": 6, "hex8": 8}
+QUADRATIC_SIZES = {"tet10": 10, "pyra13": 13, "penta15": 15, "hex20": 20}
+EDGES = (0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)  # of tet10, in the order of its middle nodes
+
+
+def shape_of_tet10(w, gradients):
+    """Values and gradients of the functions of ten nodes, at a point with barycentric coordinates w."""
+    values = [x * (2 * x - 1) for x in w] + [4 * w[i] * w[j] for i, j in EDGES]
+    of_edges = [4 * (w[i] * gradients[j] + w[j] * gradients[i]) for i, j in EDGES]
+    return np.array(values), np.vstack([(4 * w[:, None] - 1) * gradients, of_edges])
 
 
 class Model:
@@ -76,27 +85,35 @@ class Model:
         assert not any(c in self.values for terms in self.links.values() for c in terms), "FEBio refuses chains"
 
     def solve(self):
-        """Displacements of linear elasticity on linear tetrahedra, standard elements."""
+        """Displacements of linear elasticity on tetrahedra of order 1 or 2, standard elements."""
         n, rows, columns, entries, load = self.points.size, [], [], [], np.zeros(self.points.size)
         for name, elements in self.parts.items():
-            assert self.kinds[name] == "tet4"
+            assert self.kinds[name] in ("tet4", "tet10")
+            size = QUADRATIC_SIZES.get(self.kinds[name], 4)
+            # Points that are exact for products of two strains.
+            weights = np.full((1, 4), 0.25) if size == 4 else np.full((4, 4), (5 - 5 ** 0.5) / 20) + np.eye(4) / 5 ** 0.5
             m = self.materials[self.material_of[name]]
             mu, nu = m["E"] / 2 / (1 + m["v"]), m["v"]
             law = np.diag([2 * mu] * 3 + [mu] * 3)
             law[:3, :3] += 2 * mu * nu / (1 - 2 * nu)
-            for corners in elements.values():
-                shape = np.linalg.inv(np.hstack([np.ones((4, 1)), self.points[corners]]))[1:].T  # gradients
-                volume = np.linalg.det(self.points[corners[1:]] - self.points[corners[0]]) / 6
-                strain = np.zeros((6, 12))
-                for a, (x, y, z) in enumerate(shape):
-                    strain[:, 3 * a:3 * a + 3] = [[x, 0, 0], [0, y, 0], [0, 0, z], [y, x, 0], [0, z, y], [z, 0, x]]
-                components = (3 * np.array(corners)[:, None] + np.arange(3)).ravel()
-                rows.append(np.repeat(components, 12))
-                columns.append(np.tile(components, 12))
-                entries.append((volume * strain.T @ law @ strain).ravel())
-                # FEBio's force by mass is what the body resists.
-                force = -m["density"] * self.forces.get(name, np.zeros(3))
-                load[components] += np.tile(volume / 4 * force, 4)
+            for nodes in elements.values():
+                corners = nodes[:4]
+                linear = np.linalg.inv(np.hstack([np.ones((4, 1)), self.points[corners]]))[1:].T  # gradients
+                volume = np.linalg.det(self.points[corners[1:]] - self.points[corners[0]]) / 6 / len(weights)
+                components = (3 * np.array(nodes)[:, None] + np.arange(3)).ravel()
+                rows.append(np.repeat(components, 3 * size))
+                columns.append(np.tile(components, 3 * size))
+                stiffness = np.zeros((3 * size, 3 * size))
+                for w in weights:
+                    values, shape = (w, linear) if size == 4 else shape_of_tet10(w, linear)
+                    strain = np.zeros((6, 3 * size))
+                    for a, (x, y, z) in enumerate(shape):
+                        strain[:, 3 * a:3 * a + 3] = [[x, 0, 0], [0, y, 0], [0, 0, z], [y, x, 0], [0, z, y], [z, 0, x]]
+                    stiffness += volume * strain.T @ law @ strain
+                    # FEBio's force by mass is what the body resists.
+                    force = -m["density"] * self.forces.get(name, np.zeros(3))
+                    load[components] += np.outer(volume * values, force).ravel()
+                entries.append(stiffness.ravel())
         stiffness = coo_matrix((np.concatenate(entries), (np.concatenate(rows), np.concatenate(columns))), (n, n))
         free = sorted(set(range(n)) - set(self.values))
         number = {c: i for i, c in enumerate(free)}
@@ -124,6 +141,14 @@ class Febio(unittest.TestCase):
                  600, "--output", cls.mixed)
         cls.points = DATA / "control_points.csv"
         cls.point = cls.file("point.csv", HEADER + "40,40,60,0.2,0,-0.5\n")
+        cls.small = cls.times(0.05, "small.csv")  # inverts no element of order 2
+
+    @classmethod
+    def times(cls, factor, name):
+        """The control points, with displacements times a factor."""
+        rows = [row.split(",") for row in cls.points.read_text().splitlines() if row and row[0] not in "#x"]
+        return cls.file(name, HEADER + "".join(
+            ",".join(row[:3] + [repr(factor * float(x)) for x in row[3:6]]) + "\n" for row in rows))
 
     @staticmethod
     def mesh(*words):
@@ -150,7 +175,9 @@ class Febio(unittest.TestCase):
         return Model(WORK / "model.feb"), np.array(values)
 
     def check_solution(self, *words, mesh=None, points=None, tolerance=1e-6):
-        model, u = self.model(mesh or self.tetrahedra, *TISSUE, *words, points=points)
+        defaults = (TISSUE if "--poisson-ratio" not in words else []) + (["--order", 1] if "--order" not in words else [])
+        model, u = self.model(mesh or self.tetrahedra, *defaults, *words, points=points)
+        self.assertEqual(len(u), len(model.points))
         error = np.abs(model.solve() - u).max()
         self.assertGreater(np.abs(u).max(), 0.1)
         self.assertLess(error, tolerance * np.abs(u).max())
@@ -185,10 +212,53 @@ class Febio(unittest.TestCase):
         self.check_solution("--slide-beyond", "30", "--fixed-below", "0", "--material", "1=3,0.2,1.1")
         self.check_solution("--control-compliance", "0.1", "--control-radius", "10")
 
+    def test_order_2(self):
+        """Ten nodes: control points in faces, means, oblique supports, weight; with any ratio of Poisson, as elements of
+        order 2 are standard ones."""
+        order_2 = "--order", "2", "--output-order", "2"
+        for words in ((), ("--poisson-ratio", "0.45"), ("--slide-below", "0.7", "--control-radius", "25"),
+                      ("--slide-beyond", "30", "--fixed-below", "0", "--material", "1=3,0.2,1.1"),
+                      ("--control-compliance", "0.1", "--control-radius", "10"), ("--gravity", "0,-3000,-9810")):
+            with self.subTest(words=words):
+                model = self.check_solution(*order_2, *words, points=self.small)
+                self.assertEqual(set(model.kinds.values()), {"tet10"})
+                vertices = max(max(e[:4]) for elements in model.parts.values() for e in elements.values()) + 1
+                self.assertGreater(len(model.points), 4 * vertices)
+                self.assertTrue(any(v >= vertices for nodes in model.node_sets.values() for v in nodes)
+                                or "--fixed-below" in words)
+                if "--control-radius" in words:
+                    self.assertTrue(any(c >= 3 * vertices for terms in model.links.values() for c in terms))
+
+    def test_order_2_by_default(self):
+        model, _ = self.model(self.tetrahedra, *TISSUE, "--control-radius", "16", "--output-order", "2",
+                              points=self.small)
+        self.assertEqual(set(model.kinds.values()), {"tet10"})
+
+    def test_order_2_after_resection(self):
+        """Middle nodes of what is left have numbers of their own."""
+        model, _ = self.model(self.tetrahedra, *TISSUE, "--order", "2", "--tumor", DATA / "tumour.off",
+                              "--output-deformed", WORK / "left.feb", points=self.small)
+        left = Model(WORK / "left.feb")
+        corners = lambda m: {name.split("_")[0]: {e: nodes[:4] for e, nodes in elements.items()}
+                             for name, elements in m.parts.items()}
+        self.assertEqual(corners(model), corners(left))
+        u = left.points - model.points[:len(left.points)]
+        self.assertLess(np.abs(model.solve()[:len(u)] - u).max(), 2e-3 * np.abs(u).max())
+
+    def test_order_2_mixed(self):
+        model, u = self.model(self.mixed, "--order", "2", "--output-order", "2", points=self.point)
+        self.assertEqual(set(model.kinds.values()), set(QUADRATIC_SIZES))
+        for name, elements in model.parts.items():
+            self.assertEqual({len(e) for e in elements.values()}, {QUADRATIC_SIZES[model.kinds[name]]})
+        # What is told is what came out.
+        for told, terms in model.links.items():
+            sum_of_terms = model.values[told] + sum(f * u.flat[c] for c, f in terms.items())
+            self.assertAlmostEqual(sum_of_terms, u.flat[told], 9)
+        for told, value in model.values.items():
+            self.assertTrue(told in model.links or abs(u.flat[told] - value) < 1e-9)
+
     def test_weight(self):
-        still = self.file("still.csv", HEADER + "".join(
-            ",".join(row.split(",")[:3]) + ",0,0,0\n" for row in self.points.read_text().splitlines()
-            if row and row[0] not in "#x"))
+        still = self.times(0, "still.csv")
         model = self.check_solution("--gravity", "0,-3000,-9810", points=still)
         for force in model.forces.values():  # of 1.04 g/cm^3 in 1 g/cm^3
             self.assertTrue(np.allclose(force, np.array([0, 3000, 9810]) * (1 - 1 / 1.04)))

@@ -83,10 +83,12 @@ class Tissue(Case):
         self.assertEqual(single["order"], {**linear["order"], "because of": "control points without --control-radius"})
         narrow, _ = self.succeeds(self.mesh, "--control-points", self.points, "--control-radius", 4)
         self.assertEqual(narrow["order"], {**linear["order"], "because of": "elements that order 2 would invert"})
-        for option in (("--contact", "skull"), ("--corotational",), ("--febio", WORK / "no.feb")):
+        for option in (("--contact", "skull"), ("--corotational",)):
             for order in (2, "region"):
                 self.fails(self.mesh, "--control-points", self.points, *option, "--order", order, names="--order", status=2,
                            words="only order 1 can be had with " + option[0])
+        self.fails(self.mesh, "--control-points", self.points, "--febio", WORK / "no.feb", "--order", "region",
+                   names="--order", status=2, words="elements of a model of FEBio (--febio) have order 1 or 2 everywhere")
 
     def test_materials(self):
         mesh, move = self.column()

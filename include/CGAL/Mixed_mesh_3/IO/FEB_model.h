@@ -35,8 +35,9 @@ namespace IO {
 /*!
 \ingroup PkgMixedMesh3IO
 
-\brief A displacement that others tell: that of a vertex along an axis is the sum of displacements times
-factors, plus a value in mm.
+\brief A displacement that others tell: that of a node along an axis is the sum of displacements times
+factors, plus a value in mm. Nodes are vertices and, with elements of order 2, the middles of edges after
+these.
 
 Without terms it is prescribed. A displacement that one constraint tells is in the terms of none, and told by
 no other: FEBio wants that.
@@ -60,6 +61,7 @@ struct FEB_constraint
 \ingroup PkgMixedMesh3IO
 
 \brief What a simulation by FEBio needs besides a mesh. Units: millimeters, kilopascals, kilograms, seconds.
+Vertices are nodes, as in `FEB_constraint`.
 */
 struct FEB_model
 {
@@ -77,6 +79,8 @@ struct FEB_model
   std::vector<Facet_set> facet_sets;
   /// Names of subdomains.
   Subdomain_names subdomain_names;
+  /// The order of the elements, 1 or 2: see `Write_options::order`.
+  int order = 1;
   /// The file that FEBio will write the displacements of the vertices to, beside its own.
   std::string displacements_file = "displacements.csv";
   /// Lines for a reader of the file, without two hyphens in a row.
@@ -227,7 +231,7 @@ template <class Mesh>
 bool write_FEB_model(std::ostream& stream, const Mesh& mesh, const FEB_model& model)
 {
   using namespace internal;
-  const FEB_output<Mesh> output(mesh, model.subdomain_names);
+  const FEB_output<Mesh> output(mesh, model.subdomain_names, model.order);
   std::vector<FEB_prescribed> sliding, controlled;
   for(int axis = 0; axis < 3; ++axis) {
     sliding.emplace_back("sliding", axis, model.supports);
