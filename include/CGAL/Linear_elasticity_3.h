@@ -194,7 +194,8 @@ public:
   ///
   /// With order 2, an edge of a boundary face whose vertices are all supported is held in the directions in
   /// which both of its ends are held: its middle then moves as the mean of its ends. `prescribe_boundary()`
-  /// gives it another displacement. Other edges are free.
+  /// gives it another displacement, and prescribes the middles of edges with a free end, too. Other edges are
+  /// free.
   /// @{
 
   /// Gives a vertex a displacement, in mm. The default fixes it.
@@ -204,7 +205,7 @@ public:
   }
 
   /// Gives the boundary a displacement, in mm, where a function has a value: vertices, and with order 2 the
-  /// middles of the edges between them. The order may be chosen before or afterwards.
+  /// middles of edges, also of those with a free end. The order may be chosen before or afterwards.
   /// \param displacement `std::optional<Vector>(const Vector& point)`, called for the vertices of the
   /// boundary and for the middles of its edges
   template <class Displacement>
@@ -355,7 +356,8 @@ public:
   void set_gravity(const Vector& acceleration) { m_model.set_gravity(acceleration); }
 
   /// Sets another displacement of a vertex that was prescribed, in mm, without a new factorization.
-  /// Coefficients of edges stay as they are: the middle of a held edge moves by half as much.
+  /// Coefficients of edges stay as they are: the middle of an edge with both ends held moves by half as much.
+  /// A middle that is prescribed though an end is free stays.
   /// \pre `prescribe()` was called for the vertex
   void set_support_displacement(Vertex_index v, const Vector& displacement)
   {

@@ -101,7 +101,7 @@ int main(int argc, char** argv)
   const std::vector<Vec3> middles = problem.middle_displacements();
   displacements.insert(displacements.end(), middles.begin(), middles.end());
 
-  // The prescribed nodes: also the middle of an edge of the boundary, if both ends are.
+  // The prescribed nodes: also middles of edges of the boundary, whether both ends are or not.
   std::vector<bool> is_prescribed(n + middles.size(), false);
   for(Vertex_index v : boundary_vertices(mesh))
     is_prescribed[v] = push(points[v]).has_value();
@@ -109,8 +109,7 @@ int main(int argc, char** argv)
   for(std::size_t i = 0; i < middles.size(); ++i) {
     const auto& [a, b] = problem.quadratic_edges()[i];
     points.push_back(0.5 * (points[a] + points[b]));
-    is_prescribed[n + i] = is_prescribed[a] && is_prescribed[b] && edges.count({a, b}) != 0
-                           && push(points.back()).has_value();
+    is_prescribed[n + i] = edges.count({a, b}) != 0 && push(points.back()).has_value();
   }
 
   std::ofstream inp(argv[4]);

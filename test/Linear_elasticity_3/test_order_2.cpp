@@ -334,7 +334,7 @@ Vec3 zero(const Vec3&) { return {}; }
 void test_supports()
 {
   const Mesh mesh = any_grid(4, all_kinds, 0.1, Moved::INNER);
-  // A patch that ends within faces: edges whose middles are outside, or that have a free end, are free.
+  // A patch that ends within faces: middles of edges with a free end are held, too.
   const auto in_patch = [](const Vec3& p) { return p[2] < 0.3 || p[0] + p[1] < 0.4; };
   Elasticity problem(mesh);
   problem.order(2);
@@ -345,7 +345,7 @@ void test_supports()
   problem.set_body_force({0.2, -0.1, 0.3});
   BOOST_TEST(is_success(problem.solve()));
   const std::vector<bool> on_boundary = is_on_boundary(mesh);
-  int held = 0, free = 0;
+  int held = 0, free = 0, at_free_end = 0;
   const Field middles = problem.middle_displacements();
   std::vector<std::array<Vertex_index, 2>> of_faces;
   for(const Face& face : boundary_faces(mesh))
@@ -357,8 +357,8 @@ void test_supports()
   for(std::size_t i = 0; i < middles.size(); ++i) {
     const auto& ends = problem.quadratic_edges()[i];
     const Vec3 m = middle(mesh, ends);
-    const bool is_held = std::count(of_faces.begin(), of_faces.end(), ends) > 0 && in_patch(m)
-                         && in_patch(position(mesh, ends[0])) && in_patch(position(mesh, ends[1]));
+    const bool is_held = std::count(of_faces.begin(), of_faces.end(), ends) > 0 && in_patch(m);
+    at_free_end += is_held && !(in_patch(position(mesh, ends[0])) && in_patch(position(mesh, ends[1])));
     const double missed = norm(middles[i] - Vec3{0.1 * m[0] * m[0], 0, 0.2 * m[1] * m[2]});
     if(is_held)
       BOOST_TEST_LT(missed, 1e-15);
@@ -368,6 +368,7 @@ void test_supports()
   }
   BOOST_TEST_GT(held, 50);
   BOOST_TEST_GT(free, 50);
+  BOOST_TEST_GT(at_free_end, 5);
 
   // Prescribed vertices hold the edges of their faces straight.
   Elasticity straight(mesh);
@@ -410,6 +411,95 @@ void test_supports()
     for(int k = 0; k < 3; ++k)
       if(m[k] == 0)
         BOOST_TEST_LT(std::abs(block.middle_displacements()[i][k]), 1e-12);
+  }
+}
+
+// Middles of edges that are prescribed though an end is free: control points have their displacements, and
+// the energy is half the work of their forces, or of body forces.
+void test_middles_at_free_ends(int kind)
+{
+  const Mesh mesh = any_grid(4, kind, kind == TETRAHEDRON ? 0.15 : 0);
+  const auto fixed = [](const Vec3& p) { return p[2] < 0.4 ? std::optional<Vec3>(Vec3{}) : std::nullopt; };
+  // A control point between vertices of edges whose middles are prescribed.
+  Elasticity exact(mesh, Elastic_material{1, 0.25});
+  exact.order(2);
+  exact.prescribe_boundary([&](const Vec3& p) {
+    return p[2] < 0.4 || p[2] > 0.9 || p[0] < 0.4 ? std::optional<Vec3>(linear_field(p)) : std::nullopt;
+  });
+  BOOST_TEST(is_success(exact.factor()));
+  const Vec3 inside{0.9, 0.55, 0.42}; // in an element of such an edge
+  BOOST_TEST(is_success(exact.set_control_points(std::vector<Vec3>{inside})));
+  BOOST_TEST(is_success(exact.solve(std::vector<Vec3>{linear_field(inside) + Vec3{0, 0, 0.1}})));
+  const Element_locator_3<Mesh> locator(mesh);
+  BOOST_TEST_LT(norm(exact.displacement(locator.nearest(inside)) - linear_field(inside) - Vec3{0, 0, 0.1}),
+                1e-12);
+
+  // The energy is half the work of the point's force, as supports do not move.
+  const auto solve = [&](Elasticity& problem, double pull) {
+    problem.order(2);
+    problem.prescribe_boundary(fixed);
+    BOOST_TEST(is_success(problem.factor()));
+    BOOST_TEST(is_success(problem.set_control_points(std::vector<Vec3>{inside})));
+    BOOST_TEST(is_success(problem.solve(std::vector<Vec3>{{pull, 0, pull}})));
+  };
+  Elasticity pulled(mesh);
+  solve(pulled, 0.1);
+  const double work = 0.1 * (pulled.control_forces()[0][0] + pulled.control_forces()[0][2]) / 2;
+  BOOST_TEST_GT(work, 0);
+  BOOST_TEST_LT(std::abs(pulled.energy() / work - 1), 1e-9);
+  double mean = 0;
+  const auto weights = pulled.control_weights();
+  for(const auto& [node, weight] : weights[0])
+    mean += weight
+            * (node < mesh.number_of_vertices()
+                 ? pulled.displacements()[node]
+                 : pulled.edge_coefficients()[node - mesh.number_of_vertices()])[0];
+  BOOST_TEST_LT(std::abs(mean - 0.1), 1e-12);
+
+  // Body forces: their work, by the exact integral of the displacement, is twice the energy.
+  Elasticity heavy(mesh);
+  heavy.order(2);
+  heavy.prescribe_boundary(fixed);
+  BOOST_TEST(is_success(heavy.factor()));
+  heavy.set_body_force({0, 0, -1});
+  BOOST_TEST(is_success(heavy.solve()));
+  double integral = 0;
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
+    const auto element = mesh.element(e);
+    const auto points = element_points(mesh, element);
+    const Quadrature_rule& rule = quadrature_rule(element.kind(), 2);
+    for(int q = 0; q < rule.number_of_points; ++q) {
+      Vec3 u{};
+      for(int a = 0; a < element.size(); ++a)
+        u = u + rule.values[std::size_t(q)][std::size_t(a)] * heavy.displacements()[element[a]];
+      for(int i = 0; i < element.reference().number_of_edges; ++i) {
+        const auto& edge = element.reference().edges[i];
+        const auto [a, b] = std::minmax({element[edge[0]], element[edge[1]]});
+        const std::array<Vertex_index, 2> ends{a, b};
+        const auto place = std::find(heavy.quadratic_edges().begin(), heavy.quadratic_edges().end(), ends);
+        u = u
+            + rule.values[std::size_t(q)][std::size_t(element.size() + i)]
+                * heavy.edge_coefficients()[std::size_t(place - heavy.quadratic_edges().begin())];
+      }
+      integral -= strain_operator(rule, points, q).volume * u[2];
+    }
+  }
+  BOOST_TEST_GT(integral, 0);
+  BOOST_TEST_LT(std::abs(heavy.energy() / (integral / 2) - 1), 1e-9);
+
+  // Middles hold rigid motions where no vertex is held.
+  const auto rigid = [](const Vec3& p) { return Vec3{1, 2, 3} + cross(Vec3{0.1, -0.2, 0.3}, p); };
+  Elasticity held(mesh);
+  held.order(2);
+  held.prescribe_boundary([&](const Vec3& p) {
+    const double x = 4 * p[0], y = 4 * p[1];
+    return p[2] == 0 && (x == std::floor(x)) != (y == std::floor(y)) ? std::optional<Vec3>(rigid(p))
+                                                                     : std::nullopt;
+  });
+  if(kind == HEXAHEDRON) { // whose middles are not vertices
+    BOOST_TEST(is_success(held.factor()));
+    BOOST_TEST(is_success(held.solve()));
+    BOOST_TEST_LT(difference(held.displacements(), at_vertices(mesh, rigid)), 1e-9);
   }
 }
 
@@ -565,6 +655,7 @@ int run(int, char*[])
     test_zone(kind);
     test_control_points(kind);
     test_means(kind);
+    test_middles_at_free_ends(kind);
   }
   test_convergence();
   test_supports();

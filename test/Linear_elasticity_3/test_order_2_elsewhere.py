@@ -153,6 +153,11 @@ def main():
         check(np.array_equal(ours[is_prescribed], given[is_prescribed]) or
               difference(ours[is_prescribed], given[is_prescribed]) < 1e-14, "prescribed nodes")
         first_middle = elements[:, :4].max() + 1
+        # Those of edges with a free end among them.
+        ends_of = {frozenset((e[i], e[j])): e[4 + k] for e in elements
+                   for k, (i, j) in enumerate(((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)))}
+        at_border = sum(is_prescribed[m] and not all(is_prescribed[list(ends)]) for ends, m in ends_of.items())
+        check(at_border > 10, "few middles are prescribed at a free end", at_border)
         held_middles = np.count_nonzero(np.any(given[first_middle:] != 0, axis=1))
         check(held_middles > 10, "the push is at few middles", held_middles)
         by_getfem = difference(solve(stiffness_of_getfem(points, elements, nu), is_prescribed, given), ours)

@@ -34,6 +34,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -58,6 +59,26 @@ inline Control_weights node_weights(const Element_view& element, const Nodes_of_
   for(int i = element.size(); i < nodes.size(); ++i)
     if(const double w = of_edges[std::size_t(nodes.function(i) - element.size())].value; w != 0)
       weights.emplace_back(nodes[i], w);
+  return weights;
+}
+
+/// Weights of nodes, with the weights of edges whose middle is prescribed, times a factor, added to their
+/// ends: with -1/2, coefficients become displacements of middles; with 1/2, the other way around.
+inline Control_weights add_to_ends(const Element_nodes& nodes, double factor, Control_weights weights)
+{
+  std::map<Vertex_index, double> of_ends;
+  for(const auto& [node, weight] : weights)
+    if(nodes.is_middle(node))
+      for(Vertex_index v : nodes.ends()[node - nodes.number_of_vertices()])
+        of_ends[v] += factor * weight;
+  if(of_ends.empty())
+    return weights;
+  for(auto& [node, weight] : weights)
+    if(const auto end = of_ends.find(node); end != of_ends.end()) {
+      weight += end->second;
+      of_ends.erase(end);
+    }
+  weights.insert(weights.end(), of_ends.begin(), of_ends.end());
   return weights;
 }
 
@@ -198,6 +219,7 @@ public:
       if(m_options.radius > 0)
         m_located->spread(body.stiffness().points(), body.stiffness().nodes(), p, m_options.radius,
                           weights.back());
+      weights.back() = add_to_ends(body.stiffness().nodes(), -0.5, std::move(weights.back()));
     }
     const Result result = constrain(body, std::move(weights));
     if(result.is_success()) {

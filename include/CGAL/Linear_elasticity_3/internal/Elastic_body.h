@@ -99,6 +99,7 @@ public:
 
   void assemble()
   {
+    m_stiffness.set_middles(m_supports.given_middles(m_stiffness.nodes()));
     m_stiffness.assemble();
     m_supports.support_edges(m_stiffness);
     m_supports.find_parts(m_stiffness);

@@ -89,6 +89,13 @@ public:
     m_nodes = std::move(nodes);
   }
 
+  /// Sets the edges whose values are the displacements of their middles. \pre not assembled
+  void set_middles(std::vector<bool> is_middle)
+  {
+    CGAL_precondition(!is_assembled());
+    m_nodes.set_middles(std::move(is_middle));
+  }
+
   /// The treatment of dilatation for an element with quadratic displacements, which do not lock, for one that
   /// is not in a patch, and for one that is.
   Dilatation dilatation(Element_index e) const
@@ -296,9 +303,13 @@ public:
       const Quadrature_rule& rule = rule_of(e);
       for(int q = 0; q < rule.number_of_points; ++q) {
         const double volume = strain_operator(rule, points, q).volume;
+        auto values = rule.values[q];
+        for(int i = 0; i < nodes.number_of_middles(); ++i)
+          for(int end : nodes.middle(i).ends)
+            values[end] -= values[nodes.middle(i).edge] / 2;
         for(int a = 0; a < nodes.size(); ++a)
           for(int k = 0; k < 3; ++k)
-            force[3 * Eigen::Index(nodes[a]) + k] += volume * rule.values[q][nodes.function(a)] * density[k];
+            force[3 * Eigen::Index(nodes[a]) + k] += volume * values[nodes.function(a)] * density[k];
       }
     }
   }

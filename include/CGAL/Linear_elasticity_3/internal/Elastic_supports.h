@@ -60,6 +60,7 @@ class Elastic_supports
   std::vector<Support> m_supports;  // supports with closed contacts
   std::map<Vertex_index, Contact> m_contacts;
   std::map<Edge_ends, std::optional<Vec3>> m_given_edges;
+  std::map<Edge_ends, Vec3> m_given_middles;
   std::vector<bool> m_is_kept; // whether an element is left at each node
   std::vector<Elastic_part> m_parts;
 
@@ -94,6 +95,24 @@ public:
   void prescribe_edge(const Edge_ends& ends, const std::optional<Vec3>& coefficient)
   {
     m_given_edges[ends] = coefficient;
+    m_given_middles.erase(ends);
+  }
+
+  /// Prescribes the displacement of the middle of an edge, also if the ends are free.
+  void prescribe_middle(const Edge_ends& ends, const Vec3& displacement)
+  {
+    m_given_middles[ends] = displacement;
+    m_given_edges.erase(ends);
+  }
+
+  /// Whether the value of each edge that is a node is the displacement of its middle, as this is prescribed.
+  std::vector<bool> given_middles(const Element_nodes& nodes) const
+  {
+    std::vector<bool> is_given;
+    if(!m_given_middles.empty())
+      for(const Edge_ends& ends : nodes.ends())
+        is_given.push_back(m_given_middles.count(ends) != 0);
+    return is_given;
   }
 
   /*!
@@ -126,6 +145,10 @@ public:
           support = a;
           support.displacement = *given->second;
         }
+      } else if(const auto middle = m_given_middles.find(ends); middle != m_given_middles.end()) {
+        support.size = 3;
+        support.directions = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+        support.displacement = middle->second;
       } else if(std::binary_search(of_faces.begin(), of_faces.end(), ends)) {
         support = common_support(a, b);
       }
@@ -185,7 +208,9 @@ public:
     for(std::vector<Vertex_index>& vertices :
         connected_vertices(stiffness.elements(), stiffness.number_of_vertices(),
                            [&](Element_index e) { return !stiffness.is_removed(e); })) {
-      std::vector<Rigid_mode> modes = free_rigid_modes(vertices, stiffness.points(), m_supports);
+      std::vector<Rigid_mode> modes = stiffness.nodes().has_middles()
+                                        ? free_modes_with_middles(vertices, stiffness)
+                                        : free_rigid_modes(vertices, stiffness.points(), m_supports);
       m_parts.push_back({std::move(vertices), std::move(modes)});
     }
   }
@@ -229,6 +254,24 @@ public:
   }
 
 private:
+  // The free modes of a part, which middles of edges hold as vertices do.
+  std::vector<Rigid_mode> free_modes_with_middles(std::vector<Vertex_index> vertices,
+                                                  const Elastic_stiffness& stiffness) const
+  {
+    const Element_nodes& nodes = stiffness.nodes();
+    std::vector<Vec3> points = stiffness.points();
+    std::vector<bool> is_in_part(points.size(), false);
+    for(Vertex_index v : vertices)
+      is_in_part[v] = true;
+    for(const auto& [v, w] : nodes.ends()) {
+      const Vertex_index node = Vertex_index(points.size());
+      points.push_back(0.5 * (stiffness.points()[v] + stiffness.points()[w]));
+      if(is_in_part[v] && m_is_kept[node] && nodes.is_middle(node))
+        vertices.push_back(node);
+    }
+    return free_rigid_modes(vertices, points, m_supports);
+  }
+
   void apply_contacts()
   {
     for(const auto& [v, contact] : m_contacts) {

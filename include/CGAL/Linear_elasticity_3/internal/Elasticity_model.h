@@ -141,6 +141,7 @@ private:
   Result solve_contacts(const Eigen::VectorXd& wanted);
   static Result failed(Status status, Result result = Result());
   // \param reaction needed if there are contacts
+  void add_means(double factor, std::vector<Vec3>& of_edges) const;
   void keep(const Control_solution& solution, const Eigen::VectorXd& wanted, const Eigen::VectorXd& reaction);
   // Contacts hold what is to be pulled off the wall; if it is to be pushed into it, they close again.
   bool open_contacts_of_controls();

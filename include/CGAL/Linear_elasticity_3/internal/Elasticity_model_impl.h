@@ -141,12 +141,14 @@ Elasticity_model::prescribe_boundary(const std::function<std::optional<Vec3>(con
     for(int i = 0; i < face.vertices().size(); ++i) {
       const auto [v,
                   w] = std::minmax({face.vertices()[i], face.vertices()[(i + 1) % face.vertices().size()]});
-      if(!at_vertices[v] || !at_vertices[w])
-        continue;
-      std::optional<Vec3> coefficient = displacement(0.5 * (points[v] + points[w]));
-      if(coefficient)
-        coefficient = *coefficient - 0.5 * (*at_vertices[v] + *at_vertices[w]);
-      m_body->supports().prescribe_edge({v, w}, coefficient);
+      std::optional<Vec3> middle = displacement(0.5 * (points[v] + points[w]));
+      if(at_vertices[v] && at_vertices[w]) {
+        if(middle)
+          middle = *middle - 0.5 * (*at_vertices[v] + *at_vertices[w]);
+        m_body->supports().prescribe_edge({v, w}, middle);
+      } else if(middle) {
+        m_body->supports().prescribe_middle({v, w}, *middle);
+      }
     }
 }
 
@@ -300,7 +302,12 @@ CGAL_LINEAR_ELASTICITY_3_INLINE std::vector<Vec3> Elasticity_model::control_resi
 
 CGAL_LINEAR_ELASTICITY_3_INLINE std::vector<Control_weights> Elasticity_model::control_weights() const
 {
-  return m_controls->has_constraints() ? m_controls->constraints().weights() : std::vector<Control_weights>();
+  if(!m_controls->has_constraints())
+    return {};
+  std::vector<Control_weights> all = m_controls->constraints().weights();
+  for(Control_weights& weights : all)
+    weights = add_to_ends(m_body->stiffness().nodes(), 0.5, std::move(weights));
+  return all;
 }
 
 CGAL_LINEAR_ELASTICITY_3_INLINE std::vector<Vec3> Elasticity_model::held_directions(Vertex_index v) const
@@ -397,18 +404,35 @@ CGAL_LINEAR_ELASTICITY_3_INLINE void Elasticity_model::keep(const Control_soluti
   const auto first_edge = m_displacements.begin() + std::ptrdiff_t(m_body->stiffness().number_of_vertices());
   m_edge_coefficients.assign(first_edge, m_displacements.end());
   m_displacements.erase(first_edge, m_displacements.end());
+  add_means(-1, m_edge_coefficients);
   m_energy.reset();
   if(m_is_corotational)
     m_energy = m_corotational->energy();
+}
+
+// Adds the mean displacement of both ends, times a factor, to the values of edges whose middle is prescribed.
+CGAL_LINEAR_ELASTICITY_3_INLINE void Elasticity_model::add_means(double factor,
+                                                                 std::vector<Vec3>& of_edges) const
+{
+  const Element_nodes& nodes = m_body->stiffness().nodes();
+  for(std::size_t i = 0; i < of_edges.size(); ++i) {
+    const Vertex_index node = Vertex_index(nodes.number_of_vertices() + i);
+    if(!nodes.is_middle(node) || !m_body->supports().is_kept(node))
+      continue;
+    const auto& [v, w] = nodes.ends()[i];
+    of_edges[i] = of_edges[i] + (factor / 2) * (m_displacements[v] + m_displacements[w]);
+  }
 }
 
 // A product with the stiffness takes longer than a solution with its factor.
 CGAL_LINEAR_ELASTICITY_3_INLINE double Elasticity_model::energy() const
 {
   if(!m_energy) {
-    Eigen::VectorXd u(3 * Eigen::Index(m_displacements.size() + m_edge_coefficients.size()));
+    std::vector<Vec3> of_edges = m_edge_coefficients;
+    add_means(1, of_edges);
+    Eigen::VectorXd u(3 * Eigen::Index(m_displacements.size() + of_edges.size()));
     Eigen::Index i = 0;
-    for(const std::vector<Vec3>* values : {&m_displacements, &m_edge_coefficients})
+    for(const std::vector<Vec3>* values : {&std::as_const(m_displacements), &std::as_const(of_edges)})
       for(const Vec3& value : *values)
         for(int k = 0; k < 3; ++k)
           u[i++] = value[k];

@@ -111,6 +111,9 @@ public:
     const Nodes_of_element nodes = m_nodes[e];
     compute_element_stiffness(quadrature_rule(element.kind(), nodes.order()), p, material, dilatation,
                               m_element_stiffness);
+    for(int i = 0; i < nodes.number_of_middles(); ++i)
+      for(int end : nodes.middle(i).ends)
+        subtract_half(nodes.middle(i).edge, end, nodes, m_element_stiffness);
     for(int a = 0; a < nodes.size(); ++a)
       for(int b = 0; b <= a; ++b)
         add(nodes[a], nodes[b], m_element_stiffness[nodes.function(a)][nodes.function(b)], displacements);
@@ -190,6 +193,27 @@ private:
   static Matrix_3x3 transpose(const Matrix_3x3& m)
   {
     return {{{m[0][0], m[1][0], m[2][0]}, {m[0][1], m[1][1], m[2][1]}, {m[0][2], m[1][2], m[2][2]}}};
+  }
+
+  // Changes a stiffness to the basis in which the function of a vertex has lost half of that of an edge.
+  static void subtract_half(int edge, int vertex, const Nodes_of_element& nodes, Element_stiffness& stiffness)
+  {
+    const auto block = [&](int a, int b) { return a >= b ? stiffness[a][b] : transpose(stiffness[b][a]); };
+    const auto add_multiple = [](Matrix_3x3& sum, double factor, const Matrix_3x3& m) {
+      for(int i = 0; i < 3; ++i)
+        sum[i] = sum[i] + factor * m[i];
+    };
+    Matrix_3x3& diagonal = stiffness[vertex][vertex];
+    add_multiple(diagonal, -0.5, block(vertex, edge));
+    add_multiple(diagonal, -0.5, block(edge, vertex));
+    add_multiple(diagonal, 0.25, block(edge, edge));
+    for(int i = 0; i < nodes.size(); ++i) {
+      const int other = nodes.function(i);
+      if(other >= vertex && other != vertex)
+        add_multiple(stiffness[other][vertex], -0.5, block(other, edge));
+      else if(other < vertex)
+        add_multiple(stiffness[vertex][other], -0.5, block(edge, other));
+    }
   }
 
   // Adds the block of nodes v and w, and of w and v.

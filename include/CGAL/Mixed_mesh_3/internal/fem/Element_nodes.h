@@ -15,6 +15,7 @@
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/Middle_nodes.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/edge_functions.h>
 #include <CGAL/Mixed_mesh_3/internal/fem/quadrature.h>
 
 #include <CGAL/assertions.h>
@@ -31,9 +32,19 @@ namespace internal {
 /// The nodes of an element, each with the number of its shape function in the quadrature rule of the element.
 class Nodes_of_element
 {
+public:
+  /// An edge whose value is the displacement of its middle: the functions of the edge and of its ends.
+  struct Middle
+  {
+    int edge;
+    std::array<int, 2> ends;
+  };
+
+private:
   std::array<Vertex_index, largest_number_of_functions> m_nodes;
   std::array<int, largest_number_of_functions> m_functions;
-  int m_size = 0;
+  std::array<Middle, largest_number_of_edges> m_middles;
+  int m_size = 0, m_number_of_middles = 0;
   int m_order = 1;
 
 public:
@@ -47,6 +58,9 @@ public:
     push_back(node, function);
     m_order = 2;
   }
+  void add_middle(const Middle& middle) { m_middles[std::size_t(m_number_of_middles++)] = middle; }
+  int number_of_middles() const { return m_number_of_middles; }
+  const Middle& middle(int i) const { return m_middles[std::size_t(i)]; }
   int size() const { return m_size; }
   /// The order of the quadrature rule: 2 if a node is that of an edge.
   int order() const { return m_order; }
@@ -74,6 +88,10 @@ a_e = 0: the field is continuous at the border of the quadratic elements, too. E
 as nodes.
 
 Linear elements are the case without edges; the numbering takes no memory then.
+
+The value of an edge can be the displacement of its middle instead, a_e + (u_v + u_w) / 2, so that the
+displacement of the middle can be prescribed though an end is free. That is another basis of the same fields:
+the functions of the ends lose half of the edge's function.
 */
 class Element_nodes
 {
@@ -88,6 +106,7 @@ class Element_nodes
   std::vector<std::array<Vertex_index, 2>> m_ends; // of each edge that is a node
   std::vector<std::size_t> m_starts;               // where each element begins in `m_edges`
   std::vector<Edge> m_edges;
+  std::vector<bool> m_is_middle; // whether the value of each edge is a displacement; empty: none is
 
 public:
   /// Numbers vertices. \param elements kept by reference: must outlive the object
@@ -136,13 +155,26 @@ public:
   /// Both ends of each edge that is a node, the smaller one first.
   const std::vector<std::array<Vertex_index, 2>>& ends() const { return m_ends; }
 
+  /// Sets the edges whose values are the displacements of their middles, one value for each of `ends()`.
+  void set_middles(std::vector<bool> is_middle) { m_is_middle = std::move(is_middle); }
+  bool has_middles() const { return !m_is_middle.empty(); }
+  bool is_middle(Vertex_index node) const
+  {
+    return has_middles() && node >= m_number_of_vertices && m_is_middle[node - m_number_of_vertices];
+  }
+
   Nodes_of_element operator[](Element_index e) const
   {
     Nodes_of_element nodes((*m_elements)[e]);
     if(has_edges()) {
       const int vertices = nodes.size();
-      for(std::size_t i = m_starts[e]; i < m_starts[e + 1]; ++i)
-        nodes.add_edge(m_edges[i].node, vertices + m_edges[i].local);
+      const auto& edges = (*m_elements)[e].reference().edges;
+      for(std::size_t i = m_starts[e]; i < m_starts[e + 1]; ++i) {
+        const auto& [node, local] = m_edges[i];
+        nodes.add_edge(node, vertices + local);
+        if(is_middle(node))
+          nodes.add_middle({vertices + local, {edges[local][0], edges[local][1]}});
+      }
     }
     return nodes;
   }
