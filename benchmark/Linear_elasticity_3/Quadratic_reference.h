@@ -6,6 +6,7 @@
 #ifndef MIXED_MESH_3_BENCHMARK_QUADRATIC_REFERENCE_H
 #define MIXED_MESH_3_BENCHMARK_QUADRATIC_REFERENCE_H
 
+#include "Springs.h"
 #include "test_cases.h"
 
 #include <CGAL/Mixed_mesh_3/Element_locator_3.h>
@@ -21,6 +22,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -41,8 +43,9 @@ class Quadratic_reference
   std::vector<Vec3> m_points;
   std::vector<bool> m_is_on_boundary;
   std::vector<Nodes> m_elements;
-  std::vector<std::array<int, 2>> m_ends; // of the edges that have the nodes after the vertices
-  std::vector<int> m_unknown;             // of a node; -1 if it is prescribed
+  std::vector<std::array<int, 2>> m_ends;       // of the edges that have the nodes after the vertices
+  std::map<std::pair<int, int>, int> m_middles; // nodes of edges, by their ends, the smaller one first
+  std::vector<int> m_unknown;                   // of a node; -1 if it is prescribed
   int m_number_of_unknowns = 0;
   Matrix m_matrix; // the lower triangle
   std::vector<std::vector<int>>
@@ -76,13 +79,26 @@ public:
     for(const Nodes& nodes : m_elements)
       add(nodes, stiffness(nodes), solutions, right_hand_sides);
     factor_linear_part();
-    for(std::size_t l = 0; l < loads.size(); ++l) {
-      const Vector_x x = solve(right_hand_sides[l]);
-      for(std::size_t v = 0; v < m_points.size(); ++v)
-        if(const int i = 3 * m_unknown[v]; i >= 0)
-          solutions[l][v] = {x[i], x[i + 1], x[i + 2]};
-    }
+    for(std::size_t l = 0; l < loads.size(); ++l)
+      set_unknowns(solve(right_hand_sides[l]), solutions[l]);
     return solutions;
+  }
+
+  /// Solves for springs, which hold all: no node is prescribed.
+  Displacements solve(const Springs& springs)
+  {
+    number_unknowns([](const Vector&) { return std::nullopt; });
+    make_pattern();
+    std::vector<Displacements> solution(1, Displacements(m_points.size(), Vec3{}));
+    std::vector<Vector_x> right_hand_side(1, Vector_x::Zero(3 * m_number_of_unknowns));
+    for(const Nodes& nodes : m_elements)
+      add(nodes, stiffness(nodes), solution, right_hand_side);
+    for_each_face_with_springs(springs, m_mesh, [&](const Springs_of_face& of_face, const mm3::Face& face) {
+      add(of_face.nodal(), face, right_hand_side.front());
+    });
+    factor_linear_part(springs);
+    set_unknowns(solve(right_hand_side.front()), solution.front());
+    return solution.front();
   }
 
   std::vector<Vector> at(const std::vector<Vector>& points, const Displacements& displacements) const
@@ -110,10 +126,9 @@ private:
 
   void add_middles()
   {
-    std::map<std::pair<int, int>, int> middles;
     const auto middle = [&](int a, int b) {
-      const auto [it, is_new] = middles.emplace(std::make_pair((std::min)(a, b), (std::max)(a, b)),
-                                                int(m_points.size()));
+      const auto [it, is_new] = m_middles.emplace(std::make_pair((std::min)(a, b), (std::max)(a, b)),
+                                                  int(m_points.size()));
       if(is_new) {
         m_ends.push_back({a, b});
         m_points.push_back(0.5 * (m_points[std::size_t(a)] + m_points[std::size_t(b)]));
@@ -138,19 +153,12 @@ private:
     }
   }
 
-  // A middle is prescribed if both of its ends are, as in `Linear_elasticity_3::prescribe_boundary()`: at the
-  // border of a patch, edges with a free end are free.
   void number_unknowns(const Boundary_displacement& load)
   {
-    const std::size_t first_middle = m_mesh.number_of_vertices();
-    const auto is_given = [&](std::size_t v) { return m_is_on_boundary[v] && load(m_points[v]); };
     m_unknown.assign(m_points.size(), -1);
     m_number_of_unknowns = 0;
     for(std::size_t v = 0; v < m_points.size(); ++v)
-      if(!is_given(v)
-         || (v >= first_middle
-             && (m_unknown[std::size_t(m_ends[v - first_middle][0])] >= 0
-                 || m_unknown[std::size_t(m_ends[v - first_middle][1])] >= 0)))
+      if(!m_is_on_boundary[v] || !load(m_points[v]))
         m_unknown[v] = m_number_of_unknowns++;
   }
 
@@ -248,6 +256,27 @@ private:
       }
   }
 
+  // Adds the springs of a face. \pre all nodes are unknown
+  void add(const Springs_of_face& of_face, const mm3::Face& face, Vector_x& right_hand_side)
+  {
+    const auto& v = face.vertices();
+    std::array<int, 6> nodes;
+    for(int i = 0; i < 3; ++i) {
+      const auto [a, b] = std::minmax({int(v[i]), int(v[(i + 1) % 3])});
+      nodes[std::size_t(i)] = m_unknown[v[i]];
+      nodes[std::size_t(3 + i)] = m_unknown[std::size_t(m_middles.at({a, b}))];
+    }
+    for(int a = 0; a < 6; ++a) {
+      const int i = nodes[std::size_t(a)];
+      right_hand_side.segment<3>(3 * i) += of_face.forces.row(a).transpose();
+      for(int b = 0; b < 6; ++b)
+        if(const int j = nodes[std::size_t(b)]; i >= j) {
+          const double k = of_face.matrix(a, b);
+          add(i, j, Block{{{k, 0, 0}, {0, k, 0}, {0, 0, k}}});
+        }
+    }
+  }
+
   // \pre i >= j
   void add(int i, int j, const Block& block)
   {
@@ -261,7 +290,14 @@ private:
     }
   }
 
-  void factor_linear_part()
+  void set_unknowns(const Vector_x& x, Displacements& displacements) const
+  {
+    for(std::size_t v = 0; v < m_points.size(); ++v)
+      if(const int i = 3 * m_unknown[v]; i >= 0)
+        displacements[v] = {x[i], x[i + 1], x[i + 2]};
+  }
+
+  void factor_linear_part(const std::optional<Springs>& springs = std::nullopt)
   {
     std::vector<bool> is_free;
     for(std::size_t v = 0; v < m_mesh.number_of_vertices(); ++v)
@@ -271,7 +307,8 @@ private:
     const Displacements zero(m_mesh.number_of_vertices(), Vec3{});
     for(auto e : system.active_elements())
       system.add(e, m_material, m_points, zero);
-    m_linear_matrix = Solver::Matrix(system.starts(), system.rows(), system.values());
+    m_linear_matrix = springs ? System_with_springs(system, m_mesh, *springs).matrix()
+                              : Solver::Matrix(system.starts(), system.rows(), system.values());
     double denominator;
     if(!m_linear_solver.factor(m_linear_matrix, denominator))
       throw std::runtime_error("the preconditioner of the reference is not positive definite");

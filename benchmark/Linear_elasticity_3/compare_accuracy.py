@@ -3,14 +3,15 @@
 """The error of brain shift in the regions of openings.json, beside meshes of Mesh_3: tables and a plot.
 
   compare_accuracy.py DIRECTORY WORK [--regions front back] [--vertices 660 2000 10000] [--tune-mesh-3]
-                      [--adapt] [--options OPTIONS] [--plot FILE.png] [--summary FILE.md]
+                      [--adapt] [--options OPTIONS] [--plot FILE.png] [--summary FILE.md] [--orders 1 2 region]
+                      [--poisson-ratio 0.49]
 
 DIRECTORY holds the programs mixed_mesh_3, benchmark_mesh_3, make_region and measure_accuracy. WORK gets
 
 - regions/NAME.off,
-- ref/NAME_{bump,smooth}.txt, the references: quadratic elements on one mesh for all regions, fine in each.
+- ref/NAME_{bump,smooth,springs}.txt, the references: quadratic elements on one mesh for all regions, fine in each.
   Their own error is some 0.1 to 0.25 % of the displacement for the bump, less than 0.1 % for the smooth one,
-  of what finer meshes give, Mesh_3's among them; they take ten minutes,
+  of what finer meshes give, Mesh_3's among them; they take a quarter of an hour,
 - mesh_3/NAME_VERTICES_GROWTH_SCALE.vtu, meshes of Mesh_3, and .json, their errors,
 - mixed/NAME_VERTICES.vtu, our meshes.
 
@@ -18,7 +19,8 @@ What is there is used again, but for our meshes. Mesh_3's are made with a growth
 tries others, and regions of another scale. Each column has the best of the settings in WORK. Each mesh is
 solved with standard elements, which lock, and with the elements of Linear_elasticity_3, whose displacement is also
 recovered between vertices. --adapt adapts the meshes of both to the bump first, by adapt_mixed_mesh_3(). OPTIONS are some
-of mixed_mesh_3, as --options=--no-exchange. The summary has the mean and the worst error of all regions, before and after
+of mixed_mesh_3, as --options=--no-exchange. --orders compares orders of our displacements on our meshes instead, and has
+no part for Mesh_3. WORK is for one Poisson's ratio. The summary has the mean and the worst error of all regions, before and after
 adaptation, and whether they fall with N. The plot needs matplotlib (Debian: python3-matplotlib).
 """
 
@@ -37,7 +39,8 @@ OPENINGS = HERE / "openings.json"
 REFERENCE = ("--vertices", 50000, "--base-level", 5, "--tetrahedra")  # 382,000 quadratic nodes
 DEFAULT = (0.4, 1)  # growth of Mesh_3's sizes with the distance, scale of the region
 TUNING = tuple(itertools.product((0.15, 0.25, 0.4, 0.7, 1.0), (1, 1.4)))
-LOADS = {"bump": "bump of 10 mm, lower 30 % fixed, rest free", "smooth": "smooth, prescribed everywhere"}
+LOADS = {"bump": "bump of 10 mm, lower 30 % fixed, rest free", "smooth": "smooth, prescribed everywhere",
+         "springs": "springs at the opening and the lower 30 %, rest free"}
 LARGEST_ADAPTED = 6000  # in the summary: with more vertices, all meshes would take hours
 ELEMENTS = {"standard": "error of standard elements", "own": "error", "recovered": "error of recovered displacements"}
 COLUMNS = tuple(itertools.product(LOADS, ELEMENTS))
@@ -52,8 +55,9 @@ def error(row, load, elements, where=""):
 
 
 class Comparison:
-    def __init__(self, programs, work, openings, adapts=False, mesher_options=()):
+    def __init__(self, programs, work, openings, adapts=False, mesher_options=(), poisson_ratio=0.45):
         self.programs, self.work, self.mesher_options = programs, work, mesher_options
+        self.poisson_ratio = poisson_ratio
         self.adapts = adapts
         self.names = [o["name"] for o in openings]
         for folder in ("regions", "ref", "mesh_3", "mixed"):
@@ -76,7 +80,8 @@ class Comparison:
         run(self.programs / "make_region", OPENINGS, file, *names)
 
     def measure(self, *arguments):
-        return run(self.programs / "measure_accuracy", BRAIN, OPENINGS, self.work, *arguments)
+        return run(self.programs / "measure_accuracy", BRAIN, OPENINGS, self.work, "--poisson-ratio", self.poisson_ratio,
+                   *arguments)
 
     def make_references(self):
         missing = [n for n in self.names
@@ -87,8 +92,9 @@ class Comparison:
             run(self.programs / "mixed_mesh_3", BRAIN, "--region", regions, *REFERENCE, "--quiet", "--output", mesh)
             self.measure("--reference-mesh", mesh, "--regions", *missing)
 
-    def errors(self, name, meshes, adapts):
-        lines = self.measure(*meshes, "--regions", name, *(["--adapt"] if adapts else [])).splitlines()
+    def errors(self, name, meshes, adapts, orders=()):
+        lines = self.measure(*meshes, "--regions", name, *(["--adapt"] if adapts else []),
+                             *(["--orders", *orders] if orders else [])).splitlines()
         return [json.loads(line) for line in lines]
 
     def make_ours(self, name, vertices):
@@ -99,6 +105,9 @@ class Comparison:
 
     def ours(self, name, vertices):
         return self.errors(name, [self.make_ours(name, vertices)], self.adapts)[0]
+
+    def in_orders(self, name, vertices, orders):
+        return self.errors(name, [self.make_ours(name, vertices)], self.adapts, orders)[0]
 
     def mesh_3(self, name, vertices, settings):
         """Of each setting in WORK, those of `settings` among them."""
@@ -193,12 +202,32 @@ def summary(comparison, counts, settings):
     return lines
 
 
+def print_orders(comparison, counts, orders):
+    """Means over the regions and, in brackets, the worst. Times are those for the bump."""
+    columns = "".join(f" {load}, % |" for load in LOADS)
+    print(f"| N | order | nodes |{columns} factor, CPU s | a solution, CPU ms |")
+    print("|--:|--:|--:|" + "--:|" * (len(LOADS) + 2))
+
+    def cell(values, form):
+        return f" {format(statistics.mean(values), form)} ({format(max(values), form)}) |"
+
+    for n in counts:
+        rows = [comparison.in_orders(name, n, orders) for name in comparison.names]
+        for order in orders:
+            results = {load: [row[load]["orders"][order] for row in rows] for load in LOADS}
+            times = results["bump"]
+            print(f"| {n:,} | {order} |" + cell([r["nodes"] for r in times], ",.0f")
+                  + "".join(cell([100 * r["error"] for r in results[load]], ".2f") for load in LOADS)
+                  + cell([r["factor, CPU seconds"] for r in times], ".2f")
+                  + cell([1000 * r["solution, CPU seconds"] for r in times], ".1f"), flush=True)
+
+
 def plot(results, counts, names, file, is_tuned):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, len(LOADS), figsize=(11, 4.6), sharey=True)
+    figure, axes = plt.subplots(1, len(LOADS), figsize=(5.5 * len(LOADS), 4.6), sharey=True)
     for ax, (load, title) in zip(axes, LOADS.items()):
         for elements, line in (("own", "-"), ("standard", ":")):
             column = (load, elements)
@@ -228,12 +257,18 @@ def main():
     parser.add_argument("--tune-mesh-3", action="store_true")
     parser.add_argument("--adapt", action="store_true")
     parser.add_argument("--options", type=str.split, default=[])
+    parser.add_argument("--poisson-ratio", type=float, default=0.45)
+    parser.add_argument("--orders", nargs="+", choices=["1", "2", "region"])
     parser.add_argument("--plot", type=pathlib.Path)
     parser.add_argument("--summary", type=pathlib.Path)
     arguments = parser.parse_args()
     comparison = Comparison(arguments.directory, arguments.work,
-                            [o for o in openings if o["name"] in arguments.regions], arguments.adapt, arguments.options)
+                            [o for o in openings if o["name"] in arguments.regions], arguments.adapt, arguments.options,
+                            arguments.poisson_ratio)
     comparison.make_references()
+    if arguments.orders:
+        print_orders(comparison, arguments.vertices, arguments.orders)
+        return
     settings = TUNING if arguments.tune_mesh_3 else (DEFAULT,)
     if arguments.summary:
         arguments.summary.write_text("\n".join(summary(comparison, arguments.vertices, settings)) + "\n")
