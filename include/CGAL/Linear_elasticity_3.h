@@ -145,7 +145,7 @@ public:
   /// The displacement in an element of order 2 is the sum over its vertices, as with order 1, plus the sum of
   /// a function for each edge, which is 1 in the middle of the edge and 0 on other edges, times a
   /// coefficient. Edges are straight. Fields are continuous across elements of all kinds and both orders.
-  /// Dilatations are not averaged, as elements of order 2 do not lock with Poisson's ratios up to 0.49.
+  /// Dilatations are not averaged, as elements of order 2 hardly lock with Poisson's ratios up to 0.49.
   ///
   /// With order 2 anywhere, contacts, finite rotations, and solvers with `set_near_kernel()` are refused:
   /// `factor()` and `solve()` return `ORDER_NOT_SUPPORTED`.

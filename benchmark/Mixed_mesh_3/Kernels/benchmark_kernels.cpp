@@ -4,8 +4,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Nanoseconds an element, for each kind: its cost, its cost with the gradient by a vertex, the cost after a
-// move of the vertex as in a line search, the certificate, and the proof of the quality bound. Elements are
-// ideal ones, distorted at random.
+// move of the vertex as in a line search, the certificate, the proof of the quality bound, and the matrix
+// with linear and with quadratic displacements. Elements are ideal ones, distorted at random.
 //
 //   benchmark_kernels [options of Google Benchmark, such as --benchmark_filter=hexahedron]
 
@@ -13,6 +13,8 @@
 #include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/fem/element_stiffness.h>
+#include <CGAL/Mixed_mesh_3/internal/fem/quadrature.h>
 #include <CGAL/Mixed_mesh_3/quality_bound.h>
 
 #include <benchmark/benchmark.h>
@@ -104,6 +106,15 @@ int main(int argc, char* argv[])
   add("bound", [](mm3::Element_kind kind, const Element& p, std::size_t) {
     return mm3::is_aspect_ratio_at_most(kind, coordinates(p), 3.2);
   });
+  for(int order : {1, 2})
+    add(order == 1 ? "element matrix" : "element matrix of order 2",
+        [order](mm3::Element_kind kind, const Element& p, std::size_t) {
+          static mm3::internal::Element_stiffness stiffness;
+          mm3::internal::compute_element_stiffness(mm3::internal::quadrature_rule(kind, order), p,
+                                                   mm3::Elastic_material(),
+                                                   mm3::internal::Dilatation::POINTWISE, stiffness);
+          return stiffness[0][0][0][0];
+        });
   benchmark::Initialize(&argc, argv);
   if(benchmark::ReportUnrecognizedArguments(argc, argv))
     return 2;
