@@ -127,6 +127,15 @@ std::string sentence_on_volume(double ratio, const Input_names& names)
          + names.base_level + (names.tolerance.empty() ? "" : ", or " + names.tolerance);
 }
 
+std::string sentence_on_sharp_edges(const CGAL::Mixed_mesh_result_3& result, const Input_names& names)
+{
+  const double share = share_of_sharp_edges(result);
+  return share < least_share_of_sharp_edges
+           ? "only " + as_part_of(share) + " the length of the sharp edges of " + names.surface
+               + " is kept, the rest is cut off; try more vertices"
+           : "";
+}
+
 std::string sentence_on_vertices_off(const Fidelity& fidelity, const Input_names& names)
 {
   return std::to_string(fidelity.vertices_off) + " of " + std::to_string(fidelity.vertices)

@@ -112,6 +112,9 @@ std::string reason_for_no_likeness(const CGAL::Mixed_mesh_result_3& result, cons
 /// A sentence on a volume that differs.
 std::string sentence_on_volume(double ratio, const Input_names& names);
 
+/// What is told if edges of the mesh do not follow the sharp edges; empty if they do, nearly.
+std::string sentence_on_sharp_edges(const CGAL::Mixed_mesh_result_3& result, const Input_names& names);
+
 /// A sentence on boundary vertices that are not on the surface, of which there are some.
 std::string sentence_on_vertices_off(const Fidelity& fidelity, const Input_names& names);
 

@@ -117,10 +117,9 @@ void add_warnings(const Options& o, Outcome& outcome)
                             ? ", none above " + rounded(outcome.result.quality_bound)
                                 + ": thin walls have room for flatter elements only"
                             : ""));
-  if(o.fit() != Fit::NONE && share_of_sharp_edges(outcome.result) < least_share_of_sharp_edges)
-    warnings.push_back("only " + as_part_of(share_of_sharp_edges(outcome.result))
-                       + " the length of the sharp edges of " + o.surface
-                       + " is kept, the rest is cut off; try more vertices");
+  if(const std::string cut_off = sentence_on_sharp_edges(outcome.result, names_of(o));
+     o.fit() != Fit::NONE && !cut_off.empty())
+    warnings.push_back(cut_off);
   if(f.misses(o.tolerance))
     warnings.push_back(sentence_on_tolerance(f, "--tolerance " + rounded(o.tolerance), names_of(o)));
   // The cells around the boundary add some volume before it is fitted; corners cut off take some.

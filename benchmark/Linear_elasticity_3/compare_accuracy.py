@@ -19,8 +19,8 @@ What is there is used again, but for our meshes. Mesh_3's are made with a growth
 tries others, and regions of another scale. Each column has the best of the settings in WORK. Each mesh is
 solved with standard elements, which lock, and with the elements of Linear_elasticity_3, whose displacement is also
 recovered between vertices. --adapt adapts the meshes of both to the bump first, by adapt_mixed_mesh_3(). OPTIONS are some
-of mixed_mesh_3, as --options=--no-exchange. --orders compares orders of our displacements on our meshes instead, and has
-no part for Mesh_3. WORK is for one Poisson's ratio. The summary has the mean and the worst error of all regions, before and after
+of mixed_mesh_3, as --options=--no-exchange. --orders compares orders of our displacements instead, on our meshes and on
+Mesh_3's, each column with the best of the settings again. WORK is for one Poisson's ratio. The summary has the mean and the worst error of all regions, before and after
 adaptation, and whether they fall with N. The plot needs matplotlib (Debian: python3-matplotlib).
 """
 
@@ -106,18 +106,18 @@ class Comparison:
     def ours(self, name, vertices):
         return self.errors(name, [self.make_ours(name, vertices)], self.adapts)[0]
 
-    def in_orders(self, name, vertices, orders):
-        return self.errors(name, [self.make_ours(name, vertices)], self.adapts, orders)[0]
-
-    def mesh_3(self, name, vertices, settings):
-        """Of each setting in WORK, those of `settings` among them."""
+    def meshes_3(self, name, vertices, settings):
+        """The meshes of Mesh_3 of each setting in WORK, those of `settings` among them."""
         folder = self.work / "mesh_3"
         for growth, scale in settings:
             mesh = folder / f"{name}_{vertices}_{growth}_{scale}.vtu"
             if not mesh.exists():
                 run(self.programs / "benchmark_mesh_3", BRAIN, self.region(name), vertices, "--growth", growth,
                     "--region-scale", scale, "--output", mesh)
-        meshes = sorted(folder.glob(f"{name}_{vertices}_*.vtu"))
+        return sorted(folder.glob(f"{name}_{vertices}_*.vtu"))
+
+    def mesh_3(self, name, vertices, settings):
+        meshes = self.meshes_3(name, vertices, settings)
         ending = ".adapted.json" if self.adapts else ".json"
         made = max(self.programs.joinpath("measure_accuracy").stat().st_mtime,
                    *(self.reference(name, load).stat().st_mtime for load in LOADS))
@@ -202,22 +202,26 @@ def summary(comparison, counts, settings):
     return lines
 
 
-def print_orders(comparison, counts, orders):
+def print_orders(comparison, counts, orders, settings):
     """Means over the regions and, in brackets, the worst. Times are those for the bump."""
     columns = "".join(f" {load}, % |" for load in LOADS)
-    print(f"| N | order | nodes |{columns} factor, CPU s | a solution, CPU ms |")
-    print("|--:|--:|--:|" + "--:|" * (len(LOADS) + 2))
+    print(f"| N | mesher | order | nodes |{columns} factor, CPU s | a solution, CPU ms |")
+    print("|--:|---|--:|--:|" + "--:|" * (len(LOADS) + 2))
 
     def cell(values, form):
         return f" {format(statistics.mean(values), form)} ({format(max(values), form)}) |"
 
     for n in counts:
-        rows = [comparison.in_orders(name, n, orders) for name in comparison.names]
-        for order in orders:
-            results = {load: [row[load]["orders"][order] for row in rows] for load in LOADS}
-            times = results["bump"]
-            print(f"| {n:,} | {order} |" + cell([r["nodes"] for r in times], ",.0f")
-                  + "".join(cell([100 * r["error"] for r in results[load]], ".2f") for load in LOADS)
+        meshers = {"ours": [comparison.errors(name, [comparison.make_ours(name, n)], comparison.adapts, orders)
+                            for name in comparison.names],
+                   "Mesh_3": [comparison.errors(name, comparison.meshes_3(name, n, settings), comparison.adapts, orders)
+                              for name in comparison.names]}
+        for order, mesher in itertools.product(orders, meshers):
+            best_rows = {load: [min((row[load]["orders"][order] for row in rows), key=lambda r: r["error"])
+                                for rows in meshers[mesher]] for load in LOADS}
+            times = best_rows["bump"]
+            print(f"| {n:,} | {mesher} | {order} |" + cell([r["nodes"] for r in times], ",.0f")
+                  + "".join(cell([100 * r["error"] for r in best_rows[load]], ".2f") for load in LOADS)
                   + cell([r["factor, CPU seconds"] for r in times], ".2f")
                   + cell([1000 * r["solution, CPU seconds"] for r in times], ".1f"), flush=True)
 
@@ -266,10 +270,10 @@ def main():
                             [o for o in openings if o["name"] in arguments.regions], arguments.adapt, arguments.options,
                             arguments.poisson_ratio)
     comparison.make_references()
-    if arguments.orders:
-        print_orders(comparison, arguments.vertices, arguments.orders)
-        return
     settings = TUNING if arguments.tune_mesh_3 else (DEFAULT,)
+    if arguments.orders:
+        print_orders(comparison, arguments.vertices, arguments.orders, settings)
+        return
     if arguments.summary:
         arguments.summary.write_text("\n".join(summary(comparison, arguments.vertices, settings)) + "\n")
         return

@@ -146,6 +146,8 @@ void compare(const Mesh& mesh, const Surface& surface, double tolerance,
       warnings.push_back(sentence_on_lost_parts(result, names));
     if(fidelity.vertices_off != 0)
       warnings.push_back(sentence_on_vertices_off(fidelity, names));
+    if(const std::string cut_off = sentence_on_sharp_edges(result, names); !cut_off.empty())
+      warnings.push_back(cut_off);
     if(fidelity.misses(tolerance))
       warnings.push_back(sentence_on_tolerance(fidelity, "tolerance=" + rounded(tolerance), names));
     if(!fidelity.has_right_volume())

@@ -46,6 +46,15 @@ struct Counts
   std::size_t collapsed = 0, refused_and_harmful = 0, cuts = 0, cuts_found = 0;
 };
 
+std::vector<std::vector<Vertex_index>> sorted_elements(const Mesh& mesh)
+{
+  std::vector<std::vector<Vertex_index>> elements;
+  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e)
+    elements.emplace_back(mesh.element(e).begin(), mesh.element(e).end());
+  std::sort(elements.begin(), elements.end());
+  return elements;
+}
+
 // Collapses random edges, until `most` are collapsed or none is left to try. Collapses of boundary edges may
 // be refused because the boundary would cut itself.
 void collapse_at_random(const Mesh& start, unsigned seed, std::size_t most, Counts& counts)
@@ -72,6 +81,11 @@ void collapse_at_random(const Mesh& start, unsigned seed, std::size_t most, Coun
     BOOST_TEST(Edge_collapser<Aspect_ratio_quality_3>(changed, quality)(v, w, 1e6));
     Mesh mesh = start;
     changed.store(mesh);
+    Working_mesh in_place = working;
+    in_place.collapse(v, w);
+    Mesh other = start;
+    in_place.store(other);
+    BOOST_TEST((sorted_elements(other) == sorted_elements(mesh)));
     if(!is_allowed) { // the collapse is done to see its effect
       counts.refused_and_harmful += topology(mesh) != before || !find_defects(mesh).none();
       continue;

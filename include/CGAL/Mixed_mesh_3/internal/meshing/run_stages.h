@@ -96,6 +96,7 @@ inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_
 {
   Mixed_mesh_result_3 result;
   Misfit misfit = Misfit::without_mesh();
+  bool is_above = false; // whether the mesh has elements above the bound in force
   const auto run = [&](const auto& make) {
     Meshing_state s(root, criteria, visitor);
     s.result.vertex_budget = criteria.maximal_number_of_vertices();
@@ -103,16 +104,19 @@ inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_
     Core_mesh other;
     Misfit of_other = Misfit::without_mesh();
     make(s, other, of_other);
+    const bool is_other_above = s.result.optimization.number_of_elements_above_bound > 0;
     note_misfit(s, of_other);
     note_elements_above_bound(s, other);
     // Few vertices off the surface are less to see than sharp edges that are cut off.
     const Mixed_mesh_optimization_result_3& fit = s.result.optimization;
     const double tolerated = fit.length_of_sharp_edges > 0 ? removable_share : 0;
     const std::size_t few = std::size_t(tolerated * double(fit.number_of_boundary_vertices));
-    const bool is_last = s.is_stopped || of_other.is_nearly_right(few);
-    if(mesh.is_empty() || (of_other < misfit && !s.is_stopped)) {
+    const bool is_last = s.is_stopped || (of_other.is_nearly_right(few) && !is_other_above),
+               is_better = of_other < misfit || (is_above && !is_other_above && !(misfit < of_other));
+    if(mesh.is_empty() || (is_better && !s.is_stopped)) {
       result = s.result;
       misfit = of_other;
+      is_above = is_other_above;
       mesh = std::move(other);
     }
     return is_last;

@@ -21,6 +21,7 @@
 #include <CGAL/Mixed_mesh_3/internal/meshing/sharp_cells.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
+#include <CGAL/Mixed_mesh_3/quality.h>
 
 #include <algorithm>
 #include <cmath>
@@ -165,16 +166,19 @@ inline void make_simplified_mesh(Meshing_state& s, Core_mesh& mesh)
     return note_stop();
   }
   optimize_boundary(s, mesh, {}, &followed);
-  const Mixed_mesh_optimization_result_3& fit = s.result.optimization;
   if(mesh.is_empty())
     return;
-  // What is guaranteed is not given up: there is no mesh then, and the octree of the budget is tried.
-  if(!fit.is_boundary_simple || (s.has_quality_bound() && fit.number_of_elements_above_bound > 0)) {
+  const Mixed_mesh_optimization_result_3& fit = s.result.optimization;
+  const bool is_above = s.has_quality_bound() && fit.number_of_elements_above_bound > 0;
+  const double worst = is_above ? quality_statistics(mesh).back().maximum : 0;
+  if(!fit.is_boundary_simple || worst > largest) { // the octree of the budget is tried
     mesh.clear();
     s.result.is_kept = false;
     s.result.status = s.is_stopped ? Mixed_mesh_status::STOPPED : Mixed_mesh_status::BUDGET_TOO_SMALL;
     return;
   }
+  if(is_above)
+    s.quality_bound = s.result.quality_bound = worst;
   note_lost_cells(s, mesh);
   note_share_filled(s, mesh.number_of_vertices());
 }

@@ -14,9 +14,12 @@
 
 #include <CGAL/Mixed_mesh_3/internal/moves/Transaction.h>
 
+#include <boost/container/static_vector.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <vector>
@@ -41,9 +44,12 @@ class Edge_collapser
 {
   Working_mesh& m_mesh;
   const Quality& m_quality;
-  // Vectors kept as members to reuse their memory.
-  std::vector<Vertex_index> m_around_v, m_around_w, m_around_edge;
-  std::vector<std::array<Vertex_index, 4>> m_at_edge;
+  using Share = boost::container::static_vector<Vertex_index, 8>;
+  // Kept as members to reuse their memory: the time at which each vertex was marked, and of elements the
+  // vertices in the link of the edge.
+  std::vector<std::uint32_t> m_marks;
+  std::uint32_t m_time = 0;
+  std::vector<Share> m_shares;
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -124,45 +130,39 @@ public:
   /// The link condition in the mesh. All elements at the edge are tetrahedra.
   bool is_link_of_edge(Vertex_index v, Vertex_index w)
   {
-    m_at_edge.clear();
-    m_around_v.clear();
-    m_around_w.clear();
-    m_around_edge.clear();
-    const auto add = [](std::vector<Vertex_index>& vertices, const Working_mesh::Element& element) {
-      vertices.insert(vertices.end(), element.begin(), element.end());
-    };
-    for(Element_index e : m_mesh.incident[v]) {
-      const Working_mesh::Element& element = m_mesh.elements[e];
-      add(m_around_v, element);
-      if(!has(e, w))
-        continue;
-      if(element.kind != TETRAHEDRON)
-        return false;
-      add(m_around_edge, element);
-      m_at_edge.push_back(
-        {element.vertices[0], element.vertices[1], element.vertices[2], element.vertices[3]});
-      std::sort(m_at_edge.back().begin(), m_at_edge.back().end());
-    }
-    for(Element_index e : m_mesh.incident[w])
-      add(m_around_w, m_mesh.elements[e]);
-    for(std::vector<Vertex_index>* vertices : {&m_around_v, &m_around_w, &m_around_edge})
-      sort_uniquely(*vertices);
-    if(common(m_around_v, m_around_w) != m_around_edge)
-      return false;
-    // Common vertices of elements are in the link of the edge then: only two or more of them matter.
-    const std::vector<std::vector<Vertex_index>> of_v = shares_around_edge(v, w),
-                                                 of_w = shares_around_edge(w, v);
-    for(const std::vector<Vertex_index>& a : of_v)
-      for(const std::vector<Vertex_index>& b : of_w) {
-        const std::vector<Vertex_index> both = common(a, b);
-        if(both.size() > 2)
+    if(m_marks.size() < m_mesh.points.size())
+      m_marks.resize(m_mesh.points.size(), 0);
+    m_time += 2; // marks of vertices around v are this, of those around the edge one more
+    m_shares.clear();
+    for(Element_index e : m_mesh.incident[v])
+      if(has(e, w)) {
+        if(m_mesh.elements[e].kind != TETRAHEDRON)
           return false;
-        if(both.size() == 2) {
-          std::array<Vertex_index, 4> tetrahedron{v, w, both[0], both[1]};
-          std::sort(tetrahedron.begin(), tetrahedron.end());
-          if(std::find(m_at_edge.begin(), m_at_edge.end(), tetrahedron) == m_at_edge.end())
+        for(Vertex_index u : m_mesh.elements[e])
+          m_marks[u] = m_time + 1;
+      }
+    for(Element_index e : m_mesh.incident[v])
+      if(!has(e, w)) {
+        for(Vertex_index u : m_mesh.elements[e])
+          m_marks[u] = (std::max)(m_marks[u], m_time);
+        note_share(e, v);
+      }
+    const std::size_t number_of_v = m_shares.size();
+    for(Element_index e : m_mesh.incident[w])
+      if(!has(e, v)) {
+        for(Vertex_index u : m_mesh.elements[e])
+          if(m_marks[u] == m_time)
             return false;
-        }
+        note_share(e, w);
+      }
+    // Common vertices of elements are in the link of the edge: only two or more of them matter.
+    for(std::size_t i = 0; i < number_of_v; ++i)
+      for(std::size_t j = number_of_v; j < m_shares.size(); ++j) {
+        const Share &a = m_shares[i], &b = m_shares[j];
+        Share common;
+        std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
+        if(common.size() > 2 || (common.size() == 2 && !is_tetrahedron(v, w, common[0], common[1])))
+          return false;
       }
     return true;
   }
@@ -234,25 +234,25 @@ private:
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   }
 
-  // The sorted vertices in the link of the edge, for each element of v without w that has two or more of
-  // them.
-  std::vector<std::vector<Vertex_index>> shares_around_edge(Vertex_index v, Vertex_index w) const
+  // Notes the vertices that an element has in the link of the edge, if there are two or more.
+  void note_share(Element_index e, Vertex_index end)
   {
-    std::vector<std::vector<Vertex_index>> shares;
-    std::vector<Vertex_index> share;
-    for(Element_index e : m_mesh.incident[v]) {
-      if(has(e, w))
-        continue;
-      share.clear();
-      for(Vertex_index u : m_mesh.elements[e])
-        if(u != v && std::binary_search(m_around_edge.begin(), m_around_edge.end(), u))
-          share.push_back(u);
-      if(share.size() < 2)
-        continue;
-      std::sort(share.begin(), share.end());
-      shares.push_back(share);
-    }
-    return shares;
+    Share share;
+    for(Vertex_index u : m_mesh.elements[e])
+      if(u != end && m_marks[u] == m_time + 1)
+        share.push_back(u);
+    if(share.size() < 2)
+      return;
+    std::sort(share.begin(), share.end());
+    m_shares.push_back(share);
+  }
+
+  // \pre all elements that have the first two vertices are tetrahedra
+  bool is_tetrahedron(Vertex_index v, Vertex_index w, Vertex_index a, Vertex_index b) const
+  {
+    const auto around = m_mesh.incident[v];
+    return std::any_of(around.begin(), around.end(),
+                       [&](Element_index e) { return has(e, w) && has(e, a) && has(e, b); });
   }
 
   static bool is_link_of_boundary_edge(Vertex_index v, Vertex_index w,

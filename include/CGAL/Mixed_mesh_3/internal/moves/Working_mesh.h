@@ -46,7 +46,7 @@ inline double power(double q, double exponent)
 
 class Transaction;
 
-/// A mesh that is changed. Elements are changed by transactions only.
+/// A mesh that is changed: by transactions, or by collapses that are not undone.
 struct Working_mesh
 {
   struct Element
@@ -195,6 +195,33 @@ struct Working_mesh
   bool is_positive(const Element_view& element) const
   {
     return jacobian_sign(element, position()) == Jacobian_sign::POSITIVE;
+  }
+
+  /// Lets another vertex take the place of a vertex in all of its elements, and along its sharp edges;
+  /// elements of both are removed. This is not undone: the caller has proved the new elements valid.
+  /// \pre no transaction is open, and `keeps_sharp_edges(v, into)`
+  void collapse(Vertex_index v, Vertex_index into)
+  {
+    CGAL_precondition(transaction == nullptr);
+    for(Vertex_index u : sharp_neighbors(v)) {
+      const Stratum stratum = sharp_stratum(u, v);
+      sharp_edges.erase(std::minmax(u, v));
+      if(u != into)
+        sharp_edges.emplace(std::minmax(u, into), stratum);
+    }
+    strata[v] = free_stratum;
+    while(!incident[v].empty()) {
+      const Element_index e = incident[v].back();
+      Element& element = elements[e];
+      if(element.has(into)) {
+        remove(e);
+        continue;
+      }
+      element.vertices[std::size_t(element.position(v))] = into;
+      incident.pop_back(v);
+      incident.push_back(into, e);
+    }
+    merged.push_back(v);
   }
 
   /// Takes over the sharp edges of the mesh that this one was made of.
