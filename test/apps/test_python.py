@@ -77,6 +77,19 @@ def read_vtu(path):
     return vtk_to_numpy(grid.GetPoints().GetData()), {kind: np.array(v) for kind, v in cells.items()}
 
 
+def star(points):
+    """A prism over a star with points that are too sharp for few vertices."""
+    n = 2 * points
+    angles, radii = np.arange(n) * np.pi / points, np.where(np.arange(n) % 2, 0.3, 1)
+    ring = np.column_stack([radii * np.cos(angles), radii * np.sin(angles)])
+    corners = [(*p, z) for z in (0, 0.5) for p in ring] + [(0, 0, 0), (0, 0, 0.5)]
+    triangles = []
+    for i in range(n):
+        j = (i + 1) % n
+        triangles += [(i, j, n + j), (i, n + j, n + i), (j, i, 2 * n), (n + i, n + j, 2 * n + 1)]
+    return np.array(corners), np.array(triangles)
+
+
 class Test(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -260,6 +273,8 @@ class Test(unittest.TestCase):
             mm3.mesh(CUBE[0], CUBE[1][1:], vertices=100)
         with self.assertWarnsRegex(UserWarning, "surface: .*filled 1 hole"):
             mm3.optimize(mm3.mesh(*CUBE, vertices=100)[0], CUBE[0], CUBE[1][1:])
+        with self.assertWarnsRegex(UserWarning, "only .* % of the length of the sharp edges of surface is kept"):
+            mm3.mesh(*star(8), region=((0, 0, 0.25), 0.3), vertices=300)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             mm3.mesh(*CUBE, vertices=100)
