@@ -39,15 +39,15 @@ Motion_constraints constraints_left(const Remaining_mesh& remaining, const Motio
                                        remaining.vertices.end()); // former numbers
   Motion_constraints left{{}, constraints.weights, constraints.means, {}};
   if(!constraints.edges.empty()) {
-    std::map<std::array<mm3::Vertex_index, 2>, mm3::Vertex_index> numbers;
-    for(const auto& ends : constraints.edges)
-      numbers.emplace(ends, mm3::Vertex_index(vertices_before + numbers.size()));
+    std::map<Ends, mm3::Vertex_index> numbers_before;
+    for(const Ends& ends : constraints.edges)
+      numbers_before.emplace(ends, mm3::Vertex_index(vertices_before + numbers_before.size()));
     left.edges = mm3::internal::quadratic_connectivity(remaining.mesh.elements(),
                                                        remaining.mesh.number_of_vertices())
                    .ends;
     for(const auto& [v, w] : left.edges) {
       const auto [a, b] = std::minmax({nodes[v], nodes[w]});
-      nodes.push_back(numbers.at({a, b}));
+      nodes.push_back(numbers_before.at({a, b}));
     }
   }
   std::vector<std::size_t> numbers(constraints.held_directions.size(), nowhere);

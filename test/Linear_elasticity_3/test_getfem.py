@@ -36,14 +36,8 @@ KINDS = [
     ("GT_QK(3,1)", "FEM_QK(3,1)", "FEM_QK(3,0)", [0, 1, 3, 2, 4, 5, 7, 6], "IM_GAUSS_PARALLELEPIPED(3,3)"),
 ]
 
-failures = 0
-
-
-def check(condition, *text):
-    global failures
-    if not condition:
-        failures += 1
-        print("FAILED:", *text)
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "common"))
+from checks import check, exit_code  # noqa: E402
 
 
 def read(path):
@@ -155,8 +149,7 @@ def main():
             for i in (0, 2, 3):
                 check(now[i] < before[i], path, "difference", i, now[i], before[i])
             last[ratio, fit] = now
-    print("%d failures" % failures)
-    return 1 if failures else 0
+    return exit_code()
 
 
 if __name__ == "__main__":

@@ -31,15 +31,10 @@ if shutil.which("ccx") is None:
     print("skipped: there is no ccx")
     sys.exit(77)
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "common"))
+from checks import check, exit_code  # noqa: E402
+
 YOUNG = 1
-failures = 0
-
-
-def check(condition, *text):
-    global failures
-    if not condition:
-        failures += 1
-        print("FAILED:", *text)
 
 
 def read_elements(path):
@@ -172,8 +167,7 @@ def main():
         ends = elements[:, [0, 1]]
         bend = ours[elements[:, 4]] - (ours[ends[:, 0]] + ours[ends[:, 1]]) / 2
         check(np.abs(bend).max() > 0.01 * np.abs(ours).max(), "displacements are linear", np.abs(bend).max())
-    print("%d failures" % failures)
-    return 1 if failures else 0
+    return exit_code()
 
 
 if __name__ == "__main__":

@@ -36,14 +36,8 @@ BOUNDARY = [(vtk.VTK_QUAD, 3, [0, 3, 2, 1]), (vtk.VTK_TRIANGLE, 2, [4, 5, 8]), (
 # VTK's documented wedge is ours with the triangles turned around.
 VTK_WEDGE_ORDER = [0, 2, 1, 3, 5, 4]
 
-failures = 0
-
-
-def check(condition, *text):
-    global failures
-    if not condition:
-        failures += 1
-        print("FAILED:", *text)
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "common"))
+from checks import check, exit_code  # noqa: E402
 
 
 def vtk_grid(point_type):
@@ -182,8 +176,7 @@ def main():
             check(abs(volume - element[4]) < 1e-12, path, kind, "volume", volume)
             check(in_region == element[5], path, kind, "in region")
     check(without_zlib in (0, 16), "compressed files that were not read:", without_zlib)
-    print("%d files, %d failures" % (len(files), failures))
-    return 1 if failures else 0
+    return exit_code(f"{len(files)} files")
 
 
 if __name__ == "__main__":

@@ -41,15 +41,8 @@ ABAQUS_FACES = {
     "C3D8": [(1, 2, 3, 4), (5, 8, 7, 6), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 8, 4), (4, 8, 5, 1)]}
 FEBIO_TYPES = ["tet4", "pyra5", "penta6", "hex8"]
 
-failures = 0
-
-
-def check(condition, *text):
-    global failures
-    if not condition:
-        failures += 1
-        if failures < 40:
-            print("FAILED:", *text)
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "common"))
+from checks import check, exit_code  # noqa: E402
 
 
 def close(a, b):
@@ -413,8 +406,7 @@ def main():
         check_feb(path + ".feb", expected)
     gmsh.finalize()
     check(len(expectations) == 10, "number of meshes", len(expectations))
-    print("%d meshes, %d failures" % (len(expectations), failures))
-    return 1 if failures else 0
+    return exit_code(f"{len(expectations)} meshes")
 
 
 if __name__ == "__main__":

@@ -25,15 +25,8 @@ except ImportError as error:
     print("skipped:", error)
     sys.exit(77)
 
-failures = 0
-
-
-def check(condition, *text):
-    global failures
-    if not condition:
-        failures += 1
-        if failures < 40:
-            print("FAILED:", *text)
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "common"))
+from checks import check, exit_code  # noqa: E402
 
 
 def affine_of(rows):
@@ -158,8 +151,7 @@ def main():
 
     check_fields(directory, load)
     check_with_plastimatch(directory, load, mask, backward)
-    print(failures, "failures")
-    return 1 if failures else 0
+    return exit_code()
 
 
 if __name__ == "__main__":

@@ -169,7 +169,7 @@ inline void make_simplified_mesh(Meshing_state& s, Core_mesh& mesh)
   if(mesh.is_empty())
     return;
   const Mixed_mesh_optimization_result_3& fit = s.result.optimization;
-  const bool is_above = s.has_quality_bound() && fit.number_of_elements_above_bound > 0;
+  const bool is_above = fit.number_of_elements_above_bound > 0;
   const double worst = is_above ? quality_statistics(mesh).back().maximum : 0;
   if(!fit.is_boundary_simple || worst > largest) { // the octree of the budget is tried
     mesh.clear();
@@ -178,7 +178,7 @@ inline void make_simplified_mesh(Meshing_state& s, Core_mesh& mesh)
     return;
   }
   if(is_above)
-    s.quality_bound = s.result.quality_bound = worst;
+    s.result.quality_bound = worst;
   note_lost_cells(s, mesh);
   note_share_filled(s, mesh.number_of_vertices());
 }
