@@ -10,6 +10,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
 
 #include <algorithm>
 #include <atomic>
@@ -240,6 +241,8 @@ std::vector<Subdomain> read_subdomains(const Input_options& o, Surface_reader& r
   if(!has_labels)
     subdomains.push_back(is_image(o.surface) ? read.whole(whole, read.domain(o.voxels, o.voxels, outcome), 1)
                                              : read.whole(whole, 1));
+  if(!is_image(o.surface))
+    order_by_nesting(subdomains, outcome.warnings);
   subdomains.insert(subdomains.end(), labels.begin(), labels.end());
   return subdomains;
 }
@@ -251,11 +254,13 @@ Inputs read_inputs(const Input_options& o, Stage_log& log, Outcome& outcome)
   Inputs inputs;
   Surface_reader read(o, log, outcome.warnings);
   inputs.subdomains = log("read surface", [&] { return read_subdomains(o, read, outcome); });
-  inputs.boundary = boundary_of(inputs.subdomains);
+  inputs.boundary = boundary_of(inputs.subdomains, is_image(o.surface));
   outcome.surface = inputs.subdomains.back().facts;
+  if(inputs.subdomains.size() > 1)
+    outcome.surface.volume = CGAL::Polygon_mesh_processing::volume(inputs.boundary);
   for(const Subdomain& s : inputs.subdomains)
     if(s.index == 0)
-      outcome.surface.volume -= s.facts.volume;
+      outcome.surface.volume -= 2 * s.facts.volume; // surfaces of cavities are not turned inside out there
   for(const Region_option& r : o.regions)
     inputs.regions.push_back(
       log("read region", [&] { return read(r.file, r.voxels, outcome.regions.emplace_back()); }));

@@ -227,13 +227,12 @@ void add_files(CLI::App& app, Options& o)
     "there as in a region without weight. Can be given several times (default: refine everywhere)",
     [&o](const std::string& text) { o.regions.push_back(region_option(text)); })
     ->type_name("FILE[:W]");
-  add_several(app, "--subdomain",
-              "Closed surface of a part of the domain, such as a tumor, that gets elements, a label and an "
-              "interface of its own: SURFACE is 1, the parts are 2, 3, ... Can be given several times; where "
-              "parts overlap, the earlier one counts",
-              [&o](const std::string& text) {
-                o.subdomains.push_back(subdomain_option("--subdomain", text));
-              })
+  add_several(
+    app, "--subdomain",
+    "Closed surface of a part of the domain, such as a tumor, that gets elements, a label and an "
+    "interface of its own: SURFACE is 1, the parts are 2, 3, ... Can be given several times. A point "
+    "is in the innermost surface around it; where surfaces cross, the earlier one counts",
+    [&o](const std::string& text) { o.subdomains.push_back(subdomain_option("--subdomain", text)); })
     ->type_name("[NAME=]FILE");
   add_several(app, "--cavity", "Closed surface of a part that is not meshed; can be given several times",
               [&o](const std::string& file) { o.cavities.push_back(file); })

@@ -8,6 +8,7 @@
 #include "core/messages.h"
 
 #include <CGAL/Mixed_mesh_3/interfaces.h>
+#include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
 
 #include <algorithm>
@@ -139,9 +140,42 @@ Domain make_domain(const std::vector<Subdomain>& subdomains)
   return domain;
 }
 
-Surface boundary_of(const std::vector<Subdomain>& subdomains)
+void order_by_nesting(std::vector<Subdomain>& subdomains, std::vector<std::string>& warnings)
 {
+  std::vector<Enclosed> enclosed;
+  for(const Subdomain& s : subdomains)
+    enclosed.emplace_back(*s.surface);
+  const auto is_inside = [&](std::size_t i, std::size_t j) {
+    return subdomains[i].index != 0 && subdomains[j].index != 0 && enclosed[i].is_near(enclosed[j])
+           && !enclosed[j].has_inside_and_outside(*subdomains[i].surface).second;
+  };
+  for(std::size_t i = 0; i < subdomains.size(); ++i)
+    for(std::size_t j = i + 1; j < subdomains.size(); ++j)
+      if(is_inside(j, i)) { // all others stay in their order
+        const auto to = std::ptrdiff_t(i), from = std::ptrdiff_t(j);
+        std::rotate(subdomains.begin() + to, subdomains.begin() + from, subdomains.begin() + from + 1);
+        std::rotate(enclosed.begin() + to, enclosed.begin() + from, enclosed.begin() + from + 1);
+        j = i; // what is inside the new one comes before it
+      }
+  for(std::size_t i = 0; i < subdomains.size(); ++i)
+    for(std::size_t j = i + 1; j < subdomains.size(); ++j) {
+      const auto [has_inside, has_outside] = enclosed[j].has_inside_and_outside(*subdomains[i].surface);
+      if(subdomains[i].index != 0 && subdomains[j].index != 0 && has_inside && has_outside)
+        warnings.push_back("the surfaces of " + subdomains[i].name + " and " + subdomains[j].name
+                           + " cross: " + subdomains[i].name + " has what both have inside");
+    }
+}
+
+Surface boundary_of(const std::vector<Subdomain>& subdomains, bool are_labels)
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
   Surface boundary = *subdomains.back().surface;
+  for(std::size_t i = 0; i + 1 < subdomains.size() && !are_labels; ++i) {
+    Surface part = *subdomains[i].surface, whole = boundary, both;
+    if(subdomains[i].index != 0 && Enclosed(boundary).has_inside_and_outside(part).second
+       && PMP::corefine_and_compute_union(whole, part, both))
+      boundary = std::move(both);
+  }
   for(const Subdomain& s : subdomains)
     if(s.index == 0)
       CGAL::copy_face_graph(*s.surface, boundary);

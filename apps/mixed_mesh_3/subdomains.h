@@ -31,11 +31,17 @@ struct Subdomain
   std::optional<double> volume; // volume of the voxels of a label, if known
 };
 
-/// \param subdomains surfaces; the last one is around the others
+/// \param subdomains surfaces; where some overlap, the first one counts
 CGAL::Labeled_polyhedral_mixed_mesh_domain_3 make_domain(const std::vector<Subdomain>& subdomains);
 
-/// The surface of the last subdomain and of cavities.
-Surface boundary_of(const std::vector<Subdomain>& subdomains);
+/// Lets a subdomain that is inside another one come before it, so that a point is in the innermost one around
+/// it; where surfaces cross, the order stays, with a warning. Cavities stay where they are.
+void order_by_nesting(std::vector<Subdomain>& subdomains, std::vector<std::string>& warnings);
+
+/// The surface of the union of all subdomains, with those of cavities. The last subdomain of an image is
+/// around the others.
+/// \param are_labels whether they are from an image
+Surface boundary_of(const std::vector<Subdomain>& subdomains, bool are_labels);
 
 /// Examines volumes, quality and interfaces of several subdomains, with warnings for defects; and sets a
 /// status for parts that the mesh does not have.

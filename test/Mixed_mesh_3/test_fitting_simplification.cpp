@@ -3,9 +3,10 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Simplification with sharp edges: the topology of the mesh and of its boundary stays, by brute force, no
-// element is inverted, by rationals, and the boundary does not cut itself; sharp edges stay simple paths
-// between the same corners; meshes of fewer vertices come from those of more.
+// Simplification with sharp edges and with several subdomains: the topology of the mesh and of its boundary
+// stays, by brute force, no element is inverted, by rationals, and the boundary does not cut itself; sharp
+// edges stay simple paths between the same corners, subdomains and interfaces keep their topology; meshes of
+// fewer vertices come from those of more.
 
 #include "test_cells.h"
 #include "test_fitting.h"
@@ -14,6 +15,8 @@
 #include "test_topology.h"
 
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
+#include <CGAL/Mixed_mesh_3/interfaces.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Interface_curves.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Mesh_simplifier.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Plane_quadric.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/simplify.h>
@@ -44,6 +47,7 @@ using cells::cells_of_grid;
 using internal::Core_mesh;
 using internal::Followed_features;
 using internal::Stratum;
+using internal::Vertex_defect;
 using internal::Working_mesh;
 using internal::no_vertex;
 
@@ -197,10 +201,12 @@ void simplify_at_random(const Mesh& start, unsigned seed, Counts& counts)
   const std::vector<internal::Stratum> strata = working.strata;
   const std::size_t edges = working.sharp_edges.size();
   const std::vector<Vec3> targets = working.points;
-  const std::vector<std::uint8_t> is_unwanted(targets.size(), 0);
+  const std::vector<Vertex_defect> defects(targets.size(), Vertex_defect::NONE);
+  const std::vector<std::uint8_t> is_on_boundary(boundary.size(), 1);
   const Aspect_ratio_quality_3 quality;
-  internal::Mesh_simplifier<Aspect_ratio_quality_3> simplifier(working, quality, boundary, targets,
-                                                               is_unwanted, features, boundary.size() / 2);
+  internal::Mesh_simplifier<Aspect_ratio_quality_3> simplifier(working, quality, boundary, is_on_boundary,
+                                                               targets, defects, features,
+                                                               boundary.size() / 2);
   while(simplifier(1e6, 1e6, false, 1, [] { return true; }) == 1) {
     ++counts.removed;
     Mesh mesh = start;
@@ -243,6 +249,83 @@ void test_sharp_edges_stay()
             << std::endl;
   BOOST_TEST_GT(counts.removed, 300u);
   BOOST_TEST_GT(counts.on_paths, 20u);
+}
+
+// Betti numbers of each subdomain and its boundary, of each interface, and of the edges where interfaces
+// meet.
+std::vector<brute_force::Betti_numbers> topology_of_subdomains(const Mesh& mesh, Subdomain_index number)
+{
+  std::vector<brute_force::Betti_numbers> all;
+  for(Subdomain_index i = 1; i <= number; ++i)
+    for(const auto& betti : topology(mesh, i))
+      all.push_back(betti);
+  std::map<std::pair<Vertex_index, Vertex_index>, int> faces_at;
+  for(const Subdomain_interface& one : find_interfaces(mesh)) {
+    brute_force::Complex interface;
+    for(const Face& face : one.faces) {
+      const Face_vertices& v = face.vertices();
+      interface.add_face({v.begin(), v.end()});
+      for(int i = 0; i < 3; ++i)
+        ++faces_at[std::minmax(v[i], v[(i + 1) % 3])];
+    }
+    all.push_back(interface.betti_numbers());
+  }
+  brute_force::Complex curves;
+  for(const auto& [edge, n] : faces_at)
+    if(n != 2)
+      curves.add_edge(edge.first, edge.second);
+  all.push_back(curves.betti_numbers());
+  return all;
+}
+
+// Subdomains, their interfaces, and the curves where these meet keep their topology, whatever is where.
+void test_interfaces_stay()
+{
+  constexpr Subdomain_index number = 3;
+  std::size_t removed = 0, on_curves = 0, corners = 0;
+  std::mt19937 random(5);
+  for(unsigned seed = 1; seed <= 12; ++seed) {
+    std::map<Cell, Subdomain_index> labels; // random ones, or layers
+    const Mesh start = cells_of_grid(4, seed, [&](const Cell& c) {
+      const auto any = [&] { return Subdomain_index(1 + random() % number); };
+      return seed % 3 == 0 ? labels.try_emplace(c, any()).first->second
+                           : Subdomain_index(1 + (c[0] > 0) + (c[0] > 1 && (seed % 3 == 1 || c[1] > 1)));
+    });
+    std::vector<Face> faces;
+    std::vector<std::uint8_t> is_on_boundary;
+    for(const Subdomain_interface& one : find_interfaces(start))
+      for(const Face& face : one.faces) {
+        faces.push_back(face);
+        is_on_boundary.push_back(one.second == 0);
+      }
+    Working_mesh working = working_mesh(start, faces);
+    const internal::Interface_curves curves(faces, start.number_of_vertices());
+    const std::vector<Vec3> targets = working.points;
+    const std::vector<Vertex_defect> defects(targets.size(), Vertex_defect::NONE);
+    const internal::Sharp_features none;
+    const Aspect_ratio_quality_3 quality;
+    internal::Mesh_simplifier<Aspect_ratio_quality_3> simplifier(working, quality, faces, is_on_boundary,
+                                                                 targets, defects, none, faces.size() / 2);
+    const auto before = topology_of_subdomains(start, number);
+    while(simplifier(1e6, 1e6, false, 1, [] { return true; }) == 1) {
+      ++removed;
+      Mesh mesh = start;
+      working.store(mesh);
+      BOOST_TEST(topology_of_subdomains(mesh, number) == before);
+      BOOST_TEST(brute_force::is_conforming(mesh));
+      BOOST_TEST(brute_force::has_positive_corners(mesh));
+    }
+    for(Vertex_index v = 0; v < targets.size(); ++v) {
+      on_curves += working.incident[v].empty() && curves.is_on_curve(v);
+      corners += curves.is_corner(v);
+      BOOST_TEST(!curves.is_corner(v) || !working.incident[v].empty());
+    }
+  }
+  std::cout << removed << " vertices removed beside interfaces, " << on_curves << " of them from curves, "
+            << corners << " corners stayed" << std::endl;
+  BOOST_TEST_GT(removed, 300u);
+  BOOST_TEST_GT(on_curves, 20u);
+  BOOST_TEST_GT(corners, 20u);
 }
 
 // The features of a cube, and the vertices of its grid that are on them.
@@ -316,6 +399,7 @@ int run(int, char*[])
 {
   test_quadric();
   test_sharp_edges_stay();
+  test_interfaces_stay();
   test_cube();
   return boost::report_errors();
 }

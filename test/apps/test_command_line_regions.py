@@ -6,11 +6,13 @@
 """
 
 import json
+import math
 import sys
 import unittest
 
 from command_line_case import DATA, WORK, Case
 from cube import CUBE, TRIANGLES, moved, off
+from sphere import sphere
 
 
 class Regions(Case):
@@ -56,6 +58,42 @@ class Regions(Case):
         told = json.loads(report.read_text())
         self.assertEqual(len([s for s in told["subdomains"] if s["elements"] > 0]), 1)
         self.assertAlmostEqual(told["surface"]["ratio of volumes"], 1, delta=0.04)
+
+    def test_layers_in_any_order(self):
+        """Layers half as thick as cells are as thick as their surfaces say, whatever the order they are named in."""
+        for radius in (90, 84, 76):
+            (WORK / f"sphere_{radius}.off").write_text(off(*sphere(radius, 4)))
+        report, told = WORK / "layers.json", []
+        for order in ((90, 84, 76), (90, 76, 84), (76, 90, 84)):
+            surface, *parts = (WORK / f"sphere_{radius}.off" for radius in order)
+            options = [x for part in parts for x in ("--subdomain", f"{part.stem}={part}")]
+            run = self.mesher(surface, *options, "--vertices", 1500, "--output", WORK / "layers.vtu", "--report", report)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            told.append(json.loads(report.read_text()))
+            self.assertIn("all checks hold", run.stdout)
+            self.assertEqual(len(told[-1]["interfaces"]), 3)  # no layer has a hole
+            self.assertTrue(all(i["manifold"] for i in told[-1]["interfaces"]))
+            for s in told[-1]["subdomains"]:
+                self.assertAlmostEqual(s["volume"] / s["volume of surface"], 1, delta=0.05)
+        volumes = [{s["name"]: s["volume"] for s in one["subdomains"]} for one in told]
+        self.assertEqual(volumes[0], volumes[1])
+        self.assertEqual(volumes[0], volumes[2])
+
+    def test_parts_that_stick_out(self):
+        """The domain is the union of all surfaces; where they cross, the earlier one counts, and a warning says so."""
+        surfaces = [WORK / name for name in ("ball.off", "nose.off")]
+        for path, ball in zip(surfaces, (sphere(50, 3), sphere(40, 3, (45, 0, 0)))):
+            path.write_text(off(*ball))
+        report = WORK / "union.json"
+        run = self.mesher(surfaces[0], "--subdomain", f"nose={surfaces[1]}", "--vertices", 1000, "--output", WORK / "union.vtu",
+                     "--report", report)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        told = json.loads(report.read_text())
+        self.assertIn("the surfaces of nose and ball cross: nose has what both have inside", run.stderr)
+        self.assertAlmostEqual(told["surface"]["ratio of volumes"], 1, delta=0.05)
+        common = math.pi * (90 - 45) ** 2 * (45 ** 2 + 2 * 45 * 90 - 3 * 10 ** 2) / (12 * 45)  # of two balls
+        union = 4 / 3 * math.pi * (50 ** 3 + 40 ** 3) - common
+        self.assertAlmostEqual(told["mesh"]["volume"] / union, 1, delta=0.05)
 
     def test_wrong_subdomains(self):
         tumor = DATA / "tumour.off"

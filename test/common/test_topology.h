@@ -63,14 +63,17 @@ class Complex
   }
 
 public:
+  int add_edge(Vertex_index a, Vertex_index b)
+  {
+    return add(1, sorted({a, b}), {add(0, {a}, {}), add(0, {b}, {})});
+  }
+
   // \param polygon vertices in order around a face
   int add_face(const Vertices& polygon)
   {
     std::vector<int> edges;
-    for(std::size_t i = 0; i < polygon.size(); ++i) {
-      const Vertex_index a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-      edges.push_back(add(1, sorted({a, b}), {add(0, {a}, {}), add(0, {b}, {})}));
-    }
+    for(std::size_t i = 0; i < polygon.size(); ++i)
+      edges.push_back(add_edge(polygon[i], polygon[(i + 1) % polygon.size()]));
     return add(2, sorted(polygon), edges);
   }
 

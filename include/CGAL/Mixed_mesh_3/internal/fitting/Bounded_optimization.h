@@ -144,6 +144,8 @@ private:
     // itself.
     if(!m_sharp_at_start.empty()) {
       Outcome outcome = optimize_freely({true, false}, go_on);
+      if(!outcome.result.is_boundary_simple && outcome.result.status != Status::STOPPED)
+        outcome.result = optimize_within(outcome, go_on);
       return take(outcome);
     }
     Outcome best;

@@ -12,6 +12,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/fitting/Interface_curves.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Plane_quadric.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Boundary_triangles.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Edge_collapser.h>
@@ -37,6 +38,13 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
+/// Why a vertex goes before others, whatever is lost.
+enum class Vertex_defect : std::uint8_t {
+  NONE,
+  ELEMENT, ///< one of its elements costs more than the bound
+  PLACE    ///< it is not where it should be: faces may turn far
+};
+
 /*!
 Removes vertices by edge collapses, those first whose loss is least.
 
@@ -45,9 +53,10 @@ coarser, plus, on the boundary, a multiple of the volume between w and the plane
 that v and w stand for.
 
 A vertex goes into a vertex of its own stratum or of one in its closure: a corner stays, a vertex of a sharp
-edge goes along it, one of the boundary along the boundary, one inside anywhere. A collapse keeps the topology
-of the mesh, of its boundary and of its sharp edges; the boundary does not cut itself, and its faces do not
-turn far. Unwanted vertices go first, whatever is lost, and others do not go into them. The meshes of fewer
+edge goes along it, as does one of a curve where interfaces of subdomains meet, one of the boundary or of an
+interface along that, one inside anywhere. A collapse keeps the topology of the mesh, of its boundary, of
+interfaces and of their curves, and of sharp edges; the boundary does not cut itself, and its faces do not
+turn far. Vertices with defects go first, and others do not go into them. The meshes of fewer
 and fewer vertices are a sequence: those of one are among those of the one before.
 
 \tparam Quality a model of `MixedMeshQuality_3`
@@ -94,7 +103,9 @@ class Mesh_simplifier
   std::vector<Plane_quadric> m_quadrics;
   const std::vector<Vec3>& m_targets;
   std::vector<std::vector<Vec3>> m_places; // of what was removed, at the vertices it went into
-  const std::vector<std::uint8_t>& m_is_unwanted;
+  const std::vector<Vertex_defect>& m_defects;
+  Interface_curves m_curves;
+  std::vector<std::uint8_t> m_is_outer;           // whether a vertex is on the boundary of the domain
   std::vector<std::uint8_t> m_is_queued, m_stays; // vertices of elements other than tetrahedra stay
   std::vector<std::size_t> m_changed;             // number of collapses when elements of the vertex changed
   std::vector<Choice> m_choices;
@@ -104,7 +115,7 @@ class Mesh_simplifier
   bool m_follows_curves = true;
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  static constexpr double share_of_unwanted = 1e-30; // of the loss: unwanted vertices go before all others
+  static constexpr double share_of_defects = 1e-30; // of the loss: vertices with defects go before all others
   // Weight of the volume at the boundary, beside the cubes of edges. With 100, brains of 2,000 vertices are a
   // tenth farther from their surface in the mean, and the mean aspect-ratio coefficient is 1.32 instead of
   // 1.36.
@@ -112,29 +123,36 @@ class Mesh_simplifier
   static constexpr double least_cosine = 0.2; // between a face and the one that takes its place
 
 public:
-  /// \param boundary triangles, all of it
+  /// \param boundary triangles of the boundary and of interfaces, all of them
+  /// \param is_on_boundary for each of them, whether it is on the boundary of the domain
   /// \param targets where the vertices should be, to be kept by the caller
-  /// \param is_unwanted whether a vertex goes first, to be kept by the caller
+  /// \param defects whether a vertex goes first, to be kept by the caller
   /// \param features sharp edges that the mesh follows, to be kept by the caller
   /// \param number_of_triangles in the end, about
   Mesh_simplifier(Working_mesh& mesh, const Quality& quality, const std::vector<Face>& boundary,
-                  const std::vector<Vec3>& targets, const std::vector<std::uint8_t>& is_unwanted,
-                  const Sharp_features& features, std::size_t number_of_triangles)
+                  const std::vector<std::uint8_t>& is_on_boundary, const std::vector<Vec3>& targets,
+                  const std::vector<Vertex_defect>& defects, const Sharp_features& features,
+                  std::size_t number_of_triangles)
     : m_mesh(mesh), m_collapser(mesh, quality), m_boundary(mesh.points, boundary, number_of_triangles),
       m_features(features), m_first_corner(Stratum(first_sharp_stratum + features.polylines().size())),
       m_origin(targets.front()), m_quadrics(targets.size()), m_targets(targets), m_places(targets.size()),
-      m_is_unwanted(is_unwanted), m_is_queued(targets.size(), 0), m_stays(targets.size(), 0),
-      m_changed(targets.size(), 0), m_choices(targets.size())
+      m_defects(defects), m_curves(boundary, targets.size()), m_is_outer(targets.size(), 0),
+      m_is_queued(targets.size(), 0), m_stays(targets.size(), 0), m_changed(targets.size(), 0),
+      m_choices(targets.size())
   {
     for(const Working_mesh::Element& element : mesh.elements)
       if(element.kind != TETRAHEDRON)
         for(Vertex_index v : element)
           m_stays[v] = 1;
-    for(const Face& face : boundary) {
-      const Face_vertices& v = face.vertices();
-      for(int i = 0; i < 3; ++i)
+    for(std::size_t f = 0; f < boundary.size(); ++f) {
+      const Face_vertices& v = boundary[f].vertices();
+      for(int i = 0; i < 3; ++i) {
         m_quadrics[v[i]].add(targets[v[0]] - m_origin, targets[v[1]] - m_origin, targets[v[2]] - m_origin);
+        m_is_outer[v[i]] = m_is_outer[v[i]] || is_on_boundary[f];
+      }
     }
+    for(Vertex_index v = 0; v < m_stays.size(); ++v)
+      m_stays[v] = m_stays[v] || m_curves.is_corner(v);
   }
 
   /// \param bound no new element costs more
@@ -240,7 +258,11 @@ private:
   Short_vector<Vertex_index> ends(Vertex_index v) const
   {
     const bool is_on_boundary = m_mesh.is_on_boundary(v);
-    Short_vector<Vertex_index> all = is_on_boundary ? neighbors_on_boundary(v) : neighbors(v);
+    Short_vector<Vertex_index> all;
+    if(m_curves.is_on_curve(v))
+      all.assign(m_curves.neighbors(v).begin(), m_curves.neighbors(v).end());
+    else
+      all = is_on_boundary ? neighbors_on_boundary(v) : neighbors(v);
     if(is_on_boundary)
       all.erase(std::remove_if(all.begin(), all.end(),
                                [&](Vertex_index w) { return !m_mesh.keeps_sharp_edges(v, w); }),
@@ -254,7 +276,7 @@ private:
     Short_vector<Candidate> all;
     const Short_vector<Vertex_index> around = neighbors(v);
     for(Vertex_index w : ends(v)) {
-      if(m_is_unwanted[w] && !m_is_unwanted[v])
+      if(has_defect(w) && !has_defect(v))
         continue;
       double longest = 0; // squared
       for(Vertex_index u : around) {
@@ -267,7 +289,7 @@ private:
         quadric += m_quadrics[w];
         loss += weight_of_surface * quadric.volume(m_mesh.points[w] - m_origin);
       }
-      all.push_back({m_is_unwanted[v] ? share_of_unwanted * loss : loss, w});
+      all.push_back({has_defect(v) ? share_of_defects * loss : loss, w});
     }
     std::sort(all.begin(), all.end());
     return all;
@@ -279,9 +301,11 @@ private:
     double least = infinity;
     for(const Candidate& c : candidates(v))
       if(is_possible(v, c.end)) {
-        if(!m_is_unwanted[v])
+        if(!has_defect(v))
           return c;
         const double worst = m_collapser.worst_after(v, c.end, infinity);
+        if(m_defects[v] == Vertex_defect::ELEMENT && worst <= m_bound)
+          return c;
         if(worst < least) {
           least = worst;
           best = c;
@@ -313,31 +337,34 @@ private:
     return true;
   }
 
+  bool has_defect(Vertex_index v) const { return m_defects[v] != Vertex_defect::NONE; }
+
   // New elements of a vertex that has to go may be as bad as those before.
   double bound_at(Vertex_index v) const
   {
-    return m_is_unwanted[v] ? (std::max)(m_bound, m_collapser.worst_at(v)) : m_bound;
+    return has_defect(v) ? (std::max)(m_bound, m_collapser.worst_at(v)) : m_bound;
   }
 
-  bool crosses(Vertex_index v, Vertex_index w) const
-  {
-    return m_mesh.is_on_boundary(v) && m_boundary.would_cross(v, w);
-  }
+  // Interfaces inside cut nothing as long as all elements are positive and the boundary does not cut itself.
+  bool crosses(Vertex_index v, Vertex_index w) const { return m_is_outer[v] && m_boundary.would_cross(v, w); }
 
-  // The link condition on the boundary: two triangles at the edge, and nothing else in common.
+  // The link condition on the boundary and on interfaces: the triangles at the edge, and nothing else in
+  // common; and on the curves where interfaces meet.
   bool is_link_of_boundary_edge(Vertex_index v, Vertex_index w) const
   {
     const Short_vector<Vertex_index> at_v = neighbors_on_boundary(v), at_w = neighbors_on_boundary(w);
     Short_vector<Vertex_index> common;
     std::set_intersection(at_v.begin(), at_v.end(), at_w.begin(), at_w.end(), std::back_inserter(common));
-    int number_at_edge = 0;
+    std::size_t number_at_edge = 0;
     bool is_sphere = false; // of four triangles
     m_boundary.for_each_at(v, [&](const Triangle& t) {
-      const auto has = [&](Vertex_index u) { return std::find(t.begin(), t.end(), u) != t.end(); };
-      number_at_edge += has(w);
-      is_sphere = is_sphere || (common.size() == 2 && has(common[0]) && has(common[1]));
+      const bool has_edge = std::find(t.begin(), t.end(), w) != t.end();
+      number_at_edge += has_edge;
+      is_sphere = is_sphere || (!has_edge && std::all_of(t.begin(), t.end(), [&](Vertex_index u) {
+                    return u == v || std::binary_search(common.begin(), common.end(), u);
+                  }));
     });
-    return number_at_edge == 2 && common.size() == 2 && !is_sphere;
+    return number_at_edge >= 2 && common.size() == number_at_edge && !is_sphere && m_curves.is_link(v, w);
   }
 
   // Whether the new faces are near to all places that vertices have left, and do not turn far, unless the
@@ -363,7 +390,7 @@ private:
         return CGAL::squared_distance(point(place), t) <= m_distance * m_distance;
       });
     };
-    return (m_is_unwanted[v] || !turns) && is_near(m_targets[v])
+    return (m_defects[v] == Vertex_defect::PLACE || !turns) && is_near(m_targets[v])
            && std::all_of(m_places[v].begin(), m_places[v].end(), is_near);
   }
 
@@ -375,6 +402,7 @@ private:
     m_mesh.collapse(v, w);
     if(is_on_boundary) {
       m_boundary.collapse(v, w);
+      m_curves.collapse(v, w);
       m_quadrics[w] += m_quadrics[v];
       m_places[w].push_back(m_targets[v]);
       m_places[w].insert(m_places[w].end(), m_places[v].begin(), m_places[v].end());

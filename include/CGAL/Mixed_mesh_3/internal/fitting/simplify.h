@@ -34,23 +34,29 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// For each vertex, whether a mesh should be without it: vertices of the boundary that are not on the
-/// surface, or whose faces cut each other.
-inline std::vector<std::uint8_t> unwanted_vertices(const Working_mesh& mesh,
-                                                   const std::vector<Face>& boundary,
-                                                   const std::vector<Vec3>& places)
+/// For each vertex, why a mesh should be without it.
+/// \param quality_bound what an element may cost
+template <class Quality>
+std::vector<Vertex_defect> vertex_defects(const Working_mesh& mesh, const std::vector<Face>& boundary,
+                                          const std::vector<Vec3>& places, const Quality& quality,
+                                          double quality_bound)
 {
-  std::vector<std::uint8_t> is_unwanted(places.size(), 0);
+  std::vector<Vertex_defect> defects(places.size(), Vertex_defect::NONE);
+  for(const Working_mesh::Element& element : mesh.elements)
+    if(quality(element.kind, mesh.relative_points(element)) > quality_bound)
+      for(Vertex_index v : element)
+        defects[v] = Vertex_defect::ELEMENT;
   for(Vertex_index v : vertices_of_self_intersections(mesh.points, boundary))
-    is_unwanted[v] = 1;
+    defects[v] = Vertex_defect::PLACE;
   for(Vertex_index v = 0; v < places.size(); ++v)
     if(places[v] != mesh.points[v])
-      is_unwanted[v] = 1;
-  return is_unwanted;
+      defects[v] = Vertex_defect::PLACE;
+  return defects;
 }
 
 /*!
-Removes vertices of a mesh whose boundary is on the surface, until it has a given number.
+Removes vertices of a mesh whose boundary, and whose interfaces, are on their surfaces, until it has a given
+number.
 
 What does not suffice is given up in this order: that sharp edges of the mesh stay near to curved ones, then
 the quality bound, then the distance.
@@ -77,10 +83,14 @@ inline bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_sur
   Surface_projection project(surface, strata);
   project.set_features(followed.features);
   const std::vector<Vec3> places = project.places(working);
-  const std::vector<std::uint8_t> is_unwanted = unwanted_vertices(working, faces.faces, places);
+  const std::vector<Vertex_defect> defects = vertex_defects(working, faces.faces, places, quality,
+                                                            quality_bound);
   const double share = double(number_of_vertices) / double(mesh.number_of_vertices());
-  Mesh_simplifier<Aspect_ratio_quality_3> simplifier(working, quality, faces.faces, places, is_unwanted,
-                                                     followed.features,
+  std::vector<std::uint8_t> is_on_boundary;
+  for(Stratum of_face : faces.strata)
+    is_on_boundary.push_back(strata.is_on_boundary(of_face));
+  Mesh_simplifier<Aspect_ratio_quality_3> simplifier(working, quality, faces.faces, is_on_boundary, places,
+                                                     defects, followed.features,
                                                      std::size_t(share * double(faces.faces.size())));
   std::size_t n = mesh.number_of_vertices();
   const auto remove = [&](double d, bool follows_curves) {

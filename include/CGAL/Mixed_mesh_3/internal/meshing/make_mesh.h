@@ -42,16 +42,25 @@ inline std::size_t count_vertices_in_region(const Meshing_state& s)
   return count;
 }
 
-/// Describes the octree, and the defects of its mesh on the lattice, in the result.
-inline void describe_octree(Meshing_state& s)
+/// Describes the cells of the octree in the result.
+/// \return whether some meet the region
+inline bool describe_cells(Meshing_state& s)
 {
   const Octree& octree = s.octree.octree();
   bool meets_region = false;
+  s.result.number_of_cells = s.octree.number_of_cells();
   for(Octree::Node_index n = 0; n < octree.size(); ++n)
     if(octree.is_leaf(n) && s.octree.meets_domain(n)) {
       s.result.deepest_level = (std::max)(s.result.deepest_level, octree.level(n));
       meets_region = meets_region || s.octree.is_in_region(n);
     }
+  return meets_region;
+}
+
+/// Describes the octree, and the defects of its mesh on the lattice, in the result.
+inline void describe_octree(Meshing_state& s)
+{
+  const bool meets_region = describe_cells(s);
   s.result.number_of_vertices_in_region = count_vertices_in_region(s);
   const std::vector<std::uint8_t>& is_used = s.best.boundary.is_used;
   s.result.number_of_transition_vertices = std::size_t(

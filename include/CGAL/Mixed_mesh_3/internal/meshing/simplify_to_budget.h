@@ -14,13 +14,17 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/fitting/Followed_features.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Interface_curves.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/simplify.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/coarsen_to_budget.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/cut_by_interfaces.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/fill_budget.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/layer_cells.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/make_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/sharp_cells.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
+#include <CGAL/Mixed_mesh_3/internal/transitions/apply_transitions.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 
 #include <algorithm>
@@ -33,11 +37,10 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Whether a fine mesh is made first: for a domain of one subdomain without sheets, refined everywhere alike.
+/// Whether a fine mesh is made first: for a domain without sheets, refined everywhere alike.
 inline bool begins_fine(const Located_octree& root, const Mixed_mesh_criteria_3& c)
 {
-  return root.is_region_everywhere() && root.domain().subdomain_indices().size() == 1
-         && !root.domain().has_sheets() && c.fit_to_surface()
+  return root.is_region_everywhere() && !root.domain().has_sheets() && c.fit_to_surface()
          && c.boundary_mode() == Boundary_mode::VERTEX_ORDER
          && c.base_level() == Mixed_mesh_criteria_3::automatic && c.thin_parts() == Thin_parts::WHERE_NEEDED;
 }
@@ -53,7 +56,7 @@ inline std::size_t number_of_fine_vertices(std::size_t budget)
 }
 
 /// How many times the budget cells may have that are split for narrow places and for the topology.
-constexpr double most_cells_for_narrow_places = 8, most_vertices_for_topology = 16;
+constexpr std::size_t most_cells_for_narrow_places = 8, most_vertices_for_topology = 16;
 
 /// Lets the octree begin with cells that are small enough for sharp edges that are near to each other, and
 /// for curved ones, as far as the budget allows.
@@ -68,13 +71,13 @@ inline void resolve_sharp_edges(Meshing_state& s, double size)
     return;
   const std::vector<Narrow_place> places = narrow_places(Sharp_features(edges, size), reach * size,
                                                          size / samples);
-  const double most = most_cells_for_narrow_places * double(s.criteria.maximal_number_of_vertices());
+  const std::size_t most = most_cells_for_narrow_places * s.criteria.maximal_number_of_vertices();
   for(double share = smallest; !places.empty() && share < reach; share *= 2) {
     Located_octree octree = s.root;
     if(!refine_to_level(octree, s.coarsest_level(), s.budget()))
       return;
     split_narrow_cells(octree, places, share * size);
-    if(double(octree.number_of_cells()) <= most) {
+    if(octree.number_of_cells() <= most) {
       s.thin_start = std::move(octree);
       return;
     }
@@ -98,6 +101,80 @@ inline void fill_fine_octree(Meshing_state& s)
   s.number_exchanged = 0;
 }
 
+/// Makes the fine mesh of one subdomain.
+/// \return an empty mesh if there is none, or if the octree is the mesh
+inline Core_mesh fine_mesh(Meshing_state& s)
+{
+  fill_fine_octree(s);
+  if(s.is_stopped || s.result.is_lattice_on_surface)
+    return {};
+  const std::size_t most = most_vertices_for_topology * s.criteria.maximal_number_of_vertices();
+  if(s.misfit_on_lattice().is_topology_wrong())
+    find_finer_octree(s, s.octree, 0, most);
+  s.make_best_again();
+  s.result.number_of_vertices_needed = 0; // it is simplified
+  describe_octree(s);
+  if(!s.result.has_mesh())
+    return {};
+  Core_mesh fine = split_to_tetrahedra(assembled_mesh(s));
+  s.best.release();
+  return fine;
+}
+
+/// The number of vertices where interfaces meet in such a way that none of them can be removed.
+inline std::size_t number_of_corners(const Core_mesh& mesh, const Any_surface& domain)
+{
+  const Interface_curves curves(Strata(domain).sorted_faces(mesh).faces, mesh.number_of_vertices());
+  std::size_t number = 0;
+  for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
+    number += curves.is_corner(v);
+  return number;
+}
+
+/// Makes the fine mesh of several subdomains: its vertices on interfaces are there, but for curves where
+/// interfaces meet.
+/// \return an empty mesh if there is none, or if the surfaces do not fit together: where they should be one,
+/// and cut each other all over, there would be too many vertices that have to stay
+inline Core_mesh fine_mesh_of_subdomains(Meshing_state& s)
+{
+  constexpr std::size_t vertices_per_corner = 10; // of the budget, at least
+  constexpr std::size_t vertices_per_cell = 2;    // about, in a mesh that is cut
+  const std::size_t budget = s.criteria.maximal_number_of_vertices();
+  Located_octree octree = s.root;
+  {
+    const Stage_scope scope(s.visitor, Stage::OCTREE);
+    if(!refine_to_level(octree, s.coarsest_level(), s.budget()))
+      return {};
+    Refinement_sequence sequence(octree, s.graded_radius());
+    while(vertices_per_cell * sequence.number_of_cells(sequence.number_of_steps())
+            < number_of_fine_vertices(budget)
+          && sequence.extend()) {
+    }
+    octree = sequence.octree(sequence.number_of_steps());
+    split_layer_cells(octree, most_cells_for_narrow_places * budget);
+  }
+  s.octree = std::move(octree);
+  s.result.status = Mixed_mesh_status::SUCCESS;
+  if(!describe_cells(s))
+    s.result.status = Mixed_mesh_status::REGION_NOT_MET;
+  if(!s.go_on() || !s.result.has_mesh())
+    return {};
+  Lattice_mesh lattice;
+  {
+    const Stage_scope scope(s.visitor, Stage::TRANSITIONS);
+    lattice = apply_transitions(s.octree, s.criteria.transition_templates(), s.criteria.number_of_threads);
+  }
+  const Stage_scope scope(s.visitor, Stage::BOUNDARY);
+  Core_mesh fine = cut_by_interfaces(s.octree, lattice);
+  if(fine.is_empty()) {
+    s.result.status = Mixed_mesh_status::EMPTY;
+  } else if(vertices_per_corner * number_of_corners(fine, s.root.domain()) > budget) {
+    s.result.status = Mixed_mesh_status::BUDGET_TOO_SMALL;
+    fine.clear();
+  }
+  return fine;
+}
+
 /// Brings the boundary of the fine mesh onto the surface and its sharp edges. Vertices that do not arrive are
 /// left where they are, as they will be removed first.
 inline void fit_fine_mesh(Meshing_state& s, Core_mesh& mesh, Followed_features& followed)
@@ -119,21 +196,13 @@ inline void make_simplified_mesh(Meshing_state& s, Core_mesh& mesh)
   // Largest bound in bounds that were asked for: in thin walls there is room for flatter elements only.
   constexpr double largest_multiple = 5;
   const std::size_t budget = s.criteria.maximal_number_of_vertices();
-  fill_fine_octree(s);
   const auto note_stop = [&s] { s.result.status = Mixed_mesh_status::STOPPED; };
-  if(s.is_stopped)
-    return note_stop(); // the octree has more vertices than the budget
+  Core_mesh fine = s.root.domain().subdomain_indices().size() == 1 ? fine_mesh(s)
+                                                                   : fine_mesh_of_subdomains(s);
   if(s.result.is_lattice_on_surface)
     return make_mesh(s, mesh);
-  if(s.misfit_on_lattice().is_topology_wrong())
-    find_finer_octree(s, s.octree, 0, std::size_t(most_vertices_for_topology * double(budget)));
-  s.make_best_again();
-  s.result.number_of_vertices_needed = 0; // it is simplified
-  describe_octree(s);
-  if(!s.result.has_mesh())
-    return;
-  Core_mesh fine = split_to_tetrahedra(assembled_mesh(s));
-  s.best.release();
+  if(fine.is_empty())
+    return s.is_stopped ? note_stop() : void();
   const Stage_scope scope(s.visitor, Stage::OPTIMIZATION);
   Followed_features followed;
   fit_fine_mesh(s, fine, followed);
@@ -171,7 +240,8 @@ inline void make_simplified_mesh(Meshing_state& s, Core_mesh& mesh)
   const Mixed_mesh_optimization_result_3& fit = s.result.optimization;
   const bool is_above = fit.number_of_elements_above_bound > 0;
   const double worst = is_above ? quality_statistics(mesh).back().maximum : 0;
-  if(!fit.is_boundary_simple || worst > largest) { // the octree of the budget is tried
+  const bool has_layers = s.root.domain().subdomain_indices().size() > 1; // which no octree resolves better
+  if(!fit.is_boundary_simple || (worst > largest && !has_layers)) {       // the octree of the budget is tried
     mesh.clear();
     s.result.is_kept = false;
     s.result.status = s.is_stopped ? Mixed_mesh_status::STOPPED : Mixed_mesh_status::BUDGET_TOO_SMALL;

@@ -155,6 +155,23 @@ public:
     return side(n) != ON_BOUNDARY ? side(n) : domain().bounded_side(point, surface_part(n));
   }
 
+  /// The rank of the subdomain of any point; that of the outside where no subdomain is.
+  Subdomain_rank subdomain_rank(const Vec3& p) const
+  {
+    const Bbox_3 box = domain().bbox();
+    for(int k = 0; k < 3; ++k)
+      if(!(box.min(k) <= p[k] && p[k] <= box.max(k)))
+        return outside_rank;
+    const Point_3 point(p[0], p[1], p[2]);
+    const Node_index n = leaf_at(point);
+    const Bounded_side s = side(n) != ON_BOUNDARY ? side(n) : domain().bounded_side(point, surface_part(n));
+    if(s != ON_BOUNDED_SIDE)
+      return outside_rank;
+    return domain().is_labeled()
+             ? rank_of(domain().subdomain_indices(), domain().subdomain_index(point, surface_part(n)))
+             : Subdomain_rank(0);
+  }
+
   /// The sibling of eight with the nearest center: the cell around a point, whatever the frame of the cells.
   Node_index nearest_child(Node_index first, const Point_3& q) const
   {

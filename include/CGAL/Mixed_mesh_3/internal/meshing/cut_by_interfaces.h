@@ -1,0 +1,411 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// From the octree to tetrahedra that are cut where edges lead from one subdomain to another: vertices of
+// interfaces are on their surfaces, and a layer may be thinner than a cell.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_CUT_BY_INTERFACES_H
+#define CGAL_MIXED_MESH_3_INTERNAL_MESHING_CUT_BY_INTERFACES_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
+#include <CGAL/Mixed_mesh_3/Element_attributes.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/manifold_defects.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/bisect_edge.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
+#include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
+#include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
+
+#include <CGAL/enum.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/*!
+Cuts the tetrahedra of a lattice along the interfaces of subdomains.
+
+A subdomain that an edge passes, between others, first gets a vertex there: so a layer keeps its own vertices
+if it is a quarter as thick as a cell, or more. Then a vertex that is near to an interface, beside the length
+of its edges, is moved there (as in isosurface stuffing: Labelle, Shewchuk, 2007), and each edge whose ends
+are in different subdomains is bisected where it crosses the interface (as in lattice cleaving: Bronson,
+Levine, Whitaker, 2014). Bisections keep the mesh conforming, whatever subdomains meet, and at the end no
+tetrahedron has vertices inside different subdomains.
+*/
+class Interface_cutter
+{
+  using Edge = Working_mesh::Edge;
+
+  struct Cut
+  {
+    std::array<Vertex_index, 2> ends;
+    Vec3 point;   // on the interface
+    double share; // of the edge before the point, seen from the first end
+  };
+
+  // The state of a vertex of an interface is that it is inside no subdomain.
+  static constexpr Subdomain_rank on_interface = outside_rank - 2;
+
+  const Located_octree& m_octree;
+  const Core_mesh m_start;
+  Working_mesh m_mesh;
+  std::vector<Subdomain_rank> m_ranks;  // of the subdomains that vertices are inside, or `on_interface`
+  std::vector<std::uint8_t> m_is_near;  // whether a vertex is at a cell that meets a surface
+  std::vector<Vertex_index> m_vertices; // vertices of the result
+  double m_shortest;                    // edge of the octree near a surface
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  // Share of the edge up to which its end is moved. With a larger one there are fewer and better elements,
+  // but tetrahedra of the octree may be inverted, which is tested.
+  static constexpr double near = 0.3;
+
+public:
+  Interface_cutter(const Located_octree& octree, const Lattice_mesh& lattice)
+    : m_octree(octree), m_start(tetrahedra(octree, lattice)),
+      m_mesh(m_start, std::vector<Stratum>(lattice.vertices.size(), free_stratum)),
+      m_is_near(lattice.vertices.size(), 0)
+  {
+    for(Vertex_index v = 0; v < lattice.vertices.size(); ++v)
+      m_ranks.push_back(lattice.sides[v] == ON_BOUNDARY ? on_interface : lattice.subdomain(v));
+    for(Element_index e = 0; e < lattice.elements.size(); ++e)
+      if(octree.side(lattice.cells[e]) == ON_BOUNDARY)
+        for(Vertex_index v : lattice.elements[e])
+          m_is_near[v] = 1;
+    m_shortest = shortest_edge();
+  }
+
+  /// \param stays vertices of the lattice that are not moved
+  /// \return an empty mesh if there are hidden subdomains all over, as between surfaces that should be one
+  Core_mesh operator()(const std::vector<std::uint8_t>& stays)
+  {
+    if(!insert_hidden_vertices())
+      return {};
+    const std::vector<Cut> cuts = all_cuts();
+    move_near_vertices(cuts, stays);
+    for(const Cut& cut : cuts)
+      if(is_inside(cut.ends[0]) && is_inside(cut.ends[1]))
+        bisect(cut);
+    return mesh_of_subdomains();
+  }
+
+  /// The vertices where the boundary of the result is no manifold, and those around, as far as they are of
+  /// the lattice.
+  std::vector<Vertex_index> defects(const Core_mesh& result) const
+  {
+    std::vector<Face_vertices> polygons;
+    for(const Face& face : boundary_faces(result))
+      polygons.push_back(face.vertices());
+    const Manifold_defects all = manifold_defects(polygons);
+    std::vector<Vertex_index> centers = all.vertices, vertices;
+    for(const auto& edge : all.edges)
+      centers.insert(centers.end(), edge.begin(), edge.end());
+    for(Vertex_index center : centers)
+      for(Element_index e : m_mesh.incident[m_vertices[center]])
+        for(Vertex_index v : m_mesh.elements[e])
+          if(v < m_start.number_of_vertices())
+            vertices.push_back(v);
+    return vertices;
+  }
+
+private:
+  static Core_mesh tetrahedra(const Located_octree& octree, const Lattice_mesh& lattice)
+  {
+    std::vector<Core_mesh::Point_3> points;
+    for(const Lattice_point& p : lattice.vertices) {
+      const auto q = octree.point(p);
+      points.emplace_back(q.x(), q.y(), q.z());
+    }
+    std::vector<Element_attributes> attributes;
+    for(Octree::Node_index n : lattice.cells)
+      attributes.push_back({0, octree.is_in_region(n), 0});
+    Core_mesh mesh;
+    mesh.assign(std::move(points), lattice.elements, std::move(attributes));
+    return split_to_tetrahedra(mesh);
+  }
+
+  bool is_inside(Vertex_index v) const { return m_ranks[v] != on_interface; }
+
+  // Edges of tetrahedra, each once, ascending.
+  template <class Is_chosen>
+  std::vector<Edge> edges(const Is_chosen& is_chosen) const
+  {
+    std::vector<Edge> all;
+    for(const Working_mesh::Element& t : m_mesh.elements)
+      for(std::size_t i = 0; i < 4 && !t.is_removed; ++i)
+        for(std::size_t j = 0; j < i; ++j)
+          if(is_chosen(t.vertices[i], t.vertices[j]))
+            all.push_back(std::minmax(t.vertices[i], t.vertices[j]));
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+  }
+
+  std::vector<Edge> edges_near_surfaces() const
+  {
+    return edges([this](Vertex_index a, Vertex_index b) { return m_is_near[a] && m_is_near[b]; });
+  }
+
+  double shortest_edge() const
+  {
+    double shortest = infinity;
+    for(const auto& [a, b] : edges_near_surfaces())
+      shortest = (std::min)(shortest, norm(m_mesh.points[b] - m_mesh.points[a]));
+    return shortest;
+  }
+
+  struct Hidden
+  {
+    double share = 0; // of the edge, where the subdomain is; 0: there is none
+    Subdomain_rank rank = outside_rank;
+  };
+
+  // The subdomain that an edge passes between those of its ends; the one with the longest part of it.
+  Hidden hidden_subdomain(Vertex_index a, Vertex_index b) const
+  {
+    constexpr std::size_t n = 8;     // parts of the edge
+    constexpr std::size_t least = 2; // samples: a single one may be between surfaces that should be one
+    const Vec3 p = m_mesh.points[a], edge = m_mesh.points[b] - p;
+    std::array<Subdomain_rank, n + 1> ranks;
+    for(std::size_t i = 1; i < n; ++i)
+      ranks[i] = m_octree.subdomain_rank(p + (double(i) / n) * edge);
+    ranks[0] = is_inside(a) ? m_ranks[a] : ranks[1];
+    ranks[n] = is_inside(b) ? m_ranks[b] : ranks[n - 1];
+    const auto first = std::find_if(ranks.begin(), ranks.end(),
+                                    [&](Subdomain_rank r) { return r != ranks[0]; });
+    auto last = ranks.end();
+    while(last != first && *(last - 1) == ranks[n])
+      --last;
+    Hidden hidden;
+    std::ptrdiff_t longest = least - 1;
+    for(auto i = first; i != last;) {
+      const auto end = std::find_if(i, last, [&](Subdomain_rank r) { return r != *i; });
+      if(end - i > longest) {
+        longest = end - i;
+        hidden = {double((i - ranks.begin()) + (end - 1 - ranks.begin())) / (2 * n), *i};
+      }
+      i = end;
+    }
+    return hidden;
+  }
+
+  Vertex_index bisect(Vertex_index a, Vertex_index b, const Vec3& p, Subdomain_rank rank)
+  {
+    if(!bisect_edge(m_mesh, Aspect_ratio_quality_3(), a, b, p, free_stratum, infinity))
+      return no_vertex;
+    m_ranks.push_back(rank);
+    m_is_near.push_back(1);
+    return Vertex_index(m_ranks.size() - 1);
+  }
+
+  // \return whether there are not too many: at most as many as the lattice has
+  bool insert_hidden_vertices()
+  {
+    constexpr double least_length = 0.5; // in edges of the octree: shorter ones are not bisected
+    std::vector<Edge> queue = edges_near_surfaces();
+    for(std::size_t i = 0; i < queue.size(); ++i) {
+      const auto [a, b] = queue[i];
+      const Vec3 edge = m_mesh.points[b] - m_mesh.points[a];
+      if(norm(edge) < least_length * m_shortest || m_mesh.elements_at_edge(a, b).empty())
+        continue;
+      const Hidden hidden = hidden_subdomain(a, b);
+      if(hidden.share == 0)
+        continue;
+      const Vertex_index v = bisect(a, b, m_mesh.points[a] + hidden.share * edge, hidden.rank);
+      if(v == no_vertex)
+        continue;
+      if(v - m_start.number_of_vertices() > m_start.number_of_vertices())
+        return false;
+      std::vector<Vertex_index> around;
+      for(Element_index e : m_mesh.incident[v])
+        for(Vertex_index u : m_mesh.elements[e])
+          if(u != v)
+            around.push_back(u);
+      std::sort(around.begin(), around.end());
+      around.erase(std::unique(around.begin(), around.end()), around.end());
+      for(Vertex_index u : around)
+        queue.emplace_back(u, v);
+    }
+    return true;
+  }
+
+  // The edges between subdomains, with the points where they are cut.
+  std::vector<Cut> all_cuts() const
+  {
+    std::vector<Cut> cuts;
+    for(const auto& [a, b] : edges([this](Vertex_index u, Vertex_index v) {
+          return m_ranks[u] != m_ranks[v] && is_inside(u) && is_inside(v);
+        }))
+      cuts.push_back(crossing(a, b));
+    return cuts;
+  }
+
+  Vec3 closest(const Vec3& p, Subdomain_rank a, Subdomain_rank b) const
+  {
+    const std::vector<Subdomain_index>& indices = m_octree.domain().subdomain_indices();
+    const auto [first, second] = std::minmax(a, b);
+    return to_vec3(m_octree.domain().closest_point(Any_domain::Point_3(p[0], p[1], p[2]), indices[first],
+                                                   second == outside_rank ? 0 : indices[second]));
+  }
+
+  // Where an edge crosses the interface: the next point is in the plane through the closest point of this
+  // one, at right angles to the way there.
+  Cut crossing(Vertex_index a, Vertex_index b) const
+  {
+    constexpr int most_steps = 6;
+    constexpr double accuracy = 1e-3; // in edges; so far from the ends, at least
+    const Vec3 p = m_mesh.points[a], edge = m_mesh.points[b] - p;
+    const double length = norm(edge);
+    double low = 0, high = 1, share = 0.5;
+    for(int step = 0; step < most_steps; ++step) {
+      const Vec3 x = p + share * edge, way = closest(x, m_ranks[a], m_ranks[b]) - x;
+      const double distance = norm(way), along = dot(way, edge);
+      if(distance < accuracy * length)
+        break;
+      (m_octree.subdomain_rank(x) == m_ranks[a] ? low : high) = share;
+      const double next = along == 0 ? low : share + distance * distance / along;
+      share = low < next && next < high ? next : (low + high) / 2;
+    }
+    share = (std::min)((std::max)(share, accuracy), 1 - accuracy);
+    const Vec3 x = p + share * edge, q = closest(x, m_ranks[a], m_ranks[b]);
+    return {{a, b}, norm(q - x) < accuracy * length ? q : x, share};
+  }
+
+  // Moves vertices to the nearest one of the points where their edges are cut, the nearest first. A vertex
+  // between two interfaces stays.
+  void move_near_vertices(const std::vector<Cut>& cuts, const std::vector<std::uint8_t>& stays)
+  {
+    std::vector<Subdomain_rank> behind(m_ranks.size(), on_interface); // at the other ends of edges
+    std::vector<std::uint8_t> may_move(m_ranks.size(), 1);
+    for(Vertex_index v = 0; v < stays.size(); ++v)
+      may_move[v] = !stays[v];
+    std::vector<std::pair<double, std::size_t>>
+      order; // by the share; twice the number of the cut, plus the end
+    for(std::size_t i = 0; i < cuts.size(); ++i)
+      for(std::size_t end : {0, 1}) {
+        const Vertex_index v = cuts[i].ends[end];
+        const Subdomain_rank other = m_ranks[cuts[i].ends[1 - end]];
+        may_move[v] = may_move[v] && (behind[v] == on_interface || behind[v] == other);
+        behind[v] = other;
+        const double share = end == 0 ? cuts[i].share : 1 - cuts[i].share;
+        if(share < near)
+          order.emplace_back(share, 2 * i + end);
+      }
+    std::sort(order.begin(), order.end());
+    for(const auto& [share, i] : order) {
+      const Cut& cut = cuts[i / 2];
+      const Vertex_index v = cut.ends[i % 2];
+      if(!may_move[v] || !is_inside(cut.ends[0]) || !is_inside(cut.ends[1]))
+        continue;
+      const Vec3 before = std::exchange(m_mesh.points[v], cut.point);
+      if(std::all_of(m_mesh.incident[v].begin(), m_mesh.incident[v].end(),
+                     [&](Element_index e) { return m_mesh.is_positive(m_mesh.elements[e]); }))
+        m_ranks[v] = on_interface;
+      else
+        m_mesh.points[v] = before;
+    }
+  }
+
+  // A point that is not quite on the edge may be impossible where tetrahedra are flat.
+  void bisect(const Cut& cut)
+  {
+    const auto [a, b] = cut.ends;
+    const Vec3 on_edge = m_mesh.points[a] + cut.share * (m_mesh.points[b] - m_mesh.points[a]);
+    if(bisect(a, b, cut.point, on_interface) == no_vertex)
+      bisect(a, b, on_edge, on_interface);
+  }
+
+  // The subdomain that vertices of a tetrahedron are inside; where there are none, or several, that of its
+  // center.
+  Subdomain_rank subdomain(const Working_mesh::Element& t) const
+  {
+    Subdomain_rank rank = on_interface;
+    bool is_clear = true;
+    Vec3 sum{};
+    for(Vertex_index v : t) {
+      sum = sum + m_mesh.points[v];
+      if(is_inside(v)) {
+        is_clear = is_clear && (rank == on_interface || rank == m_ranks[v]);
+        rank = m_ranks[v];
+      }
+    }
+    return is_clear && rank != on_interface ? rank : m_octree.subdomain_rank(0.25 * sum);
+  }
+
+  Core_mesh mesh_of_subdomains()
+  {
+    const std::vector<Subdomain_index>& indices = m_octree.domain().subdomain_indices();
+    std::vector<Vertex_index> numbers(m_mesh.points.size(), no_vertex);
+    std::vector<Core_mesh::Point_3> points;
+    Element_list elements;
+    std::vector<Element_attributes> attributes;
+    for(const Working_mesh::Element& t : m_mesh.elements) {
+      const Subdomain_rank rank = t.is_removed ? outside_rank : subdomain(t);
+      if(rank == outside_rank)
+        continue;
+      std::array<Vertex_index, 4> v;
+      for(std::size_t i = 0; i < 4; ++i) {
+        Vertex_index& number = numbers[t.vertices[i]];
+        if(number == no_vertex) {
+          number = Vertex_index(points.size());
+          const Vec3& p = m_mesh.points[t.vertices[i]];
+          points.emplace_back(p[0], p[1], p[2]);
+          m_vertices.push_back(t.vertices[i]);
+        }
+        v[i] = number;
+      }
+      elements.add(TETRAHEDRON, v.data());
+      attributes.push_back({indices[rank], t.attributes.is_in_region, 0});
+    }
+    Core_mesh mesh;
+    mesh.assign(std::move(points), std::move(elements), std::move(attributes));
+    return mesh;
+  }
+};
+
+/*!
+The tetrahedra of a lattice, cut along the interfaces of subdomains. Where the boundary would be no manifold,
+vertices of the lattice are not moved.
+
+\return an empty mesh if the boundary is no manifold all the same
+\par Complexity
+Some queries for each edge at a cell that meets a surface
+*/
+inline Core_mesh cut_by_interfaces(const Located_octree& octree, const Lattice_mesh& lattice)
+{
+  constexpr int most_attempts = 4;
+  std::vector<std::uint8_t> stays(lattice.vertices.size(), 0);
+  for(int attempt = 0; attempt < most_attempts; ++attempt) {
+    Interface_cutter cut(octree, lattice);
+    Core_mesh mesh = cut(stays);
+    const std::vector<Vertex_index> defects = cut.defects(mesh);
+    if(defects.empty())
+      return mesh;
+    for(Vertex_index v : defects)
+      stays[v] = 1;
+  }
+  return {};
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_MESHING_CUT_BY_INTERFACES_H

@@ -1,0 +1,122 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Cells that are too large for the layers that subdomains form.
+
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_MESHING_LAYER_CELLS_H
+#define CGAL_MIXED_MESH_3_INTERNAL_MESHING_LAYER_CELLS_H
+
+#include <CGAL/license/Mixed_mesh_3.h>
+
+#include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
+#include <CGAL/Mixed_mesh_3/internal/octree/Octree.h>
+
+#include <CGAL/enum.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <unordered_map>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/*!
+Function object that tells whether a leaf that meets a surface is too large for the subdomains there: a line
+from the point of the surface that is nearest to a point of the cell, at right angles to the surface, leads
+through a subdomain, or through the outside, within the length of an edge of the cell.
+*/
+class Layer_finder
+{
+  using Node_index = Octree::Node_index;
+
+  const Located_octree& m_octree;
+  std::unordered_map<std::uint64_t, bool> m_is_thin_at; // corners of leaves are mostly common to four leaves
+
+  // Points of a line, in edges. The first one is in the subdomain behind the surface, unless that is thinner.
+  static constexpr double first_share = 0.05, more_shares[] = {0.125, 0.25, 0.375, 0.5};
+
+public:
+  explicit Layer_finder(const Located_octree& octree) : m_octree(octree) {}
+
+  /// \pre all leaves have the same level
+  bool operator()(Node_index n)
+  {
+    const Lattice_point& first = m_octree.octree().corner(n);
+    const std::uint32_t half = m_octree.octree().side(n) / 2;
+    if(is_thin(n, {first[0] + half, first[1] + half, first[2] + half}))
+      return true;
+    for(std::uint32_t i = 0; i < 8; ++i) {
+      const Lattice_point corner{first[0] + (i & 1) * 2 * half, first[1] + (i >> 1 & 1) * 2 * half,
+                                 first[2] + (i >> 2) * 2 * half};
+      const auto [known, is_new] = m_is_thin_at.try_emplace(lattice_key(corner), false);
+      if(is_new)
+        known->second = is_thin(n, corner);
+      if(known->second)
+        return true;
+    }
+    return false;
+  }
+
+private:
+  bool is_thin(Node_index n, const Lattice_point& lattice_point) const
+  {
+    const auto point = m_octree.point(lattice_point);
+    const Vec3 p = to_vec3(point),
+               q = to_vec3(m_octree.domain().closest_point(point, m_octree.surface_part(n)));
+    const double distance = norm(p - q), edge = m_octree.edge_length(n);
+    if(!(distance > 1e-9 * edge && distance < edge))
+      return false;
+    const Vec3 normal = (edge / distance) * (p - q);
+    return ends_soon(q, normal) || ends_soon(q, -1 * normal);
+  }
+
+  // Whether a line leaves the subdomain that it begins in.
+  bool ends_soon(const Vec3& q, const Vec3& line) const
+  {
+    const Subdomain_rank first = m_octree.subdomain_rank(q + first_share * line);
+    return std::any_of(std::begin(more_shares), std::end(more_shares),
+                       [&](double share) { return m_octree.subdomain_rank(q + share * line) != first; });
+  }
+};
+
+/*!
+Splits cells that are too large for layers, the largest first, level by level, as long as there are not too
+many cells.
+
+\param most number of cells
+\return whether no cell is too large in the end
+*/
+inline bool split_layer_cells(Located_octree& octree, std::size_t most)
+{
+  for(int level = 0; level < Octree::max_level; ++level) {
+    Layer_finder is_too_large(octree);
+    std::vector<Octree::Node_index> leaves;
+    for(Octree::Node_index n : octree.leaves_to_refine(level, false))
+      if(octree.side(n) == ON_BOUNDARY && is_too_large(n))
+        leaves.push_back(n);
+    if(leaves.empty())
+      continue;
+    Located_octree trial = octree;
+    trial.refine(leaves);
+    if(trial.number_of_cells() > most)
+      return false;
+    octree = std::move(trial);
+  }
+  return true;
+}
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_3_INTERNAL_MESHING_LAYER_CELLS_H
