@@ -203,9 +203,10 @@ void simplify_at_random(const Mesh& start, unsigned seed, Counts& counts)
   const std::vector<Vec3> targets = working.points;
   const std::vector<Vertex_defect> defects(targets.size(), Vertex_defect::NONE);
   const std::vector<std::uint8_t> is_on_boundary(boundary.size(), 1);
+  const std::vector<double> weights(boundary.size(), 1);
   const Aspect_ratio_quality_3 quality;
   internal::Mesh_simplifier<Aspect_ratio_quality_3> simplifier(working, quality, boundary, is_on_boundary,
-                                                               targets, defects, features,
+                                                               weights, targets, defects, features,
                                                                boundary.size() / 2);
   while(simplifier(1e6, 1e6, false, 1, [] { return true; }) == 1) {
     ++counts.removed;
@@ -302,10 +303,12 @@ void test_interfaces_stay()
     const internal::Interface_curves curves(faces, start.number_of_vertices());
     const std::vector<Vec3> targets = working.points;
     const std::vector<Vertex_defect> defects(targets.size(), Vertex_defect::NONE);
+    const std::vector<double> weights(faces.size(), 1);
     const internal::Sharp_features none;
     const Aspect_ratio_quality_3 quality;
     internal::Mesh_simplifier<Aspect_ratio_quality_3> simplifier(working, quality, faces, is_on_boundary,
-                                                                 targets, defects, none, faces.size() / 2);
+                                                                 weights, targets, defects, none,
+                                                                 faces.size() / 2);
     const auto before = topology_of_subdomains(start, number);
     while(simplifier(1e6, 1e6, false, 1, [] { return true; }) == 1) {
       ++removed;

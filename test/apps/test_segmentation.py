@@ -269,7 +269,7 @@ class Test_segmentation(unittest.TestCase):
         values = labels()
         values[30, 25, 12] = 11
         path = self.image("labels.nii", values, AFFINES["oblique"])
-        told, run = self.mesh(path, "--labels", "head=1-9,200,speck=11", "--vertices", 300)
+        told, run = self.mesh(path, "--labels", "head=1-9,200,speck=11", "--vertices", 300, "--base-level", 2)
         self.assertEqual(told["status"], "parts lost")
         self.assertRegex(run.stderr, r"the subdomain speck, of volume [0-9.]+ mm\^3, is lost: too small for the cells")
         self.assertEqual(told["subdomains"][0]["elements"], 0)

@@ -30,14 +30,15 @@ class Plane_quadric
 
 public:
   /// Adds the plane of a triangle, with a third of its area.
-  void add(const Vec3& a, const Vec3& b, const Vec3& c)
+  /// \param factor of the area
+  void add(const Vec3& a, const Vec3& b, const Vec3& c, double factor = 1)
   {
     const Vec3 normal = cross(b - a, c - a);
     const double doubled_area = norm(normal);
     if(!(doubled_area > 0))
       return;
     const Vec3 n = (1 / doubled_area) * normal;
-    const double plane[4] = {n[0], n[1], n[2], -dot(n, a)}, weight = doubled_area / 6;
+    const double plane[4] = {n[0], n[1], n[2], -dot(n, a)}, weight = factor * doubled_area / 6;
     std::size_t k = 0;
     for(int i = 0; i < 4; ++i)
       for(int j = i; j < 4; ++j)

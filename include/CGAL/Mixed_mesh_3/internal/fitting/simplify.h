@@ -54,6 +54,22 @@ std::vector<Vertex_defect> vertex_defects(const Working_mesh& mesh, const std::v
   return defects;
 }
 
+/// The weights of the volume at faces: that which a small subdomain loses or gains is a larger share of its
+/// own. The thickness of a subdomain is its mean chord.
+inline std::vector<double> weights_of_faces(const Interface_faces& faces, const Strata& strata,
+                                            const Any_surface& surface)
+{
+  double largest = 0;
+  for(Subdomain_index index : surface.subdomain_indices())
+    largest = (std::max)(largest, surface.mean_chord_length(index));
+  std::vector<double> weights;
+  for(Stratum of_face : faces.strata) {
+    const double chord = surface.mean_chord_length(strata.interfaces(of_face).front().first);
+    weights.push_back(chord > 0 ? largest * largest / (chord * chord) : 1);
+  }
+  return weights;
+}
+
 /*!
 Removes vertices of a mesh whose boundary, and whose interfaces, are on their surfaces, until it has a given
 number.
@@ -89,8 +105,9 @@ inline bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_sur
   std::vector<std::uint8_t> is_on_boundary;
   for(Stratum of_face : faces.strata)
     is_on_boundary.push_back(strata.is_on_boundary(of_face));
-  Mesh_simplifier<Aspect_ratio_quality_3> simplifier(working, quality, faces.faces, is_on_boundary, places,
-                                                     defects, followed.features,
+  const std::vector<double> weights = weights_of_faces(faces, strata, surface);
+  Mesh_simplifier<Aspect_ratio_quality_3> simplifier(working, quality, faces.faces, is_on_boundary, weights,
+                                                     places, defects, followed.features,
                                                      std::size_t(share * double(faces.faces.size())));
   std::size_t n = mesh.number_of_vertices();
   const auto remove = [&](double d, bool follows_curves) {

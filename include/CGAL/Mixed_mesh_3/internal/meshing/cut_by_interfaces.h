@@ -16,6 +16,7 @@
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/interfaces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
@@ -382,9 +383,9 @@ private:
 
 /*!
 The tetrahedra of a lattice, cut along the interfaces of subdomains. Where the boundary would be no manifold,
-vertices of the lattice are not moved.
+vertices of the lattice are not moved; none is if some interface would be none.
 
-\return an empty mesh if the boundary is no manifold all the same
+\return an empty mesh if one of them is no manifold all the same
 \par Complexity
 Some queries for each edge at a cell that meets a surface
 */
@@ -396,10 +397,17 @@ inline Core_mesh cut_by_interfaces(const Located_octree& octree, const Lattice_m
     Interface_cutter cut(octree, lattice);
     Core_mesh mesh = cut(stays);
     const std::vector<Vertex_index> defects = cut.defects(mesh);
-    if(defects.empty())
-      return mesh;
     for(Vertex_index v : defects)
       stays[v] = 1;
+    if(!defects.empty())
+      continue;
+    const std::vector<Subdomain_interface> interfaces = find_interfaces(mesh);
+    if(std::all_of(interfaces.begin(), interfaces.end(),
+                   [](const Subdomain_interface& one) { return one.is_manifold(); }))
+      return mesh;
+    if(std::count(stays.begin(), stays.end(), 0) == 0)
+      break;
+    std::fill(stays.begin(), stays.end(), 1);
   }
   return {};
 }

@@ -121,6 +121,27 @@ inline Core_mesh fine_mesh(Meshing_state& s)
   return fine;
 }
 
+/// Splits cells at the surfaces of subdomains that these cells would not be round enough for, as long as
+/// there are not too many cells.
+inline void split_cells_at_small_subdomains(Located_octree& octree, std::size_t most)
+{
+  // Width in mean chords, which are 4/3 of the radius of a ball: edges of two thirds of it are as long as
+  // 0.27 of the radius, and the polyhedron lacks some hundredths of the volume.
+  constexpr double share_of_chord = 0.3, samples = 2; // in a width
+  const Any_domain& domain = octree.domain();
+  for(Subdomain_index index : domain.subdomain_indices()) {
+    const double width = share_of_chord * domain.mean_chord_length(index);
+    std::vector<Narrow_place> places;
+    for(const auto& p : domain.surface_samples(width / samples, index))
+      places.push_back({to_vec3(p), width});
+    Located_octree trial = octree;
+    if(places.size() <= most)
+      split_narrow_cells(trial, places, 0);
+    if(trial.number_of_cells() <= most)
+      octree = std::move(trial);
+  }
+}
+
 /// The number of vertices where interfaces meet in such a way that none of them can be removed.
 inline std::size_t number_of_corners(const Core_mesh& mesh, const Any_surface& domain)
 {
@@ -151,6 +172,7 @@ inline Core_mesh fine_mesh_of_subdomains(Meshing_state& s)
           && sequence.extend()) {
     }
     octree = sequence.octree(sequence.number_of_steps());
+    split_cells_at_small_subdomains(octree, most_cells_for_narrow_places * budget);
     split_layer_cells(octree, most_cells_for_narrow_places * budget);
   }
   s.octree = std::move(octree);
