@@ -263,7 +263,7 @@ class Test(unittest.TestCase):
         inner = {label: (CUBE[0] * 0.3 + shift, CUBE[1]) for label, shift in ((2, 0.6), (3, 0.1))}
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            mesh, report = mm3.mesh(*CUBE, subdomains=inner, region=((0.5, 0.5, 0.5), 2), vertices=2000)
+            mesh, report = mm3.mesh(*CUBE, subdomains=inner, region=((0.5, 0.5, 0.5), 0.2), vertices=2000)
         self.assertGreater(report["boundary vertices not on surface"], 0)
         self.assertEqual([str(w.message) for w in caught], report["warnings"])
         self.assertEqual({w.filename for w in caught}, {__file__})
