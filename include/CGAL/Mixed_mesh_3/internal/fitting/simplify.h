@@ -28,6 +28,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
 #include <vector>
 
 namespace CGAL {
@@ -59,12 +60,13 @@ std::vector<Vertex_defect> vertex_defects(const Working_mesh& mesh, const std::v
 inline std::vector<double> weights_of_faces(const Interface_faces& faces, const Strata& strata,
                                             const Any_surface& surface)
 {
+  std::map<Subdomain_index, double> chords;
   double largest = 0;
   for(Subdomain_index index : surface.subdomain_indices())
-    largest = (std::max)(largest, surface.mean_chord_length(index));
+    largest = (std::max)(largest, chords[index] = surface.mean_chord_length(index));
   std::vector<double> weights;
   for(Stratum of_face : faces.strata) {
-    const double chord = surface.mean_chord_length(strata.interfaces(of_face).front().first);
+    const double chord = chords[strata.interfaces(of_face).front().first];
     weights.push_back(chord > 0 ? largest * largest / (chord * chord) : 1);
   }
   return weights;
