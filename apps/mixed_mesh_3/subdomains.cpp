@@ -142,12 +142,16 @@ Domain make_domain(const std::vector<Subdomain>& subdomains)
 
 void order_by_nesting(std::vector<Subdomain>& subdomains, std::vector<std::string>& warnings)
 {
+  if(subdomains.size() < 2)
+    return; // trees of a large surface take seconds
   std::vector<Enclosed> enclosed;
   for(const Subdomain& s : subdomains)
     enclosed.emplace_back(*s.surface);
+  const auto may_meet = [&](std::size_t i, std::size_t j) {
+    return subdomains[i].index != 0 && subdomains[j].index != 0 && enclosed[i].is_near(enclosed[j]);
+  };
   const auto is_inside = [&](std::size_t i, std::size_t j) {
-    return subdomains[i].index != 0 && subdomains[j].index != 0 && enclosed[i].is_near(enclosed[j])
-           && !enclosed[j].has_inside_and_outside(*subdomains[i].surface).second;
+    return may_meet(i, j) && !enclosed[j].has_inside_and_outside(*subdomains[i].surface).second;
   };
   for(std::size_t i = 0; i < subdomains.size(); ++i)
     for(std::size_t j = i + 1; j < subdomains.size(); ++j)
@@ -159,8 +163,10 @@ void order_by_nesting(std::vector<Subdomain>& subdomains, std::vector<std::strin
       }
   for(std::size_t i = 0; i < subdomains.size(); ++i)
     for(std::size_t j = i + 1; j < subdomains.size(); ++j) {
+      if(!may_meet(i, j))
+        continue;
       const auto [has_inside, has_outside] = enclosed[j].has_inside_and_outside(*subdomains[i].surface);
-      if(subdomains[i].index != 0 && subdomains[j].index != 0 && has_inside && has_outside)
+      if(has_inside && has_outside)
         warnings.push_back("the surfaces of " + subdomains[i].name + " and " + subdomains[j].name
                            + " cross: " + subdomains[i].name + " has what both have inside");
     }
