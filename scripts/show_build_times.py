@@ -34,8 +34,8 @@ def tests(directory):
 
 
 def short(output):
-    """An output without the folders that say nothing: folder/CMakeFiles/target.dir/file.o -> folder/file."""
-    return re.sub(r"CMakeFiles/[^/]+\.dir/|\.o$", "", output)
+    """An output without what says nothing: folder/CMakeFiles/target.dir/file.o -> folder/target/file."""
+    return re.sub(r"CMakeFiles/([^/]+)\.dir/|\.o$", lambda match: f"{match[1]}/" if match[1] else "", output)
 
 
 def show(title, times):

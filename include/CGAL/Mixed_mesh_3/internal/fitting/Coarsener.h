@@ -149,7 +149,7 @@ private:
     if(m_mesh.incident[v].empty() || m_stays[v] || m_is_queued[v])
       return;
     double least = infinity;
-    const std::vector<Vertex_index> around = neighbors(v);
+    const std::vector<Vertex_index> around = m_mesh.neighbors(v);
     for(Vertex_index w : around)
       least = (std::min)(least, volume_of(v, w, around));
     push(v, least);
@@ -173,7 +173,7 @@ private:
 
   bool collapse(Vertex_index v, Vertex_index w)
   {
-    const std::vector<Vertex_index> around = neighbors(v);
+    const std::vector<Vertex_index> around = m_mesh.neighbors(v);
     const bool is_on_boundary = m_mesh.is_on_boundary(v);
     if(!m_collapser(v, w, m_bound))
       return false;
@@ -189,24 +189,11 @@ private:
     return true;
   }
 
-  // By elements, ascending.
-  std::vector<Vertex_index> neighbors(Vertex_index v) const
-  {
-    std::vector<Vertex_index> all;
-    for(Element_index e : m_mesh.incident[v])
-      for(Vertex_index u : m_mesh.elements[e])
-        if(u != v)
-          all.push_back(u);
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    return all;
-  }
-
   Loss least_loss(Vertex_index v)
   {
     Loss least{infinity, no_vertex};
     const bool is_on_boundary = m_mesh.is_on_boundary(v);
-    const std::vector<Vertex_index> around = neighbors(v);
+    const std::vector<Vertex_index> around = m_mesh.neighbors(v);
     std::vector<Face_key> faces;
     if(is_on_boundary)
       for(Triangle t : m_boundary.at(v)) {

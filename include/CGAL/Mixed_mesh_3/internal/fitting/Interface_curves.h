@@ -14,8 +14,6 @@
 
 #include <CGAL/Mixed_mesh_3/Face.h>
 
-#include <CGAL/assertions.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

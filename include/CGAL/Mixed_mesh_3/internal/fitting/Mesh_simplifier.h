@@ -38,7 +38,7 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// Why a vertex goes before others, whatever is lost.
+/// Why a vertex goes before others.
 enum class Vertex_defect : std::uint8_t {
   NONE,
   ELEMENT, ///< one of its elements costs more than the bound
@@ -56,8 +56,8 @@ A vertex goes into a vertex of its own stratum or of one in its closure: a corne
 edge goes along it, as does one of a curve where interfaces of subdomains meet, one of the boundary or of an
 interface along that, one inside anywhere. A collapse keeps the topology of the mesh, of its boundary, of
 interfaces and of their curves, and of sharp edges; the boundary does not cut itself, and its faces do not
-turn far. Vertices with defects go first, and others do not go into them. The meshes of fewer
-and fewer vertices are a sequence: those of one are among those of the one before.
+turn far. Vertices off their places go first, those of bad elements sooner, and others go into neither. The
+meshes of fewer and fewer vertices are a sequence: those of one are among those of the one before.
 
 \tparam Quality a model of `MixedMeshQuality_3`
 */

@@ -79,9 +79,11 @@ struct Meshing_state
   Meshing_state(const Meshing_state&) = delete; // the search refers to members
   Meshing_state& operator=(const Meshing_state&) = delete;
 
+  bool has_several_subdomains() const { return root.domain().subdomain_indices().size() > 1; }
+
   bool may_resolve_thin_parts() const
   {
-    return criteria.thin_parts() == Thin_parts::WHERE_NEEDED && root.domain().subdomain_indices().size() == 1;
+    return criteria.thin_parts() == Thin_parts::WHERE_NEEDED && !has_several_subdomains();
   }
 
   /// Of the budget, for vertices that bisect edges of the boundary.

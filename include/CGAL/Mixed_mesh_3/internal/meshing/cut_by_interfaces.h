@@ -27,6 +27,7 @@
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
 #include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
 
+#include <CGAL/assertions.h>
 #include <CGAL/enum.h>
 
 #include <algorithm>
@@ -66,10 +67,12 @@ class Interface_cutter
   static constexpr Subdomain_rank on_interface = outside_rank - 2;
 
   const Located_octree& m_octree;
-  const Core_mesh m_start;
+  const std::size_t m_size_of_lattice; // number of vertices
   Working_mesh m_mesh;
-  std::vector<Subdomain_rank> m_ranks;  // of the subdomains that vertices are inside, or `on_interface`
-  std::vector<std::uint8_t> m_is_near;  // whether a vertex is at a cell that meets a surface
+  std::vector<Subdomain_rank> m_ranks; // of the subdomains that vertices are inside, or `on_interface`
+  std::vector<std::uint8_t> m_is_near; // whether a vertex is at a cell that meets a surface
+  std::vector<Cut> m_cuts;             // of edges between subdomains
+  bool m_is_clear;
   std::vector<Vertex_index> m_vertices; // vertices of the result
   double m_shortest;                    // edge of the octree near a surface
 
@@ -80,8 +83,8 @@ class Interface_cutter
 
 public:
   Interface_cutter(const Located_octree& octree, const Lattice_mesh& lattice)
-    : m_octree(octree), m_start(tetrahedra(octree, lattice)),
-      m_mesh(m_start, std::vector<Stratum>(lattice.vertices.size(), free_stratum)),
+    : m_octree(octree), m_size_of_lattice(lattice.vertices.size()),
+      m_mesh(tetrahedra(octree, lattice), std::vector<Stratum>(lattice.vertices.size(), free_stratum)),
       m_is_near(lattice.vertices.size(), 0)
   {
     for(Vertex_index v = 0; v < lattice.vertices.size(); ++v)
@@ -91,17 +94,21 @@ public:
         for(Vertex_index v : lattice.elements[e])
           m_is_near[v] = 1;
     m_shortest = shortest_edge();
+    m_is_clear = insert_hidden_vertices();
+    if(m_is_clear)
+      m_cuts = all_cuts();
   }
 
+  /// Whether there are no hidden subdomains all over, as between surfaces that should be one.
+  bool is_clear() const { return m_is_clear; }
+
   /// \param stays vertices of the lattice that are not moved
-  /// \return an empty mesh if there are hidden subdomains all over, as between surfaces that should be one
+  /// \pre `is_clear()`
   Core_mesh operator()(const std::vector<std::uint8_t>& stays)
   {
-    if(!insert_hidden_vertices())
-      return {};
-    const std::vector<Cut> cuts = all_cuts();
-    move_near_vertices(cuts, stays);
-    for(const Cut& cut : cuts)
+    CGAL_precondition(is_clear());
+    move_near_vertices(stays);
+    for(const Cut& cut : m_cuts)
       if(is_inside(cut.ends[0]) && is_inside(cut.ends[1]))
         bisect(cut);
     return mesh_of_subdomains();
@@ -121,7 +128,7 @@ public:
     for(Vertex_index center : centers)
       for(Element_index e : m_mesh.incident[m_vertices[center]])
         for(Vertex_index v : m_mesh.elements[e])
-          if(v < m_start.number_of_vertices())
+          if(v < m_size_of_lattice)
             vertices.push_back(v);
     return vertices;
   }
@@ -232,16 +239,9 @@ private:
       const Vertex_index v = bisect(a, b, m_mesh.points[a] + hidden.share * edge, hidden.rank);
       if(v == no_vertex)
         continue;
-      if(v - m_start.number_of_vertices() > m_start.number_of_vertices())
+      if(v - m_size_of_lattice > m_size_of_lattice)
         return false;
-      std::vector<Vertex_index> around;
-      for(Element_index e : m_mesh.incident[v])
-        for(Vertex_index u : m_mesh.elements[e])
-          if(u != v)
-            around.push_back(u);
-      std::sort(around.begin(), around.end());
-      around.erase(std::unique(around.begin(), around.end()), around.end());
-      for(Vertex_index u : around)
+      for(Vertex_index u : m_mesh.neighbors(v))
         queue.emplace_back(u, v);
     }
     return true;
@@ -291,7 +291,7 @@ private:
 
   // Moves vertices to the nearest one of the points where their edges are cut, the nearest first. A vertex
   // between two interfaces stays.
-  void move_near_vertices(const std::vector<Cut>& cuts, const std::vector<std::uint8_t>& stays)
+  void move_near_vertices(const std::vector<std::uint8_t>& stays)
   {
     std::vector<Subdomain_rank> behind(m_ranks.size(), on_interface); // at the other ends of edges
     std::vector<std::uint8_t> may_move(m_ranks.size(), 1);
@@ -299,19 +299,19 @@ private:
       may_move[v] = !stays[v];
     std::vector<std::pair<double, std::size_t>>
       order; // by the share; twice the number of the cut, plus the end
-    for(std::size_t i = 0; i < cuts.size(); ++i)
+    for(std::size_t i = 0; i < m_cuts.size(); ++i)
       for(std::size_t end : {0, 1}) {
-        const Vertex_index v = cuts[i].ends[end];
-        const Subdomain_rank other = m_ranks[cuts[i].ends[1 - end]];
+        const Vertex_index v = m_cuts[i].ends[end];
+        const Subdomain_rank other = m_ranks[m_cuts[i].ends[1 - end]];
         may_move[v] = may_move[v] && (behind[v] == on_interface || behind[v] == other);
         behind[v] = other;
-        const double share = end == 0 ? cuts[i].share : 1 - cuts[i].share;
+        const double share = end == 0 ? m_cuts[i].share : 1 - m_cuts[i].share;
         if(share < near)
           order.emplace_back(share, 2 * i + end);
       }
     std::sort(order.begin(), order.end());
     for(const auto& [share, i] : order) {
-      const Cut& cut = cuts[i / 2];
+      const Cut& cut = m_cuts[i / 2];
       const Vertex_index v = cut.ends[i % 2];
       if(!may_move[v] || !is_inside(cut.ends[0]) || !is_inside(cut.ends[1]))
         continue;
@@ -385,16 +385,19 @@ private:
 The tetrahedra of a lattice, cut along the interfaces of subdomains. Where the boundary would be no manifold,
 vertices of the lattice are not moved; none is if some interface would be none.
 
-\return an empty mesh if one of them is no manifold all the same
+\return an empty mesh if one of them is no manifold all the same, or if the surfaces do not fit together
 \par Complexity
 Some queries for each edge at a cell that meets a surface
 */
 inline Core_mesh cut_by_interfaces(const Located_octree& octree, const Lattice_mesh& lattice)
 {
   constexpr int most_attempts = 4;
+  const Interface_cutter uncut(octree, lattice);
+  if(!uncut.is_clear())
+    return {};
   std::vector<std::uint8_t> stays(lattice.vertices.size(), 0);
   for(int attempt = 0; attempt < most_attempts; ++attempt) {
-    Interface_cutter cut(octree, lattice);
+    Interface_cutter cut = uncut;
     Core_mesh mesh = cut(stays);
     const std::vector<Vertex_index> defects = cut.defects(mesh);
     for(Vertex_index v : defects)

@@ -108,14 +108,13 @@ inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_
     note_misfit(s, of_other);
     note_elements_above_bound(s, other);
     // Few vertices off the surface are less to see than sharp edges that are cut off, or layers that are
-    // lost.
+    // lost, which need flat elements that octrees do not have.
     const Mixed_mesh_optimization_result_3& fit = s.result.optimization;
-    const bool has_features = fit.length_of_sharp_edges > 0 || root.domain().subdomain_indices().size() > 1;
-    const double tolerated = has_features ? removable_share : 0;
+    const bool may_have_layers = s.has_several_subdomains();
+    const double tolerated = fit.length_of_sharp_edges > 0 || may_have_layers ? removable_share : 0;
     const std::size_t few = std::size_t(tolerated * double(fit.number_of_boundary_vertices));
-    const bool has_layers = root.domain().subdomain_indices().size()
-                            > 1; // octrees have no room for flat elements
-    const bool is_last = s.is_stopped || (of_other.is_nearly_right(few) && (has_layers || !is_other_above)),
+    const bool is_last = s.is_stopped
+                         || (of_other.is_nearly_right(few) && (may_have_layers || !is_other_above)),
                is_better = of_other < misfit || (is_above && !is_other_above && !(misfit < of_other));
     if(mesh.is_empty() || (is_better && !s.is_stopped)) {
       result = s.result;

@@ -219,8 +219,7 @@ inline void make_simplified_mesh(Meshing_state& s, Core_mesh& mesh)
   constexpr double largest_multiple = 5;
   const std::size_t budget = s.criteria.maximal_number_of_vertices();
   const auto note_stop = [&s] { s.result.status = Mixed_mesh_status::STOPPED; };
-  Core_mesh fine = s.root.domain().subdomain_indices().size() == 1 ? fine_mesh(s)
-                                                                   : fine_mesh_of_subdomains(s);
+  Core_mesh fine = s.has_several_subdomains() ? fine_mesh_of_subdomains(s) : fine_mesh(s);
   if(s.result.is_lattice_on_surface)
     return make_mesh(s, mesh);
   if(fine.is_empty())
@@ -262,8 +261,8 @@ inline void make_simplified_mesh(Meshing_state& s, Core_mesh& mesh)
   const Mixed_mesh_optimization_result_3& fit = s.result.optimization;
   const bool is_above = fit.number_of_elements_above_bound > 0;
   const double worst = is_above ? quality_statistics(mesh).back().maximum : 0;
-  const bool has_layers = s.root.domain().subdomain_indices().size() > 1; // which no octree resolves better
-  if(!fit.is_boundary_simple || (worst > largest && !has_layers)) {       // the octree of the budget is tried
+  const bool is_bad = worst > largest && !s.has_several_subdomains(); // no octree resolves layers better
+  if(!fit.is_boundary_simple || is_bad) {                             // the octree of the budget is tried
     mesh.clear();
     s.result.is_kept = false;
     s.result.status = s.is_stopped ? Mixed_mesh_status::STOPPED : Mixed_mesh_status::BUDGET_TOO_SMALL;

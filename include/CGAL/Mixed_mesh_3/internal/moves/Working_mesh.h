@@ -162,6 +162,19 @@ struct Working_mesh
            && std::find(ends.begin(), ends.end(), into) != ends.end() && !is_sharp(ends[0], ends[1]);
   }
 
+  /// The other vertices of the elements of a vertex, ascending.
+  std::vector<Vertex_index> neighbors(Vertex_index v) const
+  {
+    std::vector<Vertex_index> all;
+    for(Element_index e : incident[v])
+      for(Vertex_index u : elements[e])
+        if(u != v)
+          all.push_back(u);
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+  }
+
   /// The elements that have both vertices.
   std::vector<Element_index> elements_at_edge(Vertex_index a, Vertex_index b) const
   {

@@ -98,10 +98,7 @@ public:
   /// The rank of the subdomain of a lattice point of a leaf, inside the domain.
   Subdomain_rank subdomain_rank(const Lattice_point& p, Node_index leaf) const
   {
-    return m_oracles.domain->is_labeled()
-             ? rank_of(m_oracles.domain->subdomain_indices(),
-                       m_oracles.domain->subdomain_index(m_oracles.cell_traits->point(p), surface_part(leaf)))
-             : Subdomain_rank(0);
+    return subdomain_rank(m_oracles.cell_traits->point(p), leaf);
   }
 
   Point_3 point(const Lattice_point& p) const { return m_oracles.cell_traits->point(p); }
@@ -144,32 +141,13 @@ public:
   }
 
   /// The side of any point: the side of its leaf, or the answer to a query if the leaf meets the surface.
-  Bounded_side bounded_side(const Vec3& p) const
-  {
-    const Bbox_3 box = domain().bbox();
-    for(int k = 0; k < 3; ++k)
-      if(!(box.min(k) <= p[k] && p[k] <= box.max(k)))
-        return ON_UNBOUNDED_SIDE;
-    const Point_3 point(p[0], p[1], p[2]);
-    const Node_index n = leaf_at(point);
-    return side(n) != ON_BOUNDARY ? side(n) : domain().bounded_side(point, surface_part(n));
-  }
+  Bounded_side bounded_side(const Vec3& p) const { return bounded_side_in_leaf(p).first; }
 
   /// The rank of the subdomain of any point; that of the outside where no subdomain is.
   Subdomain_rank subdomain_rank(const Vec3& p) const
   {
-    const Bbox_3 box = domain().bbox();
-    for(int k = 0; k < 3; ++k)
-      if(!(box.min(k) <= p[k] && p[k] <= box.max(k)))
-        return outside_rank;
-    const Point_3 point(p[0], p[1], p[2]);
-    const Node_index n = leaf_at(point);
-    const Bounded_side s = side(n) != ON_BOUNDARY ? side(n) : domain().bounded_side(point, surface_part(n));
-    if(s != ON_BOUNDED_SIDE)
-      return outside_rank;
-    return domain().is_labeled()
-             ? rank_of(domain().subdomain_indices(), domain().subdomain_index(point, surface_part(n)))
-             : Subdomain_rank(0);
+    const auto [side, leaf] = bounded_side_in_leaf(p);
+    return side == ON_BOUNDED_SIDE ? subdomain_rank(Point_3(p[0], p[1], p[2]), leaf) : outside_rank;
   }
 
   /// The sibling of eight with the nearest center: the cell around a point, whatever the frame of the cells.
@@ -266,6 +244,25 @@ public:
   }
 
 private:
+  // The side of any point, and its leaf where that is known to be near to the domain.
+  std::pair<Bounded_side, Node_index> bounded_side_in_leaf(const Vec3& p) const
+  {
+    const Bbox_3 box = domain().bbox();
+    for(int k = 0; k < 3; ++k)
+      if(!(box.min(k) <= p[k] && p[k] <= box.max(k)))
+        return {ON_UNBOUNDED_SIDE, Octree::no_node};
+    const Point_3 point(p[0], p[1], p[2]);
+    const Node_index n = leaf_at(point);
+    return {side(n) != ON_BOUNDARY ? side(n) : domain().bounded_side(point, surface_part(n)), n};
+  }
+
+  Subdomain_rank subdomain_rank(const Point_3& p, Node_index leaf) const
+  {
+    return domain().is_labeled()
+             ? rank_of(domain().subdomain_indices(), domain().subdomain_index(p, surface_part(leaf)))
+             : Subdomain_rank(0);
+  }
+
   struct Location
   {
     std::int8_t domain, region;             // Bounded_side
