@@ -31,7 +31,7 @@ MAY_REACH = {
     "repair": "base",
     "IO": "base elements repair measures",
     "Linear_elasticity_3": "base elements fem measures",
-    "Mixed_mesh_image_3": "base elements IO measures",
+    "Mixed_mesh_image_3": "base elements surface IO measures",
     "Mixed_mesh_petsc": "",
     # The public headers of Mixed_mesh_3. The vocabulary is what all speak of: the mesh, its elements, criteria, results.
     VOCABULARY: "base",

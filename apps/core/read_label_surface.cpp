@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -23,6 +25,7 @@
 #include <CGAL/Mixed_mesh_image_3/complete_label.h>
 #include <CGAL/Mixed_mesh_image_3/label_extents.h>
 #include <CGAL/Mixed_mesh_image_3/make_label_surface.h>
+#include <CGAL/Mixed_mesh_image_3/make_label_surfaces.h>
 #include <CGAL/Mixed_mesh_image_3/simplify_closed_surface.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -75,6 +78,16 @@ std::size_t remove_specks(Surface& surface, double volume_of_voxel)
   surface = std::move(rest);
   surface.collect_garbage();
   return number;
+}
+
+Surface_facts facts_of(Surface& surface, const std::string& path)
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  const std::size_t vertices = surface.number_of_vertices(), triangles = surface.number_of_faces();
+  auto component = surface.add_property_map<Surface::Face_index, std::size_t>("f:component", 0).first;
+  const std::size_t components = PMP::connected_components(surface, component);
+  surface.remove_property_map(component);
+  return {path, vertices, triangles, vertices, triangles, components, PMP::volume(surface)};
 }
 
 // The surface wrapped: the mesh generator takes the wrap as the surface.
@@ -186,19 +199,23 @@ std::vector<int> Label_image::labels() const
   return result;
 }
 
-Surface Label_image::surface_of(const Voxel_selection& selection, const Label_surface_options& options,
-                                Surface_facts& facts, std::vector<std::string>& warnings) const
+double Label_image::smoothing(const Label_surface_options& options) const
 {
-  namespace PMP = CGAL::Polygon_mesh_processing;
-  const mm3::Voxel_image_3& image = m_data->image;
-  const auto spacing = mm3::voxel_spacing(image.grid);
+  const auto spacing = mm3::voxel_spacing(m_data->image.grid);
   const double smoothing = options.smoothing.value_or(*std::max_element(spacing.begin(), spacing.end()));
   if(smoothing > most_voxels * *std::min_element(spacing.begin(), spacing.end()))
     throw std::runtime_error(m_path + ": smoothing by " + rounded(smoothing) + " mm is more than "
                              + rounded(most_voxels) + " voxels wide, see --smoothing");
+  return smoothing;
+}
+
+Surface Label_image::surface_of(const Voxel_selection& selection, const Label_surface_options& options,
+                                Surface_facts& facts, std::vector<std::string>& warnings) const
+{
   Surface surface;
-  mm3::make_label_surface<CGAL::Parallel_if_available_tag>(image, selection, smoothing, surface,
-                                                           options.vertices, m_data->extent(selection));
+  mm3::make_label_surface<CGAL::Parallel_if_available_tag>(m_data->image, selection, smoothing(options),
+                                                           surface, options.vertices,
+                                                           m_data->extent(selection));
   if(surface.is_empty() && number_of_voxels(selection) == 0)
     throw std::runtime_error(m_path + ": there are no voxels " + selection.text);
   if(surface.is_empty())
@@ -213,21 +230,38 @@ Surface Label_image::surface_of(const Voxel_selection& selection, const Label_su
   std::vector<std::string> repairs;
   if(options.wrap_diameter > 0)
     surface = wrapped(surface, options.wrap_diameter, m_path, repairs);
-  auto component = surface.add_property_map<Surface::Face_index, std::size_t>("f:component", 0).first;
-  const std::size_t components = PMP::connected_components(surface, component);
-  surface.remove_property_map(component);
-  if(components > 1)
+  facts = facts_of(surface, m_path);
+  facts.points = vertices;
+  facts.polygons = triangles;
+  facts.repairs = repairs;
+  if(facts.components > 1)
     warnings.push_back(m_path + ": the voxels " + selection.text + " have a surface of "
-                       + std::to_string(components) + " components");
-  facts = {m_path,
-           vertices,
-           triangles,
-           surface.number_of_vertices(),
-           surface.number_of_faces(),
-           components,
-           PMP::volume(surface),
-           repairs};
+                       + std::to_string(facts.components) + " components");
   return surface;
+}
+
+std::vector<Surface> Label_image::surfaces_of(const std::vector<Voxel_selection>& selections,
+                                              const Label_surface_options& options,
+                                              std::vector<Surface_facts>& facts) const
+{
+  std::vector<std::function<bool(float)>> has_label;
+  std::vector<mm3::Label_extent_3> extents;
+  for(std::size_t i = 0; i < selections.size(); ++i) {
+    has_label.emplace_back([&selections, i](float value) {
+      return std::find_if(selections.begin(), selections.end(),
+                          [value](const Voxel_selection& one) { return one(value); })
+             == selections.begin() + std::ptrdiff_t(i);
+    });
+    mm3::Label_extent_3& extent = extents.emplace_back();
+    for(const auto& [value, more] : m_data->extents)
+      if(has_label.back()(value))
+        extent.add(more);
+  }
+  std::vector<Surface> surfaces = mm3::make_label_surfaces<Surface, CGAL::Parallel_if_available_tag>(
+    m_data->image, has_label, extents, smoothing(options), options.vertices);
+  for(Surface& surface : surfaces)
+    facts.push_back(facts_of(surface, m_path));
+  return surfaces;
 }
 
 #else
@@ -253,6 +287,12 @@ std::vector<int> Label_image::labels() const { return {}; }
 
 Surface Label_image::surface_of(const Voxel_selection&, const Label_surface_options&, Surface_facts&,
                                 std::vector<std::string>&) const
+{
+  return {};
+}
+
+std::vector<Surface> Label_image::surfaces_of(const std::vector<Voxel_selection>&,
+                                              const Label_surface_options&, std::vector<Surface_facts>&) const
 {
   return {};
 }

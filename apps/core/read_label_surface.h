@@ -67,7 +67,16 @@ public:
   Surface surface_of(const Voxel_selection& selection, const Label_surface_options& options,
                      Surface_facts& facts, std::vector<std::string>& warnings) const;
 
+  /// The surface around all of several selections, then those of each, which have common triangles where
+  /// selections touch. A voxel is of the first selection that has it. \return empty surfaces of selections
+  /// that have no voxels
+  /// \throw std::runtime_error as above
+  std::vector<Surface> surfaces_of(const std::vector<Voxel_selection>& selections,
+                                   const Label_surface_options& options,
+                                   std::vector<Surface_facts>& facts) const;
+
 private:
+  double smoothing(const Label_surface_options& options) const;
   struct Data;
   Label_image(const std::string& path, std::unique_ptr<const Data> data);
 

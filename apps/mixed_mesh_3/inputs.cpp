@@ -8,15 +8,12 @@
 #include "core/messages.h"
 #include "core/read_label_surface.h"
 
-#include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
-#include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
-#include <exception>
 #include <map>
 #include <memory>
 #include <optional>
@@ -28,15 +25,6 @@
 namespace mm3 = CGAL::Mixed_meshes_3;
 
 namespace {
-
-// A part of the domain that has labels of an image.
-struct Part_of_image
-{
-  Subdomain_option option;
-  mm3::Subdomain_index index;
-  double number_of_voxels;
-  double share; // share of the voxels of the domain
-};
 
 // Surfaces of files, each image read once.
 class Surface_reader
@@ -82,7 +70,7 @@ public:
                      [&](Surface_facts& facts) { return read_surface(s.file, options, facts, m_warnings); });
   }
 
-  // The surface of the domain, or of the part around other parts, from its image.
+  // The surface of the domain from its image.
   Subdomain whole(const Subdomain_option& s, const Label_image& image, mm3::Subdomain_index index)
   {
     return subdomain(s, index, [&](Surface_facts& facts) {
@@ -90,43 +78,17 @@ public:
     });
   }
 
-  // Parts of the domain from its image, several at a time: the surface of a part does not depend on other
-  // parts.
-  std::vector<Subdomain> parts(const Label_image& image, const std::vector<Part_of_image>& parts,
-                               std::size_t number_of_parts)
+  // The surface around several labels, then that of each.
+  std::vector<Surface> labels(const Label_image& image, const std::vector<Voxel_selection>& labels,
+                              std::vector<Surface_facts>& facts) const
   {
-    struct Result
-    {
-      Subdomain subdomain;
-      std::vector<std::string> warnings;
-      std::exception_ptr error;
-    };
-    std::vector<Result> results(parts.size());
-    std::atomic<std::size_t> number_of_results = 0;
-    const auto make = [&](std::size_t i) {
-      const Part_of_image& part = parts[i];
-      Result& result = results[i];
-      try {
-        result.subdomain = subdomain(part.option, part.index, [&](Surface_facts& facts) {
-          return surface_of(image, part.option.file, part.option.voxels, facts, result.warnings, part.share,
-                            number_of_parts);
-        });
-        result.subdomain.volume = part.number_of_voxels * image.volume_of_voxel();
-      } catch(...) {
-        result.error = std::current_exception();
-      }
-      m_log.tell("label " + std::to_string(++number_of_results) + " of " + std::to_string(parts.size()));
-    };
-    mm3::internal::parallel_for(parts.size(),
-                                mm3::internal::number_of_threads<CGAL::Parallel_if_available_tag>(), make, 1);
-    std::vector<Subdomain> subdomains;
-    for(Result& result : results) {
-      if(result.error)
-        std::rethrow_exception(result.error);
-      m_warnings.insert(m_warnings.end(), result.warnings.begin(), result.warnings.end());
-      subdomains.push_back(std::move(result.subdomain));
-    }
-    return subdomains;
+    if(m_options.surface_options.wrap_diameter > 0)
+      throw std::runtime_error(m_options.surface
+                               + ": --wrap would tear the surfaces of several labels apart, "
+                                 "which touch; see --close and --hull");
+    // Interfaces have more triangles together than the boundary, and those of small labels have to be fine.
+    constexpr double finer = 3;
+    return image.surfaces_of(labels, options(finer * number_of_vertices()), facts);
   }
 
   Subdomain operator()(const Subdomain_option& s, mm3::Subdomain_index index)
@@ -152,99 +114,107 @@ private:
     return {s.name, index, std::move(surface), facts, std::nullopt};
   }
 
-  // \param share share of the domain
-  // \param number_of_parts number of parts of the domain that have surfaces
-  Surface surface_of(const Label_image& image, const std::string& file, const Voxel_selection& voxels,
-                     Surface_facts& facts, std::vector<std::string>& warnings, double share = 1,
-                     std::size_t number_of_parts = 1) const
+  // The number of vertices of a surface is several times that of the mesh's boundary.
+  double number_of_vertices() const
   {
-    // The number is several times that of the mesh's boundary; for parts more, as parts are finer.
-    const double finer = share < 1 ? 3 : 1, least = share < 1 ? 1000 : 2000;
-    double vertices = (std::max)(finer * 20 * std::pow(share * double(m_options.vertices), 2. / 3), least);
-    // The number for many parts is bounded together: surfaces that are much finer than the mesh only cost
-    // time.
-    constexpr double many = 2e4, times_budget = 2, least_of_one = 100;
-    if(share < 1)
-      vertices = (std::min)(vertices, (std::max)((std::max)(many, times_budget * double(m_options.vertices))
-                                                   / double(number_of_parts),
-                                                 least_of_one));
-    Surface surface = image.surface_of(voxels,
-                                       {m_options.smoothing, std::size_t(vertices),
-                                        m_options.surface_options.wrap_diameter},
-                                       facts, warnings);
-    if(surface.is_empty() && share == 1)
+    constexpr double least = 2000;
+    return (std::max)(20 * std::pow(double(m_options.vertices), 2. / 3), least);
+  }
+
+  Label_surface_options options(double number_of_vertices) const
+  {
+    return {m_options.smoothing, std::size_t(number_of_vertices), m_options.surface_options.wrap_diameter};
+  }
+
+  Surface surface_of(const Label_image& image, const std::string& file, const Voxel_selection& voxels,
+                     Surface_facts& facts, std::vector<std::string>& warnings) const
+  {
+    Surface surface = image.surface_of(voxels, options(number_of_vertices()), facts, warnings);
+    if(surface.is_empty())
       throw std::runtime_error(file + ": nothing is left of the voxels " + voxels.text
                                + " after smoothing, see --smoothing");
     return surface;
   }
 };
 
-// Reads the surfaces of labels. The label with most voxels is around the others: its surface is that of all,
-// so that there are no gaps where other labels meet. Labels of which smoothing leaves nothing are lost.
-std::vector<Subdomain> read_labels(const Input_options& o, Surface_reader& read, Outcome& outcome)
+// The subdomains of labels of an image, and the surface around all.
+struct Labels
 {
-  const std::vector<Subdomain_option> labels = o.has_each_label ? read.each_label(o.surface) : o.labels;
-  const auto index_of = [&](std::size_t i) {
-    return o.has_each_label ? mm3::Subdomain_index(labels[i].voxels.ranges[0].first)
-                            : mm3::Subdomain_index(i + 1);
-  };
+  std::vector<Subdomain> subdomains;
+  Surface boundary;
+};
+
+// Reads the surfaces of labels. What completion adds to them is of the one with most voxels. Labels of which
+// smoothing leaves nothing are lost.
+Labels read_labels(const Input_options& o, Surface_reader& read, Outcome& outcome)
+{
+  const std::vector<Subdomain_option> options = o.has_each_label ? read.each_label(o.surface) : o.labels;
   std::vector<std::pair<std::size_t, std::size_t>> sizes; // sizes with the numbers of labels
   std::vector<Voxel_selection> all;
-  for(const Subdomain_option& label : labels) {
+  for(const Subdomain_option& label : options) {
     sizes.emplace_back(read.image(o.surface).number_of_voxels(label.voxels), all.size());
+    if(sizes.back().first == 0)
+      throw std::runtime_error(o.surface + ": there are no voxels " + label.voxels.text);
     all.push_back(label.voxels);
   }
   const std::size_t largest = std::max_element(sizes.begin(), sizes.end())->second;
-  const Voxel_selection whole = united(all);
-  const Label_image& image = read.domain(whole, all[largest], outcome);
-  const auto number_of = [&image](const Voxel_selection& v) { return double(image.number_of_voxels(v)); };
-  const double number_of_all = number_of(whole);
+  const Label_image& image = read.domain(united(all), all[largest], outcome);
   const auto lose = [&outcome](const std::string& what) {
     outcome.has_lost_labels = true;
     outcome.warnings.push_back("the subdomain " + what);
   };
-  std::vector<Part_of_image> parts;
+  Labels labels;
+  std::vector<Surface_facts> facts;
+  std::vector<Surface> surfaces = read.labels(image, all, facts);
   for(std::size_t i = 0; i < all.size(); ++i) {
-    if(i == largest)
-      continue;
-    const double number = number_of(all[i]);
-    if(number == 0 && sizes[i].first > 0)
-      lose(labels[i].name + " is lost: its component of the domain is dropped");
-    else
-      parts.push_back({{labels[i].name, o.surface, all[i]}, index_of(i), number, number / number_of_all});
-  }
-  std::vector<Subdomain> subdomains;
-  for(Subdomain& s : read.parts(image, parts, all.size() - 1))
-    if(s.surface->is_empty())
-      lose(s.name + ", of volume " + volume_with_unit(*s.volume, o.is_in_patient_space())
+    const std::string& name = options[i].name;
+    const auto number = double(image.number_of_voxels(all[i]));
+    const double volume = number * image.volume_of_voxel();
+    if(number == 0)
+      lose(name + " is lost: its component of the domain is dropped");
+    else if(surfaces[i + 1].is_empty())
+      lose(name + ", of volume " + volume_with_unit(volume, o.is_in_patient_space())
            + ", is lost: smoothing leaves nothing of it, see --smoothing");
     else
-      subdomains.push_back(std::move(s));
-  subdomains.push_back(read.whole({labels[largest].name, o.surface, whole}, image, index_of(largest)));
-  subdomains.back().volume = number_of(all[largest]) * image.volume_of_voxel();
-  return subdomains;
+      labels.subdomains.push_back(
+        {name, o.has_each_label ? mm3::Subdomain_index(all[i].ranges[0].first) : mm3::Subdomain_index(i + 1),
+         std::make_shared<const Surface>(std::move(surfaces[i + 1])), facts[i + 1], volume});
+  }
+  labels.boundary = std::move(surfaces[0]);
+  outcome.surface = facts[0];
+  return labels;
 }
 
-std::vector<Subdomain> read_subdomains(const Input_options& o, Surface_reader& read, Outcome& outcome)
+void read_domain(const Input_options& o, Surface_reader& read, Outcome& outcome, Inputs& inputs)
 {
   const bool has_labels = o.has_each_label || !o.labels.empty();
-  const std::vector<Subdomain> labels = has_labels ? read_labels(o, read, outcome) : std::vector<Subdomain>();
-  std::vector<Subdomain> subdomains;
+  Labels labels = has_labels ? read_labels(o, read, outcome) : Labels();
+  std::vector<Subdomain>& subdomains = inputs.subdomains;
   for(const std::string& cavity : o.cavities)
     subdomains.push_back(read({"cavity", cavity}, 0));
   mm3::Subdomain_index index = mm3::Subdomain_index((std::max)(o.labels.size(), std::size_t(1)));
-  for(const Subdomain& label : labels)
+  for(const Subdomain& label : labels.subdomains)
     index = (std::max)(index, label.index);
   for(const Subdomain_option& s : o.subdomains)
     subdomains.push_back(read(s, ++index));
   const Subdomain_option whole{surrounding_name(o), o.surface, o.voxels};
-  if(!has_labels)
+  if(has_labels) {
+    subdomains.insert(subdomains.end(), labels.subdomains.begin(), labels.subdomains.end());
+    inputs.boundary = std::move(labels.boundary);
+  } else {
     subdomains.push_back(is_image(o.surface) ? read.whole(whole, read.domain(o.voxels, o.voxels, outcome), 1)
                                              : read.whole(whole, 1));
-  if(!is_image(o.surface))
-    order_by_nesting(subdomains, outcome.warnings);
-  subdomains.insert(subdomains.end(), labels.begin(), labels.end());
-  return subdomains;
+    if(!is_image(o.surface))
+      order_by_nesting(subdomains, outcome.warnings);
+    inputs.boundary = is_image(o.surface) ? *subdomains.back().surface : union_of(subdomains);
+    outcome.surface = subdomains.back().facts;
+  }
+  outcome.surface.volume = CGAL::Polygon_mesh_processing::volume(inputs.boundary);
+  for(const Subdomain& s : subdomains)
+    if(s.index == 0) {
+      CGAL::copy_face_graph(*s.surface, inputs.boundary);
+      outcome.surface.volume -= s.facts.volume;
+    }
 }
 
 } // namespace
@@ -253,14 +223,7 @@ Inputs read_inputs(const Input_options& o, Stage_log& log, Outcome& outcome)
 {
   Inputs inputs;
   Surface_reader read(o, log, outcome.warnings);
-  inputs.subdomains = log("read surface", [&] { return read_subdomains(o, read, outcome); });
-  inputs.boundary = boundary_of(inputs.subdomains, is_image(o.surface));
-  outcome.surface = inputs.subdomains.back().facts;
-  if(inputs.subdomains.size() > 1)
-    outcome.surface.volume = CGAL::Polygon_mesh_processing::volume(inputs.boundary);
-  for(const Subdomain& s : inputs.subdomains)
-    if(s.index == 0)
-      outcome.surface.volume -= 2 * s.facts.volume; // surfaces of cavities are not turned inside out there
+  log("read surface", [&] { read_domain(o, read, outcome, inputs); });
   for(const Region_option& r : o.regions)
     inputs.regions.push_back(
       log("read region", [&] { return read(r.file, r.voxels, outcome.regions.emplace_back()); }));

@@ -18,7 +18,7 @@
 
 struct Inputs
 {
-  std::vector<Subdomain> subdomains; // the last one is around the others
+  std::vector<Subdomain> subdomains;
   Surface boundary;
   std::vector<Surface> regions;
 };

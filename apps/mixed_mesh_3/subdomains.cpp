@@ -9,7 +9,6 @@
 
 #include <CGAL/Mixed_mesh_3/interfaces.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
-#include <CGAL/boost/graph/copy_face_graph.h>
 
 #include <algorithm>
 #include <cmath>
@@ -172,20 +171,17 @@ void order_by_nesting(std::vector<Subdomain>& subdomains, std::vector<std::strin
     }
 }
 
-Surface boundary_of(const std::vector<Subdomain>& subdomains, bool are_labels)
+Surface union_of(const std::vector<Subdomain>& subdomains)
 {
   namespace PMP = CGAL::Polygon_mesh_processing;
-  Surface boundary = *subdomains.back().surface;
-  for(std::size_t i = 0; i + 1 < subdomains.size() && !are_labels; ++i) {
-    Surface part = *subdomains[i].surface, whole = boundary, both;
-    if(subdomains[i].index != 0 && Enclosed(boundary).has_inside_and_outside(part).second
-       && PMP::corefine_and_compute_union(whole, part, both))
-      boundary = std::move(both);
+  Surface whole = *subdomains.back().surface;
+  for(std::size_t i = 0; i + 1 < subdomains.size(); ++i) {
+    Surface part = *subdomains[i].surface, others = whole, both;
+    if(subdomains[i].index != 0 && Enclosed(whole).has_inside_and_outside(part).second
+       && PMP::corefine_and_compute_union(others, part, both))
+      whole = std::move(both);
   }
-  for(const Subdomain& s : subdomains)
-    if(s.index == 0)
-      CGAL::copy_face_graph(*s.surface, boundary);
-  return boundary;
+  return whole;
 }
 
 void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vector<Subdomain>& subdomains,

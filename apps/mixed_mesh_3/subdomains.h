@@ -38,10 +38,8 @@ CGAL::Labeled_polyhedral_mixed_mesh_domain_3 make_domain(const std::vector<Subdo
 /// it; where surfaces cross, the order stays, with a warning. Cavities stay where they are.
 void order_by_nesting(std::vector<Subdomain>& subdomains, std::vector<std::string>& warnings);
 
-/// The surface of the union of all subdomains, with those of cavities. The last subdomain of an image is
-/// around the others.
-/// \param are_labels whether they are from an image
-Surface boundary_of(const std::vector<Subdomain>& subdomains, bool are_labels);
+/// The surface of the union of all subdomains that are no cavities.
+Surface union_of(const std::vector<Subdomain>& subdomains);
 
 /// Examines volumes, quality and interfaces of several subdomains, with warnings for defects; and sets a
 /// status for parts that the mesh does not have.

@@ -12,6 +12,8 @@
 
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Surface_description.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/Triangle_tree.h>
 #include <CGAL/Mixed_mesh_sheet_3.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 
@@ -19,12 +21,17 @@
 #include <CGAL/assertions.h>
 #include <CGAL/squared_distance_3.h>
 
+#include <boost/functional/hash.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <type_traits>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -39,6 +46,11 @@ The surface that was added first counts where surfaces overlap: a tumor, then th
 around both. So surfaces may be nested, disjoint, touch, or cross each other; each interface lies on the
 surface of the subdomain that was added first. The subdomain with index 0 is a cavity: it belongs to the
 outside.
+
+Where the surfaces of two subdomains have facets in common, with equal points, these are their interface, and
+those that a surface has alone are its interface to the outside: so it is for the surfaces of
+`Mixed_meshes_3::make_label_surfaces()`, and for parts of an assembly whose common faces have common
+triangles.
 
 All answers are exact on the coordinates of the surfaces, rounded to double, as for
 `Polyhedral_mixed_mesh_domain_3`.
@@ -84,7 +96,8 @@ public:
         m_surfaces_of[{index, is_to_outside}].push_back(surface.get());
     }
     m_bbox += surface->bbox();
-    m_surfaces.push_back({std::move(surface), index});
+    m_surfaces.push_back({std::move(surface), index, {}});
+    find_common_facets();
   }
 
   /// Adds the subdomain inside a surface.
@@ -210,6 +223,8 @@ public:
   /// \pre `first` is one of `subdomain_indices()`
   Point_3 closest_point(const Point_3& p, Subdomain_index first, Subdomain_index second) const
   {
+    if(const Tree* facets = facets_of_interface(first, second))
+      return to_point(facets->closest(Mixed_meshes_3::to_vec3(p)));
     return nearest(p, surfaces_of(first, second), [&](const Surface* s) { return s->closest_point(p); });
   }
 
@@ -217,6 +232,8 @@ public:
   Point_3 closest_point(const Point_3& p, const Point_3& hint, Subdomain_index first,
                         Subdomain_index second) const
   {
+    if(const Tree* facets = facets_of_interface(first, second))
+      return to_point(facets->closest(Mixed_meshes_3::to_vec3(p), {Mixed_meshes_3::to_vec3(hint), 0}));
     // The hint is on only one of several surfaces.
     const std::vector<const Surface*>& surfaces = surfaces_of(first, second);
     return surfaces.size() == 1 ? surfaces.front()->closest_point(p, hint) : closest_point(p, first, second);
@@ -308,11 +325,94 @@ public:
   }
 
 private:
+  using Tree = Mixed_meshes_3::internal::Triangle_tree;
+  using Vec3 = Mixed_meshes_3::Vec3;
+  using Corners = std::array<Vec3, 3>;
+  using Pair = std::pair<Subdomain_index, Subdomain_index>; // the second one is 0 for the outside
+
   struct Labeled
   {
     std::shared_ptr<const Polyhedral_mixed_mesh_domain_3> surface;
     Subdomain_index index;
+    std::vector<Subdomain_index> behind; // each facet, or 0; empty if no facet is on another surface, too
   };
+
+  struct Hash_of_corners
+  {
+    std::size_t operator()(const Corners& corners) const
+    {
+      std::size_t hash = 0;
+      for(const Vec3& p : corners)
+        for(std::size_t i = 0; i < 3; ++i)
+          boost::hash_combine(hash, p[i]);
+      return hash;
+    }
+  };
+
+  static Point_3 to_point(const Tree::Closest& closest)
+  {
+    return Point_3(closest.point[0], closest.point[1], closest.point[2]);
+  }
+
+  // The facets of an interface, if they are common ones of surfaces, or the others of a surface that has
+  // such.
+  const Tree* facets_of_interface(Subdomain_index first, Subdomain_index second) const
+  {
+    const auto found = m_interfaces.find({first, second});
+    const bool is_elsewhere_as_well = second == 0 && !m_cavities.empty();
+    return found == m_interfaces.end() || is_elsewhere_as_well ? nullptr : found->second.get();
+  }
+
+  // Finds the facets that the last surface has in common with others.
+  void find_common_facets()
+  {
+    Labeled& last = m_surfaces.back();
+    std::unordered_map<Corners, std::size_t, Hash_of_corners> numbers;
+    std::set<Subdomain_index> changed;
+    for(Labeled& other : m_surfaces) {
+      if(other.index == 0 || last.index == 0 || other.index == last.index
+         || !CGAL::do_overlap(other.surface->bbox(), last.surface->bbox()))
+        continue;
+      if(numbers.empty())
+        for(std::size_t f = 0; f < last.surface->number_of_facets(); ++f)
+          numbers.emplace(sorted_corners(last, f), f);
+      for(std::size_t f = 0; f < other.surface->number_of_facets(); ++f) {
+        const auto found = numbers.find(sorted_corners(other, f));
+        if(found == numbers.end())
+          continue;
+        for(Labeled* one : {&other, &last})
+          one->behind.resize(one->surface->number_of_facets(), 0);
+        other.behind[f] = last.index;
+        last.behind[found->second] = other.index;
+        changed.insert({other.index, last.index});
+      }
+    }
+    std::map<Pair, std::vector<Corners>> interfaces;
+    for(const Labeled& one : m_surfaces)
+      if(changed.count(one.index) > 0)
+        for(std::size_t f = 0; f < one.behind.size(); ++f)
+          if(one.behind[f] == 0 || one.behind[f] == last.index)
+            interfaces[{one.index, one.behind[f]}].push_back(corners(one, f));
+    for(Subdomain_index index : changed)
+      m_interfaces.erase({index, 0}); // there may be none left
+    for(const auto& [pair, triangles] : interfaces)
+      m_interfaces[pair] = std::make_shared<const Tree>(triangles);
+  }
+
+  static Corners corners(const Labeled& one, std::size_t facet)
+  {
+    const auto& t = one.surface->facets()[facet];
+    return {Mixed_meshes_3::to_vec3(t[0]), Mixed_meshes_3::to_vec3(t[1]), Mixed_meshes_3::to_vec3(t[2])};
+  }
+
+  static Corners sorted_corners(const Labeled& one, std::size_t facet)
+  {
+    Corners result = corners(one, facet);
+    std::sort(result.begin(), result.end(), [](const Vec3& a, const Vec3& b) {
+      return std::lexicographical_compare(&a[0], &a[0] + 3, &b[0], &b[0] + 3);
+    });
+    return result;
+  }
 
   Subdomain_index index_of(std::size_t surface) const
   {
@@ -354,6 +454,7 @@ private:
 
   std::vector<Labeled> m_surfaces;
   std::map<std::pair<Subdomain_index, bool>, std::vector<const Surface*>> m_surfaces_of; // to the outside?
+  std::map<Pair, std::shared_ptr<const Tree>> m_interfaces; // of surfaces with common facets
   std::vector<const Surface*> m_cavities;
   std::vector<Subdomain_index> m_indices;
   std::vector<std::shared_ptr<const Mixed_mesh_sheet_3>> m_sheets;

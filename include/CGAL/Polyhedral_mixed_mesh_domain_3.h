@@ -67,6 +67,7 @@ public:
   using Base::bbox;
   using Base::bounded_side;
   using Base::closest_point;
+  using Base::facets;
   using Base::locate;
   using Base::number_of_facets;
   using Base::sharp_edges;

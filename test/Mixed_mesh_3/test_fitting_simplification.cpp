@@ -16,9 +16,9 @@
 
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
 #include <CGAL/Mixed_mesh_3/interfaces.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Interface_curves.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/Interface_curves.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Mesh_simplifier.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Plane_quadric.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Plane_quadric.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/simplify.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
 #include <CGAL/Mixed_mesh_3/quality.h>

@@ -166,8 +166,8 @@ class Test_segmentation(unittest.TestCase):
                 path = self.image("labels.nii.gz", values, to_world)
                 gmsh = WORK / "mesh.msh"
                 told, run = self.mesh(path, "--labels", f"head=1-9,lesion={LESION}", "--vertices", 3000, "--output", gmsh)
-                self.assertEqual([(s["name"], s["index"]) for s in told["subdomains"]], [("lesion", 2), ("head", 1)])
-                for subdomain, label in zip(told["subdomains"], (LESION, HEAD)):
+                self.assertEqual([(s["name"], s["index"]) for s in told["subdomains"]], [("head", 1), ("lesion", 2)])
+                for subdomain, label in zip(told["subdomains"], (HEAD, LESION)):
                     expected = np.count_nonzero(values == label) * 2 * 2.4 * 3
                     self.assertAlmostEqual(subdomain["volume"] / expected, 1, delta=0.06)
                     self.assertLessEqual(subdomain["ARC max"], 3.2)
@@ -272,7 +272,26 @@ class Test_segmentation(unittest.TestCase):
         told, run = self.mesh(path, "--labels", "head=1-9,200,speck=11", "--vertices", 300, "--base-level", 2)
         self.assertEqual(told["status"], "parts lost")
         self.assertRegex(run.stderr, r"the subdomain speck, of volume [0-9.]+ mm\^3, is lost: too small for the cells")
-        self.assertEqual(told["subdomains"][0]["elements"], 0)
+        self.assertEqual([s["elements"] > 0 for s in told["subdomains"]], [True, False])
+
+    def test_touching_labels(self):
+        """Gray matter around white matter around ventricles: each has its volume, all vertices are on interfaces."""
+        x, y, z = np.meshgrid(*(3 * np.arange(n) - 1.5 * (n - 1) for n in (48, 56, 46)), indexing="ij")
+        radius = np.sqrt((x / 60)**2 + (y / 72)**2 + (z / 56)**2)
+        fold = 0.03 * np.sin(6 * np.arctan2(y, x)) * np.cos(z / 12)
+        values = np.select([((np.abs(x) - 12) / 10)**2 + (y / 25)**2 + (z / 12)**2 < 1, radius < 0.75 + fold, radius < 0.95],
+                           [3, 1, 2], 0).astype(np.int16)
+        path = self.image("brain.nii.gz", values, affine((3, 3, 3)))
+        told, run = self.mesh(path, "--labels", "white=1,gray=2,ventricles=3", "--vertices", 4000)
+        self.assertIn("all checks hold", run.stdout)
+        for subdomain, label in zip(told["subdomains"], (1, 2, 3)):
+            expected = np.count_nonzero(values == label) * 27
+            self.assertAlmostEqual(subdomain["volume"] / expected, 1, delta=0.06)
+            self.assertLessEqual(subdomain["ARC max"], 3.2)
+        self.assertEqual([i["between"] for i in told["interfaces"]],
+                         [["white", "gray"], ["white", "ventricles"], ["gray", "outside"]])
+        self.assertEqual([i["vertices not on surface"] for i in told["interfaces"]], [0, 0, 0])
+        self.fails(path, "--labels", "white=1,gray=2", "--wrap", 5, "--vertices", 500, words="--wrap would tear")
 
     def test_bad_input(self):
         path = self.image("labels.nii", labels(), AFFINES["oblique"])

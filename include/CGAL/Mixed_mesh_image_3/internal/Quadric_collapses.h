@@ -10,6 +10,7 @@
 #ifndef CGAL_MIXED_MESH_IMAGE_3_INTERNAL_QUADRIC_COLLAPSES_H
 #define CGAL_MIXED_MESH_IMAGE_3_INTERNAL_QUADRIC_COLLAPSES_H
 
+#include <CGAL/Mixed_mesh_3/internal/base/Plane_quadric.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <algorithm>
@@ -25,58 +26,6 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
-
-/// A sum of squared distances to planes, each with a weight: `x A x + 2 b x + c`.
-struct Plane_quadric
-{
-  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  Vec3 b{0, 0, 0};
-  double c = 0;
-
-  void add(const Plane_quadric& q)
-  {
-    xx += q.xx, xy += q.xy, xz += q.xz, yy += q.yy, yz += q.yz, zz += q.zz;
-    b = b + q.b;
-    c += q.c;
-  }
-
-  /// The quadric of the plane through a point; the weight is the length of the normal.
-  static Plane_quadric of_plane(const Vec3& point, const Vec3& normal)
-  {
-    const double length = norm(normal);
-    if(!(length > 0))
-      return {};
-    const Vec3 n = 1 / length * normal;
-    const double d = -dot(n, point), w = length;
-    return {w * n[0] * n[0], w * n[0] * n[1], w * n[0] * n[2], w * n[1] * n[1],
-            w * n[1] * n[2], w * n[2] * n[2], w * d * n,       w * d * d};
-  }
-
-  double sum_of_weights() const { return xx + yy + zz; }
-
-  double operator()(const Vec3& p) const
-  {
-    const Vec3 a{xx * p[0] + xy * p[1] + xz * p[2], xy * p[0] + yy * p[1] + yz * p[2],
-                 xz * p[0] + yz * p[1] + zz * p[2]};
-    return (std::max)(dot(a, p) + 2 * dot(b, p) + c, 0.);
-  }
-
-  /// The minimum of the quadric; near a given point in directions in which the quadric hardly changes.
-  Vec3 minimum_near(const Vec3& p) const
-  {
-    constexpr double share = 1e-3; // share of weights for that point: keeps the system well-conditioned
-    const double pull = share * sum_of_weights();
-    if(!(pull > 0))
-      return p;
-    const double a = xx + pull, d = yy + pull, f = zz + pull;
-    const Vec3 right = pull * p - b;
-    const Vec3 u{d * f - yz * yz, xz * yz - xy * f, xy * yz - xz * d}; // cofactors
-    const Vec3 v{u[1], a * f - xz * xz, xy * xz - a * yz};
-    const Vec3 w{u[2], v[2], a * d - xy * xy};
-    const double determinant = a * u[0] + xy * u[1] + xz * u[2];
-    return 1 / determinant * Vec3{dot(u, right), dot(v, right), dot(w, right)};
-  }
-};
 
 /*!
 Collapses edges of a closed triangulated surface, edges first that move the surface least from the planes of
@@ -130,10 +79,10 @@ public:
       m_number_of_vertices(m_points.size())
   {
     for(const Triangle& t : triangles) {
-      const Vec3 normal = cross(m_points[t[1]] - m_points[t[0]], m_points[t[2]] - m_points[t[0]]);
-      const Plane_quadric quadric = Plane_quadric::of_plane(m_points[t[0]], normal);
+      Plane_quadric quadric;
+      quadric.add(m_points[t[0]], m_points[t[1]], m_points[t[2]]);
       for(const Index v : t) {
-        m_quadrics[v].add(quadric);
+        m_quadrics[v] += quadric;
         m_outgoing[v] = Index(m_source.size());
         m_source.push_back(v);
       }
@@ -194,7 +143,7 @@ private:
   Plane_quadric quadric_of(Index h) const
   {
     Plane_quadric quadric = m_quadrics[m_source[h]];
-    quadric.add(m_quadrics[target(h)]);
+    quadric += m_quadrics[target(h)];
     return quadric;
   }
 
@@ -213,7 +162,7 @@ private:
     const Plane_quadric quadric = quadric_of(h);
     const Vec3 &p = m_points[m_source[h]], &q = m_points[target(h)];
     const double cost = quadric(quadric.minimum_near(0.5 * (p + q)))
-                        + weight_of_length * quadric.sum_of_weights() * dot(q - p, q - p);
+                        + weight_of_length * quadric.area() * dot(q - p, q - p);
     m_queue.push({cost, h, version_of(h)});
   }
 

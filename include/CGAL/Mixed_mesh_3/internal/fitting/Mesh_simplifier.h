@@ -12,8 +12,8 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
-#include <CGAL/Mixed_mesh_3/internal/fitting/Interface_curves.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Plane_quadric.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/Interface_curves.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Plane_quadric.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Boundary_triangles.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Edge_collapser.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>

@@ -36,9 +36,9 @@ class Surface_projection
   const Strata* m_strata;
   const Sharp_features* m_features = nullptr;
   int m_maximal_number_of_cycles = 20;
-  // The last point found on the surface of each interface, by its first subdomain and whether the interface
-  // is to the outside: a query is mostly near to the one before. For several subdomains only.
-  mutable std::map<std::pair<Subdomain_index, bool>, Vec3> m_last;
+  // The last point found on each interface, by its subdomains: a query is mostly near to the one before. For
+  // several subdomains only.
+  mutable std::map<std::pair<Subdomain_index, Subdomain_index>, Vec3> m_last;
 
   static constexpr double accuracy = 1e-9;      // in diagonals of the domain
   static constexpr double least_progress = 0.7; // the search ends soon where surfaces do not meet
@@ -132,7 +132,7 @@ private:
       return closest_of_sheets([&](const Any_sheet& sheet) { return sheet.closest_point(point(p)); }, p);
     if(m_domain->subdomain_indices().size() == 1)
       return to_vec3(m_domain->closest_point(point(p), i.first, i.second));
-    const auto [last, is_first] = m_last.try_emplace({i.first, i.second == 0});
+    const auto [last, is_first] = m_last.try_emplace({i.first, i.second});
     last->second = to_vec3(is_first
                              ? m_domain->closest_point(point(p), i.first, i.second)
                              : m_domain->closest_point(point(p), point(last->second), i.first, i.second));

@@ -88,6 +88,10 @@ inline void run_within_budget(Meshing_state& s, Core_mesh& mesh, Misfit& misfit)
     improve_thin_parts(s, mesh, misfit);
 }
 
+/// Share of vertices off the surfaces of several subdomains up to which a mesh is taken at once: near curves
+/// in which interfaces of labels meet, 3 % of those of a head of five labels are.
+constexpr double tolerated_at_junctions = 0.05;
+
 /// Makes the mesh. Where it begins with a fine one and something is wrong in the end, the octree of the
 /// budget is tried as well, and the better mesh is taken.
 /// \param root the octree with nothing but its root
@@ -111,7 +115,9 @@ inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_
     // lost, which need flat elements that octrees do not have.
     const Mixed_mesh_optimization_result_3& fit = s.result.optimization;
     const bool may_have_layers = s.has_several_subdomains();
-    const double tolerated = fit.length_of_sharp_edges > 0 || may_have_layers ? removable_share : 0;
+    const double tolerated = may_have_layers                 ? tolerated_at_junctions
+                             : fit.length_of_sharp_edges > 0 ? removable_share
+                                                             : 0;
     const std::size_t few = std::size_t(tolerated * double(fit.number_of_boundary_vertices));
     const bool is_last = s.is_stopped
                          || (of_other.is_nearly_right(few) && (may_have_layers || !is_other_above)),

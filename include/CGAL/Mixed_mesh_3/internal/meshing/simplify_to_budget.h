@@ -14,7 +14,7 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/fitting/Followed_features.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Interface_curves.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/Interface_curves.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/simplify.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/coarsen_to_budget.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/cut_by_interfaces.h>
@@ -160,6 +160,9 @@ inline Core_mesh fine_mesh_of_subdomains(Meshing_state& s)
 {
   constexpr std::size_t vertices_per_corner = 10; // of the budget, at least
   constexpr std::size_t vertices_per_cell = 2;    // about, in a mesh that is cut
+  // Cells for each vertex of the budget. With four times as many, a head of five labels has half as many
+  // corners and takes twice as long; three spherical layers need no more.
+  constexpr std::size_t most_cells_for_layers = 2;
   const std::size_t budget = s.criteria.maximal_number_of_vertices();
   Located_octree octree = s.root;
   {
@@ -172,8 +175,8 @@ inline Core_mesh fine_mesh_of_subdomains(Meshing_state& s)
           && sequence.extend()) {
     }
     octree = sequence.octree(sequence.number_of_steps());
-    split_cells_at_small_subdomains(octree, most_cells_for_narrow_places * budget);
-    split_layer_cells(octree, most_cells_for_narrow_places * budget);
+    split_cells_at_small_subdomains(octree, octree.number_of_cells() + budget);
+    split_layer_cells(octree, most_cells_for_layers * budget);
   }
   s.octree = std::move(octree);
   s.result.status = Mixed_mesh_status::SUCCESS;
@@ -215,8 +218,9 @@ inline void fit_fine_mesh(Meshing_state& s, Core_mesh& mesh, Followed_features& 
 /// \param mesh empty; stays so if there is none
 inline void make_simplified_mesh(Meshing_state& s, Core_mesh& mesh)
 {
-  // Largest bound in bounds that were asked for: in thin walls there is room for flatter elements only.
-  constexpr double largest_multiple = 5;
+  // Largest bound in bounds that were asked for: in thin walls there is room for flatter elements only. And
+  // what few elements may have between layers, which no octree resolves better; above, they are no use.
+  constexpr double largest_multiple = 5, largest_between_layers = 30;
   const std::size_t budget = s.criteria.maximal_number_of_vertices();
   const auto note_stop = [&s] { s.result.status = Mixed_mesh_status::STOPPED; };
   Core_mesh fine = s.has_several_subdomains() ? fine_mesh_of_subdomains(s) : fine_mesh(s);
@@ -261,8 +265,9 @@ inline void make_simplified_mesh(Meshing_state& s, Core_mesh& mesh)
   const Mixed_mesh_optimization_result_3& fit = s.result.optimization;
   const bool is_above = fit.number_of_elements_above_bound > 0;
   const double worst = is_above ? quality_statistics(mesh).back().maximum : 0;
-  const bool is_bad = worst > largest && !s.has_several_subdomains(); // no octree resolves layers better
-  if(!fit.is_boundary_simple || is_bad) {                             // the octree of the budget is tried
+  const bool is_bad = worst > largest
+                      && (!s.has_several_subdomains() || worst > largest_between_layers * bound);
+  if(!fit.is_boundary_simple || is_bad) { // the octree of the budget is tried
     mesh.clear();
     s.result.is_kept = false;
     s.result.status = s.is_stopped ? Mixed_mesh_status::STOPPED : Mixed_mesh_status::BUDGET_TOO_SMALL;

@@ -63,6 +63,8 @@ public:
   double area() const;
   double volume() const;
   std::size_t number_of_facets() const { return m_triangles.size(); }
+  /// The facets, in the order of the surface's faces.
+  const std::vector<Triangle_3>& facets() const { return m_triangles; }
   /// The shells of the whole surface.
   const Shell_counts& shells() const { return m_shells; }
 

@@ -99,16 +99,16 @@ std::vector<std::vector<Box>> boxes_by_slabs(const std::vector<Box>& boxes, int 
   return slabs;
 }
 
-/// The vertices of faces that meet in more than the vertices and edges they share, ascending. The test is
+/// The vertices of triangles that meet in more than the vertices and edges they share, ascending. The test is
 /// exact.
-/// \param faces triangles, and quadrilaterals, each as two triangles; faces without area, which no valid
-///        element has, are skipped
+/// \param triangles triangles; those without area, which no valid element has, are skipped
 /// \param threads number of threads
 /// \par Complexity
-/// O(n log n) for n faces, if few meet
-inline std::vector<Vertex_index> vertices_of_self_intersections(const std::vector<Vec3>& positions,
-                                                                const std::vector<Face>& faces,
-                                                                unsigned threads = 1)
+/// O(n log n) for n triangles, if few meet
+inline std::vector<Vertex_index>
+vertices_of_self_intersections(const std::vector<Vec3>& positions,
+                               const std::vector<std::array<Vertex_index, 3>>& triangles,
+                               unsigned threads = 1)
 {
   using Box = Numbered_box;
   constexpr std::size_t boxes_worth_a_slab = 1000, slabs_per_thread = 4;
@@ -116,10 +116,6 @@ inline std::vector<Vertex_index> vertices_of_self_intersections(const std::vecto
   points.reserve(positions.size());
   for(const Vec3& p : positions)
     points.emplace_back(p[0], p[1], p[2]);
-  std::vector<std::array<Vertex_index, 3>> triangles;
-  for(const Face& face : faces)
-    for(int i = 2; i < face.vertices().size(); ++i)
-      triangles.push_back({face.vertices()[0], face.vertices()[i - 1], face.vertices()[i]});
   std::vector<std::uint8_t> has_area(triangles.size());
   parallel_for(triangles.size(), threads, [&](std::size_t i) {
     const auto& t = triangles[i];
@@ -161,6 +157,18 @@ inline std::vector<Vertex_index> vertices_of_self_intersections(const std::vecto
     if(is_marked[v])
       vertices.push_back(v);
   return vertices;
+}
+
+/// The same for faces; quadrilaterals are two triangles each.
+inline std::vector<Vertex_index> vertices_of_self_intersections(const std::vector<Vec3>& positions,
+                                                                const std::vector<Face>& faces,
+                                                                unsigned threads = 1)
+{
+  std::vector<std::array<Vertex_index, 3>> triangles;
+  for(const Face& face : faces)
+    for(int i = 2; i < face.vertices().size(); ++i)
+      triangles.push_back({face.vertices()[0], face.vertices()[i - 1], face.vertices()[i]});
+  return vertices_of_self_intersections(positions, triangles, threads);
 }
 
 /// Whether faces of the boundary of a mesh meet in more than the vertices and edges they share.

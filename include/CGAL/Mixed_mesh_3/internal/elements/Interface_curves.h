@@ -7,8 +7,8 @@
 //
 // The curves along which three or more interfaces of subdomains meet, while edges are collapsed.
 
-#ifndef CGAL_MIXED_MESH_3_INTERNAL_FITTING_INTERFACE_CURVES_H
-#define CGAL_MIXED_MESH_3_INTERNAL_FITTING_INTERFACE_CURVES_H
+#ifndef CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_INTERFACE_CURVES_H
+#define CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_INTERFACE_CURVES_H
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
@@ -39,17 +39,20 @@ class Interface_curves
 
 public:
   /// \param triangles all of the boundary and of interfaces
-  Interface_curves(const std::vector<Face>& triangles, std::size_t number_of_vertices)
+  Interface_curves(const std::vector<Face_vertices>& triangles, std::size_t number_of_vertices)
     : m_neighbors(number_of_vertices), m_is_corner(number_of_vertices, 0)
   {
     std::vector<std::vector<std::pair<Vertex_index, Vertex_index>>> links(number_of_vertices);
-    for(const Face& face : triangles) {
-      const Face_vertices& t = face.vertices();
+    for(const Face_vertices& t : triangles)
       for(int i = 0; i < 3; ++i)
         links[t[i]].emplace_back(t[(i + 1) % 3], t[(i + 2) % 3]);
-    }
     for(Vertex_index v = 0; v < number_of_vertices; ++v)
       examine(v, links[v]);
+  }
+
+  Interface_curves(const std::vector<Face>& triangles, std::size_t number_of_vertices)
+    : Interface_curves(vertices_of(triangles), number_of_vertices)
+  {
   }
 
   bool is_on_curve(Vertex_index v) const { return !m_neighbors[v].empty(); }
@@ -82,6 +85,14 @@ public:
   }
 
 private:
+  static std::vector<Face_vertices> vertices_of(const std::vector<Face>& faces)
+  {
+    std::vector<Face_vertices> result;
+    for(const Face& face : faces)
+      result.push_back(face.vertices());
+    return result;
+  }
+
   // \param link edges opposite to the vertex in its triangles
   void examine(Vertex_index v, const std::vector<std::pair<Vertex_index, Vertex_index>>& link)
   {
@@ -127,4 +138,4 @@ private:
 } // namespace Mixed_meshes_3
 } // namespace CGAL
 
-#endif // CGAL_MIXED_MESH_3_INTERNAL_FITTING_INTERFACE_CURVES_H
+#endif // CGAL_MIXED_MESH_3_INTERNAL_ELEMENTS_INTERFACE_CURVES_H

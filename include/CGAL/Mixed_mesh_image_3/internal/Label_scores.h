@@ -1,0 +1,332 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MIXED_MESH_IMAGE_3_INTERNAL_LABEL_SCORES_H
+#define CGAL_MIXED_MESH_IMAGE_3_INTERNAL_LABEL_SCORES_H
+
+#include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
+#include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>
+#include <CGAL/Mixed_mesh_image_3/internal/Voxel_box.h>
+#include <CGAL/Mixed_mesh_image_3/internal/smooth_indicator.h>
+#include <CGAL/Mixed_mesh_image_3/label_extents.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Mixed_meshes_3 {
+namespace internal {
+
+/// The number of a label of several, from 1 on; 0 is the outside.
+using Label_number = std::uint16_t;
+
+/// A box of voxels of an image, with 0 at its border, and the smoothed indicators of several labels. A voxel
+/// is inside where the sum of all is large enough, whatever the labels are, so that there is no groove where
+/// two of them meet the outside; and has the label with the best score there.
+class Label_scores : public Voxel_box
+{
+  static constexpr float infinity = std::numeric_limits<float>::infinity();
+
+  std::vector<Indicator> m_indicators;      // of label 1, 2, ...
+  std::vector<float> m_outside;             // one minus all of them
+  std::vector<float> m_offsets;             // of each label
+  float m_level = 0.5f;                     // of the outside: where it is less, the inside is
+  std::vector<std::size_t> m_numbers;       // of voxels of each label, from 1 on
+  std::vector<float> m_best, m_second_best; // scores
+  std::vector<Label_number> m_labels;       // with the best scores
+
+public:
+  /// \param has_label functions `bool(float)`, one for each label
+  /// \param extents boxes around the labels
+  /// \param deviations deviations of the Gaussian, in voxels along each axis
+  template <class HasLabel>
+  Label_scores(const Voxel_image_3& image, const std::vector<HasLabel>& has_label,
+               const std::vector<Label_extent_3>& extents, const std::array<double, 3>& deviations,
+               unsigned threads)
+    : m_indicators(has_label.size()), m_offsets(has_label.size(), 0.f)
+  {
+    parallel_for(
+      has_label.size(), threads,
+      [&](std::size_t l) { m_indicators[l] = smooth_indicator(image, has_label[l], deviations, extents[l]); },
+      1);
+    surround_indicators();
+    for(std::size_t l = 0; l < has_label.size(); ++l)
+      m_numbers.push_back(extents[l].number_of_voxels);
+    if(!is_empty()) {
+      subtract_from_outside();
+      find_level();
+      balance();
+    }
+  }
+
+  bool is_empty() const { return size[0] == 0; }
+
+  Label_number label(std::size_t offset_in_box) const { return m_labels[offset_in_box]; }
+
+  /// How much better a label is in a voxel than another one.
+  float lead(std::size_t v, Label_number label, Label_number other) const
+  {
+    return label == 0   ? m_outside[v] - m_level
+           : other == 0 ? m_level - m_outside[v]
+                        : score(v, label) - score(v, other);
+  }
+
+  /// Adds to the numbers that are added to labels, and to the level of the outside.
+  void add(const std::vector<float>& offsets, float to_level)
+  {
+    for(std::size_t l = 0; l < offsets.size(); ++l)
+      m_offsets[l] += offsets[l];
+    m_level += to_level;
+    find_best_labels();
+  }
+
+  /*!
+  Lets labels that touch between diagonal voxels only not touch there: a layer of one voxel that is no plane
+  has diagonal gaps, through which what is on both sides would meet in a thousand places. A place is a set of
+  edges of the network's tetrahedra, each with a triangle in common with the next; one end of each gets the
+  best label among the others around the edge.
+  */
+  void seal_diagonal_contacts()
+  {
+    constexpr int most_passes = 8; // a change can let others touch, a third of the places
+    for(int pass = 0; pass < most_passes && seal_diagonal_contacts_once(); ++pass) {
+    }
+  }
+
+private:
+  using Edge =
+    std::pair<std::size_t, std::size_t>; // first voxel, and direction: bit i says whether along axis i
+
+  bool seal_diagonal_contacts_once()
+  {
+    std::vector<std::uint8_t> is_known(8 * m_labels.size(), 0);
+    std::vector<Edge> place;
+    bool is_changed = false;
+    for(std::size_t k = 1; k + 1 < size[2]; ++k)
+      for(std::size_t j = 1; j + 1 < size[1]; ++j)
+        for(std::size_t i = 1; i + 1 < size[0]; ++i)
+          for(std::size_t d = 1; d < 8; ++d) {
+            const std::size_t v = offset({i, j, k});
+            if(m_labels[v] == m_labels[v + step(d)] || is_known[8 * v + d])
+              continue;
+            find_place({v, d}, is_known, place);
+            const bool has_face = std::any_of(place.begin(), place.end(),
+                                              [](const Edge& e) { return (e.second & (e.second - 1)) == 0; });
+            if(!has_face)
+              for(const Edge& edge : place) {
+                seal(edge);
+                is_changed = true;
+              }
+          }
+    return is_changed;
+  }
+
+  std::size_t step(std::size_t direction) const
+  {
+    const std::array<std::size_t, 3> s = strides();
+    return (direction & 1) * s[0] + (direction >> 1 & 1) * s[1] + (direction >> 2) * s[2];
+  }
+
+  // Calls `f(voxel, edge from the first end, edge from the second end)` for each triangle at an edge.
+  template <class F>
+  void for_each_triangle_at(const Edge& edge, const F& f) const
+  {
+    const auto [v, d] = edge;
+    const std::size_t w = v + step(d);
+    for(std::size_t e = 1; e < 8; ++e) {
+      if((e & d) == e && e != d) // between both ends
+        f(v + step(e), Edge(v, e), Edge(v + step(e), d ^ e));
+      if((e & d) == 0) { // before the first end, and behind the second one
+        f(v - step(e), Edge(v - step(e), e), Edge(v - step(e), e | d));
+        f(w + step(e), Edge(v, d | e), Edge(w, e));
+      }
+    }
+  }
+
+  // The edges between the same two labels that are connected by triangles.
+  void find_place(const Edge& first, std::vector<std::uint8_t>& is_known, std::vector<Edge>& edges) const
+  {
+    const Label_number a = m_labels[first.first], b = m_labels[first.first + step(first.second)];
+    edges = {first};
+    is_known[8 * first.first + first.second] = 1;
+    for(std::size_t i = 0; i < edges.size(); ++i) {
+      const Label_number at_start = m_labels[edges[i].first];
+      for_each_triangle_at(edges[i], [&](std::size_t v, const Edge& from_first, const Edge& from_second) {
+        if(m_labels[v] != a && m_labels[v] != b)
+          return;
+        const Edge& next = m_labels[v] == at_start ? from_second : from_first;
+        if(!std::exchange(is_known[8 * next.first + next.second], 1))
+          edges.push_back(next);
+      });
+    }
+  }
+
+  void seal(const Edge& edge)
+  {
+    const std::size_t v = edge.first, w = v + step(edge.second);
+    if(m_labels[v] == m_labels[w])
+      return; // sealed by another edge
+    float least_loss = infinity;
+    std::pair<std::size_t, Label_number> best{v, m_labels[v]};
+    for_each_triangle_at(edge, [&](std::size_t other, const Edge&, const Edge&) {
+      const Label_number label = m_labels[other];
+      if(label == m_labels[v] || label == m_labels[w])
+        return;
+      for(std::size_t end : {v, w}) {
+        const float loss = lead(end, m_labels[end], label);
+        if(loss < least_loss) {
+          least_loss = loss;
+          best = {end, label};
+        }
+      }
+    });
+    m_labels[best.first] = best.second;
+  }
+
+  // The smoothed indicator of a label, plus its offset.
+  float score(std::size_t v, Label_number label) const
+  {
+    const std::array<std::size_t, 3> voxel{v % size[0], v / size[0] % size[1], v / (size[0] * size[1])};
+    const Indicator& indicator = m_indicators[label - 1];
+    std::array<std::size_t, 3> p;
+    for(int i = 0; i < 3; ++i) {
+      p[i] = std::size_t(std::int64_t(voxel[i]) + first[i] - indicator.first[i]); // wraps around if negative
+      if(p[i] >= indicator.size[i])
+        return m_offsets[label - 1];
+    }
+    return indicator.values[indicator.offset(p)] + m_offsets[label - 1];
+  }
+
+  // Makes the box large enough for all indicators, at whose borders are zeros, with a voxel around them.
+  void surround_indicators()
+  {
+    std::array<std::int64_t, 3> last{};
+    bool is_first = true;
+    for(const Indicator& one : m_indicators) {
+      if(one.values.empty())
+        continue;
+      for(int i = 0; i < 3; ++i) {
+        const std::int64_t end = one.first[i] + std::int64_t(one.size[i]);
+        first[i] = is_first ? one.first[i] : (std::min)(first[i], one.first[i]);
+        last[i] = is_first ? end : (std::max)(last[i], end);
+      }
+      is_first = false;
+    }
+    if(is_first)
+      return;
+    for(int i = 0; i < 3; ++i) {
+      --first[i];
+      size[i] = std::size_t(last[i] + 1 - first[i]);
+    }
+  }
+
+  // Calls `f(offset in the box, offset in the indicator)` for each voxel of an indicator.
+  template <class F>
+  void for_each_voxel_of(const Indicator& one, const F& f) const
+  {
+    for(std::size_t k = 0; k < one.size[2]; ++k)
+      for(std::size_t j = 0; j < one.size[1]; ++j) {
+        std::array<std::size_t, 3> p{0, j, k};
+        const std::size_t own = one.offset(p);
+        for(int i = 0; i < 3; ++i)
+          p[i] += std::size_t(one.first[i] - first[i]);
+        const std::size_t here = offset(p);
+        for(std::size_t i = 0; i < one.size[0]; ++i)
+          f(here + i, own + i);
+      }
+  }
+
+  void subtract_from_outside()
+  {
+    m_outside.assign(size[0] * size[1] * size[2], 1.f);
+    for(const Indicator& one : m_indicators)
+      for_each_voxel_of(one, [&](std::size_t v, std::size_t own) { m_outside[v] -= one.values[own]; });
+  }
+
+  void find_best_labels()
+  {
+    m_best.assign(m_outside.size(), -infinity);
+    m_second_best = m_best;
+    m_labels.assign(m_outside.size(), 0);
+    for(std::size_t l = 0; l < m_indicators.size(); ++l)
+      for_each_voxel_of(m_indicators[l], [&, l](std::size_t v, std::size_t own) {
+        const float value = m_indicators[l].values[own], score = value + m_offsets[l];
+        if(!(value > 0) || m_outside[v] >= m_level)
+          return;
+        if(score > m_best[v]) {
+          m_second_best[v] = std::exchange(m_best[v], score);
+          m_labels[v] = Label_number(l + 1);
+        } else {
+          m_second_best[v] = (std::max)(m_second_best[v], score);
+        }
+      });
+  }
+
+  void find_level()
+  {
+    std::vector<float> values = m_outside;
+    const auto inside = std::size_t(std::accumulate(m_numbers.begin(), m_numbers.end(), std::size_t(0)));
+    const auto next = values.begin() + std::ptrdiff_t((std::min)(inside, values.size() - 1));
+    std::nth_element(values.begin(), next, values.end());
+    m_level = next == values.begin() ? 0 : (*next + *std::max_element(values.begin(), next)) / 2;
+  }
+
+  // Changes the offsets until each label is the best one of about as many voxels as have it. Two labels that
+  // meet share the change, half each.
+  void balance()
+  {
+    constexpr int most_rounds = 12;
+    constexpr double accuracy = 0.002;
+    for(int round = 0;; ++round) {
+      find_best_labels();
+      std::vector<std::size_t> numbers(m_numbers.size(), 0);
+      for(Label_number l : m_labels)
+        if(l > 0)
+          ++numbers[l - 1];
+      bool is_balanced = true;
+      for(std::size_t l = 0; l < numbers.size(); ++l)
+        is_balanced = is_balanced
+                      && std::abs(double(numbers[l]) - double(m_numbers[l]))
+                           <= accuracy * double(m_numbers[l]);
+      if(is_balanced || round == most_rounds)
+        return;
+      for(std::size_t l = 0; l < numbers.size(); ++l)
+        if(m_numbers[l] > 0)
+          m_offsets[l] += (balancing_offset(l) - m_offsets[l]) / 2;
+    }
+  }
+
+  // The offset with which a label is the best one of as many voxels as have it, if the others keep theirs.
+  float balancing_offset(std::size_t l) const
+  {
+    std::vector<float> lacks; // what lacks to the best of the others, which may be none
+    for_each_voxel_of(m_indicators[l], [&](std::size_t v, std::size_t own) {
+      const float value = m_indicators[l].values[own];
+      if(value > 0 && m_outside[v] < m_level)
+        lacks.push_back((m_labels[v] == l + 1 ? m_second_best[v] : m_best[v]) - value);
+    });
+    if(lacks.empty())
+      return m_offsets[l];
+    const auto next = lacks.begin() + std::ptrdiff_t((std::min)(m_numbers[l], lacks.size() - 1));
+    std::nth_element(lacks.begin(), next, lacks.end());
+    const float offset = next == lacks.begin() ? *next : (*next + *std::max_element(lacks.begin(), next)) / 2;
+    return std::isfinite(offset) ? offset : m_offsets[l];
+  }
+};
+
+} // namespace internal
+} // namespace Mixed_meshes_3
+} // namespace CGAL
+
+#endif // CGAL_MIXED_MESH_IMAGE_3_INTERNAL_LABEL_SCORES_H
