@@ -208,8 +208,9 @@ void read_domain(const Input_options& o, Surface_reader& read, Outcome& outcome,
       order_by_nesting(subdomains, outcome.warnings);
     inputs.boundary = is_image(o.surface) ? *subdomains.back().surface : union_of(subdomains);
     outcome.surface = subdomains.back().facts;
+    if(subdomains.size() > 1)
+      outcome.surface.volume = CGAL::Polygon_mesh_processing::volume(inputs.boundary);
   }
-  outcome.surface.volume = CGAL::Polygon_mesh_processing::volume(inputs.boundary);
   for(const Subdomain& s : subdomains)
     if(s.index == 0) {
       CGAL::copy_face_graph(*s.surface, inputs.boundary);
