@@ -244,19 +244,23 @@ std::vector<Surface> Label_image::surfaces_of(const std::vector<Voxel_selection>
                                               const Label_surface_options& options,
                                               std::vector<Surface_facts>& facts) const
 {
-  std::vector<std::function<bool(float)>> has_label;
-  std::vector<mm3::Label_extent_3> extents;
-  for(std::size_t i = 0; i < selections.size(); ++i) {
-    has_label.emplace_back([&selections, i](float value) {
-      return std::find_if(selections.begin(), selections.end(),
-                          [value](const Voxel_selection& one) { return one(value); })
-             == selections.begin() + std::ptrdiff_t(i);
-    });
-    mm3::Label_extent_3& extent = extents.emplace_back();
-    for(const auto& [value, more] : m_data->extents)
-      if(has_label.back()(value))
-        extent.add(more);
+  std::map<float, std::size_t> number_of_value; // of the selection
+  std::vector<mm3::Label_extent_3> extents(selections.size());
+  for(const auto& [value, extent] : m_data->extents) {
+    const auto found = std::find_if(selections.begin(), selections.end(),
+                                    [v = value](const Voxel_selection& one) { return one(v); });
+    if(found == selections.end())
+      continue;
+    const auto number = std::size_t(found - selections.begin());
+    number_of_value[value] = number;
+    extents[number].add(extent);
   }
+  std::vector<std::function<bool(float)>> has_label; // for each voxel: the search in all selections is done
+  for(std::size_t i = 0; i < selections.size(); ++i)
+    has_label.emplace_back([&number_of_value, i](float value) {
+      const auto found = number_of_value.find(value);
+      return found != number_of_value.end() && found->second == i;
+    });
   std::vector<Surface> surfaces = mm3::make_label_surfaces<Surface, CGAL::Parallel_if_available_tag>(
     m_data->image, has_label, extents, smoothing(options), options.vertices);
   for(Surface& surface : surfaces)

@@ -66,13 +66,14 @@ std::vector<std::optional<double>> expected_volumes(const std::vector<Subdomain>
   std::vector<Enclosed> enclosed;
   for(std::size_t i = 0; i < subdomains.size(); ++i) {
     const Surface& mine = *subdomains[i].surface;
-    enclosed.emplace_back(mine);
     const bool are_labels = std::all_of(subdomains.begin(), subdomains.begin() + std::ptrdiff_t(i) + 1,
                                         [](const Subdomain& s) { return s.volume.has_value(); });
     if(are_labels) { // labels do not overlap
       volumes.push_back(subdomains[i].volume);
       continue;
     }
+    while(enclosed.size() <= i) // trees take time, and labels need none
+      enclosed.emplace_back(*subdomains[enclosed.size()].surface);
     volumes.emplace_back(subdomains[i].facts.volume);
     for(std::size_t j = 0; j < i && volumes[i]; ++j) {
       if(!enclosed[i].is_near(enclosed[j]))

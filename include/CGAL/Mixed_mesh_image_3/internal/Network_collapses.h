@@ -14,6 +14,7 @@
 #include <CGAL/Mixed_mesh_3/internal/elements/Interface_curves.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
 #include <CGAL/Mixed_mesh_image_3/internal/Label_network.h>
+#include <CGAL/Mixed_mesh_image_3/internal/Quadric_collapses.h>
 
 #include <algorithm>
 #include <array>
@@ -187,12 +188,9 @@ private:
     const auto [removed, kept] = roles(u, v);
     if(m_kinds[removed] == FIXED || (m_kinds[removed] == ON_CURVE && !is_on_common_curve(removed, kept)))
       return false;
-    // Short edges first, where all places are equally good, keep triangles compact.
-    constexpr double weight_of_length = 1e-5;
     const Plane_quadric sum = quadric(u, v);
-    const Vec3 edge = point(v) - point(u);
-    m_queue.push_back({sum(place(removed, kept)) + weight_of_length * sum.area() * dot(edge, edge), u, v,
-                       m_version[u] + m_version[v]});
+    m_queue.push_back(
+      {cost_of_collapse(sum, place(removed, kept), point(v) - point(u)), u, v, m_version[u] + m_version[v]});
     return true;
   }
 
@@ -235,21 +233,12 @@ private:
   // needles.
   bool keeps_sides(Index center, Index other, const Vec3& p) const
   {
-    constexpr double least_cosine = 0.2, least_shape = 0.05; // shape: 0.29 if equilateral
-    const auto shape = [](const Vec3& normal, const Vec3& a, const Vec3& b, const Vec3& c) {
-      return norm(normal) / (dot(a - b, a - b) + dot(b - c, b - c) + dot(c - a, c - a));
-    };
     return std::all_of(m_incident[center].begin(), m_incident[center].end(), [&](Index t) {
       std::array<Index, 3> v = m_network.triangles[t].vertices;
       if(std::find(v.begin(), v.end(), other) != v.end())
         return true;
       std::rotate(v.begin(), std::find(v.begin(), v.end(), center), v.end());
-      const Vec3 &q = point(v[0]), &a = point(v[1]), &b = point(v[2]);
-      const Vec3 before = cross(a - q, b - q), after = cross(a - p, b - p);
-      const double cosine = dot(before, after);
-      return cosine > 0
-             && cosine * cosine >= least_cosine * least_cosine * dot(before, before) * dot(after, after)
-             && shape(after, p, a, b) >= (std::min)(least_shape, shape(before, q, a, b));
+      return keeps_side(point(v[0]), p, point(v[1]), point(v[2]));
     });
   }
 
@@ -288,7 +277,7 @@ private:
 inline Label_network simplified(Label_network network, std::size_t number_of_vertices, unsigned threads)
 {
   constexpr int most_attempts = 8;
-  constexpr std::size_t factor = 4; // of numbers after two steps: an attempt repeats a step only
+  constexpr std::size_t factor = 4; // between steps: an attempt repeats only one of them
   constexpr auto none = std::uint32_t(-1);
   std::size_t next = number_of_vertices;
   while(factor * next < network.points.size())

@@ -27,6 +27,29 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
+/// The cost of a collapse to a point. The weight of the length is for plane parts of the surface, where all
+/// places are equally good: short edges first keep triangles compact.
+inline double cost_of_collapse(const Plane_quadric& quadric, const Vec3& point, const Vec3& edge)
+{
+  constexpr double weight_of_length = 1e-5;
+  return quadric(point) + weight_of_length * quadric.area() * dot(edge, edge);
+}
+
+/// Whether a triangle keeps its side and does not become a needle when its corner p moves.
+inline bool keeps_side(const Vec3& p, const Vec3& moved, const Vec3& a, const Vec3& b)
+{
+  constexpr double least_cosine = 0.2, least_shape = 0.05; // cosine of angles; shape, 0.29 if equilateral
+  const Vec3 before = cross(a - p, b - p), after = cross(a - moved, b - moved);
+  const double cosine = dot(before, after);
+  const auto shape = [&](const Vec3& normal, const Vec3& corner) {
+    const double squares = dot(a - corner, a - corner) + dot(b - corner, b - corner) + dot(a - b, a - b);
+    return norm(normal) / squares;
+  };
+  return cosine > 0
+         && cosine * cosine >= least_cosine * least_cosine * dot(before, before) * dot(after, after)
+         && shape(after, moved) >= (std::min)(least_shape, shape(before, p));
+}
+
 /*!
 Collapses edges of a closed triangulated surface, edges first that move the surface least from the planes of
 its triangles.
@@ -156,13 +179,9 @@ private:
   {
     if(m_is_fixed[m_source[h]] || m_is_fixed[target(h)])
       return;
-    // The weight of the length is for plane parts of the surface, where all places are equally good: short
-    // edges first keep triangles compact.
-    constexpr double weight_of_length = 1e-5;
     const Plane_quadric quadric = quadric_of(h);
     const Vec3 &p = m_points[m_source[h]], &q = m_points[target(h)];
-    const double cost = quadric(quadric.minimum_near(0.5 * (p + q)))
-                        + weight_of_length * quadric.area() * dot(q - p, q - p);
+    const double cost = cost_of_collapse(quadric, quadric.minimum_near(0.5 * (p + q)), q - p);
     m_queue.push({cost, h, version_of(h)});
   }
 
@@ -192,21 +211,11 @@ private:
   // Whether triangles at the source, except those at the edge, keep their side and do not become needles.
   bool keeps_sides(Index edge, const Vec3& point) const
   {
-    constexpr double least_cosine = 0.2, least_shape = 0.05; // cosine of angles; shape, 0.29 if equilateral
     bool is_kept = true;
     for_each_outgoing(m_source[edge], [&](Index h) {
-      if(!is_kept || h == edge || h == next(m_opposite[edge]))
-        return;
-      const Vec3 &p = m_points[m_source[h]], &a = m_points[target(h)], &b = m_points[m_source[previous(h)]];
-      const Vec3 before = cross(a - p, b - p), after = cross(a - point, b - point);
-      const double cosine = dot(before, after);
-      const auto shape = [&](const Vec3& normal, const Vec3& corner) {
-        const double squares = dot(a - corner, a - corner) + dot(b - corner, b - corner) + dot(a - b, a - b);
-        return norm(normal) / squares;
-      };
-      is_kept = cosine > 0
-                && cosine * cosine >= least_cosine * least_cosine * dot(before, before) * dot(after, after)
-                && shape(after, point) >= (std::min)(least_shape, shape(before, p));
+      if(is_kept && h != edge && h != next(m_opposite[edge]))
+        is_kept = keeps_side(m_points[m_source[h]], point, m_points[target(h)],
+                             m_points[m_source[previous(h)]]);
     });
     return is_kept;
   }
