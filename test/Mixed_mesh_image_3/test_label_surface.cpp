@@ -37,21 +37,6 @@ using Surface = CGAL::Surface_mesh<Point_3>;
 
 const auto is_label = [](float value) { return value == 1; };
 
-Voxel_image_3 image_of(const std::array<std::size_t, 3>& size, const Affine_map_3& map,
-                       const std::function<bool(const std::array<double, 3>&)>& has_label)
-{
-  Voxel_image_3 image;
-  image.grid.size = size;
-  image.grid.index_to_world = map;
-  for(std::size_t k = 0; k < size[2]; ++k)
-    for(std::size_t j = 0; j < size[1]; ++j)
-      for(std::size_t i = 0; i < size[0]; ++i)
-        image.values.push_back(has_label({double(i), double(j), double(k)}));
-  return image;
-}
-
-constexpr Affine_map_3 identity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-
 Surface surface_of(const Voxel_image_3& image, double smoothing)
 {
   Surface surface;

@@ -38,21 +38,6 @@ using Point_3 = Predicates_kernel::Point_3;
 using Surface = CGAL::Surface_mesh<Point_3>;
 using Voxel = std::array<double, 3>;
 
-Voxel_image_3 image_of(const std::array<std::size_t, 3>& size, const Affine_map_3& map,
-                       const std::function<int(const Voxel&)>& label)
-{
-  Voxel_image_3 image;
-  image.grid.size = size;
-  image.grid.index_to_world = map;
-  for(std::size_t k = 0; k < size[2]; ++k)
-    for(std::size_t j = 0; j < size[1]; ++j)
-      for(std::size_t i = 0; i < size[0]; ++i)
-        image.values.push_back(float(label({double(i), double(j), double(k)})));
-  return image;
-}
-
-constexpr Affine_map_3 identity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-
 // The surface around labels 1 to n, then that of each.
 std::vector<Surface> surfaces_of(const Voxel_image_3& image, int n, double smoothing,
                                  std::size_t vertices = 0)

@@ -57,6 +57,22 @@ inline double difference(const Affine_map_3& a, const Affine_map_3& b)
   return d;
 }
 
+inline constexpr Affine_map_3 identity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+
+// An image of a function of the indices.
+template <class F>
+Voxel_image_3 image_of(const std::array<std::size_t, 3>& size, const Affine_map_3& map, const F& value)
+{
+  Voxel_image_3 image;
+  image.grid.size = size;
+  image.grid.index_to_world = map;
+  for(std::size_t k = 0; k < size[2]; ++k)
+    for(std::size_t j = 0; j < size[1]; ++j)
+      for(std::size_t i = 0; i < size[0]; ++i)
+        image.values.push_back(float(value(std::array<double, 3>{double(i), double(j), double(k)})));
+  return image;
+}
+
 // A linear function of the world, which linear interpolation reproduces exactly.
 inline double ramp(const Vec3& x) { return 100 + 0.7 * x[0] - 0.4 * x[1] + 0.9 * x[2]; }
 
