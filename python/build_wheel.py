@@ -3,12 +3,16 @@
 
     pip install --no-build-isolation ./python        needs pybind11-dev and the packages of scripts/setup.sh build
     python3 python/build_wheel.py FOLDER [BUILD]     only the wheel, from a build of the module if BUILD is given
+    python3 python/build_wheel.py --self-contained FOLDER BUILD     with the libraries that the module is linked to,
+                                                     for systems that have none of them; needs patchelf and strip
 """
 
 import base64
 import hashlib
 import os
 import pathlib
+import platform
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -17,6 +21,8 @@ import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 NAME, VERSION = "mixed_mesh_3", "0.1.0"
+# Libraries that each Linux system has, as PEP 600 counts on.
+OF_SYSTEM = ("linux-vdso", "ld-linux", "libc.", "libm.", "libpthread.", "libdl.", "librt.", "libgcc_s.", "libstdc++.")
 METADATA = f"""Metadata-Version: 2.1
 Name: mixed-mesh-3
 Version: {VERSION}
@@ -27,9 +33,12 @@ Requires-Dist: numpy
 """
 
 
-def _tag():
+def _tag(is_self_contained):
     version = f"cp{sys.version_info.major}{sys.version_info.minor}"
-    return f"{version}-{version}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
+    system = sysconfig.get_platform().replace("-", "_").replace(".", "_")
+    if is_self_contained:  # on any Linux whose C library is not older
+        system = f"manylinux_{platform.libc_ver()[1].replace('.', '_')}_{platform.machine()}"
+    return f"{version}-{version}-{system}"
 
 
 def _build(folder):
@@ -40,15 +49,44 @@ def _build(folder):
                     str(os.cpu_count() or 1)], check=True)
 
 
-def _pack(build, folder):
-    wheel = pathlib.Path(folder, f"{NAME}-{VERSION}-{_tag()}.whl")
+def _libraries(module):
+    """The libraries that a module needs, and those that these need: names and paths."""
+    lines = subprocess.run(["ldd", module], check=True, stdout=subprocess.PIPE, text=True).stdout.splitlines()
+    pairs = [line.split()[:3:2] for line in lines if "=>" in line]
+    return {name: pathlib.Path(path) for name, path in sorted(pairs) if not name.startswith(OF_SYSTEM)}
+
+
+def _collect(package, folder):
+    """Copies a package and its libraries, which find each other there."""
+    shutil.copytree(package, folder / NAME)
+    (module,) = (folder / NAME).glob("_core*.so")
+    libraries = folder / f"{NAME}.libs"
+    libraries.mkdir()
+    for name, path in _libraries(module).items():
+        shutil.copy(path, libraries / name)
+        subprocess.run(["patchelf", "--set-rpath", "$ORIGIN", libraries / name], check=True)
+    subprocess.run(["strip", module], check=True)
+    subprocess.run(["patchelf", "--set-rpath", f"$ORIGIN/../{NAME}.libs", module], check=True)
+
+
+def _pack(build, folder, is_self_contained=False):
+    package = pathlib.Path(build, "python", NAME)
+    if not is_self_contained:
+        return _write(package.parent, [NAME], folder, _tag(False))
+    with tempfile.TemporaryDirectory() as collected:
+        _collect(package, pathlib.Path(collected))
+        return _write(pathlib.Path(collected), [NAME, f"{NAME}.libs"], folder, _tag(True))
+
+
+def _write(root, parts, folder, tag):
+    wheel = pathlib.Path(folder, f"{NAME}-{VERSION}-{tag}.whl")
     info = f"{NAME}-{VERSION}.dist-info"
-    files = {f"{NAME}/{file.name}": file.read_bytes()
-             for file in sorted(pathlib.Path(build, "python", NAME).iterdir()) if file.is_file()}
+    files = {f"{part}/{file.name}": file.read_bytes()
+             for part in parts for file in sorted((root / part).iterdir()) if file.is_file()}
     files[f"{info}/METADATA"] = METADATA.encode()
     files[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
     files[f"{info}/WHEEL"] = (f"Wheel-Version: 1.0\nGenerator: {NAME}\nRoot-Is-Purelib: false\n"
-                              f"Tag: {_tag()}\n").encode()
+                              f"Tag: {tag}\n").encode()
     record = ""
     for name, content in files.items():
         digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
@@ -70,7 +108,9 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) == 3:
+    if sys.argv[1] == "--self-contained":
+        print(_pack(sys.argv[3], sys.argv[2], True))
+    elif len(sys.argv) == 3:
         print(_pack(sys.argv[2], sys.argv[1]))
     else:
         print(build_wheel(sys.argv[1]))

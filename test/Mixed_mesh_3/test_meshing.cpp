@@ -657,6 +657,11 @@ void test_exchange(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& d
   run(domain, front, Mixed_mesh_criteria_3(660).tolerance(2), with);
   run(domain, front, Mixed_mesh_criteria_3(660).tolerance(2).exchange_vertices(false), without);
   BOOST_TEST(content(with) == content(without));
+  // Whatever vertices are removed for, the region stays.
+  Mesh usual;
+  run(domain, front, Mixed_mesh_criteria_3(660), usual);
+  BOOST_TEST_GT(double(number_in_region(with)), 0.5 * double(number_in_region(usual)));
+  BOOST_TEST_GT(quality_statistics(with)[HEXAHEDRON].count, 0u);
 
   // where it is not done
   const std::vector<Mixed_mesh_criteria_3> others = {Mixed_mesh_criteria_3(2600),

@@ -12,8 +12,11 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/boundary/split_by_order.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/coarsen.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/make_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/thin_cells.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 
 #include <algorithm>
 #include <array>
@@ -125,6 +128,51 @@ inline Core_mesh assembled_mesh(const Meshing_state& s)
   return assembled_mesh(s.octree, s.best);
 }
 
+/// The mesh with its elements split into tetrahedra, but for hexahedra in the region and near it, and for
+/// elements between these. Both sides of a face agree, as in the boundary stage.
+/// \param radius of the weights that tell what is near
+inline Core_mesh split_far_elements(const Core_mesh& mesh, double radius)
+{
+  // With 0.1, a fifth fewer hexahedra are left of 2,000 vertices; errors are the same.
+  constexpr double least_weight = 0.03;
+  const std::vector<double> weights = weights_of_vertices(
+    Working_mesh(mesh, std::vector<Stratum>(mesh.number_of_vertices(), free_stratum)), radius);
+  std::vector<bool> is_kept(mesh.number_of_vertices(), false);
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
+    const Element_view element = mesh.element(e);
+    if(element.kind() == HEXAHEDRON && std::all_of(element.begin(), element.end(), [&](Vertex_index v) {
+         return weights[v] > least_weight;
+       }))
+      for(Vertex_index v : element)
+        is_kept[v] = true;
+  }
+  const auto is_kept_vertex = [&](Vertex_index v) { return bool(is_kept[v]); };
+  const auto rank = [&](Vertex_index v) { return std::make_pair(is_kept_vertex(v), v); };
+  Core_mesh result;
+  result.points() = mesh.points();
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
+    const Element_view element = mesh.element(e);
+    const auto add = [&](Element_kind kind, const std::array<Vertex_index, 5>& v) {
+      result.add_element(kind, &v[0], mesh.attributes(e));
+    };
+    if(std::all_of(element.begin(), element.end(), is_kept_vertex))
+      result.add_element(element.kind(), element.begin(), mesh.attributes(e));
+    else
+      split_element(element, rank, is_kept_vertex, add);
+  }
+  return result;
+}
+
+/// The mesh of the octree, on the lattice, in which elements far from the region may be coarsened: those of
+/// the region stay, whatever is coarsened for.
+inline Core_mesh mesh_to_coarsen(const Meshing_state& s)
+{
+  const Core_mesh assembled = assembled_mesh(s);
+  return s.criteria.only_tetrahedra() || s.root.is_region_everywhere()
+           ? split_to_tetrahedra(assembled)
+           : split_far_elements(assembled, s.graded_radius());
+}
+
 /// Brings most of the boundary of a mesh onto the surface.
 inline void fit_roughly(Meshing_state& s, Core_mesh& mesh)
 {
@@ -183,7 +231,7 @@ inline void make_coarsened_mesh(Meshing_state& s, Core_mesh& mesh)
   describe_octree(s);
   if(!s.result.has_mesh())
     return;
-  Core_mesh fine = split_to_tetrahedra(assembled_mesh(s));
+  Core_mesh fine = mesh_to_coarsen(s);
   fit_roughly(s, fine);
   const Mixed_mesh_result_3 result = s.result;
   coarsen_and_optimize(s, fine, s.budget(), Coarsening_goal::SHAPE, mesh);

@@ -12,18 +12,12 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
-#include <CGAL/Mixed_mesh_3/internal/boundary/split_by_order.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/coarsen.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/coarsen_to_budget.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/fill_budget.h>
-#include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -44,45 +38,11 @@ inline bool may_exchange_vertices(const Meshing_state& s)
          && s.best.is_good() && c.maximal_number_of_vertices() <= largest_budget;
 }
 
-/// The mesh with its elements split into tetrahedra, but for hexahedra in the region and near it, and for
-/// elements between these. Both sides of a face agree, as in the boundary stage.
-/// \param radius of the weights that tell what is near
-inline Core_mesh split_far_elements(const Core_mesh& mesh, double radius)
-{
-  // With 0.1, a fifth fewer hexahedra are left of 2,000 vertices; errors are the same.
-  constexpr double least_weight = 0.03;
-  const std::vector<double> weights = weights_of_vertices(
-    Working_mesh(mesh, std::vector<Stratum>(mesh.number_of_vertices(), free_stratum)), radius);
-  std::vector<bool> is_kept(mesh.number_of_vertices(), false);
-  for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
-    const Element_view element = mesh.element(e);
-    if(element.kind() == HEXAHEDRON && std::all_of(element.begin(), element.end(), [&](Vertex_index v) {
-         return weights[v] > least_weight;
-       }))
-      for(Vertex_index v : element)
-        is_kept[v] = true;
-  }
-  const auto is_kept_vertex = [&](Vertex_index v) { return bool(is_kept[v]); };
-  const auto rank = [&](Vertex_index v) { return std::make_pair(is_kept_vertex(v), v); };
-  Core_mesh result;
-  result.points() = mesh.points();
-  for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
-    const Element_view element = mesh.element(e);
-    const auto add = [&](Element_kind kind, const std::array<Vertex_index, 5>& v) {
-      result.add_element(kind, &v[0], mesh.attributes(e));
-    };
-    if(std::all_of(element.begin(), element.end(), is_kept_vertex))
-      result.add_element(element.kind(), element.begin(), mesh.attributes(e));
-    else
-      split_element(element, rank, is_kept_vertex, add);
-  }
-  return result;
-}
-
 /// Makes a mesh from an octree that has more vertices than the budget: edges are collapsed where that adds
 /// least to the error in the region.
-/// \return whether the mesh is made, and nothing is wrong with it; otherwise the state is as before
-inline bool exchange_vertices(Meshing_state& s, Core_mesh& mesh, Misfit& misfit)
+/// \param exchanged has no mesh; gets one if nothing is wrong with it, but for its distance
+/// \return whether it is near to the surface, too; otherwise the state is as before
+inline bool exchange_vertices(Meshing_state& s, Best_mesh& exchanged)
 {
   // Power of the budget: the vertices between cells of different size grow like it. 76 of 660, 160 of 2,000.
   // With half as many again, errors of smooth displacements are larger by a tenth, others the same.
@@ -103,25 +63,30 @@ inline bool exchange_vertices(Meshing_state& s, Core_mesh& mesh, Misfit& misfit)
   describe_octree(s);
   Core_mesh result;
   if(s.result.status == Mixed_mesh_status::SUCCESS && !s.is_stopped) {
-    const Core_mesh assembled = assembled_mesh(s);
-    Core_mesh fine = s.criteria.only_tetrahedra() ? split_to_tetrahedra(assembled)
-                                                  : split_far_elements(assembled, s.graded_radius());
+    Core_mesh fine = mesh_to_coarsen(s);
     fit_roughly(s, fine);
     const std::size_t bisections = std::size_t(times_bisections * s.share_of_bisections() * double(n));
     coarsen_and_optimize(s, fine, n - bisections, Coarsening_goal::REGION, result);
   }
   const Misfit of_result = s.misfit_of(result);
+  const bool is_right = s.result.has_mesh() && result.number_of_vertices() > 0
+                        && (s.result.is_kept || of_result.is_right());
+  if(is_right)
+    exchanged = {of_result, s.result, std::move(result)};
   const bool is_near = s.result.tolerance == 0
                        || s.result.optimization.largest_distance <= tolerated_distance * s.result.tolerance;
-  const bool is_wanted = s.result.has_mesh() && result.number_of_vertices() > 0
-                         && (s.result.is_kept || (of_result.is_right() && is_near));
-  if(!is_wanted) {
-    s.restore(std::move(before));
-    return false;
-  }
-  mesh = std::move(result);
-  misfit = of_result;
-  return true;
+  if(is_right && (is_near || s.result.is_kept))
+    return true;
+  s.restore(std::move(before));
+  return false;
+}
+
+/// Whether a mesh of exchanged vertices is nearer to the surface than another one that is not better
+/// otherwise.
+inline bool is_nearer(const Best_mesh& exchanged, const Meshing_state& s, const Misfit& misfit)
+{
+  return exchanged.mesh && !s.is_stopped && !(misfit < exchanged.misfit)
+         && exchanged.result.optimization.largest_distance < s.result.optimization.largest_distance;
 }
 
 } // namespace internal

@@ -21,6 +21,7 @@
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
 #include <CGAL/Mixed_mesh_3/quality_bound.h>
 
+#include <optional>
 #include <utility>
 
 namespace CGAL {
@@ -79,13 +80,20 @@ inline void run_within_budget(Meshing_state& s, Core_mesh& mesh, Misfit& misfit)
   }
   if(s.may_resolve_thin_parts() && resolve_topology(s, mesh, misfit))
     return;
-  if(may_exchange_vertices(s) && exchange_vertices(s, mesh, misfit))
-    return;
-  make_mesh(s, mesh);
-  misfit = s.misfit_of(mesh);
-  retry_far_places(s, mesh, misfit);
-  if(s.may_resolve_thin_parts())
-    improve_thin_parts(s, mesh, misfit);
+  Best_mesh exchanged{Misfit::without_mesh(), s.result, std::nullopt};
+  const bool is_exchanged = may_exchange_vertices(s) && exchange_vertices(s, exchanged);
+  if(!is_exchanged) {
+    make_mesh(s, mesh);
+    misfit = s.misfit_of(mesh);
+    retry_far_places(s, mesh, misfit);
+    if(s.may_resolve_thin_parts())
+      improve_thin_parts(s, mesh, misfit);
+  }
+  if(is_exchanged || is_nearer(exchanged, s, misfit)) {
+    s.result = exchanged.result;
+    misfit = exchanged.misfit;
+    mesh = std::move(*exchanged.mesh);
+  }
 }
 
 /// Share of vertices off the surfaces of several subdomains up to which a mesh is taken at once: near curves

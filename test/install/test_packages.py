@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Debian packages hold what they should, each file once, and what they hold runs.
+
+  test_packages.py CPACK BUILD DATA WORK PACKAGE...
+
+PACKAGE are the names of the packages. `scripts/package.sh --try` installs them in a bare Debian.
+"""
+
+import pathlib
+import shutil
+import subprocess
+import sys
+
+cpack, build, data, work = sys.argv[1], *map(pathlib.Path, sys.argv[2:5])
+names = set(sys.argv[5:])
+LIBRARIES = {"mixed-mesh-3": "libgmp10", "python3-mixed-mesh-3": "python3-numpy", "libmixed-mesh-3-dev": "libcgal-dev"}
+
+
+def run(*command, **options):
+    done = subprocess.run([*map(str, command)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False,
+                          **options)
+    assert done.returncode == 0, f"{command}\n{done.stdout}"
+    return done.stdout
+
+
+if not shutil.which("dpkg-shlibdeps"):
+    print("skipped: there is no dpkg-shlibdeps")
+    sys.exit(77)
+shutil.rmtree(work, ignore_errors=True)
+root = work / "root"
+root.mkdir(parents=True)
+run(cpack, "-G", "DEB", "-B", work, cwd=build)
+packages = {run("dpkg-deb", "--field", file, "Package").strip(): file for file in sorted(work.glob("*.deb"))}
+assert packages.keys() == names, packages.keys()
+owner = {}
+for name, file in packages.items():
+    depends = run("dpkg-deb", "--field", file, "Depends")
+    assert LIBRARIES.get(name, "") in depends, (name, depends)
+    for line in run("dpkg-deb", "--contents", file).splitlines():
+        path = line.split()[5]
+        if path.endswith("/"):
+            assert line.startswith("drwxr-xr-x"), line
+            continue
+        assert path.startswith("./usr/") and path not in owner, (name, path, owner.get(path))
+        owner[path] = name
+    for part in ("copyright", "changelog.gz"):
+        assert owner.get(f"./usr/share/doc/{name}/{part}") == name, (name, part)
+    run("dpkg-deb", "--extract", file, root)
+if shutil.which("lintian"):
+    run("lintian", "--fail-on", "error", "--allow-root", *packages.values())
+
+assert owner["./usr/bin/mixed_mesh_3"] == "mixed-mesh-3"
+assert owner["./usr/include/CGAL/make_mixed_mesh_3.h"] == "libmixed-mesh-3-dev"
+run(root / "usr/bin/mixed_mesh_3", data / "brain.off", "--vertices", "300", "--output", work / "brain.vtu")
+assert (work / "brain.vtu").stat().st_size > 10000
+if "python3-mixed-mesh-3" in names:
+    folder = root / "usr/lib/python3/dist-packages"
+    told = run("/usr/bin/python3", "-c", "import mixed_mesh_3 as m; print(m.__file__, *m.example_data())",
+               env={"PYTHONPATH": str(folder), "PATH": "/usr/bin:/bin"})
+    assert told.startswith(str(folder)) and "brain" in told, told
+print(f"{len(packages)} packages with {len(owner)} files")
