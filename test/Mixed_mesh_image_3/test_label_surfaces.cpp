@@ -218,10 +218,35 @@ void test_interfaces_of_domain()
   }
 }
 
+// Balls of different sizes that do not touch keep their volumes, too: each meets the outside at a level of its
+// own. Of a voxel alone nothing is left.
+void test_separate_labels()
+{
+  constexpr std::array<std::array<double, 4>, 4> balls{
+    {{8, 8, 8, 5.2}, {20, 8, 9, 3.1}, {9, 20, 10, 2.6}, {22, 22, 12, 0.5}}}; // center, radius
+  std::array<std::size_t, 4> number{};
+  const Voxel_image_3 image = image_of({30, 30, 20}, identity, [&](const Voxel& p) {
+    for(std::size_t l = 0; l < 4; ++l)
+      if(std::hypot(p[0] - balls[l][0], p[1] - balls[l][1], p[2] - balls[l][2]) <= balls[l][3]) {
+        ++number[l];
+        return float(l + 1);
+      }
+    return 0.f;
+  });
+  const std::vector<Surface> surfaces = surfaces_of(image, 4, 1);
+  for(std::size_t l = 0; l < 3; ++l) {
+    BOOST_TEST(is_manifold(surfaces[l + 1]));
+    BOOST_TEST_LE(std::abs(PMP::volume(surfaces[l + 1]) / double(number[l]) - 1), 0.015);
+  }
+  BOOST_TEST_EQ(number[3], 1u);
+  BOOST_TEST(surfaces[4].is_empty());
+}
+
 int run(int, char*[])
 {
   test_random_labels();
   test_layer();
+  test_separate_labels();
   test_interfaces_of_domain();
   return boost::report_errors();
 }
