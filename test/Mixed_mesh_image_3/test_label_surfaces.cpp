@@ -218,8 +218,8 @@ void test_interfaces_of_domain()
   }
 }
 
-// Balls of different sizes that do not touch keep their volumes, too: each meets the outside at a level of its
-// own. Of a voxel alone nothing is left.
+// Balls of different sizes that do not touch keep their volumes, too: each meets the outside at a level of
+// its own. Of a voxel alone nothing is left.
 void test_separate_labels()
 {
   constexpr std::array<std::array<double, 4>, 4> balls{

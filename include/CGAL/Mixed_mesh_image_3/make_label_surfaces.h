@@ -42,9 +42,10 @@ The indicator of each label is smoothed by a Gaussian, as by `make_label_surface
 the sum of all is large enough, and belongs to the label with the largest value then (Stalling, Z&ouml;ckler,
 Hege: Segmentation of 3D medical images with subvoxel accuracy, 1998), after numbers have been added to the
 labels such that each has the volume of its voxels, inside as well, where half of them count: so a layer of
-one voxel keeps its thickness, and a ball its volume, beside larger ones. Each cube between eight centers of voxels is split into six tetrahedra, in which labels are
-separated at places of equal values; where three or more meet, at a point in the tetrahedron. Labels that
-touch between diagonal voxels only do not touch there: a layer of one voxel has few gaps.
+one voxel keeps its thickness, and a ball its volume, beside larger ones. Each cube between eight centers of
+voxels is split into six tetrahedra, in which labels are separated at places of equal values; where three or
+more meet, at a point in the tetrahedron. Labels that touch between diagonal voxels only do not touch there: a
+layer of one voxel has few gaps.
 
 So each surface is a closed oriented 2-manifold, and no two triangles of any surfaces meet in more than their
 common vertices and edges: `Labeled_polyhedral_mixed_mesh_domain_3` has neither gaps nor overlaps then, and

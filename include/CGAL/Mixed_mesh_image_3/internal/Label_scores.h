@@ -32,8 +32,8 @@ namespace internal {
 using Label_number = std::uint16_t;
 
 /// A box of voxels of an image, with 0 at its border, and the smoothed indicators of several labels. A voxel
-/// is inside where the sum of all is large enough, so that there is no groove where two of them meet the outside;
-/// and has the label with the best score there.
+/// is inside where the sum of all is large enough, so that there is no groove where two of them meet the
+/// outside; and has the label with the best score there.
 class Label_scores : public Voxel_box
 {
   static constexpr float infinity = std::numeric_limits<float>::infinity();
