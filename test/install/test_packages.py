@@ -24,9 +24,10 @@ def run(*command, **options):
     return done.stdout
 
 
-if not shutil.which("dpkg-shlibdeps"):
-    print("skipped: there is no dpkg-shlibdeps")
-    sys.exit(77)
+for tool in ("dpkg-shlibdeps", "file"):
+    if not shutil.which(tool):
+        print(f"skipped: there is no {tool}")
+        sys.exit(77)
 shutil.rmtree(work, ignore_errors=True)
 root = work / "root"
 root.mkdir(parents=True)
