@@ -130,7 +130,7 @@ inline Core_mesh assembled_mesh(const Meshing_state& s)
 
 /// The mesh with its elements split into tetrahedra, but for hexahedra in the region and near it, and for
 /// elements between these. Both sides of a face agree, as in the boundary stage.
-/// \param radius of the weights that tell what is near
+/// \param radius of the weights that tell what is near; 0: nothing outside the region is
 inline Core_mesh split_far_elements(const Core_mesh& mesh, double radius)
 {
   // With 0.1, a fifth fewer hexahedra are left of 2,000 vertices; errors are the same.
@@ -140,9 +140,11 @@ inline Core_mesh split_far_elements(const Core_mesh& mesh, double radius)
   std::vector<bool> is_kept(mesh.number_of_vertices(), false);
   for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
     const Element_view element = mesh.element(e);
-    if(element.kind() == HEXAHEDRON && std::all_of(element.begin(), element.end(), [&](Vertex_index v) {
-         return weights[v] > least_weight;
-       }))
+    const bool is_near = mesh.attributes(e).is_in_region
+                         || (radius > 0 && std::all_of(element.begin(), element.end(), [&](Vertex_index v) {
+                               return weights[v] > least_weight;
+                             }));
+    if(element.kind() == HEXAHEDRON && is_near)
       for(Vertex_index v : element)
         is_kept[v] = true;
   }
@@ -163,12 +165,12 @@ inline Core_mesh split_far_elements(const Core_mesh& mesh, double radius)
   return result;
 }
 
-/// The mesh of the octree, on the lattice, in which elements far from the region may be coarsened: those of
-/// the region stay, whatever is coarsened for.
-inline Core_mesh mesh_to_coarsen(const Meshing_state& s)
+/// The mesh of the octree, on the lattice, as it is coarsened.
+/// \param keeps_region whether elements in the region and near it stay
+inline Core_mesh mesh_to_coarsen(const Meshing_state& s, bool keeps_region)
 {
   const Core_mesh assembled = assembled_mesh(s);
-  return s.criteria.only_tetrahedra() || s.root.is_region_everywhere()
+  return !keeps_region || s.criteria.only_tetrahedra() || s.root.is_region_everywhere()
            ? split_to_tetrahedra(assembled)
            : split_far_elements(assembled, s.graded_radius());
 }
@@ -224,14 +226,15 @@ inline void coarsen_and_optimize(Meshing_state& s, const Core_mesh& fine, std::s
 /// Makes the mesh of an octree that is finer than the budget: once its boundary is on the surface, vertices
 /// are removed until the budget is met, by a rule that keeps the volume if one that keeps the shape has lost
 /// too much of it.
-inline void make_coarsened_mesh(Meshing_state& s, Core_mesh& mesh)
+/// \param keeps_region whether elements in the region and near it stay
+inline void make_coarsened_mesh(Meshing_state& s, bool keeps_region, Core_mesh& mesh)
 {
   mesh.clear();
   s.make_best_again();
   describe_octree(s);
   if(!s.result.has_mesh())
     return;
-  Core_mesh fine = mesh_to_coarsen(s);
+  Core_mesh fine = mesh_to_coarsen(s, keeps_region);
   fit_roughly(s, fine);
   const Mixed_mesh_result_3 result = s.result;
   coarsen_and_optimize(s, fine, s.budget(), Coarsening_goal::SHAPE, mesh);
@@ -256,6 +259,7 @@ struct Best_mesh
   Misfit misfit;
   Mixed_mesh_result_3 result;
   std::optional<Core_mesh> mesh; // none if the first one is best
+  bool keeps_region = false;     // while meshes are coarsened
 
   /// Makes the mesh of the octree, and takes it if it is better.
   /// \param is_finer whether the octree is finer than the budget
@@ -263,7 +267,7 @@ struct Best_mesh
   {
     Core_mesh other;
     if(is_finer)
-      make_coarsened_mesh(s, other);
+      make_coarsened_mesh(s, keeps_region, other);
     else
       make_mesh(s, other);
     const Misfit of_other = s.misfit_of(other);
@@ -306,7 +310,8 @@ inline void improve_by_finer_octree(Meshing_state& s, Core_mesh& mesh, Misfit& m
   if(!refine_to_level(start, s.coarsest_level(), most))
     return;
   const Mixed_mesh_result_3 result_before = s.result;
-  Best_mesh best{misfit, s.result, std::nullopt};
+  // Vertices off the surface and far places are no reason to give up the region; a topology, or a volume, is.
+  Best_mesh best{misfit, s.result, std::nullopt, misfit.is_none()};
   bool is_finer = false;
   for(int trial = 0; trial < most_trials && !s.is_stopped && !best.misfit.is_right(); ++trial) {
     if(!find_finer_octree(s, start, least, most))

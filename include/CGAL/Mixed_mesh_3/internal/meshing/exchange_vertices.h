@@ -40,7 +40,7 @@ inline bool may_exchange_vertices(const Meshing_state& s)
 
 /// Makes a mesh from an octree that has more vertices than the budget: edges are collapsed where that adds
 /// least to the error in the region.
-/// \param exchanged has no mesh; gets one if nothing is wrong with it, but for its distance
+/// \param exchanged has no mesh; gets one if nothing is wrong with it, but for a distance that is only wished
 /// \return whether it is near to the surface, too; otherwise the state is as before
 inline bool exchange_vertices(Meshing_state& s, Best_mesh& exchanged)
 {
@@ -63,7 +63,7 @@ inline bool exchange_vertices(Meshing_state& s, Best_mesh& exchanged)
   describe_octree(s);
   Core_mesh result;
   if(s.result.status == Mixed_mesh_status::SUCCESS && !s.is_stopped) {
-    Core_mesh fine = mesh_to_coarsen(s);
+    Core_mesh fine = mesh_to_coarsen(s, true);
     fit_roughly(s, fine);
     const std::size_t bisections = std::size_t(times_bisections * s.share_of_bisections() * double(n));
     coarsen_and_optimize(s, fine, n - bisections, Coarsening_goal::REGION, result);
