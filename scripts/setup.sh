@@ -25,7 +25,8 @@ packages_for() {
                 libopenblas0-serial ;; # several times faster than the reference BLAS, for CHOLMOD
     # VTK opens an X display even to render off-screen: Xvfb and Mesa's software renderer provide it.
     pictures) echo python3-vtk9 xvfb libgl1-mesa-dri ;;
-    # Peers that read back the files that we write; plastimatch deforms images by fields.
+    # Peers that read back the files that we write; plastimatch deforms images by fields. dpkg-dev and file make
+    # packages.
     tests) echo dpkg-dev file mypy plastimatch calculix-ccx python3-getfem python3-gmsh python3-meshio python3-nibabel \
                 python3-vtk9 ;;
     # An MRI image of a brain, of which data/brain.off is the surface.
