@@ -302,9 +302,9 @@ CLI::Option* add_fit(CLI::App& app, Options& o)
     ->check(number("from 0 to 100", [](double x) { return x >= 0 && x <= 100; }))
     ->type_name("G")
     ->capture_default_str();
-  app.add_flag("--no-exchange", o.no_exchange,
-               "Keep all vertices of the octree: with a budget of at most 2,500, some of those far from the "
-               "region are exchanged for vertices in it, and elements there are tetrahedra");
+  app.add_flag("--no-simplification", o.no_simplification,
+               "Keep all vertices of the octree: else a finer mesh is made first, and loses vertices by edge "
+               "collapses; elements at the surface are tetrahedra then, and all are without a region");
   CLI::Option* no_fit = app.add_flag("--no-fit", o.no_fit,
                                      "Leave boundary vertices where the octree has them");
   CLI::Option* no_optimize =

@@ -52,7 +52,7 @@ Json describe(const Options& o)
                   o.templates == mm3::Transition_templates_choice::CENTERED ? "centered" : "fewest"},
                  {"fit", fit_names[int(o.fit())]},
                  {"grading", o.grading},
-                 {"exchange", !o.no_exchange},
+                 {"simplification", !o.no_simplification},
                  {"time limit", std::isfinite(o.time_limit) ? Json(o.time_limit) : Json()},
                  {"tolerance", o.tolerance > 0 ? Json(o.tolerance) : Json("automatic")},
                  {"max ARC", o.has_quality_bound() ? Json(o.largest_arc) : Json()},

@@ -117,7 +117,7 @@ Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3
                     .fit_to_surface(o.fit() == Fit::OPTIMIZATION)
                     .base_level(o.base_level)
                     .grading(o.grading)
-                    .exchange_vertices(!o.no_exchange)
+                    .simplification(!o.no_simplification)
                     .boundary_mode(o.mode)
                     .root_cell(o.root)
                     .transition_templates(o.templates)

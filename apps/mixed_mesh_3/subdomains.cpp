@@ -90,6 +90,14 @@ std::vector<std::optional<double>> expected_volumes(const std::vector<Subdomain>
   return volumes;
 }
 
+// Whether the volume is that of the surface, as far as that is known.
+bool has_right_volume(const Subdomain_outcome& s)
+{
+  return s.elements > 0
+         && (!s.volume_of_surface
+             || std::abs(s.volume / *s.volume_of_surface - 1) <= tolerated_change_of_volume);
+}
+
 void warn_of(const Subdomain_outcome& s, const Options& o, std::vector<std::string>& warnings)
 {
   const std::string named = "the subdomain " + s.name;
@@ -98,7 +106,7 @@ void warn_of(const Subdomain_outcome& s, const Options& o, std::vector<std::stri
       named + ", of volume "
       + volume_with_unit(s.volume_of_surface.value_or(s.surface.volume), o.is_in_patient_space())
       + ", is lost: too small for the cells; try more vertices than " + std::to_string(o.vertices));
-  else if(s.volume_of_surface && std::abs(s.volume / *s.volume_of_surface - 1) > tolerated_change_of_volume)
+  else if(!has_right_volume(s))
     warnings.push_back(named + " has a volume of " + volume_with_unit(s.volume, o.is_in_patient_space())
                        + ", " + percent(std::abs(s.volume / *s.volume_of_surface - 1))
                        + (s.volume < *s.volume_of_surface ? " less" : " more")
@@ -217,6 +225,10 @@ void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vecto
       outcome.result.status = mm3::worse_status(outcome.result.status, CGAL::Mixed_mesh_status::PARTS_LOST);
     outcome.subdomains.push_back(std::move(s));
   }
+  if(options.fit() != Fit::NONE)
+    outcome.checks_of_fidelity.push_back(
+      {"volume of each subdomain within 5 % of its surface's",
+       std::all_of(outcome.subdomains.begin(), outcome.subdomains.end(), has_right_volume)});
   for(const mm3::Subdomain_interface& one : mm3::find_interfaces(mesh)) {
     const Interface_outcome i{name_of(subdomains, one.first),
                               name_of(subdomains, one.second),

@@ -19,7 +19,7 @@ What is there is used again, but for our meshes. Mesh_3's are made with a growth
 tries others, and regions of another scale. Each column has the best of the settings in WORK. Each mesh is
 solved with standard elements, which lock, and with the elements of Linear_elasticity_3, whose displacement is also
 recovered between vertices. --adapt adapts the meshes of both to the bump first, by adapt_mixed_mesh_3(). OPTIONS are some
-of mixed_mesh_3, as --options=--no-exchange. --orders compares orders of our displacements instead, on our meshes and on
+of mixed_mesh_3, as --options=--no-simplification. --orders compares orders of our displacements instead, on our meshes and on
 Mesh_3's, each column with the best of the settings again. WORK is for one Poisson's ratio. The summary has the mean and the worst error of all regions, before and after
 adaptation, and whether they fall with N. The plot needs matplotlib (Debian: python3-matplotlib).
 """

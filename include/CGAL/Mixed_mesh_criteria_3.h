@@ -116,20 +116,19 @@ public:
     return !m_fit_to_surface ? 0 : number_of_subdomains > 1 ? 0.12 : 0.08;
   }
 
-  /// Sets whether vertices far from the region may be exchanged for vertices in it: the octree takes more
-  /// vertices than the budget, as many as its power of 2/3, and edges of tetrahedra are collapsed where that
-  /// adds least to the error in the region (`Mixed_mesh_result_3::number_of_collapsed_vertices`). Elements
-  /// far from the region are tetrahedra then. It is done for budgets of at most 2,500 vertices, with which
-  /// base level and balance of the octree take most vertices outside the region; not without a region,
-  /// without `fit_to_surface()`, with a given base level, with a grading of 0, with subdomains or sheets, or
-  /// where walls are resolved first; and not if something would be wrong with the mesh. Default: yes.
-  Mixed_mesh_criteria_3& exchange_vertices(bool exchange)
+  /// Sets whether the mesh may begin with more vertices than the budget, and lose those by edge collapses
+  /// whose loss is least (`Mixed_mesh_result_3::number_of_collapsed_vertices`). Elements at the surface, and
+  /// without a region all of them, are tetrahedra then. Otherwise the octree has the vertices of the budget,
+  /// as it has without `fit_to_surface()`, with a given base level, with a region and a grading of 0, with
+  /// sheets, where walls are resolved first, and where something is wrong with the simplified mesh. Default:
+  /// yes.
+  Mixed_mesh_criteria_3& simplification(bool simplifies)
   {
-    m_exchange_vertices = exchange;
+    m_simplification = simplifies;
     return *this;
   }
   /// The value set, or the default.
-  bool exchange_vertices() const { return m_exchange_vertices; }
+  bool simplification() const { return m_simplification; }
 
   /// Sets the shape of the root, hence of all cells. Default: a cube.
   Mixed_mesh_criteria_3& root_cell(Mixed_meshes_3::Root_cell root)
@@ -267,7 +266,7 @@ private:
     Mixed_meshes_3::Transition_templates_choice::FEWEST_VERTICES;
   Mixed_meshes_3::Boundary_mode m_boundary_mode = Mixed_meshes_3::Boundary_mode::VERTEX_ORDER;
   Mixed_meshes_3::Thin_parts m_thin_parts = Mixed_meshes_3::Thin_parts::WHERE_NEEDED;
-  bool m_exchange_vertices = true, m_fit_to_surface = true, m_only_tetrahedra = false,
+  bool m_simplification = true, m_fit_to_surface = true, m_only_tetrahedra = false,
        m_keep_mesh_if_stopped = false, m_fewest_vertices = false, m_is_quality_bound_strict = false;
   double m_grading = 0.35;
   double m_share_of_bisections = automatic;

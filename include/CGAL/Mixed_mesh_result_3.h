@@ -121,16 +121,16 @@ struct Mixed_mesh_result_3
   /// The approximate number of vertices that thin walls and narrow gaps take, if these were resolved first;
   /// else 0.
   std::size_t number_of_vertices_for_thin_parts = 0;
-  /// The number of vertices removed by edge collapses: where vertices are exchanged
-  /// (`Mixed_mesh_criteria_3::exchange_vertices()`), and where the mesh is made of a finer one, all of
-  /// tetrahedra: without a region, or because the topology takes more vertices than the budget. The numbers
-  /// of cells and octree are then those of the finer mesh.
+  /// The number of vertices removed by edge collapses, where the mesh is made of a finer one
+  /// (`Mixed_mesh_criteria_3::simplification()`, or because the topology takes more vertices than the
+  /// budget). The numbers of cells and octree are then those of the finer mesh.
   std::size_t number_of_collapsed_vertices = 0;
   /// The largest distance between boundary and surface: the tolerance of the criteria, or, if the criteria
   /// leave it open, the default for this domain and budget.
   double tolerance = 0;
   /// The number of vertices that the coarse mesh (of the base level, and finer where the tolerance asks for
-  /// it, without the region) takes of the budget; 0 without a tolerance.
+  /// it, without the region) takes of the budget; 0 without a tolerance, and where the mesh is made of a finer
+  /// one.
   std::size_t number_of_vertices_for_tolerance = 0;
   /// The shells of the domain's surface, `MixedMeshDomain_3::shells()`. Nothing if the domain does not tell:
   /// then topology and volume of the mesh have not been compared.

@@ -197,7 +197,7 @@ py::list sheets_of(const Mesh& mesh, const Domain& domain, std::vector<std::stri
 std::pair<std::shared_ptr<Mesh>, py::dict>
 make_mesh(const Soup& soup, const std::vector<Weighted_soup>& regions,
           const std::vector<Labeled_soup>& subdomains, std::size_t vertices, bool fewest_vertices,
-          double tolerance, double grading, bool exchange, std::optional<int> base_level,
+          double tolerance, double grading, bool simplification, std::optional<int> base_level,
           double quality_bound, double sharp_angle, const Progress& progress, const std::vector<Soup>& sheets,
           double time_limit, std::optional<std::size_t> threads)
 {
@@ -234,7 +234,7 @@ make_mesh(const Soup& soup, const std::vector<Weighted_soup>& regions,
   auto criteria = CGAL::Mixed_mesh_criteria_3(vertices)
                     .fewest_vertices(fewest_vertices)
                     .grading(grading)
-                    .exchange_vertices(exchange)
+                    .simplification(simplification)
                     .quality_bound(quality_bound)
                     .sharp_angle(sharp_angle)
                     .keep_mesh_if_stopped(true);

@@ -522,7 +522,7 @@ void test_visitor()
 {
   const Domain_archetype domain(0);
   const Region_archetype region(0);
-  const auto criteria = CGAL::Mixed_mesh_criteria_3(700).tolerance(0).exchange_vertices(false);
+  const auto criteria = CGAL::Mixed_mesh_criteria_3(700).tolerance(0).simplification(false);
   CGAL::Mixed_mesh_3<Mesh_traits_archetype> mesh;
 
   Visitor_archetype patient(0);

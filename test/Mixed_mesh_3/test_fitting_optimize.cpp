@@ -317,7 +317,7 @@ void test_brain(const Test_surface& brain, const Test_surface& region_surface)
   const Polyhedral_mixed_mesh_domain_3 domain(brain);
   const Polyhedral_mixed_mesh_region_3 region(region_surface);
   Mesh before, mesh;
-  const auto plain = Mixed_mesh_criteria_3(660).tolerance(0).share_of_bisections(0).exchange_vertices(false);
+  const auto plain = Mixed_mesh_criteria_3(660).tolerance(0).share_of_bisections(0).simplification(false);
   make_mixed_mesh_3(domain, region, Mixed_mesh_criteria_3(plain).fit_to_surface(false), before);
   const auto made = make_mixed_mesh_3(domain, region, plain, mesh);
   BOOST_TEST(made.status == CGAL::Mixed_mesh_status::SUCCESS);

@@ -134,11 +134,11 @@ class Febio(unittest.TestCase):
         shutil.rmtree(WORK, ignore_errors=True)
         WORK.mkdir(parents=True)
         cls.tetrahedra, cls.mixed = WORK / "tetrahedra.vtu", WORK / "mixed.vtu"
-        cls.mesh(DATA / "brain.off", "--region", DATA / "region.off", "--vertices", 300, "--tetrahedra", "--output",
-                 cls.tetrahedra)
+        cls.mesh(DATA / "brain.off", "--region", DATA / "region.off", "--vertices", 300, "--no-simplification",
+                 "--tetrahedra", "--output", cls.tetrahedra)
         cls.box, cls.tumor = cls.file("box.off", off(moved(CUBE, 60), TRIANGLES)), cls.cube("tumor.off", 14, 8)
         cls.mesh(cls.box, "--subdomain", f"tumor={cls.tumor}", "--region", cls.cube("region.off", 20, 5), "--vertices",
-                 600, "--output", cls.mixed)
+                 600, "--no-simplification", "--output", cls.mixed)
         cls.points = DATA / "control_points.csv"
         cls.point = cls.file("point.csv", HEADER + "40,40,60,0.2,0,-0.5\n")
         cls.small = cls.times(0.05, "small.csv")  # inverts no element of order 2

@@ -200,7 +200,7 @@ class Supports(Case):
         """The skull stops the brain, and does not hold it: between free and sliding."""
         width, middle = 60, VALUES[:, :3].mean(0)
         opening = self.file("opening_of_contact.off", cube_off(middle, width))
-        common = (self.mesh, "--control-points", self.points, "--control-radius", 8, "--fixed-below", 0.05,
+        common = (self.mesh, "--control-points", self.points, "--control-radius", 8, "--fixed-below", 0.1,
                   "--opening", opening, "--order", 1) # contact needs it
         free, _ = self.succeeds(*common)
         sliding, _ = self.succeeds(*common, "--slide", "skull")

@@ -55,7 +55,7 @@ class Tissue(Case):
     def test_order(self):
         """Order 2 is the default with a radius, unless what is asked for needs order 1; files have the middles of edges
         if asked."""
-        run = lambda *more: self.succeeds(self.mesh, "--control-points", self.points, "--control-radius", 8, *more)
+        run = lambda *more: self.succeeds(self.mesh, "--control-points", self.points, "--control-radius", 12, *more)
         default, out = run("--output", WORK / "default.vtu")
         quadratic, _ = run("--order", 2, "--output", WORK / "quadratic.vtu", "--output-order", 2)
         linear, told = run("--order", 1, "--output", WORK / "linear.vtu", "--output-order", 2)
@@ -244,7 +244,7 @@ class Tissue(Case):
                 self.fails(self.mesh, "--control-points", self.points, "--tumor", path, names=path, words=words)
         self.fails(self.mesh, "--control-points", self.points, "--tumor", WORK / "none.off", names="none.off",
                    words="No such file")
-        turned = self.file("turned.off", cube_off((10, 84, 10), 22))  # at the back of the brain, in LPS
+        turned = self.file("turned.off", cube_off((10, 85, 8), 22))  # at the back of the brain, in LPS
         self.fails(self.mesh, "--control-points", self.points, "--tumor", turned, names=turned, words="x and y negated")
         self.assertEqual(self.shift(self.mesh, "--control-points", self.points, "--tumor", turned, "--space",
                                     "LPS").returncode, 0)

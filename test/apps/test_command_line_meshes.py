@@ -50,7 +50,7 @@ class Meshes(Case):
         self.assertIn("TYPE=C3D10,", (WORK / "quadratic.inp").read_text())
 
         def refused(*words):
-            run = self.mesher(DATA / "brain.off", "--region", DATA / "region.off", "--vertices", 660, "--no-exchange", *words)
+            run = self.mesher(DATA / "brain.off", "--region", DATA / "region.off", "--vertices", 660, "--no-simplification", *words)
             return run.returncode, run.stderr.strip().split("\n")[-1]
 
         for name, words in (("a.mesh", "elements of order 2 can be written to .vtu, .msh, .msh2, .inp and .feb only"),
@@ -262,6 +262,8 @@ class Meshes(Case):
         self.assertTrue(told["tolerance"]["reached"])
         self.assertTrue(0 < told["tolerance"]["largest distance"] <= 8)
         self.assertEqual(told["tolerance"]["largest distance"], told["surface"]["Hausdorff distance"]["distance"])
+        told, run = self.brain("--tolerance", 8, "--no-simplification") # the octree has to serve it
+        self.assertEqual((told["status"], run.stderr), ("success", ""))
         self.assertTrue(0 < told["tolerance"]["vertices of the mesh as coarse as it allows"] <= 660)
         told, run = self.brain("--tolerance", 1, vertices=300)
         self.assertEqual(told["status"], "tolerance not reached")
@@ -278,7 +280,7 @@ class Meshes(Case):
         default, _ = self.brain()
         self.assertEqual(default["quality"], told[0.35]["quality"])
         # the gentler, the fewer vertices are left for the region
-        octree, _ = self.brain("--grading", 2, "--no-exchange")
+        octree, _ = self.brain("--grading", 2, "--no-simplification")
         self.assertGreater(told[0]["mesh"]["vertices in region"], octree["mesh"]["vertices in region"])
         self.assertGreater(told[2]["mesh"]["vertices in region"], octree["mesh"]["vertices in region"])
         self.assertEqual(octree["octree"]["vertices collapsed"], 0)

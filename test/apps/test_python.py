@@ -263,7 +263,8 @@ class Test(unittest.TestCase):
         inner = {label: (CUBE[0] * 0.3 + shift, CUBE[1]) for label, shift in ((2, 0.6), (3, 0.1))}
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            mesh, report = mm3.mesh(*CUBE, subdomains=inner, region=((0.5, 0.5, 0.5), 0.2), vertices=2000)
+            mesh, report = mm3.mesh(*CUBE, subdomains=inner, region=((0.5, 0.5, 0.5), 0.2), vertices=2000,
+                                    simplification=False)
         self.assertGreater(report["boundary vertices not on surface"], 0)
         self.assertEqual([str(w.message) for w in caught], report["warnings"])
         self.assertEqual({w.filename for w in caught}, {__file__})
@@ -305,7 +306,7 @@ class Test(unittest.TestCase):
             [ball.connectivity[a:b] for a, b, is_in in zip(ball.offsets, ball.offsets[1:], ball.in_region) if is_in]))],
             axis=1)
         self.assertLess(in_ball.min(), 20)
-        self.assertLess(in_ball.max(), 45)
+        self.assertLess(in_ball.max(), 50)
         for region, text in ((((0, 0, 0), -1), "radius"), (((0, 0), 1), "three coordinates")):
             with self.assertRaisesRegex(ValueError, text):
                 mm3.mesh(*CUBE, region=region)
@@ -716,10 +717,11 @@ class Test(unittest.TestCase):
                 self.points, self.cells, self.cell_data = points, dict(cells), cell_data
         sys.modules["meshio"] = type(sys)("meshio")
         sys.modules["meshio"].Mesh = Meshio
-        result = self.mesh.to_meshio()
-        self.assertEqual(sum(map(len, result.cells.values())), len(self.mesh.kinds))
+        mesh, _ = mm3.mesh(*BRAIN, region=REGION, vertices=660, simplification=False)
+        result = mesh.to_meshio()
+        self.assertEqual(sum(map(len, result.cells.values())), len(mesh.kinds))
         self.assertEqual([len(v) for v in result.cell_data["label"]], [len(v) for v in result.cells.values()])
-        np.testing.assert_array_equal(result.cells["wedge"], self.mesh.cells["wedge"])  # both as Gmsh has them
+        np.testing.assert_array_equal(result.cells["wedge"], mesh.cells["wedge"])  # both as Gmsh has them
 
         class Grid:
             def __init__(self, cells, types, points):

@@ -19,9 +19,9 @@ The search for the budget tries several octrees. For each of them, the calls are
 After these calls follow one `begin_stage(OCTREE)` and `end_stage(OCTREE)` for the rest of the search, and, if
 there is a mesh, the stages `ASSEMBLY` and, if the boundary is to be fitted, `OPTIMIZATION`, in which
 `go_on()` is called before each round. With a tolerance, as by default, octrees of coarse meshes come first,
-with the same calls. All of these calls repeat where more than one mesh is made: where vertices are
-exchanged or walls are resolved, octrees may have more vertices than the budget. Stages are not nested, and
-each stage ends. All calls come from the thread that called `CGAL::make_mixed_mesh_3()`.
+with the same calls. All of these calls repeat where more than one mesh is made: where the
+mesh begins finer or walls are resolved, octrees may have more vertices than the budget. Stages are not
+nested, and each stage ends. All calls come from the thread that called `CGAL::make_mixed_mesh_3()`.
 
 `CGAL::optimize_mixed_mesh_3()` and `CGAL::fit_mixed_mesh_to_surface()` call `go_on()` only.
 

@@ -328,7 +328,7 @@ def from_meshio(mesh):
 
 
 def mesh(points, triangles, *, region=None, subdomains=None, cavities=(), sheets=(), vertices=2000, tolerance=0.0,
-         grading=0.35, exchange=True, base_level=None, quality_bound=3.2, sharp_angle=50.0, time_limit=None, threads=None,
+         grading=0.35, simplification=True, base_level=None, quality_bound=3.2, sharp_angle=50.0, time_limit=None, threads=None,
          progress=None):
     """Meshes the inside of a closed surface, fine in a region of interest.
 
@@ -343,7 +343,7 @@ def mesh(points, triangles, *, region=None, subdomains=None, cavities=(), sheets
     vertices: the largest number of vertices; "auto": as few as the tolerance allows, found by five to ten meshes of up
         to 200,000 vertices.
     tolerance: the largest distance between boundary and surface, in mm; 0: a distance that the budget allows.
-    exchange: whether vertices far from the region may be exchanged for vertices in the region, with at most 2,500 vertices.
+    simplification: whether the mesh may begin finer and lose vertices by edge collapses; else it has those of an octree.
     quality_bound: the largest aspect-ratio coefficient of an element.
     time_limit: after that number of seconds, the mesh is what there is then, with the status "stopped". None: no limit.
     threads: the largest number of threads; None: as many as there are processors. The mesh is the same.
@@ -361,7 +361,7 @@ def mesh(points, triangles, *, region=None, subdomains=None, cavities=(), sheets
         _soup("surface", (points, triangles)), _regions(region),
         [(*surface, 0) for surface in _surfaces("cavity", cavities)] + parts,
         _most_vertices(vertices), vertices == "auto", _not_negative("tolerance", tolerance),
-        _not_negative("grading", grading), bool(exchange), base_level,
+        _not_negative("grading", grading), bool(simplification), base_level,
         _number("quality_bound", quality_bound, lambda x: x == 0 or x >= 1, "of at least 1, or 0 for none"),
         _number("sharp_angle", sharp_angle, lambda x: 0 <= x <= 180, "from 0 to 180"), progress,
         _surfaces("sheet", sheets),

@@ -71,7 +71,7 @@ def read_image(path: _Path) -> tuple[NDArray[np.float32], NDArray[np.float64]]: 
 def mesh(points: ArrayLike, triangles: ArrayLike, *, region: Union[None, _Region, list[_Region]] = None,
          subdomains: Optional[Mapping[Any, _Surface]] = None, cavities: Sequence[_Surface] = (),
          sheets: Sequence[_Surface] = (), vertices: Union[int, Literal["auto"]] = 2000, tolerance: float = 0.0,
-         grading: float = 0.35, exchange: bool = True, base_level: Optional[int] = None, quality_bound: float = 3.2,
+         grading: float = 0.35, simplification: bool = True, base_level: Optional[int] = None, quality_bound: float = 3.2,
          sharp_angle: float = 50.0, time_limit: Optional[float] = None, threads: Optional[int] = None,
          progress: _Progress = None) -> tuple[Mesh, _Report]: ...
 def complete_label(image: ArrayLike, affine: ArrayLike, labels: Union[None, int, Sequence[int]] = None, *,

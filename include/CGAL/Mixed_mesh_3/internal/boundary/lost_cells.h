@@ -22,6 +22,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -30,16 +31,11 @@ namespace internal {
 
 /// The leaves that meet the domain while neither they nor their neighbors have elements: the domain is
 /// thinner there than a cell.
-inline std::vector<Octree::Node_index> lost_cells(const Located_octree& located, const Lattice_mesh& mesh,
-                                                  const Boundary_pieces& boundary)
+/// \param is_meshed for each node, whether it is a leaf with elements
+inline std::vector<Octree::Node_index> lost_cells(const Located_octree& located,
+                                                  std::vector<std::uint8_t> is_meshed)
 {
   const Octree& octree = located.octree();
-  std::vector<std::uint8_t> is_meshed(octree.size(), 0);
-  for(std::size_t e = 0; e < mesh.cells.size(); ++e)
-    if(!boundary.is_replaced[e])
-      is_meshed[mesh.cells[e]] = 1;
-  for(Element_index e : boundary.origins)
-    is_meshed[mesh.cells[e]] = 1;
   for(Octree::Node_index n = Octree::Node_index(octree.size()) - 1; n > 0; --n)
     if(is_meshed[n])
       is_meshed[octree.parent(n)] = 1;
@@ -54,6 +50,19 @@ inline std::vector<Octree::Node_index> lost_cells(const Located_octree& located,
           }))
       lost.push_back(n);
   return lost;
+}
+
+/// The lost cells of a mesh on the lattice.
+inline std::vector<Octree::Node_index> lost_cells(const Located_octree& octree, const Lattice_mesh& mesh,
+                                                  const Boundary_pieces& boundary)
+{
+  std::vector<std::uint8_t> is_meshed(octree.octree().size(), 0);
+  for(std::size_t e = 0; e < mesh.cells.size(); ++e)
+    if(!boundary.is_replaced[e])
+      is_meshed[mesh.cells[e]] = 1;
+  for(Element_index e : boundary.origins)
+    is_meshed[mesh.cells[e]] = 1;
+  return lost_cells(octree, std::move(is_meshed));
 }
 
 } // namespace internal

@@ -49,15 +49,16 @@ enum class Vertex_defect : std::uint8_t {
 Removes vertices by edge collapses, those first whose loss is least.
 
 The loss of a collapse of v into w is the cube of the longest new edge, the volume in which the solution gets
-coarser, plus, on the boundary, a multiple of the volume between w and the planes of the boundary of the start
-that v and w stand for.
+coarser, times the larger one of their weights, plus, on the boundary, a multiple of the volume between w and
+the planes of the boundary of the start that v and w stand for.
 
 A vertex goes into a vertex of its own stratum or of one in its closure: a corner stays, a vertex of a sharp
 edge goes along it, as does one of a curve where interfaces of subdomains meet, one of the boundary or of an
 interface along that, one inside anywhere. A collapse keeps the topology of the mesh, of its boundary, of
 interfaces and of their curves, and of sharp edges; the boundary does not cut itself, and its faces do not
-turn far. Vertices off their places go first, those of bad elements sooner, and others go into neither. The
-meshes of fewer and fewer vertices are a sequence: those of one are among those of the one before.
+turn far. Vertices in a region, and near it, stay unless an element is above the bound. Vertices off their
+places go first, those of bad elements sooner, and others go into neither. The meshes of fewer and fewer
+vertices are a sequence: those of one are among those of the one before.
 
 \tparam Quality a model of `MixedMeshQuality_3`
 */
@@ -107,12 +108,13 @@ class Mesh_simplifier
   Interface_curves m_curves;
   std::vector<std::uint8_t> m_is_outer;           // whether a vertex is on the boundary of the domain
   std::vector<std::uint8_t> m_is_queued, m_stays; // vertices of elements other than tetrahedra stay
+  std::vector<double> m_weights;                  // of vertices; empty: all are equal
   std::vector<std::size_t> m_changed;             // number of collapses when elements of the vertex changed
   std::vector<Choice> m_choices;
   std::priority_queue<Entry> m_queue;
   std::size_t m_removed = 0;
   double m_bound = 0, m_distance = 0;
-  bool m_follows_curves = true;
+  bool m_follows_curves = true, m_keeps_region = true;
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   // Shares of the loss: vertices off their places go before all others, those of bad elements before others
@@ -124,6 +126,9 @@ class Mesh_simplifier
   // tenth farther from their surface in the mean, and the mean aspect-ratio coefficient is 1.32 instead of
   // 1.36.
   static constexpr double weight_of_surface = 400;
+  // Weight of 0.2 radii of the region. If only vertices in it stay, errors of a bump of 10,000 vertices are
+  // larger by a twentieth; if these may go, too, by a factor of 2.
+  static constexpr double weight_that_stays = 0.5;
   static constexpr double least_cosine = 0.2; // between a face and the one that takes its place
 
 public:
@@ -160,6 +165,11 @@ public:
     for(Vertex_index v = 0; v < m_stays.size(); ++v)
       m_stays[v] = m_stays[v] || m_curves.is_corner(v);
   }
+
+  /// \param weights of the volume around vertices, with a region; those in it have the weight 1
+  void set_weights(std::vector<double> weights) { m_weights = std::move(weights); }
+  /// Lets vertices in the region, and near it, go as others do.
+  void give_up_region() { m_keeps_region = false; }
 
   /// \param bound no new element costs more
   /// \param distance no place that a boundary vertex has left is farther from the boundary
@@ -223,7 +233,8 @@ private:
   // With the least loss of all candidates, which may turn out to be impossible when its turn comes.
   void push(Vertex_index v)
   {
-    if(m_mesh.incident[v].empty() || m_is_queued[v] || m_mesh.strata[v] >= m_first_corner || m_stays[v])
+    if(m_mesh.incident[v].empty() || m_is_queued[v] || m_mesh.strata[v] >= m_first_corner || m_stays[v]
+       || (m_keeps_region && !m_weights.empty() && m_weights[v] > weight_that_stays && !has_defect(v)))
       return;
     const Short_vector<Candidate> all = candidates(v);
     if(!all.empty())
@@ -290,6 +301,8 @@ private:
         longest = (std::max)(longest, dot(edge, edge));
       }
       double loss = longest * std::sqrt(longest);
+      if(!m_weights.empty())
+        loss *= (std::max)(m_weights[v], m_weights[w]);
       if(m_mesh.is_on_boundary(v)) {
         Plane_quadric quadric = m_quadrics[v];
         quadric += m_quadrics[w];

@@ -35,11 +35,13 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// For each vertex (1 + d / r)^-4, where d is its distance from the elements in the region, along edges.
+/// For each vertex (1 + d / r)^-3.6, where d is its distance from the elements in the region, along edges:
+/// times the cube of an edge h, it is (w h^5)^(3/5), where w = (1 + d / r)^-6 is the weight of an error in
+/// the octree, so that the order of cells and that of vertices are one.
 /// \param radius r; if it is 0, or no element is in the region, all have the weight 1
 inline std::vector<double> weights_of_vertices(const Working_mesh& mesh, double radius)
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity(), exponent = 4;
+  constexpr double infinity = std::numeric_limits<double>::infinity(), exponent = 3.6;
   std::vector<double> distances(mesh.points.size(), infinity);
   std::priority_queue<std::pair<double, Vertex_index>> queue; // of negative distances
   const auto reach = [&](Vertex_index v, double distance) {
@@ -70,9 +72,8 @@ inline std::vector<double> weights_of_vertices(const Working_mesh& mesh, double 
 
 /// What comes first while edges are collapsed.
 enum class Coarsening_goal : std::uint8_t {
-  SHAPE,  ///< of elements: none becomes worse than the bound
-  VOLUME, ///< elements may become some times as bad, as in thin tubes they have to: to be optimized
-  REGION  ///< as `SHAPE`, and vertices inside are removed rather than those of the boundary
+  SHAPE, ///< of elements: none becomes worse than the bound
+  VOLUME ///< elements may become some times as bad, as in thin tubes they have to: to be optimized
 };
 
 /*!
@@ -94,9 +95,7 @@ inline bool coarsen(Core_mesh& mesh, const Any_surface& surface, std::size_t num
   // With 8, tubes of 2,000 vertices lose 2.5 % more of their volume, with 40 half a percent. With 2.2 times
   // the bound, and 4,000, a knot of 2,000 vertices keeps 95.1 % of its volume instead of 91.0, and is within
   // the bound again after an optimization.
-  constexpr double weight_of_surface[] = {400, 4000, 400}, share_of_bound[] = {1, 2.2, 1};
-  // With 1, brains of 660 vertices are 6 mm from their surface instead of 5.2.
-  constexpr double weight_of_boundary[] = {1, 1, 64};
+  constexpr double weight_of_surface[] = {400, 4000}, share_of_bound[] = {1, 2.2};
   constexpr double distances[] = {0.08, 0.15, 0.3, 0.5}; // in edges of the boundary as they will be
   Strata strata(surface);
   const Interface_faces faces = strata.sorted_faces(mesh);
@@ -115,11 +114,8 @@ inline bool coarsen(Core_mesh& mesh, const Any_surface& surface, std::size_t num
                edge = sum / double(3 * boundary.size()) / std::sqrt(share);
   const Surface_projection project(surface, strata);
   const std::vector<Vec3> targets = project.places(working);
-  std::vector<double> weights = weights_of_vertices(working, radius);
-  for(Vertex_index v = 0; v < weights.size(); ++v)
-    if(working.is_on_boundary(v))
-      weights[v] *= weight_of_boundary[int(goal)];
-  Coarsener<Aspect_ratio_quality_3> coarsener(working, quality, boundary, targets, std::move(weights),
+  Coarsener<Aspect_ratio_quality_3> coarsener(working, quality, boundary, targets,
+                                              weights_of_vertices(working, radius),
                                               weight_of_surface[int(goal)],
                                               std::size_t(share * double(boundary.size())));
   std::size_t n = mesh.number_of_vertices();

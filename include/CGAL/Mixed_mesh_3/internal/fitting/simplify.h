@@ -17,6 +17,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Followed_features.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Mesh_simplifier.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/coarsen.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Strata.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
@@ -76,10 +77,11 @@ inline std::vector<double> weights_of_faces(const Interface_faces& faces, const 
 Removes vertices of a mesh whose boundary, and whose interfaces, are on their surfaces, until it has a given
 number.
 
-What does not suffice is given up in this order: that sharp edges of the mesh stay near to curved ones, then
-the quality bound, then the distance.
+What does not suffice is given up in this order: that sharp edges of the mesh stay near to curved ones, that
+vertices of the region stay, the quality bound, the distance.
 
 \param followed sharp features that the mesh follows, which the result follows as well
+\param radius of the region, for `weights_of_vertices()`; 0: there is none
 \param distance no place that a boundary vertex has left is farther from the boundary
 \param quality_bound no new element costs more; becomes a larger one if there would be more vertices otherwise
 \param largest_bound the largest one that it may become
@@ -88,7 +90,7 @@ the quality bound, then the distance.
 Some 60 microseconds for each vertex that is removed
 */
 inline bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_surface& surface,
-                     std::size_t number_of_vertices, double distance, double& quality_bound,
+                     std::size_t number_of_vertices, double radius, double distance, double& quality_bound,
                      double largest_bound, const std::function<bool()>& go_on)
 {
   // Bounds that are tried, one after the other, so that elements are no flatter than needed.
@@ -111,6 +113,9 @@ inline bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_sur
   Mesh_simplifier<Aspect_ratio_quality_3> simplifier(working, quality, faces.faces, is_on_boundary, weights,
                                                      places, defects, followed.features,
                                                      std::size_t(share * double(faces.faces.size())));
+  const bool has_region = radius > 0;
+  if(has_region)
+    simplifier.set_weights(weights_of_vertices(working, radius));
   std::size_t n = mesh.number_of_vertices();
   const auto remove = [&](double d, bool follows_curves) {
     if(n > number_of_vertices && go_on())
@@ -118,6 +123,10 @@ inline bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_sur
   };
   remove(distance, true);
   remove(distance, false);
+  if(has_region) {
+    simplifier.give_up_region();
+    remove(distance, false);
+  }
   while(n > number_of_vertices && quality_bound < largest_bound && go_on()) {
     quality_bound = (std::min)(step_of_bound * quality_bound, largest_bound);
     remove(distance, false);

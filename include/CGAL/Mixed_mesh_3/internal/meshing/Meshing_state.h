@@ -61,10 +61,10 @@ struct Meshing_state
   std::optional<Located_octree> thin_start;  // walls and gaps are resolved
   std::optional<Located_octree> right_start; // on the way there, the topology was right
   bool are_gaps_wider = false;
-  bool keeps_topology = false;      // while the budget is filled
-  bool is_stopped = false;          // by the visitor, which is not asked again then
-  std::size_t number_exchanged = 0; // vertices that the octree may have beyond the budget, to be removed
-  double quality_bound;             // in force: larger than that of the criteria where walls need it
+  bool keeps_topology = false;          // while the budget is filled
+  bool is_stopped = false;              // by the visitor, which is not asked again then
+  std::size_t number_beyond_budget = 0; // vertices that the octree may have, to be removed
+  double quality_bound;                 // in force: larger than that of the criteria where walls need it
   Mixed_mesh_result_3 result;
   Tolerance_search tolerance_search;
 
@@ -104,8 +104,8 @@ struct Meshing_state
     return n - std::size_t(share_of_bisections() * double(n));
   }
 
-  /// The number of vertices that the octree may have while vertices are exchanged, and else.
-  std::size_t octree_budget() const { return budget() + number_exchanged; }
+  /// The same, with those that will be removed.
+  std::size_t octree_budget() const { return budget() + number_beyond_budget; }
 
   /// The edge of the cubes that the vertices of the budget have to serve.
   double mean_edge() const

@@ -20,12 +20,12 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/boundary/split_by_order.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/manifold_defects.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/bisect_edge.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
-#include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
 
 #include <CGAL/assertions.h>
 #include <CGAL/enum.h>
@@ -34,6 +34,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -43,14 +44,15 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /*!
-Cuts the tetrahedra of a lattice along the interfaces of subdomains.
+Cuts the elements of a lattice along the interfaces of subdomains. All are tetrahedra, but hexahedra that are
+to stay, beside no surface, and pyramids and others between these.
 
 A subdomain that an edge passes, between others, first gets a vertex there: so a layer keeps its own vertices
 if it is a quarter as thick as a cell, or more. Then a vertex that is near to an interface, beside the length
 of its edges, is moved there (as in isosurface stuffing: Labelle, Shewchuk, 2007), and each edge whose ends
 are in different subdomains is bisected where it crosses the interface (as in lattice cleaving: Bronson,
 Levine, Whitaker, 2014). Bisections keep the mesh conforming, whatever subdomains meet, and at the end no
-tetrahedron has vertices inside different subdomains.
+element has vertices inside different subdomains.
 */
 class Interface_cutter
 {
@@ -68,9 +70,9 @@ class Interface_cutter
 
   const Located_octree& m_octree;
   const std::size_t m_size_of_lattice; // number of vertices
+  std::vector<std::uint8_t> m_is_near; // whether a vertex is at a cell that meets a surface
   Working_mesh m_mesh;
   std::vector<Subdomain_rank> m_ranks; // of the subdomains that vertices are inside, or `on_interface`
-  std::vector<std::uint8_t> m_is_near; // whether a vertex is at a cell that meets a surface
   std::vector<Cut> m_cuts;             // of edges between subdomains
   bool m_is_clear;
   std::vector<Vertex_index> m_vertices; // vertices of the result
@@ -82,17 +84,16 @@ class Interface_cutter
   static constexpr double near = 0.3;
 
 public:
-  Interface_cutter(const Located_octree& octree, const Lattice_mesh& lattice)
-    : m_octree(octree), m_size_of_lattice(lattice.vertices.size()),
-      m_mesh(tetrahedra(octree, lattice), std::vector<Stratum>(lattice.vertices.size(), free_stratum)),
-      m_is_near(lattice.vertices.size(), 0)
+  using Leaf_predicate = std::function<bool(Octree::Node_index)>;
+
+  /// \param is_kept whether hexahedra of a leaf stay whole, if they are not beside a surface
+  Interface_cutter(const Located_octree& octree, const Lattice_mesh& lattice, const Leaf_predicate& is_kept)
+    : m_octree(octree), m_size_of_lattice(lattice.vertices.size()), m_is_near(near_vertices(octree, lattice)),
+      m_mesh(split_elements(octree, lattice, m_is_near, is_kept),
+             std::vector<Stratum>(lattice.vertices.size(), free_stratum))
   {
     for(Vertex_index v = 0; v < lattice.vertices.size(); ++v)
       m_ranks.push_back(lattice.sides[v] == ON_BOUNDARY ? on_interface : lattice.subdomain(v));
-    for(Element_index e = 0; e < lattice.elements.size(); ++e)
-      if(octree.side(lattice.cells[e]) == ON_BOUNDARY)
-        for(Vertex_index v : lattice.elements[e])
-          m_is_near[v] = 1;
     m_shortest = shortest_edge();
     m_is_clear = insert_hidden_vertices();
     if(m_is_clear)
@@ -102,11 +103,14 @@ public:
   /// Whether there are no hidden subdomains all over, as between surfaces that should be one.
   bool is_clear() const { return m_is_clear; }
 
-  /// \param stays vertices of the lattice that are not moved
+  /// The number of vertices before edges are bisected.
+  std::size_t number_of_vertices() const { return m_ranks.size(); }
+
+  /// \param stays vertices, of those before, that are not moved
   /// \pre `is_clear()`
   Core_mesh operator()(const std::vector<std::uint8_t>& stays)
   {
-    CGAL_precondition(is_clear());
+    CGAL_precondition(is_clear() && stays.size() == number_of_vertices());
     move_near_vertices(stays);
     for(const Cut& cut : m_cuts)
       if(is_inside(cut.ends[0]) && is_inside(cut.ends[1]))
@@ -114,8 +118,7 @@ public:
     return mesh_of_subdomains();
   }
 
-  /// The vertices where the boundary of the result is no manifold, and those around, as far as they are of
-  /// the lattice.
+  /// The vertices where the boundary of the result is no manifold, and those around.
   std::vector<Vertex_index> defects(const Core_mesh& result) const
   {
     std::vector<Face_vertices> polygons;
@@ -127,26 +130,52 @@ public:
       centers.insert(centers.end(), edge.begin(), edge.end());
     for(Vertex_index center : centers)
       for(Element_index e : m_mesh.incident[m_vertices[center]])
-        for(Vertex_index v : m_mesh.elements[e])
-          if(v < m_size_of_lattice)
-            vertices.push_back(v);
+        vertices.insert(vertices.end(), m_mesh.elements[e].begin(), m_mesh.elements[e].end());
     return vertices;
   }
 
 private:
-  static Core_mesh tetrahedra(const Located_octree& octree, const Lattice_mesh& lattice)
+  static std::vector<std::uint8_t> near_vertices(const Located_octree& octree, const Lattice_mesh& lattice)
   {
-    std::vector<Core_mesh::Point_3> points;
+    std::vector<std::uint8_t> is_near(lattice.vertices.size(), 0);
+    for(Element_index e = 0; e < lattice.elements.size(); ++e)
+      if(octree.side(lattice.cells[e]) == ON_BOUNDARY)
+        for(Vertex_index v : lattice.elements[e])
+          is_near[v] = 1;
+    return is_near;
+  }
+
+  // Elements of the lattice, split into tetrahedra but for hexahedra that stay, and what is between these.
+  static Core_mesh split_elements(const Located_octree& octree, const Lattice_mesh& lattice,
+                                  const std::vector<std::uint8_t>& is_near, const Leaf_predicate& is_kept)
+  {
+    Core_mesh mesh;
     for(const Lattice_point& p : lattice.vertices) {
       const auto q = octree.point(p);
-      points.emplace_back(q.x(), q.y(), q.z());
+      mesh.points().emplace_back(q.x(), q.y(), q.z());
     }
-    std::vector<Element_attributes> attributes;
-    for(Octree::Node_index n : lattice.cells)
-      attributes.push_back({0, octree.is_in_region(n), 0});
-    Core_mesh mesh;
-    mesh.assign(std::move(points), lattice.elements, std::move(attributes));
-    return split_to_tetrahedra(mesh);
+    std::vector<std::uint8_t> stays(lattice.vertices.size(), 0);
+    for(Element_index e = 0; e < lattice.elements.size(); ++e) {
+      const Element_view element = lattice.elements[e];
+      if(element.kind() == HEXAHEDRON && is_kept(lattice.cells[e])
+         && std::none_of(element.begin(), element.end(), [&](Vertex_index v) { return is_near[v]; }))
+        for(Vertex_index v : element)
+          stays[v] = 1;
+    }
+    const auto is_staying = [&](Vertex_index v) { return stays[v] != 0; };
+    const auto rank = [&](Vertex_index v) { return std::make_pair(is_staying(v), v); };
+    for(Element_index e = 0; e < lattice.elements.size(); ++e) {
+      const Element_view element = lattice.elements[e];
+      const Element_attributes attributes{0, octree.is_in_region(lattice.cells[e]), 0};
+      if(std::all_of(element.begin(), element.end(), is_staying))
+        mesh.add_element(element.kind(), element.begin(), attributes);
+      else
+        split_element(element, rank, is_staying,
+                      [&](Element_kind kind, const std::array<Vertex_index, 5>& v) {
+                        mesh.add_element(kind, v.data(), attributes);
+                      });
+    }
+    return mesh;
   }
 
   bool is_inside(Vertex_index v) const { return m_ranks[v] != on_interface; }
@@ -157,7 +186,7 @@ private:
   {
     std::vector<Edge> all;
     for(const Working_mesh::Element& t : m_mesh.elements)
-      for(std::size_t i = 0; i < 4 && !t.is_removed; ++i)
+      for(std::size_t i = 0; i < 4 && !t.is_removed && t.kind == TETRAHEDRON; ++i)
         for(std::size_t j = 0; j < i; ++j)
           if(is_chosen(t.vertices[i], t.vertices[j]))
             all.push_back(std::minmax(t.vertices[i], t.vertices[j]));
@@ -294,9 +323,8 @@ private:
   void move_near_vertices(const std::vector<std::uint8_t>& stays)
   {
     std::vector<Subdomain_rank> behind(m_ranks.size(), on_interface); // at the other ends of edges
-    std::vector<std::uint8_t> may_move(m_ranks.size(), 1);
-    for(Vertex_index v = 0; v < stays.size(); ++v)
-      may_move[v] = !stays[v];
+    std::vector<std::uint8_t> may_move(m_ranks.size());
+    std::transform(stays.begin(), stays.end(), may_move.begin(), std::logical_not<>());
     std::vector<std::pair<double, std::size_t>>
       order; // by the share; twice the number of the cut, plus the end
     for(std::size_t i = 0; i < m_cuts.size(); ++i)
@@ -347,7 +375,7 @@ private:
         rank = m_ranks[v];
       }
     }
-    return is_clear && rank != on_interface ? rank : m_octree.subdomain_rank(0.25 * sum);
+    return is_clear && rank != on_interface ? rank : m_octree.subdomain_rank((1. / double(t.size())) * sum);
   }
 
   Core_mesh mesh_of_subdomains()
@@ -361,8 +389,8 @@ private:
       const Subdomain_rank rank = t.is_removed ? outside_rank : subdomain(t);
       if(rank == outside_rank)
         continue;
-      std::array<Vertex_index, 4> v;
-      for(std::size_t i = 0; i < 4; ++i) {
+      std::array<Vertex_index, 8> v;
+      for(int i = 0; i < t.size(); ++i) {
         Vertex_index& number = numbers[t.vertices[i]];
         if(number == no_vertex) {
           number = Vertex_index(points.size());
@@ -372,7 +400,7 @@ private:
         }
         v[i] = number;
       }
-      elements.add(TETRAHEDRON, v.data());
+      elements.add(t.kind, v.data());
       attributes.push_back({indices[rank], t.attributes.is_in_region, 0});
     }
     Core_mesh mesh;
@@ -382,26 +410,29 @@ private:
 };
 
 /*!
-The tetrahedra of a lattice, cut along the interfaces of subdomains. Where the boundary would be no manifold,
-vertices of the lattice are not moved; none is if some interface would be none.
+The elements of a lattice, cut along the interfaces of subdomains. Where the boundary would be no manifold,
+vertices are not moved; none is if some interface would be none.
 
+\param is_kept whether hexahedra of a leaf stay, if they are not beside a surface
 \return an empty mesh if one of them is no manifold all the same, or if the surfaces do not fit together
 \par Complexity
 Some queries for each edge at a cell that meets a surface
 */
-inline Core_mesh cut_by_interfaces(const Located_octree& octree, const Lattice_mesh& lattice)
+inline Core_mesh cut_by_interfaces(const Located_octree& octree, const Lattice_mesh& lattice,
+                                   const Interface_cutter::Leaf_predicate& is_kept)
 {
   constexpr int most_attempts = 4;
-  const Interface_cutter uncut(octree, lattice);
+  const Interface_cutter uncut(octree, lattice, is_kept);
   if(!uncut.is_clear())
     return {};
-  std::vector<std::uint8_t> stays(lattice.vertices.size(), 0);
+  std::vector<std::uint8_t> stays(uncut.number_of_vertices(), 0);
   for(int attempt = 0; attempt < most_attempts; ++attempt) {
     Interface_cutter cut = uncut;
     Core_mesh mesh = cut(stays);
     const std::vector<Vertex_index> defects = cut.defects(mesh);
     for(Vertex_index v : defects)
-      stays[v] = 1;
+      if(v < stays.size()) // others are on the interface
+        stays[v] = 1;
     if(!defects.empty())
       continue;
     const std::vector<Subdomain_interface> interfaces = find_interfaces(mesh);

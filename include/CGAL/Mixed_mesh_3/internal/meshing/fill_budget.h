@@ -156,7 +156,7 @@ inline void fill_budget(Meshing_state& s)
     Located_octree octree = s.root;
     Candidate candidate = fill_from(s, level, octree);
     const bool is_above = candidate.number_of_vertices
-                          > s.criteria.maximal_number_of_vertices() + s.number_exchanged;
+                          > s.criteria.maximal_number_of_vertices() + s.number_beyond_budget;
     if(is_above && step > 0)
       return; // the coarser one, which fits, stays
     if(candidate.is_stopped && candidate.number_of_vertices == 0) {

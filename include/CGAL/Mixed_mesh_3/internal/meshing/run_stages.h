@@ -12,7 +12,6 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
-#include <CGAL/Mixed_mesh_3/internal/meshing/exchange_vertices.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/fill_budget.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/make_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/resolve_thin_parts.h>
@@ -80,20 +79,11 @@ inline void run_within_budget(Meshing_state& s, Core_mesh& mesh, Misfit& misfit)
   }
   if(s.may_resolve_thin_parts() && resolve_topology(s, mesh, misfit))
     return;
-  Best_mesh exchanged{Misfit::without_mesh(), s.result, std::nullopt};
-  const bool is_exchanged = may_exchange_vertices(s) && exchange_vertices(s, exchanged);
-  if(!is_exchanged) {
-    make_mesh(s, mesh);
-    misfit = s.misfit_of(mesh);
-    retry_far_places(s, mesh, misfit);
-    if(s.may_resolve_thin_parts())
-      improve_thin_parts(s, mesh, misfit);
-  }
-  if(is_exchanged || is_nearer(exchanged, s, misfit)) {
-    s.result = exchanged.result;
-    misfit = exchanged.misfit;
-    mesh = std::move(*exchanged.mesh);
-  }
+  make_mesh(s, mesh);
+  misfit = s.misfit_of(mesh);
+  retry_far_places(s, mesh, misfit);
+  if(s.may_resolve_thin_parts())
+    improve_thin_parts(s, mesh, misfit);
 }
 
 /// Share of vertices off the surfaces of several subdomains up to which a mesh is taken at once: near curves
