@@ -129,8 +129,8 @@ struct Mixed_mesh_result_3
   /// leave it open, the default for this domain and budget.
   double tolerance = 0;
   /// The number of vertices that the coarse mesh (of the base level, and finer where the tolerance asks for
-  /// it, without the region) takes of the budget; 0 without a tolerance, and where the mesh is made of a finer
-  /// one.
+  /// it, without the region) takes of the budget; 0 without a tolerance, and where the mesh is made of a
+  /// finer one.
   std::size_t number_of_vertices_for_tolerance = 0;
   /// The shells of the domain's surface, `MixedMeshDomain_3::shells()`. Nothing if the domain does not tell:
   /// then topology and volume of the mesh have not been compared.
