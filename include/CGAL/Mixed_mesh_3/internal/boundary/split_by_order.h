@@ -13,6 +13,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
 
 #include <CGAL/assertions.h>
@@ -20,6 +21,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -66,6 +69,34 @@ void split_element(const Element_view& element, const Rank& rank, const Is_insid
       add(TETRAHEDRON, {v[0], v[3], v[2], apex});
     }
   }
+}
+
+/// The mesh with its elements split into tetrahedra, but for hexahedra that stay, and for elements between
+/// these. Both sides of a face agree.
+/// \param stays `bool(Element_index)`, whether a hexahedron does
+template <class Stays>
+Core_mesh split_but_hexahedra(const Core_mesh& mesh, const Stays& stays)
+{
+  std::vector<std::uint8_t> is_kept(mesh.number_of_vertices(), 0);
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
+    if(mesh.element(e).kind() == HEXAHEDRON && stays(e))
+      for(Vertex_index v : mesh.element(e))
+        is_kept[v] = 1;
+  const auto is_kept_vertex = [&](Vertex_index v) { return is_kept[v] != 0; };
+  const auto rank = [&](Vertex_index v) { return std::make_pair(is_kept_vertex(v), v); };
+  Core_mesh result;
+  result.points() = mesh.points();
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
+    const Element_view element = mesh.element(e);
+    const auto add = [&](Element_kind kind, const std::array<Vertex_index, 5>& v) {
+      result.add_element(kind, v.data(), mesh.attributes(e));
+    };
+    if(std::all_of(element.begin(), element.end(), is_kept_vertex))
+      result.add_element(element.kind(), element.begin(), mesh.attributes(e));
+    else
+      split_element(element, rank, is_kept_vertex, add);
+  }
+  return result;
 }
 
 } // namespace internal

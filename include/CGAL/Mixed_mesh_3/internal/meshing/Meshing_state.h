@@ -116,6 +116,9 @@ struct Meshing_state
   /// The distance from the region over which its weight decreases.
   double graded_radius() const { return criteria.grading() * radius; }
 
+  /// The same, for weights of vertices; 0 without a region, where all weights are equal.
+  double radius_of_weights() const { return root.is_region_everywhere() ? 0 : graded_radius(); }
+
   int coarsest_level() const { return (std::max)(first_base_level(criteria), lattice.level); }
 
   bool go_on()

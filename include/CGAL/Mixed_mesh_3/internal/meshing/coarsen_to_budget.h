@@ -129,7 +129,7 @@ inline Core_mesh assembled_mesh(const Meshing_state& s)
 }
 
 /// The mesh with its elements split into tetrahedra, but for hexahedra in the region and near it, and for
-/// elements between these. Both sides of a face agree, as in the boundary stage.
+/// elements between these.
 /// \param radius of the weights that tell what is near; 0: nothing outside the region is
 inline Core_mesh split_far_elements(const Core_mesh& mesh, double radius)
 {
@@ -137,32 +137,13 @@ inline Core_mesh split_far_elements(const Core_mesh& mesh, double radius)
   constexpr double least_weight = 0.03;
   const std::vector<double> weights = weights_of_vertices(
     Working_mesh(mesh, std::vector<Stratum>(mesh.number_of_vertices(), free_stratum)), radius);
-  std::vector<bool> is_kept(mesh.number_of_vertices(), false);
-  for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
+  return split_but_hexahedra(mesh, [&](Element_index e) {
     const Element_view element = mesh.element(e);
-    const bool is_near = mesh.attributes(e).is_in_region
-                         || (radius > 0 && std::all_of(element.begin(), element.end(), [&](Vertex_index v) {
-                               return weights[v] > least_weight;
-                             }));
-    if(element.kind() == HEXAHEDRON && is_near)
-      for(Vertex_index v : element)
-        is_kept[v] = true;
-  }
-  const auto is_kept_vertex = [&](Vertex_index v) { return bool(is_kept[v]); };
-  const auto rank = [&](Vertex_index v) { return std::make_pair(is_kept_vertex(v), v); };
-  Core_mesh result;
-  result.points() = mesh.points();
-  for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
-    const Element_view element = mesh.element(e);
-    const auto add = [&](Element_kind kind, const std::array<Vertex_index, 5>& v) {
-      result.add_element(kind, &v[0], mesh.attributes(e));
-    };
-    if(std::all_of(element.begin(), element.end(), is_kept_vertex))
-      result.add_element(element.kind(), element.begin(), mesh.attributes(e));
-    else
-      split_element(element, rank, is_kept_vertex, add);
-  }
-  return result;
+    return mesh.attributes(e).is_in_region
+           || (radius > 0 && std::all_of(element.begin(), element.end(), [&](Vertex_index v) {
+                 return weights[v] > least_weight;
+               }));
+  });
 }
 
 /// The mesh of the octree, on the lattice, as it is coarsened.

@@ -149,33 +149,21 @@ private:
   static Core_mesh split_elements(const Located_octree& octree, const Lattice_mesh& lattice,
                                   const std::vector<std::uint8_t>& is_near, const Leaf_predicate& is_kept)
   {
-    Core_mesh mesh;
+    std::vector<Core_mesh::Point_3> points;
     for(const Lattice_point& p : lattice.vertices) {
       const auto q = octree.point(p);
-      mesh.points().emplace_back(q.x(), q.y(), q.z());
+      points.emplace_back(q.x(), q.y(), q.z());
     }
-    std::vector<std::uint8_t> stays(lattice.vertices.size(), 0);
-    for(Element_index e = 0; e < lattice.elements.size(); ++e) {
-      const Element_view element = lattice.elements[e];
-      if(element.kind() == HEXAHEDRON && is_kept(lattice.cells[e])
-         && std::none_of(element.begin(), element.end(), [&](Vertex_index v) { return is_near[v]; }))
-        for(Vertex_index v : element)
-          stays[v] = 1;
-    }
-    const auto is_staying = [&](Vertex_index v) { return stays[v] != 0; };
-    const auto rank = [&](Vertex_index v) { return std::make_pair(is_staying(v), v); };
-    for(Element_index e = 0; e < lattice.elements.size(); ++e) {
-      const Element_view element = lattice.elements[e];
-      const Element_attributes attributes{0, octree.is_in_region(lattice.cells[e]), 0};
-      if(std::all_of(element.begin(), element.end(), is_staying))
-        mesh.add_element(element.kind(), element.begin(), attributes);
-      else
-        split_element(element, rank, is_staying,
-                      [&](Element_kind kind, const std::array<Vertex_index, 5>& v) {
-                        mesh.add_element(kind, v.data(), attributes);
-                      });
-    }
-    return mesh;
+    std::vector<Element_attributes> attributes;
+    for(Octree::Node_index n : lattice.cells)
+      attributes.push_back({0, octree.is_in_region(n), 0});
+    Core_mesh mesh;
+    mesh.assign(std::move(points), lattice.elements, std::move(attributes));
+    return split_but_hexahedra(mesh, [&](Element_index e) {
+      const Element_view element = mesh.element(e);
+      return is_kept(lattice.cells[e])
+             && std::none_of(element.begin(), element.end(), [&](Vertex_index v) { return is_near[v] != 0; });
+    });
   }
 
   bool is_inside(Vertex_index v) const { return m_ranks[v] != on_interface; }

@@ -134,9 +134,18 @@ inline void split_cells_outside_region(Located_octree& octree, int coarsest_leve
       return result;
     };
     std::size_t low = 0, high = leaves.size() + 1; // so many are not too many; are too many
-    for(std::size_t i = leaves.size(); high - low > 1 + leaves.size() / parts_of_level; i = (low + high) / 2)
-      (refined(i).number_of_cells() <= most ? low : high) = i;
-    octree = refined(low);
+    Located_octree largest = octree;
+    for(std::size_t i = leaves.size(); high - low > 1 + leaves.size() / parts_of_level;
+        i = (low + high) / 2) {
+      Located_octree trial = refined(i);
+      if(trial.number_of_cells() > most) {
+        high = i;
+      } else {
+        low = i;
+        largest = std::move(trial);
+      }
+    }
+    octree = std::move(largest);
     if(low < leaves.size())
       return;
   }
@@ -152,15 +161,7 @@ inline void refine_in_region(Meshing_state& s, Located_octree& octree, double nu
   const auto with_cells = [&](double number) {
     while(double(sequence.number_of_cells(sequence.number_of_steps())) < number && sequence.extend()) {
     }
-    std::size_t low = 0, high = sequence.number_of_steps();
-    while(low < high) {
-      const std::size_t middle = low + (high - low) / 2;
-      if(double(sequence.number_of_cells(middle)) < number)
-        low = middle + 1;
-      else
-        high = middle;
-    }
-    return sequence.octree(low);
+    return sequence.octree(sequence.first_step_with(number));
   };
   octree = with_cells(number_of_vertices / vertices_per_cell);
   const double rate = double(s.try_octree(octree).number_of_vertices) / double(octree.number_of_cells());

@@ -63,10 +63,9 @@ inline void optimize_boundary(Meshing_state& s, Core_mesh& mesh, const Vertex_re
 inline bool coarsen_to(Meshing_state& s, Core_mesh& mesh, std::size_t number_of_vertices,
                        Coarsening_goal goal = Coarsening_goal::SHAPE)
 {
-  const double radius = s.root.is_region_everywhere() ? 0 : s.graded_radius();
   return coarsen(
-           mesh, s.root.domain(), number_of_vertices, s.quality_bound, radius, [&s] { return s.go_on(); },
-           goal)
+           mesh, s.root.domain(), number_of_vertices, s.quality_bound, s.radius_of_weights(),
+           [&s] { return s.go_on(); }, goal)
          && !s.is_stopped;
 }
 

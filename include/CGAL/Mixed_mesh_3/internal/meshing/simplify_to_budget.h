@@ -22,11 +22,8 @@
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -62,7 +59,6 @@ inline void make_simplified_mesh(Meshing_state& s, Core_mesh& mesh)
   // Largest bound in bounds that were asked for: in thin walls there is room for flatter elements only. And
   // what few elements may have between layers, which no octree resolves better; above, they are no use.
   constexpr double largest_multiple = 5, largest_between_layers = 30;
-  const std::size_t budget = s.criteria.maximal_number_of_vertices();
   const auto note_stop = [&s] { s.result.status = Mixed_mesh_status::STOPPED; };
   Core_mesh fine = fine_mesh(s);
   if(s.result.is_lattice_on_surface)
@@ -81,10 +77,10 @@ inline void make_simplified_mesh(Meshing_state& s, Core_mesh& mesh)
   const bool is_kept = s.criteria.keep_mesh_if_stopped() && s.best.is_manifold(); // within the budget only
   if(s.is_stopped && !is_kept)
     return note_stop();
-  const bool has_region = !s.root.is_region_everywhere();
-  const bool is_simplified = simplify(fine, followed, s.root.domain(), has_region ? s.budget() : budget,
-                                      has_region ? s.graded_radius() : 0, distance, bound, largest,
-                                      [&] { return s.go_on() || is_kept; });
+  const std::size_t goal = s.root.is_region_everywhere() ? s.criteria.maximal_number_of_vertices()
+                                                         : s.budget();
+  const bool is_simplified = simplify(fine, followed, s.root.domain(), goal, s.radius_of_weights(), distance,
+                                      bound, largest, [&] { return s.go_on() || is_kept; });
   if(!is_simplified) {
     s.result.status = s.is_stopped ? Mixed_mesh_status::STOPPED : Mixed_mesh_status::BUDGET_TOO_SMALL;
     return;

@@ -126,6 +126,14 @@ public:
   std::size_t number_of_steps() const { return m_split.size(); }
   /// The number of leaves that meet the domain after some steps.
   std::size_t number_of_cells(std::size_t steps) const { return m_cells[steps]; }
+  /// The first step after which there are so many cells; the last one if there is none.
+  std::size_t first_step_with(double number_of_cells) const
+  {
+    const auto found = std::partition_point(m_cells.begin(), m_cells.end() - 1, [&](std::size_t cells) {
+      return double(cells) < number_of_cells;
+    });
+    return std::size_t(found - m_cells.begin());
+  }
   /// The number of nodes after some steps.
   std::size_t number_of_nodes(std::size_t steps) const { return m_sizes[steps]; }
   /// The cell that a step splits.

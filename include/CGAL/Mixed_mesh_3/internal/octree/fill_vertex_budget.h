@@ -101,15 +101,7 @@ private:
   {
     while(double(m_sequence.number_of_cells(m_sequence.number_of_steps())) < cells && extend()) {
     }
-    std::size_t low = 0, high = m_sequence.number_of_steps();
-    while(low < high) {
-      const std::size_t middle = low + (high - low) / 2;
-      if(double(m_sequence.number_of_cells(middle)) < cells)
-        low = middle + 1;
-      else
-        high = middle;
-    }
-    return low;
+    return m_sequence.first_step_with(cells);
   }
 
   // Extends the sequence as far as needed, unless there is nothing to split, or there are too many cells.
