@@ -622,7 +622,7 @@ std::size_t number_in_region(const Mesh& mesh)
 void test_simplification(const Surface& brain, const Polyhedral_mixed_mesh_domain_3& domain,
                          const Polyhedral_mixed_mesh_region_3& front)
 {
-  const auto check_region = [&](const auto& region, std::size_t n) {
+  const auto check_region = [&](const auto& region, std::size_t n, double share_in_region = 1.05) {
     Mesh with, again, without;
     const auto criteria = Mixed_mesh_criteria_3(n);
     const Mixed_mesh_result_3 result = run(domain, region, criteria, with);
@@ -641,15 +641,16 @@ void test_simplification(const Surface& brain, const Polyhedral_mixed_mesh_domai
                   quality_statistics(without)[number_of_element_kinds].mean);
     BOOST_TEST_GT(rows[HEXAHEDRON].count, 0u);
     BOOST_TEST_GT(volume(with), 0.99 * volume(without));
-    BOOST_TEST_GT(double(number_in_region(with)), 0.8 * double(number_in_region(without)));
+    BOOST_TEST_GT(double(number_in_region(with)), share_in_region * double(number_in_region(without)));
     const auto distance = [&](const Mesh& mesh) { return hausdorff_distance(mesh, brain).distance(); };
     std::cout << n << ": " << distance(with) << " from the surface, " << distance(without) << " without\n";
     BOOST_TEST_LE(distance(with), 1.25 * distance(without));
     run(domain, region, criteria, again);
     BOOST_TEST(content(again) == content(with));
   };
-  for(std::size_t n : {400, 660, 1500, 4000})
+  for(std::size_t n : {400, 660, 1500})
     check_region(front, n);
+  check_region(front, 4000, 0.95); // base level and balance take less of it
   check_region(Ball_mixed_mesh_region_3(Kernel::Point_3(-30, -60, 40), 20), 1000);
 
   // Whatever vertices are removed for, the region stays.
@@ -657,6 +658,7 @@ void test_simplification(const Surface& brain, const Polyhedral_mixed_mesh_domai
   run(domain, front, Mixed_mesh_criteria_3(660), usual);
   run(domain, front, Mixed_mesh_criteria_3(660).tolerance(2), near);
   BOOST_TEST_GT(double(number_in_region(near)), 0.5 * double(number_in_region(usual)));
+  BOOST_TEST_GT(quality_statistics(near)[HEXAHEDRON].count, 0u);
 
   // where it is not done
   const std::vector<Mixed_mesh_criteria_3> others = {Mixed_mesh_criteria_3(660).grading(0),
