@@ -154,9 +154,10 @@ private:
       const auto q = octree.point(p);
       points.emplace_back(q.x(), q.y(), q.z());
     }
+    constexpr Subdomain_index some_subdomain = 1; // the result has those of the domain
     std::vector<Element_attributes> attributes;
     for(Octree::Node_index n : lattice.cells)
-      attributes.push_back({0, octree.is_in_region(n), 0});
+      attributes.push_back({some_subdomain, octree.is_in_region(n), 0});
     Core_mesh mesh;
     mesh.assign(std::move(points), lattice.elements, std::move(attributes));
     return split_but_hexahedra(mesh, [&](Element_index e) {
