@@ -31,8 +31,6 @@ Solid solid_of(const mm3::Solid_topology& t)
   return {t.number_of_bodies, t.number_of_handles, t.number_of_cavities, t.volume};
 }
 
-std::string after_semicolon(const std::string& text) { return text.empty() ? text : "; " + text; }
-
 } // namespace
 
 Fidelity distances_and_volumes_of(const Mesh& mesh, const Surface& surface, double volume_of_surface)
@@ -80,17 +78,6 @@ Status checked_status(Status status, const Fidelity& fidelity, double tolerance)
   return status == Status::SUCCESS && fidelity.misses(tolerance) ? Status::TOLERANCE_NOT_REACHED : status;
 }
 
-std::string needed_for_thin_parts(const CGAL::Mixed_mesh_result_3& result)
-{
-  const std::size_t n = result.number_of_vertices_for_thin_parts;
-  if(n <= result.vertex_budget)
-    return {};
-  const double unit = std::pow(10, std::floor(std::log10(double(n))) - 1); // two digits
-  return "a mesh that is fine enough for all its thin walls and narrow gaps is estimated at "
-         + std::to_string(std::size_t(std::ceil(double(n) / unit) * unit)) + " vertices; this one may have "
-         + std::to_string(result.vertex_budget);
-}
-
 std::string reason_for_no_mesh(const CGAL::Mixed_mesh_result_3& result, const Input_names& names)
 {
   switch(result.status) {
@@ -101,7 +88,7 @@ std::string reason_for_no_mesh(const CGAL::Mixed_mesh_result_3& result, const In
   case Status::EMPTY:
     return names.surface
            + ": too thin for this budget, no octree vertex is inside; try more vertices or a larger "
-           + names.base_level + after_semicolon(needed_for_thin_parts(result));
+           + names.base_level;
   case Status::REGION_NOT_MET:
     return names.regions.size() == 1
              ? names.regions.front() + ": the region does not meet the domain of " + names.surface
@@ -168,11 +155,8 @@ std::string sentence_on_tolerance(const Fidelity& fidelity, const std::string& o
          + "; try more vertices";
 }
 
-std::string reason_for_no_likeness(const CGAL::Mixed_mesh_result_3& result, const Fidelity& fidelity,
-                                   const Input_names& names)
+std::string reason_for_no_likeness(const Fidelity& fidelity, const Input_names& names)
 {
   const double ratio = fidelity.ratio_of_volumes();
-  return 0.5 <= ratio && ratio <= 1.5
-           ? ""
-           : sentence_on_volume(ratio, names) + after_semicolon(needed_for_thin_parts(result));
+  return 0.5 <= ratio && ratio <= 1.5 ? "" : sentence_on_volume(ratio, names);
 }

@@ -106,8 +106,7 @@ std::string reason_for_no_mesh(const CGAL::Mixed_mesh_result_3& result, const In
 
 /// The reason why a fitted mesh does not represent its surface: it has less than half the volume, or half
 /// more. Empty if it may.
-std::string reason_for_no_likeness(const CGAL::Mixed_mesh_result_3& result, const Fidelity& fidelity,
-                                   const Input_names& names);
+std::string reason_for_no_likeness(const Fidelity& fidelity, const Input_names& names);
 
 /// A sentence on a volume that differs.
 std::string sentence_on_volume(double ratio, const Input_names& names);
@@ -125,9 +124,5 @@ std::string sentence_on_lost_parts(const CGAL::Mixed_mesh_result_3& result, cons
 /// \param option the tolerance as the user gave it
 std::string sentence_on_tolerance(const Fidelity& fidelity, const std::string& option,
                                   const Input_names& names);
-
-/// The number of vertices that thin parts need beyond the budget, in words; empty if the budget suffices, or
-/// the number is not known.
-std::string needed_for_thin_parts(const CGAL::Mixed_mesh_result_3& result);
 
 #endif // MIXED_MESH_3_APPS_CORE_COMPARISON_H

@@ -286,8 +286,7 @@ void describe_method(const Options& o, const Outcome& outcome, Json& report)
                       {"cells", result.number_of_cells},
                       {"cells lost", result.number_of_lost_cells},
                       {"octrees tried", result.number_of_trials},
-                      {"vertices collapsed", result.number_of_collapsed_vertices},
-                      {"vertices for thin parts, about", result.number_of_vertices_for_thin_parts}};
+                      {"vertices collapsed", result.number_of_collapsed_vertices}};
   report["vertices inserted"] = {{"by transition templates", result.number_of_transition_vertices},
                                  {"by boundary stage", result.number_of_boundary_vertices_inserted},
                                  {"by bisection of boundary edges",

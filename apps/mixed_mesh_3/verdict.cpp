@@ -89,7 +89,7 @@ void require_volume(const Options& o, const Outcome& outcome)
 {
   if(o.fit() == Fit::NONE || outcome.is_stopped)
     return;
-  const std::string reason = reason_for_no_likeness(outcome.result, outcome.fidelity, names_of(o));
+  const std::string reason = reason_for_no_likeness(outcome.fidelity, names_of(o));
   if(!reason.empty())
     throw std::runtime_error(reason);
 }
@@ -128,7 +128,4 @@ void add_warnings(const Options& o, Outcome& outcome)
   if(is_fitted ? !f.has_right_volume() : ratio < 0.9 || ratio > 4)
     warnings.push_back(sentence_on_volume(ratio, names_of(o)));
   add_differences(outcome.topology, o, warnings);
-  const std::string needed = needed_for_thin_parts(outcome.result);
-  if(!needed.empty() && (!outcome.topology.differences.empty() || outcome.result.number_of_lost_cells != 0))
-    warnings.push_back(o.surface + ": " + needed);
 }

@@ -120,8 +120,7 @@ public:
   /// whose loss is least (`Mixed_mesh_result_3::number_of_collapsed_vertices`). Elements at the surface, and
   /// without a region all of them, are tetrahedra then. Otherwise the octree has the vertices of the budget,
   /// as it has without `fit_to_surface()`, with a given base level, with a region and a grading of 0, with
-  /// sheets, where walls are resolved first, and where something is wrong with the simplified mesh. Default:
-  /// yes.
+  /// sheets, and where there is no simplified mesh. Default: yes.
   Mixed_mesh_criteria_3& simplification(bool simplifies)
   {
     m_simplification = simplifies;
@@ -233,20 +232,6 @@ public:
   /// The value set, or the default.
   double sharp_angle() const { return m_sharp_angle; }
 
-  /// Sets whether thin walls and narrow gaps are resolved before the region, as far as the budget allows.
-  /// Default: if a mesh without that turns out to have other bodies, handles or cavities than the surface, to
-  /// have lost parts of the surface, or, fitted, to have a volume more than 5 % off or vertices that have not
-  /// arrived. That takes a second run; the better mesh is taken. If the budget does not suffice, and the
-  /// boundary is fitted, a finer mesh, of tetrahedra, is coarsened to the budget:
-  /// `Mixed_mesh_result_3::number_of_collapsed_vertices`.
-  Mixed_mesh_criteria_3& thin_parts(Mixed_meshes_3::Thin_parts choice)
-  {
-    m_thin_parts = choice;
-    return *this;
-  }
-  /// The value set, or the default.
-  Mixed_meshes_3::Thin_parts thin_parts() const { return m_thin_parts; }
-
   /// Sets whether the best mesh so far, if there is one, is kept when the visitor stops the run: the mesh is
   /// valid, and within the budget, but its boundary may not have arrived; `Mixed_mesh_result_3::has_mesh()`
   /// tells. Default: no, the mesh is empty then.
@@ -265,7 +250,6 @@ private:
   Mixed_meshes_3::Transition_templates_choice m_transition_templates =
     Mixed_meshes_3::Transition_templates_choice::FEWEST_VERTICES;
   Mixed_meshes_3::Boundary_mode m_boundary_mode = Mixed_meshes_3::Boundary_mode::VERTEX_ORDER;
-  Mixed_meshes_3::Thin_parts m_thin_parts = Mixed_meshes_3::Thin_parts::WHERE_NEEDED;
   bool m_simplification = true, m_fit_to_surface = true, m_only_tetrahedra = false,
        m_keep_mesh_if_stopped = false, m_fewest_vertices = false, m_is_quality_bound_strict = false;
   double m_grading = 0.35;

@@ -97,7 +97,7 @@ struct Mixed_mesh_result_3
   /// The level of the smallest cells.
   int deepest_level = 0;
   std::size_t number_of_cells = 0; ///< leaves that meet the domain
-  /// The number of vertices of the octree's mesh, or of its coarsened mesh, before bisections; without a
+  /// The number of vertices of the octree's mesh, or of its simplified mesh, before bisections; without a
   /// mesh, the number (at least) for the coarsest one at `base_level`.
   std::size_t number_of_vertices_needed = 0;
   std::size_t number_of_transition_vertices = 0;        ///< inserted by the transition templates
@@ -118,12 +118,9 @@ struct Mixed_mesh_result_3
   Bbox_3 lost_cells;                     ///< box of the lost cells
   std::size_t number_of_lost_sheets = 0; ///< without faces: outside the domain, or too small for the cells
   std::size_t number_of_vertices_in_region = 0; ///< before bisections
-  /// The approximate number of vertices that thin walls and narrow gaps take, if these were resolved first;
-  /// else 0.
-  std::size_t number_of_vertices_for_thin_parts = 0;
-  /// The number of vertices removed by edge collapses, where the mesh is made of a finer one
-  /// (`Mixed_mesh_criteria_3::simplification()`, or because the topology takes more vertices than the
-  /// budget). The numbers of cells and octree are then those of the finer mesh.
+  /// The number of vertices removed by edge collapses, where the mesh is made of a finer one:
+  /// `Mixed_mesh_criteria_3::simplification()`. The numbers of cells and octree are then those of the finer
+  /// mesh.
   std::size_t number_of_collapsed_vertices = 0;
   /// The largest distance between boundary and surface: the tolerance of the criteria, or, if the criteria
   /// leave it open, the default for this domain and budget.

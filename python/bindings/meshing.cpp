@@ -139,7 +139,7 @@ void compare(const Mesh& mesh, const Surface& surface, double tolerance,
     fidelity = fidelity_of(mesh, surface, topology.surface.volume);
   }
   if(result.status != Status::STOPPED) { // else the reason is known
-    const std::string defect = reason_for_no_likeness(result, fidelity, names);
+    const std::string defect = reason_for_no_likeness(fidelity, names);
     if(!defect.empty())
       throw Meshing_error(defect);
     if(result.number_of_lost_cells != 0)
@@ -162,7 +162,6 @@ void compare(const Mesh& mesh, const Surface& surface, double tolerance,
   report["Hausdorff distance"] = fidelity.distance();
   report["boundary vertices"] = fidelity.vertices;
   report["boundary vertices not on surface"] = fidelity.vertices_off;
-  report["number of vertices needed"] = result.number_of_vertices_for_thin_parts;
 }
 
 // The faces of each sheet, (n, 4) vertices, the last one -1 of triangles; a sheet without faces has a

@@ -338,10 +338,9 @@ void test_balls()
   const Polyhedral_mixed_mesh_domain_3 domain(balls);
   for(int level : {3, 5}) {
     Mesh mesh;
-    const auto result = make_mixed_mesh_3(
-      domain, CGAL::Everywhere_mixed_mesh_region_3(),
-      Mixed_mesh_criteria_3(level == 3 ? 600 : 8000).base_level(level).thin_parts(Thin_parts::LIKE_OTHERS),
-      mesh);
+    const auto result = make_mixed_mesh_3(domain, CGAL::Everywhere_mixed_mesh_region_3(),
+                                          Mixed_mesh_criteria_3(level == 3 ? 600 : 8000).base_level(level),
+                                          mesh);
     BOOST_TEST(result.has_mesh());
     const Solid_comparison c = compare_with_surface(mesh, balls);
     BOOST_TEST_EQ(c.surface.number_of_bodies, 2u);

@@ -5,7 +5,7 @@
 //
 // Edge collapses, thousands of them on meshes of any topology: after each collapse, Betti numbers of the mesh
 // and of its boundary are those of the start, by brute force, and no element is inverted, by rationals.
-// Self-intersections are compared with those of all pairs of faces. And coarsening of a whole mesh.
+// Self-intersections are compared with those of all pairs of faces. And simplification of a whole mesh.
 
 #include "test_cells.h"
 #include "test_fitting.h"
@@ -14,7 +14,7 @@
 #include "test_topology.h"
 
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/coarsen.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/simplify.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Boundary_triangles.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Edge_collapser.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
@@ -134,8 +134,16 @@ void test_collapses()
   BOOST_TEST_GT(counts.refused_and_harmful, 100u);
 }
 
+bool simplify(internal::Core_mesh& mesh, const internal::Any_surface& surface, std::size_t number,
+              double radius)
+{
+  internal::Followed_features followed;
+  double bound = 3.2;
+  return internal::simplify(mesh, followed, surface, number, radius, 1, 1, bound, bound, [] { return true; });
+}
+
 // A cube loses none of its volume, nor its corners: its faces are flat.
-void test_coarsen()
+void test_simplification()
 {
   const Test_surface cube = box(Test_point(0, 0, 0), Test_point(1, 1, 1));
   const CGAL::Polyhedral_mixed_mesh_domain_3 domain(cube);
@@ -145,7 +153,7 @@ void test_coarsen()
   std::size_t last = start.number_of_vertices();
   for(std::size_t n : {600, 300, 200}) {
     internal::Core_mesh mesh = internal::as_core_mesh(start), again = mesh;
-    BOOST_TEST(internal::coarsen(mesh, surface, n, 3.2, 0, [] { return true; }));
+    BOOST_TEST(simplify(mesh, surface, n, 0));
     BOOST_TEST_EQ(mesh.number_of_vertices(), n);
     BOOST_TEST_LT(mesh.number_of_vertices(), last);
     last = mesh.number_of_vertices();
@@ -155,12 +163,12 @@ void test_coarsen()
     for(const auto& p : mesh.points())
       corners += (p.x() == 0 || p.x() == 1) && (p.y() == 0 || p.y() == 1) && (p.z() == 0 || p.z() == 1);
     BOOST_TEST_EQ(corners, 8u);
-    BOOST_TEST(internal::coarsen(again, surface, n, 3.2, 0, [] { return true; }));
+    BOOST_TEST(simplify(again, surface, n, 0));
     BOOST_TEST(again.points() == mesh.points());
   }
   // No mesh has so few vertices.
   internal::Core_mesh mesh = internal::as_core_mesh(start);
-  BOOST_TEST(!internal::coarsen(mesh, surface, 3, 3.2, 0, [] { return true; }));
+  BOOST_TEST(!simplify(mesh, surface, 3, 0));
   BOOST_TEST(find_defects(mesh).none());
 }
 
@@ -182,7 +190,7 @@ void test_weights()
   std::array<std::size_t, 2> near_region{};
   for(int i = 0; i < 2; ++i) {
     internal::Core_mesh mesh = internal::as_core_mesh(start);
-    BOOST_TEST(internal::coarsen(mesh, surface, 300, 3.2, i == 0 ? 0 : 0.2, [] { return true; }));
+    BOOST_TEST(simplify(mesh, surface, 300, i == 0 ? 0 : 0.2));
     for(const auto& p : mesh.points())
       near_region[std::size_t(i)] += p.x() < 0.45;
   }
@@ -192,7 +200,7 @@ void test_weights()
 int run(int, char*[])
 {
   test_collapses();
-  test_coarsen();
+  test_simplification();
   test_weights();
   return boost::report_errors();
 }

@@ -363,8 +363,9 @@ void test_brain(const Test_surface& brain, const Test_surface& region_surface)
   const auto drawn = optimize_mixed_mesh_3(near, domain, Criteria().tolerance(4));
   check(before, near, drawn, brain);
   const Axis_aligned_octree_cell_traits_3 traits(domain.bbox());
-  const auto refined = make_mixed_mesh_3(domain, region, Mixed_mesh_criteria_3(660).tolerance(4), traits,
-                                         nearer);
+  const auto refined = make_mixed_mesh_3(domain, region,
+                                         Mixed_mesh_criteria_3(660).tolerance(4).simplification(false),
+                                         traits, nearer);
   BOOST_TEST(refined.has_mesh());
   BOOST_TEST(find_defects(nearer).none());
   BOOST_TEST_EQ(number_of_vertices_off_surface(nearer, brain), 0u);

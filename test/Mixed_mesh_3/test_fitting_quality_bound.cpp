@@ -14,8 +14,6 @@
 
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/split_by_order.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_removal.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/coarsen.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/optimize_bounded.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/transition_templates.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
@@ -465,7 +463,7 @@ void test_hard_surfaces()
   } cases[] = {{"spikes", spiky_ball(2.5, 7, 16), 600}, {"thin plates", thin_plates(), 2000}};
   for(const auto& c : cases) {
     Mesh free, mesh;
-    const auto criteria = Mixed_mesh_criteria_3(c.vertices).thin_parts(Thin_parts::LIKE_OTHERS);
+    const auto criteria = Mixed_mesh_criteria_3(c.vertices).simplification(false);
     const auto without = make_mixed_mesh_3(c.surface, Mixed_mesh_criteria_3(criteria).quality_bound(0), free);
     BOOST_TEST_GT(largest_arc(free), 3.5);
     BOOST_TEST_GT(number_of_elements_above(free, bound), 10u);
@@ -586,53 +584,6 @@ void test_merging()
   BOOST_TEST(kept.elements().connectivity() == start.elements().connectivity());
 }
 
-// Few vertices that have not arrived are removed at once, if they may be: no more are off the surface then,
-// and other runs are spared.
-void test_removal()
-{
-  std::size_t number_of_calls = 0, number_removed = 0, rounds_without = 0, rounds_with = 0;
-  for(double factor : {0.5, 0.6, 0.7})
-    for(std::size_t n : {2000, 3000}) {
-      const Test_surface ball = spiky_ball(factor, 7, 16);
-      const CGAL::Polyhedral_mixed_mesh_domain_3 domain(ball);
-      const internal::Surface_reference<CGAL::Polyhedral_mixed_mesh_domain_3> surface(domain);
-      Mesh start;
-      make_mixed_mesh_3(domain, Mixed_mesh_criteria_3(n).fit_to_surface(false), start);
-      const auto optimized = [&](internal::Core_mesh& mesh, const internal::Vertex_removal& remove,
-                                 std::size_t& rounds) {
-        return internal::optimize_bounded(
-          mesh, surface, {Criteria(), 1}, Aspect_ratio_quality_3(),
-          [&rounds] {
-            ++rounds;
-            return true;
-          },
-          {}, remove);
-      };
-      internal::Core_mesh kept = internal::as_core_mesh(start), removed = kept;
-      const std::size_t before = number_of_calls;
-      const auto remove = [&](internal::Core_mesh& mesh, std::size_t number) {
-        ++number_of_calls;
-        BOOST_TEST_EQ(number_of_vertices_off_surface(mesh, ball), number);
-        return internal::coarsen(mesh, surface, mesh.number_of_vertices() - number, bound, 0,
-                                 [] { return true; });
-      };
-      const auto without = optimized(kept, {}, rounds_without),
-                 with = optimized(removed, remove, rounds_with);
-      BOOST_TEST_LE(with.number_of_boundary_vertices - with.number_of_arrived_vertices,
-                    without.number_of_boundary_vertices - without.number_of_arrived_vertices);
-      BOOST_TEST(find_defects(removed).none());
-      BOOST_TEST_EQ(number_of_boundary_self_intersections(removed), 0u);
-      BOOST_TEST_EQ(number_of_elements_above(removed, bound), 0u);
-      BOOST_TEST(number_of_calls != before || removed.points() == kept.points());
-      number_removed += start.number_of_vertices() - with.number_of_merged_vertices
-                        - removed.number_of_vertices();
-    }
-  BOOST_TEST_GT(number_of_calls, 0u);
-  BOOST_TEST_GT(number_removed, 0u);
-  BOOST_TEST_LT(rounds_with, rounds_without);
-  std::cout << number_removed << " vertices removed in " << number_of_calls << " calls" << std::endl;
-}
-
 // The start is from elsewhere, with elements above the bound: none gets worse than the worst of them.
 void test_bad_start()
 {
@@ -667,7 +618,6 @@ int run(int, char*[])
   test_crossing_faces();
   test_stopped();
   test_merging();
-  test_removal();
   test_bad_start();
   return boost::report_errors();
 }

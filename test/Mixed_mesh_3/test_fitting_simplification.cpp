@@ -375,7 +375,7 @@ void test_cube()
   for(std::size_t n : {900, 600, 300, 250}) {
     Core_mesh mesh = internal::as_core_mesh(start), again = mesh;
     Followed_features followed = features_of_cube(domain, start), followed_again = followed;
-    BOOST_TEST(internal::simplify(mesh, followed, surface, n, 0, 0.1, bound, 3.2, [] { return true; }));
+    BOOST_TEST(internal::simplify(mesh, followed, surface, n, 0, 0.1, 0.1, bound, 3.2, [] { return true; }));
     BOOST_TEST_EQ(mesh.number_of_vertices(), n);
     BOOST_TEST(find_defects(mesh).none());
     BOOST_TEST_LE(std::abs(volume(mesh) - 1), 1e-12);
@@ -389,13 +389,13 @@ void test_cube()
     BOOST_TEST(last.empty() || std::includes(last.begin(), last.end(), points.begin(), points.end()));
     last = points;
     BOOST_TEST(
-      internal::simplify(again, followed_again, surface, n, 0, 0.1, bound, 3.2, [] { return true; }));
+      internal::simplify(again, followed_again, surface, n, 0, 0.1, 0.1, bound, 3.2, [] { return true; }));
     BOOST_TEST(again.points() == mesh.points());
     BOOST_TEST(followed_again.strata.edges == followed.strata.edges);
   }
   Core_mesh mesh = internal::as_core_mesh(start);
   Followed_features followed = features_of_cube(domain, start);
-  BOOST_TEST(!internal::simplify(mesh, followed, surface, 3, 0, 0.1, bound, 3.2, [] { return true; }));
+  BOOST_TEST(!internal::simplify(mesh, followed, surface, 3, 0, 0.1, 0.1, bound, 3.2, [] { return true; }));
   BOOST_TEST(find_defects(mesh).none());
 }
 

@@ -3,15 +3,15 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Walls and gaps that are thinner than the cells of a budget spent evenly: wrong without, right with thin
-// parts first.
+// Walls and gaps that are thinner than the cells of the octree: lost or filled by its own mesh, kept by one
+// that is cut along the surface.
 
 #include "test_lattice.h"
 #include "test_meshing.h"
 
 #include <CGAL/Mixed_mesh_3/fidelity.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/shell_counts.h>
-#include <CGAL/Mixed_mesh_3/internal/meshing/Gap_widener.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/cut_by_interfaces.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/apply_transitions.h>
 #include <CGAL/Mixed_mesh_3/quality_bound.h>
 
@@ -59,18 +59,17 @@ Surface turned(const Surface& s)
 
 // Meshes and compares by `compare_with_surface()`, and checks that the mesh is valid.
 Solid_comparison mesh_and_compare(const std::string& name, const Surface& surface, std::size_t budget,
-                                  Thin_parts thin_parts, Mixed_mesh_result_3& result)
+                                  bool simplification, Mixed_mesh_result_3& result)
 {
   Mesh mesh;
   result = make_mixed_mesh_3(Polyhedral_mixed_mesh_domain_3(surface),
-                             Mixed_mesh_criteria_3(budget).thin_parts(thin_parts), mesh);
+                             Mixed_mesh_criteria_3(budget).simplification(simplification), mesh);
   BOOST_TEST(result.has_mesh());
   BOOST_TEST_LE(mesh.number_of_vertices(), budget);
   BOOST_TEST(find_defects(mesh).none());
   Solid_comparison c = compare_with_surface(mesh, surface);
   std::cout << name << ": " << mesh.number_of_vertices() << " vertices, status " << int(result.status)
-            << ", volume " << c.ratio_of_volumes() << ", about " << result.number_of_vertices_for_thin_parts
-            << " vertices for thin parts";
+            << ", volume " << c.ratio_of_volumes();
   for(const Solid_difference& d : c.differences)
     std::cout << "; " << d.sentence;
   std::cout << std::endl;
@@ -80,14 +79,13 @@ Solid_comparison mesh_and_compare(const std::string& name, const Surface& surfac
 void test_becomes_right(const std::string& name, const Surface& surface, std::size_t budget)
 {
   Mixed_mesh_result_3 result;
-  const Solid_comparison before = mesh_and_compare(name + ", like others", surface, budget,
-                                                   Thin_parts::LIKE_OTHERS, result);
+  const Solid_comparison before = mesh_and_compare(name + ", the octree's", surface, budget, false, result);
   BOOST_TEST(!before.has_same_topology());
-  BOOST_TEST_EQ(result.number_of_vertices_for_thin_parts, 0u);
-  const Solid_comparison after = mesh_and_compare(name, surface, budget, Thin_parts::WHERE_NEEDED, result);
+  BOOST_TEST_EQ(result.number_of_collapsed_vertices, 0u);
+  const Solid_comparison after = mesh_and_compare(name, surface, budget, true, result);
   BOOST_TEST(after.has_same_topology());
   BOOST_TEST_LE(std::abs(after.ratio_of_volumes() - 1), 0.05);
-  BOOST_TEST_GT(result.number_of_vertices_for_thin_parts + result.number_of_collapsed_vertices, 0u);
+  BOOST_TEST_GT(result.number_of_collapsed_vertices, 0u);
 }
 
 // A wall with room for flatter elements only: these are taken, and counted, unless the bound is strict.
@@ -98,7 +96,7 @@ void test_flatter_elements()
   Surface inner = sphere(Point_3(0, 0, 0), 0.95, 24);
   CGAL::Polygon_mesh_processing::reverse_face_orientations(inner);
   shell += inner;
-  const Mixed_mesh_criteria_3 criteria(500);
+  const Mixed_mesh_criteria_3 criteria(1500);
   Mesh mesh;
   const auto result = make_mixed_mesh_3(shell, criteria, mesh);
   const auto& fit = result.optimization;
@@ -117,31 +115,20 @@ void test_flatter_elements()
   BOOST_TEST_EQ(number_of_elements_above(mesh, criteria.quality_bound()), 0u);
 }
 
-// Where all is right already, nothing is done for thin parts.
-void test_untouched()
-{
-  const Surface ball = sphere(Point_3(0, 0, 0), 1, 16);
-  Mixed_mesh_result_3 result;
-  mesh_and_compare("ball", ball, 600, Thin_parts::WHERE_NEEDED, result);
-  BOOST_TEST(result.status == Status::SUCCESS);
-  BOOST_TEST_EQ(result.number_of_vertices_for_thin_parts, 0u);
-}
-
-// A mesh of cells as thin as a pane has too many vertices, and is coarsened. If even that does not suffice,
-// the outcome is no success, and the need for more vertices is reported.
+// A pane gets elements that are as flat as it asks for; where these would be too flat, the outcome is no
+// success.
 void test_pane()
 {
   Mixed_mesh_result_3 result;
   const auto pane = [](double thickness) { return turned(box(Point_3(0, 0, 0), Point_3(1, 1, thickness))); };
-  const Solid_comparison c = mesh_and_compare("pane", pane(0.04), 600, Thin_parts::WHERE_NEEDED, result);
+  const Solid_comparison c = mesh_and_compare("pane", pane(0.04), 600, true, result);
   BOOST_TEST(result.status == Status::SUCCESS);
   BOOST_TEST(c.has_same_topology());
   BOOST_TEST_LE(std::abs(c.ratio_of_volumes() - 1), 0.05);
   BOOST_TEST_GT(result.number_of_collapsed_vertices, 0u);
 
-  mesh_and_compare("film", pane(0.004), 600, Thin_parts::WHERE_NEEDED, result);
+  mesh_and_compare("film", pane(0.004), 600, true, result);
   BOOST_TEST(result.status != Status::SUCCESS);
-  BOOST_TEST_GT(result.number_of_vertices_for_thin_parts, 10000u);
 }
 
 // A visitor that stops the run is not asked again, at any trial or round.
@@ -227,97 +214,46 @@ void test_cavities()
   BOOST_TEST((Shell_counts{2, 4, 1}) != (Shell_counts{2, 4, 0}));
 }
 
-// ---- gaps on the lattice ------------------------------------------------------------------------
-
-// Depth in a box with half of these sides and this center, in a turned system: positive inside.
-double depth_in_box(const Vec3& p, const Vec3& center, const Vec3& half)
+// Plates, and gaps between boxes, in a lattice of cells of one size: cut along the surface, they are there,
+// though they are thinner than the cells; and whatever their thickness, the elements are valid, and their
+// boundary is a manifold that does not cut itself.
+void test_cuts()
 {
-  const Vec3 d = p - center;
-  const Vec3 q = {std::abs(0.576 * d[0] + 0.768 * d[1] - 0.28 * d[2]) - half[0],
-                  std::abs(0.8 * d[0] - 0.6 * d[1]) - half[1],
-                  std::abs(0.168 * d[0] + 0.224 * d[1] + 0.96 * d[2]) - half[2]};
-  const double outside = std::hypot((std::max)(q[0], 0.), (std::max)(q[1], 0.), (std::max)(q[2], 0.));
-  return -outside - (std::min)((std::max)({q[0], q[1], q[2]}), 0.);
-}
-
-struct Two_boxes
-{
-  Vec3 half[2], center[2];
-
-  // Boxes on both sides of a gap at right angles to the first direction of the boxes.
-  Two_boxes(double thickness, double other_thickness, double gap)
-    : half{{thickness / 2, 0.22, 0.2}, {other_thickness / 2, 0.2, 0.22}}
-  {
-    const Vec3 direction = {0.576, 0.768, -0.28}, middle = {0.51, 0.49, 0.5};
-    center[0] = middle - ((gap + thickness) / 2) * direction;
-    center[1] = middle + ((gap + other_thickness) / 2) * direction;
-  }
-
-  double depth(const Test_point& p, int i) const { return depth_in_box(to_vec3(p), center[i], half[i]); }
-};
-
-// Vertices and elements that join the boxes, and the numbers of vertices inside of each box.
-struct Joints
-{
-  std::size_t count = 0;
-  std::array<std::size_t, 2> inside{};
-};
-
-Joints joints_of(const Located_octree& octree, const internal::Lattice_mesh& mesh, const Two_boxes& boxes)
-{
-  Joints joints;
-  std::vector<int> own(mesh.vertices.size(), 0), around(mesh.vertices.size(), 0); // bits, one a box
-  for(Vertex_index v = 0; v < own.size(); ++v)
-    if(mesh.is_inside(v)) {
-      const int box = boxes.depth(octree.point(mesh.vertices[v]), 0) > 0 ? 0 : 1;
-      own[v] = 1 << box;
-      ++joints.inside[box];
-    }
-  for(Element_index e = 0; e < mesh.elements.size(); ++e) {
-    const Element_view element = mesh.elements[e];
-    int all = 0;
-    for(Vertex_index v : element)
-      all |= own[v];
-    for(Vertex_index v : element)
-      around[v] |= all;
-  }
-  joints.count = std::size_t(std::count(around.begin(), around.end(), 3));
-  return joints;
-}
-
-void test_gaps()
-{
-  const Aligned_traits traits({0, 0, 0, 1, 1, 1});
+  const Aligned_traits traits({-1, -1, -1, 2, 2, 2});
   const Everywhere_mixed_mesh_region_3 region;
-  for(const double gap : {0.08, 0.03, 0.01, 0.004})
-    for(const int level : {4, 5}) {
-      const double edge = std::ldexp(1., -level);
-      const Two_boxes boxes(0.3, 0.25, gap);
-      const Analytic_domain domain(
-        [&](const Test_point& p) { return (std::max)(boxes.depth(p, 0), boxes.depth(p, 1)); });
-      Located_octree octree(domain, region, traits);
-      for(int i = 0; i < level; ++i)
-        octree.refine(octree.leaves_to_refine(i, false));
-      internal::Lattice_mesh mesh = internal::apply_transitions(octree,
-                                                                Transition_templates_choice::FEWEST_VERTICES);
-      const Joints before = joints_of(octree, mesh, boxes);
-      BOOST_TEST(before.count > 0 || gap > edge);
-      internal::widen_gaps_by_lines(octree, mesh);
-      const Joints after = joints_of(octree, mesh, boxes);
-      std::cout << "gap of " << gap / edge << " cells: " << before.count << " joints, then " << after.count
-                << "; inside " << before.inside[0] << " and " << before.inside[1] << ", then "
-                << after.inside[0] << " and " << after.inside[1] << std::endl;
-      BOOST_TEST_EQ(after.count, 0u);
-      BOOST_TEST(after.inside[0] > before.inside[0] / 2 && after.inside[1] > before.inside[1] / 2);
-    }
+  for(const bool is_gap : {false, true})
+    for(const double share : {2., 1., 0.6, 0.3, 0.1, 0.01}) // of the edge of a cell
+      for(const int level : {3, 4}) {
+        const double thickness = share * 3 * std::ldexp(1., -level);
+        Surface surface = box(Point_3(0, 0, 0), Point_3(1, 1, is_gap ? 0.5 : thickness));
+        if(is_gap)
+          surface += box(Point_3(0, 0, 0.5 + thickness), Point_3(1, 1, 1 + thickness));
+        const Polyhedral_mixed_mesh_domain_3 domain(turned(surface));
+        Located_octree octree(domain, region, traits);
+        for(int i = 0; i < level; ++i)
+          octree.refine(octree.leaves_to_refine(i, false));
+        const internal::Core_mesh mesh = internal::cut_by_interfaces(
+          octree, internal::apply_transitions(octree, Transition_templates_choice::FEWEST_VERTICES),
+          [](internal::Octree::Node_index) { return false; }, true);
+        const bool is_right = !mesh.is_empty() && internal::shells_of_boundary(mesh) == domain.shells();
+        const double ratio = volume(mesh) / domain.volume();
+        std::cout << (is_gap ? "gap" : "plate") << " of " << share << " cells, level " << level << ": "
+                  << mesh.number_of_vertices() << " vertices, " << ratio << " of the volume"
+                  << (is_right ? "" : ", another topology") << std::endl;
+        if(!mesh.is_empty()) {
+          BOOST_TEST(find_defects(mesh).none());
+          BOOST_TEST_EQ(number_of_boundary_self_intersections(mesh), 0u);
+        }
+        BOOST_TEST(is_right || share < 0.5);
+        BOOST_TEST(std::abs(ratio - 1) < 0.1 || share < 0.5 || level == 3);
+      }
 }
 
 int run(int, char*[])
 {
-  test_gaps();
+  test_cuts();
   test_shell_counts();
   test_cavities();
-  test_untouched();
   test_flatter_elements();
   Surface balls = sphere(Point_3(-0.55, 0.07, 0.03), 0.5, 24);
   add_sphere(balls, Point_3(0.55, 0.07, 0.03), 0.5, 24);

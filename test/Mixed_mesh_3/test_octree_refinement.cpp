@@ -332,7 +332,7 @@ struct Candidate
   bool manifold = true;
   std::size_t number_of_nodes = 0; // of the octree that it is of
 
-  bool is_good() const { return manifold; }
+  bool is_manifold() const { return manifold; }
 };
 
 using Count = std::function<std::size_t(std::size_t)>;
@@ -420,7 +420,7 @@ void test_other_candidates()
         return Candidate{n, false, n == first || n / 7 % one_in != 0, o.octree().size()};
       };
       const Candidate best = fill_vertex_budget(octree, budget, 0.1, try_octree);
-      BOOST_TEST(best.is_good());
+      BOOST_TEST(best.is_manifold());
       BOOST_TEST_EQ(best.number_of_vertices, octree.number_of_cells());
       BOOST_TEST_LE(best.number_of_vertices, budget);
       BOOST_TEST_GT(2 * best.number_of_vertices, budget);

@@ -246,7 +246,7 @@ class Surfaces(Case):
         plate = [(2 + x, y, 0.55 + 0.01 * z) for x, y, z in CUBE]
         path = self.file("plate.off", off(CUBE + plate, TRIANGLES + shifted(TRIANGLES, 8)))
         report = WORK / "report.json"
-        run = self.mesher(path, "--vertices", 500, "--output", self.output, "--report", report)
+        run = self.mesher(path, "--vertices", 500, "--no-simplification", "--output", self.output, "--report", report)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("parts thinner than a cell are lost", run.stderr)
         self.assertRegex(run.stderr, r"(a piece of volume 0.01 cubic units|a body) near \(2\.")

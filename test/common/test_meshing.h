@@ -125,7 +125,7 @@ Mixed_mesh_result_3 run(const Domain& domain, const Region& region, const Mixed_
 }
 
 // Checks a mesh that is not fitted: every boundary vertex is outside or on the surface, every other vertex
-// inside, except by the repair of pinched places or of narrow gaps.
+// inside, except by the repair of pinched places.
 inline void check_sides(const Mesh& mesh, const Mixed_mesh_result_3& result,
                         const Polyhedral_mixed_mesh_domain_3& domain)
 {
@@ -134,7 +134,7 @@ inline void check_sides(const Mesh& mesh, const Mixed_mesh_result_3& result,
     is_boundary[v] = true;
   for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v) {
     const bool is_inside = domain.bounded_side(mesh.point(v)) == CGAL::ON_BOUNDED_SIDE;
-    BOOST_TEST(!is_inside || !is_boundary[v] || result.number_of_vertices_for_thin_parts > 0);
+    BOOST_TEST(!is_inside || !is_boundary[v]);
     BOOST_TEST(is_inside || is_boundary[v] || result.number_of_relabeled_vertices > 0);
   }
 }

@@ -91,14 +91,14 @@ public:
   /// @{
 
   /// The number of shells of the surface, its Euler characteristic and, if known, the number of shells around
-  /// cavities. Where the boundary of the mesh has other values, thin walls and narrow gaps are resolved
-  /// first, and if the values still differ, the status is `CGAL::Mixed_mesh_status::TOPOLOGY_DIFFERS`.
+  /// cavities. Where the boundary of the mesh has other values, another one is cut along the surface, and if
+  /// the values still differ, the status is `CGAL::Mixed_mesh_status::TOPOLOGY_DIFFERS`.
   /// Without this function, or if the result is empty, topology and volume are not compared, and
   /// `CGAL::Mixed_mesh_result_3::shells_of_domain` is empty.
   std::optional<CGAL::Mixed_meshes_3::Shell_counts> shells() const;
 
   /// The volume of the domain. If the volume of the mesh, or that of one of its shells, differs by more than
-  /// 5 %, thin parts are resolved first, and if volumes still differ, the status is
+  /// 5 %, another mesh is made in the same way, and if volumes still differ, the status is
   /// `CGAL::Mixed_mesh_status::VOLUME_DIFFERS`. Called if the result of `shells()` is not empty.
   double volume() const;
 

@@ -35,15 +35,6 @@ enum class Root_cell {
   BOX   ///< the bounding box itself, as in the paper: cells have its proportions
 };
 
-/// \ingroup PkgMixedMesh3Mesh
-/// The time at which cells as large as a wall is thick, or half as large as a gap is wide, are split before
-/// others.
-enum class Thin_parts {
-  WHERE_NEEDED, ///< split first if the mesh would have another topology, or lose parts or volume
-  FIRST,        ///< always
-  LIKE_OTHERS   ///< never
-};
-
 /// \ingroup PkgMixedMesh3Octree
 /// The way in which elements at the surface are split.
 enum class Boundary_mode {

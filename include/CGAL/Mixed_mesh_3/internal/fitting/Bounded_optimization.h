@@ -19,7 +19,6 @@
 #include <CGAL/Mixed_mesh_3/internal/elements/element_points.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Followed_features.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Optimization_effort.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_removal.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/optimize_surface.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
@@ -45,8 +44,6 @@ bound in which most of the boundary has arrived:
 - *freely*: on the way to the surface, elements may get worse than the bound, and better again; elements above
 the bound in the end are mended, as a last resort by boundary vertices that leave the surface. If all of the
 boundary arrives, and no element is above the bound in the end, as for most surfaces, this result is taken;
-- *without the vertices that have not arrived*, if these are few and may be removed: from that result, with
-fewer vertices;
 - *without attraction*: the same, but places that are too far do not draw the boundary, and vertices are held
 on their way where their faces would cut others;
 - *within the bound*, which no step exceeds;
@@ -73,7 +70,6 @@ class Bounded_optimization
   const bool m_has_subdomains; // or sheets
   const Fitting_estimate m_estimate;
   const double m_tolerated_share_not_arrived; // share of the boundary vertices
-  const Vertex_removal m_remove;              // none: all vertices stay
   const Sharp_edges m_sharp_edges;
   const double m_edge_length; // mean of the boundary; any value if there are no sharp edges
   Sharp_features m_features;
@@ -94,13 +90,12 @@ class Bounded_optimization
 
 public:
   Bounded_optimization(Core_mesh& mesh, const Any_surface& domain, const Criteria& criteria,
-                       const Quality& quality, const Fitting_estimate& estimate, Vertex_removal remove,
+                       const Quality& quality, const Fitting_estimate& estimate,
                        const Followed_features* followed = nullptr)
     : m_mesh(mesh), m_domain(domain), m_criteria(criteria), m_quality(quality),
       m_has_subdomains(domain.subdomain_indices().size() > 1 || domain.has_sheets()), m_estimate(estimate),
       m_tolerated_share_not_arrived((std::max)(estimate.tolerated_share_not_arrived,
                                                m_has_subdomains ? tolerated_share_on_interfaces : 0)),
-      m_remove(std::move(remove)),
       m_sharp_edges(is_chosen(followed) ? Sharp_edges() : domain.sharp_edges(criteria.sharp_angle())),
       m_edge_length(m_sharp_edges.edges.empty() ? 1 : mean_edge_length()),
       m_features(is_chosen(followed) ? followed->features : Sharp_features(m_sharp_edges, m_edge_length)),
@@ -158,11 +153,6 @@ private:
         return take(outcome);
       if(outcome.meets_guarantees && (is_fitted(outcome.result) || !has_bound()))
         return take(outcome); // no other run would do better
-      if(outcome.meets_guarantees && may_remove_unarrived(outcome.result)) {
-        Outcome rest = optimize_without_unarrived(outcome, go_on);
-        if(rest.meets_guarantees && is_fitted(rest.result))
-          return take(rest);
-      }
       const bool may_be_attraction = outcome.may_be_attraction;
       if(is_better(outcome, best))
         best = std::move(outcome);
@@ -191,11 +181,6 @@ private:
            && (!b.meets_guarantees || number_not_arrived(a.result) < number_not_arrived(b.result));
   }
 
-  bool may_remove_unarrived(const Result& r) const
-  {
-    return m_remove && number_not_arrived(r) <= removable_share * double(r.number_of_boundary_vertices);
-  }
-
   Result take(Outcome& outcome)
   {
     m_mesh = std::move(outcome.mesh);
@@ -220,26 +205,6 @@ private:
     outcome.may_be_attraction = fitted.has_crossed
                                 || ((m_criteria.tolerance() > 0 || m_criteria.number_of_bisections() > 0)
                                     && !fitted.is_without_attraction);
-    return outcome;
-  }
-
-  // Removes the vertices that have not arrived, and optimizes the mesh that is left.
-  Outcome optimize_without_unarrived(const Outcome& first, const std::function<bool()>& go_on) const
-  {
-    Core_mesh start = first.mesh;
-    const Result& r = first.result;
-    if(!m_remove(start, r.number_of_boundary_vertices - r.number_of_arrived_vertices))
-      return {};
-    Criteria criteria = m_criteria;
-    if(criteria.number_of_bisections() > 0)
-      criteria.number_of_bisections(m_mesh.number_of_vertices() + criteria.number_of_bisections()
-                                    - start.number_of_vertices());
-    const Bounded_optimization rest(start, m_domain, criteria, m_quality, m_estimate, {});
-    Outcome outcome = rest.optimize_freely(freely(), go_on);
-    outcome.result.number_of_flips += r.number_of_flips;
-    outcome.result.number_of_bisections += r.number_of_bisections;
-    outcome.result.number_of_merged_vertices += r.number_of_merged_vertices;
-    outcome.result.number_of_rounds += r.number_of_rounds;
     return outcome;
   }
 
@@ -336,9 +301,9 @@ Mixed_mesh_optimization_result_3
 optimize_bounded(Core_mesh& mesh, const Any_surface& surface,
                  const With_threads<Mixed_mesh_optimization_criteria_3>& criteria, const Quality& quality,
                  const std::function<bool()>& go_on, const Fitting_estimate& estimate = {},
-                 const Vertex_removal& remove = {}, Followed_features* followed = nullptr)
+                 Followed_features* followed = nullptr)
 {
-  Bounded_optimization<Quality> run(mesh, surface, criteria, quality, estimate, remove, followed);
+  Bounded_optimization<Quality> run(mesh, surface, criteria, quality, estimate, followed);
   const Mixed_mesh_optimization_result_3 result = run(go_on);
   if(followed != nullptr)
     *followed = std::move(run).followed_features();

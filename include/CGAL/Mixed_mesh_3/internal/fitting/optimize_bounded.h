@@ -17,7 +17,6 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Followed_features.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Optimization_effort.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_removal.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Any_surface.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
 #include <CGAL/Mixed_mesh_optimization_result_3.h>
@@ -31,15 +30,13 @@ namespace internal {
 /// Runs `Bounded_optimization`; the cost of an element is its aspect-ratio coefficient.
 /// \param go_on function that is asked before each round
 /// \param estimate what suffices, if not all of the boundary needs to arrive
-/// \param remove how few boundary vertices that have not arrived are removed; empty: they stay
 /// \param followed sharp features, with the vertices that follow them if they are chosen already; those of
 /// the result in the end
 Mixed_mesh_optimization_result_3
 optimize_bounded(Core_mesh& mesh, const Any_surface& surface,
                  const With_threads<Mixed_mesh_optimization_criteria_3>& criteria,
                  const Aspect_ratio_quality_3& quality, const std::function<bool()>& go_on,
-                 const Fitting_estimate& estimate = {}, const Vertex_removal& remove = {},
-                 Followed_features* followed = nullptr);
+                 const Fitting_estimate& estimate = {}, Followed_features* followed = nullptr);
 
 } // namespace internal
 } // namespace Mixed_meshes_3

@@ -18,13 +18,12 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-CGAL_MIXED_MESH_3_INLINE Mixed_mesh_optimization_result_3
-optimize_bounded(Core_mesh& mesh, const Any_surface& surface,
-                 const With_threads<Mixed_mesh_optimization_criteria_3>& criteria,
-                 const Aspect_ratio_quality_3& quality, const std::function<bool()>& go_on,
-                 const Fitting_estimate& estimate, const Vertex_removal& remove, Followed_features* followed)
+CGAL_MIXED_MESH_3_INLINE Mixed_mesh_optimization_result_3 optimize_bounded(
+  Core_mesh& mesh, const Any_surface& surface,
+  const With_threads<Mixed_mesh_optimization_criteria_3>& criteria, const Aspect_ratio_quality_3& quality,
+  const std::function<bool()>& go_on, const Fitting_estimate& estimate, Followed_features* followed)
 {
-  return optimize_bounded<Aspect_ratio_quality_3>(mesh, surface, criteria, quality, go_on, estimate, remove,
+  return optimize_bounded<Aspect_ratio_quality_3>(mesh, surface, criteria, quality, go_on, estimate,
                                                   followed);
 }
 

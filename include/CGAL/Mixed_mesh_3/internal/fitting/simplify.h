@@ -17,8 +17,8 @@
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Followed_features.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Mesh_simplifier.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/coarsen.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/weights_of_vertices.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Strata.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Any_surface.h>
@@ -78,11 +78,12 @@ Removes vertices of a mesh whose boundary, and whose interfaces, are on their su
 number.
 
 What does not suffice is given up in this order: that sharp edges of the mesh stay near to curved ones, that
-vertices of the region stay, the quality bound, the distance.
+vertices of the region stay, a distance that is smaller than the usual one, the quality bound, the distance.
 
 \param followed sharp features that the mesh follows, which the result follows as well
 \param radius of the region, for `weights_of_vertices()`; 0: there is none
 \param distance no place that a boundary vertex has left is farther from the boundary
+\param usual_distance that nearly every mesh keeps
 \param quality_bound no new element costs more; becomes a larger one if there would be more vertices otherwise
 \param largest_bound the largest one that it may become
 \return whether the mesh has so few vertices then
@@ -90,8 +91,8 @@ vertices of the region stay, the quality bound, the distance.
 Some 60 microseconds for each vertex that is removed
 */
 inline bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_surface& surface,
-                     std::size_t number_of_vertices, double radius, double distance, double& quality_bound,
-                     double largest_bound, const std::function<bool()>& go_on)
+                     std::size_t number_of_vertices, double radius, double distance, double usual_distance,
+                     double& quality_bound, double largest_bound, const std::function<bool()>& go_on)
 {
   // Bounds that are tried, one after the other, so that elements are no flatter than needed.
   constexpr double step_of_bound = 1.25;
@@ -127,6 +128,8 @@ inline bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_sur
     simplifier.give_up_region();
     remove(distance, false);
   }
+  if(usual_distance > distance)
+    remove(distance = usual_distance, false);
   while(n > number_of_vertices && quality_bound < largest_bound && go_on()) {
     quality_bound = (std::min)(step_of_bound * quality_bound, largest_bound);
     remove(distance, false);

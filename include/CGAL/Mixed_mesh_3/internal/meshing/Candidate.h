@@ -14,9 +14,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/Boundary_stage.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/assemble_mesh.h>
-#include <CGAL/Mixed_mesh_3/internal/meshing/Gap_widener.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
-#include <CGAL/Mixed_mesh_3/internal/meshing/thin_cells.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Any_visitor.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
@@ -24,19 +22,11 @@
 #include <CGAL/Mixed_mesh_criteria_3.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
-
-/// The treatment of gaps that are narrower than the cells beside them.
-enum class Gap_rule : std::uint8_t {
-  NONE,
-  NORMALS, ///< `widen_gaps()`
-  LINES    ///< `widen_gaps_by_lines()`
-};
 
 using Meshing_criteria = With_threads<Mixed_mesh_criteria_3>;
 
@@ -53,14 +43,10 @@ struct Candidate
 {
   std::size_t number_of_vertices = 0;
   bool is_stopped = false; // the visitor stopped the run
-  Gap_rule gap_rule = Gap_rule::NONE;
   Lattice_mesh mesh;
   Boundary_pieces boundary;
 
-  bool is_topology_wrong = false; // known only if the topology was examined
-
   bool is_manifold() const { return boundary.defects.empty(); }
-  bool is_good() const { return is_manifold() && !is_topology_wrong; }
 
   bool is_released() const { return number_of_vertices > 0 && mesh.vertices.empty(); }
   /// Releases the lattice mesh and its boundary, except for defects of the boundary.
@@ -88,10 +74,6 @@ inline void make_lattice_mesh(const Located_octree& octree, const Meshing_criter
   {
     const Stage_scope scope(visitor, Stage::TRANSITIONS);
     c.mesh = apply_transitions(octree, criteria.transition_templates(), criteria.number_of_threads);
-    if(c.gap_rule == Gap_rule::NORMALS)
-      widen_gaps(octree, c.mesh);
-    else if(c.gap_rule == Gap_rule::LINES)
-      widen_gaps_by_lines(octree, c.mesh);
   }
   {
     const Stage_scope scope(visitor, Stage::BOUNDARY);
@@ -102,14 +84,13 @@ inline void make_lattice_mesh(const Located_octree& octree, const Meshing_criter
 
 /// Runs the stages that follow the octree. To be called in the stage `OCTREE`.
 inline Candidate make_candidate(const Located_octree& octree, const Meshing_criteria& criteria,
-                                Any_visitor& visitor, Gap_rule gap_rule = Gap_rule::NONE)
+                                Any_visitor& visitor)
 {
   Candidate c;
   const Stage_pause pause(visitor, Stage::OCTREE);
   c.is_stopped = !visitor.go_on();
   if(c.is_stopped)
     return c;
-  c.gap_rule = gap_rule;
   make_lattice_mesh(octree, criteria, visitor, c);
   visitor.progress(c.number_of_vertices, criteria.maximal_number_of_vertices());
   return c;

@@ -28,6 +28,7 @@
 
 #include <CGAL/assertions.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -58,10 +59,7 @@ struct Meshing_state
   const Lattice_on_surface lattice;
   Candidate best;
   std::vector<Octree::Node_index> lost;
-  std::optional<Located_octree> thin_start;  // walls and gaps are resolved
-  std::optional<Located_octree> right_start; // on the way there, the topology was right
-  bool are_gaps_wider = false;
-  bool keeps_topology = false;          // while the budget is filled
+  std::optional<Located_octree> start;  // narrow places at sharp edges are resolved
   bool is_stopped = false;              // by the visitor, which is not asked again then
   std::size_t number_beyond_budget = 0; // vertices that the octree may have, to be removed
   double quality_bound;                 // in force: larger than that of the criteria where walls need it
@@ -80,11 +78,6 @@ struct Meshing_state
   Meshing_state& operator=(const Meshing_state&) = delete;
 
   bool has_several_subdomains() const { return root.domain().subdomain_indices().size() > 1; }
-
-  bool may_resolve_thin_parts() const
-  {
-    return criteria.thin_parts() == Thin_parts::WHERE_NEEDED && !has_several_subdomains();
-  }
 
   /// Of the budget, for vertices that bisect edges of the boundary.
   double share_of_bisections() const
@@ -127,28 +120,15 @@ struct Meshing_state
     return !is_stopped;
   }
 
-  /// The mesh of an octree on the lattice, with gaps widened if they are to be.
+  /// The mesh of an octree on the lattice.
   Candidate try_octree(const Located_octree& o)
   {
     Candidate c;
     c.is_stopped = is_stopped;
     if(is_stopped)
       return c;
-    c = make_candidate(o, criteria, visitor, are_gaps_wider ? Gap_rule::NORMALS : Gap_rule::NONE);
+    c = make_candidate(o, criteria, visitor);
     is_stopped = c.is_stopped;
-    bool is_wrong = (are_gaps_wider || keeps_topology) && c.number_of_vertices > 0
-                    && misfit_on_lattice(o, c, 0).is_topology_wrong();
-    if(are_gaps_wider && is_wrong) {
-      Candidate other = make_candidate(o, criteria, visitor, Gap_rule::LINES);
-      is_stopped = other.is_stopped;
-      result.number_of_trials += !other.is_stopped;
-      if(!is_stopped && other.number_of_vertices > 0 && other.is_manifold()
-         && !misfit_on_lattice(o, other, 0).is_topology_wrong()) {
-        c = std::move(other);
-        is_wrong = false;
-      }
-    }
-    c.is_topology_wrong = keeps_topology && is_wrong;
     result.number_of_trials += !c.is_stopped;
     return c;
   }
@@ -169,38 +149,13 @@ struct Meshing_state
       make_lattice_mesh(octree, criteria, visitor, best);
   }
 
-  /// The octree and its mesh on the lattice; the boundary is not fitted yet.
-  struct Snapshot
-  {
-    Located_octree octree;
-    Candidate best;
-    std::vector<Octree::Node_index> lost;
-    Mixed_mesh_result_3 result;
-    bool are_gaps_wider;
-  };
-
-  Snapshot snapshot() const { return {octree, best, lost, result, are_gaps_wider}; }
-
-  void restore(Snapshot s)
-  {
-    octree = std::move(s.octree);
-    best = std::move(s.best);
-    lost = std::move(s.lost);
-    result = s.result;
-    are_gaps_wider = s.are_gaps_wider;
-  }
-
   /// The misfit of the best, whose boundary is not fitted. \pre the best is not released
   Misfit misfit_on_lattice() const
   {
     CGAL_precondition(!best.is_released());
-    return best.number_of_vertices == 0 ? Misfit::without_mesh()
-                                        : misfit_on_lattice(octree, best, lost.size());
-  }
-
-  Misfit misfit_on_lattice(const Located_octree& o, const Candidate& candidate, std::size_t number_lost) const
-  {
-    return Misfit(assembled_mesh(o, candidate), root.domain(), false, number_lost, 0, 0, 0);
+    return best.number_of_vertices == 0
+             ? Misfit::without_mesh()
+             : Misfit(assembled_mesh(octree, best), root.domain(), false, lost.size(), 0, 0, 0);
   }
 
   Misfit misfit_of(const Core_mesh& mesh) const

@@ -63,11 +63,10 @@ class Tolerance_search
   Mixed_mesh_result_3& m_result;
   const bool m_has_subdomains;
   std::vector<Surface_sample> m_samples;
-  std::vector<std::vector<Vec3>> m_far_points;  // on the surface, where cells are split: the farthest first
-  std::vector<std::pair<Vec3, int>> m_required; // places with the levels that their cells must have
-  bool m_is_stopped = false;                    // the visitor stopped the search
-  bool m_only_parts = false;                    // small parts only, not the outer surface
-  bool m_is_full = false;                       // there is no room for more splits
+  std::vector<std::vector<Vec3>> m_far_points; // on the surface, where cells are split: the farthest first
+  bool m_is_stopped = false;                   // the visitor stopped the search
+  bool m_only_parts = false;                   // small parts only, not the outer surface
+  bool m_is_full = false;                      // there is no room for more splits
 
 public:
   /// \param root the octree with nothing but its root
@@ -93,31 +92,10 @@ public:
   }
 
   bool has_far_points() const { return !m_far_points.empty(); }
-  /// Whether cells may be split: not where the region is everywhere.
-  bool has_samples() const { return !m_samples.empty(); }
-
-  /// Notes where a mesh is too far from the surface: cells will be smaller there than in its octree.
-  /// \return whether there are such places
-  bool note_far_places(const Core_mesh& mesh, const Located_octree& octree)
-  {
-    const std::size_t before = m_required.size();
-    for(const auto& [distance, p] : far_points(mesh))
-      if(const Octree::Node_index n = octree.leaf_at({p[0], p[1], p[2]});
-         distance > first_multiple() && may_split(octree, n))
-        m_required.emplace_back(p, octree.octree().level(n) + 1);
-    return m_required.size() > before;
-  }
-
   /// Splits the cell around each far point once, round by round.
-  /// \param share share of the points of each round; the farthest points are used. All places that were noted
-  /// are split
+  /// \param share share of the points of each round; the farthest points are used
   void split_far_cells(Located_octree& octree, double share = 1) const
   {
-    const auto refine = [&octree](std::vector<Octree::Node_index>& leaves) {
-      std::sort(leaves.begin(), leaves.end());
-      leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
-      octree.refine(leaves);
-    };
     for(const std::vector<Vec3>& points : m_far_points) {
       std::vector<Octree::Node_index> leaves;
       const auto number = std::size_t(std::ceil(share * double(points.size())));
@@ -125,16 +103,10 @@ public:
         if(const Octree::Node_index n = octree.leaf_at({points[i][0], points[i][1], points[i][2]});
            may_split(octree, n))
           leaves.push_back(n);
-      refine(leaves);
+      std::sort(leaves.begin(), leaves.end());
+      leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+      octree.refine(leaves);
     }
-    std::vector<Octree::Node_index> leaves;
-    do {
-      leaves.clear();
-      for(const auto& [p, level] : m_required)
-        if(const Octree::Node_index n = octree.leaf_at({p[0], p[1], p[2]}); octree.octree().level(n) < level)
-          leaves.push_back(n);
-      refine(leaves);
-    } while(!leaves.empty());
   }
 
 private:

@@ -107,11 +107,12 @@ public:
   std::size_t number_of_vertices() const { return m_ranks.size(); }
 
   /// \param stays vertices, of those before, that are not moved
+  /// \param keeps_thin_parts whether vertices between two sheets of an interface stay as well
   /// \pre `is_clear()`
-  Core_mesh operator()(const std::vector<std::uint8_t>& stays)
+  Core_mesh operator()(const std::vector<std::uint8_t>& stays, bool keeps_thin_parts)
   {
     CGAL_precondition(is_clear() && stays.size() == number_of_vertices());
-    move_near_vertices(stays);
+    move_near_vertices(stays, keeps_thin_parts);
     for(const Cut& cut : m_cuts)
       if(is_inside(cut.ends[0]) && is_inside(cut.ends[1]))
         bisect(cut);
@@ -307,30 +308,76 @@ private:
     return {{a, b}, norm(q - x) < accuracy * length ? q : x, share};
   }
 
-  // Moves vertices to the nearest one of the points where their edges are cut, the nearest first. A vertex
-  // between two interfaces stays.
-  void move_near_vertices(const std::vector<std::uint8_t>& stays)
+  // An end of a cut.
+  struct End
   {
-    std::vector<Subdomain_rank> behind(m_ranks.size(), on_interface); // at the other ends of edges
-    std::vector<std::uint8_t> may_move(m_ranks.size());
-    std::transform(stays.begin(), stays.end(), may_move.begin(), std::logical_not<>());
-    std::vector<std::pair<double, std::size_t>>
-      order; // by the share; twice the number of the cut, plus the end
-    for(std::size_t i = 0; i < m_cuts.size(); ++i)
-      for(std::size_t end : {0, 1}) {
-        const Vertex_index v = m_cuts[i].ends[end];
-        const Subdomain_rank other = m_ranks[m_cuts[i].ends[1 - end]];
-        may_move[v] = may_move[v] && (behind[v] == on_interface || behind[v] == other);
-        behind[v] = other;
-        const double share = end == 0 ? m_cuts[i].share : 1 - m_cuts[i].share;
-        if(share < near)
-          order.emplace_back(share, 2 * i + end);
+    Vertex_index vertex, other;
+    Vec3 way;     // to the point of the cut
+    double share; // of the edge before it
+  };
+
+  End end_of(const Cut& cut, std::size_t i) const
+  {
+    return {cut.ends[i], cut.ends[1 - i], cut.point - m_mesh.points[cut.ends[i]],
+            i == 0 ? cut.share : 1 - cut.share};
+  }
+
+  template <class Function>
+  void for_each_end(const Function& f) const
+  {
+    for(std::size_t i = 0; i < 2 * m_cuts.size(); ++i)
+      f(i, end_of(m_cuts[i / 2], i % 2));
+  }
+
+  // Whether all cuts of the edges of a vertex are of the same subdomains.
+  // \param is_one_sheet and on the side where the interface is nearest: a vertex between two sheets of it
+  // that left for one of them would take along what is between it and the other
+  std::vector<std::uint8_t> vertices_beside_one_interface(bool is_one_sheet) const
+  {
+    const std::size_t n = m_ranks.size();
+    std::vector<std::size_t> nearest(n, 2 * m_cuts.size()); // end of a cut
+    std::vector<double> shares(n, near);
+    for_each_end([&](std::size_t i, const End& end) {
+      if(end.share < shares[end.vertex]) {
+        shares[end.vertex] = end.share;
+        nearest[end.vertex] = i;
       }
+    });
+    std::vector<std::uint8_t> is_beside_one(n, 0);
+    std::vector<Vec3> ways(n);
+    for_each_end([&](std::size_t i, const End& end) {
+      if(nearest[end.vertex] != i)
+        return;
+      is_beside_one[end.vertex] = 1;
+      if(is_one_sheet)
+        ways[end.vertex] = closest(m_mesh.points[end.vertex], m_ranks[end.vertex], m_ranks[end.other])
+                           - m_mesh.points[end.vertex];
+    });
+    for_each_end([&](std::size_t, const End& end) {
+      if(is_beside_one[end.vertex] == 0)
+        return;
+      const Cut& cut = m_cuts[nearest[end.vertex] / 2];
+      const Vertex_index other = cut.ends[1 - nearest[end.vertex] % 2];
+      is_beside_one[end.vertex] = (!is_one_sheet || dot(ways[end.vertex], end.way) >= 0)
+                                  && m_ranks[end.other] == m_ranks[other];
+    });
+    return is_beside_one;
+  }
+
+  // Moves vertices to the nearest one of the points where their edges are cut, the nearest first.
+  void move_near_vertices(const std::vector<std::uint8_t>& stays, bool keeps_thin_parts)
+  {
+    const std::vector<std::uint8_t> is_beside_one = vertices_beside_one_interface(keeps_thin_parts);
+    std::vector<std::pair<double, std::size_t>> order; // of ends
+    for_each_end([&](std::size_t i, const End& end) {
+      if(end.share < near && is_beside_one[end.vertex] && !stays[end.vertex])
+        order.emplace_back(end.share, i);
+    });
     std::sort(order.begin(), order.end());
     for(const auto& [share, i] : order) {
       const Cut& cut = m_cuts[i / 2];
       const Vertex_index v = cut.ends[i % 2];
-      if(!may_move[v] || !is_inside(cut.ends[0]) || !is_inside(cut.ends[1]))
+      if(!is_inside(cut.ends[0]) || !is_inside(cut.ends[1]))
         continue;
       const Vec3 before = std::exchange(m_mesh.points[v], cut.point);
       if(std::all_of(m_mesh.incident[v].begin(), m_mesh.incident[v].end(),
@@ -400,15 +447,18 @@ private:
 
 /*!
 The elements of a lattice, cut along the interfaces of subdomains. Where the boundary would be no manifold,
-vertices are not moved; none is if some interface would be none.
+vertices are not moved; none is if some interface would be none, or in the end: then all are manifolds, unless
+some edge could not be cut.
 
 \param is_kept whether hexahedra of a leaf stay, if they are not beside a surface
+\param keeps_thin_parts whether vertices between two sheets of an interface are not moved: parts and gaps
+that are thinner than cells are there then, of more and flatter elements
 \return an empty mesh if one of them is no manifold all the same, or if the surfaces do not fit together
 \par Complexity
 Some queries for each edge at a cell that meets a surface
 */
 inline Core_mesh cut_by_interfaces(const Located_octree& octree, const Lattice_mesh& lattice,
-                                   const Interface_cutter::Leaf_predicate& is_kept)
+                                   const Interface_cutter::Leaf_predicate& is_kept, bool keeps_thin_parts)
 {
   constexpr int most_attempts = 4;
   const Interface_cutter uncut(octree, lattice, is_kept);
@@ -417,20 +467,19 @@ inline Core_mesh cut_by_interfaces(const Located_octree& octree, const Lattice_m
   std::vector<std::uint8_t> stays(uncut.number_of_vertices(), 0);
   for(int attempt = 0; attempt < most_attempts; ++attempt) {
     Interface_cutter cut = uncut;
-    Core_mesh mesh = cut(stays);
+    Core_mesh mesh = cut(stays, keeps_thin_parts);
     const std::vector<Vertex_index> defects = cut.defects(mesh);
     for(Vertex_index v : defects)
       if(v < stays.size()) // others are on the interface
         stays[v] = 1;
-    if(!defects.empty())
-      continue;
-    const std::vector<Subdomain_interface> interfaces = find_interfaces(mesh);
-    if(std::all_of(interfaces.begin(), interfaces.end(),
-                   [](const Subdomain_interface& one) { return one.is_manifold(); }))
-      return mesh;
-    if(std::count(stays.begin(), stays.end(), 0) == 0)
-      break;
-    std::fill(stays.begin(), stays.end(), 1);
+    if(defects.empty()) {
+      const std::vector<Subdomain_interface> interfaces = find_interfaces(mesh);
+      if(std::all_of(interfaces.begin(), interfaces.end(),
+                     [](const Subdomain_interface& one) { return one.is_manifold(); }))
+        return mesh;
+    }
+    if(defects.empty() || attempt == most_attempts - 2)
+      std::fill(stays.begin(), stays.end(), 1);
   }
   return {};
 }

@@ -111,7 +111,7 @@ octree_for_region_first(const Meshing_state& s, const Located_octree& base, cons
   return octree;
 }
 
-/// Refines an octree until the budget is full, from a base level, or from where walls and gaps are resolved.
+/// Refines an octree until the budget is full, from a base level, or from where narrow places are resolved.
 /// \param octree with nothing but its root; the one of the candidate then
 inline Candidate fill_from(Meshing_state& s, int level, Located_octree& octree)
 {
@@ -121,8 +121,8 @@ inline Candidate fill_from(Meshing_state& s, int level, Located_octree& octree)
       o, s.octree_budget(), s.graded_radius(),
       [&s](const Located_octree& tried) { return s.try_octree(tried); }, first_to_split);
   };
-  if(s.thin_start) {
-    octree = *s.thin_start;
+  if(s.start) {
+    octree = *s.start;
     return fill(octree);
   }
   Candidate candidate;
@@ -137,7 +137,7 @@ inline Candidate fill_from(Meshing_state& s, int level, Located_octree& octree)
   if(!other)
     return candidate;
   Candidate other_candidate = fill(*other);
-  if(other_candidate.is_stopped || !other_candidate.is_good()
+  if(other_candidate.is_stopped || !other_candidate.is_manifold()
      || other_candidate.number_of_vertices > s.octree_budget())
     return candidate;
   octree = std::move(*other);
@@ -149,7 +149,7 @@ inline Candidate fill_from(Meshing_state& s, int level, Located_octree& octree)
 /// elements.
 inline void fill_budget(Meshing_state& s)
 {
-  const bool is_automatic = s.criteria.base_level() == Mixed_mesh_criteria_3::automatic && !s.thin_start;
+  const bool is_automatic = s.criteria.base_level() == Mixed_mesh_criteria_3::automatic && !s.start;
   const int coarsest = (std::max)(coarsest_automatic_base_level, s.lattice.level);
   int level = s.coarsest_level();
   for(int step = 0;; level += step) {

@@ -15,7 +15,6 @@
 
 #include <CGAL/Mixed_mesh_3/internal/boundary/lost_cells.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/Interface_curves.h>
-#include <CGAL/Mixed_mesh_3/internal/meshing/coarsen_to_budget.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/cut_by_interfaces.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/fill_budget.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/layer_cells.h>
@@ -49,7 +48,7 @@ inline std::size_t number_of_fine_vertices(std::size_t budget)
 }
 
 /// How many times the budget cells may have that are split for narrow places and for the topology.
-constexpr std::size_t most_cells_for_narrow_places = 8, most_vertices_for_topology = 16;
+constexpr std::size_t most_cells_for_narrow_places = 8, most_cells_for_topology = 16;
 
 /// Lets the octree begin with cells that are small enough for sharp edges that are near to each other, and
 /// for curved ones, as far as the budget allows.
@@ -71,7 +70,7 @@ inline void resolve_sharp_edges(Meshing_state& s, double size)
       return;
     split_narrow_cells(octree, places, share * size);
     if(octree.number_of_cells() <= most) {
-      s.thin_start = std::move(octree);
+      s.start = std::move(octree);
       return;
     }
   }
@@ -87,8 +86,8 @@ inline void fill_fine_octree(Meshing_state& s)
   const std::size_t budget = s.criteria.maximal_number_of_vertices();
   std::size_t number = number_of_fine_vertices(budget);
   resolve_sharp_edges(s, std::cbrt(volume_of_domain(s.root) / double(number)));
-  if(s.thin_start) // what is beside these places needs cells as well
-    number += s.try_octree(*s.thin_start).number_of_vertices;
+  if(s.start) // what is beside these places needs cells as well
+    number += s.try_octree(*s.start).number_of_vertices;
   s.number_beyond_budget = number - s.budget();
   fill_budget(s);
   s.number_beyond_budget = 0;
@@ -101,15 +100,16 @@ inline Core_mesh fine_mesh_on_lattice(Meshing_state& s)
   fill_fine_octree(s);
   if(s.is_stopped || s.result.is_lattice_on_surface)
     return {};
-  const std::size_t most = most_vertices_for_topology * s.criteria.maximal_number_of_vertices();
-  if(s.misfit_on_lattice().is_topology_wrong())
-    find_finer_octree(s, s.octree, 0, most);
   s.make_best_again();
+  if(s.misfit_on_lattice().is_topology_wrong()) {
+    s.result.status = Mixed_mesh_status::TOPOLOGY_DIFFERS;
+    return {};
+  }
   s.result.number_of_vertices_needed = 0; // it is simplified
   describe_octree(s);
   if(!s.result.has_mesh())
     return {};
-  Core_mesh fine = split_to_tetrahedra(assembled_mesh(s));
+  Core_mesh fine = split_to_tetrahedra(assembled_mesh(s.octree, s.best));
   s.best.release();
   return fine;
 }
@@ -196,9 +196,9 @@ inline std::size_t fill_octree_to_cut(Meshing_state& s)
 {
   // Vertices in a mesh that is cut, for each cell, about.
   constexpr std::size_t vertices_per_cell = 2;
-  // Cells for each vertex of the budget. With four times as many, a head of five labels has half as many
-  // corners and takes twice as long; three spherical layers need no more.
-  constexpr std::size_t most_cells_for_layers = 2;
+  // Cells for each vertex of the budget, for layers, and for walls and gaps. With four times as many, a head
+  // of five labels has half as many corners and takes twice as long; three spherical layers need no more.
+  constexpr std::size_t most_cells_for_layers = 2, most_cells_for_walls = 4;
   // With a region, the octree has fewer vertices than the budget by a share, as others are inserted at the
   // surface; but base level and balance take more of few: it has 670 of 660, 1,770 of 2,000, 7,880 of 10,000.
   // With 1,800 of 2,000 the boundary is farther from the surface by a third, with 1,500 errors of a bump are
@@ -229,11 +229,12 @@ inline std::size_t fill_octree_to_cut(Meshing_state& s)
                                octree.number_of_cells()
                                  + std::size_t((std::min)(cells_at_surface * n, most_inserted)));
   }
-  if(s.has_several_subdomains()) {
-    if(s.root.is_region_everywhere()) // with a region, that is where cells are small
-      split_cells_at_small_subdomains(octree, octree.number_of_cells() + budget);
+  if(s.has_several_subdomains() && s.root.is_region_everywhere()) // with one, that is where cells are small
+    split_cells_at_small_subdomains(octree, octree.number_of_cells() + budget);
+  if(s.has_several_subdomains())
     split_layer_cells(octree, most_cells_for_layers * budget);
-  }
+  else if(s.root.is_region_everywhere())
+    split_layer_cells(octree, most_cells_for_walls * budget);
   s.octree = std::move(octree);
   return number_kept;
 }
@@ -262,8 +263,38 @@ inline std::vector<Octree::Node_index> lost_cells(const Located_octree& octree, 
   return lost_cells(octree, std::move(is_meshed));
 }
 
-/// Makes the fine mesh of several subdomains, or with a region: its vertices on interfaces and on the
-/// boundary are there, but for curves where interfaces meet, and sharp edges.
+/// Cuts the octree's mesh along the surfaces.
+inline Core_mesh cut_mesh(Meshing_state& s, std::size_t number_kept, bool keeps_thin_parts)
+{
+  Lattice_mesh lattice;
+  {
+    const Stage_scope scope(s.visitor, Stage::TRANSITIONS);
+    lattice = apply_transitions(s.octree, s.criteria.transition_templates(), s.criteria.number_of_threads);
+  }
+  const Stage_scope scope(s.visitor, Stage::BOUNDARY);
+  return cut_by_interfaces(
+    s.octree, lattice, [&](Octree::Node_index n) { return n < number_kept; }, keeps_thin_parts);
+}
+
+/// Splits the largest cells at the surface, and what is too large for layers, walls and gaps then.
+/// \return whether there are not too many cells
+inline bool split_largest_cells_at_surface(Located_octree& octree, int coarsest_level, std::size_t most)
+{
+  std::vector<Octree::Node_index> leaves;
+  for(int level = coarsest_level; leaves.empty() && level < Octree::max_level; ++level)
+    for(Octree::Node_index n : octree.leaves_to_refine(level, false))
+      if(octree.side(n) == ON_BOUNDARY)
+        leaves.push_back(n);
+  octree.refine(leaves);
+  if(leaves.empty() || octree.number_of_cells() > most)
+    return false;
+  split_layer_cells(octree, (std::min)(most, 2 * octree.number_of_cells()));
+  return true;
+}
+
+/// Makes the fine mesh of several subdomains, or with a region, or of what is too thin for a mesh on the
+/// lattice: its vertices on interfaces and on the boundary are there, but for curves where interfaces meet,
+/// and sharp edges.
 /// \return an empty mesh if there is none, or if the surfaces do not fit together: where they should be one,
 /// and cut each other all over, there would be too many vertices that have to stay
 inline Core_mesh cut_fine_mesh(Meshing_state& s)
@@ -276,21 +307,28 @@ inline Core_mesh cut_fine_mesh(Meshing_state& s)
     s.result.status = Mixed_mesh_status::REGION_NOT_MET;
   if(!s.go_on() || !s.result.has_mesh())
     return {};
-  Lattice_mesh lattice;
-  {
-    const Stage_scope scope(s.visitor, Stage::TRANSITIONS);
-    lattice = apply_transitions(s.octree, s.criteria.transition_templates(), s.criteria.number_of_threads);
+  // Furrows outside a region that are thinner than cells would take vertices from it, for a distance that
+  // nobody asked for: errors of a bump of 1,000 vertices are larger by two thirds.
+  bool keeps_thin_parts = !s.has_several_subdomains()
+                          && (s.root.is_region_everywhere() || !is_tolerance_wished(s.criteria));
+  Core_mesh fine = cut_mesh(s, number_kept, keeps_thin_parts);
+  const auto is_wrong = [&] {
+    return fine.is_empty() || Misfit(fine, s.root.domain(), false, 0, 0, 0, 0).is_topology_wrong();
+  };
+  const std::size_t most = most_cells_for_topology * s.criteria.maximal_number_of_vertices();
+  while(is_wrong() && s.go_on()) {
+    if(keeps_thin_parts
+       && (s.has_several_subdomains() || !split_largest_cells_at_surface(s.octree, s.coarsest_level(), most)))
+      break;
+    keeps_thin_parts = true;
+    fine = cut_mesh(s, number_kept, keeps_thin_parts);
   }
-  Core_mesh fine;
-  {
-    const Stage_scope scope(s.visitor, Stage::BOUNDARY);
-    fine = cut_by_interfaces(s.octree, lattice, [&](Octree::Node_index n) { return n < number_kept; });
-  }
+  describe_cells(s);
   const Stage_scope scope(s.visitor, Stage::ASSEMBLY);
   s.lost = lost_cells(s.octree, fine);
   if(fine.is_empty()) {
     s.result.status = Mixed_mesh_status::EMPTY;
-  } else if(Misfit(fine, s.root.domain(), false, 0, 0, 0, 0).is_topology_wrong()) { // and would stay so
+  } else if(is_wrong()) { // and would stay so
     s.result.status = Mixed_mesh_status::TOPOLOGY_DIFFERS;
     fine.clear();
   } else if(s.has_several_subdomains()
@@ -300,14 +338,6 @@ inline Core_mesh cut_fine_mesh(Meshing_state& s)
     fine.clear();
   }
   return fine;
-}
-
-/// Makes the fine mesh.
-/// \return an empty mesh if there is none, or if the octree is the mesh
-inline Core_mesh fine_mesh(Meshing_state& s)
-{
-  return s.has_several_subdomains() || !s.root.is_region_everywhere() ? cut_fine_mesh(s)
-                                                                      : fine_mesh_on_lattice(s);
 }
 
 } // namespace internal

@@ -13,9 +13,8 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
-#include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_removal.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Meshing_state.h>
-#include <CGAL/Mixed_mesh_3/internal/meshing/remove_unarrived_vertices.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/optimize_bounded.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/unreached_cells.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Sharp_features.h>
@@ -123,11 +122,30 @@ inline void note_share_filled(Meshing_state& s, std::size_t n)
     s.result.status = worse_status(s.result.status, Mixed_mesh_status::BUDGET_NOT_FILLED);
 }
 
-/// Whether the boundary vertices off the surface are so few that they may be removed.
-inline bool are_few_not_arrived(const Meshing_state& s)
+/// Brings the boundary onto the surface, and notes the result; the mesh is cleared if it is not kept.
+/// \param followed sharp features that the mesh follows already
+inline void optimize_boundary(Meshing_state& s, Core_mesh& mesh, Followed_features* followed = nullptr)
 {
-  return double(s.number_not_arrived())
-         <= removable_share * double(s.result.optimization.number_of_boundary_vertices);
+  s.visitor.before_fitting(mesh);
+  s.result.quality_bound = s.quality_bound;
+  const std::size_t rest = s.criteria.maximal_number_of_vertices() - mesh.number_of_vertices();
+  const auto criteria = Mixed_mesh_optimization_criteria_3()
+                          .tolerance(s.result.tolerance)
+                          .quality_bound(s.quality_bound)
+                          .sharp_angle(s.criteria.sharp_angle())
+                          .number_of_bisections(s.share_of_bisections() > 0 ? rest : 0);
+  s.result.optimization = optimize_bounded(
+    mesh, s.root.domain(), {criteria, s.criteria.number_of_threads}, Aspect_ratio_quality_3(),
+    [&s] { return s.go_on(); }, {}, followed);
+  const bool is_only_wished = is_tolerance_wished(s.criteria)
+                              && s.result.optimization.status
+                                   == Mixed_mesh_optimization_status::TOLERANCE_NOT_REACHED;
+  if(!is_only_wished)
+    s.result.status = worse_status(s.result.status, status_of(s.result.optimization.status));
+  s.result.is_kept = s.result.status == Mixed_mesh_status::STOPPED && s.best.is_manifold()
+                     && s.criteria.keep_mesh_if_stopped();
+  if(!s.result.has_mesh())
+    mesh.clear();
 }
 
 /// The boundary of uniform cells between planes of the surface is the surface: vertices are at their final
@@ -162,17 +180,13 @@ inline void make_mesh(Meshing_state& s, Core_mesh& mesh)
   }
   if(s.criteria.fit_to_surface() && !s.result.is_kept) {
     const Stage_scope scope(s.visitor, Stage::OPTIMIZATION);
-    const Mixed_mesh_status status = s.result.status;
-    const bool may_remove = s.may_resolve_thin_parts() && !s.root.domain().has_sheets();
     const bool is_final = s.result.is_lattice_on_surface && !s.criteria.only_tetrahedra()
                           && !s.root.domain().has_sheets();
     if(is_final) {
       s.visitor.before_fitting(mesh);
       note_boundary_on_surface(s, mesh);
     } else
-      optimize_boundary(s, mesh, may_remove ? vertex_removal(s) : Vertex_removal());
-    if(may_remove && are_few_not_arrived(s))
-      remove_unarrived_vertices(s, mesh, status);
+      optimize_boundary(s, mesh);
   }
   note_lost_cells(s, mesh);
   if(!s.result.is_lattice_on_surface)

@@ -14,13 +14,11 @@
 
 #include <CGAL/Mixed_mesh_3/internal/meshing/fill_budget.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/make_mesh.h>
-#include <CGAL/Mixed_mesh_3/internal/meshing/resolve_thin_parts.h>
-#include <CGAL/Mixed_mesh_3/internal/meshing/retry_far_places.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/simplify_to_budget.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
 #include <CGAL/Mixed_mesh_3/quality_bound.h>
 
-#include <optional>
+#include <cstddef>
 #include <utility>
 
 namespace CGAL {
@@ -61,37 +59,29 @@ inline void note_elements_above_bound(Meshing_state& s, const Core_mesh& mesh)
   s.result.optimization.number_of_elements_above_bound = number_of_elements_above(mesh, bound);
 }
 
-/// Makes the mesh of a state from an octree that has the vertices of the budget: what follows the octree is
-/// tried, until the budget is full.
-inline void run_within_budget(Meshing_state& s, Core_mesh& mesh, Misfit& misfit)
+/// Makes the mesh of an octree that has the vertices of the budget.
+inline void make_mesh_within_budget(Meshing_state& s, Core_mesh& mesh)
 {
   {
     const Stage_scope scope(s.visitor, Stage::OCTREE);
     if(!fill_lattice(s)) {
       if(s.result.tolerance > 0)
         s.tolerance_search.run();
-      if(!s.tolerance_search.is_stopped()) {
-        if(s.criteria.thin_parts() == Thin_parts::FIRST)
-          resolve_thin_parts(s, true);
+      if(!s.tolerance_search.is_stopped())
         fill_budget(s);
-      }
     }
   }
-  if(s.may_resolve_thin_parts() && resolve_topology(s, mesh, misfit))
-    return;
   make_mesh(s, mesh);
-  misfit = s.misfit_of(mesh);
-  retry_far_places(s, mesh, misfit);
-  if(s.may_resolve_thin_parts())
-    improve_thin_parts(s, mesh, misfit);
 }
 
 /// Share of vertices off the surfaces of several subdomains up to which a mesh is taken at once: near curves
 /// in which interfaces of labels meet, 3 % of those of a head of five labels are.
 constexpr double tolerated_at_junctions = 0.05;
 
-/// Makes the mesh. Where it begins with a fine one and something is wrong in the end, the octree of the
-/// budget is tried as well, and the better mesh is taken.
+/// Makes the mesh: with a region, or several subdomains, out of a fine one that is cut along the surfaces;
+/// else out of a fine one on the lattice, which follows sharp edges best, and if something is wrong in the
+/// end, out of one that is cut, which keeps walls and gaps; the better mesh is taken. If there is none then,
+/// or none of these is to be made, the mesh is that of an octree with the vertices of the budget.
 /// \param root the octree with nothing but its root
 inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_criteria& criteria,
                                       Any_visitor& visitor, Core_mesh& mesh)
@@ -99,42 +89,44 @@ inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_
   Mixed_mesh_result_3 result;
   Misfit misfit = Misfit::without_mesh();
   bool is_above = false; // whether the mesh has elements above the bound in force
+  const bool has_layers = root.domain().subdomain_indices().size() > 1,
+             has_region = !root.is_region_everywhere();
+  mesh.clear();
+  // Makes a mesh, and takes it if it is better than the one before.
+  // \return whether it is right, or the run is stopped
   const auto run = [&](const auto& make) {
     Meshing_state s(root, criteria, visitor);
     s.result.vertex_budget = criteria.maximal_number_of_vertices();
     s.result.tolerance = chosen_tolerance(s);
     Core_mesh other;
-    Misfit of_other = Misfit::without_mesh();
-    make(s, other, of_other);
+    make(s, other);
+    const Misfit of_other = s.misfit_of(other);
     const bool is_other_above = s.result.optimization.number_of_elements_above_bound > 0;
     note_misfit(s, of_other);
     note_elements_above_bound(s, other);
-    // Few vertices off the surface are less to see than sharp edges that are cut off, or layers that are
-    // lost, which need flat elements that octrees do not have.
-    const Mixed_mesh_optimization_result_3& fit = s.result.optimization;
-    const bool may_have_layers = s.has_several_subdomains();
-    const double tolerated = may_have_layers                 ? tolerated_at_junctions
-                             : fit.length_of_sharp_edges > 0 ? removable_share
-                                                             : 0;
-    const std::size_t few = std::size_t(tolerated * double(fit.number_of_boundary_vertices));
-    const bool is_last = s.is_stopped
-                         || (of_other.is_nearly_right(few) && (may_have_layers || !is_other_above)),
-               is_better = of_other < misfit || (is_above && !is_other_above && !(misfit < of_other));
+    // Few vertices off their surface are less to see than layers that are lost, which need flat elements that
+    // octrees do not have.
+    const std::size_t few = has_layers
+                              ? std::size_t(tolerated_at_junctions
+                                            * double(s.result.optimization.number_of_boundary_vertices))
+                              : 0;
+    const bool is_better = of_other < misfit || (is_above && !is_other_above && !(misfit < of_other));
     if(mesh.is_empty() || (is_better && !s.is_stopped)) {
       result = s.result;
       misfit = of_other;
       is_above = is_other_above;
       mesh = std::move(other);
     }
-    return is_last;
+    return s.is_stopped || (of_other.is_nearly_right(few) && (has_layers || !is_other_above));
   };
-  mesh.clear();
-  const auto simplify_fine_mesh = [](Meshing_state& s, Core_mesh& m, Misfit& of_mesh) {
-    make_simplified_mesh(s, m);
-    of_mesh = s.misfit_of(m);
+  const auto simplify = [&](bool is_cut) {
+    return run([is_cut](Meshing_state& s, Core_mesh& m) { make_simplified_mesh(s, is_cut, m); });
   };
-  if(!begins_fine(root, criteria) || !run(simplify_fine_mesh))
-    run(run_within_budget);
+  if(begins_fine(root, criteria)
+     && ((!has_layers && !has_region && simplify(false)) || simplify(true)
+         || !(has_layers || mesh.is_empty())))
+    return result;
+  run(make_mesh_within_budget);
   return result;
 }
 

@@ -15,15 +15,17 @@
 
 #include <CGAL/Mixed_mesh_3/internal/fitting/Followed_features.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/simplify.h>
-#include <CGAL/Mixed_mesh_3/internal/meshing/coarsen_to_budget.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/fine_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/make_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -35,7 +37,18 @@ inline bool begins_fine(const Located_octree& root, const Mixed_mesh_criteria_3&
 {
   return c.simplification() && (root.is_region_everywhere() || c.grading() > 0) && !root.domain().has_sheets()
          && c.fit_to_surface() && c.boundary_mode() == Boundary_mode::VERTEX_ORDER
-         && c.base_level() == Mixed_mesh_criteria_3::automatic && c.thin_parts() == Thin_parts::WHERE_NEEDED;
+         && c.base_level() == Mixed_mesh_criteria_3::automatic;
+}
+
+/// The number of vertices of elements in the region.
+inline std::size_t number_of_vertices_in_region(const Core_mesh& mesh)
+{
+  std::vector<std::uint8_t> is_in_region(mesh.number_of_vertices(), 0);
+  for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
+    if(mesh.attributes(e).is_in_region)
+      for(Vertex_index v : mesh.element(e))
+        is_in_region[v] = 1;
+  return std::size_t(std::count(is_in_region.begin(), is_in_region.end(), 1));
 }
 
 /// Brings the boundary of the fine mesh onto the surface and its sharp edges. Vertices that do not arrive are
@@ -49,30 +62,50 @@ inline void fit_fine_mesh(Meshing_state& s, Core_mesh& mesh, Followed_features& 
                        .number_of_rounds(1);
   optimize_bounded(
     mesh, s.root.domain(), {rough, s.criteria.number_of_threads}, Aspect_ratio_quality_3(),
-    [&s] { return s.go_on(); }, {0, 0, true}, {}, &followed);
+    [&s] { return s.go_on(); }, {0, 0, true}, &followed);
+}
+
+/// Brings the boundary of a fine mesh that is cut onto sharp edges and curves where interfaces meet. It is on
+/// the surface already, and stays as it is where there are none, or if it cut itself then.
+inline void fit_cut_mesh(Meshing_state& s, Core_mesh& mesh, Followed_features& followed)
+{
+  const Any_domain& domain = s.root.domain();
+  if(s.root.is_region_everywhere() && !s.has_several_subdomains()
+     && domain.sharp_edges(s.criteria.sharp_angle()).edges.empty())
+    return;
+  Core_mesh fitted = mesh;
+  fit_fine_mesh(s, fitted, followed);
+  if(cuts_itself(fitted))
+    followed = {};
+  else
+    mesh = std::move(fitted);
 }
 
 /// Makes a mesh with the vertices of the budget out of a finer one.
+/// \param is_cut whether the finer one is cut, or on the lattice
 /// \param mesh empty; stays so if there is none
-inline void make_simplified_mesh(Meshing_state& s, Core_mesh& mesh)
+inline void make_simplified_mesh(Meshing_state& s, bool is_cut, Core_mesh& mesh)
 {
   // Largest bound in bounds that were asked for: in thin walls there is room for flatter elements only. And
   // what few elements may have between layers, which no octree resolves better; above, they are no use.
   constexpr double largest_multiple = 5, largest_between_layers = 30;
   const auto note_stop = [&s] { s.result.status = Mixed_mesh_status::STOPPED; };
-  Core_mesh fine = fine_mesh(s);
+  Core_mesh fine = is_cut ? cut_fine_mesh(s) : fine_mesh_on_lattice(s);
   if(s.result.is_lattice_on_surface)
     return make_mesh(s, mesh);
   if(fine.is_empty())
     return s.is_stopped ? note_stop() : void();
   const Stage_scope scope(s.visitor, Stage::OPTIMIZATION);
   Followed_features followed;
-  fit_fine_mesh(s, fine, followed);
+  if(is_cut)
+    fit_cut_mesh(s, fine, followed);
+  else
+    fit_fine_mesh(s, fine, followed);
   const std::size_t number = fine.number_of_vertices();
   double bound = s.has_quality_bound() ? s.quality_bound
                                        : Mixed_mesh_optimization_criteria_3::default_quality_bound;
-  const double distance = s.result.tolerance > 0 ? s.result.tolerance
-                                                 : share_of_edge_tolerated * s.mean_edge();
+  const double usual_distance = share_of_edge_tolerated * s.mean_edge();
+  const double distance = s.result.tolerance > 0 ? s.result.tolerance : usual_distance;
   const double largest = s.criteria.is_quality_bound_strict() ? bound : largest_multiple * bound;
   const bool is_kept = s.criteria.keep_mesh_if_stopped() && s.best.is_manifold(); // within the budget only
   if(s.is_stopped && !is_kept)
@@ -80,7 +113,7 @@ inline void make_simplified_mesh(Meshing_state& s, Core_mesh& mesh)
   const std::size_t goal = s.root.is_region_everywhere() ? s.criteria.maximal_number_of_vertices()
                                                          : s.budget();
   const bool is_simplified = simplify(fine, followed, s.root.domain(), goal, s.radius_of_weights(), distance,
-                                      bound, largest, [&] { return s.go_on() || is_kept; });
+                                      usual_distance, bound, largest, [&] { return s.go_on() || is_kept; });
   if(!is_simplified) {
     s.result.status = s.is_stopped ? Mixed_mesh_status::STOPPED : Mixed_mesh_status::BUDGET_TOO_SMALL;
     return;
@@ -98,7 +131,7 @@ inline void make_simplified_mesh(Meshing_state& s, Core_mesh& mesh)
       mesh.clear();
     return note_stop();
   }
-  optimize_boundary(s, mesh, {}, &followed);
+  optimize_boundary(s, mesh, &followed);
   if(mesh.is_empty())
     return;
   const Mixed_mesh_optimization_result_3& fit = s.result.optimization;

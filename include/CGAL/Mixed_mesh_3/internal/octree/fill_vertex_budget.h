@@ -81,7 +81,7 @@ private:
       m_best.is_stopped = true;
       return m_budget + 1;
     }
-    if(!candidate.is_good() && m_best.is_good())
+    if(!candidate.is_manifold() && m_best.is_manifold())
       return m_budget + 1; // rare: another number of cells succeeds
     if(n <= m_budget) {
       m_octree = std::move(trial);
