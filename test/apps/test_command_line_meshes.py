@@ -83,7 +83,7 @@ class Meshes(Case):
             self.assertEqual(topology["same topology"], bodies == 2)
             if bodies == 1:
                 self.assertEqual(told["status"], "other bodies, holes or cavities")
-                self.assertRegex(run.stderr, r"warning: .*gap.off: 2 bodies are joined near \(1\.")
+                self.assertRegex(run.stderr, rf"warning: .*gap.off: 2 bodies are joined near \({1 + gap / 2:g}, ")
                 self.assertRegex(topology["differences"][0]["text"], "^2 bodies are joined near ")
                 self.assertAlmostEqual(topology["differences"][0]["at"][0], 1 + gap / 2)
             else:

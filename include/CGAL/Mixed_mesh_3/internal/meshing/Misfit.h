@@ -87,9 +87,6 @@ public:
   const std::optional<Shell_counts>& shells_of_domain() const { return m_shells_of_domain; }
   const std::optional<Shell_counts>& shells() const { return m_shells; }
 
-  /// Whether there is no misfit, all boundary vertices are on the surface, and the boundary is within the
-  /// tolerance.
-  bool is_right() const { return is_none() && m_number_not_arrived == 0 && m_distance == 0; }
   /// Whether sharp edges are kept, and at most that many vertices are not on the surface, while nothing else
   /// is wrong.
   bool is_nearly_right(std::size_t most_not_arrived) const
@@ -97,15 +94,10 @@ public:
     return is_none() && m_volume_of_small_shells == 0 && m_distance == 0 && m_number_of_lost_edges == 0
            && m_number_not_arrived <= most_not_arrived;
   }
-  bool has_distance_only() const { return is_none() && m_number_not_arrived == 0; }
 
-  bool is_topology_right() const { return m_is_mesh && m_topology == 0; }
   bool is_topology_wrong() const { return m_topology > 0; }
-  bool is_volume_wrong() const { return m_volume > 0; }
   /// Whether the volume of the whole or of some shell is wrong, however small the shell is.
   bool is_some_volume_wrong() const { return m_volume > 0 || m_volume_of_small_shells > 0; }
-
-  bool has_volume_only() const { return m_is_mesh && m_topology == 0 && m_number_of_lost_cells == 0; }
 
   bool operator<(const Misfit& m) const { return key() < m.key(); }
 

@@ -171,7 +171,6 @@ private:
   }
 
   bool is_wish() const { return is_tolerance_wished(m_criteria); }
-  double first_multiple() const { return is_wish() ? multiples_of_wish[0] : multiples[0]; }
 
   bool is_stopped_by(const Candidate& candidate)
   {

@@ -335,31 +335,24 @@ private:
   std::vector<std::uint8_t> vertices_beside_one_interface(bool is_one_sheet) const
   {
     const std::size_t n = m_ranks.size();
-    std::vector<std::size_t> nearest(n, 2 * m_cuts.size()); // end of a cut
-    std::vector<double> shares(n, near);
-    for_each_end([&](std::size_t i, const End& end) {
-      if(end.share < shares[end.vertex]) {
-        shares[end.vertex] = end.share;
-        nearest[end.vertex] = i;
-      }
+    std::vector<End> nearest(n, {no_vertex, no_vertex, {}, near});
+    for_each_end([&](std::size_t, const End& end) {
+      if(end.share < nearest[end.vertex].share)
+        nearest[end.vertex] = end;
     });
     std::vector<std::uint8_t> is_beside_one(n, 0);
-    std::vector<Vec3> ways(n);
-    for_each_end([&](std::size_t i, const End& end) {
-      if(nearest[end.vertex] != i)
-        return;
-      is_beside_one[end.vertex] = 1;
-      if(is_one_sheet)
-        ways[end.vertex] = closest(m_mesh.points[end.vertex], m_ranks[end.vertex], m_ranks[end.other])
-                           - m_mesh.points[end.vertex];
-    });
+    std::vector<Vec3> ways(n); // to the interface
+    for(const End& end : nearest)
+      if(end.vertex != no_vertex) {
+        const Vec3& p = m_mesh.points[end.vertex];
+        is_beside_one[end.vertex] = 1;
+        if(is_one_sheet)
+          ways[end.vertex] = closest(p, m_ranks[end.vertex], m_ranks[end.other]) - p;
+      }
     for_each_end([&](std::size_t, const End& end) {
-      if(is_beside_one[end.vertex] == 0)
-        return;
-      const Cut& cut = m_cuts[nearest[end.vertex] / 2];
-      const Vertex_index other = cut.ends[1 - nearest[end.vertex] % 2];
-      is_beside_one[end.vertex] = (!is_one_sheet || dot(ways[end.vertex], end.way) >= 0)
-                                  && m_ranks[end.other] == m_ranks[other];
+      const Vertex_index v = end.vertex;
+      is_beside_one[v] = is_beside_one[v] && m_ranks[end.other] == m_ranks[nearest[v].other]
+                         && (!is_one_sheet || dot(ways[v], end.way) >= 0);
     });
     return is_beside_one;
   }

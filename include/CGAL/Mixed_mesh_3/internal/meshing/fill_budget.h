@@ -70,8 +70,7 @@ inline std::vector<Located_octree::Point_3> points_on_sharp_edges(const Meshing_
 /// Cells that are split for fidelity that nobody asked for may take vertices from the region, but not a
 /// level of its surface, where displacements are prescribed: at 2,000 vertices, that can cost half of the
 /// accuracy.
-/// \return the start with that level, and as many of those cells as there is room for, but all that a
-/// finished mesh has shown to be needed; if it is needed
+/// \return the start with that level, and as many of those cells as there is room for; if it is needed
 inline std::optional<Located_octree>
 octree_for_region_first(const Meshing_state& s, const Located_octree& base, const Located_octree& filled)
 {

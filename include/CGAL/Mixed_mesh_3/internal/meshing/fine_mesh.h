@@ -121,9 +121,9 @@ inline void split_cells_outside_region(Located_octree& octree, int coarsest_leve
   constexpr std::size_t parts_of_level = 64; // of which one may be missing
   for(int level = coarsest_level; level < Octree::max_level; ++level) {
     std::vector<std::pair<double, Octree::Node_index>> leaves; // with the distance from the region
-    for(Octree::Node_index n : octree.leaves_to_refine(level, false))
-      if(octree.side(n) == ON_BOUNDARY && !octree.is_in_region(n))
-        leaves.emplace_back(octree.quantized(-octree.depth_in_region(n)), n);
+    const auto is_outside = [&](Octree::Node_index n) { return !octree.is_in_region(n); };
+    for(Octree::Node_index n : leaves_at_surface(octree, level, is_outside))
+      leaves.emplace_back(octree.quantized(-octree.depth_in_region(n)), n);
     std::sort(leaves.begin(), leaves.end());
     const auto refined = [&](std::size_t number) {
       std::vector<Octree::Node_index> first;
@@ -277,18 +277,18 @@ inline Core_mesh cut_mesh(Meshing_state& s, std::size_t number_kept, bool keeps_
 }
 
 /// Splits the largest cells at the surface, and what is too large for layers, walls and gaps then.
-/// \return whether there are not too many cells
+/// \return whether there are not too many cells; otherwise none is split
 inline bool split_largest_cells_at_surface(Located_octree& octree, int coarsest_level, std::size_t most)
 {
   std::vector<Octree::Node_index> leaves;
   for(int level = coarsest_level; leaves.empty() && level < Octree::max_level; ++level)
-    for(Octree::Node_index n : octree.leaves_to_refine(level, false))
-      if(octree.side(n) == ON_BOUNDARY)
-        leaves.push_back(n);
-  octree.refine(leaves);
-  if(leaves.empty() || octree.number_of_cells() > most)
+    leaves = leaves_at_surface(octree, level, [](Octree::Node_index) { return true; });
+  Located_octree trial = octree;
+  trial.refine(leaves);
+  if(leaves.empty() || trial.number_of_cells() > most)
     return false;
-  split_layer_cells(octree, (std::min)(most, 2 * octree.number_of_cells()));
+  split_layer_cells(trial, (std::min)(most, 2 * trial.number_of_cells()));
+  octree = std::move(trial);
   return true;
 }
 
@@ -311,24 +311,25 @@ inline Core_mesh cut_fine_mesh(Meshing_state& s)
   // nobody asked for: errors of a bump of 1,000 vertices are larger by two thirds.
   bool keeps_thin_parts = !s.has_several_subdomains()
                           && (s.root.is_region_everywhere() || !is_tolerance_wished(s.criteria));
-  Core_mesh fine = cut_mesh(s, number_kept, keeps_thin_parts);
-  const auto is_wrong = [&] {
+  Core_mesh fine;
+  const auto cut = [&] { // whether something is wrong
+    fine = cut_mesh(s, number_kept, keeps_thin_parts);
     return fine.is_empty() || Misfit(fine, s.root.domain(), false, 0, 0, 0, 0).is_topology_wrong();
   };
+  bool is_wrong = cut();
   const std::size_t most = most_cells_for_topology * s.criteria.maximal_number_of_vertices();
-  while(is_wrong() && s.go_on()) {
-    if(keeps_thin_parts
-       && (s.has_several_subdomains() || !split_largest_cells_at_surface(s.octree, s.coarsest_level(), most)))
+  while(is_wrong && !s.has_several_subdomains() && s.go_on()) {
+    if(keeps_thin_parts && !split_largest_cells_at_surface(s.octree, s.coarsest_level(), most))
       break;
+    describe_cells(s);
     keeps_thin_parts = true;
-    fine = cut_mesh(s, number_kept, keeps_thin_parts);
+    is_wrong = cut();
   }
-  describe_cells(s);
   const Stage_scope scope(s.visitor, Stage::ASSEMBLY);
   s.lost = lost_cells(s.octree, fine);
   if(fine.is_empty()) {
     s.result.status = Mixed_mesh_status::EMPTY;
-  } else if(is_wrong()) { // and would stay so
+  } else if(is_wrong) { // and would stay so
     s.result.status = Mixed_mesh_status::TOPOLOGY_DIFFERS;
     fine.clear();
   } else if(s.has_several_subdomains()

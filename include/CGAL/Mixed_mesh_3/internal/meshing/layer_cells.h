@@ -89,6 +89,18 @@ private:
   }
 };
 
+/// The leaves of a level that meet a surface and are chosen.
+template <class Is_chosen>
+std::vector<Octree::Node_index> leaves_at_surface(const Located_octree& octree, int level,
+                                                  Is_chosen&& is_chosen)
+{
+  std::vector<Octree::Node_index> leaves;
+  for(Octree::Node_index n : octree.leaves_to_refine(level, false))
+    if(octree.side(n) == ON_BOUNDARY && is_chosen(n))
+      leaves.push_back(n);
+  return leaves;
+}
+
 /*!
 Splits cells that are too large for layers, the largest first, level by level, as long as there are not too
 many cells.
@@ -100,10 +112,7 @@ inline bool split_layer_cells(Located_octree& octree, std::size_t most)
 {
   for(int level = 0; level < Octree::max_level; ++level) {
     Layer_finder is_too_large(octree);
-    std::vector<Octree::Node_index> leaves;
-    for(Octree::Node_index n : octree.leaves_to_refine(level, false))
-      if(octree.side(n) == ON_BOUNDARY && is_too_large(n))
-        leaves.push_back(n);
+    const std::vector<Octree::Node_index> leaves = leaves_at_surface(octree, level, is_too_large);
     if(leaves.empty())
       continue;
     Located_octree trial = octree;

@@ -90,7 +90,7 @@ inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_
   Misfit misfit = Misfit::without_mesh();
   bool is_above = false; // whether the mesh has elements above the bound in force
   const bool has_layers = root.domain().subdomain_indices().size() > 1,
-             has_region = !root.is_region_everywhere();
+             is_always_cut = has_layers || !root.is_region_everywhere();
   mesh.clear();
   // Makes a mesh, and takes it if it is better than the one before.
   // \return whether it is right, or the run is stopped
@@ -122,10 +122,11 @@ inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_
   const auto simplify = [&](bool is_cut) {
     return run([is_cut](Meshing_state& s, Core_mesh& m) { make_simplified_mesh(s, is_cut, m); });
   };
-  if(begins_fine(root, criteria)
-     && ((!has_layers && !has_region && simplify(false)) || simplify(true)
-         || !(has_layers || mesh.is_empty())))
-    return result;
+  if(begins_fine(root, criteria)) {
+    const bool is_right = (!is_always_cut && simplify(false)) || simplify(true);
+    if(is_right || !(has_layers || mesh.is_empty()))
+      return result;
+  }
   run(make_mesh_within_budget);
   return result;
 }
