@@ -246,6 +246,10 @@ def check_vtk(path, expected):
     elements = [np.array([connectivity[offsets[e]:offsets[e + 1]] for e in np.flatnonzero(types == kind)], int)
                 for kind in VTK_TYPES]
     check_elements(path, expected, points, elements, mirrored=[PRISM])
+    data = grid.GetPointData()
+    arrays = [data.GetArrayName(i) for i in range(data.GetNumberOfArrays())]
+    check_node_sets(path, expected, points, {name[6:]: np.flatnonzero(vtk_to_numpy(data.GetArray(name)))
+                                             for name in arrays if name.startswith("nodes_")})
     # VTK's own volumes, of the pieces of quadratic cells, and its faces.
     sizes = vtk.vtkCellSizeFilter()
     sizes.SetInputData(grid)
@@ -379,17 +383,31 @@ def check_patch(path, expected, points, elements):
     check(len(inner) > 1000 and error < 1e-4, path, "patch test of GetFEM", len(inner), error)
 
 
+def check_node_sets(path, expected, points, sets):
+    """The nodes of each facet set are those at the vertices of its faces, and in the middles of the edges of these."""
+    faces_of = {name: [f[2:] for f in faces] for name, faces in expected.get("facet_sets", {}).items() if faces}
+    check(sorted(sets) == sorted(faces_of), path, "node sets", sorted(sets))
+    vertices = np.array(expected["points"])
+    for name, faces in faces_of.items():
+        places = {tuple((vertices[f[i]] + vertices[f[j]]) / 2) for f in faces for i in range(len(f)) for j in (i - 1, i)}
+        found = [tuple(points[node]) for node in sets.get(name, [])]
+        check(len(found) == len(places) and set(found) == places, path, "nodes of", name, len(found), len(places))
+
+
 def check_inp(path, expected):
     """What meshio does not tell: lines are not too long, and BOUNDARY has all nodes of boundary faces."""
-    boundary, keyword = [], ""
+    sets, keyword = {}, ""
     for line in open(path):
         if line.startswith("*"):
             keyword = line.strip()
         else:
             check(len(line.strip().rstrip(",").split(",")) <= 16 and len(line) <= 256, path, "long line")
             if keyword.startswith("*NSET"):
-                boundary += [int(v) - 1 for v in line.strip().rstrip(",").split(",")]
-    mesh = read_meshio(path)
+                name = keyword.split("=")[1]
+                sets.setdefault(name, []).extend(int(v) - 1 for v in line.strip().rstrip(",").split(","))
+    mesh, boundary = read_meshio(path), sets.pop("BOUNDARY")
+    check_node_sets(path, expected, np.asarray(mesh.points),
+                    {name: sets.get(name.upper(), []) for name in expected.get("facet_sets", {}) if name.upper() in sets})
     faces = {frozenset(f) for f in boundary_of([
         np.concatenate([np.zeros((0, SIZES[k]), int)] + [b.data[:, :SIZES[k]] for b in mesh.cells if b.type == name])
         for k, name in enumerate(MESHIO_TYPES)])}
@@ -421,6 +439,9 @@ def check_feb(path, expected):
         check(all(len(f) == {"tri6": 6, "quad8": 8}[x.tag] for f, x in zip(groups[surface.get("name")], surface)),
               path, "types of faces")
     check_faces(path, expected, points, groups, False, elements)
+    sets = {s.get("name"): [int(w) - 1 for w in s.text.split(",")] for s in mesh.findall("NodeSet")}
+    check(sets.pop("boundary") == sorted({v for f in groups["boundary"] for v in f}), path, "boundary nodes")
+    check_node_sets(path, expected, points, sets)
     for data in root.findall("MeshData/NodeData"):
         check([[float(w) for w in node.text.split(",")] for node in data] == points.tolist(), path,
               "values at the nodes")

@@ -85,6 +85,28 @@ def facet_set_tags(expected):
             if name in facet_sets(expected)}
 
 
+def set_nodes(expected):
+    """The vertices of each set that has faces."""
+    return {name: sorted({v for _, _, f in faces for v in f}) for name, faces in facet_sets(expected).items()}
+
+
+def gmsh_groups(expected):
+    """Physical groups of Gmsh: a volume for each subdomain, with its number, the boundary, and sets after it."""
+    subdomains, sets = set(expected["subdomains"]), list(expected.get("facet_sets", {}))
+    boundary = next(i for i in range(3, 10**9) if not subdomains & set(range(i, i + 1 + len(sets))))
+    return {**{(3, s): "subdomain_%d" % s for s in subdomains}, (2, boundary): "boundary",
+            **{(2, boundary + 1 + i): name for i, name in enumerate(sets) if name in facet_sets(expected)}}
+
+
+def gmsh_volumes(expected):
+    """The subdomain of each elementary volume of Gmsh, and its number of elements: the region has a number of its own."""
+    volumes = {}
+    for subdomain, in_region in zip(expected["subdomains"], expected["in_region"]):
+        tag = subdomain + in_region * 10**9
+        volumes[tag] = subdomain, volumes.get(tag, (0, 0))[1] + 1
+    return volumes
+
+
 def canonical(faces):
     """Faces as lists of vertices, each from its smallest vertex on: orientation counts."""
     return sorted(tuple(f[f.index(min(f)):] + f[:f.index(min(f))]) for f in
@@ -139,6 +161,12 @@ def check_vtu(path, expected):
     for name, faces in facet_sets(expected).items():
         numbers = np.bincount([face[0] for face in faces], minlength=n)[order]
         check(np.array_equal(vtk_to_numpy(data.GetArray("facets_" + name)), numbers), path, "facets_" + name)
+    data_of_points = grid.GetPointData()
+    arrays = [data_of_points.GetArrayName(i) for i in range(data_of_points.GetNumberOfArrays())]
+    check(sorted(a[6:] for a in arrays if a.startswith("nodes_")) == sorted(facet_sets(expected)), path, "node sets")
+    for name, nodes in set_nodes(expected).items():
+        array = vtk_to_numpy(data_of_points.GetArray("nodes_" + name))
+        check(list(np.nonzero(array)[0]) == nodes and set(array) <= {0, 1}, path, "nodes_" + name)
 
     # VTK's filter for volumes, which are signed.
     sizes = vtk.vtkCellSizeFilter()
@@ -222,24 +250,24 @@ def check_msh(path, version, expected):
         volume += volumes.sum()
     check(close(volume, expected["volume"]), path, "total volume")
 
-    # Groups: volumes 1 (region) and 2 (rest) of subdomain 1, surface 3, other volumes, facet sets. Each is an
-    # entity, but where facet sets share faces with the boundary or with each other.
-    names = part_names(expected)
+    # Groups: subdomains, whose elements in the region are an entity of their own, the boundary, facet sets. Each of
+    # the last two is an entity, but where facet sets share faces with the boundary or with each other.
     groups = {(dim, tag): gmsh.model.getPhysicalName(dim, tag)
               for dim, tag in gmsh.model.getPhysicalGroups()}
-    wanted = {(2, 3): "boundary", **{(3, tag): name for name, tag in part_tags(expected).items()}}
-    check(groups == {**wanted, **{(2, tag): name for name, tag in facet_set_tags(expected).items()}}, path,
-          "physical groups", groups)
+    check(groups == gmsh_groups(expected), path, "physical groups", groups)
+    volumes, boundary = gmsh_volumes(expected), next(tag for (_, tag), name in groups.items() if name == "boundary")
     entities = gmsh.model.getEntities()
     if not facet_sets(expected):
-        check(sorted(entities) == sorted(wanted), path, "entities", entities)
+        check(sorted(entities) == sorted([(2, boundary), *((3, tag) for tag in volumes)]), path, "entities", entities)
     faces = {}
     for (dim, tag), name in groups.items():
         of_group = gmsh.model.getEntitiesForPhysicalGroup(dim, tag)
         if dim == 3:
-            check(list(of_group) == [tag], path, "group", tag)
-            number = sum(map(len, mesh.getElements(dim, tag)[1]))
-            check(number == names.count(name), path, "number of elements of", name)
+            check(sorted(of_group) == sorted(v for v, (s, _) in volumes.items() if s == tag), path, "group", tag)
+            for volume in of_group:
+                number = sum(map(len, mesh.getElements(dim, volume)[1]))
+                check(number == volumes[volume][1], path, "number of elements of", name, volume)
+                check(list(gmsh.model.getPhysicalGroupsForEntity(3, volume)) == [tag], path, "one group", volume)
         else:
             faces[name] = [face - 1 for entity in of_group for kind, _, nodes in zip(*mesh.getElements(2, entity))
                            for face in np.asarray(nodes, int).reshape(-1, kind + 1)]
@@ -250,9 +278,8 @@ def check_msh(path, version, expected):
         ours = 1 + np.unique([v for some in faces.values() for face in some for v in face])
         check(np.array_equal(np.sort(tags), ours), path, "vertices of the faces")
         if n < 20:  # the volumes know their surface
-            for dim, tag in wanted:
-                if dim == 3:
-                    check(list(gmsh.model.getAdjacencies(3, tag)[1]) == [3], path, "boundary of", tag)
+            for tag in volumes:
+                check(list(gmsh.model.getAdjacencies(3, tag)[1]) == [boundary], path, "boundary of", tag)
     check_faces(path, expected, points, faces, has_one_number=version == 2.2)
     views = {gmsh.option.getString("View[%d].Name" % gmsh.view.getIndex(tag)): tag for tag in gmsh.view.getTags()}
     check(list(views) == [expected["vertex_data"]] * bool(expected["vertex_data"]), path, "views", list(views))
@@ -315,7 +342,7 @@ def check_medit(path, expected):
 
 
 def check_inp(path, expected):
-    points, elements, sets, members, boundary, surfaces = [], [[] for _ in KINDS], {}, {}, [], {}
+    points, elements, sets, members, node_sets, surfaces = [], [[] for _ in KINDS], {}, {}, {}, {}
     vertices, sets_of_faces = {}, {}
     for line in open(path):
         check(len(line) <= 256, path, "long line")
@@ -339,21 +366,29 @@ def check_inp(path, expected):
         elif keyword == "*NSET":
             numbers = [int(w) for w in line.split(",")]
             check(len(numbers) <= 16, path, "numbers on a line")
-            boundary += numbers
+            node_sets.setdefault(values["NSET"], []).extend(v - 1 for v in numbers)
         elif keyword == "*SURFACE":
             check(values["TYPE"] == "ELEMENT", path, "type of surface")
             of_set, side = [w.strip() for w in line.split(",")]
             surfaces.setdefault(values["NAME"], []).extend(
                 (vertices[e], side) for e in sets_of_faces.pop(of_set))
     check(not sets_of_faces, path, "sets without a surface")
-    check(sorted(surfaces) == sorted(name.upper() for name in facet_sets(expected)), path, "surfaces")
+    check(sorted(surfaces) == sorted(node_sets) == sorted(["BOUNDARY", *(s.upper() for s in facet_sets(expected))]),
+          path, "surfaces and node sets")
+    # Abaqus numbers the vertices of a face as seen from outside in any of two directions.
+    found = {name: [[v[i - 1] for i in ABAQUS_FACES[kind][int(side[1:]) - 1]] for (kind, v), side in faces]
+             for name, faces in surfaces.items()}
     for name, faces in facet_sets(expected).items():
-        found = [[v[i - 1] for i in ABAQUS_FACES[kind][int(side[1:]) - 1]]
-                 for (kind, v), side in surfaces[name.upper()]]
-        check(sorted(map(sorted, found)) == sorted(sorted(f) for _, _, f in faces), path, "surface", name)
+        check(sorted(map(sorted, found[name.upper()])) == sorted(sorted(f) for _, _, f in faces), path, "surface", name)
+    for name, faces in found.items():
+        check(node_sets[name] == sorted({v for f in faces for v in f}), path, "node set", name)
+    # The boundary by brute force: faces that one element has.
+    faces = [tuple(sorted(v[i - 1] for i in face)) for kind, v in vertices.values() for face in ABAQUS_FACES[kind]]
+    check(sorted(tuple(sorted(f)) for f in found["BOUNDARY"]) == sorted(f for f in faces if faces.count(f) == 1)
+          if len(faces) < 5000 else len(found["BOUNDARY"]) == expected["triangles"] + expected["quadrilaterals"],
+          path, "boundary")
     parts = [name.lower() for name, of in members.items() for s in of for _ in sets[s]]
     check_elements(path, expected, points, elements, parts)
-    check(0 < len(set(boundary)) == len(boundary) <= expected["vertices"], path, "boundary nodes")
     numbers = sorted(i for s in sets.values() for i in s)
     check(numbers == list(range(1, len(numbers) + 1)), path, "numbers of elements")
 
@@ -383,6 +418,8 @@ def check_feb(path, expected):
         check(all(len(f) == {"tri3": 3, "quad4": 4}[x.tag]
                   for f, x in zip(faces[surface.get("name")], surface)), path, "types of faces")
     check_faces(path, expected, points, faces, has_one_number=False)
+    nodes = {s.get("name"): [int(w) - 1 for w in s.text.split(",")] for s in mesh.findall("NodeSet")}
+    check(nodes == {name: sorted({v for f in some for v in f}) for name, some in faces.items()}, path, "node sets")
     for data in root.findall("MeshData/NodeData"):
         check(data.attrib == {"name": expected["vertex_data"], "node_set": "all", "data_type": "vec3"}, path, "data")
         check([node.get("lid") for node in data] == [str(i + 1) for i in range(len(points))], path, "lists of nodes")

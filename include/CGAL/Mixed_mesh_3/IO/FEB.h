@@ -16,6 +16,7 @@
 #include <CGAL/Mixed_mesh_3/IO/internal/Buffered_output.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/mesh/FEB_output.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/mesh/Mesh_nodes.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
 #include <ostream>
 #include <vector>
@@ -31,7 +32,8 @@ namespace IO {
 
 The mesh: node set `all`, parts such as `region_hex8` and `rest_tet4` (of other subdomains than 1
 `subdomain_2_rest_tet4` and so on), surface `boundary` (counter-clockwise seen from outside) and a surface for
-each facet set. Where a subdomain has a name, say tumor, its parts are `tumor.region_hex8`, `tumor.rest_tet4`
+each facet set, and node sets with the names of these surfaces and their nodes, with order 2 also the middle
+ones. Where a subdomain has a name, say tumor, its parts are `tumor.region_hex8`, `tumor.rest_tet4`
 and so on, and all of its elements are the element set `tumor`. FEBio takes no mesh without materials: there
 is one for each subdomain with a name, which is also its own, and `region` and `rest`, or
 `subdomain_2_region` and so on, for the others. Their numbers are to be replaced (neo-Hookean, Young's modulus
@@ -66,7 +68,10 @@ bool write_FEB(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_s
   output.write_materials(out, [&out](Subdomain_index) {
     out << "type=\"neo-Hookean\">\n      <density>1</density>\n      <E>1</E>\n      <v>0.45</v>\n";
   });
-  output.write_mesh(out, {}, facet_sets);
+  std::vector<FEB_node_set> node_sets{{"boundary", output.nodes().of(boundary_faces(mesh))}};
+  for(const Facet_set& set : facet_sets)
+    node_sets.push_back({set.name, output.nodes().of(set.faces)});
+  output.write_mesh(out, node_sets, facet_sets);
   std::vector<FEB_node_data> data;
   if(!mesh.is_empty())
     for(const Data_array& array : node_data.arrays())

@@ -210,7 +210,7 @@ inline void write_FEB_curve_and_output(Buffered_output& out, const std::string& 
 
 \brief Writes a simulation as a model of FEBio (`.feb`), version 4.0, that FEBio 4 runs as it is.
 
-The mesh is that of `write_FEB()`, with the names it has there. Besides:
+The mesh is that of `write_FEB()`, with the names it has there, but node sets are those below only. Besides:
 - materials, `isotropic elastic`: linear in the Green-Lagrange strain, and for small strains and rotations the
   linear law; with the density in kg/mm^3;
 - the node set `fixed`, whose displacement is zero; `sliding_x`, `sliding_y` and `sliding_z`, where the

@@ -54,7 +54,8 @@ inline void write_INP_element(Buffered_output& out, Element_index e, const Node_
   out << '\n';
 }
 
-/// A surface is made of sets of elements, one for each number that the face has in its element.
+/// A surface is made of sets of elements, one for each number that the face has in its element. Their names
+/// begin with an underscore, as those that Abaqus/CAE gives: names of users begin with a letter.
 template <class Mesh>
 void write_INP_surface(Buffered_output& out, const Mesh& mesh, const Facet_set& set)
 {
@@ -65,7 +66,7 @@ void write_INP_surface(Buffered_output& out, const Mesh& mesh, const Facet_set& 
     const Element_names& names = element_names[mesh.element(face.element()).kind()];
     elements[names.abaqus_faces[face.local_index()] - 1].push_back(face.element());
   }
-  const auto name_of = [&name](int i) { return name + "_S" + std::to_string(i + 1); };
+  const auto name_of = [&name](int i) { return '_' + name + "_S" + std::to_string(i + 1); };
   for(int i = 0; i < most_faces; ++i)
     write_INP_set(out, "*ELSET, ELSET=" + name_of(i), elements[i]);
   if(!set.faces.empty())
@@ -84,13 +85,13 @@ void write_INP_surface(Buffered_output& out, const Mesh& mesh, const Facet_set& 
 
 Element sets: `REGION` and `REST` for the elements of subdomain 1 in the region and the others,
 `SUBDOMAIN_2_REGION` and so on for those of other subdomains, each made of one set for each type, such as
-`REGION_C3D8`. Node set: `BOUNDARY`, the vertices of the boundary faces. For each facet set a surface of
-elements with its name in upper case, of element sets such as `NAME_S1`: the elements with their face S1 in
-the set. Subdomains with names are element sets with these in upper case, too. The numbers of nodes and
-elements are the indices plus 1.
+`REGION_C3D8`. The boundary is the node set and the surface `BOUNDARY`, and each facet set is a node set and a
+surface with its name in upper case. Surfaces are of type `ELEMENT`, made of element sets such as `_NAME_S1`:
+the elements with their face S1 in the set. Subdomains with names are element sets with these in upper case,
+too. The numbers of nodes and elements are the indices plus 1.
 
-Quadratic elements, of order 2, are C3D10, C3D15 and C3D20, which CalculiX has, too; `BOUNDARY` has the middle
-nodes of the boundary faces then. Abaqus has no quadratic pyramid.
+Quadratic elements, of order 2, are C3D10, C3D15 and C3D20, which CalculiX has, too; node sets have the middle
+nodes of their faces then. Abaqus has no quadratic pyramid.
 
 \note CalculiX has no pyramids, and Gmsh 4.8 drops them when it reads this format: see
 `split_to_tetrahedra()`.
@@ -147,9 +148,12 @@ bool write_INP(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_s
       out << set_name(part) << '\n';
   }
 
-  write_INP_set(out, "*NSET, NSET=BOUNDARY", nodes.of(boundary_faces(mesh)));
-  for(const Facet_set& set : facet_sets)
+  std::vector<Facet_set> sets{{"boundary", boundary_faces(mesh)}};
+  sets.insert(sets.end(), facet_sets.begin(), facet_sets.end());
+  for(const Facet_set& set : sets) {
+    write_INP_set(out, "*NSET, NSET=" + in_upper_case(set.name), nodes.of(set.faces));
     write_INP_surface(out, mesh, set);
+  }
   return out.finish();
 }
 

@@ -57,7 +57,7 @@ bool write_MEDIT(std::ostream& stream, const Mesh& mesh, const std::vector<Facet
   }
 
   const Element_blocks blocks(mesh);
-  const Face_patches patches(mesh, facet_sets, blocks.first_free_tag());
+  const Face_patches patches(mesh, facet_sets, boundary_tag, blocks.first_free_tag());
   const std::vector<Face>& faces = patches.faces();
   for(int size : {3, 4}) {
     const auto has_size = [size](const Face& face) { return face.vertices().size() == size; };

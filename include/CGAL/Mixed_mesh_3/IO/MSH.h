@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <ostream>
 #include <set>
@@ -39,7 +40,7 @@ enum class MSH_version {
 
 namespace internal {
 
-// A physical group: the boundary, a facet set or a part.
+// A physical group: the boundary, a facet set or a subdomain.
 struct MSH_group
 {
   std::string name;
@@ -67,8 +68,19 @@ class MSH_model
   std::vector<MSH_entity> m_entities; // patches of faces, the boundary first, then the parts
   std::vector<std::size_t> m_vertex_entity;
   Element_blocks m_blocks;
+  int m_boundary_tag;
   Face_patches m_patches;
-  std::vector<MSH_group> m_subdomains; // those with names
+
+  // The first of several numbers that no subdomain has: programs such as GetDP do not distinguish surfaces
+  // and volumes by number.
+  static int first_free_tag(const Element_blocks& blocks, std::size_t count)
+  {
+    std::int64_t first = boundary_tag;
+    for(Subdomain_index s : blocks.subdomains())
+      if(s < first + std::int64_t(count))
+        first = (std::max)(first, std::int64_t(s) + 1);
+    return int(first);
+  }
 
   // An entity's box has all its vertices, but each vertex is on the first entity only.
   template <class Mesh>
@@ -87,14 +99,16 @@ class MSH_model
     ++e.number_of_elements;
   }
 
-  void add_groups(const std::vector<Facet_set>& facet_sets)
+  void add_groups(const std::vector<Facet_set>& facet_sets, const Subdomain_names& subdomain_names)
   {
-    m_groups.push_back({"boundary", 2, boundary_tag});
-    for(std::size_t part = 0; part < m_blocks.parts().size(); ++part)
-      m_groups.push_back({m_blocks.parts()[part].name(), 3, m_blocks.tag(part)});
+    m_groups.push_back({"boundary", 2, m_boundary_tag});
+    for(Subdomain_index s : m_blocks.subdomains()) {
+      const auto named = subdomain_names.find(s);
+      m_groups.push_back(
+        {named != subdomain_names.end() ? named->second : "subdomain_" + std::to_string(s), 3, s});
+    }
     for(std::size_t set = 0; set < facet_sets.size(); ++set)
       m_groups.push_back({facet_sets[set].name, 2, m_patches.set_tag(set)});
-    m_groups.insert(m_groups.end(), m_subdomains.begin(), m_subdomains.end());
     for(MSH_group& group : m_groups)
       for(const MSH_entity& e : m_entities)
         if(e.number_of_elements != 0 && std::count(e.groups.begin(), e.groups.end(), group.tag) != 0)
@@ -102,12 +116,13 @@ class MSH_model
   }
 
 public:
-  // \param has_one_number whether a face or an element can be in one group only: Gmsh 2.2
+  // \param has_one_number whether a face can be in one group only: Gmsh 2.2
   template <class Mesh>
   MSH_model(const Mesh& mesh, const Mesh_nodes<Mesh>& nodes, const std::vector<Facet_set>& facet_sets,
             bool has_one_number, const Subdomain_names& subdomain_names)
     : m_vertex_entity(nodes.size(), no_entity), m_blocks(mesh),
-      m_patches(mesh, facet_sets, m_blocks.first_free_tag())
+      m_boundary_tag(first_free_tag(m_blocks, 1 + facet_sets.size())),
+      m_patches(mesh, facet_sets, m_boundary_tag, m_boundary_tag + 1)
   {
     const std::vector<Face_patch>& patches = m_patches.patches();
     for(std::size_t i = 0; i < patches.size(); ++i) {
@@ -115,20 +130,14 @@ public:
       for(std::size_t set : patches[i].sets)
         groups.push_back(m_patches.set_tag(set));
       if(patches[i].is_on_boundary)
-        groups.push_back(boundary_tag);
+        groups.push_back(m_boundary_tag);
       if(has_one_number)
         groups.resize(1);
       m_entities.push_back({2, m_patches.tag(i), groups});
     }
     std::vector<std::size_t> entity_of(mesh.number_of_elements());
-    for(std::size_t part = 0; part < m_blocks.parts().size(); ++part)
-      m_entities.push_back({3, m_blocks.tag(part), {m_blocks.tag(part)}});
-    if(!has_one_number)
-      for(const auto& [name, parts] : m_blocks.named_parts(subdomain_names)) {
-        m_subdomains.push_back({name, 3, m_patches.set_tag(facet_sets.size() + m_subdomains.size())});
-        for(std::size_t part : parts)
-          m_entities[patches.size() + part].groups.push_back(m_subdomains.back().tag);
-      }
+    for(const Part& part : m_blocks.parts())
+      m_entities.push_back({3, MSH_entity_tag(part.attributes), {part.attributes.subdomain_index}});
     for(const Element_block& block : m_blocks)
       for(Element_index e : block)
         entity_of[e] = patches.size() + block.part;
@@ -140,7 +149,7 @@ public:
     }
     for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
       add(nodes, entity_of[e], nodes.of(e, &Element_names::gmsh_edges));
-    add_groups(facet_sets);
+    add_groups(facet_sets, subdomain_names);
     for(std::size_t entity : m_vertex_entity)
       if(entity != no_entity)
         ++m_entities[entity].number_of_vertices;
@@ -152,7 +161,10 @@ public:
   bool is_vertex_used(std::size_t v) const { return m_vertex_entity[v] != no_entity; }
   bool is_vertex_on(std::size_t v, std::size_t entity) const { return m_vertex_entity[v] == entity; }
   const Element_blocks& blocks() const { return m_blocks; }
-  int tag(const Element_block& block) const { return m_blocks.tag(block.part); }
+  const MSH_entity& entity_of(const Element_block& block) const
+  {
+    return m_entities[m_patches.patches().size() + block.part];
+  }
   // The boundary faces, then others of facet sets.
   const std::vector<Face>& faces() const { return m_patches.faces(); }
 };
@@ -230,8 +242,8 @@ void write_MSH_4_1_elements(Buffered_output& out, const Mesh& mesh, const Mesh_n
   out << "$Elements\n"
       << model.blocks().blocks().size() + faces.size() << ' ' << total << " 1 " << total << '\n';
   for(const Element_block& block : model.blocks()) {
-    out << "3 " << model.tag(block) << ' ' << nodes.names(block.kind).gmsh_type << ' ' << block.size()
-        << '\n';
+    out << "3 " << model.entity_of(block).tag << ' ' << nodes.names(block.kind).gmsh_type << ' '
+        << block.size() << '\n';
     for(Element_index e : block) {
       out << e + 1 << ' ';
       write_vertices(out, nodes.of(e, &Element_names::gmsh_edges), ' ');
@@ -253,9 +265,9 @@ template <class Mesh>
 void write_MSH_2_2_nodes_and_elements(Buffered_output& out, const Mesh& mesh, const Mesh_nodes<Mesh>& nodes,
                                       const MSH_model& model)
 {
-  const auto write_element = [&out](std::size_t number, int type, int group, int entity,
+  const auto write_element = [&out](std::size_t number, int type, const MSH_entity& entity,
                                     const Node_list& of_element) {
-    out << number << ' ' << type << " 2 " << group << ' ' << entity << ' ';
+    out << number << ' ' << type << " 2 " << entity.groups.front() << ' ' << entity.tag << ' ';
     write_vertices(out, of_element, ' ');
     out << '\n';
   };
@@ -269,13 +281,12 @@ void write_MSH_2_2_nodes_and_elements(Buffered_output& out, const Mesh& mesh, co
   out << "$EndNodes\n$Elements\n" << mesh.number_of_elements() + model.faces().size() << '\n';
   for(const Element_block& block : model.blocks())
     for(Element_index e : block)
-      write_element(e + 1, nodes.names(block.kind).gmsh_type, model.tag(block), model.tag(block),
+      write_element(e + 1, nodes.names(block.kind).gmsh_type, model.entity_of(block),
                     nodes.of(e, &Element_names::gmsh_edges));
   for(std::size_t i = 0; i < model.faces().size(); ++i) {
     const Face& face = model.faces()[i];
-    const MSH_entity& e = model.entity_of_face(i);
     write_element(mesh.number_of_elements() + 1 + i, gmsh_face_type(face.vertices().size(), nodes.order()),
-                  e.groups.front(), e.tag, nodes.of(face));
+                  model.entity_of_face(i), nodes.of(face));
   }
   out << "$EndElements\n";
 }
@@ -309,15 +320,18 @@ inline void write_MSH_node_data(Buffered_output& out, const Data_array& data, st
 
 \brief Writes a mesh in the format of Gmsh, as text.
 
-Physical groups: the volumes "region" (1) and "rest" (2) for the elements of subdomain 1 in the region and the
-others, the surface "boundary" (3) for the boundary faces, counter-clockwise seen from outside, and from 4 on
-"subdomain_2_region", "subdomain_2_rest" and so on, as they occur. The numbers of vertices and elements are
-the indices plus 1; boundary faces are numbered after the elements. Elements are written by group and kind.
+Physical groups: a volume for each subdomain, with its index as number, and its name, or "subdomain_1" and so
+on; and the surface "boundary" for the boundary faces, counter-clockwise seen from outside. Its number is 3,
+or the next one that is free where that is a subdomain's. The volume of a subdomain has up to two elementary
+entities, the elements in the region and the others: that of the others has the number of the subdomain, that
+of the region 1,000,000,000 more, by which `read_mixed_mesh()` knows the region. The numbers of vertices and
+elements are the indices plus 1; boundary faces are numbered after the elements. Elements are written by
+entity and kind.
 
-The surfaces of facet sets follow, with their names and the next numbers. Each face is written once. In
-version 4.1 a boundary face of sets is in their groups and in "boundary"; in 2.2, where it can be in one group
-only, it is in that of its first set, and "boundary" is what is left. In version 4.1, subdomains with names
-are physical volumes with these, too.
+The surfaces of facet sets have their names, and the numbers after that of the boundary. Each face is written
+once. In version 4.1 a boundary face of sets is in their groups and in "boundary"; in 2.2, where it can be in
+one group only, it is in that of its first set, and "boundary" is what is left. The nodes of a set are those
+of its faces.
 
 Values at the vertices become views, at time 0.
 
@@ -330,7 +344,7 @@ Abaqus's lack.
 \param version of the format
 \param facet_sets named faces
 \param vertex_data of one or three components, as many as vertices; names without quotes
-\param subdomain_names version 4.1 only
+\param subdomain_names of those that have one
 \param order of the elements, 1 or 2: see `Write_options::order`
 
 \return whether the stream took everything.

@@ -142,6 +142,23 @@ inline std::vector<std::vector<std::uint8_t>> numbers_of_facets_in(const std::ve
   return numbers;
 }
 
+// For each set that is not empty, which nodes its faces have.
+template <class Mesh>
+void add_node_set_arrays(VTU_arrays& arrays, const Mesh_nodes<Mesh>& nodes,
+                         const std::vector<Facet_set>& sets)
+{
+  for(const Facet_set& set : sets)
+    if(!set.faces.empty())
+      arrays.push_back({"nodes_" + set.name, vtk_type_name<std::uint8_t>(), 1, nodes.size(),
+                        [&nodes, &set](Buffered_output& out) {
+                          std::vector<std::uint8_t> is_in_set(nodes.size(), 0);
+                          for(Vertex_index node : nodes.of(set.faces))
+                            is_in_set[node] = 1;
+                          for(std::uint8_t is_in : is_in_set)
+                            out.write_binary(is_in);
+                        }});
+}
+
 template <class Mesh>
 void add_facet_arrays(VTU_arrays& arrays, const Mesh& mesh, const std::vector<Facet_set>& sets,
                       const std::vector<std::vector<std::uint8_t>>& numbers_of_facets)
@@ -288,7 +305,8 @@ find four. Element data: `kind` (the number of the `Element_kind`), `ARC` (the a
 `in_region` (1 or 0), `subdomain` (the subdomain index), `compartment`
 (if there are sheets, see `find_sheet_faces()`), what the options add, and for each facet set
 `facets_` with its name: the number of the element's faces in the set, since a file of elements has no faces
-of their own; a threshold above 0 selects the elements. Field data, if subdomains have
+of their own; a threshold above 0 selects the elements. Point data for each facet set: `nodes_` with its name,
+1 for the nodes of its faces and 0 for others. Field data, if subdomains have
 names: `subdomain_indices`, and `subdomain_names` as bytes with a zero behind each name. Nothing of the size
 of the mesh is allocated but for facet sets, for middle nodes, and for what is compressed.
 
@@ -325,6 +343,7 @@ bool write_VTU(std::ostream& stream, const Mesh& mesh, const VTU_options& option
   const Node_data node_data(nodes, options.vertex_data);
   for(const Data_array& data : node_data.arrays())
     vertex_data.push_back(vertex_data_array(data));
+  add_node_set_arrays(vertex_data, nodes, options.facet_sets);
   const std::vector<std::vector<std::uint8_t>> numbers_of_facets = numbers_of_facets_in(options.facet_sets,
                                                                                         m);
   add_facet_arrays(element_data, mesh, options.facet_sets, numbers_of_facets);

@@ -46,7 +46,7 @@ struct Write_options
   std::vector<Data_array> element_data;
   /// Named faces of elements, in all formats. `Format::MSH_2_2` and `Format::MEDIT` take no face in two sets.
   std::vector<Facet_set> facet_sets = {};
-  /// In all formats but `Format::MSH_2_2` and `Format::MEDIT`, which have no place for them.
+  /// In all formats but `Format::MEDIT`, which has no place for them.
   Subdomain_names subdomain_names = {};
   /// The order of the elements, 1 or 2. With 2, they are quadratic and straight-sided: each edge has one node
   /// more, at its rounded midpoint, numbered after the vertices in the order in which elements have the edges

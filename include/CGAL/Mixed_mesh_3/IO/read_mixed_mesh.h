@@ -77,11 +77,12 @@ A mesh that `write_mixed_mesh()` writes in these formats is read back as it was,
 no element and no boundary face, which `write_mixed_mesh()` does not write to Gmsh 4.1. All vertices in the
 file are kept, and none are merged: vertices and elements have the order of the file or, in Gmsh's formats, of
 the numbers that the file gives them. Elements of lower dimension are skipped. An element is in the region if
-the cell data `in_region` (VTK) are not 0, or if it is in a physical volume called "region" (Gmsh); cell data
-`subdomain`, and names such as "subdomain_2_rest", tell the subdomain, a positive integer; without them the
-subdomain is 1. The subdomain in the other formats is the reference (Medit), the first attribute (TetGen) or
-the material (Netgen), and no element is in the region. `write_mixed_mesh()` sorts the elements of a `.vtu`
-file by kind.
+the cell data `in_region` (VTK) are not 0, or if the number of its elementary entity says so (Gmsh, see
+`write_MSH()`). The cell data `subdomain` (VTK) and the number of the physical volume (Gmsh) are the
+subdomain, a positive integer; without them the subdomain is 1. Physical volumes with names such as "region"
+and "subdomain_2_rest" are these parts of subdomains. The subdomain in the other formats is the reference
+(Medit), the first attribute (TetGen) or the material (Netgen), and no element is in the region.
+`write_mixed_mesh()` sorts the elements of a `.vtu` file by kind.
 
 The file is checked, and coordinates are finite and at most 1e30, but the mesh is not checked: elements may be
 inverted, or not fit together; see `find_defects()`.

@@ -78,6 +78,16 @@ private:
 /// 3 is the boundary; further parts follow as they occur, from 4.
 constexpr int boundary_tag = 3;
 
+/// The number of the elementary entity of a part in Gmsh's formats: that of the subdomain for the rest, and
+/// for the region one that labels and other programs hardly use.
+inline int MSH_entity_tag(const Element_attributes& a)
+{
+  constexpr int of_region = 1000000000;
+  return !a.is_in_region                  ? a.subdomain_index
+         : a.subdomain_index <= of_region ? of_region + a.subdomain_index
+                                          : a.subdomain_index - of_region;
+}
+
 /// Elements of one kind in one part.
 struct Element_block
 {
@@ -132,6 +142,16 @@ public:
   const std::vector<Element_block>& blocks() const { return m_blocks; }
   auto begin() const { return m_blocks.begin(); }
   auto end() const { return m_blocks.end(); }
+
+  /// The subdomains that have elements, ascending.
+  std::vector<Subdomain_index> subdomains() const
+  {
+    std::vector<Subdomain_index> result;
+    for(const Part& part : m_parts)
+      if(result.empty() || result.back() != part.attributes.subdomain_index)
+        result.push_back(part.attributes.subdomain_index);
+    return result;
+  }
 
   /// The name and the parts of each named subdomain with elements.
   std::vector<std::pair<std::string, std::vector<std::size_t>>>

@@ -123,13 +123,14 @@ class Face_patches
   std::vector<Face> m_faces;
   std::vector<std::size_t> m_patch_of;
   std::vector<Face_patch> m_patches;
-  int m_first_tag;
+  int m_boundary_tag, m_first_tag;
 
 public:
+  /// \param boundary_tag number of the boundary
   /// \param first_tag number of the first set, and of the first patch beside the boundary
   template <class Mesh>
-  Face_patches(const Mesh& mesh, const std::vector<Facet_set>& sets, int first_tag)
-    : m_faces(boundary_faces(mesh)), m_first_tag(first_tag)
+  Face_patches(const Mesh& mesh, const std::vector<Facet_set>& sets, int boundary_tag, int first_tag)
+    : m_faces(boundary_faces(mesh)), m_boundary_tag(boundary_tag), m_first_tag(first_tag)
   {
     const std::size_t boundary_size = m_faces.size();
     std::map<Face, std::vector<std::size_t>> sets_of; // only of faces in sets
@@ -163,13 +164,13 @@ public:
   /// The patches, of which the first is the boundary without sets.
   const std::vector<Face_patch>& patches() const { return m_patches; }
   int set_tag(std::size_t set) const { return m_first_tag + int(set); }
-  int tag(std::size_t patch) const { return patch == 0 ? boundary_tag : m_first_tag + int(patch) - 1; }
+  int tag(std::size_t patch) const { return patch == 0 ? m_boundary_tag : m_first_tag + int(patch) - 1; }
   /// The number of a face in formats with one number for each face: the number of its first set, else of the
   /// boundary.
   int only_tag(std::size_t face) const
   {
     const Face_patch& patch = m_patches[m_patch_of[face]];
-    return patch.sets.empty() ? boundary_tag : set_tag(patch.sets.front());
+    return patch.sets.empty() ? m_boundary_tag : set_tag(patch.sets.front());
   }
 };
 

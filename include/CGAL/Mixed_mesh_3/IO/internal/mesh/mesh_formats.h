@@ -72,8 +72,7 @@ struct Mesh_format
 template <MSH_version version>
 bool write_MSH_format(std::ostream& stream, const Core_mesh& mesh, const Write_options& o)
 {
-  return write_MSH(stream, mesh, version, o.facet_sets, o.vertex_data,
-                   version == MSH_version::V4_1 ? o.subdomain_names : Subdomain_names(), o.order);
+  return write_MSH(stream, mesh, version, o.facet_sets, o.vertex_data, o.subdomain_names, o.order);
 }
 
 /// Reads a format of one file.

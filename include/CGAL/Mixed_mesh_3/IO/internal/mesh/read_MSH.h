@@ -20,6 +20,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <map>
 #include <cstdlib>
@@ -49,9 +50,8 @@ class MSH_reader
   Text_input m_in;
   std::string m_section; // with its $
   bool m_is_version_4 = false, m_is_binary = false, m_has_nodes = false, m_has_elements = false;
-  std::map<std::int64_t, Element_attributes> m_groups;  // of physical groups of volumes with names of ours
+  std::map<std::int64_t, Element_attributes> m_parts;   // of physical groups of volumes with names of parts
   std::map<std::int32_t, Element_attributes> m_volumes; // version 4 only
-  std::map<std::int64_t, std::string> m_names;          // of other physical groups of volumes
   std::vector<std::int64_t> m_node_tags;                // increasing
   std::vector<std::int64_t> m_element_tags;
   Mesh_input m_mesh;
@@ -151,22 +151,26 @@ class MSH_reader
         refuse("is damaged or truncated in " + m_section);
       const std::string_view name = rest.substr(1, end - 1);
       if(const auto part = Part::named(name); part && dimension == 3)
-        m_groups.emplace(tag, part->attributes);
-      else if(dimension == 3)
-        m_names.emplace(tag, name);
+        m_parts.emplace(tag, part->attributes);
+      else if(dimension == 3 && tag > 0)
+        m_mesh.subdomain_names.emplace(tag, name);
       m_in.skip(end + 1);
     }
   }
 
-  // What a physical group says of its elements. Tags are negative for what is against the orientation of the
-  // group.
-  void add_group(std::int64_t tag, Element_attributes& attributes) const
+  // The attributes of the elements of an entity in a physical group, 0 without one: the number of the group
+  // is the subdomain, unless the name is that of a part. Tags are negative for what is against the
+  // orientation of the group.
+  Element_attributes attributes_of(std::int64_t group, std::int32_t entity) const
   {
-    const auto group = m_groups.find(tag < 0 ? -tag : tag);
-    if(group == m_groups.end())
-      return;
-    attributes.is_in_region = attributes.is_in_region || group->second.is_in_region;
-    attributes.subdomain_index = (std::max)(attributes.subdomain_index, group->second.subdomain_index);
+    group = std::abs(group);
+    if(const auto part = m_parts.find(group); part != m_parts.end())
+      return part->second;
+    Element_attributes attributes;
+    if(group != 0 && group <= (std::numeric_limits<Subdomain_index>::max)())
+      attributes.subdomain_index = Subdomain_index(group);
+    attributes.is_in_region = entity == MSH_entity_tag({attributes.subdomain_index, true});
+    return attributes;
   }
 
   void read_entities()
@@ -180,20 +184,12 @@ class MSH_reader
         const std::int32_t tag = get_int();
         for(int i = 0; i < (dimension == 0 ? 3 : 6); ++i) // a point or a box
           get<double>();
-        Element_attributes attributes;
-        bool is_ours = false; // then another group is the subdomain with its name
-        std::vector<std::string> names;
-        for(std::size_t groups = checked(get_tag(), 1); groups != 0; --groups) {
-          const std::int64_t group = std::abs(std::int64_t(get_int()));
-          add_group(group, attributes);
-          is_ours = is_ours || m_groups.count(group) != 0;
-          if(const auto named = m_names.find(group); named != m_names.end())
-            names.push_back(named->second);
-        }
+        std::int64_t group = 0; // one with the name of a part, or the first
+        for(std::size_t groups = checked(get_tag(), 1); groups != 0; --groups)
+          if(const std::int64_t next = get_int(); group == 0 || m_parts.count(std::abs(next)) != 0)
+            group = next;
         if(dimension == 3)
-          m_volumes[tag] = attributes;
-        if(dimension == 3 && is_ours && names.size() == 1)
-          m_mesh.subdomain_names.emplace(attributes.subdomain_index, names.front());
+          m_volumes[tag] = attributes_of(group, tag);
         if(dimension != 0) // what bounds it
           for(std::size_t entities = checked(get_tag(), 1); entities != 0; --entities)
             get_int();
@@ -326,13 +322,13 @@ class MSH_reader
       for(std::size_t i = 0; i < size; ++i) {
         if(m_is_binary)
           number = get_tag();
-        Element_attributes attributes;
+        std::int32_t of_element[] = {0, 0}; // group and entity; the other tags are of partitions
         for(std::size_t t = 0; t < tags; ++t) {
           const std::int32_t tag = get_int();
-          if(t == 0) // the other tags are not of groups
-            add_group(tag, attributes);
+          if(t < 2)
+            of_element[t] = tag;
         }
-        read_element_nodes(number, type, attributes);
+        read_element_nodes(number, type, attributes_of(of_element[0], of_element[1]));
       }
       n -= size;
     }
@@ -432,8 +428,8 @@ public:
 };
 
 /// Reads what an `.msh` file holds. Vertices and elements are ordered by their tags, which need not be dense;
-/// elements of lower dimension are skipped. Attributes are those that the names of physical volumes
-/// tell, see `Part`.
+/// elements of lower dimension are skipped. A physical volume is a subdomain, with its number and name, or a
+/// part with its name; where an entity is in several, a part counts, or the first one.
 inline Mesh_input read_MSH(const std::string& path, const std::string& bytes)
 {
   return MSH_reader(path, bytes).read();
