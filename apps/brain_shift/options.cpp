@@ -8,6 +8,7 @@
 #include "brain_shift/read_control_points.h"
 #include "core/Deferred_signals.h"
 #include "core/command_line.h"
+#include "core/patch_shapes.h"
 #include "core/resources.h"
 
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
@@ -149,19 +150,22 @@ void add_supports(CLI::App& app, Options& o)
   };
   add_patches(
     "--fixed", o.fixed_patches,
-    "Patch of the boundary that is fixed: a closed surface (faces whose center is inside), label:N "
-    "(faces of elements of subdomain N), or base (that of --fixed-below); can be given several times");
+    "Patch of the boundary that is fixed: faces whose center is inside a closed surface, sphere:X,Y,Z,R, "
+    "box:X0,Y0,Z0,X1,Y1,Z1 or plane:X,Y,Z,NX,NY,NZ (on the plane or beyond, where the normal points to), "
+    "label:N (faces of elements of subdomain N), or base (that of --fixed-below); can be given several "
+    "times");
   add_patches(
     "--slide", o.sliding_patches,
-    "Patch that slides, unless fixed: a closed surface, label:N, or skull (all of the boundary); can "
+    "Patch that slides, unless fixed: as that of --fixed, without base, or skull (all of the boundary); can "
     "be given several times");
   add_patches(
     "--contact", o.touching_patches,
-    "Patch that touches the skull without friction, and can leave it, unless fixed or sliding: a closed "
-    "surface, label:N, or skull (all of the boundary); can be given several times");
-  add_patches("--opening", o.openings,
-              "Patch that is free, whatever other options say: a closed surface or label:N; can be given "
-              "several times");
+    "Patch that touches the skull without friction, and can leave it, unless fixed or sliding: as that of "
+    "--slide; can be given several times");
+  add_patches(
+    "--opening", o.openings,
+    "Patch that is free, whatever other options say: as that of --fixed, without base; can be given "
+    "several times");
 }
 
 void add_physics(CLI::App& app, Options& o)
@@ -378,6 +382,8 @@ void check_patches(const CLI::App& app, Options& o)
     for(const std::string& patch : patches)
       if(patch == foreign || (patch.rfind(label_prefix, 0) == 0 && !label_of(patch)))
         throw CLI::ValidationError(option, control_points::quoted(patch) + " is no patch for this option");
+      else if(const auto shape = patch_shape(patch); shape && !shape->defect.empty())
+        throw CLI::ValidationError(option + (' ' + patch), shape->defect);
   };
   check("--fixed", o.fixed_patches, skull_patch);
   check("--slide", o.sliding_patches, base_patch);

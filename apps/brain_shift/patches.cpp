@@ -5,6 +5,8 @@
 
 #include "brain_shift/patches.h"
 
+#include "core/patch_shapes.h"
+
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
 #include <algorithm>
@@ -22,23 +24,19 @@ namespace {
 
 using Contains = std::function<bool(const mm3::Face&)>;
 
-Vector center(const Mesh& mesh, const mm3::Face& face)
-{
-  Vector sum{};
-  for(mm3::Vertex_index v : face.vertices())
-    sum = sum + mm3::to_vec3(mesh.point(v));
-  return 1. / face.vertices().size() * sum;
-}
-
-// The faces of a patch: faces of elements of a label, or faces with their center inside a surface.
+// The faces of a patch: faces of elements of a label, or faces with their center inside a shape or a surface.
 Contains read_patch(const Mesh& mesh, const std::string& place, const Options& o,
                     std::vector<std::string>& warnings)
 {
   if(const auto label = label_of(place))
     return [&mesh, label](const mm3::Face& face) { return mesh.subdomain_index(face.element()) == *label; };
+  if(const auto shape = patch_shape(place))
+    return [&mesh, contains = shape->contains, tolerance = patch_tolerance(mesh)](const mm3::Face& face) {
+      return contains(center_of(mesh, face), tolerance);
+    };
   Surface_facts facts;
-  const auto surface = std::make_shared<const Closed_surface>(place, o, mesh, facts, warnings);
-  return [&mesh, surface](const mm3::Face& face) { return surface->contains(center(mesh, face)); };
+  const std::shared_ptr<const Closed_surface> surface = read_beside_mesh(place, o, mesh, facts, warnings);
+  return [&mesh, surface](const mm3::Face& face) { return surface->contains(center_of(mesh, face)); };
 }
 
 void mark(const Mesh& mesh, const std::vector<std::string>& places, Patch patch, const Options& o,
@@ -57,8 +55,9 @@ void mark(const Mesh& mesh, const std::vector<std::string>& places, Patch patch,
           patches.of_faces[i] = patch;
       }
     if(is_empty)
-      throw std::runtime_error(place + ": no face of the boundary of " + o.mesh
-                               + (label_of(place) ? " has this label" : " has its center inside"));
+      throw std::runtime_error(
+        place + ": no face of the boundary of " + o.mesh
+        + (label_of(place) ? " has this label" : " has its center inside; " + place_of_mesh(mesh)));
   }
 }
 

@@ -5,9 +5,9 @@
 
 #include "brain_shift/resection.h"
 
+#include "core/Closed_surface_domain.h"
 #include "core/messages.h"
 #include "core/misfit.h"
-#include "core/read_surface.h"
 
 #include <CGAL/Mixed_mesh_3/Element_locator_3.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
@@ -18,36 +18,23 @@
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 
-struct Closed_surface::Domain : CGAL::Polyhedral_mixed_mesh_domain_3
+std::unique_ptr<const Closed_surface> read_beside_mesh(const std::string& path, const Options& o,
+                                                       const Mesh& mesh, Surface_facts& facts,
+                                                       std::vector<std::string>& warnings)
 {
-  using Polyhedral_mixed_mesh_domain_3::Polyhedral_mixed_mesh_domain_3;
-};
-
-Closed_surface::Closed_surface(const std::string& path, const Options& o, const Mesh& mesh,
-                               Surface_facts& facts, std::vector<std::string>& warnings)
-  : m_path(path)
-{
-  const Surface surface = read_surface(path, o.surface_options, facts, warnings);
-  m_domain = std::make_unique<const Domain>(surface);
+  auto surface = std::make_unique<const Closed_surface>(path, o.surface_options, facts, warnings);
   const mm3::Element_locator_3<Mesh> locator(mesh);
-  const auto points = coordinates_of(surface.points());
   const CGAL::Bbox_3 box = box_of(coordinates_of(mesh.points()));
-  const std::string defect = misfit(points, box, [&locator](const std::array<double, 3>& p) {
+  const std::string defect = misfit(surface->points(), box, [&locator](const std::array<double, 3>& p) {
     return locator.locate(Vector(p)).has_value();
   });
   if(defect.empty())
-    return;
+    return surface;
   const std::string text = path + ": beside " + o.mesh + ", it " + defect;
-  if(!CGAL::do_overlap(box, box_of(points)))
+  if(!CGAL::do_overlap(box, box_of(surface->points())))
     throw std::runtime_error(text); // no element could be resected
   warnings.push_back(text);
-}
-
-Closed_surface::~Closed_surface() = default;
-
-bool Closed_surface::contains(const std::array<double, 3>& p) const
-{
-  return m_domain->bounded_side(Kernel::Point_3(p[0], p[1], p[2])) == CGAL::ON_BOUNDED_SIDE;
+  return surface;
 }
 
 namespace {
@@ -79,9 +66,9 @@ Resection_facts resection_facts(const mm3::Resection_3& r)
 
 std::vector<bool> resect(const Mesh& mesh, const Tumor& tumor, const Options& o, Outcome& outcome)
 {
-  const mm3::Resection_3 r = tumor.surface != nullptr ? mm3::resect(mesh, *tumor.surface->m_domain)
+  const mm3::Resection_3 r = tumor.surface != nullptr ? mm3::resect(mesh, tumor.surface->domain())
                                                       : resect_subdomain(mesh, *tumor.subdomain);
-  const std::string name = tumor.surface != nullptr ? tumor.surface->m_path
+  const std::string name = tumor.surface != nullptr ? tumor.surface->path()
                                                     : o.mesh + ": subdomain " + o.tumor_label;
   if(r.status != mm3::Resection_status::SUCCESS)
     throw std::runtime_error(name + ": " + mm3::description(r.status));

@@ -10,35 +10,20 @@
 
 #include "brain_shift/options.h"
 #include "brain_shift/outcome.h"
+#include "core/Closed_surface.h"
 #include "core/types.h"
 
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-struct Tumor;
-
-/// The inside of a closed surface.
-class Closed_surface
-{
-public:
-  /// Reads the surface, and checks that it is where the mesh is.
-  Closed_surface(const std::string& path, const Options& options, const Mesh& mesh, Surface_facts& facts,
-                 std::vector<std::string>& warnings);
-  ~Closed_surface();
-
-  bool contains(const std::array<double, 3>& p) const;
-
-private:
-  friend std::vector<bool> resect(const Mesh&, const Tumor&, const Options&, Outcome&);
-  struct Domain; // heavy to compile
-  std::string m_path;
-  std::unique_ptr<const Domain> m_domain;
-};
+/// Reads a closed surface, and checks that it is where the mesh is.
+std::unique_ptr<const Closed_surface> read_beside_mesh(const std::string& path, const Options& options,
+                                                       const Mesh& mesh, Surface_facts& facts,
+                                                       std::vector<std::string>& warnings);
 
 /// The resected tissue: the inside of a surface, or a subdomain, or nothing.
 struct Tumor

@@ -100,8 +100,7 @@ Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
   });
   if(!o.tumor.empty())
     inputs.tumor.surface = log("read tumor", [&] {
-      return std::make_unique<const Closed_surface>(o.tumor, o, inputs.mesh, outcome.tumor.emplace(),
-                                                    outcome.warnings);
+      return read_beside_mesh(o.tumor, o, inputs.mesh, outcome.tumor.emplace(), outcome.warnings);
     });
   if(!o.tumor_label.empty())
     inputs.tumor.subdomain = find_subdomain(outcome.subdomains, o.tumor_label, o).index;

@@ -8,6 +8,7 @@
 #include "core/Thread_limit.h"
 #include "core/Deferred_signals.h"
 #include "core/command_line.h"
+#include "core/patch_shapes.h"
 #include "core/resources.h"
 
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
@@ -97,6 +98,22 @@ Subdomain_option subdomain_option(const std::string& option, const std::string& 
   if(!is_name(s.name))
     throw CLI::ValidationError(option + " " + text, std::string(what_a_name_is) + ", as in tumor=" + s.file);
   return s;
+}
+
+Patch_option patch_option(const std::string& text)
+{
+  const std::string option = "--patch " + text;
+  const std::size_t equals = text.find('=');
+  if(equals == std::string::npos || equals + 1 == text.size())
+    throw CLI::ValidationError(option, "expected NAME=WHERE, as in support=sphere:0,0,0,5");
+  const Patch_option patch{text.substr(0, equals), text.substr(equals + 1)};
+  if(!mm3::IO::is_facet_set_name(patch.name))
+    throw CLI::ValidationError(option,
+                               "a name has up to 60 letters, digits, _ and -, a letter first, and is neither "
+                               "all, boundary, region or rest, nor begins as those of files");
+  if(const auto shape = patch_shape(patch.place); shape && !shape->defect.empty())
+    throw CLI::ValidationError(option, shape->defect);
+  return patch;
 }
 
 // Sets the labels of one domain, or of several with names.
@@ -275,6 +292,13 @@ void add_outputs(CLI::App& app, Options& o)
                 "(FEBio); can be given several times")
     ->type_name("FILE")
     ->allow_extra_args(false);
+  add_several(
+    app, "--patch",
+    "Patch of the boundary, written as a facet set and a node set of that name: the faces whose center "
+    "is inside sphere:X,Y,Z,R, box:X0,Y0,Z0,X1,Y1,Z1, or the file of a closed surface, or on "
+    "plane:X,Y,Z,NX,NY,NZ or beyond, where the normal points to. Can be given several times",
+    [&o](const std::string& text) { o.patches.push_back(patch_option(text)); })
+    ->type_name("NAME=WHERE");
   app.add_option("--report", o.report, "Report with counts, quality, checks, times and memory")
     ->type_name("FILE.json");
   app
@@ -483,6 +507,15 @@ void check_sheets(const Options& o)
     throw CLI::ValidationError(o.no_optimize ? "--no-optimize" : "--mode paper", "knows no sheets");
 }
 
+void check_patches(const Options& o)
+{
+  for(std::size_t i = 0; i < o.patches.size(); ++i)
+    for(std::size_t j = 0; j < i; ++j) // some formats ignore upper and lower case
+      if(boost::iequals(o.patches[i].name, o.patches[j].name))
+        throw CLI::ValidationError("--patch " + o.patches[i].name + '=' + o.patches[i].place,
+                                   "the name is taken");
+}
+
 // Checks combinations of options, and options that this program was built without: these are wrong use.
 void check_options(Options& o)
 {
@@ -508,6 +541,7 @@ void check_options(Options& o)
                  "mri_convert)");
   check_subdomains(o);
   check_sheets(o);
+  check_patches(o);
 }
 
 } // namespace
@@ -545,6 +579,9 @@ std::vector<std::string> inputs_of(const Options& o)
     for(const Subdomain_option& s : parts)
       inputs.push_back(s.file);
   inputs.insert(inputs.end(), o.cavities.begin(), o.cavities.end());
+  for(const Patch_option& p : o.patches)
+    if(!patch_shape(p.place))
+      inputs.push_back(p.place);
   return inputs;
 }
 

@@ -42,6 +42,12 @@ struct Subdomain_option
   Voxel_selection voxels = {}; // voxels of an image
 };
 
+/// A patch of the boundary: a shape such as "sphere:0,0,0,5", or a file of a closed surface.
+struct Patch_option
+{
+  std::string name, place;
+};
+
 /// The surfaces and images, and how they are read.
 struct Input_options
 {
@@ -84,6 +90,7 @@ struct Options : Input_options, Relaxation_options
   std::string report, page;
   std::string command; // the command with all options
   std::vector<std::string> outputs;
+  std::vector<Patch_option> patches;
   int base_level = CGAL::Mixed_mesh_criteria_3::automatic;
   CGAL::Mixed_meshes_3::Boundary_mode mode = CGAL::Mixed_meshes_3::Boundary_mode::VERTEX_ORDER;
   CGAL::Mixed_meshes_3::Root_cell root = CGAL::Mixed_meshes_3::Root_cell::CUBE;

@@ -85,6 +85,14 @@ struct Sheet_outcome
   double area = 0, area_inside = 0; // area of the faces; of the sheet inside the domain
 };
 
+/// The boundary faces of a patch.
+struct Patch_outcome
+{
+  std::string name, place;
+  std::size_t faces = 0;
+  double area = 0;
+};
+
 /// The result of doubling the vertices of sheets.
 struct Slit_outcome
 {
@@ -100,6 +108,7 @@ struct Outcome
   std::vector<Interface_outcome> interfaces;
   bool has_lost_labels = false; // lost before there was a mesh
   std::vector<Sheet_outcome> sheets;
+  std::vector<Patch_outcome> patches;
   std::optional<Slit_outcome> slit;
   CGAL::Mixed_mesh_result_3 result;
   CGAL::Mixed_mesh_fit_result_3 algorithm_1;

@@ -277,6 +277,12 @@ void describe_sheets(const Outcome& outcome, Json& report)
                       {"vertices doubled", outcome.slit->vertices}};
 }
 
+void describe_patches(const Outcome& outcome, Json& report)
+{
+  for(const Patch_outcome& p : outcome.patches)
+    report["patches"].push_back({{"name", p.name}, {"where", p.place}, {"faces", p.faces}, {"area", p.area}});
+}
+
 // Describes the method by which the mesh was made.
 void describe_method(const Options& o, const Outcome& outcome, Json& report)
 {
@@ -303,9 +309,10 @@ void describe_method(const Options& o, const Outcome& outcome, Json& report)
                             result.number_of_vertices_for_tolerance}};
 }
 
-// A line for each subdomain, if there are several, and each sheet.
+// A line for each subdomain, if there are several, each sheet and each patch.
 std::string parts_in_words(const Options& o, const Outcome& outcome)
 {
+  const char* const unit_of_area = o.is_in_patient_space() ? " mm^2" : " square units";
   std::ostringstream text;
   text << std::setprecision(4);
   for(const Subdomain_outcome& s : outcome.subdomains) {
@@ -316,12 +323,14 @@ std::string parts_in_words(const Options& o, const Outcome& outcome)
     text << '\n';
   }
   for(const Sheet_outcome& s : outcome.sheets)
-    text << s.name << ": " << s.faces << " faces, area " << s.area
-         << (o.is_in_patient_space() ? " mm^2, " : " square units, ")
+    text << s.name << ": " << s.faces << " faces, area " << s.area << unit_of_area << ", "
          << as_part_of(s.area_inside > 0 ? s.area / s.area_inside : 0) << " that of the sheet inside\n";
   if(outcome.slit)
     text << "slit along " << outcome.slit->faces << " of them: " << outcome.slit->vertices
          << " vertices doubled\n";
+  for(const Patch_outcome& p : outcome.patches)
+    text << p.name << ": " << counted(p.faces, "face", "faces") << " of the boundary, area " << p.area
+         << unit_of_area << '\n';
   return text.str();
 }
 
@@ -383,6 +392,7 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
   report["surface"] = describe(outcome.fidelity);
   describe_subdomains(outcome, report);
   describe_sheets(outcome, report);
+  describe_patches(outcome, report);
   report["topology"] = describe(outcome.topology);
   report["quality"] = describe_quality(o, outcome);
   for(const Check& check : outcome.checks)

@@ -15,6 +15,7 @@
 #include "mixed_mesh_3/algorithm_1.h"
 #include "mixed_mesh_3/examine.h"
 #include "mixed_mesh_3/inputs.h"
+#include "mixed_mesh_3/patches.h"
 #include "mixed_mesh_3/report.h"
 #include "mixed_mesh_3/sheets.h"
 #include "mixed_mesh_3/subdomains.h"
@@ -244,6 +245,7 @@ bool run(Options o)
     check_tolerance(o, inputs.boundary);
   Domain domain = log("AABB tree of surface", [&] { return make_domain(inputs.subdomains); });
   const std::vector<Sheet> sheets = add_sheets(o, domain, outcome.warnings);
+  const std::vector<Patch> patches = read_patches(o, inputs.subdomains, outcome.warnings);
   check_regions(domain, inputs, o, outcome);
   log.expect(plan_for(o));
   constexpr unsigned seconds_until_exit = 2; // from Ctrl-C
@@ -260,6 +262,8 @@ bool run(Options o)
   examine_subdomains(mesh, domain, inputs.subdomains, o, outcome);
   std::vector<mm3::IO::Facet_set> facet_sets = examine_sheets(mesh, domain, sheets, o, outcome);
   for(mm3::IO::Facet_set& set : interfaces_of(mesh, inputs.subdomains))
+    facet_sets.push_back(std::move(set));
+  for(mm3::IO::Facet_set& set : examine_patches(mesh, patches, outcome))
     facet_sets.push_back(std::move(set));
   if(outcome.is_stopped) // others would blame surface or options for unfinished work
     outcome.warnings = warnings;

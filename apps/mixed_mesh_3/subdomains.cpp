@@ -27,7 +27,7 @@ constexpr double tolerated_change_of_volume = 0.05;
 std::string name_of(const std::vector<Subdomain>& subdomains, mm3::Subdomain_index index)
 {
   if(index == 0)
-    return "outside";
+    return outside;
   return std::find_if(subdomains.begin(), subdomains.end(),
                       [&](const Subdomain& s) { return s.index == index; })
     ->name;
@@ -247,6 +247,11 @@ void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vecto
   warn_of(outcome.interfaces, outcome.warnings);
 }
 
+std::string interface_set_name(const std::string& first, const std::string& second)
+{
+  return second == outside ? second + '_' + first : "interface_" + first + '_' + second;
+}
+
 std::vector<mm3::IO::Facet_set> interfaces_of(const Mesh& mesh, const std::vector<Subdomain>& subdomains)
 {
   std::vector<mm3::IO::Facet_set> sets;
@@ -254,8 +259,7 @@ std::vector<mm3::IO::Facet_set> interfaces_of(const Mesh& mesh, const std::vecto
     return sets;
   for(mm3::Subdomain_interface& one : mm3::find_interfaces(mesh)) {
     const std::string first = name_of(subdomains, one.first), second = name_of(subdomains, one.second);
-    sets.push_back(
-      {one.second == 0 ? "outside_" + first : "interface_" + first + "_" + second, std::move(one.faces)});
+    sets.push_back({interface_set_name(first, second), std::move(one.faces)});
   }
   return sets;
 }

@@ -31,6 +31,9 @@ struct Subdomain
   std::optional<double> volume; // volume of the voxels of a label, if known
 };
 
+/// The name of what is around all subdomains, which no subdomain has.
+inline constexpr const char* outside = "outside";
+
 /// \param subdomains surfaces; where some overlap, the first one counts
 CGAL::Labeled_polyhedral_mixed_mesh_domain_3 make_domain(const std::vector<Subdomain>& subdomains);
 
@@ -45,6 +48,9 @@ Surface union_of(const std::vector<Subdomain>& subdomains);
 /// status for parts that the mesh does not have.
 void examine_subdomains(const Mesh& mesh, const CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
                         const std::vector<Subdomain>& subdomains, const Options& options, Outcome& outcome);
+
+/// The name of the facet set between two subdomains, or between a subdomain and the outside.
+std::string interface_set_name(const std::string& first, const std::string& second);
 
 /// The interfaces between two subdomains, such as `interface_tumor_brain`; with several subdomains, also the
 /// boundary of each subdomain, such as `outside_brain`.

@@ -195,6 +195,11 @@ class Supports(Case):
             self.assertIn('"sliding"', (WORK / name).read_text())
         self.assertIn('$NodeData\n1\n"displacement"\n', (WORK / "patches.msh").read_text())
         self.assertEqual(told["parameters"]["openings"], [str(opening)])
+        # The same opening as a box.
+        box = "box:" + ",".join(str(float(x)) for x in [*(middle - width / 2), *(middle + width / 2)])
+        self.succeeds(self.mesh, "--control-points", self.points, "--opening", box, "--slide", "skull", "--fixed", "base",
+                      "--tumor", self.tumor, "--output", WORK / "patches.feb")
+        self.assertEqual(self.surfaces_of(WORK / "patches.feb")[0], surfaces)
 
     def test_contact(self):
         """The skull stops the brain, and does not hold it: between free and sliding."""
@@ -284,6 +289,8 @@ class Supports(Case):
         far = self.file("far.off", cube_off((500, 0, 0), 10))
         self.fails(*arguments, "--opening", far, names=far, words="has its center inside")
         self.fails(*arguments, "--fixed", WORK / "none.off", names="none.off", words="No such file")
+        self.fails(*arguments, "--opening", "sphere:500,0,0,10", names="sphere:500,0,0,10", words="the mesh is in box:")
+        self.fails(*arguments, "--slide", "sphere:0,0,0,-1", names="--slide sphere:0,0,0,-1", words="the radius", status=2)
         opened = self.file("opened.off", cube_off((28, 18, 28), 20, TRIANGLES[:4]))
         self.fails(*arguments, "--slide", opened, names=opened, words="not closed")
 

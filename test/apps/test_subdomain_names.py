@@ -123,7 +123,8 @@ class Test(unittest.TestCase):
             elif name == "offsets":
                 other = vtk_to_numpy(grid.GetCells().GetOffsetsArray())[1:]
             else:
-                other = vtk_to_numpy(cells.get(name) or grid.GetCellData().GetArray(name))
+                data = grid.GetPointData() if name.startswith("nodes_") else grid.GetCellData()
+                other = vtk_to_numpy(cells.get(name) or data.GetArray(name))
             self.assertTrue(np.array_equal(values, other), name)
         self.assertLess(self.files["vtu"].stat().st_size, 0.8 * size)
 
@@ -137,8 +138,7 @@ class Test(unittest.TestCase):
             found[name] = sum(len(numbers) for entity in gmsh.model.getEntitiesForPhysicalGroup(3, tag)
                               for numbers in gmsh.model.mesh.getElements(3, entity)[1])
         gmsh.finalize()
-        for index, name in NAMES.items():
-            self.assertEqual(found[name], self.elements[index])
+        self.assertEqual(found, {name: self.elements[index] for index, name in NAMES.items()})
 
     def test_abaqus(self):
         """Sets of sets."""

@@ -1,0 +1,87 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "mixed_mesh_3/patches.h"
+
+#include "core/Closed_surface.h"
+#include "core/patch_shapes.h"
+
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
+
+#include <boost/algorithm/string/predicate.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+namespace mm3 = CGAL::Mixed_meshes_3;
+
+namespace {
+
+std::string option_text(const Patch_option& p) { return "--patch " + p.name + '=' + p.place; }
+
+// Names of sets in the files, other than those of patches.
+std::vector<std::string> names_in_files(const Options& o, const std::vector<Subdomain>& subdomains)
+{
+  std::vector<std::string> names;
+  for(const Subdomain_option& sheet : o.sheets)
+    for(const char* side : {"", "_front", "_behind"})
+      names.push_back(sheet.name + side);
+  for(std::size_t i = 0; subdomains.size() > 1 && i < subdomains.size(); ++i) {
+    names.push_back(subdomains[i].name);
+    names.push_back(interface_set_name(subdomains[i].name, outside));
+    for(const Subdomain& other : subdomains)
+      names.push_back(interface_set_name(subdomains[i].name, other.name));
+  }
+  return names;
+}
+
+} // namespace
+
+std::vector<Patch> read_patches(const Options& o, const std::vector<Subdomain>& subdomains,
+                                std::vector<std::string>& warnings)
+{
+  const std::vector<std::string> names = names_in_files(o, subdomains);
+  std::vector<Patch> patches;
+  for(const Patch_option& p : o.patches) {
+    if(std::any_of(names.begin(), names.end(),
+                   [&p](const std::string& name) { return boost::iequals(name, p.name); }))
+      throw std::runtime_error(option_text(p) + ": the name is that of another set of the files");
+    if(auto shape = patch_shape(p.place)) {
+      patches.push_back({p, std::move(shape->contains)});
+      continue;
+    }
+    Surface_facts facts;
+    const auto surface = std::make_shared<const Closed_surface>(p.place, o.surface_options, facts, warnings);
+    patches.push_back(
+      {p, [surface](const std::array<double, 3>& point, double) { return surface->contains(point); }});
+  }
+  return patches;
+}
+
+std::vector<mm3::IO::Facet_set> examine_patches(const Mesh& mesh, const std::vector<Patch>& patches,
+                                                Outcome& outcome)
+{
+  std::vector<mm3::IO::Facet_set> sets;
+  if(patches.empty())
+    return sets;
+  const std::vector<mm3::Face> boundary = mm3::boundary_faces(mesh);
+  const double tolerance = patch_tolerance(mesh);
+  for(const Patch& patch : patches) {
+    sets.push_back({patch.option.name, {}});
+    double area = 0;
+    for(const mm3::Face& face : boundary)
+      if(patch.contains(center_of(mesh, face), tolerance)) {
+        sets.back().faces.push_back(face);
+        area += mm3::area(mesh, face);
+      }
+    if(sets.back().faces.empty())
+      throw std::runtime_error(option_text(patch.option) + ": no face of the boundary has its center inside; "
+                               + place_of_mesh(mesh));
+    outcome.patches.push_back({patch.option.name, patch.option.place, sets.back().faces.size(), area});
+  }
+  return sets;
+}

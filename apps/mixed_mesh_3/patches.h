@@ -1,0 +1,40 @@
+// Copyright (c) 2026 The Mixed_mesh_3 authors.
+// This file is part of Mixed_mesh_3, being prepared for submission to CGAL (www.cgal.org).
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Patches of the boundary that the user names, where boundary conditions hold.
+
+#ifndef MIXED_MESH_3_APPS_MIXED_MESH_3_PATCHES_H
+#define MIXED_MESH_3_APPS_MIXED_MESH_3_PATCHES_H
+
+#include "core/types.h"
+#include "mixed_mesh_3/options.h"
+#include "mixed_mesh_3/outcome.h"
+#include "mixed_mesh_3/subdomains.h"
+
+#include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+/// A patch, and the test whether the center of a face, up to a distance, is inside.
+struct Patch
+{
+  Patch_option option;
+  std::function<bool(const std::array<double, 3>&, double)> contains;
+};
+
+/// Reads the patches of the options.
+/// \throw std::runtime_error if a surface cannot be read, or if a name is that of another set of the files
+std::vector<Patch> read_patches(const Options& options, const std::vector<Subdomain>& subdomains,
+                                std::vector<std::string>& warnings);
+
+/// Finds the boundary faces of each patch.
+/// \throw std::runtime_error if a patch has no face
+std::vector<CGAL::Mixed_meshes_3::IO::Facet_set>
+examine_patches(const Mesh& mesh, const std::vector<Patch>& patches, Outcome& outcome);
+
+#endif // MIXED_MESH_3_APPS_MIXED_MESH_3_PATCHES_H
