@@ -24,7 +24,7 @@ except ImportError as error:
     print("skipped:", error)
     sys.exit(77)
 
-BUILD, SOURCE, WORK = map(pathlib.Path, sys.argv[1:4])
+BUILD, SOURCE, WORK = (pathlib.Path(path).resolve() for path in sys.argv[1:4])
 EXAMPLES = SOURCE / "examples" / "solvers"
 sys.path.insert(0, str(SOURCE / "test" / "common"))
 from checks import check, exit_code  # noqa: E402
