@@ -27,7 +27,7 @@ packages_for() {
     pictures) echo python3-vtk9 xvfb libgl1-mesa-dri ;;
     # Peers that read back the files that we write; plastimatch deforms images by fields. dpkg-dev and file make
     # packages.
-    tests) echo dpkg-dev file mypy plastimatch calculix-ccx python3-getfem python3-gmsh python3-meshio python3-nibabel \
+    tests) echo dpkg-dev file mypy plastimatch calculix-ccx freefem++ python3-getfem python3-gmsh python3-meshio python3-nibabel \
                 python3-vtk9 ;;
     # An MRI image of a brain, of which data/brain.off is the surface.
     image) echo mricron-data ;;

@@ -10,6 +10,7 @@
 #include "core/command_line.h"
 #include "core/patch_shapes.h"
 #include "core/resources.h"
+#include "mixed_mesh_3/nodes.h"
 
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/version.h>
@@ -266,22 +267,32 @@ void add_files(CLI::App& app, Options& o)
 
 void add_budget(CLI::App& app, Options& o)
 {
+  constexpr std::size_t most = 1000000000; // the limit is that of 32-bit indices in files
+  CLI::Option* const vertices = app
+                                  .add_option_function<std::string>(
+                                    "--vertices",
+                                    [&o](const std::string& text) {
+                                      o.fewest_vertices = text == automatic_vertices;
+                                      o.vertices = o.fewest_vertices ? most_automatic_vertices
+                                                                     : std::stoul(text);
+                                    },
+                                    "Vertex budget: the mesh has at most that many vertices; auto: as few as "
+                                    "--tolerance allows, found by "
+                                    "meshes with five to ten budgets of up to 200,000 (default: 2000)")
+                                  ->check(CLI::Validator(
+                                    [](std::string& text) {
+                                      return text == automatic_vertices ? std::string() : count(most)(text);
+                                    },
+                                    ""))
+                                  ->type_name("N|auto");
   app
-    .add_option_function<std::string>(
-      "--vertices",
-      [&o](const std::string& text) {
-        o.fewest_vertices = text == automatic_vertices;
-        o.vertices = o.fewest_vertices ? most_automatic_vertices : std::stoul(text);
-      },
-      "Vertex budget: the mesh has at most that many vertices; auto: as few as --tolerance allows, found by "
-      "meshes with five to ten budgets of up to 200,000 (default: 2000)")
-    ->check(CLI::Validator(
-      [](std::string& text) {
-        // The limit is that of 32-bit indices in files.
-        return text == automatic_vertices ? std::string() : count(1000000000)(text);
-      },
-      ""))
-    ->type_name("N|auto");
+    .add_option(
+      "--nodes", o.nodes,
+      "Budget in nodes instead: files have at most that many at their --order, of order 2 vertices and "
+      "edges; found by up to three meshes")
+    ->check(count(most))
+    ->type_name("N")
+    ->excludes(vertices);
 }
 
 void add_outputs(CLI::App& app, Options& o)
@@ -525,6 +536,8 @@ void check_options(Options& o)
     throw CLI::ValidationError("--no-optimize", "this program was built without Eigen");
   if(o.fewest_vertices && o.tolerance == 0)
     throw CLI::ValidationError("--vertices auto", "needs a --tolerance");
+  if(o.nodes > 0)
+    o.vertices = first_vertex_budget(o.nodes, o.order);
   const bool has_image = is_image(o.surface);
   for(Region_option& r : o.regions)
     if(r.file.empty())
@@ -608,8 +621,7 @@ void check_feasible(const Options& o)
     outputs.add(path);
   // The number is more than measured with 100,000 and 200,000 vertices; a direct solver takes more.
   const double bytes_per_vertex = o.fit() == Fit::ALGORITHM_1 ? 3000 : o.tetrahedra ? 1500 : 1100;
-  check_memory("--vertices " + std::to_string(o.vertices) + ":", double(o.vertices) * bytes_per_vertex);
+  check_memory(o.budget() + ":", double(o.vertices) * bytes_per_vertex);
   if((o.tetrahedra || o.order == 2) && o.vertices > 500000000u)
-    throw std::runtime_error("--vertices " + std::to_string(o.vertices)
-                             + ": more than the 32-bit indices of the files allow");
+    throw std::runtime_error(o.budget() + ": more than the 32-bit indices of the files allow");
 }

@@ -104,8 +104,14 @@ struct Options : Input_options, Relaxation_options
   bool is_arc_strict = false;
   double sharp_angle = CGAL::Mixed_mesh_optimization_criteria_3::default_sharp_angle; // degrees; 0: none
   unsigned threads = 1;
-  int order = 1; // of the elements in files
+  int order = 1;         // of the elements in files
+  std::size_t nodes = 0; // budget in nodes of that order; 0: the budget is in vertices
 
+  /// The option of the budget, with its value.
+  std::string budget() const
+  {
+    return nodes > 0 ? "--nodes " + std::to_string(nodes) : "--vertices " + std::to_string(vertices);
+  }
   bool has_quality_bound() const { return fit() == Fit::OPTIMIZATION && largest_arc > 0; }
   Fit fit() const { return no_fit ? Fit::NONE : no_optimize ? Fit::ALGORITHM_1 : Fit::OPTIMIZATION; }
 };

@@ -114,6 +114,7 @@ struct Outcome
   CGAL::Mixed_mesh_fit_result_3 algorithm_1;
   bool is_stopped = false; // stopped by a signal or the limit of time
   Mesh_facts mesh;
+  std::size_t nodes = 0; // in files: vertices, and middles of edges with order 2
   std::size_t elements_in_region = 0, boundary_faces = 0;
   std::optional<Aspect_ratios> before; // the boundary is fitted
   Aspect_ratios after;

@@ -43,6 +43,7 @@ Json describe(const Completion_facts& c)
 Json describe(const Options& o)
 {
   Json report = {{"vertices", o.vertices},
+                 {"nodes", o.nodes > 0 ? Json(o.nodes) : Json()},
                  {"fewest vertices", o.fewest_vertices},
                  {"base level", o.base_level == CGAL::Mixed_mesh_criteria_3::automatic ? Json("automatic")
                                                                                        : Json(o.base_level)},
@@ -230,11 +231,16 @@ Json describe_mesh(const Options& o, const Outcome& outcome)
 {
   const double vertices = double(outcome.mesh.vertices);
   const std::size_t in_region = outcome.result.number_of_vertices_in_region;
-  Json report = {
-    {"vertices", outcome.mesh.vertices},        {"share of budget", vertices / double(o.vertices)},
-    {"vertices in region", in_region},          {"share of vertices in region", double(in_region) / vertices},
-    {"elements", outcome.mesh.elements},        {"elements in region", outcome.elements_in_region},
-    {"boundary faces", outcome.boundary_faces}, {"volume", outcome.fidelity.volume_of_mesh}};
+  Json report = {{"vertices", outcome.mesh.vertices},
+                 {"nodes", outcome.nodes},
+                 {"share of budget",
+                  o.nodes > 0 ? double(outcome.nodes) / double(o.nodes) : vertices / double(o.vertices)},
+                 {"vertices in region", in_region},
+                 {"share of vertices in region", double(in_region) / vertices},
+                 {"elements", outcome.mesh.elements},
+                 {"elements in region", outcome.elements_in_region},
+                 {"boundary faces", outcome.boundary_faces},
+                 {"volume", outcome.fidelity.volume_of_mesh}};
   add_kinds(outcome.mesh, report);
   return report;
 }
@@ -412,9 +418,14 @@ void print_summary(const Options& o, const Outcome& outcome)
   const Mesh_facts& mesh = outcome.mesh;
   if(outcome.completion)
     std::cout << completion_in_words(*outcome.completion);
-  std::cout << mesh.vertices << " vertices of " << o.vertices
-            << (o.fewest_vertices ? ", the smallest budget found that suffices, " : ", ") << mesh.elements
-            << " elements (";
+  if(o.nodes > 0)
+    std::cout << outcome.nodes << " nodes of " << o.nodes << ", " << mesh.vertices << " vertices, ";
+  else
+    std::cout << mesh.vertices << " vertices of " << o.vertices
+              << (o.fewest_vertices ? ", the smallest budget found that suffices, " : ", ");
+  if(o.nodes == 0 && o.order == 2)
+    std::cout << outcome.nodes << " nodes of order 2, ";
+  std::cout << mesh.elements << " elements (";
   for(int k = mm3::number_of_element_kinds - 1; k >= 0; --k)
     std::cout << mesh.elements_of_kind[std::size_t(k)] << ' ' << mm3::reference_elements[k].plural
               << (k > 0 ? ", " : ")\n");

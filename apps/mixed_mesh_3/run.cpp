@@ -15,6 +15,7 @@
 #include "mixed_mesh_3/algorithm_1.h"
 #include "mixed_mesh_3/examine.h"
 #include "mixed_mesh_3/inputs.h"
+#include "mixed_mesh_3/nodes.h"
 #include "mixed_mesh_3/patches.h"
 #include "mixed_mesh_3/report.h"
 #include "mixed_mesh_3/sheets.h"
@@ -135,8 +136,44 @@ Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3
   outcome.result = CGAL::make_mixed_mesh_3<CGAL::Parallel_if_available_tag>(domain, regions, criteria, mesh,
                                                                             CGAL::parameters::visitor(
                                                                               std::ref(observer)));
-  refuse(outcome.result, o);
+  outcome.nodes = number_of_nodes(mesh, o.order);
   return mesh;
+}
+
+// Makes meshes until one fills the budget in nodes, at most three, and takes the best: the one with most
+// nodes of those within the budget.
+Mesh make_mesh_of_nodes(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3& regions, Options o,
+                        Stage_log& log, Outcome& outcome)
+{
+  constexpr std::size_t most_meshes = 3;
+  const auto rank = [&o](std::size_t nodes) { return (nodes <= o.nodes ? 1. : -1.) * double(nodes); };
+  const Outcome before = outcome;
+  Mesh best;
+  std::vector<Node_counts> made;
+  for(;;) {
+    Outcome with_trial = before;
+    Mesh trial = make_mesh(domain, regions, o, log, with_trial);
+    const bool is_stopped = with_trial.result.status == CGAL::Mixed_mesh_status::STOPPED;
+    made.push_back({trial.number_of_vertices(), with_trial.nodes});
+    if(is_stopped && made.size() > 1 && outcome.nodes <= o.nodes) { // a complete mesh is better
+      outcome.result.status = CGAL::Mixed_mesh_status::STOPPED;
+      outcome.result.is_kept = true;
+      break;
+    }
+    if(made.size() == 1 || is_stopped
+       || (with_trial.result.has_mesh() && rank(with_trial.nodes) > rank(outcome.nodes))) {
+      best = std::move(trial);
+      outcome = with_trial;
+    }
+    if(is_stopped || !with_trial.result.has_mesh() || fills_node_budget(made.back(), o.nodes)
+       || made.size() == most_meshes)
+      break;
+    o.vertices = next_vertex_budget(made, o.nodes);
+  }
+  if(outcome.result.has_mesh() && !outcome.result.is_kept && outcome.nodes > o.nodes)
+    throw std::runtime_error(o.budget() + ": too small, the coarsest mesh made of " + o.surface + " has "
+                             + std::to_string(outcome.nodes) + " nodes");
+  return best;
 }
 
 // Brings the boundary onto the surface by the paper's method; the status becomes the corresponding status of
@@ -178,7 +215,9 @@ Mesh make_mesh_until_stopped(const Domain& domain, const Inputs& inputs, const O
   const Deferred_signals deferred({SIGINT}, Deferred_signals::Second::ENDS);
   log.stop_when([&] { return Deferred_signals::has_come() || log.seconds() > o.time_limit; });
   const auto regions = make_regions(inputs.regions, o, log);
-  Mesh mesh = make_mesh(domain, regions, o, log, outcome);
+  Mesh mesh = o.nodes > 0 ? make_mesh_of_nodes(domain, regions, o, log, outcome)
+                          : make_mesh(domain, regions, o, log, outcome);
+  refuse(outcome.result, o);
   outcome.is_stopped = outcome.result.status == CGAL::Mixed_mesh_status::STOPPED;
   if(o.fit() == Fit::ALGORITHM_1 && !outcome.is_stopped)
     fit_by_algorithm_1(mesh, domain, o, log, outcome);
@@ -265,7 +304,8 @@ bool run(Options o)
     facet_sets.push_back(std::move(set));
   for(mm3::IO::Facet_set& set : examine_patches(mesh, patches, outcome))
     facet_sets.push_back(std::move(set));
-  if(outcome.is_stopped) // others would blame surface or options for unfinished work
+  outcome.nodes = number_of_nodes(mesh, o.order); // with those that --slit doubles
+  if(outcome.is_stopped)                          // others would blame surface or options for unfinished work
     outcome.warnings = warnings;
   deadline.reset();
   write_files(mesh, facet_sets, inputs.subdomains, o, log, outcome);

@@ -23,7 +23,7 @@ Input_names names_of(const Options& o)
   for(const Region_option& r : o.regions)
     regions.push_back(r.file);
   const bool may_help = o.fit() == Fit::OPTIMIZATION && o.tolerance == 0;
-  return {o.surface,      "--vertices " + std::to_string(o.vertices),
+  return {o.surface,      o.budget(),
           "--base-level", may_help ? "--tolerance" : "",
           regions,        o.has_quality_bound() ? "--max-arc" : ""};
 }
@@ -98,13 +98,20 @@ void add_warnings(const Options& o, Outcome& outcome)
 {
   std::vector<std::string>& warnings = outcome.warnings;
   const Fidelity& f = outcome.fidelity;
-  const double full = CGAL::Mixed_mesh_criteria_3::full_share * double(o.vertices);
-  if((double(outcome.mesh.vertices) < full && !outcome.result.is_lattice_on_surface)
-     || outcome.result.status == CGAL::Mixed_mesh_status::BUDGET_NOT_FILLED)
-    warnings.push_back("only " + std::to_string(outcome.mesh.vertices) + " of " + std::to_string(o.vertices)
-                       + " vertices used: " + (o.regions.empty() ? "the mesh" : "the region")
-                       + " cannot be refined further, or "
-                       + "each further cell tried would exceed the budget");
+  const bool has_nodes = o.nodes > 0;
+  const std::size_t used = has_nodes ? outcome.nodes : outcome.mesh.vertices,
+                    budget = has_nodes ? o.nodes : o.vertices;
+  const bool is_not_filled = outcome.result.status == CGAL::Mixed_mesh_status::BUDGET_NOT_FILLED;
+  if((double(used) < CGAL::Mixed_mesh_criteria_3::full_share * double(budget)
+      && !outcome.result.is_lattice_on_surface)
+     || is_not_filled)
+    warnings.push_back("only " + std::to_string(used) + " of " + std::to_string(budget)
+                       + (has_nodes ? " nodes" : " vertices") + " used: "
+                       + (has_nodes && !is_not_filled
+                            ? "the other meshes tried have fewer, or too many"
+                            : (o.regions.empty() ? "the mesh" : "the region")
+                                + std::string(" cannot be refined further, or each further cell tried would "
+                                              "exceed the budget")));
   if(outcome.result.number_of_lost_cells != 0)
     warnings.push_back(sentence_on_lost_parts(outcome.result, names_of(o))
                        + (outcome.surface.components > 1 ? ", or --drop-below, if they are specks" : ""));

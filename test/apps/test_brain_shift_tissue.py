@@ -9,7 +9,7 @@ import itertools
 import sys
 import unittest
 
-from brain_shift_case import HEADER, WORK, Case, cube_off
+from brain_shift_case import DATA, HEADER, WORK, Case, cube_off
 from cube import CUBE, TRIANGLES
 
 import nibabel
@@ -89,6 +89,15 @@ class Tissue(Case):
                            words="only order 1 can be had with " + option[0])
         self.fails(self.mesh, "--control-points", self.points, "--febio", WORK / "no.feb", "--order", "region",
                    names="--order", status=2, words="elements of a model of FEBio (--febio) have order 1 or 2 everywhere")
+
+    def test_example(self):
+        """The example of --help has the default order 2, and inverts no element."""
+        line = self.shift("--help").stdout.strip().split("\n")[-1].split()
+        self.assertEqual(line[:2], ["brain_shift", "brain.vtu"])
+        run = self.shift(*(str(DATA.parent / w) if w.startswith("data/") else str(WORK / w) if w.endswith(".vtu") else w
+                           for w in line[1:]))
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertRegex(run.stdout, r"\norder 2: \d+ nodes")
 
     def test_materials(self):
         mesh, move = self.column()

@@ -6,6 +6,7 @@
 """
 
 import json
+import re
 import sys
 import unittest
 
@@ -47,6 +48,8 @@ class Meshes(Case):
         tetrahedra, boundary = told["mesh"]["tetrahedra"], (WORK / "quadratic.feb").read_text().count("<tri6 ")
         edges = told["mesh"]["vertices"] + (4 * tetrahedra + boundary) // 2 - tetrahedra - 1
         self.assertEqual(nodes, told["mesh"]["vertices"] + edges)
+        self.assertEqual(nodes, told["mesh"]["nodes"])
+        self.assertIn(f"660 vertices of 660, {nodes} nodes of order 2, ", run.stdout)
         self.assertIn("TYPE=C3D10,", (WORK / "quadratic.inp").read_text())
 
         def refused(*words):
@@ -63,6 +66,31 @@ class Meshes(Case):
             status, line = refused("--order", order)
             self.assertEqual(status, 2)
             self.assertIn("--order", line)
+
+    def test_nodes(self):
+        """A budget in nodes is nearly filled and never exceeded; with order 1 it is that in vertices."""
+        def nodes(*words):
+            report = WORK / "nodes.json"
+            run = self.mesher(DATA / "brain.off", *words, "--output", self.output, "--report", report)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            return json.loads(report.read_text()), run.stdout
+
+        region = "--region", DATA / "region.off"
+        for budget, words in ((2000, region), (3000, ()), (3000, (*region, "--tetrahedra"))):
+            told, said = nodes("--nodes", budget, "--order", 2, *words)
+            number = int(re.search(r'NumberOfPoints="(\d+)"', self.output.read_bytes().decode("latin-1"))[1])
+            self.assertEqual(told["mesh"]["nodes"], number)
+            self.assertTrue(0.95 * budget <= number <= budget, number)
+            self.assertEqual(told["mesh"]["share of budget"], number / budget)
+            self.assertEqual(told["options"]["nodes"], budget)
+            self.assertIn(f"{number} nodes of {budget}, {told['mesh']['vertices']} vertices, ", said)
+        nodes("--nodes", 300)
+        expected = self.output.read_bytes()
+        nodes("--vertices", 300)
+        self.assertEqual(self.output.read_bytes(), expected)
+        self.fails(DATA / "brain.off", "--nodes", 20, *region, "--order", 2, names="--nodes 20", words="too small")
+        for words in (("--nodes", 0), ("--nodes", "many"), ("--nodes", 300, "--vertices", 300)):
+            self.fails(DATA / "brain.off", *words, names="--nodes", status=2)
 
     def test_topology(self):
         """Two cubes with a gap narrower than cells: the mesh of an octree joins them, one that is cut does not."""
