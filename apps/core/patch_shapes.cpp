@@ -27,7 +27,7 @@ using Point = std::array<double, 3>;
 std::vector<double> numbers_in(const std::string& text)
 {
   std::vector<double> numbers;
-  for(const std::string& word : CLI::detail::split(text, ','))
+  for(const std::string& word : CLI::detail::split(text + ',', ',')) // which ends at the last comma
     if(!CLI::detail::lexical_cast(word, numbers.emplace_back()) || !std::isfinite(numbers.back()))
       return {};
   return numbers;

@@ -13,6 +13,12 @@
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 
+namespace {
+
+std::size_t at_least_1(double vertices) { return std::size_t((std::max)(1., vertices)); }
+
+} // namespace
+
 std::size_t number_of_nodes(const Mesh& mesh, int order)
 {
   const std::size_t n = mesh.number_of_vertices();
@@ -22,7 +28,7 @@ std::size_t number_of_nodes(const Mesh& mesh, int order)
 std::size_t first_vertex_budget(std::size_t nodes, int order)
 {
   constexpr double nodes_per_vertex = 6.2; // brains and parts: 5.5 to 7
-  return order == 1 ? nodes : (std::max)(std::size_t(1), std::size_t(double(nodes) / nodes_per_vertex));
+  return order == 1 ? nodes : at_least_1(double(nodes) / nodes_per_vertex);
 }
 
 bool fills_node_budget(const Node_counts& counts, std::size_t nodes)
@@ -41,5 +47,5 @@ std::size_t next_vertex_budget(const std::vector<Node_counts>& meshes, std::size
   if(last.vertices != before.vertices && last.nodes != before.nodes)
     power = std::clamp(logarithm(last.nodes, before.nodes) / logarithm(last.vertices, before.vertices), 0.8,
                        1.25);
-  return std::size_t(double(last.vertices) * std::pow(aim / double(last.nodes), 1 / power));
+  return at_least_1(double(last.vertices) * std::pow(aim / double(last.nodes), 1 / power));
 }

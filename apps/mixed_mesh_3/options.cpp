@@ -268,23 +268,18 @@ void add_files(CLI::App& app, Options& o)
 void add_budget(CLI::App& app, Options& o)
 {
   constexpr std::size_t most = 1000000000; // the limit is that of 32-bit indices in files
-  CLI::Option* const vertices = app
-                                  .add_option_function<std::string>(
-                                    "--vertices",
-                                    [&o](const std::string& text) {
-                                      o.fewest_vertices = text == automatic_vertices;
-                                      o.vertices = o.fewest_vertices ? most_automatic_vertices
-                                                                     : std::stoul(text);
-                                    },
-                                    "Vertex budget: the mesh has at most that many vertices; auto: as few as "
-                                    "--tolerance allows, found by "
-                                    "meshes with five to ten budgets of up to 200,000 (default: 2000)")
-                                  ->check(CLI::Validator(
-                                    [](std::string& text) {
-                                      return text == automatic_vertices ? std::string() : count(most)(text);
-                                    },
-                                    ""))
-                                  ->type_name("N|auto");
+  app
+    .add_option_function<std::string>(
+      "--vertices",
+      [&o](const std::string& text) {
+        o.fewest_vertices = text == automatic_vertices;
+        o.vertices = o.fewest_vertices ? most_automatic_vertices : std::stoul(text);
+      },
+      "Vertex budget: the mesh has at most that many vertices; auto: as few as --tolerance allows, found by "
+      "meshes with five to ten budgets of up to 200,000 (default: 2000)")
+    ->check(CLI::Validator(
+      [](std::string& text) { return text == automatic_vertices ? std::string() : count(most)(text); }, ""))
+    ->type_name("N|auto");
   app
     .add_option(
       "--nodes", o.nodes,
@@ -292,7 +287,7 @@ void add_budget(CLI::App& app, Options& o)
       "edges; found by up to three meshes")
     ->check(count(most))
     ->type_name("N")
-    ->excludes(vertices);
+    ->excludes("--vertices");
 }
 
 void add_outputs(CLI::App& app, Options& o)
@@ -523,8 +518,7 @@ void check_patches(const Options& o)
   for(std::size_t i = 0; i < o.patches.size(); ++i)
     for(std::size_t j = 0; j < i; ++j) // some formats ignore upper and lower case
       if(boost::iequals(o.patches[i].name, o.patches[j].name))
-        throw CLI::ValidationError("--patch " + o.patches[i].name + '=' + o.patches[i].place,
-                                   "the name is taken");
+        throw CLI::ValidationError(o.patches[i].text(), "the name is taken");
 }
 
 // Checks combinations of options, and options that this program was built without: these are wrong use.

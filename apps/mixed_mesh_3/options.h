@@ -46,6 +46,9 @@ struct Subdomain_option
 struct Patch_option
 {
   std::string name, place;
+
+  /// The option, with its value.
+  std::string text() const { return "--patch " + name + '=' + place; }
 };
 
 /// The surfaces and images, and how they are read.

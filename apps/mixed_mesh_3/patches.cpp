@@ -21,8 +21,6 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 
 namespace {
 
-std::string option_text(const Patch_option& p) { return "--patch " + p.name + '=' + p.place; }
-
 // Names of sets in the files, other than those of patches.
 std::vector<std::string> names_in_files(const Options& o, const std::vector<Subdomain>& subdomains)
 {
@@ -49,7 +47,7 @@ std::vector<Patch> read_patches(const Options& o, const std::vector<Subdomain>& 
   for(const Patch_option& p : o.patches) {
     if(std::any_of(names.begin(), names.end(),
                    [&p](const std::string& name) { return boost::iequals(name, p.name); }))
-      throw std::runtime_error(option_text(p) + ": the name is that of another set of the files");
+      throw std::runtime_error(p.text() + ": the name is that of another set of the files");
     if(auto shape = patch_shape(p.place)) {
       patches.push_back({p, std::move(shape->contains)});
       continue;
@@ -79,7 +77,7 @@ std::vector<mm3::IO::Facet_set> examine_patches(const Mesh& mesh, const std::vec
         area += mm3::area(mesh, face);
       }
     if(sets.back().faces.empty())
-      throw std::runtime_error(option_text(patch.option) + ": no face of the boundary has its center inside; "
+      throw std::runtime_error(patch.option.text() + ": no face of the boundary has its center inside; "
                                + place_of_mesh(mesh));
     outcome.patches.push_back({patch.option.name, patch.option.place, sets.back().faces.size(), area});
   }

@@ -153,20 +153,21 @@ Mesh make_mesh_of_nodes(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_
   for(;;) {
     Outcome with_trial = before;
     Mesh trial = make_mesh(domain, regions, o, log, with_trial);
-    const bool is_stopped = with_trial.result.status == CGAL::Mixed_mesh_status::STOPPED;
+    const CGAL::Mixed_mesh_result_3& result = with_trial.result;
+    const bool is_stopped = result.status == CGAL::Mixed_mesh_status::STOPPED;
     made.push_back({trial.number_of_vertices(), with_trial.nodes});
-    if(is_stopped && made.size() > 1 && outcome.nodes <= o.nodes) { // a complete mesh is better
-      outcome.result.status = CGAL::Mixed_mesh_status::STOPPED;
-      outcome.result.is_kept = true;
-      break;
-    }
-    if(made.size() == 1 || is_stopped
-       || (with_trial.result.has_mesh() && rank(with_trial.nodes) > rank(outcome.nodes))) {
+    const bool is_better = is_stopped ? outcome.nodes > o.nodes // else the complete mesh is better
+                                      : rank(with_trial.nodes) > rank(outcome.nodes);
+    const bool is_last = is_stopped || !result.has_mesh() || fills_node_budget(made.back(), o.nodes)
+                         || made.size() == most_meshes;
+    if(made.size() == 1 || (result.has_mesh() && is_better)) {
       best = std::move(trial);
       outcome = with_trial;
+    } else if(is_stopped) {
+      outcome.result.status = CGAL::Mixed_mesh_status::STOPPED;
+      outcome.result.is_kept = true;
     }
-    if(is_stopped || !with_trial.result.has_mesh() || fills_node_budget(made.back(), o.nodes)
-       || made.size() == most_meshes)
+    if(is_last)
       break;
     o.vertices = next_vertex_budget(made, o.nodes);
   }
@@ -300,12 +301,12 @@ bool run(Options o)
   examine(mesh, inputs.boundary, o, log, outcome);
   examine_subdomains(mesh, domain, inputs.subdomains, o, outcome);
   std::vector<mm3::IO::Facet_set> facet_sets = examine_sheets(mesh, domain, sheets, o, outcome);
+  outcome.nodes = number_of_nodes(mesh, o.order); // with those that --slit doubles
   for(mm3::IO::Facet_set& set : interfaces_of(mesh, inputs.subdomains))
     facet_sets.push_back(std::move(set));
   for(mm3::IO::Facet_set& set : examine_patches(mesh, patches, outcome))
     facet_sets.push_back(std::move(set));
-  outcome.nodes = number_of_nodes(mesh, o.order); // with those that --slit doubles
-  if(outcome.is_stopped)                          // others would blame surface or options for unfinished work
+  if(outcome.is_stopped) // others would blame surface or options for unfinished work
     outcome.warnings = warnings;
   deadline.reset();
   write_files(mesh, facet_sets, inputs.subdomains, o, log, outcome);

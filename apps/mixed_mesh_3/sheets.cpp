@@ -27,8 +27,7 @@ void warn_of(const Sheet_outcome& s, const Options& o, std::vector<std::string>&
   const std::string named = "the sheet " + s.name;
   if(s.faces == 0)
     warnings.push_back(named + " has no faces in the mesh: "
-                       + (s.area_inside > 0 ? "it is too small for the cells; try more vertices than "
-                                                + std::to_string(o.vertices)
+                       + (s.area_inside > 0 ? "it is too small for the cells; try more than " + o.budget()
                                             : "it is not inside " + o.surface));
   if(s.bad_edges > 0)
     warnings.push_back(named + " touches itself at " + std::to_string(s.bad_edges) + " edges");

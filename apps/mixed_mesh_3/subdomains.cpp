@@ -105,7 +105,7 @@ void warn_of(const Subdomain_outcome& s, const Options& o, std::vector<std::stri
     warnings.push_back(
       named + ", of volume "
       + volume_with_unit(s.volume_of_surface.value_or(s.surface.volume), o.is_in_patient_space())
-      + ", is lost: too small for the cells; try more vertices than " + std::to_string(o.vertices));
+      + ", is lost: too small for the cells; try more than " + o.budget());
   else if(!has_right_volume(s))
     warnings.push_back(named + " has a volume of " + volume_with_unit(s.volume, o.is_in_patient_space())
                        + ", " + percent(std::abs(s.volume / *s.volume_of_surface - 1))

@@ -167,8 +167,9 @@ class Patches(Case):
         output = ("--vertices", 100, "--output", self.output)
         for patch, words in (("a=sphere:0,0,0,0", "the radius"), ("a=sphere:0,0,0,-1", "the radius"),
                              ("a=sphere:0,0,0", "expected numbers as in sphere:X,Y,Z,R"),
-                             ("a=sphere:0,0,0,nan", "expected numbers"), ("a=box:0,0,0,1,1", "expected numbers"),
-                             ("a=box:0,0,x,1,1,1", "expected numbers"), ("a=box:0,0,1,1,1,0", "the corners"),
+                             ("a=sphere:0,0,0,nan", "expected numbers"), ("a=sphere:0,0,0,1,", "expected numbers"),
+                             ("a=box:0,0,0,1,1", "expected numbers"), ("a=box:0,0,x,1,1,1", "expected numbers"),
+                             ("a=box:0,0,1,1,1,0", "the corners"),
                              ("a=plane:0,0,0,0,0,0", "the normal"), ("a=plane:", "expected numbers"),
                              ("sphere:0,0,0,1", "NAME=WHERE"), ("a=", "NAME=WHERE"), ("=plane:0,0,0,0,0,1", "a name"),
                              ("1=plane:0,0,0,0,0,1", "a name"), ("Boundary=plane:0,0,0,0,0,1", "a name")):

@@ -16,6 +16,7 @@
 #include <CGAL/Mixed_mesh_3/IO/internal/mesh/facet_sets.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <ios>
@@ -148,12 +149,12 @@ bool write_INP(std::ostream& stream, const Mesh& mesh, const std::vector<Facet_s
       out << set_name(part) << '\n';
   }
 
-  std::vector<Facet_set> sets{{"boundary", boundary_faces(mesh)}};
-  sets.insert(sets.end(), facet_sets.begin(), facet_sets.end());
-  for(const Facet_set& set : sets) {
+  const auto write_set = [&](const Facet_set& set) {
     write_INP_set(out, "*NSET, NSET=" + in_upper_case(set.name), nodes.of(set.faces));
     write_INP_surface(out, mesh, set);
-  }
+  };
+  write_set({"boundary", boundary_faces(mesh)});
+  std::for_each(facet_sets.begin(), facet_sets.end(), write_set);
   return out.finish();
 }
 
