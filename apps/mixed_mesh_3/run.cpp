@@ -156,7 +156,8 @@ Mesh make_mesh_of_nodes(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_
     const CGAL::Mixed_mesh_result_3& result = with_trial.result;
     const bool is_stopped = result.status == CGAL::Mixed_mesh_status::STOPPED;
     made.push_back({trial.number_of_vertices(), with_trial.nodes});
-    const bool is_better = is_stopped ? outcome.nodes > o.nodes // else the complete mesh is better
+    // A complete mesh is better than an incomplete one, unless only the latter is within the budget.
+    const bool is_better = is_stopped ? outcome.nodes > o.nodes && with_trial.nodes <= o.nodes
                                       : rank(with_trial.nodes) > rank(outcome.nodes);
     const bool is_last = is_stopped || !result.has_mesh() || fills_node_budget(made.back(), o.nodes)
                          || made.size() == most_meshes;

@@ -88,7 +88,9 @@ class Meshes(Case):
         expected = self.output.read_bytes()
         nodes("--vertices", 300)
         self.assertEqual(self.output.read_bytes(), expected)
-        self.fails(DATA / "brain.off", "--nodes", 20, *region, "--order", 2, names="--nodes 20", words="too small")
+        for budget in (1, 20):
+            self.fails(DATA / "brain.off", "--nodes", budget, *region, "--order", 2, names=f"--nodes {budget}",
+                       words="too small")
         for words in (("--nodes", 0), ("--nodes", "many"), ("--nodes", 300, "--vertices", 300)):
             self.fails(DATA / "brain.off", *words, names="--nodes", status=2)
 

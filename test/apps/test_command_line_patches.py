@@ -181,6 +181,9 @@ class Patches(Case):
         self.fails(self.good, *output, "--patch", "far=sphere:9,9,9,1", names="--patch far=sphere:9,9,9,1",
                    words="no face of the boundary has its center inside; the mesh is in box:0,0,0,1,1,1")
         self.fails(self.good, *output, "--patch", "a=none.off", names="none.off")
+        for path, *more in ((WORK / "mesh.mesh",), (WORK / "mesh.msh", "--msh2")):
+            self.fails(self.good, *output, "--output", path, *more, "--patch", top, "--patch", "half=box:0.5,0,1,1,1,1",
+                       names=path, words="two facet sets share a face")
         inner = self.file("inner.off", off(moved(CUBE, 0.5, (0.25, 0.25, 0.25)), TRIANGLES))
         for name in ("tumor", "outside_good", "interface_tumor_good"):
             self.fails(self.good, *output, "--subdomain", f"tumor={inner}", "--patch", f"{name}=plane:0,0,1,0,0,1",
