@@ -52,11 +52,12 @@ inline std::size_t number_of_vertices_in_region(const Core_mesh& mesh)
 }
 
 /// Brings the boundary of the fine mesh onto the surface and its sharp edges. Vertices that do not arrive are
-/// left where they are, as they will be removed first.
-inline void fit_fine_mesh(Meshing_state& s, Core_mesh& mesh, Followed_features& followed)
+/// left where they are, as they will be removed first, and vertices of flat elements soon after.
+/// \param bound that elements may have on the way to the budget
+inline void fit_fine_mesh(Meshing_state& s, double bound, Core_mesh& mesh, Followed_features& followed)
 {
   const auto rough = Mixed_mesh_optimization_criteria_3()
-                       .quality_bound(s.quality_bound)
+                       .quality_bound(bound)
                        .sharp_angle(s.criteria.sharp_angle())
                        .number_of_bisections(s.criteria.maximal_number_of_vertices() / 10) // on sharp edges
                        .number_of_rounds(1);
@@ -67,18 +68,46 @@ inline void fit_fine_mesh(Meshing_state& s, Core_mesh& mesh, Followed_features& 
 
 /// Brings the boundary of a fine mesh that is cut onto sharp edges and curves where interfaces meet. It is on
 /// the surface already, and stays as it is where there are none, or if it cut itself then.
-inline void fit_cut_mesh(Meshing_state& s, Core_mesh& mesh, Followed_features& followed)
+inline void fit_cut_mesh(Meshing_state& s, double bound, Core_mesh& mesh, Followed_features& followed)
 {
   const Any_domain& domain = s.root.domain();
   if(s.root.is_region_everywhere() && !s.has_several_subdomains()
      && domain.sharp_edges(s.criteria.sharp_angle()).edges.empty())
     return;
   Core_mesh fitted = mesh;
-  fit_fine_mesh(s, fitted, followed);
+  fit_fine_mesh(s, bound, fitted, followed);
   if(cuts_itself(fitted))
     followed = {};
   else
     mesh = std::move(fitted);
+}
+
+/// Brings the boundary of a mesh with the vertices of the budget onto the surface. Vertices that have not
+/// arrived within the bound in force do so with flatter elements, where there is room for these only; they
+/// could not be removed either.
+/// \param largest_bound of these elements
+inline void fit_simplified_mesh(Meshing_state& s, double largest_bound, Core_mesh& mesh,
+                                Followed_features& followed)
+{
+  const Mixed_mesh_status status = s.result.status;
+  optimize_boundary(s, mesh, &followed);
+  const std::size_t number_off = s.number_not_arrived();
+  if(mesh.is_empty() || number_off == 0 || s.is_stopped || !(s.quality_bound < largest_bound))
+    return;
+  const Mixed_mesh_result_3 result = s.result;
+  Core_mesh flatter = mesh;
+  s.result.status = status;
+  const double bound = std::exchange(s.quality_bound, largest_bound);
+  optimize_boundary(s, flatter, &followed);
+  s.quality_bound = bound;
+  const bool is_better = s.result.optimization.is_boundary_simple && s.number_not_arrived() < number_off;
+  if(!s.is_stopped && !is_better) {
+    s.result = result;
+    return;
+  }
+  mesh = std::move(flatter);
+  if(!mesh.is_empty())
+    s.result.quality_bound = (std::max)(bound, quality_statistics(mesh).back().maximum);
 }
 
 /// Makes a mesh with the vertices of the budget out of a finer one.
@@ -89,6 +118,10 @@ inline void make_simplified_mesh(Meshing_state& s, bool is_cut, Core_mesh& mesh)
   // Largest bound in bounds that were asked for: in thin walls there is room for flatter elements only. And
   // what few elements may have between layers, which no octree resolves better; above, they are no use.
   constexpr double largest_multiple = 5, largest_between_layers = 30;
+  // The same, before vertices are removed: vertices of flat elements go early. Without that, one to five
+  // vertices of plates and gears stay off the surface in the end, with 3 or 5 parts keep less of their sharp
+  // edges.
+  constexpr double multiple_on_the_way = 2;
   const auto note_stop = [&s] { s.result.status = Mixed_mesh_status::STOPPED; };
   Core_mesh fine = is_cut ? cut_fine_mesh(s) : fine_mesh_on_lattice(s);
   if(s.result.is_lattice_on_surface)
@@ -97,16 +130,17 @@ inline void make_simplified_mesh(Meshing_state& s, bool is_cut, Core_mesh& mesh)
     return s.is_stopped ? note_stop() : void();
   const Stage_scope scope(s.visitor, Stage::OPTIMIZATION);
   Followed_features followed;
-  if(is_cut)
-    fit_cut_mesh(s, fine, followed);
-  else
-    fit_fine_mesh(s, fine, followed);
-  const std::size_t number = fine.number_of_vertices();
   double bound = s.has_quality_bound() ? s.quality_bound
                                        : Mixed_mesh_optimization_criteria_3::default_quality_bound;
   const double usual_distance = share_of_edge_tolerated * s.mean_edge();
   const double distance = s.result.tolerance > 0 ? s.result.tolerance : usual_distance;
   const double largest = s.criteria.is_quality_bound_strict() ? bound : largest_multiple * bound;
+  const double bound_on_the_way = (std::min)(multiple_on_the_way * bound, largest);
+  if(is_cut)
+    fit_cut_mesh(s, bound_on_the_way, fine, followed);
+  else
+    fit_fine_mesh(s, bound_on_the_way, fine, followed);
+  const std::size_t number = fine.number_of_vertices();
   const bool is_kept = s.criteria.keep_mesh_if_stopped() && s.best.is_manifold(); // within the budget only
   if(s.is_stopped && !is_kept)
     return note_stop();
@@ -131,7 +165,7 @@ inline void make_simplified_mesh(Meshing_state& s, bool is_cut, Core_mesh& mesh)
       mesh.clear();
     return note_stop();
   }
-  optimize_boundary(s, mesh, &followed);
+  fit_simplified_mesh(s, largest, mesh, followed);
   if(mesh.is_empty())
     return;
   const Mixed_mesh_optimization_result_3& fit = s.result.optimization;
