@@ -214,8 +214,8 @@ private:
     return center;
   }
 
-  // Halves a range at the median along the longest side of the box of its centers, in shares; equal centers are
-  // ordered by their numbers.
+  // Halves a range at the median along the longest side of the box of its centers, in shares; equal centers
+  // are ordered by their numbers.
   static std::size_t halve(std::vector<Center>& centers, const Vec3& sides, std::size_t first,
                            std::size_t last)
   {
@@ -239,8 +239,8 @@ private:
     return middle;
   }
 
-  // Adds the nodes of a range, the first of which has the index that the number of nodes was; returns the box of
-  // the range.
+  // Adds the nodes of a range, the first of which has the index that the number of nodes was; returns the box
+  // of the range.
   Box add_node(const std::vector<std::array<Vec3, 3>>& triangles, const Vec3& sides,
                std::vector<Center>& centers, std::size_t first, std::size_t last)
   {

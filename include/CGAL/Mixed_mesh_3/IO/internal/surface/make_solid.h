@@ -31,6 +31,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <iterator>
 #include <set>
@@ -115,6 +116,8 @@ inline bool make_mesh(Points& points, Polygons& polygons, bool is_oriented, Surf
       input.warnings.push_back("the surface is pinched at " + counted(pinched.size(), "point", "points"));
   }
   clear(mesh);
+  mesh.reserve(std::uint32_t(points.size()), std::uint32_t(3 * polygons.size() / 2),
+               std::uint32_t(polygons.size()));
   PMP::polygon_soup_to_polygon_mesh(points, polygons, mesh);
   return true;
 }
