@@ -35,8 +35,11 @@ Solid solid_of(const mm3::Solid_topology& t)
 
 Fidelity distances_and_volumes_of(const Mesh& mesh, const Surface& surface, double volume_of_surface)
 {
-  const mm3::Hausdorff_distance distance = mm3::hausdorff_distance(mesh, surface);
+  constexpr double relative_error = 1e-4; // default of hausdorff_distance()
+  const auto [distance, vertices_off] = mm3::internal::distances_from_surface(mesh, surface, relative_error,
+                                                                              on_surface);
   Fidelity f;
+  f.vertices_off = vertices_off;
   f.from_mesh = distance_of(distance.from_mesh);
   f.from_surface = distance_of(distance.from_surface);
   f.volume_of_mesh = mm3::volume(mesh);
@@ -48,7 +51,6 @@ Fidelity fidelity_of(const Mesh& mesh, const Surface& surface, double volume_of_
 {
   Fidelity f = distances_and_volumes_of(mesh, surface, volume_of_surface);
   f.vertices = mm3::boundary_vertices(mesh).size();
-  f.vertices_off = mm3::number_of_vertices_off_surface(mesh, surface, on_surface);
   return f;
 }
 

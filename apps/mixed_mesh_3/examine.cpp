@@ -10,7 +10,6 @@
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/certify_mesh.h>
 #include <CGAL/Mixed_mesh_3/quality_bound.h>
-#include <CGAL/Mixed_mesh_3/surface_distance.h>
 
 #include <cstddef>
 #include <string>
@@ -77,13 +76,11 @@ void examine(const Mesh& mesh, const Surface& surface, const Options& options, S
   mm3::Mesh_certificate certificate{log("checks", [&] { return mm3::find_defects(mesh); })};
   if(certificate.defects.none()) {
     std::size_t& self_intersections = certificate.number_of_self_intersections;
-    std::size_t vertices = 0, vertices_off = 0; // not in the fidelity, which another thread writes
+    std::size_t vertices = 0; // not in the fidelity, which another thread writes
     log.together(
       options.threads,
       {{"distance to surface",
         [&] { outcome.fidelity = distances_and_volumes_of(mesh, surface, outcome.surface.volume); }},
-       {"distance to surface",
-        [&] { vertices_off = mm3::number_of_vertices_off_surface(mesh, surface, on_surface); }},
        {"checks", [&] { self_intersections = mm3::number_of_boundary_self_intersections(mesh); }},
        {"checks",
         [&] {
@@ -98,7 +95,6 @@ void examine(const Mesh& mesh, const Surface& surface, const Options& options, S
           outcome.shapes = shapes_of(mesh);
         }}});
     outcome.fidelity.vertices = vertices;
-    outcome.fidelity.vertices_off = vertices_off;
   }
   outcome.fidelity.self_intersections = certificate.number_of_self_intersections;
   for(const mm3::Mesh_certificate::Check& check : certificate.checks())

@@ -200,20 +200,24 @@ void read_domain(const Input_options& o, Surface_reader& read, Outcome& outcome,
   const Subdomain_option whole{surrounding_name(o), o.surface, o.voxels};
   if(has_labels) {
     subdomains.insert(subdomains.end(), labels.subdomains.begin(), labels.subdomains.end());
-    inputs.boundary = std::move(labels.boundary);
+    inputs.boundary = std::make_shared<const Surface>(std::move(labels.boundary));
   } else {
     subdomains.push_back(is_image(o.surface) ? read.whole(whole, read.domain(o.voxels, o.voxels, outcome), 1)
                                              : read.whole(whole, 1));
     if(!is_image(o.surface))
       order_by_nesting(subdomains, outcome.warnings);
-    inputs.boundary = is_image(o.surface) ? *subdomains.back().surface : union_of(subdomains);
+    inputs.boundary = is_image(o.surface) || subdomains.size() == 1
+                        ? subdomains.back().surface
+                        : std::make_shared<const Surface>(union_of(subdomains));
     outcome.surface = subdomains.back().facts;
     if(subdomains.size() > 1)
-      outcome.surface.volume = CGAL::Polygon_mesh_processing::volume(inputs.boundary);
+      outcome.surface.volume = CGAL::Polygon_mesh_processing::volume(*inputs.boundary);
   }
   for(const Subdomain& s : subdomains)
     if(s.index == 0) {
-      CGAL::copy_face_graph(*s.surface, inputs.boundary);
+      auto with_cavity = std::make_shared<Surface>(*inputs.boundary);
+      CGAL::copy_face_graph(*s.surface, *with_cavity);
+      inputs.boundary = std::move(with_cavity);
       outcome.surface.volume -= s.facts.volume;
     }
 }

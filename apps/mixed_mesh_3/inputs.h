@@ -14,12 +14,13 @@
 #include "mixed_mesh_3/outcome.h"
 #include "mixed_mesh_3/subdomains.h"
 
+#include <memory>
 #include <vector>
 
 struct Inputs
 {
   std::vector<Subdomain> subdomains;
-  Surface boundary;
+  std::shared_ptr<const Surface> boundary; // that of the subdomain, if there is only one
   std::vector<Surface> regions;
 };
 

@@ -283,7 +283,7 @@ bool run(Options o)
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);
   if(o.tolerance > 0)
-    check_tolerance(o, inputs.boundary);
+    check_tolerance(o, *inputs.boundary);
   Domain domain = log("AABB tree of surface", [&] { return make_domain(inputs.subdomains); });
   const std::vector<Sheet> sheets = add_sheets(o, domain, outcome.warnings);
   const std::vector<Patch> patches = read_patches(o, inputs.subdomains, outcome.warnings);
@@ -299,7 +299,7 @@ bool run(Options o)
   Mesh mesh = make_mesh_until_stopped(domain, inputs, o, log, outcome);
   o.vertices = outcome.result.vertex_budget; // number found by --vertices auto
   const std::vector<std::string> warnings = outcome.warnings;
-  examine(mesh, inputs.boundary, o, log, outcome);
+  examine(mesh, *inputs.boundary, o, log, outcome);
   examine_subdomains(mesh, domain, inputs.subdomains, o, outcome);
   std::vector<mm3::IO::Facet_set> facet_sets = examine_sheets(mesh, domain, sheets, o, outcome);
   outcome.nodes = number_of_nodes(mesh, o.order); // with those that --slit doubles

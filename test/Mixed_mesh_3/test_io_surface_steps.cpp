@@ -11,6 +11,11 @@
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/surface_crossings.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/take_faces.h>
 
+#include <CGAL/Mixed_mesh_3/internal/elements/is_polygon_mesh.h>
+
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
 #include <boost/core/lightweight_test.hpp>
@@ -19,6 +24,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <random>
 #include <set>
@@ -34,6 +40,25 @@ std::mt19937 random_bits(11);
 
 std::size_t random_below(std::size_t n) { return std::size_t(random_bits() % n); }
 double random_coordinate() { return double(random_below(1000)) / 1000; }
+
+// Whether random polygons are a mesh, beside CGAL's answer.
+void test_is_polygon_mesh()
+{
+  std::array<int, 2> counts{};
+  for(int i = 0; i < 20000; ++i) {
+    const std::size_t number_of_points = 4 + random_below(4);
+    Polygons polygons(1 + random_below(6));
+    for(auto& polygon : polygons)
+      for(std::size_t n = random_below(5) == 0 ? 4 : 3; polygon.size() < n;)
+        if(const std::size_t v = random_below(number_of_points);
+           random_below(20) == 0 || std::find(polygon.begin(), polygon.end(), v) == polygon.end())
+          polygon.push_back(v);
+    const bool is_mesh = CGAL::Polygon_mesh_processing::is_polygon_soup_a_polygon_mesh(polygons);
+    BOOST_TEST_EQ(CGAL::Mixed_meshes_3::internal::is_polygon_mesh(polygons, number_of_points), is_mesh);
+    ++counts[is_mesh];
+  }
+  BOOST_TEST_GE(std::min(counts[0], counts[1]), 1000);
+}
 
 // The triangles of a cube from a corner, with points of its own.
 void add_cube(double x, double y, double z, double size, Points& points, Polygons& polygons,
@@ -60,6 +85,47 @@ Surface mesh_of(const Points& points, const Polygons& polygons)
   for(const auto& t : polygons)
     BOOST_TEST(mesh.add_face(vertices[t[0]], vertices[t[1]], vertices[t[2]]) != Surface::null_face());
   return mesh;
+}
+
+// Fans of a closed bipyramid, whose apex is moved, and whose equator winds once or twice: faces around a
+// vertex with a flat fan meet only in what they share, and the search finds what CGAL finds.
+void test_flat_fans()
+{
+  std::array<int, 2> flat{}, cut{};
+  for(int i = 0; i < 2000; ++i) {
+    const std::size_t n = 3 + random_below(6), turns = 1 + (n > 4 ? random_below(2) : 0);
+    Points points;
+    for(std::size_t v = 0; v < n; ++v) {
+      const double angle = 2 * M_PI * double(turns) * double(v) / double(n), r = 0.5 + random_coordinate();
+      points.emplace_back(r * std::cos(angle), r * std::sin(angle), random_coordinate());
+    }
+    points.emplace_back(random_coordinate() - 0.5, random_coordinate() - 0.5, 2 * random_coordinate());
+    points.emplace_back(0, 0, -3);
+    Polygons polygons;
+    for(std::size_t v = 0; v < n; ++v) {
+      polygons.push_back({v, (v + 1) % n, n});
+      polygons.push_back({(v + 1) % n, v, n + 1});
+    }
+    const Surface mesh = mesh_of(points, polygons);
+    std::vector<Face_pair> found;
+    CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(found));
+    BOOST_TEST_EQ(cuts_or_touches_itself(mesh), !found.empty());
+    ++cut[!found.empty()];
+    for(const auto v : vertices(mesh)) {
+      const bool is_flat = is_flat_fan(v, mesh);
+      ++flat[is_flat];
+      const auto has_vertex = [&](Surface::Face_index f) {
+        const auto& around = Triangle_view(f, mesh).vertices;
+        return std::find(around.begin(), around.end(), v) != around.end();
+      };
+      for(const Face_pair& pair : found)
+        BOOST_TEST(!is_flat || !has_vertex(pair.first) || !has_vertex(pair.second));
+    }
+  }
+  for(int k = 0; k < 2; ++k) {
+    BOOST_TEST_GE(flat[k], 500);
+    BOOST_TEST_GE(cut[k], 200);
+  }
 }
 
 // Counts of edges and connected parts of random triangles, beside maps and a search from each triangle.
@@ -266,6 +332,8 @@ int run(int, char*[])
   test_crossings();
   test_crossings_at_edges();
   test_orientation();
+  test_is_polygon_mesh();
+  test_flat_fans();
   return boost::report_errors();
 }
 

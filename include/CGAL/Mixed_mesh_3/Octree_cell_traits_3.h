@@ -80,7 +80,13 @@ public:
     const Bbox_3& bbox() const { return m_bbox; }
     const Point_3& center() const { return m_center; }
     /// Whether the closed cell meets the triangle; exact.
-    bool do_intersect(const Triangle_3& t) const { return CGAL::do_intersect(t, m_bbox); }
+    bool do_intersect(const Triangle_3& t) const
+    {
+      for(int i = 0; i < 3; ++i) // triangles are often smaller than cells
+        if(CGAL::do_overlap(m_bbox, t[i].bbox()))
+          return true;
+      return CGAL::do_intersect(t, m_bbox);
+    }
   };
 
   /// Constructs an octree around `bbox`.

@@ -44,6 +44,14 @@ inline double diagonal(const Triangle_soup& soup)
   return norm({b.x_span(), b.y_span(), b.z_span()});
 }
 
+/// Number of points farther than that from a surface.
+inline std::size_t number_of_points_off(const Triangle_soup& soup, const Nearest_triangle& nearest,
+                                        double tolerance)
+{
+  return std::size_t(std::count_if(soup.points.begin(), soup.points.end(),
+                                   [&](const auto& p) { return nearest(p).distance > tolerance; }));
+}
+
 } // namespace internal
 
 /// \ingroup PkgMixedMesh3Validity
@@ -56,6 +64,36 @@ struct Hausdorff_distance
   /// The larger one of both distances.
   double distance() const { return (std::max)(from_mesh.distance, from_surface.distance); }
 };
+
+namespace internal {
+
+inline Hausdorff_distance hausdorff_distance(const Triangle_soup& boundary, const Triangle_soup& surface,
+                                             const Nearest_triangle& nearest_of_surface, double maximal_error)
+{
+  return {one_sided_distance(boundary, nearest_of_surface, maximal_error),
+          one_sided_distance(surface, Nearest_triangle(boundary), maximal_error)};
+}
+
+/// The results of `hausdorff_distance()` and `number_of_vertices_off_surface()`, by one tree of the surface.
+struct Distances_from_surface
+{
+  Hausdorff_distance distance;
+  std::size_t number_of_vertices_off;
+};
+
+template <class Mesh, class FaceListGraph>
+Distances_from_surface distances_from_surface(const Mesh& mesh, const FaceListGraph& surface,
+                                              double relative_error, double relative_tolerance)
+{
+  const Triangle_soup boundary = boundary_triangles(mesh);
+  const Triangle_soup triangles = surface_triangles(surface, parameters::default_values());
+  const Nearest_triangle nearest(triangles);
+  const double size = diagonal(triangles);
+  return {hausdorff_distance(boundary, triangles, nearest, relative_error * size),
+          number_of_points_off(boundary, nearest, relative_tolerance * size)};
+}
+
+} // namespace internal
 
 /*!
 \ingroup PkgMixedMesh3Validity
@@ -95,8 +133,8 @@ Hausdorff_distance hausdorff_distance(const Mesh& mesh, const FaceListGraph& sur
   const internal::Triangle_soup triangles = internal::surface_triangles(surface, np);
   CGAL_precondition(!triangles.triangles.empty());
   const double maximal_error = relative_error * internal::diagonal(triangles);
-  return {internal::one_sided_distance(boundary, internal::Nearest_triangle(triangles), maximal_error),
-          internal::one_sided_distance(triangles, internal::Nearest_triangle(boundary), maximal_error)};
+  return internal::hausdorff_distance(boundary, triangles, internal::Nearest_triangle(triangles),
+                                      maximal_error);
 }
 
 /*!
@@ -127,11 +165,8 @@ std::size_t number_of_vertices_off_surface(const Mesh& mesh, const FaceListGraph
   const internal::Triangle_soup triangles = internal::surface_triangles(surface, np);
   CGAL_precondition(!triangles.triangles.empty());
   const internal::Nearest_triangle nearest(triangles);
-  const double tolerance = relative_tolerance * internal::diagonal(triangles);
-  std::size_t n = 0;
-  for(const auto& p : boundary.points)
-    n += nearest(p).distance > tolerance;
-  return n;
+  return internal::number_of_points_off(boundary, nearest,
+                                        relative_tolerance * internal::diagonal(triangles));
 }
 
 /// \ingroup PkgMixedMesh3Validity

@@ -100,11 +100,16 @@ struct Meshing_state
   /// The same, with those that will be removed.
   std::size_t octree_budget() const { return budget() + number_beyond_budget; }
 
-  /// The edge of the cubes that the vertices of the budget have to serve.
-  double mean_edge() const
+  /// The approximate volume of the domain; found once, as an octree over all facets is needed for it.
+  double volume() const
   {
-    return std::cbrt(volume_of_domain(root) / double(criteria.maximal_number_of_vertices()));
+    if(!m_volume)
+      m_volume = volume_of_domain(root);
+    return *m_volume;
   }
+
+  /// The edge of the cubes that the vertices of the budget have to serve.
+  double mean_edge() const { return std::cbrt(volume() / double(criteria.maximal_number_of_vertices())); }
 
   /// The distance from the region over which its weight decreases.
   double graded_radius() const { return criteria.grading() * radius; }
@@ -184,6 +189,9 @@ struct Meshing_state
     const Mixed_mesh_optimization_result_3& fit = result.optimization;
     return fit.number_of_boundary_vertices - fit.number_of_arrived_vertices;
   }
+
+private:
+  mutable std::optional<double> m_volume; // of the domain
 };
 
 } // namespace internal

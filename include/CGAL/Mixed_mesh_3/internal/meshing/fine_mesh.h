@@ -85,7 +85,7 @@ inline void fill_fine_octree(Meshing_state& s)
     return;
   const std::size_t budget = s.criteria.maximal_number_of_vertices();
   std::size_t number = number_of_fine_vertices(budget);
-  resolve_sharp_edges(s, std::cbrt(volume_of_domain(s.root) / double(number)));
+  resolve_sharp_edges(s, std::cbrt(s.volume() / double(number)));
   if(s.start) // what is beside these places needs cells as well
     number += s.try_octree(*s.start).number_of_vertices;
   s.number_beyond_budget = number - s.budget();

@@ -13,6 +13,7 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/is_polygon_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/hausdorff_distance.h>
 
 #include <CGAL/Bbox_3.h>
@@ -67,7 +68,7 @@ public:
     int genus = 0;
     std::size_t depth = 0;        // number of shells around
     std::size_t parent = outside; // the innermost shell around
-    std::unique_ptr<Tree> tree;
+    std::shared_ptr<Tree> tree;
     std::unique_ptr<Side> side;
 
     bool is_cavity() const { return depth % 2 == 1; }
@@ -84,7 +85,8 @@ public:
   explicit Nested_shells(Triangle_soup soup)
   {
     namespace PMP = Polygon_mesh_processing;
-    PMP::orient_polygon_soup(soup.points, soup.triangles); // duplicates vertices where the surface is pinched
+    if(!is_polygon_mesh(soup.triangles, soup.points.size()))
+      PMP::orient_polygon_soup(soup.points, soup.triangles); // duplicates vertices of pinched surfaces
     PMP::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, m_surface);
     CGAL_precondition(CGAL::is_closed(m_surface));
     m_tree = tree_of(faces(m_surface));
@@ -159,15 +161,15 @@ public:
 
 private:
   Surface m_surface;
-  std::unique_ptr<Tree> m_tree; // tree of all faces
+  std::shared_ptr<Tree> m_tree; // tree of all faces
   std::vector<Shell> m_shells;
   double m_area = 0;
   double m_size = 0; // the largest extent of a shell
 
   template <class Faces>
-  std::unique_ptr<Tree> tree_of(const Faces& faces) const
+  std::shared_ptr<Tree> tree_of(const Faces& faces) const
   {
-    auto tree = std::make_unique<Tree>(faces.begin(), faces.end(), m_surface,
+    auto tree = std::make_shared<Tree>(faces.begin(), faces.end(), m_surface,
                                        get(CGAL::vertex_point, std::as_const(m_surface)));
     tree->do_not_accelerate_distance_queries(); // there are hints
     tree->build();
@@ -223,7 +225,7 @@ private:
       // A triangle has three half-edges, and an edge two.
       const auto euler = std::ptrdiff_t(number_of_vertices[r]) - std::ptrdiff_t(s.faces.size() / 2);
       s.genus = int(1 - euler / 2);
-      s.tree = tree_of(s.faces);
+      s.tree = m_shells.size() == 1 ? m_tree : tree_of(s.faces);
       s.side = std::make_unique<Side>(*s.tree);
     }
   }

@@ -25,7 +25,9 @@
 #include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -98,7 +100,7 @@ public:
   {
     part.facets.clear();
     for(std::uint32_t f : parent.facets)
-      if(CGAL::do_overlap(m_boxes[f], cell.bbox()) && cell.do_intersect(m_triangles[f]))
+      if(m_boxes[f].may_overlap(cell.bbox()) && cell.do_intersect(m_triangles[f]))
         part.facets.push_back(f);
     part.reference = cell.center();
     part.reference_side = bounded_side(cell.center(), parent);
@@ -116,7 +118,7 @@ public:
     const Bbox_3 segment = p.bbox() + q.bbox();
     bool odd = false;
     for(std::uint32_t f : part.facets) {
-      if(!CGAL::do_overlap(segment, m_boxes[f]))
+      if(!m_boxes[f].may_overlap(segment))
         continue;
       const Triangle_3& t = m_triangles[f];
       const Orientation side_p = orientation(t[0], t[1], t[2], p);
@@ -169,6 +171,29 @@ public:
   std::vector<Point_3> surface_samples(double spacing) const;
 
 private:
+  // The box of a facet, in half the memory, a little larger: boxes of all facets are tested for each cell.
+  class Facet_box
+  {
+    std::array<float, 3> m_low, m_high;
+
+  public:
+    explicit Facet_box(const Bbox_3& box)
+    {
+      constexpr float infinity = std::numeric_limits<float>::infinity();
+      for(int k = 0; k < 3; ++k) {
+        m_low[std::size_t(k)] = std::nextafter(float((box.min)(k)), -infinity);
+        m_high[std::size_t(k)] = std::nextafter(float((box.max)(k)), infinity);
+      }
+    }
+
+    bool may_overlap(const Bbox_3& box) const
+    {
+      return double(m_low[0]) <= (box.xmax)() && (box.xmin)() <= double(m_high[0])
+             && double(m_low[1]) <= (box.ymax)() && (box.ymin)() <= double(m_high[1])
+             && double(m_low[2]) <= (box.zmax)() && (box.zmin)() <= double(m_high[2]);
+    }
+  };
+
   struct Trees; // AABB trees: defined where they are used
   struct Delete_trees
   {
@@ -181,7 +206,7 @@ private:
   void count_shells(const Triangle_soup& soup);
 
   std::vector<Triangle_3> m_triangles;
-  std::vector<Bbox_3> m_boxes;
+  std::vector<Facet_box> m_boxes;
   Bbox_3 m_bbox;
   Shell_counts m_shells;
   std::unique_ptr<Trees, Delete_trees> m_trees; // the tree keeps the address of the surface

@@ -28,6 +28,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -57,9 +58,23 @@ struct Surface_oracle_3::Trees
   using Tree = Side_of_surface::AABB_tree; // the traits have another name in each CGAL version
 
   Surface surface;
+  std::once_flag has_tree;
   Tree tree;
   std::optional<Side_of_surface> side_of_surface;
   std::optional<Triangle_tree> triangles;
+
+  // The side of a point. Most sides follow from that of a point nearby, and some surfaces need no tree for
+  // the others, which takes as long as the closest points of all.
+  Bounded_side bounded_side(const Point_3& p)
+  {
+    std::call_once(has_tree, [this] {
+      tree.insert(faces(surface).first, faces(surface).second, surface,
+                  get(CGAL::vertex_point, std::as_const(surface)));
+      tree.build();
+      side_of_surface.emplace(tree);
+    });
+    return (*side_of_surface)(p);
+  }
 };
 
 CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::Delete_trees::operator()(Trees* trees) const { delete trees; }
@@ -69,6 +84,10 @@ CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::build(const Triangle_soup& soup)
   const auto& [points, triangles] = soup;
   m_trees.reset(new Trees());
   Trees::Surface& s = m_trees->surface;
+  s.reserve(std::uint32_t(points.size()), std::uint32_t(3 * triangles.size() / 2),
+            std::uint32_t(triangles.size()));
+  m_triangles.reserve(triangles.size());
+  m_boxes.reserve(triangles.size());
   for(const Point_3& p : points)
     s.add_vertex(p);
   for(const auto& t : triangles) {
@@ -76,13 +95,12 @@ CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::build(const Triangle_soup& soup)
                Trees::Surface::Vertex_index(std::uint32_t(t[1])),
                Trees::Surface::Vertex_index(std::uint32_t(t[2])));
     m_triangles.emplace_back(points[t[0]], points[t[1]], points[t[2]]);
-    m_boxes.push_back(m_triangles.back().bbox());
-    m_bbox += m_boxes.back();
+    const Bbox_3 box = m_triangles.back().bbox();
+    m_boxes.emplace_back(box);
+    m_bbox += box;
   }
-  m_trees->tree.insert(faces(s).first, faces(s).second, s, get(CGAL::vertex_point, std::as_const(s)));
-  m_trees->tree.build();
-  m_trees->side_of_surface.emplace(m_trees->tree);
   std::vector<std::array<Vec3, 3>> corners;
+  corners.reserve(m_triangles.size());
   for(const Triangle_3& t : m_triangles)
     corners.push_back({to_vec3(t[0]), to_vec3(t[1]), to_vec3(t[2])});
   m_trees->triangles.emplace(corners);
@@ -197,7 +215,7 @@ CGAL_MIXED_MESH_3_INLINE Axis_parallel_planes Surface_oracle_3::axis_parallel_pl
 
 CGAL_MIXED_MESH_3_INLINE Bounded_side Surface_oracle_3::bounded_side(const Point_3& p) const
 {
-  return (*m_trees->side_of_surface)(p);
+  return m_trees->bounded_side(p);
 }
 
 CGAL_MIXED_MESH_3_INLINE Surface_oracle_3::Point_3 Surface_oracle_3::closest_point(const Point_3& p,

@@ -46,6 +46,9 @@ Triangle_soup surface_triangles(const FaceListGraph& surface, const NamedParamet
                                           get_const_property_map(CGAL::vertex_point, surface));
   Triangle_soup soup;
   std::unordered_map<typename boost::graph_traits<FaceListGraph>::vertex_descriptor, std::size_t> index;
+  index.reserve(num_vertices(surface));
+  soup.points.reserve(num_vertices(surface));
+  soup.triangles.reserve(num_faces(surface));
   for(auto v : vertices(surface)) {
     index[v] = soup.points.size();
     soup.points.push_back(rounded_point(to_vec3(get(vpm, v))));

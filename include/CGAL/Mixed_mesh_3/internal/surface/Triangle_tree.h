@@ -96,23 +96,30 @@ public:
   /// \f$ O(n \log n) \f$
   explicit Triangle_tree(const std::vector<std::array<Vec3, 3>>& triangles)
   {
-    std::vector<Entry> entries;
-    entries.reserve(triangles.size());
+    Box box;
+    if(!triangles.empty())
+      box = Box(triangles.front());
     for(const auto& t : triangles)
-      entries.push_back({Box(t), std::uint32_t(entries.size())});
-    if(!entries.empty())
-      add_node(entries, 0, entries.size());
+      box.add(Box(t));
+    std::vector<Center> centers;
+    centers.reserve(triangles.size());
+    for(const auto& t : triangles)
+      centers.push_back(center_of(Box(t), box, centers.size()));
+    m_nodes.reserve(triangles.size() / 3);
+    if(!triangles.empty())
+      add_node(triangles, box.high - box.low, centers, 0, centers.size());
+    m_nodes.shrink_to_fit();
     constexpr double roundings = 8 * std::numeric_limits<double>::epsilon();
-    for(const Entry& e : entries)
-      for(std::size_t k = 0; k < 3; ++k)
-        m_rounding = (std::max)(
-          {m_rounding, roundings * std::abs(e.box.low[k]), roundings * std::abs(e.box.high[k])});
-    m_triangles.reserve(entries.size());
-    m_positions.resize(entries.size());
-    for(const Entry& e : entries) {
-      m_positions[e.number] = std::uint32_t(m_triangles.size());
-      m_triangles.emplace_back(triangles[e.number]);
-      m_numbers.push_back(e.number);
+    for(std::size_t k = 0; k < 3; ++k)
+      m_rounding = (std::max)(
+        {m_rounding, roundings * std::abs(box.low[k]), roundings * std::abs(box.high[k])});
+    m_triangles.reserve(centers.size());
+    m_numbers.reserve(centers.size());
+    m_positions.resize(centers.size());
+    for(const Center& c : centers) {
+      m_positions[c.number] = std::uint32_t(m_triangles.size());
+      m_triangles.emplace_back(triangles[c.number]);
+      m_numbers.push_back(c.number);
     }
   }
 
@@ -168,11 +175,14 @@ private:
         high[k] = (std::max)(high[k], h[k]);
       }
     }
+    void add(const Box& box) { add(box.low, box.high); }
   };
 
-  struct Entry
+  // The center of the box of a triangle, as shares of the box of all: which triangles are neighbors in the
+  // tree decides about time only, and small entries are sorted faster.
+  struct Center
   {
-    Box box;
+    std::array<float, 3> at;
     std::uint32_t number;
   };
 
@@ -195,43 +205,63 @@ private:
     return dot(d, d);
   }
 
-  // Halves a range at the median along the longest side of the box of its centers; equal centers are ordered
-  // by their numbers.
-  static std::size_t halve(std::vector<Entry>& entries, std::size_t first, std::size_t last)
+  static Center center_of(const Box& box, const Box& all, std::size_t number)
   {
-    const auto center = [](const Entry& e) { return e.box.low + e.box.high; }; // doubled
+    Center center{{}, std::uint32_t(number)};
+    for(std::size_t k = 0; k < 3; ++k)
+      if(const double side = all.high[k] - all.low[k]; side > 0)
+        center.at[k] = float(((box.low[k] - all.low[k]) + (box.high[k] - all.low[k])) / side);
+    return center;
+  }
+
+  // Halves a range at the median along the longest side of the box of its centers, in shares; equal centers
+  // are ordered by their numbers.
+  static std::size_t halve(std::vector<Center>& centers, const Vec3& sides, std::size_t first,
+                           std::size_t last)
+  {
     const std::size_t middle = first + (last - first) / 2;
     if(first == middle)
       return middle;
-    Box centers;
-    centers.low = centers.high = center(entries[first]);
+    std::array<float, 3> low = centers[first].at, high = low;
     for(std::size_t i = first + 1; i < last; ++i)
-      centers.add(center(entries[i]), center(entries[i]));
-    const Vec3 sides = centers.high - centers.low;
-    const std::size_t axis = std::size_t(std::max_element(sides.begin(), sides.end()) - sides.begin());
-    const auto at = [&](std::size_t i) { return entries.begin() + std::ptrdiff_t(i); };
-    std::nth_element(at(first), at(middle), at(last), [&](const Entry& a, const Entry& b) {
-      const double x = center(a)[axis], y = center(b)[axis];
-      return x != y ? x < y : a.number < b.number;
+      for(std::size_t k = 0; k < 3; ++k) {
+        low[k] = (std::min)(low[k], centers[i].at[k]);
+        high[k] = (std::max)(high[k], centers[i].at[k]);
+      }
+    std::size_t axis = 0;
+    for(std::size_t k = 1; k < 3; ++k)
+      if(sides[k] * (high[k] - low[k]) > sides[axis] * (high[axis] - low[axis]))
+        axis = k;
+    const auto at = [&](std::size_t i) { return centers.begin() + std::ptrdiff_t(i); };
+    std::nth_element(at(first), at(middle), at(last), [axis](const Center& a, const Center& b) {
+      return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.number < b.number;
     });
     return middle;
   }
 
-  std::uint32_t add_node(std::vector<Entry>& entries, std::size_t first, std::size_t last)
+  // Adds the nodes of a range, the first of which has the index that the number of nodes was; returns the box
+  // of the range.
+  Box add_node(const std::vector<std::array<Vec3, 3>>& triangles, const Vec3& sides,
+               std::vector<Center>& centers, std::size_t first, std::size_t last)
   {
-    const std::uint32_t index = std::uint32_t(m_nodes.size());
-    const std::size_t middle = halve(entries, first, last), quarter = halve(entries, first, middle),
-                      three_quarters = halve(entries, middle, last);
+    const std::size_t index = m_nodes.size();
+    const std::size_t middle = halve(centers, sides, first, last),
+                      quarter = halve(centers, sides, first, middle),
+                      three_quarters = halve(centers, sides, middle, last);
     const std::array<std::size_t, width + 1> ends{first, quarter, middle, three_quarters, last};
     m_nodes.emplace_back();
+    Box all(triangles[centers[first].number]);
     for(std::size_t child = 0; child < width; ++child) {
       constexpr double infinity = std::numeric_limits<double>::infinity();
       const std::size_t begin = ends[child], end = ends[child + 1];
-      Box box = entries[begin < end ? begin : first].box;
-      for(std::size_t i = begin; i < end; ++i)
-        box.add(entries[i].box.low, entries[i].box.high);
+      Box box(triangles[centers[begin < end ? begin : first].number]);
       const bool is_leaf = end - begin <= width;
-      const std::uint32_t start = is_leaf ? std::uint32_t(begin) : add_node(entries, begin, end);
+      const std::uint32_t start = std::uint32_t(is_leaf ? begin : m_nodes.size());
+      if(!is_leaf)
+        box = add_node(triangles, sides, centers, begin, end);
+      for(std::size_t i = begin; is_leaf && i < end; ++i)
+        box.add(Box(triangles[centers[i].number]));
+      all.add(box);
       Node& node = m_nodes[index];
       for(std::size_t k = 0; k < 3; ++k) {
         const double center = 0.5 * (box.low[k] + box.high[k]);
@@ -241,7 +271,7 @@ private:
       node.first[child] = start;
       node.number_of_triangles[child] = is_leaf ? std::uint32_t(end - begin) : 0;
     }
-    return index;
+    return all;
   }
 
   // Squared distances of a point from the boxes of the children. Absolute values instead of comparisons let

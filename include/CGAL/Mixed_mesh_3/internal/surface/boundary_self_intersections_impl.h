@@ -11,6 +11,7 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/compiled.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/is_polygon_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/boundary_self_intersections.h>
 
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
@@ -31,7 +32,8 @@ CGAL_MIXED_MESH_3_INLINE std::size_t number_of_self_intersections(Triangle_soup 
 {
   namespace PMP = Polygon_mesh_processing;
   using Surface = CGAL::Surface_mesh<Predicates_kernel::Point_3>;
-  PMP::orient_polygon_soup(soup.points, soup.triangles); // duplicates vertices that are not manifold
+  if(!is_polygon_mesh(soup.triangles, soup.points.size()))
+    PMP::orient_polygon_soup(soup.points, soup.triangles); // duplicates vertices that are not manifold
   Surface surface;
   PMP::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, surface);
   std::vector<std::pair<Surface::Face_index, Surface::Face_index>> pairs;

@@ -65,6 +65,7 @@ Triangle_soup boundary_triangles(const Mesh& mesh)
 inline std::vector<std::array<Vec3, 3>> corners(const Triangle_soup& soup)
 {
   std::vector<std::array<Vec3, 3>> result;
+  result.reserve(soup.triangles.size());
   for(const auto& t : soup.triangles)
     result.push_back({to_vec3(soup.points[t[0]]), to_vec3(soup.points[t[1]]), to_vec3(soup.points[t[2]])});
   return result;
@@ -132,6 +133,9 @@ The distance to one triangle is convex: on a piece of a triangle it is largest a
 of a piece is at most the largest distance of its vertices to any one triangle, and the triangles nearest to
 its vertices are good candidates. The piece with the largest bound is halved, until no bound exceeds the
 distance of the farthest vertex by more than `maximal_error`.
+
+A point of a piece is at most its longest edge by the square root of 3 from a vertex, and the distance grows
+by at most as much: where triangles of the target are smaller than the piece, this bound is the smaller one.
 */
 class Farthest_point_search
 {
@@ -164,10 +168,12 @@ public:
   {
     constexpr std::size_t none = std::size_t(-1);
     std::vector<std::size_t> query_of_point(soup.points.size(), none);
+    m_queries.reserve(soup.points.size());
     for(const auto& t : soup.triangles)
       for(std::size_t v : t)
         if(query_of_point[v] == none)
-          query_of_point[v] = add(m_target(soup.points[v]));
+          query_of_point[v] = add(m_queries.empty() ? m_target(soup.points[v])
+                                                    : m_target(soup.points[v], m_queries.back().nearest));
     for(const auto& t : soup.triangles)
       add_piece({query_of_point[t[0]], query_of_point[t[1]], query_of_point[t[2]]},
                 std::numeric_limits<double>::infinity());
@@ -217,6 +223,13 @@ private:
 
   void add_piece(const Vertices& v, double bound)
   {
+    const double longest = (std::max)(
+                   {squared_length(v[0], v[1]), squared_length(v[1], v[2]), squared_length(v[2], v[0])}),
+                 farthest = (std::max)(
+                   {m_queries[v[0]].distance, m_queries[v[1]].distance, m_queries[v[2]].distance});
+    bound = (std::min)(bound, farthest + std::sqrt(longest / 3));
+    if(bound <= limit())
+      return;
     for(std::size_t i : v) {
       const std::size_t nearest = m_queries[i].nearest.triangle;
       double largest = 0;

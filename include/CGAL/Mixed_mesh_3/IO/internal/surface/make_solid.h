@@ -19,6 +19,7 @@
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/separate_bodies.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/surface_crossings.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/take_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/is_polygon_mesh.h>
 
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
@@ -30,6 +31,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <iterator>
 #include <set>
@@ -95,13 +97,14 @@ inline bool make_mesh(Points& points, Polygons& polygons, bool is_oriented, Surf
                       Surface_input& input)
 {
   namespace PMP = CGAL::Polygon_mesh_processing;
-  if(!PMP::is_polygon_soup_a_polygon_mesh(polygons)) {
+  using Mixed_meshes_3::internal::is_polygon_mesh;
+  if(!is_polygon_mesh(polygons, points.size())) {
     // Pinched points are duplicated, and points of edges that have to be cut, as in a Moebius band.
     const std::size_t n = points.size();
     Points points_before = points;
     Polygons polygons_before = polygons;
     PMP::orient_polygon_soup(points, polygons);
-    if(count_edges(polygons).open != 0 || !PMP::is_polygon_soup_a_polygon_mesh(polygons)) {
+    if(count_edges(polygons).open != 0 || !is_polygon_mesh(polygons, points.size())) {
       points = std::move(points_before);
       polygons = std::move(polygons_before);
       return false;
@@ -113,6 +116,8 @@ inline bool make_mesh(Points& points, Polygons& polygons, bool is_oriented, Surf
       input.warnings.push_back("the surface is pinched at " + counted(pinched.size(), "point", "points"));
   }
   clear(mesh);
+  mesh.reserve(std::uint32_t(points.size()), std::uint32_t(3 * polygons.size() / 2),
+               std::uint32_t(polygons.size()));
   PMP::polygon_soup_to_polygon_mesh(points, polygons, mesh);
   return true;
 }

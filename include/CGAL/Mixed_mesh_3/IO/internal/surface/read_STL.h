@@ -17,6 +17,7 @@
 #include <cctype>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <string_view>
 
@@ -39,9 +40,8 @@ inline bool is_word(std::string_view word, std::string_view lower)
 /// Adds a polygon of the last `n` points.
 inline void add_polygon_of_last(std::size_t n, Surface_soup& soup)
 {
-  soup.polygons.emplace_back();
-  for(std::size_t v = soup.points.size() - n; v < soup.points.size(); ++v)
-    soup.polygons.back().push_back(v);
+  soup.polygons.emplace_back(n);
+  std::iota(soup.polygons.back().begin(), soup.polygons.back().end(), soup.points.size() - n);
 }
 
 inline void read_text_STL(const std::string& path, std::string_view bytes, Surface_soup& soup)
@@ -85,6 +85,8 @@ inline void read_binary_STL(const std::string& path, std::string_view bytes, Sur
   in.skip(80);
   const std::uint32_t facets = in.value<std::uint32_t>();
   in.require(facets, 50);
+  soup.points.reserve(3 * std::size_t(facets));
+  soup.polygons.reserve(facets);
   for(std::uint32_t i = 0; i < facets; ++i) {
     in.skip(12); // normal
     for(int k = 0; k < 3; ++k)

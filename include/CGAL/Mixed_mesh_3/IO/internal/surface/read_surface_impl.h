@@ -20,6 +20,7 @@
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/take_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/base/compiled.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/is_polygon_mesh.h>
 
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
@@ -116,11 +117,11 @@ CGAL_MIXED_MESH_3_INLINE void make_sheet(const std::string& name, const Read_sur
   const Edge_counts edges = count_edges(polygons);
   if(edges.nonmanifold != 0)
     refuse(name, describe_nonmanifold("the sheet", edges.nonmanifold));
-  if(!PMP::is_polygon_soup_a_polygon_mesh(polygons)) {
+  if(!Mixed_meshes_3::internal::is_polygon_mesh(polygons, points.size())) {
     PMP::orient_polygon_soup(points, polygons); // duplicates points, as for make_mesh()
     if(count_edges(polygons).open != edges.open)
       refuse(name, "the sheet cannot be oriented");
-    if(!PMP::is_polygon_soup_a_polygon_mesh(polygons))
+    if(!Mixed_meshes_3::internal::is_polygon_mesh(polygons, points.size()))
       refuse(name, "the faces do not form a surface");
     if(!edges.is_oriented)
       input.warnings.push_back("oriented the faces consistently");

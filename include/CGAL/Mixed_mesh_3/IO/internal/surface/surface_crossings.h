@@ -15,6 +15,8 @@
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/Surface.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/polygon_soup.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
+#include <CGAL/Mixed_mesh_3/internal/base/box_pairs.h>
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/enum.h>
@@ -22,6 +24,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -153,8 +156,111 @@ inline std::vector<Face_pair> crossings_at_edges(const Surface& mesh)
   return crossings;
 }
 
+// Whether the faces around a vertex, seen from some direction, lie side by side around the vertex: then they
+// meet only in what they share. The margin is far above rounding.
+inline bool is_flat_fan(Surface::Vertex_index v, const Surface& mesh)
+{
+  constexpr double margin = 1e-6;
+  const auto start = mesh.halfedge(v);
+  if(start == Surface::null_halfedge())
+    return false;
+  const Vec3 apex = to_vec3(mesh.point(v));
+  Vec3 normal{};
+  auto h = start; // leads to the vertex, as all that follow
+  do {
+    if(mesh.is_border(h))
+      return false;
+    const Vec3 a = to_vec3(mesh.point(mesh.source(h))) - apex,
+               b = to_vec3(mesh.point(mesh.target(mesh.next(h)))) - apex;
+    const Vec3 n = cross(b, a);
+    normal = normal + 1 / norm(n) * n;
+    h = mesh.opposite(mesh.next(h));
+  } while(h != start);
+  const double length = norm(normal);
+  if(!(length > margin))
+    return false;
+  normal = 1 / length * normal;
+  // Edges, seen from the normal, turn one way; how often they pass the first edge is the number of turns.
+  const Vec3 first = to_vec3(mesh.point(mesh.source(start))) - apex;
+  const Vec3 side = cross(normal, first);
+  if(!(norm(side) > margin * norm(first)))
+    return false;
+  int number_of_passes = 0;
+  bool was_left = true; // the start is on the left, by definition
+  do {
+    const Vec3 a = to_vec3(mesh.point(mesh.source(h))) - apex,
+               b = to_vec3(mesh.point(mesh.target(mesh.next(h)))) - apex;
+    if(!(dot(normal, cross(b, a)) > margin * norm(a) * norm(b)))
+      return false;
+    h = mesh.opposite(mesh.next(h));
+    const bool is_left = h == start || dot(side, b) > 0;
+    number_of_passes += is_left != was_left;
+    was_left = is_left;
+  } while(h != start);
+  return number_of_passes == 2;
+}
+
+// Whether two faces that share that many vertices meet in more; the shared ones come first in both.
+inline bool do_meet_beyond(const std::array<Surface::Point, 3>& p, const std::array<Surface::Point, 3>& q,
+                           std::size_t number_of_shared)
+{
+  using Segment = Predicates_kernel::Segment_3;
+  using Triangle = Predicates_kernel::Triangle_3;
+  const auto do_intersect = Predicates_kernel().do_intersect_3_object();
+  switch(number_of_shared) {
+  case 0: return do_intersect(Triangle(p[0], p[1], p[2]), Triangle(q[0], q[1], q[2]));
+  case 1:
+    return do_intersect(Triangle(p[0], p[1], p[2]), Segment(q[1], q[2]))
+           || do_intersect(Triangle(q[0], q[1], q[2]), Segment(p[1], p[2]));
+  case 2:
+    return CGAL::coplanar(p[0], p[1], p[2], q[2])
+           && CGAL::coplanar_orientation(p[0], p[1], p[2], q[2]) == CGAL::POSITIVE;
+  default: return true;
+  }
+}
+
+// Whether any two faces meet in more than what they share, or a face may be degenerate. Of the pairs whose
+// boxes overlap, most share a vertex with a flat fan.
+inline bool cuts_or_touches_itself(const Surface& mesh)
+{
+  std::vector<std::uint8_t> is_flat(mesh.num_vertices(), 0);
+  for(const auto v : vertices(mesh))
+    is_flat[v] = is_flat_fan(v, mesh);
+  std::vector<Mixed_meshes_3::internal::Numbered_box> boxes;
+  boxes.reserve(mesh.number_of_faces());
+  for(const auto f : faces(mesh)) {
+    const Triangle_view t(f, mesh);
+    boxes.emplace_back(t.points[0].bbox() + t.points[1].bbox() + t.points[2].bbox(), std::size_t(f));
+  }
+  bool is_found = false;
+  Mixed_meshes_3::internal::for_each_pair_of_boxes(boxes, [&](const auto& b, const auto& c) {
+    if(is_found)
+      return;
+    Triangle_view s(Surface::Face_index(std::uint32_t(b.info())), mesh),
+      t(Surface::Face_index(std::uint32_t(c.info())), mesh);
+    std::size_t shared = 0;
+    for(std::size_t i = 0; i < 3; ++i)
+      for(std::size_t j = shared; j < 3; ++j)
+        if(s.vertices[i] == t.vertices[j]) {
+          if(is_flat[s.vertices[i]])
+            return;
+          std::swap(s.vertices[i], s.vertices[shared]);
+          std::swap(s.points[i], s.points[shared]);
+          std::swap(t.vertices[j], t.vertices[shared]);
+          std::swap(t.points[j], t.points[shared]);
+          ++shared;
+          break;
+        }
+    is_found = do_meet_beyond(s.points, t.points, shared);
+  });
+  return is_found;
+}
+
+// Pairs of faces that cut each other. CGAL lists them, which takes longer than to find that there are none.
 inline std::vector<Face_pair> self_intersections(const Surface& mesh)
 {
+  if(!cuts_or_touches_itself(mesh))
+    return {};
   std::vector<Face_pair> crossings;
   CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(crossings));
   crossings.erase(std::remove_if(crossings.begin(), crossings.end(),

@@ -29,6 +29,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -92,7 +93,9 @@ inline void check_coordinates(const std::string& path, Surface_soup& soup)
 // a polygon differ.
 inline std::size_t remove_repeated(Polygons& polygons)
 {
-  const auto normalized = [](std::vector<std::size_t> p) {
+  std::vector<std::size_t> p;
+  const auto normalized = [&p](const std::vector<std::size_t>& polygon) -> const std::vector<std::size_t>& {
+    p.assign(polygon.begin(), polygon.end());
     std::rotate(p.begin(), std::min_element(p.begin(), p.end()), p.end());
     if(p[1] > p.back())
       std::reverse(p.begin() + 1, p.end());
@@ -102,7 +105,7 @@ inline std::size_t remove_repeated(Polygons& polygons)
   std::vector<std::array<std::size_t, 4>> keys;
   keys.reserve(polygons.size());
   for(std::size_t f = 0; f < polygons.size(); ++f) {
-    const std::vector<std::size_t> p = normalized(polygons[f]);
+    normalized(polygons[f]);
     keys.push_back({p[0], p[1], p[2], f});
   }
   std::sort(keys.begin(), keys.end());
@@ -130,8 +133,10 @@ struct Superfluous
   void remove(Points& points, Polygons& polygons)
   {
     const std::size_t before = polygons.size();
+    std::vector<std::size_t> p;
     polygons.erase(std::remove_if(polygons.begin(), polygons.end(),
-                                  [](std::vector<std::size_t> p) {
+                                  [&p](const std::vector<std::size_t>& polygon) {
+                                    p.assign(polygon.begin(), polygon.end());
                                     std::sort(p.begin(), p.end());
                                     return std::adjacent_find(p.begin(), p.end()) != p.end();
                                   }),
@@ -226,6 +231,7 @@ inline void take_faces(const std::string& path, const Read_surface_options& opti
 {
   check_indices(path, soup);
   check_coordinates(path, soup);
+  points.reserve(soup.points.size());
   for(const Vec3& p : soup.points)
     points.emplace_back(p[0], p[1], p[2]);
   soup.points = {};
@@ -237,8 +243,15 @@ inline void take_faces(const std::string& path, const Read_surface_options& opti
   Superfluous superfluous;
   if(!soup.repeats_points)
     superfluous.remove(points, polygons); // edges of a face that is there twice look closed
-  if(count_edges(polygons).open != 0) {
-    const std::size_t merged = merge_border_points(points, polygons);
+  if(soup.repeats_points || count_edges(polygons).open != 0) {
+    std::size_t merged = 0;
+    if(soup.repeats_points) { // all edges are open
+      std::vector<std::size_t> all(points.size());
+      std::iota(all.begin(), all.end(), std::size_t(0));
+      merged = merge_equal_points(all, points, polygons);
+    } else {
+      merged = merge_border_points(points, polygons);
+    }
     if(merged != 0 && !soup.repeats_points)
       input.warnings.push_back("merged " + counted(merged, "duplicate point", "duplicate points"));
     if(merged != 0)
