@@ -134,8 +134,8 @@ of a piece is at most the largest distance of its vertices to any one triangle, 
 its vertices are good candidates. The piece with the largest bound is halved, until no bound exceeds the
 distance of the farthest vertex by more than `maximal_error`.
 
-A point of a piece is at most its longest edge by the square root of 3 from a vertex, and the distance grows
-by at most as much: where triangles of the target are smaller than the piece, this bound is the smaller one.
+A point of a piece is from some vertex at most as far as the longest edge divided by the square root of 3, and
+the distance grows by at most as much: where triangles of the target are smaller, this bound is the smaller one.
 */
 class Farthest_point_search
 {
