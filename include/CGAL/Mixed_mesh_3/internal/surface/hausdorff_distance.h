@@ -135,7 +135,7 @@ its vertices are good candidates. The piece with the largest bound is halved, un
 distance of the farthest vertex by more than `maximal_error`.
 
 A point of a piece is from some vertex at most as far as the longest edge divided by the square root of 3, and
-the distance grows by at most as much: where triangles of the target are smaller, this bound is the smaller one.
+the distance grows by at most as much: where triangles of the target are smaller, so is this bound.
 */
 class Farthest_point_search
 {
