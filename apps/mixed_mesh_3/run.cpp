@@ -136,7 +136,6 @@ Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3
   outcome.result = CGAL::make_mixed_mesh_3<CGAL::Parallel_if_available_tag>(domain, regions, criteria, mesh,
                                                                             CGAL::parameters::visitor(
                                                                               std::ref(observer)));
-  outcome.nodes = number_of_nodes(mesh, o.order);
   return mesh;
 }
 
@@ -153,6 +152,7 @@ Mesh make_mesh_of_nodes(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_
   for(;;) {
     Outcome with_trial = before;
     Mesh trial = make_mesh(domain, regions, o, log, with_trial);
+    with_trial.nodes = number_of_nodes(trial, o.order);
     const CGAL::Mixed_mesh_result_3& result = with_trial.result;
     const bool is_stopped = result.status == CGAL::Mixed_mesh_status::STOPPED;
     made.push_back({trial.number_of_vertices(), with_trial.nodes});

@@ -104,14 +104,14 @@ void add_warnings(const Options& o, Outcome& outcome)
   const bool is_not_filled = outcome.result.status == CGAL::Mixed_mesh_status::BUDGET_NOT_FILLED;
   if((double(used) < CGAL::Mixed_mesh_criteria_3::full_share * double(budget)
       && !outcome.result.is_lattice_on_surface)
-     || is_not_filled)
+     || is_not_filled) {
+    std::string reason = o.regions.empty() ? "the mesh" : "the region";
+    reason += " cannot be refined further, or each further cell tried would exceed the budget";
+    if(has_nodes && !is_not_filled)
+      reason = "the other meshes tried have fewer, or too many";
     warnings.push_back("only " + std::to_string(used) + " of " + std::to_string(budget)
-                       + (has_nodes ? " nodes" : " vertices") + " used: "
-                       + (has_nodes && !is_not_filled
-                            ? "the other meshes tried have fewer, or too many"
-                            : (o.regions.empty() ? "the mesh" : "the region")
-                                + std::string(" cannot be refined further, or each further cell tried would "
-                                              "exceed the budget")));
+                       + (has_nodes ? " nodes" : " vertices") + " used: " + reason);
+  }
   if(outcome.result.number_of_lost_cells != 0)
     warnings.push_back(sentence_on_lost_parts(outcome.result, names_of(o))
                        + (outcome.surface.components > 1 ? ", or --drop-below, if they are specks" : ""));

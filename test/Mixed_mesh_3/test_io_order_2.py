@@ -32,6 +32,7 @@ try:
 except ImportError as error:
     print("skipped:", error)
     sys.exit(77)
+from element_faces import ELEMENT_FACES  # in the folder of checks, which the readers have added
 
 # The edges of the nodes behind the corners, by kind. First: VTK (headers of vtkQuadraticTetra, Pyramid, Wedge and
 # Hexahedron), Abaqus ("Three-dimensional solid element library"), FEBio (FESolidElementShape.cpp) and meshio.
@@ -44,10 +45,7 @@ GMSH_EDGES = [[(0, 1), (1, 2), (0, 2), (0, 3), (2, 3), (1, 3)],
               [(0, 1), (0, 3), (0, 4), (1, 2), (1, 4), (2, 3), (2, 4), (3, 4)],
               [(0, 1), (0, 2), (0, 3), (1, 2), (1, 4), (2, 5), (3, 4), (3, 5), (4, 5)],
               [(0, 1), (0, 3), (0, 4), (1, 2), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 7), (5, 6), (6, 7)]]
-FACES = [[(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)],
-         [(0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)],
-         [(0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)],
-         [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]]
+FACES = list(ELEMENT_FACES.values())
 SIZES = [4, 5, 6, 8]
 CORNERS = [[(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
            [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0), (0, 0, 1)],

@@ -31,10 +31,9 @@ if shutil.which("ccx") is None:
     print("skipped: there is no ccx")
     sys.exit(77)
 
-SIDES = {"hexahedron": [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)],
-         "wedge": [(0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)],
-         "pyramid": [(0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)],
-         "tetra": [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)]}
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "common"))
+from element_faces import ELEMENT_FACES  # noqa: E402
+
 # The unit cube is the domain.
 PLACES = {"Top": ("plane:0.5,0.5,1,0,0,2", lambda c: c[2] > 1 - 1e-6),
           "base": ("box:0,0,0,1,1,0", lambda c: c[2] < 1e-6),
@@ -44,8 +43,8 @@ PLACES = {"Top": ("plane:0.5,0.5,1,0,0,2", lambda c: c[2] > 1 - 1e-6),
 
 def boundary_of(mesh):
     """Faces that one element has, by their vertices."""
-    faces = [tuple(int(v) for v in element[list(side)]) for block in mesh.cells if block.type in SIDES
-             for element in block.data for side in SIDES[block.type]]
+    faces = [tuple(int(v) for v in element[list(side)]) for block in mesh.cells if block.type in ELEMENT_FACES
+             for element in block.data for side in ELEMENT_FACES[block.type]]
     numbers = Counter(frozenset(f) for f in faces)
     return [f for f in faces if numbers[frozenset(f)] == 1]
 
@@ -153,7 +152,7 @@ class Patches(Case):
             mesh = meshio.read(WORK / "two.msh", file_format="gmsh")
             volumes = {name: int(tag) for name, (tag, dimension) in mesh.field_data.items() if dimension == 3}
             self.assertEqual(volumes, {"good": 1, "tumor": 2})
-            kinds = [i for i, block in enumerate(mesh.cells) if block.type in SIDES]
+            kinds = [i for i, block in enumerate(mesh.cells) if block.type in ELEMENT_FACES]
             group, entity = ([np.asarray(mesh.cell_data[f"gmsh:{name}"][i]) for i in kinds]
                              for name in ("physical", "geometrical"))
             data = self.vtu(WORK / "two.vtu")

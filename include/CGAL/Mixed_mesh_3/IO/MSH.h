@@ -73,7 +73,7 @@ class MSH_model
 
   // The first of several numbers that no subdomain has: programs such as GetDP do not distinguish surfaces
   // and volumes by number.
-  static int first_free_tag(const Element_blocks& blocks, std::size_t count)
+  static int first_of_free_tags(const Element_blocks& blocks, std::size_t count)
   {
     std::int64_t first = boundary_tag;
     for(Subdomain_index s : blocks.subdomains())
@@ -121,7 +121,7 @@ public:
   MSH_model(const Mesh& mesh, const Mesh_nodes<Mesh>& nodes, const std::vector<Facet_set>& facet_sets,
             bool has_one_number, const Subdomain_names& subdomain_names)
     : m_vertex_entity(nodes.size(), no_entity), m_blocks(mesh),
-      m_boundary_tag(first_free_tag(m_blocks, 1 + facet_sets.size())),
+      m_boundary_tag(first_of_free_tags(m_blocks, 1 + facet_sets.size())),
       m_patches(mesh, facet_sets, m_boundary_tag, m_boundary_tag + 1)
   {
     const std::vector<Face_patch>& patches = m_patches.patches();

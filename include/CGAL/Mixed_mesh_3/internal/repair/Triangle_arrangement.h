@@ -15,6 +15,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/box_pairs.h>
 #include <CGAL/Mixed_mesh_3/internal/base/compatibility.h>
+#include <CGAL/Mixed_mesh_3/internal/base/is_crossing.h>
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_plus_2.h>
@@ -141,7 +142,9 @@ private:
                          t);
     std::vector<Pair> pairs;
     for_each_pair_of_boxes(boxes, [&](const Numbered_box& a, const Numbered_box& b) {
-      if(!do_meet(triangles[a.info()], triangles[b.info()], points))
+      const Triangle &s = triangles[a.info()], &t = triangles[b.info()];
+      if(std::is_permutation(s.begin(), s.end(), t.begin()) // equal triangles are one facet
+         || !is_crossing(s, t, points))
         return;
       pairs.push_back(std::minmax(a.info(), b.info()));
       if(pairs.size() > most)
@@ -149,34 +152,6 @@ private:
     });
     std::sort(pairs.begin(), pairs.end());
     return pairs;
-  }
-
-  // Whether triangles meet in more than the vertices and edges that both have.
-  static bool do_meet(const Triangle& s, const Triangle& t, const std::vector<Input_point>& points)
-  {
-    const auto turned = [](Triangle a, const Triangle& b) { // shared vertices come first
-      std::stable_partition(a.begin(), a.end(),
-                            [&](std::size_t v) { return std::count(b.begin(), b.end(), v) > 0; });
-      return a;
-    };
-    const Triangle a = turned(s, t), b = turned(t, s);
-    const auto triangle = [&](const Triangle& v) {
-      return Predicates_kernel::Triangle_3(points[v[0]], points[v[1]], points[v[2]]);
-    };
-    const auto opposite = [&](const Triangle& v) {
-      return Predicates_kernel::Segment_3(points[v[1]], points[v[2]]);
-    };
-    switch(
-      std::count_if(s.begin(), s.end(), [&](std::size_t v) { return std::count(t.begin(), t.end(), v); })) {
-    case 0: return CGAL::do_intersect(triangle(s), triangle(t));
-    case 1:
-      return CGAL::do_intersect(opposite(a), triangle(t)) || CGAL::do_intersect(opposite(b), triangle(s));
-    case 2: // folded flat
-      return CGAL::coplanar(points[a[0]], points[a[1]], points[a[2]], points[b[2]])
-             && CGAL::coplanar_orientation(points[a[0]], points[a[1]], points[a[2]], points[b[2]])
-                  == POSITIVE;
-    default: return false; // equal triangles are one facet
-    }
   }
 
   std::size_t index_of(const Point& p)

@@ -17,12 +17,12 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Shared_mark.h>
 #include <CGAL/Mixed_mesh_3/internal/base/box_pairs.h>
+#include <CGAL/Mixed_mesh_3/internal/base/is_crossing.h>
 #include <CGAL/Mixed_mesh_3/internal/base/parallel_for.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/enum.h>
-#include <CGAL/intersections.h>
 
 #include <algorithm>
 #include <array>
@@ -33,47 +33,6 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
-
-/// Whether two triangles meet in more than the vertices and edges they share.
-inline bool is_crossing(const std::array<Vertex_index, 3>& s, const std::array<Vertex_index, 3>& t,
-                        const std::vector<Predicates_kernel::Point_3>& points)
-{
-  using Kernel = Predicates_kernel;
-  const auto triangle = [&](const std::array<Vertex_index, 3>& v) {
-    return Kernel::Triangle_3(points[v[0]], points[v[1]], points[v[2]]);
-  };
-  // The vertices are turned such that the shared ones come first.
-  std::size_t shared = 0;
-  const auto turned = [&shared](const std::array<Vertex_index, 3>& v,
-                                const std::array<Vertex_index, 3>& other) {
-    std::array<Vertex_index, 3> result{};
-    std::size_t n = 0;
-    const auto append = [&](bool is_shared) {
-      for(Vertex_index u : v)
-        if((std::find(other.begin(), other.end(), u) != other.end()) == is_shared)
-          result[n++] = u;
-    };
-    append(true);
-    shared = n;
-    append(false);
-    return result;
-  };
-  const std::array<Vertex_index, 3> a = turned(s, t), b = turned(t, s);
-  // Few of the edges opposite to a shared vertex have a box that meets the box of the other triangle.
-  const auto meets = [&](const std::array<Vertex_index, 3>& v, const std::array<Vertex_index, 3>& other) {
-    const Kernel::Segment_3 opposite(points[v[1]], points[v[2]]);
-    const Kernel::Triangle_3 whole = triangle(other);
-    return CGAL::do_overlap(opposite.bbox(), whole.bbox()) && CGAL::do_intersect(opposite, whole);
-  };
-  switch(shared) {
-  case 0: return CGAL::do_intersect(triangle(s), triangle(t));
-  case 1: return meets(a, t) || meets(b, s);
-  case 2: // folded flat
-    return CGAL::coplanar(points[a[0]], points[a[1]], points[a[2]], points[b[2]])
-           && CGAL::coplanar_orientation(points[a[0]], points[a[1]], points[a[2]], points[b[2]]) == POSITIVE;
-  default: return true;
-  }
-}
 
 /// Boxes by slabs of about equal numbers of boxes, orthogonal to an axis; a box is in each slab it meets, so
 /// that boxes that meet are in a common slab.

@@ -74,8 +74,9 @@ private:
   }
 };
 
-/// The number of the boundary in formats with numbers for parts: 1 and 2 are region and rest of subdomain 1,
-/// 3 is the boundary; further parts follow as they occur, from 4.
+/// The number of the boundary. In formats with numbers for parts, 1 and 2 are region and rest of subdomain 1,
+/// and further parts follow as they occur, from 4; in Gmsh's, where numbers are those of subdomains, the
+/// boundary has a later number if one has this.
 constexpr int boundary_tag = 3;
 
 /// The number of the elementary entity of a part in Gmsh's formats: that of the subdomain for the rest, and

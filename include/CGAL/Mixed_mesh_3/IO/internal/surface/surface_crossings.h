@@ -16,6 +16,7 @@
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/polygon_soup.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/box_pairs.h>
+#include <CGAL/Mixed_mesh_3/internal/base/is_crossing.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
@@ -200,58 +201,32 @@ inline bool is_flat_fan(Surface::Vertex_index v, const Surface& mesh)
   return number_of_passes == 2;
 }
 
-// Whether two faces that share that many vertices meet in more; the shared ones come first in both.
-inline bool do_meet_beyond(const std::array<Surface::Point, 3>& p, const std::array<Surface::Point, 3>& q,
-                           std::size_t number_of_shared)
-{
-  using Segment = Predicates_kernel::Segment_3;
-  using Triangle = Predicates_kernel::Triangle_3;
-  const auto do_intersect = Predicates_kernel().do_intersect_3_object();
-  switch(number_of_shared) {
-  case 0: return do_intersect(Triangle(p[0], p[1], p[2]), Triangle(q[0], q[1], q[2]));
-  case 1:
-    return do_intersect(Triangle(p[0], p[1], p[2]), Segment(q[1], q[2]))
-           || do_intersect(Triangle(q[0], q[1], q[2]), Segment(p[1], p[2]));
-  case 2:
-    return CGAL::coplanar(p[0], p[1], p[2], q[2])
-           && CGAL::coplanar_orientation(p[0], p[1], p[2], q[2]) == CGAL::POSITIVE;
-  default: return true;
-  }
-}
-
-// Whether any two faces meet in more than what they share, or a face may be degenerate. Of the pairs whose
+// Whether any two faces, of which none is degenerate, meet in more than what they share. Of the pairs whose
 // boxes overlap, most share a vertex with a flat fan.
 inline bool cuts_or_touches_itself(const Surface& mesh)
 {
+  using namespace Mixed_meshes_3::internal;
   std::vector<std::uint8_t> is_flat(mesh.num_vertices(), 0);
   for(const auto v : vertices(mesh))
     is_flat[v] = is_flat_fan(v, mesh);
-  std::vector<Mixed_meshes_3::internal::Numbered_box> boxes;
+  std::vector<Numbered_box> boxes;
   boxes.reserve(mesh.number_of_faces());
   for(const auto f : faces(mesh)) {
     const Triangle_view t(f, mesh);
     boxes.emplace_back(t.points[0].bbox() + t.points[1].bbox() + t.points[2].bbox(), std::size_t(f));
   }
+  const auto vertices_of = [&mesh](std::size_t face) {
+    return Triangle_view(Surface::Face_index(std::uint32_t(face)), mesh).vertices;
+  };
   bool is_found = false;
-  Mixed_meshes_3::internal::for_each_pair_of_boxes(boxes, [&](const auto& b, const auto& c) {
+  for_each_pair_of_boxes(boxes, [&](const auto& b, const auto& c) {
     if(is_found)
       return;
-    Triangle_view s(Surface::Face_index(std::uint32_t(b.info())), mesh),
-      t(Surface::Face_index(std::uint32_t(c.info())), mesh);
-    std::size_t shared = 0;
-    for(std::size_t i = 0; i < 3; ++i)
-      for(std::size_t j = shared; j < 3; ++j)
-        if(s.vertices[i] == t.vertices[j]) {
-          if(is_flat[s.vertices[i]])
-            return;
-          std::swap(s.vertices[i], s.vertices[shared]);
-          std::swap(s.points[i], s.points[shared]);
-          std::swap(t.vertices[j], t.vertices[shared]);
-          std::swap(t.points[j], t.points[shared]);
-          ++shared;
-          break;
-        }
-    is_found = do_meet_beyond(s.points, t.points, shared);
+    const auto s = vertices_of(std::size_t(b.info())), t = vertices_of(std::size_t(c.info()));
+    const bool shares_flat_fan = std::any_of(s.begin(), s.end(), [&](Surface::Vertex_index v) {
+      return is_flat[v] != 0 && std::find(t.begin(), t.end(), v) != t.end();
+    });
+    is_found = !shares_flat_fan && is_crossing(s, t, mesh.points());
   });
   return is_found;
 }

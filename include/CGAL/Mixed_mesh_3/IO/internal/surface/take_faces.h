@@ -105,8 +105,8 @@ inline std::size_t remove_repeated(Polygons& polygons)
   std::vector<std::array<std::size_t, 4>> keys;
   keys.reserve(polygons.size());
   for(std::size_t f = 0; f < polygons.size(); ++f) {
-    normalized(polygons[f]);
-    keys.push_back({p[0], p[1], p[2], f});
+    const std::vector<std::size_t>& first = normalized(polygons[f]);
+    keys.push_back({first[0], first[1], first[2], f});
   }
   std::sort(keys.begin(), keys.end());
   std::size_t number = 0;
@@ -244,14 +244,12 @@ inline void take_faces(const std::string& path, const Read_surface_options& opti
   if(!soup.repeats_points)
     superfluous.remove(points, polygons); // edges of a face that is there twice look closed
   if(soup.repeats_points || count_edges(polygons).open != 0) {
-    std::size_t merged = 0;
-    if(soup.repeats_points) { // all edges are open
-      std::vector<std::size_t> all(points.size());
-      std::iota(all.begin(), all.end(), std::size_t(0));
-      merged = merge_equal_points(all, points, polygons);
-    } else {
-      merged = merge_border_points(points, polygons);
-    }
+    std::vector<std::size_t> open(points.size()); // points of open edges: all, if each face has its own
+    if(soup.repeats_points)
+      std::iota(open.begin(), open.end(), std::size_t(0));
+    else
+      open = border_points(polygons, points.size());
+    const std::size_t merged = merge_equal_points(open, points, polygons);
     if(merged != 0 && !soup.repeats_points)
       input.warnings.push_back("merged " + counted(merged, "duplicate point", "duplicate points"));
     if(merged != 0)

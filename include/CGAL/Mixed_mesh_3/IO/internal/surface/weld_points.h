@@ -74,11 +74,11 @@ inline std::size_t merge_equal_points(const std::vector<std::size_t>& some, Poin
                                       Polygons& polygons)
 {
   // Points with their first coordinate, by which most differ.
-  std::vector<std::pair<double, std::uint32_t>> border;
-  border.reserve(some.size());
+  std::vector<std::pair<double, std::uint32_t>> sorted;
+  sorted.reserve(some.size());
   for(std::size_t v : some)
-    border.emplace_back(points[v].x(), std::uint32_t(v));
-  std::sort(border.begin(), border.end(), [&points](const auto& a, const auto& b) {
+    sorted.emplace_back(points[v].x(), std::uint32_t(v));
+  std::sort(sorted.begin(), sorted.end(), [&points](const auto& a, const auto& b) {
     if(a.first != b.first)
       return a.first < b.first;
     const auto &p = points[a.second], &q = points[b.second];
@@ -86,16 +86,10 @@ inline std::size_t merge_equal_points(const std::vector<std::size_t>& some, Poin
   });
   std::vector<std::size_t> first(points.size());
   std::iota(first.begin(), first.end(), std::size_t(0));
-  for(std::size_t i = 1; i < border.size(); ++i)
-    if(border[i].first == border[i - 1].first && points[border[i].second] == points[border[i - 1].second])
-      first[border[i].second] = first[border[i - 1].second];
+  for(std::size_t i = 1; i < sorted.size(); ++i)
+    if(points[sorted[i].second] == points[sorted[i - 1].second])
+      first[sorted[i].second] = first[sorted[i - 1].second];
   return merge_points(std::move(first), points, polygons);
-}
-
-// Merges border points at the same place; returns the number of removed points.
-inline std::size_t merge_border_points(Points& points, Polygons& polygons)
-{
-  return merge_equal_points(border_points(polygons, points.size()), points, polygons);
 }
 
 // Calls `use(a, b)` for pairs of points at most that far apart, by a grid of cells of that width.
