@@ -86,9 +86,9 @@ public:
   bool flips() const { return m_flips; }
 
   /// Sets the number of edges of the boundary that may be bisected, each for one more vertex on the surface.
-  /// With n vertices at the start, up to 0.7 n^(2/3) of them are edges of elements in the region of interest
-  /// (`Element_attributes`), the longest first; the other edges are where boundary and surface enclose most
-  /// volume. No new tetrahedron costs more than 3.2, or than the quality bound. Default: 0.
+  /// Nearly half of them are edges of elements in the region of interest (`Element_attributes`), the longest
+  /// first; the other edges are where boundary and surface are far from each other. No new tetrahedron costs
+  /// more than 3.2, or than the quality bound. Default: 0.
   Mixed_mesh_optimization_criteria_3& number_of_bisections(std::size_t number)
   {
     m_number_of_bisections = number;

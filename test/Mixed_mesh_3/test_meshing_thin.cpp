@@ -214,6 +214,46 @@ void test_cavities()
   BOOST_TEST((Shell_counts{2, 4, 1}) != (Shell_counts{2, 4, 0}));
 }
 
+// With the weights, a few small shells get vertices enough by the rule that is stated there; where there are
+// too few for all, the largest shells do.
+void test_weights_of_shells()
+{
+  using CGAL::Mixed_meshes_3::internal::weights_of_shells;
+  const std::vector<double> ones(3, 1);
+  BOOST_TEST(weights_of_shells({1}, 2000) == std::vector<double>{1});
+  BOOST_TEST(weights_of_shells({0.9, 1, 1.1}, 2000) == ones);  // each has its share
+  BOOST_TEST(weights_of_shells({0.1, 1, 0.001}, 300) == ones); // no vertices are left
+  const std::vector<double> few = weights_of_shells({0.1, 1, 0.001}, 2000);
+  BOOST_TEST_GT(few[0], 1);
+  BOOST_TEST_EQ(few[1], 1);
+  BOOST_TEST_EQ(few[2], 1); // a speck
+  const double share = std::sqrt(few[0]) * std::pow(0.1, 1.5);
+  BOOST_TEST_GT(1000 * share / (share + 1), 120);
+  const std::vector<double> many = weights_of_shells(std::vector<double>(100, 0.1), 2000);
+  BOOST_TEST_EQ(std::count(many.begin(), many.end(), 1), 95); // the largest, and those that none are left for
+}
+
+// Small shells whose volume is not right where cells and vertices are as large as beside them.
+void test_small_shells()
+{
+  const auto check = [](const char* name, const Surface& surface) {
+    Mesh mesh;
+    const auto result = make_mixed_mesh_3(surface, 2000, mesh);
+    std::cout << name << ":";
+    for(std::size_t i = 0; i < result.shells->volumes.size(); ++i)
+      std::cout << ' ' << result.shells->volumes[i] / result.shells_of_domain->volumes[i];
+    std::cout << " of the volumes" << std::endl;
+    BOOST_TEST(result.status == Status::SUCCESS);
+  };
+  Surface hollow = sphere(Point_3(0, 0, 0), 1, 24), cavity = sphere(Point_3(0.31, 0.2, 0.1), 0.12, 12);
+  CGAL::Polygon_mesh_processing::reverse_face_orientations(cavity);
+  hollow += cavity;
+  check("small cavity", hollow);
+  Surface beside = sphere(Point_3(0, 0, 0), 1, 24);
+  beside += sphere(Point_3(1.3, 0.2, 0.1), 0.06, 10);
+  check("small body", beside);
+}
+
 // Plates, and gaps between boxes, in a lattice of cells of one size: cut along the surface, they are there,
 // though they are thinner than the cells; and whatever their thickness, the elements are valid, and their
 // boundary is a manifold that does not cut itself.
@@ -253,6 +293,8 @@ int run(int, char*[])
 {
   test_cuts();
   test_shell_counts();
+  test_weights_of_shells();
+  test_small_shells();
   test_cavities();
   test_flatter_elements();
   Surface balls = sphere(Point_3(-0.55, 0.07, 0.03), 0.5, 24);

@@ -171,6 +171,14 @@ struct Fitting_state
     moves.add_vertices();
   }
 
+  /// Sends a boundary vertex to its target on the surface.
+  void set_underway(Vertex_index v, const Vec3& target)
+  {
+    moves.fix(v);
+    is_arrived[v] = 0;
+    underway.emplace_back(v, target);
+  }
+
   /// Moves the boundary vertices that are underway.
   void advance(double acceptable)
   {

@@ -20,6 +20,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <queue>
+#include <set>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -28,9 +29,18 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
+/// An edge that was bisected.
+struct Boundary_bisection
+{
+  std::pair<Vertex_index, Vertex_index> edge;
+  bool is_underway; ///< the middle
+  Vec3 target;      ///< of the middle, on the surface
+};
+
 /*!
 Bisects edges of a triangulated boundary, the edges with the largest gain first, and puts their middles on the
-surface.
+surface. A middle that may not be there yet, as some element would be inverted or too bad, stays on its edge,
+underway to the surface. Those are the edges that matter most: the farther the surface, the more often.
 
 \tparam Gain `double(a, b, apexes, stratum)`: the gain of bisecting the edge ab, between triangles of the
 stratum with these apexes; 0: no gain
@@ -60,13 +70,15 @@ class Boundary_bisector
   const double m_worst;
   std::unordered_map<Edge, Triangles, Hash> m_triangles; // triangles at each edge
   std::priority_queue<std::pair<double, Edge>> m_queue;  // edges by gain
+  std::set<Vertex_index> m_underway;                     // whose edges are not bisected
 
   static Edge edge(Vertex_index a, Vertex_index b) { return std::minmax(a, b); }
 
   void push(Vertex_index a, Vertex_index b)
   {
     const Triangles& triangles = m_triangles.at(edge(a, b));
-    const double gain = triangles.are_alone && triangles.apexes[1] != no_vertex
+    const double gain = triangles.are_alone && triangles.apexes[1] != no_vertex && m_underway.count(a) == 0
+                            && m_underway.count(b) == 0
                           ? m_gain(a, b, triangles.apexes, triangles.stratum)
                           : 0;
     if(gain > 0)
@@ -121,21 +133,25 @@ public:
   }
 
   /// \return the edges that were bisected, at most `number`; their middles are the last vertices
-  std::vector<Edge> operator()(std::size_t number)
+  std::vector<Boundary_bisection> operator()(std::size_t number)
   {
-    std::vector<Edge> bisected;
+    std::vector<Boundary_bisection> bisected;
     while(bisected.size() < number && !m_queue.empty()) {
       const auto [a, b] = m_queue.top().second;
       m_queue.pop();
       const Vec3 middle = 0.5 * (m_mesh.points[a] + m_mesh.points[b]);
       const Stratum stratum = m_mesh.is_sharp(a, b) ? m_mesh.sharp_stratum(a, b)
                                                     : m_triangles.at({a, b}).stratum;
-      const Vec3 p = m_mesh.strata[a] == stratum ? m_project(middle, m_mesh.points[a], stratum)
-                                                 : m_project(middle, stratum);
-      if(bisect_edge(m_mesh, m_quality, a, b, p, stratum, m_worst)) {
-        update(a, b, Vertex_index(m_mesh.points.size() - 1));
-        bisected.emplace_back(a, b);
-      }
+      const Vec3 target = m_mesh.strata[a] == stratum ? m_project(middle, m_mesh.points[a], stratum)
+                                                      : m_project(middle, stratum);
+      const bool arrives = bisect_edge(m_mesh, m_quality, a, b, target, stratum, m_worst);
+      if(!arrives && !bisect_edge(m_mesh, m_quality, a, b, middle, stratum, m_worst))
+        continue;
+      const Vertex_index v = Vertex_index(m_mesh.points.size() - 1);
+      if(!arrives)
+        m_underway.insert(v);
+      update(a, b, v);
+      bisected.push_back({{a, b}, !arrives, target});
     }
     return bisected;
   }

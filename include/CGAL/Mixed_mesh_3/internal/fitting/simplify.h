@@ -15,6 +15,7 @@
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/shell_counts.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Followed_features.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Mesh_simplifier.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
@@ -56,16 +57,30 @@ std::vector<Vertex_defect> vertex_defects(const Working_mesh& mesh, const std::v
   return defects;
 }
 
-/// The weights of the volume at faces: that which a small subdomain loses or gains is a larger share of its
-/// own. The thickness of a subdomain is its mean chord.
-inline std::vector<double> weights_of_faces(const Interface_faces& faces, const Strata& strata,
-                                            const Any_surface& surface)
+/// The weights of the volume at faces: that which a small subdomain, or a small shell, loses or gains is a
+/// larger share of its own. The thickness of a subdomain is its mean chord.
+/// \param number_of_vertices in the end
+inline std::vector<double> weights_of_faces(const Core_mesh& mesh, const Interface_faces& faces,
+                                            const Strata& strata, const Any_surface& surface,
+                                            std::size_t number_of_vertices)
 {
+  std::vector<double> weights;
+  if(surface.subdomain_indices().size() == 1) {
+    std::vector<Face_vertices> polygons;
+    for(const Face& face : faces.faces)
+      polygons.push_back(face.vertices());
+    const Shells_of_vertices shells = find_shells(polygons, mesh.number_of_vertices());
+    const auto point = [&](std::size_t v) { return to_vec3(mesh.points()[v]); };
+    const std::vector<double> of_shells = weights_of_shells(mean_chords_of_shells(shells, polygons, point),
+                                                            double(number_of_vertices));
+    for(const Face_vertices& polygon : polygons)
+      weights.push_back(of_shells[shells.shell_of[*polygon.begin()]]);
+    return weights;
+  }
   std::map<Subdomain_index, double> chords;
   double largest = 0;
   for(Subdomain_index index : surface.subdomain_indices())
     largest = (std::max)(largest, chords[index] = surface.mean_chord_length(index));
-  std::vector<double> weights;
   for(Stratum of_face : faces.strata) {
     const double chord = chords[strata.interfaces(of_face).front().first];
     weights.push_back(chord > 0 ? largest * largest / (chord * chord) : 1);
@@ -110,7 +125,7 @@ inline bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_sur
   std::vector<std::uint8_t> is_on_boundary;
   for(Stratum of_face : faces.strata)
     is_on_boundary.push_back(strata.is_on_boundary(of_face));
-  const std::vector<double> weights = weights_of_faces(faces, strata, surface);
+  const std::vector<double> weights = weights_of_faces(mesh, faces, strata, surface, number_of_vertices);
   Mesh_simplifier<Aspect_ratio_quality_3> simplifier(working, quality, faces.faces, is_on_boundary, weights,
                                                      places, defects, followed.features,
                                                      std::size_t(share * double(faces.faces.size())));

@@ -15,6 +15,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/boundary/lost_cells.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/Interface_curves.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/shell_counts.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/cut_by_interfaces.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/fill_budget.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/layer_cells.h>
@@ -47,6 +48,11 @@ inline std::size_t number_of_fine_vertices(std::size_t budget)
   return budget + std::size_t((std::min)((multiple - 1) * double(budget), most_removed));
 }
 
+/// The width of places at small subdomains and shells, in mean chords, which are 4/3 of the radius of a ball:
+/// edges of two thirds of it are as long as 0.27 of the radius, and the polyhedron lacks some hundredths of
+/// the volume.
+constexpr double width_of_chord = 0.3;
+
 /// How many times the budget cells may have that are split for narrow places and for the topology.
 constexpr std::size_t most_cells_for_narrow_places = 8, most_cells_for_topology = 16;
 
@@ -76,6 +82,51 @@ inline void resolve_sharp_edges(Meshing_state& s, double size)
   }
 }
 
+/// Splits cells at shells that these cells would not be round enough for, as far as the budget allows: at the
+/// boundary of the best mesh, as often as that of the finer one is denser.
+inline void resolve_small_shells(Meshing_state& s)
+{
+  const std::size_t budget = s.criteria.maximal_number_of_vertices();
+  while(s.best.number_of_vertices > 0 && s.best.is_manifold() && s.go_on()) {
+    s.make_best_again();
+    const Core_mesh mesh = assembled_mesh(s.octree, s.best);
+    const auto point = [&](std::size_t v) { return to_vec3(mesh.points()[v]); };
+    std::vector<Face_vertices> polygons;
+    for(const Face& face : boundary_faces(mesh))
+      polygons.push_back(face.vertices());
+    const Shells_of_vertices shells = find_shells(polygons, mesh.number_of_vertices());
+    if(shells.counts.number_of_shells < 2)
+      return;
+    const std::vector<double> chords = mean_chords_of_shells(shells, polygons, point),
+                              weights = weights_of_shells(chords, double(budget));
+    std::vector<Narrow_place> places;
+    const auto add = [&](const Vec3& p, double chord) {
+      const Any_domain::Point_3 q = s.root.domain().closest_point({p[0], p[1], p[2]});
+      places.push_back({to_vec3(q), width_of_chord * chord});
+    };
+    for(const Face_vertices& polygon : polygons) {
+      const std::size_t shell = shells.shell_of[*polygon.begin()];
+      if(weights[shell] == 1)
+        continue;
+      Vec3 sum{};
+      for(Vertex_index v : polygon) {
+        add(point(v), chords[shell]);
+        sum = sum + point(v);
+      }
+      add((1. / polygon.size()) * sum, chords[shell]);
+    }
+    Located_octree trial = s.octree;
+    split_narrow_cells(trial, places, 0);
+    if(trial.number_of_cells() == s.octree.number_of_cells()
+       || trial.number_of_cells() > most_cells_for_narrow_places * budget)
+      return;
+    Candidate candidate = s.try_octree(trial);
+    if(candidate.is_stopped || !candidate.is_manifold())
+      return;
+    s.take(std::move(trial), std::move(candidate));
+  }
+}
+
 /// Refines the octree for the fine mesh: until it has its number of vertices, and sharp edges and topology
 /// are resolved.
 inline void fill_fine_octree(Meshing_state& s)
@@ -91,6 +142,7 @@ inline void fill_fine_octree(Meshing_state& s)
   s.number_beyond_budget = number - s.budget();
   fill_budget(s);
   s.number_beyond_budget = 0;
+  resolve_small_shells(s);
 }
 
 /// Makes the fine mesh of one subdomain, without a region, on the lattice: it follows sharp edges best.
@@ -172,12 +224,10 @@ inline void refine_in_region(Meshing_state& s, Located_octree& octree, double nu
 /// there are not too many cells.
 inline void split_cells_at_small_subdomains(Located_octree& octree, std::size_t most)
 {
-  // Width in mean chords, which are 4/3 of the radius of a ball: edges of two thirds of it are as long as
-  // 0.27 of the radius, and the polyhedron lacks some hundredths of the volume.
-  constexpr double share_of_chord = 0.3, samples = 2; // in a width
+  constexpr double samples = 2; // in a width
   const Any_domain& domain = octree.domain();
   for(Subdomain_index index : domain.subdomain_indices()) {
-    const double width = share_of_chord * domain.mean_chord_length(index);
+    const double width = width_of_chord * domain.mean_chord_length(index);
     std::vector<Narrow_place> places;
     for(const auto& p : domain.surface_samples(width / samples, index))
       places.push_back({to_vec3(p), width});
