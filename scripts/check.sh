@@ -231,7 +231,7 @@ fuzz() {
 
 check_fuzz() {
   local -a readers
-  read -ra readers <<< "${FUZZ_READERS:-VTU MSH MEDIT NETGEN NIFTI control_points landmarks surface}"
+  read -ra readers <<< "${FUZZ_READERS:-VTU MSH MEDIT NETGEN NIFTI MGH control_points landmarks surface}"
   [[ ! -w /dev/shm ]] || export TMPDIR=/dev/shm # inputs become files, which takes 20 times as long on a disk
   configure_clang
   build "$build/clang" "${readers[@]/#/fuzz_}"

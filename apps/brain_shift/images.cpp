@@ -16,10 +16,9 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 #include "core/resources.h"
 
 #include <CGAL/Mixed_mesh_image_3/IO/NIFTI.h>
+#include <CGAL/Mixed_mesh_image_3/IO/read_voxel_image.h>
 #include <CGAL/Mixed_mesh_image_3/IO/write_warped_image.h>
 #include <CGAL/Mixed_mesh_image_3/warp_image.h>
-
-#include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
 #include <array>
@@ -154,7 +153,7 @@ mm3::Voxel_image_3 warp_labels(const mm3::Voxel_image_3& labels, const mm3::Warp
 mm3::Voxel_image_3 read_labels(const Options& o, const mm3::Voxel_grid_3& grid)
 {
   mm3::Voxel_image_3 labels;
-  require([&](std::string* error) { return mm3::IO::read_NIFTI(o.labels, labels, error); });
+  require([&](std::string* error) { return mm3::IO::read_voxel_image(o.labels, labels, error); });
   if(!are_same(grid, labels.grid))
     throw std::runtime_error(o.labels + ": the label image does not have the voxels of " + o.image);
   constexpr float largest = 1 << 24; // floats distinguish integers up to there
@@ -167,11 +166,8 @@ mm3::Voxel_image_3 read_labels(const Options& o, const mm3::Voxel_grid_3& grid)
 
 mm3::Voxel_image_3 read_image(const Options& o, const Mesh& mesh, Outcome& outcome)
 {
-  if(boost::algorithm::ends_with(o.image, ".mgz") || boost::algorithm::ends_with(o.image, ".mgh"))
-    throw std::runtime_error(o.image + ": is an image of FreeSurfer; convert it: mri_convert " + o.image
-                             + " image.nii.gz");
   mm3::Voxel_image_3 image;
-  require([&](std::string* error) { return mm3::IO::read_NIFTI(o.image, image, error); });
+  require([&](std::string* error) { return mm3::IO::read_voxel_image(o.image, image, error); });
   const mm3::Voxel_grid_3& grid = image.grid;
   const std::size_t inside = number_of_vertices_inside(mesh, grid);
   if(inside == 0)

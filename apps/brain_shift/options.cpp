@@ -108,12 +108,14 @@ CLI::Option* add_inputs(CLI::App& app, Options& o)
     ->excludes(tumor)
     ->type_name("LABEL");
   add_surface_options(app, o.surface_options);
-  CLI::Option* image = app.add_option("--image", o.image, "Image before the shift: .nii or .nii.gz")
+  CLI::Option* image = app
+                         .add_option("--image", o.image,
+                                     "Image before the shift: .nii, .nii.gz, .mgh or .mgz")
                          ->type_name("IMAGE");
   app
-    .add_option(
-      "--labels", o.labels,
-      "Label image on the voxels of --image: is deformed with it, by the nearest voxel: .nii or .nii.gz")
+    .add_option("--labels", o.labels,
+                "Label image on the voxels of --image: is deformed with it, by the nearest voxel: .nii, "
+                ".nii.gz, .mgh or .mgz")
     ->needs(image)
     ->type_name("IMAGE");
   return image;

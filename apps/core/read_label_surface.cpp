@@ -21,7 +21,7 @@
 
 #if MIXED_MESH_3_HAS_NIFTI
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
-#include <CGAL/Mixed_mesh_image_3/IO/NIFTI.h>
+#include <CGAL/Mixed_mesh_image_3/IO/read_voxel_image.h>
 #include <CGAL/Mixed_mesh_image_3/complete_label.h>
 #include <CGAL/Mixed_mesh_image_3/label_extents.h>
 #include <CGAL/Mixed_mesh_image_3/make_label_surface.h>
@@ -59,7 +59,7 @@ namespace {
 mm3::Voxel_image_3 read(const std::string& path)
 {
   mm3::Voxel_image_3 image;
-  require([&](std::string* error) { return mm3::IO::read_NIFTI(path, image, error); });
+  require([&](std::string* error) { return mm3::IO::read_voxel_image(path, image, error); });
   return image;
 }
 

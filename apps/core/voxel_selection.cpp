@@ -8,7 +8,7 @@
 #include "core/messages.h"
 #include "core/resources.h"
 
-#include <boost/algorithm/string/predicate.hpp>
+#include <CGAL/Mixed_mesh_image_3/IO/internal/image_format_of.h>
 
 #include <algorithm>
 #include <charconv>
@@ -16,6 +16,8 @@
 #include <limits>
 #include <sstream>
 #include <system_error>
+
+namespace mm3 = CGAL::Mixed_meshes_3;
 
 namespace {
 
@@ -31,10 +33,7 @@ std::optional<double> label(const std::string& text)
 
 } // namespace
 
-bool is_image(const std::string& path)
-{
-  return boost::algorithm::ends_with(path, ".nii") || boost::algorithm::ends_with(path, ".nii.gz");
-}
+bool is_image(const std::string& path) { return mm3::IO::internal::image_format_of(path).has_value(); }
 
 bool Voxel_selection::operator()(float value) const
 {

@@ -234,8 +234,7 @@ void add_files(CLI::App& app, Options& o)
   app
     .add_option("SURFACE", o.surface,
                 "Closed surface of the domain: .off, .obj, .stl, .ply, .vtp, .vtk, .gii, or a binary surface "
-                "of FreeSurfer; "
-                "or an image of labels: .nii, .nii.gz")
+                "of FreeSurfer; or an image of labels: .nii, .nii.gz, .mgh, .mgz")
     ->required();
   add_surface_options(app, o.surface_options);
   add_components(app, o);
@@ -537,15 +536,14 @@ void check_options(Options& o)
     if(r.file.empty())
       r.file = o.surface;
   if(!has_image && (o.completion.closing_radius || o.completion.fill_holes || o.completion.is_hull))
-    throw CLI::ValidationError(o.surface, "--close, --fill-holes and --hull need an image: .nii or .nii.gz; "
-                                          "--wrap closes a surface");
+    throw CLI::ValidationError(o.surface,
+                               "--close, --fill-holes and --hull need an image: .nii, .nii.gz, .mgh or "
+                               ".mgz; --wrap closes a surface");
   if(!has_image
      && (!o.voxels.ranges.empty() || !o.labels.empty() || o.has_each_label
          || std::any_of(o.regions.begin(), o.regions.end(),
                         [](const Region_option& r) { return !r.voxels.ranges.empty(); })))
-    throw CLI::ValidationError(
-      o.surface, "labels and thresholds need an image: .nii or .nii.gz (from FreeSurfer's .mgz by "
-                 "mri_convert)");
+    throw CLI::ValidationError(o.surface, "labels and thresholds need an image: .nii, .nii.gz, .mgh or .mgz");
   check_subdomains(o);
   check_sheets(o);
   check_patches(o);

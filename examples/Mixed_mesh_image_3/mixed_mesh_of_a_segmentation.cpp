@@ -4,8 +4,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // From an image of labels to a mesh: the domain consists of all voxels with a label, and one label is the
-// region of interest. `IO::read_NIFTI()` reads images; this program makes an image of an ellipsoid with a
-// ball in it.
+// region of interest. `IO::read_voxel_image()` reads images; this program makes an image of an ellipsoid
+// with a ball in it.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>

@@ -7,7 +7,7 @@
 
 #include "arrays.h"
 
-#include <CGAL/Mixed_mesh_image_3/IO/NIFTI.h>
+#include <CGAL/Mixed_mesh_image_3/IO/read_voxel_image.h>
 #include <CGAL/Mixed_mesh_image_3/complete_label.h>
 #include <CGAL/Mixed_mesh_image_3/make_label_surface.h>
 #include <CGAL/Mixed_mesh_image_3/simplify_closed_surface.h>
@@ -158,7 +158,7 @@ py::tuple read_image(const std::string& path)
   bool is_read;
   {
     const py::gil_scoped_release release;
-    is_read = mm3::IO::read_NIFTI(path, image, &error);
+    is_read = mm3::IO::read_voxel_image(path, image, &error);
   }
   if(!is_read)
     throw std::invalid_argument(error);

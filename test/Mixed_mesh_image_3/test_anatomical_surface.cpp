@@ -78,7 +78,8 @@ void test_freesurfer()
   refuses("lh.cut", freesurfer().substr(0, 200), "is truncated");
   refuses("lh.comment", "\xff\xff\xfe no end", "does not end");
   refuses("lh.quads", "\xff\xff\xff and more", "mris_convert");
-  refuses("brain.mgz", "x", "mri_convert");
+  for(const char* image : {"brain.mgz", "brain.MGH", "brain.nii.gz"})
+    refuses(image, "x", "is an image; expected a surface, .off, .obj, .stl, .ply, .vtp, .vtk, .gii or");
   refuses("brain.xyz", "x", "unknown format; expected .off, .obj, .stl, .ply, .vtp, .vtk, .gii or");
 }
 

@@ -218,6 +218,24 @@ class Images(Case):
                 self.fails(*arguments, "--output-image", WORK / "no", "--labels", WORK / name, names=WORK / name,
                            words=words)
 
+    def test_images_of_freesurfer(self):
+        """T1.mgz and aseg.mgz are deformed as their conversions to NIfTI are."""
+        labels = (np.indices(self.values.shape).sum(0) // 20 % 5).astype(np.uint8)
+        results = []
+        for ending, kind in ((".mgz", nibabel.MGHImage), (".nii.gz", nibabel.Nifti1Image)):
+            nibabel.save(kind(self.values, self.affine), WORK / ("T1" + ending))
+            nibabel.save(kind(labels, self.affine), WORK / ("aseg" + ending))
+            told, _ = self.succeeds(self.mesh, "--control-points", self.points, "--image", WORK / ("T1" + ending),
+                                    "--labels", WORK / ("aseg" + ending), "--output-image", WORK / "warped")
+            self.assertEqual(told["inputs"]["image"]["voxels"], [61, 73, 61])
+            results.append([nibabel.load(WORK / f"warped{end}.nii.gz") for end in ("", "_mask", "_labels")])
+            results[-1] = [(image.affine, image.get_data_dtype(), np.array(image.dataobj)) for image in results[-1]]
+        for (affine, number_type, values), (other_affine, other_type, others) in zip(*results):
+            self.assertTrue(np.array_equal(affine, other_affine))
+            self.assertEqual(number_type, other_type)
+            self.assertTrue(np.array_equal(values, others))
+        self.assertFalse(np.array_equal(results[0][0][2], self.values))
+
     def test_image_beside_the_mesh(self):
         affine = self.affine.copy()
         affine[2, 3] += 60
@@ -238,10 +256,15 @@ class Images(Case):
         self.file("truncated.nii.gz", whole[:len(whole) // 2])
         self.file("text.nii", "no image")
         self.file("damaged.nii", gzip.decompress(whole)[:1000])
+        nibabel.save(nibabel.MGHImage(self.values, self.affine), WORK / "whole.mgz")
+        self.file("truncated.mgz", (WORK / "whole.mgz").read_bytes()[:10000])
+        self.file("text.mgz", "no image")
+        nibabel.save(nibabel.MGHImage(np.stack([self.values] * 2, 3), self.affine), WORK / "frames.mgz")
         for name, words in (("far.nii", "does not overlap the mesh " + str(self.mesh)),
                             ("nan.nii", "voxel (1, 2, 3) is not a finite number"), ("truncated.nii.gz", ""),
                             ("text.nii", ""), ("damaged.nii", ""), ("none.nii", ""), ("points.csv", "unknown format"),
-                            ("brain.mgz", "mri_convert")):
+                            ("none.mgz", "No such file"), ("truncated.mgz", "is truncated: 61 x 73 x 61 voxels"),
+                            ("text.mgz", "not an image of FreeSurfer"), ("frames.mgz", "expected three dimensions")):
             with self.subTest(name):
                 self.fails(self.mesh, "--control-points", self.points, "--image", WORK / name, "--output-image",
                            WORK / "no", names=WORK / name, words=words)

@@ -118,9 +118,10 @@ class Surfaces(Case):
         self.fails(WORK / "directory.off", "--vertices", 500, names="directory.off", words="directory")
 
     def test_files_of_freesurfer(self):
-        self.fails(self.file("aseg.mgz", "x"), "--vertices", 500, names="aseg.mgz", words="mri_convert")
-        self.fails(self.file("aseg.mgz", "x"), "--labels", "1", "--vertices", 500, names="aseg.mgz",
-                   words="mri_convert", status=2)
+        image = self.file("aseg.mgz", "x")
+        self.fails(image, "--vertices", 500, names="aseg.mgz", words="not an image of FreeSurfer")
+        self.fails(self.good, "--sheet", image, "--vertices", 500, names="aseg.mgz",
+                   words="is an image; expected a surface")
         self.fails(self.file("surface.xyz", "x"), "--vertices", 500, names="surface.xyz", words="convert it")
 
     def test_spike(self):

@@ -416,6 +416,10 @@ class Test(unittest.TestCase):
         found, found_affine = mm3.read_image(FOLDER / "image.nii.gz")
         np.testing.assert_array_equal(found, values)
         np.testing.assert_array_equal(found_affine, affine)
+        nibabel.save(nibabel.MGHImage(values, affine), str(FOLDER / "image.mgz"))
+        found, found_affine = mm3.read_image(FOLDER / "image.mgz")
+        np.testing.assert_array_equal(found, values)
+        np.testing.assert_allclose(found_affine, affine, atol=1e-6)
 
     def test_save(self):
         """Files are those of the program, of order 2, too; so is what it refuses."""

@@ -5,9 +5,11 @@
   test_segmentation.py MESHER WORK_DIRECTORY
 """
 
+import gzip
 import json
 import pathlib
 import shutil
+import struct
 import subprocess
 import sys
 import unittest
@@ -98,6 +100,7 @@ class Test_segmentation(unittest.TestCase):
         self.assertEqual(run.returncode, status, run.stderr)
         self.assertIn(words, run.stderr)
         self.assertFalse(self.output.exists())
+        return run
 
     def dice(self, is_label, to_world):
         is_in = is_in_mesh(self.output, centers(to_world)).reshape(SIZE)
@@ -149,6 +152,59 @@ class Test_segmentation(unittest.TestCase):
         second, _ = self.mesh(path, "--vertices", 800, "--region-labels", LESION)
         self.assertEqual(content, self.output.read_bytes())
         self.assertGreater(first["mesh"]["elements in region"], 50)
+
+    def test_images_of_freesurfer(self):
+        """An image of FreeSurfer and its conversion to NIfTI, by another program, have the same mesh."""
+        random = np.random.default_rng(11)
+        to_world = affine((4, 4.8, 6), rotation(*random.uniform(-1, 1, 2)), random.uniform(-50, 50, 3))
+        values = labels()[::2, ::2, ::2]
+        for number_type in (np.uint8, np.int16, np.int32, np.float32, np.uint16):
+            with self.subTest(number_type.__name__):
+                # nibabel does not write uint16, number 10 of the format: the bytes of small numbers are those of int16.
+                is_known = number_type != np.uint16
+                path = WORK / "aseg.mgz"
+                nibabel.save(nibabel.MGHImage(values.astype(number_type if is_known else np.int16), to_world), str(path))
+                source = nibabel.load(str(path))
+                self.assertTrue(np.allclose(source.affine, to_world, atol=1e-4))
+                if not is_known:
+                    whole = gzip.decompress(path.read_bytes())
+                    path.write_bytes(gzip.compress(whole[:20] + struct.pack(">i", 10) + whole[24:]))
+                converted = self.image("aseg.nii.gz", values.astype(number_type), source.affine)
+                contents = []
+                for image in (path, converted):
+                    told, run = self.mesh(image, "--labels", f"1-9,{LESION}", "--region", f"{image}:2", "--vertices", 300)
+                    self.assertEqual(run.stderr, "")
+                    contents.append(self.output.read_bytes())
+                self.assertEqual(told["inputs"]["surface"]["voxels"], f"with the labels 1-9,{LESION}")
+                self.assertTrue(contents[0] == contents[1])
+        # The ending may be in capital letters, and the file not compressed.
+        path = WORK / "ASEG.MGH"
+        path.write_bytes(gzip.decompress((WORK / "aseg.mgz").read_bytes()))
+        self.mesh(path, "--labels", f"1-9,{LESION}", "--region", f"{path}:2", "--vertices", 300)
+        self.assertTrue(self.output.read_bytes() == contents[0])
+
+    def test_bad_images_of_freesurfer(self):
+        image = nibabel.MGHImage(labels(), AFFINES["oblique"])
+        nibabel.save(image, str(WORK / "good.mgz"))
+        compressed = (WORK / "good.mgz").read_bytes()
+        whole = gzip.decompress(compressed)
+        nibabel.save(nibabel.MGHImage(np.stack([labels(), labels()], 3), AFFINES["oblique"]), str(WORK / "frames.mgz"))
+        for name, contents, words in (
+                ("truncated.mgz", compressed[:len(compressed) // 2], "is truncated: 60 x 50 x 40 voxels expected"),
+                ("truncated.mgh", whole[:200000], "is truncated: 60 x 50 x 40 voxels expected"),
+                ("header.mgh", whole[:90], "not an image of FreeSurfer, or truncated"),
+                ("version.mgz", gzip.compress(struct.pack(">i", 2) + whole[4:]), "not an image of FreeSurfer of version 1"),
+                ("size.mgh", whole[:4] + struct.pack(">3i", *[10**9] * 3) + whole[16:], "is truncated: 1000000000 x"),
+                ("type.mgh", whole[:20] + struct.pack(">i", 9) + whole[24:], "has voxels of type 9"),
+                ("frames.mgz", None, "is a 4-D image of 60 x 50 x 40 x 2 values; expected three dimensions")):
+            with self.subTest(name):
+                path = WORK / name
+                if contents is not None:
+                    path.write_bytes(contents)
+                run = self.fails(path, "--labels", "7", "--vertices", 300, words=f"{path}: ")
+                self.assertIn(words, run.stderr)
+                self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
+        self.fails(WORK / "good.mgz", "--region", path, "--vertices", 300, words=f"{path}: {words}")
 
     def test_several_components(self):
         values = labels()

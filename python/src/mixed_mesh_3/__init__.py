@@ -292,7 +292,8 @@ def read_surface(path, *, strict=False, wrap=0.0, weld=0.0, largest=False, drop_
 
 
 def read_image(path):
-    """A NIfTI image (.nii, .nii.gz): its values, and its affine map from indices to mm, (4, 4), as in nibabel."""
+    """An image of NIfTI (.nii, .nii.gz) or FreeSurfer (.mgh, .mgz): its values, and its affine map from indices to mm,
+    (4, 4), as in nibabel."""
     return _core.read_image(_existing(path))
 
 

@@ -16,6 +16,7 @@
 #include <CGAL/Mixed_mesh_image_3/IO/Read_anatomical_surface_options.h>
 #include <CGAL/Mixed_mesh_image_3/IO/internal/read_FREESURFER.h>
 #include <CGAL/Mixed_mesh_image_3/IO/internal/read_GIFTI.h>
+#include <CGAL/Mixed_mesh_image_3/IO/internal/image_format_of.h>
 
 #include <algorithm>
 #include <optional>
@@ -52,17 +53,17 @@ inline Surface_soup in_RAS(Surface_soup soup, std::optional<Anatomical_space> sp
   return soup;
 }
 
-/// Refuses a file without a known extension that is no binary surface of triangles of FreeSurfer.
-[[noreturn]] inline void refuse_anatomical_format(const std::string& path, std::string_view extension,
-                                                  std::string_view start)
+/// Refuses a file without the extension of a surface that is no binary surface of triangles of FreeSurfer.
+[[noreturn]] inline void refuse_anatomical_format(const std::string& path, std::string_view start)
 {
-  if(extension == ".mgz" || extension == ".mgh")
-    refuse(path, "is an image of FreeSurfer; convert it: mri_convert " + printable(path) + " image.nii.gz");
   if(start == "\xff\xff\xff" || start == "\xff\xff\xfd")
     refuse(path, "is a FreeSurfer surface of quadrangles; convert it: mris_convert " + printable(path)
                    + " surface.gii");
   std::vector<std::string_view> known = surface_extensions();
   known.push_back(".gii");
+  if(image_format_of(path))
+    refuse(path,
+           "is an image; expected a surface, " + in_one_line(known) + " or a binary surface of FreeSurfer");
   refuse(path,
          "unknown format; expected " + in_one_line(known)
            + " or a binary surface of FreeSurfer; convert it, for example to .ply by ParaView or 3D Slicer");
@@ -80,7 +81,7 @@ inline Surface_soup read_anatomical_file(const std::string& path, std::optional<
     return in_RAS(read_surface_file(path), space);
   const std::string start = read_bytes(path, freesurfer_magic.size());
   if(start != freesurfer_magic)
-    refuse_anatomical_format(path, extension, start);
+    refuse_anatomical_format(path, start);
   return read_FREESURFER(path, read_bytes(path));
 }
 

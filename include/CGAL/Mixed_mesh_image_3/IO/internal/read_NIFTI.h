@@ -11,99 +11,27 @@
 #define CGAL_MIXED_MESH_IMAGE_3_IO_INTERNAL_READ_NIFTI_H
 
 #include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
-#include <CGAL/Mixed_mesh_3/IO/internal/extension_of.h>
+#include <CGAL/Mixed_mesh_image_3/IO/internal/Input_file.h>
+#include <CGAL/Mixed_mesh_image_3/IO/internal/image_format_of.h>
+#include <CGAL/Mixed_mesh_image_3/IO/internal/image_parts.h>
 #include <CGAL/Mixed_mesh_image_3/IO/internal/voxel_types.h>
 #include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>
 
 #include <nifti2_io.h>
-#include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <limits>
-#include <locale>
 #include <memory>
-#include <sstream>
 #include <string>
-#include <system_error>
 #include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace IO {
 namespace internal {
-
-// Reads plain and compressed files.
-class Input_file
-{
-  struct Close
-  {
-    void operator()(gzFile_s* file) const { gzclose(file); }
-  };
-  const std::string& m_path;
-  std::unique_ptr<gzFile_s, Close> m_file;
-
-  int check_compression()
-  {
-    int error = Z_OK;
-    gzerror(m_file.get(), &error);
-    if(error != Z_OK && error != Z_BUF_ERROR) // not the end of the file
-      refuse(m_path, "is damaged: its compressed data are not valid");
-    return error;
-  }
-
-public:
-  explicit Input_file(const std::string& path) : m_path(path)
-  {
-    if(std::filesystem::is_directory(path))
-      refuse(path, "is a directory");
-    errno = 0;
-    m_file.reset(gzopen(path.c_str(), "rb"));
-    if(!m_file)
-      refuse(path, std::string("cannot be opened: ") + std::strerror(errno));
-    gzbuffer(m_file.get(), 1 << 17);
-  }
-
-  // Reads bytes. Returns whether there were enough bytes.
-  bool read(void* bytes, std::size_t size)
-  {
-    for(char* p = static_cast<char*>(bytes); size != 0;) {
-      const int n = gzread(m_file.get(), p, unsigned((std::min)(size, std::size_t(1) << 30)));
-      check_compression();
-      if(n <= 0)
-        return false;
-      p += n;
-      size -= std::size_t(n);
-    }
-    return true;
-  }
-
-  // Whether the file has the right end after the bytes that were read: compressed data end with a checksum.
-  bool has_end()
-  {
-    char next;
-    gzread(m_file.get(), &next, 1);
-    return check_compression() != Z_BUF_ERROR;
-  }
-
-  bool skip_to(std::int64_t position)
-  {
-    return position >= 0 && gzseek(m_file.get(), z_off_t(position), SEEK_SET) == z_off_t(position);
-  }
-
-  // An upper bound of the bytes in the file: deflate compresses to no less than 1/1032.
-  double largest_size() const
-  {
-    std::error_code error;
-    const auto size = std::filesystem::file_size(m_path, error);
-    return error ? std::numeric_limits<double>::infinity() : 1032. * double(size);
-  }
-};
 
 struct Free_nifti_image
 {
@@ -134,26 +62,6 @@ std::string header_defect(const Header& header)
   if(!with_voxel_type(header.datatype, [](auto) {}))
     return std::string("has voxels of type ") + nifti_datatype_to_string(header.datatype)
            + "; expected one real number in a voxel";
-  return std::string();
-}
-
-// The message for a refused value of a header, with the name of its field.
-template <class Number>
-std::string field_defect(const std::string& field, Number value, const std::string& expected)
-{
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << "cannot be read: its " << field << " is " << value << "; expected " << expected;
-  return text.str();
-}
-
-template <class Number>
-std::string finite_field_defect(const std::string& field, const Number* values, int begin, int end)
-{
-  for(int i = begin; i < end; ++i)
-    if(!std::isfinite(values[i]))
-      return field_defect(field + (end == 1 ? std::string() : '[' + std::to_string(i) + ']'), values[i],
-                          "a finite number");
   return std::string();
 }
 
@@ -257,19 +165,10 @@ inline Voxel_grid_3 read_grid(const std::string& path, const nifti_image& header
                       : header.xyz_units == NIFTI_UNITS_MICRON ? 0.001
                                                                : 1;
   const nifti_dmat44& map = has_sform ? header.sto_xyz : header.qto_xyz;
-  double scale = 1; // determinants of rotations times sizes are as large as the product of the columns
-  for(int j = 0; j < 4; ++j) {
-    double length = 0;
-    for(int i = 0; i < 3; ++i) {
+  for(int i = 0; i < 3; ++i)
+    for(int j = 0; j < 4; ++j)
       grid.index_to_world[i][j] = unit * map.m[i][j];
-      length = std::hypot(length, grid.index_to_world[i][j]);
-    }
-    if(!(length < 1e15))
-      refuse(path, "its orientation has entries that are too large");
-    scale *= j < 3 ? length : 1;
-  }
-  if(!(std::abs(Mixed_meshes_3::determinant(grid.index_to_world)) > 1e-6 * scale))
-    refuse(path, std::string("its ") + (has_sform ? "sform" : "qform") + " is singular");
+  check_positions(path, grid, has_sform ? "sform" : "qform");
   return grid;
 }
 
@@ -278,9 +177,7 @@ inline std::vector<char> read_voxel_bytes(const std::string& path, Input_file& f
                                           const nifti_image& header)
 {
   const double count = double(header.nx) * double(header.ny) * double(header.nz);
-  const std::string truncated = "is truncated: " + std::to_string(header.nx) + " x "
-                                + std::to_string(header.ny) + " x " + std::to_string(header.nz)
-                                + " voxels expected";
+  const std::string truncated = truncation_defect(header.nx, header.ny, header.nz);
   if(count * header.nbyper > file.largest_size()) // before memory is allocated
     refuse(path, truncated);
   std::vector<char> bytes(std::size_t(count) * std::size_t(header.nbyper));
@@ -293,7 +190,7 @@ inline std::vector<char> read_voxel_bytes(const std::string& path, Input_file& f
 
 inline Voxel_image_3 read_image(const std::string& path)
 {
-  if(!ends_with(path, ".nii") && !ends_with(path, ".nii.gz"))
+  if(image_format_of(path) != Image_format::NIFTI)
     refuse(path, "unknown format; expected .nii or .nii.gz");
   Input_file input(path);
   const Nifti_header owner = read_header(path, input);
@@ -306,21 +203,14 @@ inline Voxel_image_3 read_image(const std::string& path)
     image.intercept = header.scl_inter;
   }
 
-  const std::size_t count = image.grid.number_of_voxels();
   with_voxel_type(header.datatype, [&](auto zero) {
     using T = decltype(zero);
     const std::vector<char> bytes = read_voxel_bytes(path, input, header);
-    image.values.resize(count);
-    for(std::size_t i = 0; i < count; ++i) {
+    set_voxels<T>(path, bytes, image, [](const char* p) {
       T x;
-      std::memcpy(&x, bytes.data() + i * sizeof(T), sizeof(T));
-      image.values[i] = float(image.slope * double(x) + image.intercept);
-      if(!std::isfinite(image.values[i])) {
-        const auto& size = image.grid.size;
-        refuse(path, "voxel (" + std::to_string(i % size[0]) + ", " + std::to_string(i / size[0] % size[1])
-                       + ", " + std::to_string(i / size[0] / size[1]) + ") is not a finite number");
-      }
-    }
+      std::memcpy(&x, p, sizeof(T));
+      return x;
+    });
   });
   return image;
 }
