@@ -10,6 +10,7 @@
 #include "core/command_line.h"
 #include "core/patch_shapes.h"
 #include "core/resources.h"
+#include "core/voxel_selection.h"
 
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/version.h>
@@ -110,12 +111,13 @@ CLI::Option* add_inputs(CLI::App& app, Options& o)
   add_surface_options(app, o.surface_options);
   CLI::Option* image = app
                          .add_option("--image", o.image,
-                                     "Image before the shift: .nii, .nii.gz, .mgh or .mgz")
+                                     std::string("Image before the shift: ") + image_endings)
                          ->type_name("IMAGE");
   app
     .add_option("--labels", o.labels,
-                "Label image on the voxels of --image: is deformed with it, by the nearest voxel: .nii, "
-                ".nii.gz, .mgh or .mgz")
+                std::string(
+                  "Label image on the voxels of --image: is deformed with it, by the nearest voxel: ")
+                  + image_endings)
     ->needs(image)
     ->type_name("IMAGE");
   return image;

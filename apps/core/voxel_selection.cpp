@@ -33,6 +33,8 @@ std::optional<double> label(const std::string& text)
 
 } // namespace
 
+const char* const image_endings = mm3::IO::internal::image_endings;
+
 bool is_image(const std::string& path) { return mm3::IO::internal::image_format_of(path).has_value(); }
 
 bool Voxel_selection::operator()(float value) const

@@ -13,6 +13,9 @@
 #include <utility>
 #include <vector>
 
+/// The endings of images, in one line.
+extern const char* const image_endings;
+
 /// Whether a file is an image, by its name.
 bool is_image(const std::string& path);
 

@@ -536,14 +536,14 @@ void check_options(Options& o)
     if(r.file.empty())
       r.file = o.surface;
   if(!has_image && (o.completion.closing_radius || o.completion.fill_holes || o.completion.is_hull))
-    throw CLI::ValidationError(o.surface,
-                               "--close, --fill-holes and --hull need an image: .nii, .nii.gz, .mgh or "
-                               ".mgz; --wrap closes a surface");
+    throw CLI::ValidationError(o.surface, std::string("--close, --fill-holes and --hull need an image: ")
+                                            + image_endings + "; --wrap closes a surface");
   if(!has_image
      && (!o.voxels.ranges.empty() || !o.labels.empty() || o.has_each_label
          || std::any_of(o.regions.begin(), o.regions.end(),
                         [](const Region_option& r) { return !r.voxels.ranges.empty(); })))
-    throw CLI::ValidationError(o.surface, "labels and thresholds need an image: .nii, .nii.gz, .mgh or .mgz");
+    throw CLI::ValidationError(o.surface,
+                               std::string("labels and thresholds need an image: ") + image_endings);
   check_subdomains(o);
   check_sheets(o);
   check_patches(o);

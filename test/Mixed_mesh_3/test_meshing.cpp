@@ -649,6 +649,7 @@ void test_simplification(const Surface& brain, const Polyhedral_mixed_mesh_domai
     BOOST_TEST_GT(double(number_in_region(with)), share_in_region * double(number_in_region(without)));
     const auto distance = [&](const Mesh& mesh) { return hausdorff_distance(mesh, brain).distance(); };
     std::cout << n << ": " << distance(with) << " from the surface, " << distance(without) << " without\n";
+    BOOST_TEST_LE(distance(with), 1.6 * distance(without));
     sum_with += distance(with);
     sum_without += distance(without);
     run(domain, region, criteria, again);

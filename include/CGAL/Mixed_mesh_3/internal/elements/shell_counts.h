@@ -151,6 +151,27 @@ inline std::vector<double> weights_of_shells(const std::vector<double>& chords, 
   return weights;
 }
 
+/// The shells of faces of a mesh, with the thickness and the weight of each.
+struct Weighted_shells
+{
+  std::vector<std::size_t> shell_of; ///< shell of each vertex
+  std::vector<double> chords, weights;
+};
+
+/// \param number_of_vertices for `weights_of_shells()`
+template <class Mesh>
+Weighted_shells weigh_shells(const Mesh& mesh, const std::vector<Face>& faces, double number_of_vertices)
+{
+  std::vector<Face_vertices> polygons;
+  for(const Face& face : faces)
+    polygons.push_back(face.vertices());
+  Shells_of_vertices shells = find_shells(polygons, mesh.number_of_vertices());
+  const auto point = [&](std::size_t v) { return to_vec3(mesh.point(Vertex_index(v))); };
+  std::vector<double> chords = mean_chords_of_shells(shells, polygons, point),
+                      weights = weights_of_shells(chords, number_of_vertices);
+  return {std::move(shells.shell_of), std::move(chords), std::move(weights)};
+}
+
 /// Sets signed volumes of shells, if there are several.
 inline void set_volumes(Shell_counts& counts, std::vector<double> volumes)
 {

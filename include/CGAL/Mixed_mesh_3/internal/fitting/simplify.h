@@ -66,15 +66,9 @@ inline std::vector<double> weights_of_faces(const Core_mesh& mesh, const Interfa
 {
   std::vector<double> weights;
   if(surface.subdomain_indices().size() == 1) {
-    std::vector<Face_vertices> polygons;
+    const Weighted_shells shells = weigh_shells(mesh, faces.faces, double(number_of_vertices));
     for(const Face& face : faces.faces)
-      polygons.push_back(face.vertices());
-    const Shells_of_vertices shells = find_shells(polygons, mesh.number_of_vertices());
-    const auto point = [&](std::size_t v) { return to_vec3(mesh.points()[v]); };
-    const std::vector<double> of_shells = weights_of_shells(mean_chords_of_shells(shells, polygons, point),
-                                                            double(number_of_vertices));
-    for(const Face_vertices& polygon : polygons)
-      weights.push_back(of_shells[shells.shell_of[*polygon.begin()]]);
+      weights.push_back(shells.weights[shells.shell_of[*face.vertices().begin()]]);
     return weights;
   }
   std::map<Subdomain_index, double> chords;

@@ -88,33 +88,28 @@ inline void resolve_small_shells(Meshing_state& s)
 {
   const std::size_t budget = s.criteria.maximal_number_of_vertices();
   while(s.best.number_of_vertices > 0 && s.best.is_manifold() && s.go_on()) {
-    s.make_best_again();
     const Core_mesh mesh = assembled_mesh(s.octree, s.best);
-    const auto point = [&](std::size_t v) { return to_vec3(mesh.points()[v]); };
-    std::vector<Face_vertices> polygons;
-    for(const Face& face : boundary_faces(mesh))
-      polygons.push_back(face.vertices());
-    const Shells_of_vertices shells = find_shells(polygons, mesh.number_of_vertices());
-    if(shells.counts.number_of_shells < 2)
-      return;
-    const std::vector<double> chords = mean_chords_of_shells(shells, polygons, point),
-                              weights = weights_of_shells(chords, double(budget));
+    const std::vector<Face> faces = boundary_faces(mesh);
+    const Weighted_shells shells = weigh_shells(mesh, faces, double(budget));
     std::vector<Narrow_place> places;
     const auto add = [&](const Vec3& p, double chord) {
       const Any_domain::Point_3 q = s.root.domain().closest_point({p[0], p[1], p[2]});
       places.push_back({to_vec3(q), width_of_chord * chord});
     };
-    for(const Face_vertices& polygon : polygons) {
+    for(const Face& face : faces) {
+      const Face_vertices& polygon = face.vertices();
       const std::size_t shell = shells.shell_of[*polygon.begin()];
-      if(weights[shell] == 1)
+      if(shells.weights[shell] == 1)
         continue;
       Vec3 sum{};
       for(Vertex_index v : polygon) {
-        add(point(v), chords[shell]);
-        sum = sum + point(v);
+        add(to_vec3(mesh.points()[v]), shells.chords[shell]);
+        sum = sum + to_vec3(mesh.points()[v]);
       }
-      add((1. / polygon.size()) * sum, chords[shell]);
+      add((1. / polygon.size()) * sum, shells.chords[shell]);
     }
+    if(places.empty())
+      return;
     Located_octree trial = s.octree;
     split_narrow_cells(trial, places, 0);
     if(trial.number_of_cells() == s.octree.number_of_cells()

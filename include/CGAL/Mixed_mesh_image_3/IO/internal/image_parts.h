@@ -11,10 +11,12 @@
 #define CGAL_MIXED_MESH_IMAGE_3_IO_INTERNAL_IMAGE_PARTS_H
 
 #include <CGAL/Mixed_mesh_3/IO/internal/errors.h>
+#include <CGAL/Mixed_mesh_image_3/IO/internal/Input_file.h>
 #include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <locale>
 #include <sstream>
 #include <string>
@@ -45,14 +47,6 @@ std::string finite_field_defect(const std::string& field, const Number* values, 
   return std::string();
 }
 
-// The message for a file with too few bytes for its voxels.
-template <class Number>
-std::string truncation_defect(Number nx, Number ny, Number nz)
-{
-  return "is truncated: " + std::to_string(nx) + " x " + std::to_string(ny) + " x " + std::to_string(nz)
-         + " voxels expected";
-}
-
 // Refuses positions of voxels that are too far away, or not those of a volume; `name` is what the positions
 // come from.
 inline void check_positions(const std::string& path, const Voxel_grid_3& grid, const std::string& name)
@@ -68,6 +62,22 @@ inline void check_positions(const std::string& path, const Voxel_grid_3& grid, c
   }
   if(!(std::abs(Mixed_meshes_3::determinant(grid.index_to_world)) > 1e-6 * scale))
     refuse(path, "its " + name + " is singular");
+}
+
+// The numbers of voxels as stored in a file, from a position on.
+inline std::vector<char> read_voxel_bytes(const std::string& path, Input_file& file, const Voxel_grid_3& grid,
+                                          std::size_t size_of_number, std::int64_t position)
+{
+  const auto& n = grid.size;
+  const std::string truncated = "is truncated: " + std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x "
+                                + std::to_string(n[2]) + " voxels expected";
+  const double size = double(n[0]) * double(n[1]) * double(n[2]) * double(size_of_number);
+  if(size > file.largest_size()) // before memory is allocated
+    refuse(path, truncated);
+  std::vector<char> bytes(grid.number_of_voxels() * size_of_number);
+  if(!file.skip_to(position) || !file.read(bytes.data(), bytes.size()) || !file.has_end())
+    refuse(path, truncated);
+  return bytes;
 }
 
 // Sets the values of an image from the numbers of its file, of type `T`, by slope and intercept; `number_at`

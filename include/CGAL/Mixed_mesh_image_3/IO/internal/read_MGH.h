@@ -194,13 +194,8 @@ inline Voxel_image_3 read_MGH_image(const std::string& path)
   image.grid = read_grid(path, header);
   const bool is_known = with_mgh_type(header.type, image, [&](auto zero) {
     using T = decltype(zero);
-    const std::string truncated = truncation_defect(header.sizes[0], header.sizes[1], header.sizes[2]);
-    const double count = double(header.sizes[0]) * double(header.sizes[1]) * double(header.sizes[2]);
-    if(count * sizeof(T) > input.largest_size()) // before memory is allocated
-      refuse(path, truncated);
-    std::vector<char> bytes(image.grid.number_of_voxels() * sizeof(T));
-    if(!input.read(bytes.data(), bytes.size()) || !input.has_end())
-      refuse(path, truncated);
+    const std::vector<char> bytes = read_voxel_bytes(path, input, image.grid, sizeof(T),
+                                                     Mgh_header::size_in_file);
     set_voxels<T>(path, bytes, image, &big_endian_number<T>);
   });
   if(!is_known)

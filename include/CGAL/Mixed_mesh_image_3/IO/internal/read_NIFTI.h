@@ -172,22 +172,6 @@ inline Voxel_grid_3 read_grid(const std::string& path, const nifti_image& header
   return grid;
 }
 
-// The numbers as stored in the file, in this machine's byte order.
-inline std::vector<char> read_voxel_bytes(const std::string& path, Input_file& file,
-                                          const nifti_image& header)
-{
-  const double count = double(header.nx) * double(header.ny) * double(header.nz);
-  const std::string truncated = truncation_defect(header.nx, header.ny, header.nz);
-  if(count * header.nbyper > file.largest_size()) // before memory is allocated
-    refuse(path, truncated);
-  std::vector<char> bytes(std::size_t(count) * std::size_t(header.nbyper));
-  if(!file.skip_to(header.iname_offset) || !file.read(bytes.data(), bytes.size()) || !file.has_end())
-    refuse(path, truncated);
-  if(header.byteorder != nifti_short_order() && header.nbyper > 1)
-    nifti_swap_Nbytes(std::int64_t(count), header.nbyper, bytes.data());
-  return bytes;
-}
-
 inline Voxel_image_3 read_image(const std::string& path)
 {
   if(image_format_of(path) != Image_format::NIFTI)
@@ -205,7 +189,9 @@ inline Voxel_image_3 read_image(const std::string& path)
 
   with_voxel_type(header.datatype, [&](auto zero) {
     using T = decltype(zero);
-    const std::vector<char> bytes = read_voxel_bytes(path, input, header);
+    std::vector<char> bytes = read_voxel_bytes(path, input, image.grid, sizeof(T), header.iname_offset);
+    if(header.byteorder != nifti_short_order() && sizeof(T) > 1)
+      nifti_swap_Nbytes(std::int64_t(image.grid.number_of_voxels()), sizeof(T), bytes.data());
     set_voxels<T>(path, bytes, image, [](const char* p) {
       T x;
       std::memcpy(&x, p, sizeof(T));
