@@ -13,6 +13,8 @@
 #include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -67,18 +69,15 @@ std::vector<mm3::IO::Facet_set> examine_patches(const Mesh& mesh, const std::vec
   if(patches.empty())
     return sets;
   const std::vector<mm3::Face> boundary = mm3::boundary_faces(mesh);
-  const double tolerance = patch_tolerance(mesh);
   for(const Patch& patch : patches) {
     sets.push_back({patch.option.name, {}});
     double area = 0;
-    for(const mm3::Face& face : boundary)
-      if(patch.contains(center_of(mesh, face), tolerance)) {
-        sets.back().faces.push_back(face);
-        area += mm3::area(mesh, face);
-      }
+    for(std::size_t i : faces_in_patch(mesh, boundary, patch.contains)) {
+      sets.back().faces.push_back(boundary[i]);
+      area += mm3::area(mesh, boundary[i]);
+    }
     if(sets.back().faces.empty())
-      throw std::runtime_error(patch.option.text() + ": no face of the boundary has its center inside; "
-                               + place_of_mesh(mesh));
+      throw std::runtime_error(patch.option.text() + ": " + sentence_on_empty_patch(mesh));
     outcome.patches.push_back({patch.option.name, patch.option.place, sets.back().faces.size(), area});
   }
   return sets;

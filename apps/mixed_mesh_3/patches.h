@@ -8,23 +8,21 @@
 #ifndef MIXED_MESH_3_APPS_MIXED_MESH_3_PATCHES_H
 #define MIXED_MESH_3_APPS_MIXED_MESH_3_PATCHES_H
 
-#include "core/types.h"
+#include "core/boundary_patches.h"
 #include "mixed_mesh_3/options.h"
 #include "mixed_mesh_3/outcome.h"
 #include "mixed_mesh_3/subdomains.h"
 
 #include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
 
-#include <array>
-#include <functional>
 #include <string>
 #include <vector>
 
-/// A patch, and the test whether the center of a face, up to a distance, is inside.
+/// A patch, and the test whether the center of a face is inside.
 struct Patch
 {
   Patch_option option;
-  std::function<bool(const std::array<double, 3>&, double)> contains;
+  Patch_test contains;
 };
 
 /// Reads the patches of the options.
