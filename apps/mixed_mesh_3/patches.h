@@ -26,7 +26,8 @@ struct Patch
 };
 
 /// Reads the patches of the options.
-/// \throw std::runtime_error if a surface cannot be read, or if a name is that of another set of the files
+/// \throw std::runtime_error if a surface cannot be read, if a name is that of another set of the files, or
+/// if faces are certain to be in two sets of a file that has one for each face
 std::vector<Patch> read_patches(const Options& options, const std::vector<Subdomain>& subdomains,
                                 std::vector<std::string>& warnings);
 
