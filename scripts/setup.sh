@@ -26,8 +26,8 @@ packages_for() {
     # VTK opens an X display even to render off-screen: Xvfb and Mesa's software renderer provide it.
     pictures) echo python3-vtk9 xvfb libgl1-mesa-dri ;;
     # Peers that read back the files that we write; plastimatch deforms images by fields. dpkg-dev and file make
-    # packages.
-    tests) echo dpkg-dev file mypy plastimatch calculix-ccx freefem++ python3-getfem python3-gmsh python3-meshio python3-nibabel \
+    # packages, man-db shows their pages.
+    tests) echo dpkg-dev file man-db mypy plastimatch calculix-ccx freefem++ python3-getfem python3-gmsh python3-meshio python3-nibabel \
                 python3-vtk9 ;;
     # An MRI image of a brain, of which data/brain.off is the surface.
     image) echo mricron-data ;;
@@ -38,7 +38,7 @@ packages_for() {
     # What the Python package is built with, and what its test installs it into.
     python) echo pybind11-dev python3-dev python3-numpy python3-pip python3-venv ;;
     # What scripts/package.sh makes packages with, and tries them in.
-    package) echo debootstrap dpkg-dev file lintian patchelf ;;
+    package) echo debootstrap dpkg-dev file help2man lintian patchelf ;;
     # The solver of brain_shift --solver petsc, and mpirun.
     petsc) echo libpetsc-real-dev openmpi-bin pkg-config ;;
     # The peers of scripts/benchmark.sh, its plots, and what kernels are measured with.

@@ -122,6 +122,9 @@ std::optional<int> parse(const char* name, CLI::App& app, int argc, char** argv,
   std::vector<const char*> pointers;
   for(const std::string& word : words)
     pointers.push_back(word.c_str());
+  // Column of the descriptions: there are two blanks before each of them, or a line of its own; else help2man
+  // takes it for a part of the option.
+  app.get_formatter()->column_width(37);
   try {
     app.parse(argc, pointers.data());
     check();

@@ -8,11 +8,14 @@
 #include "core/Closed_surface.h"
 #include "core/patch_shapes.h"
 
+#include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
 #include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -37,11 +40,34 @@ std::vector<std::string> names_in_files(const Options& o, const std::vector<Subd
   return names;
 }
 
+// Checks that no face is certain to be in two sets, where a file has one set for each face. Other patches may
+// have faces in common as well, which the writer finds.
+void check_overlaps(const Options& o, const std::vector<Subdomain>& subdomains)
+{
+  const auto is_exclusive = [&o](const std::string& path) {
+    const auto format = mm3::IO::format_of(path);
+    return format
+           && !mm3::IO::has_overlapping_facet_sets(
+             o.msh2 && *format == mm3::IO::Format::MSH_4_1 ? mm3::IO::Format::MSH_2_2 : *format);
+  };
+  const auto file = std::find_if(o.outputs.begin(), o.outputs.end(), is_exclusive);
+  if(file == o.outputs.end() || o.patches.empty())
+    return;
+  const std::string reason = *file + ": two facet sets share a face, which this format cannot hold: ";
+  if(subdomains.size() > 1)
+    throw std::runtime_error(reason + o.patches.front().text() + ", and that of a subdomain");
+  for(auto p = o.patches.begin(); p != o.patches.end(); ++p)
+    for(auto other = o.patches.begin(); other != p; ++other)
+      if(other->place == p->place)
+        throw std::runtime_error(reason + other->text() + ", and " + p->text());
+}
+
 } // namespace
 
 std::vector<Patch> read_patches(const Options& o, const std::vector<Subdomain>& subdomains,
                                 std::vector<std::string>& warnings)
 {
+  check_overlaps(o, subdomains);
   const std::vector<std::string> names = names_in_files(o, subdomains);
   std::vector<Patch> patches;
   for(const Patch_option& p : o.patches) {
@@ -67,18 +93,15 @@ std::vector<mm3::IO::Facet_set> examine_patches(const Mesh& mesh, const std::vec
   if(patches.empty())
     return sets;
   const std::vector<mm3::Face> boundary = mm3::boundary_faces(mesh);
-  const double tolerance = patch_tolerance(mesh);
   for(const Patch& patch : patches) {
     sets.push_back({patch.option.name, {}});
     double area = 0;
-    for(const mm3::Face& face : boundary)
-      if(patch.contains(center_of(mesh, face), tolerance)) {
-        sets.back().faces.push_back(face);
-        area += mm3::area(mesh, face);
-      }
+    for(std::size_t i : faces_in_patch(mesh, boundary, patch.contains)) {
+      sets.back().faces.push_back(boundary[i]);
+      area += mm3::area(mesh, boundary[i]);
+    }
     if(sets.back().faces.empty())
-      throw std::runtime_error(patch.option.text() + ": no face of the boundary has its center inside; "
-                               + place_of_mesh(mesh));
+      throw std::runtime_error(patch.option.text() + ": " + sentence_on_empty_patch(mesh));
     outcome.patches.push_back({patch.option.name, patch.option.place, sets.back().faces.size(), area});
   }
   return sets;

@@ -8,27 +8,26 @@
 #ifndef MIXED_MESH_3_APPS_MIXED_MESH_3_PATCHES_H
 #define MIXED_MESH_3_APPS_MIXED_MESH_3_PATCHES_H
 
-#include "core/types.h"
+#include "core/boundary_patches.h"
 #include "mixed_mesh_3/options.h"
 #include "mixed_mesh_3/outcome.h"
 #include "mixed_mesh_3/subdomains.h"
 
 #include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
 
-#include <array>
-#include <functional>
 #include <string>
 #include <vector>
 
-/// A patch, and the test whether the center of a face, up to a distance, is inside.
+/// A patch, and the test whether the center of a face is inside.
 struct Patch
 {
   Patch_option option;
-  std::function<bool(const std::array<double, 3>&, double)> contains;
+  Patch_test contains;
 };
 
 /// Reads the patches of the options.
-/// \throw std::runtime_error if a surface cannot be read, or if a name is that of another set of the files
+/// \throw std::runtime_error if a surface cannot be read, if a name is that of another set of the files, or
+/// if faces are certain to be in two sets of a file that has one for each face
 std::vector<Patch> read_patches(const Options& options, const std::vector<Subdomain>& subdomains,
                                 std::vector<std::string>& warnings);
 

@@ -64,6 +64,16 @@ std::vector<Vector> vectors_of(const Doubles& array, const std::string& name)
 
 py::array_t<double> array_of(const std::vector<Vector>& vectors) { return array_of_triples<double>(vectors); }
 
+py::array_t<std::int64_t> array_of(const std::vector<mm3::Face>& faces)
+{
+  py::array_t<std::int64_t> array({py::ssize_t(faces.size()), py::ssize_t(4)});
+  auto rows = array.mutable_unchecked<2>();
+  for(std::size_t f = 0; f < faces.size(); ++f)
+    for(int i = 0; i < 4; ++i)
+      rows(py::ssize_t(f), i) = i < faces[f].vertices().size() ? std::int64_t(faces[f].vertices()[i]) : -1;
+  return array;
+}
+
 std::vector<bool> marks_of(const Marks& array, std::size_t n, const std::string& name)
 {
   if(array.ndim() != 1 || std::size_t(array.shape(0)) != n)

@@ -10,6 +10,7 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mixed_mesh_3.h>
+#include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Surface_mesh.h>
 
@@ -40,6 +41,9 @@ std::vector<Vector> vectors_of(const Doubles& array, const std::string& name);
 /// The same as an array.
 py::array_t<double> array_of(const std::vector<Vector>& vectors);
 
+/// The vertices of faces, (n, 4), the last one -1 of triangles.
+py::array_t<std::int64_t> array_of(const std::vector<mm3::Face>& faces);
+
 /// An array of n truth values.
 std::vector<bool> marks_of(const Marks& array, std::size_t n, const std::string& name);
 
@@ -63,5 +67,6 @@ void add_mesh(py::module_& module);
 void add_meshing(py::module_& module);
 void add_elasticity(py::module_& module);
 void add_images(py::module_& module);
+void add_patches(py::module_& module);
 
 #endif // MIXED_MESH_3_PYTHON_ARRAYS_H

@@ -9,6 +9,7 @@
 
 #include <CGAL/Mixed_mesh_3/IO/read_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
+#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
 #include <CGAL/Mixed_mesh_3/certify_mesh.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
@@ -212,9 +213,30 @@ std::vector<mm3::IO::Data_array> data_arrays(const std::map<std::string, Doubles
   return arrays;
 }
 
+// Facet sets of boundary faces that are marked.
+std::vector<mm3::IO::Facet_set> facet_sets(const Mesh& mesh,
+                                           const std::vector<std::pair<std::string, Marks>>& patches)
+{
+  std::vector<mm3::IO::Facet_set> sets;
+  if(patches.empty())
+    return sets;
+  const std::vector<mm3::Face> boundary = mm3::boundary_faces(mesh);
+  for(const auto& [name, faces] : patches) {
+    const std::vector<bool> marks = marks_of(faces, boundary.size(), "patch " + name);
+    sets.push_back({name, {}});
+    for(std::size_t i = 0; i < boundary.size(); ++i)
+      if(marks[i])
+        sets.back().faces.push_back(boundary[i]);
+    if(sets.back().faces.empty())
+      throw std::invalid_argument("patch " + name + ": has no face");
+  }
+  return sets;
+}
+
 void save(const Mesh& mesh, const std::string& path, int order, bool has_only_tetrahedra,
           const mm3::IO::Subdomain_names& names, const std::map<std::string, Doubles>& point_data,
-          const std::map<std::string, Doubles>& cell_data)
+          const std::map<std::string, Doubles>& cell_data,
+          const std::vector<std::pair<std::string, Marks>>& patches)
 {
   mm3::IO::Write_options options;
   options.order = order;
@@ -223,6 +245,7 @@ void save(const Mesh& mesh, const std::string& path, int order, bool has_only_te
   std::deque<std::vector<double>> values;
   options.vertex_data = data_arrays(point_data, values);
   options.element_data = data_arrays(cell_data, values);
+  options.facet_sets = facet_sets(mesh, patches);
   std::string error;
   bool is_written;
   {

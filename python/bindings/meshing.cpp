@@ -173,17 +173,8 @@ py::list sheets_of(const Mesh& mesh, const Domain& domain, std::vector<std::stri
     const std::string name = "sheet " + std::to_string(sheets.size());
     if(sheet.faces.empty())
       warnings.push_back(name + ": has no faces in the mesh; try more vertices, if it is inside the surface");
-    py::array_t<std::int64_t> faces({py::ssize_t(sheet.faces.size()), py::ssize_t(4)});
-    auto rows = faces.mutable_unchecked<2>();
-    for(std::size_t f = 0; f < sheet.faces.size(); ++f) {
-      const auto element = mesh.element(sheet.faces[f].element());
-      const mm3::Element_face& face = mm3::reference_elements[element.kind()]
-                                        .faces[sheet.faces[f].local_index()];
-      for(int i = 0; i < 4; ++i)
-        rows(py::ssize_t(f), i) = i < face.size ? std::int64_t(element[face.vertices[i]]) : -1;
-    }
     py::dict row;
-    row["faces"] = faces;
+    row["faces"] = array_of(sheet.faces);
     row["area"] = sheet.area;
     row["vertices"] = sheet.number_of_vertices;
     row["vertices not on surface"] = sheet.number_of_vertices_off;

@@ -13,4 +13,5 @@ PYBIND11_MODULE(_core, module)
   add_meshing(module);
   add_elasticity(module);
   add_images(module);
+  add_patches(module);
 }

@@ -184,6 +184,14 @@ class Patches(Case):
             self.fails(self.good, *output, "--output", path, *more, "--patch", top, "--patch", "half=box:0.5,0,1,1,1,1",
                        names=path, words="two facet sets share a face")
         inner = self.file("inner.off", off(moved(CUBE, 0.5, (0.25, 0.25, 0.25)), TRIANGLES))
+        # What is certain is refused before meshing, which would show that there are no faces.
+        for path, *more in ((WORK / "mesh.mesh",), (WORK / "mesh.msh", "--msh2"), (WORK / "mesh.msh2",)):
+            one, two = "one=sphere:9,9,9,1", "two=sphere:9,9,9,1"
+            run = self.fails(self.good, *output, "--output", path, *more, "--patch", one, "--patch", two, names=path,
+                             words="two facet sets share a face")
+            self.assertIn(f"--patch {one}, and --patch {two}", run.stderr)
+            self.fails(self.good, *output, "--output", path, *more, "--patch", one, "--subdomain", f"tumor={inner}",
+                       names=path, words=f"share a face, which this format cannot hold: --patch {one}, and that of a subdomain")
         for name in ("tumor", "outside_good", "interface_tumor_good"):
             self.fails(self.good, *output, "--subdomain", f"tumor={inner}", "--patch", f"{name}=plane:0,0,1,0,0,1",
                        names=f"--patch {name}", words="another set")

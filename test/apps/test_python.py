@@ -36,6 +36,7 @@ if not list((BUILD / "python" / "mixed_mesh_3").glob("_core*")):
     sys.exit(77)
 sys.path.insert(0, str(BUILD / "python"))
 import browser  # noqa: E402
+from cube import off  # noqa: E402
 import mixed_mesh_3 as mm3  # noqa: E402
 
 DATA = SOURCE / "data"
@@ -325,6 +326,76 @@ class Test(unittest.TestCase):
 
         one, _ = mm3.mesh(*BRAIN, region=REGION, vertices=660, threads=1)
         np.testing.assert_array_equal(one.points, self.mesh.points)
+
+    def test_patches(self):
+        """Patches are those of the program, in files byte for byte; by brute force; as supports. The module has elements sorted
+        by kind: with several kinds, elements and nodes of order 2 have other numbers, which .vtu of order 1 has not."""
+        points, triangles = CUBE
+        slab, region = ((points * size + shift, triangles) for size, shift in ((0.602, [0.199, -0.5, 0.45]), (0.3, 0.6)))
+        for name, surface in (("cube", CUBE), ("slab", slab), ("region", region)):
+            (FOLDER / f"{name}.off").write_text(off(surface[0].tolist(), triangles.tolist()))
+        places = {"Top": ("plane:0.5,0.5,1,0,0,2", {"plane": ((0.5, 0.5, 1), (0, 0, 2))}, lambda c: c[:, 2] > 1 - 1e-6),
+                  "base": ("box:0,0,0,1,1,0", {"box": ((0, 0, 0), (1, 1, 0))}, lambda c: c[:, 2] < 1e-6),
+                  "ball": ("sphere:1,1,1,0.6", {"sphere": ((1, 1, 1), 0.6)},
+                           lambda c: np.linalg.norm(c - 1, axis=1) < 0.6),
+                  "slab": (FOLDER / "slab.off", {"surface": slab},
+                           lambda c: (np.abs(c[:, 0] - 0.5) < 0.301) & (c[:, 1] < 0.102) & (c[:, 2] > 0.45))}
+        for has_one_kind in (True, False):
+            mesh, _ = mm3.mesh(*CUBE, vertices=400, **({} if has_one_kind else {"region": region, "simplification": False}))
+            self.assertEqual(len(mesh.cells) == 1, has_one_kind)
+            faces = mm3.boundary_faces(mesh)
+            self.assertEqual(set(np.unique(faces[faces >= 0])), set(np.flatnonzero(mm3.boundary_vertices(mesh))))
+            centers = np.array([mesh.points[f[f >= 0]].mean(axis=0) for f in faces])
+            patches = {name: mesh.patch(**shape) for name, (_, shape, _) in places.items()}
+            for name, patch in patches.items():
+                np.testing.assert_array_equal(patch.faces, np.flatnonzero(places[name][2](centers)), name)
+                self.assertTrue(0 < len(patch.faces) < len(faces))
+                np.testing.assert_array_equal(patch.vertices, np.setdiff1d(faces[patch.faces], [-1]), name)
+            files = [(["vtu"], list(places), 1)]
+            if has_one_kind:
+                files += [(["inp", "feb", "msh"], list(places), 1), (["inp", "feb", "msh", "vtu"], list(places), 2),
+                          (["mesh", "msh2"], ["Top", "base"], 1)]
+            for endings, names, order in files:
+                self.run_program("mixed_mesh_3", "cube.off", "--vertices", 400, "--order", order,
+                                 *([] if has_one_kind else ["--region", "region.off", "--no-simplification"]),
+                                 *(x for name in names for x in ("--patch", f"{name}={places[name][0]}")),
+                                 *(x for ending in endings for x in ("--output", f"patches.{ending}")))
+                for ending in endings:
+                    saved = FOLDER / f"saved.{ending}"
+                    mesh.save(saved, patches={name: patches[name] for name in names}, order=order)
+                    self.assertEqual(saved.read_bytes(), (FOLDER / f"patches.{ending}").read_bytes(), (ending, order))
+        marks = np.zeros(len(faces), bool)
+        marks[patches["Top"].faces] = True
+        for top in (marks, patches["Top"].faces, patches["Top"].faces.tolist()):
+            mesh.save(FOLDER / "saved.inp", patches={"Top": top})
+            self.assertIn("*NSET, NSET=TOP", (FOLDER / "saved.inp").read_text())
+        model = mm3.Elasticity(mesh)
+        model.fix(patches["base"].vertices)
+        model.set_control_points([[0.5, 0.5, 1]])
+        self.assertEqual(abs(model.solve([[0, 0, 0.1]])[patches["base"].vertices]).max(), 0)
+
+        with self.assertWarnsRegex(UserWarning, "surface: .*filled 1 hole"):
+            np.testing.assert_array_equal(mesh.patch(surface=(slab[0], triangles[1:])).faces, patches["slab"].faces)
+        far = "no face of the boundary has its center inside; the mesh is in box:0,0,0,1,1,1$"
+        for shape, text in (({"sphere": ((9, 9, 9), 1)}, "^sphere: " + far),
+                            ({"surface": (points + 9, triangles)}, "^surface: " + far),
+                            ({"sphere": ((0, 0, 0), -1)}, "sphere: the radius of the sphere is not positive"),
+                            ({"box": ((0, 0, 1), (1, 1, 0))}, "box: the corners"),
+                            ({"plane": ((0, 0, 0), (0, 0, 0))}, "plane: the normal"),
+                            ({"sphere": (0, 0, 0, 1)}, r"sphere: expected numbers, \(\(x, y, z\), radius\)"),
+                            ({"sphere": ((0, 0, np.nan), 1)}, "sphere: expected"), ({"box": 1}, "box: expected"),
+                            ({"plane": ((0, 0, 0), "up")}, "plane: expected"), ({}, "expected one of sphere, box, plane"),
+                            ({"sphere": ((0, 0, 0), 1), "box": ((0, 0, 0), (1, 1, 1))}, "expected one of sphere")):
+            with self.assertRaisesRegex(ValueError, text):
+                mesh.patch(**shape)
+        for sets, text in (({"a": []}, "patch a: has no face"), ({"a": [len(faces)]}, "patch a: expected indices from 0 to"),
+                           ({"a": marks[1:]}, f"patch a: expected {len(faces)} truth values"),
+                           ({"boundary": marks}, '"boundary" needs another name'),
+                           ({"a": marks, "A": marks}, '"A" needs another name')):
+            with self.assertRaisesRegex(ValueError, text):
+                mesh.save(FOLDER / "saved.inp", patches=sets)
+        with self.assertRaisesRegex(ValueError, "saved.mesh: two facet sets share a face"):
+            mesh.save(FOLDER / "saved.mesh", patches={"a": marks, "b": marks})
 
     def test_time_limit(self):
         start = time.monotonic()

@@ -45,6 +45,14 @@ mesh = mm3.read_mesh("mesh.vtu")
 model = mm3.Elasticity(mesh, materials={"tumor": (3, 0.45)})
 model.fix([0, 1, 2])
 model.touch(mm3.boundary_vertices(mesh), 0.5)
+opening = mesh.patch(sphere=((0, 0, 0), 20.0))
+model.fix(mesh.patch(plane=(np.zeros(3), (0, 0, 1))).vertices)
+mesh.save("mesh.inp", patches={"opening": opening, "skull": mesh.patch(surface=data["tumor"]).faces, "some": [True, False]})
+mm3.boundary_faces(mesh)[opening.faces].shape
+mesh.patch(sphere=(0, 0, 0))  # wrong
+mesh.patch(cone=((0, 0, 0), 20.0))  # wrong
+mesh.save("mesh.inp", patches=[opening])  # wrong
+opening.elements  # wrong
 model.solve().shape
 count: str = mesh.labels  # wrong
 """

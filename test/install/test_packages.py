@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Debian packages hold what they should, each file once, and what they hold runs.
+"""The Debian packages hold what they should, each file once, and what they hold runs; manual pages have all options.
 
   test_packages.py CPACK BUILD DATA WORK PACKAGE...
 
 PACKAGE are the names of the packages. `scripts/package.sh --try` installs them in a bare Debian.
 """
 
+import gzip
+import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -24,6 +27,7 @@ def run(*command, **options):
     return done.stdout
 
 
+has_pages = shutil.which("man") and "HELP2MAN_PROGRAM:FILEPATH=/" in (build / "CMakeCache.txt").read_text()
 for tool in ("dpkg-shlibdeps", "file"):
     if not shutil.which(tool):
         print(f"skipped: there is no {tool}")
@@ -49,7 +53,20 @@ for name, file in packages.items():
         assert owner.get(f"./usr/share/doc/{name}/{part}") == name, (name, part)
     run("dpkg-deb", "--extract", file, root)
 if shutil.which("lintian"):
-    run("lintian", "--fail-on", "error", "--allow-root", *packages.values())
+    told = run("lintian", "--fail-on", "error", "--allow-root", *packages.values())
+    assert "no-manual-page" not in told or not has_pages, told
+
+for program in sorted((root / "usr/bin").iterdir()) if has_pages else []:
+    page = root / f"usr/share/man/man1/{program.name}.1.gz"
+    if page.is_symlink():  # of a program that has the options of another one
+        assert page.resolve().exists(), page
+        continue
+    options = re.findall(r"^  (?:-\w,)?(--[\w-]+)", run(program, "--help"), re.MULTILINE)
+    shown = subprocess.run(["man", "--warnings", "-l", page], capture_output=True, text=True, check=True,
+                           env={**os.environ, "LC_ALL": "C.UTF-8", "MANWIDTH": "100"})
+    assert not shown.stderr, shown.stderr
+    assert re.findall(r"^ {7}(?:-\w,)?(--[\w-]+)", shown.stdout, re.MULTILINE) == options, shown.stdout
+    assert ".HP" not in gzip.decompress(page.read_bytes()).decode(), "help2man takes a description for a part of its option"
 
 assert owner["./usr/bin/mixed_mesh_3"] == "mixed-mesh-3"
 assert owner["./usr/include/CGAL/make_mixed_mesh_3.h"] == "libmixed-mesh-3-dev"

@@ -18,18 +18,19 @@ import operator as _operator
 import os as _os
 import pathlib as _pathlib
 import time as _time
+import typing as _typing
 import warnings as _warnings
 
 import numpy as _np
 
 from . import _core
-from ._core import ElasticityError, Mesh, MeshingError, boundary_vertices
+from ._core import ElasticityError, Mesh, MeshingError, boundary_faces, boundary_vertices
 from ._page import Page, make_page as _make_page
 
 __version__ = "0.1.0"
-__all__ = ["Elasticity", "ElasticityError", "KINDS", "Mesh", "MeshingError", "Page", "adapt", "boundary_vertices", "certify",
-           "complete_label", "defects", "example_data", "fit", "from_meshio", "label_surface", "mesh", "mesh_labels",
-           "optimize", "quality", "read_image", "read_mesh", "read_surface", "resect", "warp"]
+__all__ = ["Elasticity", "ElasticityError", "KINDS", "Mesh", "MeshingError", "Page", "Patch", "adapt", "boundary_faces",
+           "boundary_vertices", "certify", "complete_label", "defects", "example_data", "fit", "from_meshio", "label_surface",
+           "mesh", "mesh_labels", "optimize", "quality", "read_image", "read_mesh", "read_surface", "resect", "warp"]
 
 #: The kinds of elements, with the names of meshio: the values of Mesh.kinds are indices of this tuple.
 KINDS = _core.KINDS
@@ -85,17 +86,70 @@ def _set_names(self, names):
     self.__dict__["_names"] = {int(label): str(name) for label, name in names.items()}
 
 
-def _save(self, path, *, order=1, tetrahedra=False, names=None, point_data=None, cell_data=None):
+class Patch(_typing.NamedTuple):
+    """A patch of the boundary: faces are indices of the rows of boundary_faces(), vertices are indices of vertices."""
+
+    faces: _np.ndarray
+    vertices: _np.ndarray
+
+
+def _shape(kind, place):
+    """The numbers of a sphere, a box or a plane."""
+    form, size = {"sphere": ("((x, y, z), radius)", ()), "box": ("((x0, y0, z0), (x1, y1, z1))", (3,)),
+                  "plane": ("((x, y, z), (nx, ny, nz))", (3,))}[kind]
+    try:
+        parts = [_np.asarray(part, dtype=float) for part in place]
+    except (TypeError, ValueError):
+        parts = []
+    if [part.shape for part in parts] != [(3,), size] or not all(_np.isfinite(part).all() for part in parts):
+        raise ValueError(f"{kind}: expected numbers, {form}")
+    return _np.hstack(parts)
+
+
+def _patch(self, *, sphere=None, box=None, plane=None, surface=None):
+    """A patch of the boundary, as that of the option --patch of the program: the faces whose center is inside a shape.
+
+    One of: sphere: (center, radius). box: (lower, upper), two corners. plane: (point, normal): faces on the plane or
+    beyond, where the normal points to. surface: (points, triangles) of a closed surface, mended as by mesh().
+
+        model.fix(mesh.patch(plane=((0, 0, -20), (0, 0, -1))).vertices)
+        mesh.save("brain.inp", patches={"opening": mesh.patch(sphere=((10, -20, 40), 25))})
+
+    Returns a Patch, whose faces are ascending, and whose vertices are those of the faces. Raises ValueError if there is
+    no such face.
+    """
+    given = [(kind, place) for kind, place in (("sphere", sphere), ("box", box), ("plane", plane), ("surface", surface))
+             if place is not None]
+    if len(given) != 1:
+        raise ValueError("patch(): expected one of sphere, box, plane and surface")
+    (kind, place), = given
+    if kind != "surface":
+        return Patch(*_core.patch_in_shape(self, kind, _shape(kind, place)))
+    patch, mended = _core.patch_in_surface(self, *_soup("surface", place))
+    _warn(mended, 2)
+    return Patch(*patch)
+
+
+def _patches(mesh, patches):
+    """Patches as pairs of a name and truth values of the faces of the boundary."""
+    size = len(boundary_faces(mesh)) if patches else 0
+    return [(str(name), _marks(f"patch {name}", patch.faces if isinstance(patch, Patch) else patch, size))
+            for name, patch in (patches or {}).items()]
+
+
+def _save(self, path, *, order=1, tetrahedra=False, names=None, point_data=None, cell_data=None, patches=None):
     """Writes a file as the program does: .vtu, .msh (Gmsh 4.1), .msh2 (Gmsh 2.2), .mesh, .inp or .feb.
 
     order: the order of the elements. Elements of order 2 are quadratic and straight-sided, with a node in the middle of
     each edge, numbered after the vertices; not in .mesh, and in .inp without pyramids only. tetrahedra: whether all
     elements are split into tetrahedra. names: {label: name} of subdomains; None: those of the mesh. .msh2 and .mesh have no
     place for them. point_data: {name: values} of vertices, (n,) or (n, components), for .vtu, .msh, .msh2 and .feb;
-    cell_data: of elements, for .vtu. Raises ValueError with the message of the program.
+    cell_data: of elements, for .vtu. patches: {name: patch} of the boundary, each as of Mesh.patch(), or faces by truth
+    values or indices of the rows of boundary_faces(): the facet sets and node sets of the program's --patch. In .msh2 and
+    .mesh, no face is in two patches. Raises ValueError with the message of the program.
     """
     _core.save(self, _os.fspath(path), _count("order", order), bool(tetrahedra),
-               self.names if names is None else dict(names), _data(point_data), _data(cell_data))
+               self.names if names is None else dict(names), _data(point_data), _data(cell_data), _patches(self, patches))
 
 
 def _data(data):
@@ -121,6 +175,7 @@ Mesh.cells = property(_cells)
 Mesh.names = property(_names, _set_names)
 Mesh.to_meshio = _to_meshio
 Mesh.to_pyvista = _to_pyvista
+Mesh.patch = _patch
 Mesh.save = _save
 Mesh.show = _show
 Mesh.__repr__ = _repr

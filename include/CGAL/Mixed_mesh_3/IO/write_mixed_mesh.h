@@ -48,6 +48,10 @@ bool write_core_mesh(Output_files& files, const std::string& path,
 std::optional<Format> format_of(const std::string& path);
 
 /// \ingroup PkgMixedMesh3IO
+/// Whether a face can be in several facet sets of a file; otherwise the sets are disjoint.
+bool has_overlapping_facet_sets(Format format);
+
+/// \ingroup PkgMixedMesh3IO
 /// Whether any file can be written to a path: its directory must exist and be writable.
 /// \param path the file
 /// \param error if not null, receives a line that names the file and says what is wrong, if anything is

@@ -150,6 +150,11 @@ CGAL_MIXED_MESH_3_INLINE std::optional<Format> format_of(const std::string& path
   return std::nullopt;
 }
 
+CGAL_MIXED_MESH_3_INLINE bool has_overlapping_facet_sets(Format format)
+{
+  return internal::format_traits(format).has_overlapping_facet_sets;
+}
+
 CGAL_MIXED_MESH_3_INLINE bool check_output_path(const std::string& path, std::string* error, int order)
 {
   using namespace internal;
