@@ -242,11 +242,38 @@ void test_separate_labels()
   BOOST_TEST(surfaces[4].is_empty());
 }
 
+// A small ball in a large one, near its surface: it is one ball, and has nothing of what is just outside of the
+// large one, though it has to reach farther into its neighbor than other labels, to keep its volume.
+void test_ball_near_outside()
+{
+  for(double radius : {2.5, 3., 4.}) {
+    const double to_center = 16.8 - radius;
+    std::size_t number = 0;
+    const Voxel_image_3 image = image_of({44, 44, 44}, identity, [&](const Voxel& p) {
+      const Voxel q{p[0] - 21.5, p[1] - 21.5, p[2] - 21.5};
+      if(std::hypot(q[0], q[1], q[2]) >= 18)
+        return 0.f;
+      const bool is_small = std::hypot(q[0] - 0.6 * to_center, q[1] - 0.64 * to_center,
+                                       q[2] - 0.48 * to_center)
+                            < radius;
+      number += is_small;
+      return is_small ? 2.f : 1.f;
+    });
+    for(std::size_t vertices : {0, 4000}) {
+      const std::vector<Surface> surfaces = surfaces_of(image, 2, 1, vertices);
+      check_network(surfaces);
+      BOOST_TEST(topology(surfaces[2]) == (std::pair<std::ptrdiff_t, std::size_t>(2, 1)));
+      BOOST_TEST_LE(std::abs(PMP::volume(surfaces[2]) / double(number) - 1), 0.02);
+    }
+  }
+}
+
 int run(int, char*[])
 {
   test_random_labels();
   test_layer();
   test_separate_labels();
+  test_ball_near_outside();
   test_interfaces_of_domain();
   return boost::report_errors();
 }

@@ -263,6 +263,8 @@ private:
       for_each_voxel_of(one, [&](std::size_t v, std::size_t own) { m_outside[v] -= one.values[own]; });
   }
 
+  // A voxel is inside if the outside is less than the level of the best of all labels there. If only those
+  // were compared that reach so far, one with a large offset would have all that is just outside of others.
   void find_best_labels()
   {
     m_best.assign(m_outside.size(), -infinity);
@@ -271,7 +273,7 @@ private:
     for(std::size_t l = 0; l < m_indicators.size(); ++l)
       for_each_voxel_of(m_indicators[l], [&, l](std::size_t v, std::size_t own) {
         const float value = m_indicators[l].values[own], score = value + m_offsets[l];
-        if(!(value > 0) || m_outside[v] >= level(Label_number(l + 1)))
+        if(!(value > 0))
           return;
         if(score > m_best[v]) {
           m_second_best[v] = std::exchange(m_best[v], score);
@@ -280,6 +282,9 @@ private:
           m_second_best[v] = (std::max)(m_second_best[v], score);
         }
       });
+    for(std::size_t v = 0; v < m_labels.size(); ++v)
+      if(m_labels[v] > 0 && m_outside[v] >= level(m_labels[v]))
+        m_labels[v] = 0;
   }
 
   void find_level()
@@ -322,9 +327,11 @@ private:
     std::vector<float> lacks; // what lacks to the best of the others, which may be none, and to the level
     for_each_voxel_of(m_indicators[l], [&](std::size_t v, std::size_t own) {
       const float value = m_indicators[l].values[own];
-      if(value > 0)
-        lacks.push_back((std::max)((m_labels[v] == l + 1 ? m_second_best[v] : m_best[v]) - value,
-                                   2 * (m_outside[v] - m_level)));
+      if(value > 0) {
+        const bool is_best = value + m_offsets[l] >= m_best[v];
+        lacks.push_back(
+          (std::max)((is_best ? m_second_best[v] : m_best[v]) - value, 2 * (m_outside[v] - m_level)));
+      }
     });
     if(lacks.empty())
       return m_offsets[l];
