@@ -74,10 +74,6 @@ inline void make_mesh_within_budget(Meshing_state& s, Core_mesh& mesh)
   make_mesh(s, mesh);
 }
 
-/// Share of vertices off the surfaces of several subdomains up to which a mesh is taken at once: near curves
-/// in which interfaces of labels meet, 3 % of those of a head of five labels are.
-constexpr double tolerated_at_junctions = 0.05;
-
 /// Makes the mesh: with a region, or several subdomains, out of a fine one that is cut along the surfaces;
 /// else out of a fine one on the lattice, which follows sharp edges best, and if something is wrong in the
 /// end, out of one that is cut, which keeps walls and gaps; the better mesh is taken. If there is none then,
@@ -104,12 +100,6 @@ inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_
     const bool is_other_above = s.result.optimization.number_of_elements_above_bound > 0;
     note_misfit(s, of_other);
     note_elements_above_bound(s, other);
-    // Few vertices off their surface are less to see than layers that are lost, which need flat elements that
-    // octrees do not have.
-    const std::size_t few = has_layers
-                              ? std::size_t(tolerated_at_junctions
-                                            * double(s.result.optimization.number_of_boundary_vertices))
-                              : 0;
     const bool is_better = of_other < misfit || (is_above && !is_other_above && !(misfit < of_other));
     if(mesh.is_empty() || (is_better && !s.is_stopped)) {
       result = s.result;
@@ -117,7 +107,8 @@ inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_
       is_above = is_other_above;
       mesh = std::move(other);
     }
-    return s.is_stopped || (of_other.is_nearly_right(few) && (has_layers || !is_other_above));
+    return s.is_stopped
+           || (of_other.is_nearly_right(s.number_off_tolerated()) && (has_layers || !is_other_above));
   };
   const auto simplify = [&](bool is_cut) {
     return run([is_cut](Meshing_state& s, Core_mesh& m) { make_simplified_mesh(s, is_cut, m); });

@@ -110,6 +110,54 @@ inline void fit_simplified_mesh(Meshing_state& s, double largest_bound, Core_mes
     s.result.quality_bound = (std::max)(bound, quality_statistics(mesh).back().maximum);
 }
 
+/// What elements and boundary may lose on the way from a fine mesh to the budget.
+struct Simplification_limits
+{
+  double distance;       ///< from the surface, as asked for
+  double usual_distance; ///< that nearly every mesh keeps
+  double bound;          ///< of elements
+  double largest_bound;  ///< the same, where there is room for flatter elements only
+};
+
+/// Removes vertices of a fine mesh, and brings the boundary onto the surface.
+/// \param goal number of vertices; the rest of the budget is for bisections
+/// \return whether there is a mesh, all of the boundary is on the surface, and the budget is filled
+inline bool simplify_and_fit(Meshing_state& s, const Simplification_limits& limits, std::size_t goal,
+                             Followed_features& followed, Core_mesh& mesh)
+{
+  const bool is_kept = s.criteria.keep_mesh_if_stopped() && s.best.is_manifold(); // within the budget only
+  const std::size_t number = mesh.number_of_vertices(), n = s.criteria.maximal_number_of_vertices();
+  double bound = limits.bound;
+  const bool is_simplified = simplify(mesh, followed, s.root.domain(), goal, s.radius_of_weights(),
+                                      limits.distance, limits.usual_distance, bound, limits.largest_bound,
+                                      [&] { return s.go_on() || is_kept; });
+  if(!is_simplified) {
+    mesh.clear();
+    s.result.status = s.is_stopped ? Mixed_mesh_status::STOPPED : Mixed_mesh_status::BUDGET_TOO_SMALL;
+    return false;
+  }
+  if(s.has_quality_bound())
+    s.quality_bound = bound;
+  s.result.number_of_vertices_needed = mesh.number_of_vertices();
+  s.result.number_of_collapsed_vertices = number - mesh.number_of_vertices();
+  s.result.number_of_transition_vertices = s.result.number_of_boundary_vertices_inserted = 0;
+  s.result.number_of_vertices_in_region = number_of_vertices_in_region(mesh);
+  if(s.is_stopped) {
+    s.result.status = Mixed_mesh_status::STOPPED;
+    s.result.is_kept = !cuts_itself(mesh);
+    if(!s.result.is_kept)
+      mesh.clear();
+    return false;
+  }
+  if(goal < n)
+    optimize_boundary(s, mesh, &followed);
+  else
+    fit_simplified_mesh(s, limits.largest_bound, mesh, followed);
+  return !mesh.is_empty() && s.result.optimization.is_boundary_simple
+         && s.number_not_arrived() <= s.number_off_tolerated()
+         && double(mesh.number_of_vertices()) >= Mixed_mesh_criteria_3::full_share * double(n);
+}
+
 /// Makes a mesh with the vertices of the budget out of a finer one.
 /// \param is_cut whether the finer one is cut, or on the lattice
 /// \param mesh empty; stays so if there is none
@@ -122,57 +170,49 @@ inline void make_simplified_mesh(Meshing_state& s, bool is_cut, Core_mesh& mesh)
   // vertices of plates and gears stay off the surface in the end, with 3 or 5 parts keep less of their sharp
   // edges.
   constexpr double multiple_on_the_way = 2;
-  const auto note_stop = [&s] { s.result.status = Mixed_mesh_status::STOPPED; };
   Core_mesh fine = is_cut ? cut_fine_mesh(s) : fine_mesh_on_lattice(s);
   if(s.result.is_lattice_on_surface)
     return make_mesh(s, mesh);
+  const auto note_stop = [&s] { s.result.status = Mixed_mesh_status::STOPPED; };
   if(fine.is_empty())
     return s.is_stopped ? note_stop() : void();
   const Stage_scope scope(s.visitor, Stage::OPTIMIZATION);
   Followed_features followed;
-  double bound = s.has_quality_bound() ? s.quality_bound
+  Simplification_limits limits;
+  limits.bound = s.has_quality_bound() ? s.quality_bound
                                        : Mixed_mesh_optimization_criteria_3::default_quality_bound;
-  const double usual_distance = share_of_edge_tolerated * s.mean_edge();
-  const double distance = s.result.tolerance > 0 ? s.result.tolerance : usual_distance;
-  const double largest = s.criteria.is_quality_bound_strict() ? bound : largest_multiple * bound;
-  const double bound_on_the_way = (std::min)(multiple_on_the_way * bound, largest);
+  limits.usual_distance = share_of_edge_tolerated * s.mean_edge();
+  limits.distance = s.result.tolerance > 0 ? s.result.tolerance : limits.usual_distance;
+  limits.largest_bound = (s.criteria.is_quality_bound_strict() ? 1 : largest_multiple) * limits.bound;
+  const double bound_on_the_way = (std::min)(multiple_on_the_way * limits.bound, limits.largest_bound);
   if(is_cut)
     fit_cut_mesh(s, bound_on_the_way, fine, followed);
   else
     fit_fine_mesh(s, bound_on_the_way, fine, followed);
-  const std::size_t number = fine.number_of_vertices();
-  const bool is_kept = s.criteria.keep_mesh_if_stopped() && s.best.is_manifold(); // within the budget only
-  if(s.is_stopped && !is_kept)
+  if(s.is_stopped && !(s.criteria.keep_mesh_if_stopped() && s.best.is_manifold()))
     return note_stop();
-  const std::size_t goal = s.root.is_region_everywhere() ? s.criteria.maximal_number_of_vertices()
-                                                         : s.budget();
-  const bool is_simplified = simplify(fine, followed, s.root.domain(), goal, s.radius_of_weights(), distance,
-                                      usual_distance, bound, largest, [&] { return s.go_on() || is_kept; });
-  if(!is_simplified) {
-    s.result.status = s.is_stopped ? Mixed_mesh_status::STOPPED : Mixed_mesh_status::BUDGET_TOO_SMALL;
-    return;
+  // A part of the vertices bisect edges that are far from the surface. Where these do not arrive, all are
+  // left of the fine mesh.
+  const Mixed_mesh_result_3 result = s.result;
+  const std::size_t n = s.criteria.maximal_number_of_vertices();
+  bool is_right = false;
+  if(s.budget() < n) {
+    Followed_features f = followed;
+    mesh = fine;
+    is_right = simplify_and_fit(s, limits, s.budget(), f, mesh);
   }
-  if(s.has_quality_bound())
-    s.quality_bound = bound;
-  mesh = std::move(fine);
-  s.result.number_of_vertices_needed = mesh.number_of_vertices();
-  s.result.number_of_collapsed_vertices = number - mesh.number_of_vertices();
-  s.result.number_of_transition_vertices = s.result.number_of_boundary_vertices_inserted = 0;
-  s.result.number_of_vertices_in_region = number_of_vertices_in_region(mesh);
-  if(s.is_stopped) {
-    s.result.is_kept = !cuts_itself(mesh);
-    if(!s.result.is_kept)
-      mesh.clear();
-    return note_stop();
+  if(!is_right && !s.is_stopped) {
+    s.result = result;
+    mesh = std::move(fine);
+    simplify_and_fit(s, limits, n, followed, mesh);
   }
-  fit_simplified_mesh(s, largest, mesh, followed);
   if(mesh.is_empty())
     return;
   const Mixed_mesh_optimization_result_3& fit = s.result.optimization;
   const bool is_above = fit.number_of_elements_above_bound > 0;
   const double worst = is_above ? quality_statistics(mesh).back().maximum : 0;
-  const bool is_bad = worst > largest
-                      && (!s.has_several_subdomains() || worst > largest_between_layers * bound);
+  const bool is_bad = worst > limits.largest_bound
+                      && (!s.has_several_subdomains() || worst > largest_between_layers * limits.bound);
   if(!fit.is_boundary_simple || is_bad) { // the octree of the budget is tried
     mesh.clear();
     s.result.is_kept = false;
