@@ -55,8 +55,8 @@ public:
   Label_image completed(const Voxel_selection& selection, const Voxel_selection& filling,
                         const Label_completion& completion, Completion_facts& facts) const;
 
-  /// The same image in which voxels get a value: those of 0 up to a distance, in mm, from the label; without a
-  /// distance, those of 0 that the label encloses. Voxels of the domain never change.
+  /// The same image in which voxels get a value: those of 0 up to a distance, in mm, from the label; without
+  /// a distance, those of 0 that the label encloses. Voxels of the domain never change.
   /// \throw std::runtime_error if the distance is too large
   Label_image with_layer(const Voxel_selection& label, const Voxel_selection& domain,
                          const std::optional<double>& distance, float value, std::size_t& number) const;

@@ -156,6 +156,7 @@ Labels read_labels(const Input_options& o, Surface_reader& read, Outcome& outcom
   std::vector<Voxel_selection> all;
   for(const Label_group& group : groups)
     all.push_back(group.voxels);
+  outcome.voxels = (all.size() == 1 ? all[0] : united(all)).text;
   const auto lose = [&outcome](const std::string& what) {
     outcome.has_lost_labels = true;
     outcome.warnings.push_back("the subdomain " + what);
@@ -205,6 +206,7 @@ void read_domain(const Input_options& o, Surface_reader& read, Outcome& outcome,
                         ? subdomains.back().surface
                         : std::make_shared<const Surface>(union_of(subdomains));
     outcome.surface = subdomains.back().facts;
+    outcome.voxels = o.voxels.text;
     if(subdomains.size() > 1)
       outcome.surface.volume = CGAL::Polygon_mesh_processing::volume(*inputs.boundary);
   }

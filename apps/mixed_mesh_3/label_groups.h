@@ -35,8 +35,8 @@ std::vector<Label_group> label_groups(const Input_options& options, const Label_
 /// All voxels of the groups.
 Voxel_selection united(const std::vector<Label_group>& groups);
 
-/// Adds the layers of the options to an image, and their new names to the groups. Returns none if there are no
-/// layers.
+/// Adds the layers of the options to an image, and their new names to the groups. Returns none if there are
+/// no layers.
 /// \throw std::runtime_error if a new layer has no voxels
 std::optional<Label_image> with_layers(const Input_options& options, const Label_image& image,
                                        std::vector<Label_group>& groups, Outcome& outcome);

@@ -118,9 +118,9 @@ Patch_option patch_option(const std::string& text)
   return patch;
 }
 
-// The groups of `--labels freesurfer`: the numbers of aseg, SynthSeg, aparc+aseg and wmparc, as in
-// FreeSurfer's mri_binarize --all-wm, --subcort-gm and --ventricles. White matter also has what would be a hole
-// in it or a thread at it: vessels (30, 62), fornix (250) and optic chiasm (85).
+// The groups of `--labels freesurfer`: the numbers of aseg, SynthSeg, aparc+aseg and wmparc, nearly as in
+// FreeSurfer's mri_binarize --all-wm, --subcort-gm and --ventricles. White matter also has what would be a
+// hole in it or a thread at it: vessels (30, 62), fornix (250) and optic chiasm (85).
 const char* const freesurfer_labels =
   "white_matter=2,7,30,41,46,62,77-79,85,250-255,3000-3035,4000-4035,5001-5002,"
   "gray_matter=3,8,10-13,17-18,26-28,42,47,49-54,58-60,80-82,1000-1035,2000-2035,"
@@ -136,11 +136,10 @@ void set_labels(const std::string& text, Options& o)
                                                          : Label_choice::NONE;
   if(o.label_choice == Label_choice::NONE)
     o.voxels = labels_option(option, text, o, one_selection);
-  if(o.label_choice != Label_choice::LISTS && o.label_choice != Label_choice::FREESURFER)
+  const std::string lists = o.label_choice == Label_choice::FREESURFER ? freesurfer_labels : text;
+  if(lists.find('=') == std::string::npos)
     return;
-  const bool is_list = o.label_choice == Label_choice::LISTS;
-  for(const auto& [name, voxels] :
-      labels_option(option, is_list ? text : freesurfer_labels, o, named_labels)) {
+  for(const auto& [name, voxels] : labels_option(option, lists, o, named_labels)) {
     if(!is_subdomain_name(name))
       throw CLI::ValidationError(option, what_a_name_is);
     o.labels.push_back({name, "", voxels});
@@ -206,7 +205,8 @@ void add_components(CLI::App& app, Options& o)
 void add_labels(CLI::App& app, Options& o)
 {
   const char* const group = "Options of images";
-  // The table is read before the options that use its names: they are parsed in the order in which they are added.
+  // The table is read before the options that use its names: options are parsed in the order in which they
+  // are added.
   app
     .add_option_function<std::string>(
       "--label-table", [&o](const std::string& path) { o.label_table = Label_table(path); },

@@ -45,7 +45,7 @@ struct Subdomain_option
 /// The choice of labels that become subdomains.
 enum class Label_choice { NONE, LISTS, EACH, FREESURFER };
 
-/// What gets a label in an image without that label there: what is near the label, or the holes of all labels.
+/// A change of an image before it is meshed: voxels near a label, or those that labels enclose, get a label.
 struct Layer_option
 {
   std::string name;

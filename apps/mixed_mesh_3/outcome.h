@@ -112,6 +112,7 @@ struct Slit_outcome
 struct Outcome
 {
   Surface_facts surface;
+  std::string voxels;                         // voxels of an image that are the domain, in words
   std::optional<Completion_facts> completion; // completion of the image's label
   std::vector<Layer_outcome> layers;
   std::vector<Surface_facts> regions;

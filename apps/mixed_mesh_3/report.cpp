@@ -391,7 +391,7 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
   report["program"] = describe_program("mixed_mesh_3");
   report["inputs"] = {{"surface", describe(outcome.surface)}, {"regions", Json::array()}};
   if(is_image(o.surface))
-    report["inputs"]["surface"]["voxels"] = o.voxels.text;
+    report["inputs"]["surface"]["voxels"] = outcome.voxels;
   if(outcome.completion)
     report["inputs"]["surface"]["completion"] = describe(*outcome.completion);
   for(const Layer_outcome& layer : outcome.layers)

@@ -452,6 +452,10 @@ class Test_segmentation(unittest.TestCase):
             self.assertEqual(subdomain["voxels"], "with the labels " + ",".join(map(str, numbers)))
             volume = 8 * np.count_nonzero(np.isin(values, numbers))
             self.assertAlmostEqual(subdomain["volume of surface"] / volume, 1, delta=0.03)
+        one = self.image("one.nii", np.where((values == 2) | (values == 251), values, 0), affine((2, 2, 2)))
+        told, run = self.mesh(one, "--labels", "freesurfer", "--vertices", 500)
+        self.assertEqual(told["inputs"]["surface"]["voxels"], "with the labels 2,251")
+        self.assertNotIn("subdomains", told)
         other = self.image("other.nii", np.where(values == 258, 258, 0).astype(np.int16), affine((2, 2, 2)))
         self.output.unlink()
         self.fails(other, "--labels", "freesurfer", words=f"{other}: has no labels of --labels freesurfer, only 258")
@@ -499,7 +503,7 @@ class Test_segmentation(unittest.TestCase):
     def test_layers(self):
         """Labels grow into what is 0, first those of the first option; holes are filled afterwards."""
         values, path, spacing = self.small_brain()
-        volume_of_voxel = np.prod(spacing)
+        volume_of_voxel, coarse = np.prod(spacing), ("--vertices", 800, "--no-fit")
         expected = values.copy()
         expected[(expected == 0) & self.near(expected == 2, spacing, 4)] = 2
         grown = np.count_nonzero(expected == 2) - np.count_nonzero(values == 2)
@@ -509,7 +513,7 @@ class Test_segmentation(unittest.TestCase):
         self.assertTrue(grown > 100 and fluid.sum() > 1000 and holes.sum() > 5, (grown, fluid.sum(), holes.sum()))
         expected[holes] = 4
         told, run = self.mesh(path, "--labels", "white=1,gray=2", "--fill", "csf", "--grow", "GRAY=4", "--grow", "fluid=5",
-                              "--vertices", 6000)
+                              "--vertices", 2000)
         self.assertEqual(told["inputs"]["surface"]["layers"],
                          [{"name": "gray", "distance": 4, "voxels": grown, "new": False},
                           {"name": "fluid", "distance": 5, "voxels": int(fluid.sum()), "new": True},
@@ -521,19 +525,18 @@ class Test_segmentation(unittest.TestCase):
             self.assertAlmostEqual(subdomain["volume of surface"] / volume, 1, delta=0.03, msg=subdomain["name"])
         self.assertEqual([s["name"] for s in told["subdomains"]][:3], ["white", "gray", "fluid"])
         # a hole becomes a label that there is, and a new name with 'each' gets the next number
-        told, run = self.mesh(path, "--labels", "each", "--fill", "LABEL_2", "--grow", "skin=3", "--vertices", 3000)
+        told, run = self.mesh(path, "--labels", "each", "--fill", "LABEL_2", "--grow", "skin=3", *coarse)
         self.assertEqual({s["name"]: s["index"] for s in told["subdomains"]},
                          {"label_1": 1, "label_2": 2, "label_9": 9, "skin": 10})
         skin = (values == 0) & self.near(values != 0, spacing, 3)
         all_filled = self.enclosed((values != 0) | skin)
         self.assertEqual([layer["voxels"] for layer in told["inputs"]["surface"]["layers"]], [skin.sum(), all_filled.sum()])
         # after completion: a layer around the hull
-        told, run = self.mesh(path, "--labels", "white=1,gray=2", "--hull", "--close", 6, "--grow", "fluid=3", "--vertices",
-                              3000)
+        told, run = self.mesh(path, "--labels", "white=1,gray=2", "--hull", "--close", 6, "--grow", "fluid=3", *coarse)
         layer, = told["inputs"]["surface"]["layers"]
         self.assertLess(layer["voxels"], skin.sum())
         # the border of the image
-        told, run = self.mesh(path, "--labels", "white=1,gray=2", "--grow", "fluid=20", "--vertices", 3000)
+        told, run = self.mesh(path, "--labels", "white=1,gray=2", "--grow", "fluid=20", *coarse)
         self.assertIn(f"warning: {path}: fluid, grown by 20 mm, is cut off at the border of the image\n", run.stderr)
 
     def test_bad_layers(self):

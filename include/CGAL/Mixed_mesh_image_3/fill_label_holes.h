@@ -25,9 +25,9 @@ namespace Mixed_meshes_3 {
 
 \brief Gives a value to the voxels of the background that a label encloses.
 
-The label may be the union of several ones. A voxel without the label is enclosed if no chain of neighbors without
-the label leads from the voxel to the border of the image. Two voxels are neighbors as in `complete_label()`: if
-their centers share an edge of Kuhn's tetrahedra.
+The label may be the union of several ones. A voxel without the label is enclosed if no chain of neighbors
+without the label leads from the voxel to the border of the image. Two voxels are neighbors as in
+`complete_label()`: if their centers share an edge of Kuhn's tetrahedra.
 
 \tparam HasLabel `bool(float)`
 \tparam IsBackground `bool(float)`

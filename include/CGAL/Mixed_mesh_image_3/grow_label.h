@@ -31,10 +31,10 @@ namespace Mixed_meshes_3 {
 \brief Gives a value to the voxels of the background near a label.
 
 A segmentation often lacks the fluid around an organ, or has a layer that is too thin. The voxels of the
-background up to a distance from the label get a value: that of the label, which grows, or a new one, for a layer
-around the label. Distances are exact Euclidean distances between the centers of voxels (Felzenszwalb and
-Huttenlocher, 2012), for any spacing along each axis. Nothing stops the growth: it passes from one side of a thin
-label to the other. The growth ends at the border of the image.
+background up to a distance from the label get a value: that of the label, which grows, or a new one, for a
+layer around the label. Distances are exact Euclidean distances between the centers of voxels (Felzenszwalb
+and Huttenlocher, 2012), for any spacing along each axis. Distances are straight: the growth passes through
+other labels that are thinner than the distance. The growth ends at the border of the image.
 
 \tparam HasLabel `bool(float)`
 \tparam IsBackground `bool(float)`

@@ -24,8 +24,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The largest squared distance, between centers, of voxels up to a distance from each other: spacings have the
-/// relative rounding of an affine map in single precision.
+/// The largest squared distance, between centers, of voxels up to a distance from each other: spacings have
+/// the relative rounding of an affine map in single precision.
 inline double squared_reach(double distance)
 {
   constexpr double rounding = 1e-6;
