@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -134,5 +135,8 @@ std::optional<int> parse(const char* name, CLI::App& app, int argc, char** argv,
       return app.exit(e);
     std::cerr << name << ": error: " << printable(e.what()) << "; see --help\n";
     return 2;
+  } catch(const std::runtime_error& e) { // a file with a defect that an option reads
+    std::cerr << name << ": error: " << printable(e.what()) << '\n';
+    return 1;
   }
 }

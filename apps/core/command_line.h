@@ -33,8 +33,8 @@ CLI::Validator poisson_ratio();
 void add_surface_options(CLI::App& app, CGAL::Mixed_meshes_3::IO::Read_anatomical_surface_options& options);
 
 /// Parses, then calls `check`, which throws a `CLI::ParseError` for wrong use that the parser does not
-/// detect. The defect becomes one line. Returns the exit status if the program ends there: help, the version,
-/// or wrong use.
+/// detect. The defect becomes one line, as does a `std::runtime_error` of a file that an option reads.
+/// Returns the exit status if the program ends there: help, the version, wrong use, or a file with a defect.
 std::optional<int> parse(const char* name, CLI::App& app, int argc, char** argv,
                          const std::function<void()>& check);
 

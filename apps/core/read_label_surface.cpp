@@ -23,6 +23,8 @@
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
 #include <CGAL/Mixed_mesh_image_3/IO/read_voxel_image.h>
 #include <CGAL/Mixed_mesh_image_3/complete_label.h>
+#include <CGAL/Mixed_mesh_image_3/fill_label_holes.h>
+#include <CGAL/Mixed_mesh_image_3/grow_label.h>
 #include <CGAL/Mixed_mesh_image_3/label_extents.h>
 #include <CGAL/Mixed_mesh_image_3/make_label_surface.h>
 #include <CGAL/Mixed_mesh_image_3/make_label_surfaces.h>
@@ -120,8 +122,6 @@ Label_image Label_image::completed(const Voxel_selection& selection, const Voxel
                                    const Label_completion& completion, Completion_facts& facts) const
 {
   const mm3::Voxel_image_3& image = m_data->image;
-  const auto spacing = mm3::voxel_spacing(image.grid);
-  const double finest = *std::min_element(spacing.begin(), spacing.end());
   const double volume = double(number_of_voxels(selection)) * volume_of_voxel();
   mm3::Label_completion_options options;
   if(completion.is_hull)
@@ -130,14 +130,7 @@ Label_image Label_image::completed(const Voxel_selection& selection, const Voxel
   options.fill_holes |= completion.fill_holes;
   options.keep_largest |= completion.keep_largest;
   options.least_volume = 1000 * completion.least_volume; // ml
-  if(options.closing_radius > most_voxels * finest)
-    throw std::runtime_error(m_path + ": closing by " + rounded(options.closing_radius) + " mm is more than "
-                             + rounded(most_voxels) + " voxels wide, see --close");
-  double voxels_of_box = 1;
-  for(int i = 0; i < 3; ++i)
-    voxels_of_box *= double(image.grid.size[i]) + 2 * options.closing_radius / spacing[i];
-  constexpr double bytes_per_voxel = 20; // two of distances, or components and their numbers
-  check_memory(m_path + ": closing it", bytes_per_voxel * voxels_of_box);
+  check_box("closing", "--close", options.closing_radius);
   mm3::Label_completion_result done;
   const mm3::Voxel_image_3 mask = mm3::complete_label(image, selection, options, &done);
   facts = {options.closing_radius,       done.number_of_voxels,         done.number_of_closed_voxels,
@@ -145,13 +138,7 @@ Label_image Label_image::completed(const Voxel_selection& selection, const Voxel
 
   // The value of filled voxels is the commonest of the values selected for filling; no value is taken from
   // the rest.
-  const std::pair<const float, mm3::Label_extent_3>* commonest = nullptr;
-  for(const auto& value : m_data->extents)
-    if(filling(value.first)
-       && (commonest == nullptr || value.second.number_of_voxels > commonest->second.number_of_voxels))
-      commonest = &value;
-  if(commonest == nullptr)
-    throw std::runtime_error(m_path + ": there are no voxels " + filling.text);
+  const float commonest = commonest_value(filling);
   const float nothing = selection(0) ? -std::numeric_limits<float>::infinity() : 0;
   mm3::Voxel_image_3 result = image;
   bool is_empty = true;
@@ -160,12 +147,68 @@ Label_image Label_image::completed(const Voxel_selection& selection, const Voxel
     const bool is_in = mask.values[v] != 0;
     is_empty = is_empty && !is_in;
     if(is_in != selection(value))
-      value = is_in ? commonest->first : nothing;
+      value = is_in ? commonest : nothing;
   }
   if(is_empty)
     throw std::runtime_error(m_path + ": no component of the voxels " + selection.text + " has "
                              + rounded(completion.least_volume) + " ml, see --drop-below");
   return {m_path, std::make_unique<const Data>(std::move(result))};
+}
+
+// Checks the memory for distances, or components, in the box of the image with a radius on each side.
+void Label_image::check_box(const std::string& what, const std::string& option, double radius) const
+{
+  const mm3::Voxel_grid_3& grid = m_data->image.grid;
+  const auto spacing = mm3::voxel_spacing(grid);
+  if(radius > most_voxels * *std::min_element(spacing.begin(), spacing.end()))
+    throw std::runtime_error(m_path + ": " + what + " by " + rounded(radius) + " mm is more than "
+                             + rounded(most_voxels) + " voxels wide, see " + option);
+  double voxels = 1;
+  for(int i = 0; i < 3; ++i)
+    voxels *= double(grid.size[i]) + 2 * radius / spacing[i];
+  constexpr double bytes_per_voxel = 20; // two of distances, or components and their numbers
+  check_memory(m_path + ": " + what + " it", bytes_per_voxel * voxels);
+}
+
+Label_image Label_image::with_layer(const Voxel_selection& label, const Voxel_selection& domain,
+                                    const std::optional<double>& distance, float value,
+                                    std::size_t& number) const
+{
+  check_box(distance ? "growing" : "filling", distance ? "--grow" : "--fill", distance.value_or(0));
+  mm3::Voxel_image_3 image = m_data->image;
+  const auto is_background = [&domain](float v) { return v == 0 && !domain(v); };
+  number = distance ? mm3::grow_label(image, label, is_background, *distance, value)
+                    : mm3::fill_label_holes(image, label, is_background, value);
+  return {m_path, std::make_unique<const Data>(std::move(image))};
+}
+
+float Label_image::commonest_value(const Voxel_selection& selection) const
+{
+  const std::pair<const float, mm3::Label_extent_3>* commonest = nullptr;
+  for(const auto& value : m_data->extents)
+    if(selection(value.first)
+       && (commonest == nullptr || value.second.number_of_voxels > commonest->second.number_of_voxels))
+      commonest = &value;
+  if(commonest == nullptr)
+    throw std::runtime_error(m_path + ": there are no voxels " + selection.text);
+  return commonest->first;
+}
+
+float Label_image::unused_value() const
+{
+  float value = -1;
+  while(m_data->extents.count(value) > 0)
+    --value;
+  return value;
+}
+
+bool Label_image::is_at_border(const Voxel_selection& selection) const
+{
+  const mm3::Label_extent_3 extent = m_data->extent(selection);
+  for(int i = 0; i < 3; ++i)
+    if(extent.first[i] == 0 || extent.last[i] == m_data->image.grid.size[i])
+      return true;
+  return false;
 }
 
 std::size_t Label_image::number_of_voxels(const Voxel_selection& selection) const
@@ -178,18 +221,18 @@ double Label_image::volume_of_voxel() const
   return std::abs(mm3::determinant(m_data->image.grid.index_to_world));
 }
 
-std::vector<int> Label_image::labels() const
+std::vector<std::uint32_t> Label_image::labels() const
 {
   constexpr std::size_t most_labels = 60000;
   constexpr float largest = 2e9f;
-  std::vector<int> result;
+  std::vector<std::uint32_t> result;
   for(const auto& [value, extent] : m_data->extents) {
     if(value == 0)
       continue;
     if(!(value >= 1 && value <= largest) || value != std::floor(value))
       throw std::runtime_error(m_path + ": has the value " + rounded(value)
                                + ", which is no label: a whole number, not negative");
-    result.push_back(int(value));
+    result.push_back(std::uint32_t(value));
     if(result.size() > most_labels)
       throw std::runtime_error(m_path + ": has more than " + std::to_string(most_labels)
                                + " values: no image of labels");
@@ -285,9 +328,19 @@ Label_image Label_image::completed(const Voxel_selection&, const Voxel_selection
   return {m_path, nullptr};
 }
 
+Label_image Label_image::with_layer(const Voxel_selection&, const Voxel_selection&,
+                                    const std::optional<double>&, float, std::size_t&) const
+{
+  return {m_path, nullptr};
+}
+
+void Label_image::check_box(const std::string&, const std::string&, double) const {}
+float Label_image::commonest_value(const Voxel_selection&) const { return 0; }
+float Label_image::unused_value() const { return 0; }
+bool Label_image::is_at_border(const Voxel_selection&) const { return false; }
 std::size_t Label_image::number_of_voxels(const Voxel_selection&) const { return 0; }
 double Label_image::volume_of_voxel() const { return 0; }
-std::vector<int> Label_image::labels() const { return {}; }
+std::vector<std::uint32_t> Label_image::labels() const { return {}; }
 
 Surface Label_image::surface_of(const Voxel_selection&, const Label_surface_options&, Surface_facts&,
                                 std::vector<std::string>&) const

@@ -12,6 +12,7 @@
 #include "core/voxel_selection.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -54,13 +55,27 @@ public:
   Label_image completed(const Voxel_selection& selection, const Voxel_selection& filling,
                         const Label_completion& completion, Completion_facts& facts) const;
 
+  /// The same image in which voxels get a value: those of 0 up to a distance, in mm, from the label; without
+  /// a distance, those of 0 that the label encloses. Voxels of the domain never change.
+  /// \throw std::runtime_error if the distance is too large
+  Label_image with_layer(const Voxel_selection& label, const Voxel_selection& domain,
+                         const std::optional<double>& distance, float value, std::size_t& number) const;
+
+  /// The value of most voxels of a selection.
+  /// \throw std::runtime_error if there are no such voxels
+  float commonest_value(const Voxel_selection& selection) const;
+  /// A value that is no label, and that no voxel has.
+  float unused_value() const;
+  /// Whether selected voxels are at the border of the image.
+  bool is_at_border(const Voxel_selection& selection) const;
+
   std::size_t number_of_voxels(const Voxel_selection& selection) const;
   double volume_of_voxel() const;
 
   /// All labels but 0, ascending.
   /// \throw std::runtime_error if a label is no whole number from 1 to 2,000,000,000, or there are none or
   /// more than 60,000
-  std::vector<int> labels() const;
+  std::vector<std::uint32_t> labels() const;
 
   /// The surface of selected voxels. \return an empty surface if smoothing leaves nothing of the voxels
   /// \throw std::runtime_error as above, also if there are no such voxels
@@ -76,6 +91,7 @@ public:
                                    std::vector<Surface_facts>& facts) const;
 
 private:
+  void check_box(const std::string& what, const std::string& option, double radius) const;
   double smoothing(const Label_surface_options& options) const;
   struct Data;
   Label_image(const std::string& path, std::unique_ptr<const Data> data);

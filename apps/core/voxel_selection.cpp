@@ -11,27 +11,13 @@
 #include <CGAL/Mixed_mesh_image_3/IO/internal/image_format_of.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <sstream>
-#include <system_error>
+#include <stdexcept>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
-
-namespace {
-
-// The number that a whole text is, if not negative.
-std::optional<double> label(const std::string& text)
-{
-  unsigned value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if(error != std::errc() || end != text.data() + text.size())
-    return std::nullopt;
-  return value;
-}
-
-} // namespace
 
 const char* const image_endings = mm3::IO::internal::image_endings;
 
@@ -46,25 +32,47 @@ bool Voxel_selection::operator()(float value) const
   });
 }
 
-std::optional<Voxel_selection> labels_selection(const std::string& text)
+Voxel_selection labels_selection(const std::vector<std::uint32_t>& labels)
+{
+  Voxel_selection selection{{}, "with the labels "};
+  for(std::uint32_t label : labels) {
+    selection.text += (selection.ranges.empty() ? "" : ",") + std::to_string(label);
+    selection.ranges.emplace_back(label, label);
+  }
+  return selection;
+}
+
+Voxel_selection labels_selection(const std::string& text, const Label_table& table)
 {
   Voxel_selection selection{{}, "with the labels " + text};
   std::istringstream list(text);
   for(std::string item; std::getline(list, item, ',');) {
     const std::size_t dash = item.find('-');
-    const std::optional<double> first = label(item.substr(0, dash)),
-                                last = dash == std::string::npos ? first : label(item.substr(dash + 1));
-    if(!first || !last || *first > *last)
-      return std::nullopt;
-    selection.ranges.emplace_back(*first, *last);
+    const std::optional<std::uint32_t> first = label_number(item.substr(0, dash)),
+                                       last = dash == std::string::npos ? first
+                                                                        : label_number(item.substr(dash + 1));
+    if(first && last && *first <= *last) {
+      selection.ranges.emplace_back(*first, *last);
+      continue;
+    }
+    const std::vector<std::uint32_t> labels = table.labels(item);
+    if(labels.empty() && !table.path().empty() && !item.empty())
+      throw std::invalid_argument(table.path() + ": has no label '" + item + "'; the closest names are "
+                                  + table.closest_in_words(item));
+    if(labels.empty())
+      throw std::invalid_argument("expected labels as in 1-189,200");
+    for(std::uint32_t label : labels)
+      selection.ranges.emplace_back(label, label);
   }
   if(selection.ranges.empty() || text.back() == ',')
-    return std::nullopt;
+    throw std::invalid_argument("expected labels as in 1-189,200");
   return selection;
 }
 
-std::optional<std::vector<std::pair<std::string, Voxel_selection>>> named_labels(const std::string& text)
+std::vector<std::pair<std::string, Voxel_selection>> named_labels(const std::string& text,
+                                                                  const Label_table& table)
 {
+  const char* const form = "expected labels as in brain=1-189,tumor=200";
   std::vector<std::pair<std::string, std::string>> lists;
   std::istringstream items(text);
   for(std::string item; std::getline(items, item, ',');) {
@@ -72,19 +80,15 @@ std::optional<std::vector<std::pair<std::string, Voxel_selection>>> named_labels
     if(equals != std::string::npos)
       lists.emplace_back(item.substr(0, equals), item.substr(equals + 1));
     else if(lists.empty())
-      return std::nullopt;
+      throw std::invalid_argument(form);
     else
       lists.back().second += ',' + item;
   }
+  if(lists.empty() || text.back() == ',')
+    throw std::invalid_argument(form);
   std::vector<std::pair<std::string, Voxel_selection>> labels;
-  for(const auto& [name, list] : lists) {
-    const std::optional<Voxel_selection> selection = labels_selection(list);
-    if(!selection)
-      return std::nullopt;
-    labels.emplace_back(name, *selection);
-  }
-  if(labels.empty() || text.back() == ',')
-    return std::nullopt;
+  for(const auto& [name, list] : lists)
+    labels.emplace_back(name, labels_selection(list, table));
   return labels;
 }
 

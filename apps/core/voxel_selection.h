@@ -8,7 +8,9 @@
 #ifndef MIXED_MESH_3_APPS_CORE_VOXEL_SELECTION_H
 #define MIXED_MESH_3_APPS_CORE_VOXEL_SELECTION_H
 
-#include <optional>
+#include "core/Label_table.h"
+
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,10 +30,15 @@ struct Voxel_selection
   bool operator()(float value) const;
 };
 
-/// Labels as in `1-189,200`; none if the text has another form.
-std::optional<Voxel_selection> labels_selection(const std::string& text);
-/// Labels with names as in `brain=1-189,tumor=200`; none if the text has another form.
-std::optional<std::vector<std::pair<std::string, Voxel_selection>>> named_labels(const std::string& text);
+/// The voxels with some labels.
+Voxel_selection labels_selection(const std::vector<std::uint32_t>& labels);
+/// Labels as in `1-189,200`; names of the table may stand instead of numbers.
+/// \throw std::invalid_argument a line, if the text has another form, or for a name that is not in the table
+Voxel_selection labels_selection(const std::string& text, const Label_table& table);
+/// Labels with names as in `brain=1-189,tumor=200`.
+/// \throw std::invalid_argument as above
+std::vector<std::pair<std::string, Voxel_selection>> named_labels(const std::string& text,
+                                                                  const Label_table& table);
 Voxel_selection threshold_selection(double threshold);
 /// All voxels of several selections of labels, which are whole numbers.
 Voxel_selection united(const std::vector<Voxel_selection>& selections);

@@ -7,6 +7,7 @@
 
 #include "core/messages.h"
 #include "core/read_label_surface.h"
+#include "mixed_mesh_3/label_groups.h"
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
@@ -96,22 +97,13 @@ public:
     return subdomain(s, index, [&](Surface_facts& facts) { return (*this)(s.file, s.voxels, facts); });
   }
 
-  // The options of all labels of an image.
-  std::vector<Subdomain_option> each_label(const std::string& file)
-  {
-    std::vector<Subdomain_option> labels;
-    for(int label : image(file).labels())
-      labels.push_back({"label_" + std::to_string(label), file, *labels_selection(std::to_string(label))});
-    return labels;
-  }
-
 private:
   template <class Read>
   static Subdomain subdomain(const Subdomain_option& s, mm3::Subdomain_index index, const Read& read)
   {
     Surface_facts facts;
     auto surface = std::make_shared<const Surface>(read(facts));
-    return {s.name, index, std::move(surface), facts, std::nullopt};
+    return {s.name, index, std::move(surface), facts, std::nullopt, {}};
   }
 
   // The number of vertices of a surface is several times that of the mesh's boundary.
@@ -142,23 +134,29 @@ struct Labels
 {
   std::vector<Subdomain> subdomains;
   Surface boundary;
+  mm3::Subdomain_index largest_index = 1; // also of labels that are lost
 };
 
-// Reads the surfaces of labels. What completion adds to them is of the one with most voxels. Labels of which
-// smoothing leaves nothing are lost.
+// Reads the surfaces of labels. What completion adds to them is of the one with most voxels; then they get
+// layers. Labels of which smoothing leaves nothing are lost.
 Labels read_labels(const Input_options& o, Surface_reader& read, Outcome& outcome)
 {
-  const std::vector<Subdomain_option> options = o.has_each_label ? read.each_label(o.surface) : o.labels;
-  std::vector<std::pair<std::size_t, std::size_t>> sizes; // sizes with the numbers of labels
+  const Label_image& whole = read.image(o.surface);
+  std::vector<Label_group> groups = label_groups(o, whole, outcome.warnings);
+  const auto size_of = [&whole](const Label_group& g) { // of equally large groups, the last one counts
+    return std::make_pair(whole.number_of_voxels(g.voxels), g.index);
+  };
+  const auto largest = std::max_element(groups.begin(), groups.end(),
+                                        [&](const Label_group& a, const Label_group& b) {
+                                          return size_of(a) < size_of(b);
+                                        });
+  const Label_image& completed = read.domain(united(groups), largest->voxels, outcome);
+  const std::optional<Label_image> layered = with_layers(o, completed, groups, outcome);
+  const Label_image& image = layered ? *layered : completed;
   std::vector<Voxel_selection> all;
-  for(const Subdomain_option& label : options) {
-    sizes.emplace_back(read.image(o.surface).number_of_voxels(label.voxels), all.size());
-    if(sizes.back().first == 0)
-      throw std::runtime_error(o.surface + ": there are no voxels " + label.voxels.text);
-    all.push_back(label.voxels);
-  }
-  const std::size_t largest = std::max_element(sizes.begin(), sizes.end())->second;
-  const Label_image& image = read.domain(united(all), all[largest], outcome);
+  for(const Label_group& group : groups)
+    all.push_back(group.voxels);
+  outcome.voxels = (all.size() == 1 ? all[0] : united(all)).text;
   const auto lose = [&outcome](const std::string& what) {
     outcome.has_lost_labels = true;
     outcome.warnings.push_back("the subdomain " + what);
@@ -167,7 +165,8 @@ Labels read_labels(const Input_options& o, Surface_reader& read, Outcome& outcom
   std::vector<Surface_facts> facts;
   std::vector<Surface> surfaces = read.labels(image, all, facts);
   for(std::size_t i = 0; i < all.size(); ++i) {
-    const std::string& name = options[i].name;
+    const auto& [name, voxels, index] = groups[i];
+    labels.largest_index = (std::max)(labels.largest_index, index);
     const auto number = double(image.number_of_voxels(all[i]));
     const double volume = number * image.volume_of_voxel();
     if(number == 0)
@@ -176,9 +175,8 @@ Labels read_labels(const Input_options& o, Surface_reader& read, Outcome& outcom
       lose(name + ", of volume " + volume_with_unit(volume, o.is_in_patient_space())
            + ", is lost: smoothing leaves nothing of it, see --smoothing");
     else
-      labels.subdomains.push_back(
-        {name, o.has_each_label ? mm3::Subdomain_index(all[i].ranges[0].first) : mm3::Subdomain_index(i + 1),
-         std::make_shared<const Surface>(std::move(surfaces[i + 1])), facts[i + 1], volume});
+      labels.subdomains.push_back({name, index, std::make_shared<const Surface>(std::move(surfaces[i + 1])),
+                                   facts[i + 1], volume, voxels.text});
   }
   labels.boundary = std::move(surfaces[0]);
   outcome.surface = facts[0];
@@ -187,14 +185,12 @@ Labels read_labels(const Input_options& o, Surface_reader& read, Outcome& outcom
 
 void read_domain(const Input_options& o, Surface_reader& read, Outcome& outcome, Inputs& inputs)
 {
-  const bool has_labels = o.has_each_label || !o.labels.empty();
+  const bool has_labels = o.label_choice != Label_choice::NONE;
   Labels labels = has_labels ? read_labels(o, read, outcome) : Labels();
   std::vector<Subdomain>& subdomains = inputs.subdomains;
   for(const std::string& cavity : o.cavities)
     subdomains.push_back(read({"cavity", cavity}, 0));
-  mm3::Subdomain_index index = mm3::Subdomain_index((std::max)(o.labels.size(), std::size_t(1)));
-  for(const Subdomain& label : labels.subdomains)
-    index = (std::max)(index, label.index);
+  mm3::Subdomain_index index = labels.largest_index;
   for(const Subdomain_option& s : o.subdomains)
     subdomains.push_back(read(s, ++index));
   const Subdomain_option whole{surrounding_name(o), o.surface, o.voxels};
@@ -210,6 +206,7 @@ void read_domain(const Input_options& o, Surface_reader& read, Outcome& outcome,
                         ? subdomains.back().surface
                         : std::make_shared<const Surface>(union_of(subdomains));
     outcome.surface = subdomains.back().facts;
+    outcome.voxels = o.voxels.text;
     if(subdomains.size() > 1)
       outcome.surface.volume = CGAL::Polygon_mesh_processing::volume(*inputs.boundary);
   }

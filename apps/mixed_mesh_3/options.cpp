@@ -70,19 +70,20 @@ Region_option region_option(const std::string& text)
   return {text.substr(0, colon), weight_option("--region " + text, text.substr(colon + 1))};
 }
 
-Voxel_selection labels_option(const std::string& option, const std::string& text)
+// The labels of an option, which a function of the text and of the table reads.
+template <class Read>
+auto labels_option(const std::string& option, const std::string& text, const Options& o, const Read& read)
 {
-  const auto labels = labels_selection(text);
-  if(!labels)
-    throw CLI::ValidationError(option, "expected labels as in 1-189,200");
-  return *labels;
+  try {
+    return read(text, o.label_table);
+  } catch(const std::invalid_argument& e) {
+    throw CLI::ValidationError(option, e.what());
+  }
 }
 
-// Whether a text is a name for files.
-bool is_name(const std::string& name)
+Voxel_selection one_selection(const std::string& text, const Label_table& table)
 {
-  constexpr std::size_t longest = 24; // two names are parts of the name of an interface
-  return name.size() <= longest && mm3::IO::is_facet_set_name(name);
+  return labels_selection(text, table);
 }
 
 const char* const what_a_name_is = "a name has up to 24 letters, digits, _ and -, a letter first, and is "
@@ -96,7 +97,7 @@ Subdomain_option subdomain_option(const std::string& option, const std::string& 
   const bool has_name = equals != std::string::npos && !std::filesystem::exists(text, ignored);
   Subdomain_option s{has_name ? text.substr(0, equals) : std::filesystem::path(text).stem().string(),
                      has_name ? text.substr(equals + 1) : text};
-  if(!is_name(s.name))
+  if(!is_subdomain_name(s.name))
     throw CLI::ValidationError(option + " " + text, std::string(what_a_name_is) + ", as in tumor=" + s.file);
   return s;
 }
@@ -117,35 +118,59 @@ Patch_option patch_option(const std::string& text)
   return patch;
 }
 
+// The groups of `--labels freesurfer`: the numbers of aseg, SynthSeg, aparc+aseg and wmparc, nearly as in
+// FreeSurfer's mri_binarize --all-wm, --subcort-gm and --ventricles. White matter also has what would be a
+// hole in it or a thread at it: vessels (30, 62), fornix (250) and optic chiasm (85).
+const char* const freesurfer_labels =
+  "white_matter=2,7,30,41,46,62,77-79,85,250-255,3000-3035,4000-4035,5001-5002,"
+  "gray_matter=3,8,10-13,17-18,26-28,42,47,49-54,58-60,80-82,1000-1035,2000-2035,"
+  "ventricles=4-5,14-15,31,43-44,63,72,fluid=24,brain_stem=16";
+
 // Sets the labels of one domain, or of several with names.
 void set_labels(const std::string& text, Options& o)
 {
   const std::string option = "--labels " + text;
-  if(text == "each") {
-    o.has_each_label = true;
+  o.label_choice = text == "each"                        ? Label_choice::EACH
+                   : text == "freesurfer"                ? Label_choice::FREESURFER
+                   : text.find('=') != std::string::npos ? Label_choice::LISTS
+                                                         : Label_choice::NONE;
+  if(o.label_choice == Label_choice::NONE)
+    o.voxels = labels_option(option, text, o, one_selection);
+  const std::string lists = o.label_choice == Label_choice::FREESURFER ? freesurfer_labels : text;
+  if(lists.find('=') == std::string::npos)
     return;
-  }
-  if(text.find('=') == std::string::npos) {
-    o.voxels = labels_option(option, text);
-    return;
-  }
-  const auto labels = named_labels(text);
-  if(!labels)
-    throw CLI::ValidationError(option, "expected labels as in brain=1-189,tumor=200");
-  for(const auto& [name, voxels] : *labels) {
-    if(!is_name(name))
+  for(const auto& [name, voxels] : labels_option(option, lists, o, named_labels)) {
+    if(!is_subdomain_name(name))
       throw CLI::ValidationError(option, what_a_name_is);
     o.labels.push_back({name, "", voxels});
   }
 }
 
 // The option of a region by labels, with a weight after a colon.
-Region_option region_of_labels(const std::string& text)
+Region_option region_of_labels(const std::string& text, const Options& o)
 {
   const std::string option = "--region-labels " + text;
   const std::size_t colon = text.find(':');
   return {"", colon == std::string::npos ? 1 : weight_option(option, text.substr(colon + 1)),
-          labels_option(option, text.substr(0, colon))};
+          labels_option(option, text.substr(0, colon), o, one_selection)};
+}
+
+// The option of a label that grows, or of one for holes if the text has no distance.
+Layer_option layer_option(const std::string& option, const std::string& text, bool has_distance)
+{
+  const std::size_t equals = has_distance ? text.find('=') : std::string::npos;
+  Layer_option layer{text.substr(0, equals), std::nullopt};
+  double distance = 0;
+  if(has_distance
+     && (equals == std::string::npos || !CLI::detail::lexical_cast(text.substr(equals + 1), distance)
+         || !(distance > 0 && std::isfinite(distance))))
+    throw CLI::ValidationError(option + ' ' + text,
+                               "expected NAME=MM, as in fluid=2, with MM greater than 0");
+  if(has_distance)
+    layer.distance = distance;
+  if(!is_subdomain_name(layer.name))
+    throw CLI::ValidationError(option + ' ' + text, what_a_name_is);
+  return layer;
 }
 
 // Adds an option that can be given several times; `add` takes one of its texts.
@@ -180,13 +205,23 @@ void add_components(CLI::App& app, Options& o)
 void add_labels(CLI::App& app, Options& o)
 {
   const char* const group = "Options of images";
+  // The table is read before the options that use its names: options are parsed in the order in which they
+  // are added.
+  app
+    .add_option_function<std::string>(
+      "--label-table", [&o](const std::string& path) { o.label_table = Label_table(path); },
+      "Names of labels: a color table of FreeSurfer or 3D Slicer, or the labels of ITK-SNAP; the names can "
+      "stand instead of numbers in --labels and --region-labels, and name the parts of --labels each")
+    ->type_name("FILE")
+    ->group(group);
   CLI::Option* const labels =
     app
       .add_option_function<std::string>(
         "--labels", [&o](const std::string& text) { set_labels(text, o); },
         "Labels of the domain in the image SURFACE (default: all but 0). With names, "
         "as in brain=1-189,tumor=200, each list becomes a subdomain, numbered from 1; 'each': each label "
-        "but 0 becomes one, with its number, and the name label_NUMBER")
+        "but 0 becomes one, with its number, and the name label_NUMBER; 'freesurfer': white_matter, "
+        "gray_matter, ventricles, fluid and brain_stem of FreeSurfer's aseg and of SynthSeg")
       ->type_name("LIST")
       ->group(group);
   app
@@ -201,7 +236,7 @@ void add_labels(CLI::App& app, Options& o)
     app, "--region-labels",
     "Labels of a region of interest in the image SURFACE, with a weight as that of --region; can be given "
     "several times",
-    [&o](const std::string& text) { o.regions.push_back(region_of_labels(text)); })
+    [&o](const std::string& text) { o.regions.push_back(region_of_labels(text, o)); })
     ->type_name("LIST[:W]")
     ->group(group);
   app
@@ -219,6 +254,21 @@ void add_labels(CLI::App& app, Options& o)
       "what that adds to several labels is of the one with most voxels")
     ->check(number("greater than 0", [](double x) { return x > 0; }))
     ->type_name("MM")
+    ->group(group);
+  add_several(
+    app, "--grow",
+    "Give what is 0 in the image, up to MM from the label NAME of --labels, to that label; a new NAME "
+    "is a layer around all labels, as in fluid=2. After --close and --hull; can be given several times",
+    [&o](const std::string& text) { o.label_layers.push_back(layer_option("--grow", text, true)); })
+    ->type_name("NAME=MM")
+    ->group(group);
+  app
+    .add_option_function<std::string>(
+      "--fill",
+      [&o](const std::string& text) { o.label_layers.push_back(layer_option("--fill", text, false)); },
+      "Give what is 0 in the image, and enclosed by the labels of --labels, to the label NAME, a new one or "
+      "not; after --grow")
+    ->type_name("NAME")
     ->group(group);
   app.add_flag("--fill-holes", o.completion.fill_holes, "Add to the domain what it encloses")->group(group);
   app
@@ -485,9 +535,17 @@ void check_subdomains(const Options& o)
   for(const auto& subdomains : {o.labels, o.subdomains})
     for(const Subdomain_option& s : subdomains)
       names.push_back(s.name);
-  if(names.empty() && o.cavities.empty() && !o.has_each_label)
+  const auto has_name = [](const std::string& name) {
+    return [&name](const auto& other) { return boost::iequals(other.name, name); };
+  };
+  for(auto layer = o.label_layers.begin(); layer != o.label_layers.end();
+      ++layer) // others are of labels and layers
+    if(std::none_of(o.labels.begin(), o.labels.end(), has_name(layer->name))
+       && std::none_of(o.label_layers.begin(), layer, has_name(layer->name)))
+      names.push_back(layer->name);
+  if(names.empty() && o.cavities.empty() && o.label_choice == Label_choice::NONE)
     return;
-  if(o.labels.empty() && !o.has_each_label)
+  if(o.label_choice == Label_choice::NONE)
     names.push_back(surrounding_name(o));
   for(const Subdomain_option& sheet : o.sheets)
     names.push_back(sheet.name);
@@ -539,17 +597,25 @@ void check_options(Options& o)
     throw CLI::ValidationError(o.surface, std::string("--close, --fill-holes and --hull need an image: ")
                                             + image_endings + "; --wrap closes a surface");
   if(!has_image
-     && (!o.voxels.ranges.empty() || !o.labels.empty() || o.has_each_label
+     && (!o.voxels.ranges.empty() || o.label_choice != Label_choice::NONE
          || std::any_of(o.regions.begin(), o.regions.end(),
                         [](const Region_option& r) { return !r.voxels.ranges.empty(); })))
     throw CLI::ValidationError(o.surface,
                                std::string("labels and thresholds need an image: ") + image_endings);
+  if(!o.label_layers.empty() && o.label_choice == Label_choice::NONE)
+    throw CLI::ValidationError(o.label_layers[0].distance ? "--grow" : "--fill",
+                               "needs --labels with names, as in brain=1-189, or each, or freesurfer");
   check_subdomains(o);
   check_sheets(o);
   check_patches(o);
 }
 
 } // namespace
+
+bool is_subdomain_name(const std::string& name)
+{
+  return name.size() <= longest_subdomain_name && mm3::IO::is_facet_set_name(name);
+}
 
 bool Input_options::is_in_patient_space() const
 {
@@ -563,7 +629,7 @@ std::string surrounding_name(const Input_options& o)
 {
   const std::string file = std::filesystem::path(o.surface).filename().string(),
                     name = file.substr(0, file.find('.'));
-  return is_name(name) ? name : "domain";
+  return is_subdomain_name(name) ? name : "domain";
 }
 
 std::optional<int> parse_command_line(int argc, char** argv, Options& options)
@@ -578,6 +644,8 @@ std::optional<int> parse_command_line(int argc, char** argv, Options& options)
 std::vector<std::string> inputs_of(const Options& o)
 {
   std::vector<std::string> inputs{o.surface};
+  if(!o.label_table.path().empty())
+    inputs.push_back(o.label_table.path());
   for(const Region_option& r : o.regions)
     inputs.push_back(r.file);
   for(const auto& parts : {o.subdomains, o.sheets})

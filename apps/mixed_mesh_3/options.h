@@ -42,6 +42,16 @@ struct Subdomain_option
   Voxel_selection voxels = {}; // voxels of an image
 };
 
+/// The choice of labels that become subdomains.
+enum class Label_choice { NONE, LISTS, EACH, FREESURFER };
+
+/// A change of an image before it is meshed: voxels near a label, or those that labels enclose, get a label.
+struct Layer_option
+{
+  std::string name;
+  std::optional<double> distance; // in mm; none: holes
+};
+
 /// A patch of the boundary: a shape such as "sphere:0,0,0,5", or a file of a closed surface.
 struct Patch_option
 {
@@ -56,9 +66,11 @@ struct Input_options
 {
   std::string surface;
   std::vector<Region_option> regions;
-  std::vector<Subdomain_option> subdomains; // inside the surface; earlier ones count where they overlap
-  std::vector<Subdomain_option> labels;     // labels of an image, with names, instead of voxels
-  bool has_each_label = false;              // all labels of an image, instead
+  std::vector<Subdomain_option> subdomains;       // inside the surface; earlier ones count where they overlap
+  Label_choice label_choice = Label_choice::NONE; // labels of an image instead of voxels
+  std::vector<Subdomain_option> labels;           // the choice, except of each label
+  std::vector<Layer_option> label_layers;         // in their order
+  Label_table label_table;
   std::vector<std::string> cavities;
   std::vector<Subdomain_option> sheets; // surfaces inside that need not enclose anything
   Voxel_selection voxels;               // voxels of an image, the domain
@@ -118,6 +130,11 @@ struct Options : Input_options, Relaxation_options
   bool has_quality_bound() const { return fit() == Fit::OPTIMIZATION && largest_arc > 0; }
   Fit fit() const { return no_fit ? Fit::NONE : no_optimize ? Fit::ALGORITHM_1 : Fit::OPTIMIZATION; }
 };
+
+/// Whether a text is a name of a subdomain in files.
+bool is_subdomain_name(const std::string& name);
+/// The length that such a name has at most: two names are parts of the name of an interface.
+inline constexpr std::size_t longest_subdomain_name = 24;
 
 /// The name of the subdomain around all others: the name of its file, if that is a valid name.
 std::string surrounding_name(const Input_options& options);

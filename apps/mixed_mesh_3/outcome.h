@@ -60,6 +60,7 @@ struct Subdomain_outcome
   std::string name;
   CGAL::Mixed_meshes_3::Subdomain_index index = 1;
   Surface_facts surface;
+  std::string voxels; // voxels of an image, in words
   std::size_t elements = 0;
   double volume = 0;
   std::optional<double> volume_of_surface; // without inner parts; none where surfaces cross
@@ -93,6 +94,15 @@ struct Patch_outcome
   double area = 0;
 };
 
+/// A layer of an image.
+struct Layer_outcome
+{
+  std::string name;
+  std::optional<double> distance; // none: holes
+  std::size_t voxels = 0;
+  bool is_new = false;
+};
+
 /// The result of doubling the vertices of sheets.
 struct Slit_outcome
 {
@@ -102,7 +112,9 @@ struct Slit_outcome
 struct Outcome
 {
   Surface_facts surface;
+  std::string voxels;                         // voxels of an image that are the domain, in words
   std::optional<Completion_facts> completion; // completion of the image's label
+  std::vector<Layer_outcome> layers;
   std::vector<Surface_facts> regions;
   std::vector<Subdomain_outcome> subdomains; // empty for a single subdomain
   std::vector<Interface_outcome> interfaces;

@@ -247,7 +247,7 @@ Json describe_mesh(const Options& o, const Outcome& outcome)
 
 void describe_subdomains(const Outcome& outcome, Json& report)
 {
-  for(const Subdomain_outcome& s : outcome.subdomains)
+  for(const Subdomain_outcome& s : outcome.subdomains) {
     report["subdomains"].push_back(
       {{"name", s.name},
        {"index", s.index},
@@ -257,6 +257,9 @@ void describe_subdomains(const Outcome& outcome, Json& report)
        {"volume of surface", s.volume_of_surface ? Json(*s.volume_of_surface) : Json()},
        {"ARC mean", s.elements > 0 ? Json(s.mean_arc) : Json()},
        {"ARC max", s.elements > 0 ? Json(s.largest_arc) : Json()}});
+    if(!s.voxels.empty())
+      report["subdomains"].back()["voxels"] = s.voxels;
+  }
   for(const Interface_outcome& i : outcome.interfaces)
     report["interfaces"].push_back({{"between", {i.first, i.second}},
                                     {"faces", i.faces},
@@ -370,6 +373,16 @@ std::string completion_in_words(const Completion_facts& c)
   return text.str().empty() ? "" : text.str() + '\n';
 }
 
+std::string layer_in_words(const Layer_outcome& layer)
+{
+  const std::string number = counted(layer.voxels, "voxel", "voxels");
+  return "image: " + layer.name
+         + (layer.distance
+              ? (layer.is_new ? ", around all labels by " : " grown by ") + rounded(*layer.distance) + " mm: "
+              : std::string(" fills holes: "))
+         + number + '\n';
+}
+
 } // namespace
 
 Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
@@ -378,9 +391,15 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
   report["program"] = describe_program("mixed_mesh_3");
   report["inputs"] = {{"surface", describe(outcome.surface)}, {"regions", Json::array()}};
   if(is_image(o.surface))
-    report["inputs"]["surface"]["voxels"] = o.voxels.text;
+    report["inputs"]["surface"]["voxels"] = outcome.voxels;
   if(outcome.completion)
     report["inputs"]["surface"]["completion"] = describe(*outcome.completion);
+  for(const Layer_outcome& layer : outcome.layers)
+    report["inputs"]["surface"]["layers"].push_back(
+      {{"name", layer.name},
+       {"distance", layer.distance ? Json(*layer.distance) : Json()},
+       {"voxels", layer.voxels},
+       {"new", layer.is_new}});
   for(std::size_t i = 0; i < o.regions.size(); ++i) {
     report["inputs"]["regions"].push_back(describe(outcome.regions[i]));
     report["inputs"]["regions"].back()["weight"] = o.regions[i].weight;
@@ -418,6 +437,8 @@ void print_summary(const Options& o, const Outcome& outcome)
   const Mesh_facts& mesh = outcome.mesh;
   if(outcome.completion)
     std::cout << completion_in_words(*outcome.completion);
+  for(const Layer_outcome& layer : outcome.layers)
+    std::cout << layer_in_words(layer);
   if(o.nodes > 0)
     std::cout << outcome.nodes << " nodes of " << o.nodes << ", " << mesh.vertices << " vertices, ";
   else

@@ -218,6 +218,7 @@ void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vecto
     s.name = subdomains[i].name;
     s.index = subdomains[i].index;
     s.surface = subdomains[i].facts;
+    s.voxels = subdomains[i].voxels;
     s.volume_of_surface = expected[i];
     s.mean_arc = s.elements > 0 ? sums[s.index] / double(s.elements) : 0;
     warn_of(s, options, outcome.warnings);

@@ -29,6 +29,7 @@ struct Subdomain
   std::shared_ptr<const Surface> surface;
   Surface_facts facts;
   std::optional<double> volume; // volume of the voxels of a label, if known
+  std::string voxels;           // which ones, in words; empty for a surface from a file
 };
 
 /// The name of what is around all subdomains, which no subdomain has.

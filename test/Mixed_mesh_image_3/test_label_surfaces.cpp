@@ -242,8 +242,8 @@ void test_separate_labels()
   BOOST_TEST(surfaces[4].is_empty());
 }
 
-// A small ball in a large one, near its surface: it is one ball, and has nothing of what is just outside of the
-// large one, though it has to reach farther into its neighbor than other labels, to keep its volume.
+// A small ball in a large one, near its surface: it is one ball, and has nothing of what is just outside of
+// the large one, though it has to reach farther into its neighbor than other labels, to keep its volume.
 void test_ball_near_outside()
 {
   for(double radius : {2.5, 3., 4.}) {

@@ -350,6 +350,208 @@ class Test_segmentation(unittest.TestCase):
         self.output.unlink()
         self.fails(path, "--labels", "white=1,gray=2", "--wrap", 5, "--vertices", 500, words="--wrap would tear")
 
+    def table(self, name, *lines):
+        path = WORK / name
+        path.write_text("\n".join(lines) + "\n")
+        return path
+
+    def test_label_tables(self):
+        """Names of a table of any of three programs say the same as numbers."""
+        path = self.image("labels.nii", labels(), AFFINES["oblique"])
+        tables = (
+            self.table("FreeSurferColorLUT.txt", "#No. Label Name:      R   G   B   A", "", "0   Unknown  0 0 0 0",
+                       f"{HEAD}   Left-Head   245 245 245 0", f"\t{LESION}  Lesion-1-2  1 2 3 0\r"),
+            self.table("slicer.ctbl", "# Color table file slicer.ctbl", f"{HEAD} left-head 1 2 3 255",
+                       f'{LESION} "LESION-1-2" 4 5 6 255'),
+            self.table("snap.label", "################", "# IDX -R- -G- -B- -A-- VIS MSH LABEL",
+                       '    0     0    0    0        0  0  0    "Clear Label"',
+                       f'    {LESION}   255    0    0        0.5  1  1    "Lesion-1-2"',
+                       f'    {HEAD}   255    0    0        1  1  1    "Left-Head"'))
+        by_numbers, run = self.mesh(path, "--labels", f"brain={HEAD},1-3,tumor={LESION}", "--region-labels", f"{LESION}:2",
+                                    "--vertices", 400)
+        content = self.output.read_bytes()
+        for table in tables:
+            with self.subTest(table.name):
+                told, run = self.mesh(path, "--label-table", table, "--labels", "brain=left-HEAD,1-3,tumor=lesion-1-2",
+                                      "--region-labels", "Lesion-1-2:2", "--vertices", 400)
+                self.assertEqual(told["warnings"], by_numbers["warnings"])
+                self.assertEqual(content, self.output.read_bytes())
+                self.assertEqual([s["voxels"] for s in told["subdomains"]],
+                                 ["with the labels left-HEAD,1-3", "with the labels lesion-1-2"])
+        # The place of the option does not matter; the lists of numbers mean the same with a table.
+        self.mesh(path, "--labels", "brain=Left-Head,tumor=200", "--region-labels", "Lesion-1-2:2", "--vertices", 400,
+                  "--label-table", tables[0])
+        self.assertEqual(content, self.output.read_bytes())
+
+    def test_names_of_each(self):
+        """Names of a table are made valid for files, and unique in upper and lower case."""
+        values = labels()
+        x, y, z = np.meshgrid(*(np.arange(n) for n in SIZE), indexing="ij")
+        values[values == HEAD] = 1 + (x // 20 + 3 * (y // 25))[values == HEAD]
+        path = self.image("labels.nii.gz", values, AFFINES["oblique"])
+        self.assertEqual(set(np.unique(values)), {0, 1, 2, 3, 4, 5, 6, LESION})
+        table = self.table("table.txt", "1 3rd-Ventricle 0 0 0 0", "2 tumor 0 0 0 0", "3 Outside 0 0 0 0", "4 all 0 0 0 0",
+                           f'5 "{"long (name) " * 5}" 0 0 0 0', f'6 "{"Long_[name]_" * 5}" 0 0 0 0')
+        told, run = self.mesh(path, "--labels", "each", "--label-table", table, "--vertices", 1500, "--subdomain",
+                              f"Tumor={self.ball()}", "--output", WORK / "mesh.msh", "--output", WORK / "mesh.inp")
+        self.assertEqual({s["index"]: s["name"] for s in told["subdomains"] if s["name"] != "Tumor"},
+                         {1: "label_3rd-Ventricle", 2: "tumor_2", 3: "Outside_2", 4: "label_all",
+                          5: "long__name__long__name__", 6: "Long__name__Long__name_2", LESION: f"label_{LESION}"})
+
+    def ball(self):
+        """A small closed surface in the middle."""
+        center = centers(AFFINES["oblique"]).mean(axis=0)
+        corners = [center + 5 * np.array(c) for c in ((1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1))]
+        path = WORK / "ball.off"
+        path.write_text("OFF\n4 4 0\n" + "".join("%g %g %g\n" % tuple(c) for c in corners)
+                        + "3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n")
+        return path
+
+    def test_bad_label_tables(self):
+        path = self.image("labels.nii", labels(), AFFINES["oblique"])
+        table = self.table("table.txt", "17 Left-Hippocampus 0 0 0 0", "53 Right-Hippocampus 0 0 0 0", "7 Left-Head 0 0 0 0",
+                           "4 Left-Lateral-Ventricle 0 0 0 0")
+        for option in ("--labels", "--region-labels"):
+            run = self.fails(path, "--label-table", table, option, "hippocampus", words=f"{table}: has no label 'hippocampus'",
+                             status=2)
+            self.assertIn("Left-Hippocampus, Right-Hippocampus, Left-Head", run.stderr)
+            self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
+        self.fails(path, "--label-table", table, "--labels", "a=Left-Haed,17", words="closest names are Left-Head,", status=2)
+        for text in ("", "1,", "a=1,", "=1"):
+            self.fails(path, "--label-table", table, "--labels", text, words="--labels", status=2)
+        for lines, words in ((("# n", "1 a 0 0 0 0", "1 b 0 0 0 0"), "line 3: the label 1 is there twice"),
+                             (("1 a 0 0 0",), "line 1: expected number, name and color"),
+                             (("1 a 0 0 0 x",), "line 1: expected"), (("-1 a 0 0 0 0",), "line 1: expected"),
+                             (('1 "a 0 0 0 0',), "line 1: expected"), (('1 0 0 0 1 1 1 ""',), "line 1: expected"),
+                             (("1 a 0 0 0 0", "\0\1\2"), "line 2: expected"), (("# nothing",), "has no labels")):
+            bad = self.table("bad.txt", *lines)
+            run = self.fails(path, "--label-table", bad, "--labels", "a=1", words=f"{bad}: {words}")
+            self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
+        for missing in (WORK / "none.txt", WORK):
+            self.fails(path, "--label-table", missing, "--labels", "a=1", words=f"{missing}: cannot be read")
+
+    def test_labels_of_freesurfer(self):
+        """Groups have fixed numbers; labels in no group are named, and left out."""
+        x, y, z = np.meshgrid(*(2 * np.arange(n) - n + 1. for n in (40, 44, 36)), indexing="ij")
+        radius = np.sqrt((x / 34)**2 + (y / 38)**2 + (z / 30)**2)
+        values = np.select([radius < 0.3, radius < 0.7, radius < 0.95, radius < 1], [4, 2, 3, 258], 0).astype(np.int16)
+        values[x > 0] = np.select([values[x > 0] == v for v in (4, 2, 3)], [43, 41, 2007], values[x > 0])
+        values[(values == 2) & (z < -14)] = 251
+        values[(values == 3) & (z < -22)] = 16
+        path = self.image("aseg.nii.gz", values, affine((2, 2, 2)))
+        table = self.table("lut.txt", "258 Head 0 0 0 0")
+        told, run = self.mesh(path, "--labels", "freesurfer", "--label-table", table, "--vertices", 3000)
+        self.assertIn(f"warning: {path}: labels that --labels freesurfer has in no group are left out: 258 (Head)\n",
+                      run.stderr)
+        groups = {"white_matter": (1, (2, 41, 251)), "gray_matter": (2, (3, 2007)), "ventricles": (3, (4, 43)),
+                  "brain_stem": (5, (16,))}
+        self.assertEqual([s["name"] for s in told["subdomains"]], list(groups))
+        for subdomain in told["subdomains"]:
+            index, numbers = groups[subdomain["name"]]
+            self.assertEqual(subdomain["index"], index)
+            self.assertEqual(subdomain["voxels"], "with the labels " + ",".join(map(str, numbers)))
+            volume = 8 * np.count_nonzero(np.isin(values, numbers))
+            self.assertAlmostEqual(subdomain["volume of surface"] / volume, 1, delta=0.03)
+        one = self.image("one.nii", np.where((values == 2) | (values == 251), values, 0), affine((2, 2, 2)))
+        told, run = self.mesh(one, "--labels", "freesurfer", "--vertices", 500)
+        self.assertEqual(told["inputs"]["surface"]["voxels"], "with the labels 2,251")
+        self.assertNotIn("subdomains", told)
+        other = self.image("other.nii", np.where(values == 258, 258, 0).astype(np.int16), affine((2, 2, 2)))
+        self.output.unlink()
+        self.fails(other, "--labels", "freesurfer", words=f"{other}: has no labels of --labels freesurfer, only 258")
+
+    def small_brain(self):
+        """White matter with two holes, gray matter at one side of it, a label that is not meshed, and its image."""
+        spacing = np.array((2, 2.4, 3))
+        x, y, z = np.meshgrid(*(s * (np.arange(n) - (n - 1) / 2) for s, n in zip(spacing, (34, 30, 24))), indexing="ij")
+        radius = np.sqrt(x**2 + y**2 + z**2)
+        values = np.where(radius < 22, np.where(x > 6, 2, 1), 0).astype(np.int16)
+        values[np.sqrt((x + 8)**2 + y**2 + z**2) < 8] = 0
+        values[(np.abs(y) < 3) & (np.abs(z) < 4) & (x > 0)] = 0  # is open
+        values[(np.abs(z) > 20) & (np.abs(z) < 26) & (radius < 30)] = 9
+        return values, self.image("brain.nii.gz", values, affine(spacing, rotation(0.3, 0.5))), spacing
+
+    @staticmethod
+    def near(mask, spacing, distance):
+        """The voxels up to a distance from a mask, by brute force."""
+        result = np.zeros_like(mask)
+        reach = [int(distance / s) for s in spacing]
+        for i, j, k in np.ndindex(*(2 * r + 1 for r in reach)):
+            step = np.array((i, j, k)) - reach
+            if np.linalg.norm(step * spacing) > distance * (1 + 1e-9):
+                continue
+            to = tuple(slice(max(s, 0), n + min(s, 0)) for s, n in zip(step, mask.shape))
+            source = tuple(slice(max(-s, 0), n + min(-s, 0)) for s, n in zip(step, mask.shape))
+            result[to] |= mask[source]
+        return result
+
+    @staticmethod
+    def enclosed(mask):
+        """The voxels outside of a mask that no way leads to from the border, by brute force."""
+        outside = np.zeros(np.add(mask.shape, 2), bool)
+        walls = np.pad(mask, 1)
+        outside[0], outside[-1], outside[:, 0], outside[:, -1], outside[:, :, 0], outside[:, :, -1] = (True,) * 6
+        while True:
+            grown = outside.copy()
+            for step in np.ndindex(2, 2, 2):
+                for sign in (1, -1):
+                    grown |= np.roll(outside, sign * np.array(step), (0, 1, 2)) & ~walls
+            if (grown == outside).all():
+                return ~(outside | walls)[1:-1, 1:-1, 1:-1]
+            outside = grown
+
+    def test_layers(self):
+        """Labels grow into what is 0, first those of the first option; holes are filled afterwards."""
+        values, path, spacing = self.small_brain()
+        volume_of_voxel, coarse = np.prod(spacing), ("--vertices", 800, "--no-fit")
+        expected = values.copy()
+        expected[(expected == 0) & self.near(expected == 2, spacing, 4)] = 2
+        grown = np.count_nonzero(expected == 2) - np.count_nonzero(values == 2)
+        fluid = (expected == 0) & self.near(np.isin(expected, (1, 2)), spacing, 5)
+        expected[fluid] = 3
+        holes = (expected == 0) & self.enclosed(np.isin(expected, (1, 2, 3)))
+        self.assertTrue(grown > 100 and fluid.sum() > 1000 and holes.sum() > 5, (grown, fluid.sum(), holes.sum()))
+        expected[holes] = 4
+        told, run = self.mesh(path, "--labels", "white=1,gray=2", "--fill", "csf", "--grow", "GRAY=4", "--grow", "fluid=5",
+                              "--vertices", 2000)
+        self.assertEqual(told["inputs"]["surface"]["layers"],
+                         [{"name": "gray", "distance": 4, "voxels": grown, "new": False},
+                          {"name": "fluid", "distance": 5, "voxels": int(fluid.sum()), "new": True},
+                          {"name": "csf", "distance": None, "voxels": int(holes.sum()), "new": True}])
+        self.assertIn(f"image: fluid, around all labels by 5 mm: {fluid.sum()} voxels\n", run.stdout)
+        self.assertNotIn("cut off", run.stderr)
+        for subdomain in told["subdomains"]:
+            volume = np.count_nonzero(expected == subdomain["index"]) * volume_of_voxel
+            self.assertAlmostEqual(subdomain["volume of surface"] / volume, 1, delta=0.03, msg=subdomain["name"])
+        self.assertEqual([s["name"] for s in told["subdomains"]][:3], ["white", "gray", "fluid"])
+        # a hole becomes a label that there is, and a new name with 'each' gets the next number
+        told, run = self.mesh(path, "--labels", "each", "--fill", "LABEL_2", "--grow", "skin=3", *coarse)
+        self.assertEqual({s["name"]: s["index"] for s in told["subdomains"]},
+                         {"label_1": 1, "label_2": 2, "label_9": 9, "skin": 10})
+        skin = (values == 0) & self.near(values != 0, spacing, 3)
+        all_filled = self.enclosed((values != 0) | skin)
+        self.assertEqual([layer["voxels"] for layer in told["inputs"]["surface"]["layers"]], [skin.sum(), all_filled.sum()])
+        # after completion: a layer around the hull
+        told, run = self.mesh(path, "--labels", "white=1,gray=2", "--hull", "--close", 6, "--grow", "fluid=3", *coarse)
+        layer, = told["inputs"]["surface"]["layers"]
+        self.assertLess(layer["voxels"], skin.sum())
+        # the border of the image
+        told, run = self.mesh(path, "--labels", "white=1,gray=2", "--grow", "fluid=20", *coarse)
+        self.assertIn(f"warning: {path}: fluid, grown by 20 mm, is cut off at the border of the image\n", run.stderr)
+
+    def test_bad_layers(self):
+        values, path, spacing = self.small_brain()
+        for text in ("fluid", "fluid=", "fluid=0", "fluid=-1", "fluid=nan", "=2", "all=2", "a b=2"):
+            self.fails(path, "--labels", "each", "--grow", text, words=f"--grow {text}: ", status=2)
+        self.fails(path, "--labels", "each", "--fill", "3", words="--fill 3: a name has", status=2)
+        for labels_option in ((), ("--labels", "1-2"), ("--threshold", "1")):
+            self.fails(path, *labels_option, "--grow", "a=2", words="--grow: needs --labels with names", status=2)
+            self.fails(path, *labels_option, "--fill", "a", words="--fill: needs --labels with names", status=2)
+        self.fails(path, "--labels", "a=1", "--sheet", f"b={path}", "--grow", "B=2", words="the name is taken", status=2)
+        self.fails(path, "--labels", "a=1", "--grow", "b=1000", words="is more than 100 voxels wide, see --grow")
+        self.fails(path, "--labels", "a=1", "--grow", "b=1.9", words=f"{path}: --grow b: there are no voxels of 0 that near")
+        self.fails(path, "--labels", "a=9", "--fill", "b", words=f"{path}: --fill b: there are no voxels of 0 that the labels")
+
     def test_bad_input(self):
         path = self.image("labels.nii", labels(), AFFINES["oblique"])
         for text in ("", "a", "1-", "-1", "3-1", "1,,2", "1,", "1.5", "99999999999"):

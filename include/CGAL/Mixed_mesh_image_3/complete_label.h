@@ -21,7 +21,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 namespace CGAL {
@@ -77,8 +76,7 @@ inline std::size_t number_with_label(const Labeled_box& box)
 inline void close_label(Labeled_box& box, double radius, const std::array<double, 3>& spacing,
                         const std::array<std::size_t, 3>& margin)
 {
-  constexpr double rounding = 1e-6; // relative rounding of an affine map in single precision
-  const double most = radius * radius * (1 + rounding);
+  const double most = squared_reach(radius);
   const std::vector<float> to_label = squared_distances(box, 1, spacing);
   Labeled_box dilated = box;
   for(std::size_t v = 0; v < to_label.size(); ++v)
@@ -188,14 +186,9 @@ Voxel_image_3 complete_label(const Voxel_image_3& image, const HasLabel& has_lab
   }
   Voxel_image_3 completed{image.grid, std::vector<float>(image.grid.number_of_voxels(), 0.f),
                           Voxel_type::UINT8};
-  const std::array<std::size_t, 3> strides = box.strides();
-  for(std::size_t v = 0; v < box.has_label.size(); ++v)
-    if(box.has_label[v]) {
-      std::array<std::size_t, 3> p;
-      for(int i = 0; i < 3; ++i)
-        p[i] = std::size_t(std::int64_t(v / strides[i] % box.size[i]) + box.first[i]);
-      completed.values[completed.grid.offset(p[0], p[1], p[2])] = 1;
-    }
+  for_each_in_image(box, image.grid, [&](std::size_t in_box, std::size_t in_image) {
+    completed.values[in_image] = box.has_label[in_box];
+  });
   if(result != nullptr)
     *result = done;
   return completed;

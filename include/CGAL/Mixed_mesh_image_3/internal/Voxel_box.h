@@ -34,6 +34,24 @@ struct Voxel_box
   }
 };
 
+/// Calls `f(v, w)` for each voxel of the box that is in the image: `v` is its offset in the box, `w` that in
+/// the image.
+template <class F>
+void for_each_in_image(const Voxel_box& box, const Voxel_grid_3& grid, const F& f)
+{
+  std::array<std::size_t, 3> low, high; // indices in the box
+  for(int i = 0; i < 3; ++i) {
+    low[i] = std::size_t((std::max)(std::int64_t(0), -box.first[i]));
+    high[i] = std::size_t(
+      std::clamp(std::int64_t(grid.size[i]) - box.first[i], std::int64_t(0), std::int64_t(box.size[i])));
+  }
+  const auto in_image = [&box](std::size_t p, int i) { return std::size_t(std::int64_t(p) + box.first[i]); };
+  for(std::size_t k = low[2]; k < high[2]; ++k)
+    for(std::size_t j = low[1]; j < high[1]; ++j)
+      for(std::size_t i = low[0]; i < high[0]; ++i)
+        f(box.offset({i, j, k}), grid.offset(in_image(i, 0), in_image(j, 1), in_image(k, 2)));
+}
+
 /// Voxels of a label in the box around the label; empty if no voxel has the label.
 struct Labeled_box : Voxel_box
 {

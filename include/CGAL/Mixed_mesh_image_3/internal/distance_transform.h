@@ -24,6 +24,14 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
+/// The largest squared distance, between centers, of voxels up to a distance from each other: spacings have
+/// the relative rounding of an affine map in single precision.
+inline double squared_reach(double distance)
+{
+  constexpr double rounding = 1e-6;
+  return distance * distance * (1 + rounding);
+}
+
 /// The squared distance of each voxel of a box to the nearest voxel of a value, between centers; infinite if
 /// no voxel has the value.
 inline std::vector<float> squared_distances(const Labeled_box& box, std::uint8_t value,
