@@ -31,14 +31,13 @@ namespace {
 class Surface_reader
 {
   const Input_options& m_options;
-  Stage_log& m_log;
   std::vector<std::string>& m_warnings;
   std::map<std::string, Label_image> m_images;
   std::optional<Label_image> m_domain; // completed
 
 public:
-  Surface_reader(const Input_options& o, Stage_log& log, std::vector<std::string>& warnings)
-    : m_options(o), m_log(log), m_warnings(warnings)
+  Surface_reader(const Input_options& o, std::vector<std::string>& warnings)
+    : m_options(o), m_warnings(warnings)
   {
   }
 
@@ -224,7 +223,7 @@ void read_domain(const Input_options& o, Surface_reader& read, Outcome& outcome,
 Inputs read_inputs(const Input_options& o, Stage_log& log, Outcome& outcome)
 {
   Inputs inputs;
-  Surface_reader read(o, log, outcome.warnings);
+  Surface_reader read(o, outcome.warnings);
   log("read surface", [&] { read_domain(o, read, outcome, inputs); });
   for(const Region_option& r : o.regions)
     inputs.regions.push_back(
