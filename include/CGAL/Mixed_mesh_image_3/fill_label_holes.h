@@ -49,16 +49,8 @@ std::size_t fill_label_holes(Voxel_image_3& image, const HasLabel& has_label,
   // Margin of the box: no label is at its border, and the voxels outside the label are connected.
   const Labeled_box box = box_of_label(image, has_label, {2, 2, 2}, whole_extent(image.grid));
   const Voxel_components components = voxel_components(box);
-  std::size_t number = 0;
-  for_each_in_image(box, image.grid, [&](std::size_t in_box, std::size_t in_image) {
-    float& voxel = image.values[in_image];
-    const bool is_enclosed = !box.has_label[in_box] && components.numbers[in_box] != 0;
-    if(!is_enclosed || !is_background(voxel))
-      return;
-    voxel = value;
-    ++number;
-  });
-  return number;
+  const auto is_enclosed = [&](std::size_t v) { return !box.has_label[v] && components.numbers[v] != 0; };
+  return set_background(image, box, is_enclosed, is_background, value);
 }
 
 } // namespace Mixed_meshes_3

@@ -64,15 +64,8 @@ std::size_t grow_label(Voxel_image_3& image, const HasLabel& has_label, const Is
     margin[i] = std::size_t(std::sqrt(most) / spacing[i]) + 1;
   const Labeled_box box = box_of_label(image, has_label, margin, whole_extent(image.grid));
   const std::vector<float> to_label = squared_distances(box, 1, spacing);
-  std::size_t number = 0;
-  for_each_in_image(box, image.grid, [&](std::size_t in_box, std::size_t in_image) {
-    float& voxel = image.values[in_image];
-    if(to_label[in_box] > most || !is_background(voxel))
-      return;
-    voxel = value;
-    ++number;
-  });
-  return number;
+  return set_background(
+    image, box, [&](std::size_t v) { return to_label[v] <= most; }, is_background, value);
 }
 
 } // namespace Mixed_meshes_3

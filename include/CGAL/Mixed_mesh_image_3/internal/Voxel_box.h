@@ -52,6 +52,24 @@ void for_each_in_image(const Voxel_box& box, const Voxel_grid_3& grid, const F& 
         f(box.offset({i, j, k}), grid.offset(in_image(i, 0), in_image(j, 1), in_image(k, 2)));
 }
 
+/// Gives a value to those voxels of the background for which `is_chosen(v)`, where `v` is the offset in the
+/// box.
+/// \return their number
+template <class IsChosen, class IsBackground>
+std::size_t set_background(Voxel_image_3& image, const Voxel_box& box, const IsChosen& is_chosen,
+                           const IsBackground& is_background, float value)
+{
+  std::size_t number = 0;
+  for_each_in_image(box, image.grid, [&](std::size_t in_box, std::size_t in_image) {
+    float& voxel = image.values[in_image];
+    if(!is_chosen(in_box) || !is_background(voxel))
+      return;
+    voxel = value;
+    ++number;
+  });
+  return number;
+}
+
 /// Voxels of a label in the box around the label; empty if no voxel has the label.
 struct Labeled_box : Voxel_box
 {

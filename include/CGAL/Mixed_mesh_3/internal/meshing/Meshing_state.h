@@ -117,6 +117,9 @@ struct Meshing_state
   /// The same, for weights of vertices; 0 without a region, where all weights are equal.
   double radius_of_weights() const { return root.is_region_everywhere() ? 0 : graded_radius(); }
 
+  /// Whether there is a mesh within the budget to be kept if the run is stopped, and one is to be kept.
+  bool keeps_mesh_if_stopped() const { return criteria.keep_mesh_if_stopped() && best.is_manifold(); }
+
   int coarsest_level() const { return (std::max)(first_base_level(criteria), lattice.level); }
 
   bool go_on()

@@ -142,8 +142,7 @@ inline void optimize_boundary(Meshing_state& s, Core_mesh& mesh, Followed_featur
                                    == Mixed_mesh_optimization_status::TOLERANCE_NOT_REACHED;
   if(!is_only_wished)
     s.result.status = worse_status(s.result.status, status_of(s.result.optimization.status));
-  s.result.is_kept = s.result.status == Mixed_mesh_status::STOPPED && s.best.is_manifold()
-                     && s.criteria.keep_mesh_if_stopped();
+  s.result.is_kept = s.result.status == Mixed_mesh_status::STOPPED && s.keeps_mesh_if_stopped();
   if(!s.result.has_mesh())
     mesh.clear();
 }

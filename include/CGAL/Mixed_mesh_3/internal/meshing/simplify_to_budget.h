@@ -125,12 +125,11 @@ struct Simplification_limits
 inline bool simplify_and_fit(Meshing_state& s, const Simplification_limits& limits, std::size_t goal,
                              Followed_features& followed, Core_mesh& mesh)
 {
-  const bool is_kept = s.criteria.keep_mesh_if_stopped() && s.best.is_manifold(); // within the budget only
   const std::size_t number = mesh.number_of_vertices(), n = s.criteria.maximal_number_of_vertices();
   double bound = limits.bound;
   const bool is_simplified = simplify(mesh, followed, s.root.domain(), goal, s.radius_of_weights(),
                                       limits.distance, limits.usual_distance, bound, limits.largest_bound,
-                                      [&] { return s.go_on() || is_kept; });
+                                      [&s] { return s.go_on() || s.keeps_mesh_if_stopped(); });
   if(!is_simplified) {
     mesh.clear();
     s.result.status = s.is_stopped ? Mixed_mesh_status::STOPPED : Mixed_mesh_status::BUDGET_TOO_SMALL;
@@ -189,7 +188,7 @@ inline void make_simplified_mesh(Meshing_state& s, bool is_cut, Core_mesh& mesh)
     fit_cut_mesh(s, bound_on_the_way, fine, followed);
   else
     fit_fine_mesh(s, bound_on_the_way, fine, followed);
-  if(s.is_stopped && !(s.criteria.keep_mesh_if_stopped() && s.best.is_manifold()))
+  if(s.is_stopped && !s.keeps_mesh_if_stopped())
     return note_stop();
   // A part of the vertices bisect edges that are far from the surface. Where these do not arrive, all are
   // left of the fine mesh.
