@@ -324,6 +324,14 @@ public:
     return planes;
   }
 
+  /// \cond SKIP_IN_MANUAL
+  // The tree of the surface's closest points; null if there are several surfaces.
+  std::shared_ptr<const Mixed_meshes_3::internal::Triangle_tree> tree_of_closest_points() const
+  {
+    return m_surfaces.size() == 1 ? m_surfaces.front().surface->tree_of_closest_points() : nullptr;
+  }
+  /// \endcond
+
 private:
   using Tree = Mixed_meshes_3::internal::Triangle_tree;
   using Vec3 = Mixed_meshes_3::Vec3;
@@ -401,7 +409,7 @@ private:
 
   static Corners corners(const Labeled& one, std::size_t facet)
   {
-    const auto& t = one.surface->facets()[facet];
+    const auto t = one.surface->facet(facet);
     return {Mixed_meshes_3::to_vec3(t[0]), Mixed_meshes_3::to_vec3(t[1]), Mixed_meshes_3::to_vec3(t[2])};
   }
 

@@ -67,13 +67,14 @@ public:
   using Base::bbox;
   using Base::bounded_side;
   using Base::closest_point;
-  using Base::facets;
+  using Base::facet;
   using Base::locate;
   using Base::number_of_facets;
   using Base::sharp_edges;
   using Base::shells;
   using Base::surface_part;
   using Base::surface_samples;
+  using Base::tree_of_closest_points;
   using Base::volume;
 };
 

@@ -88,6 +88,7 @@ public:
     if(!is_polygon_mesh(soup.triangles, soup.points.size()))
       PMP::orient_polygon_soup(soup.points, soup.triangles); // duplicates vertices of pinched surfaces
     PMP::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, m_surface);
+    soup = Triangle_soup(); // the mesh has them
     CGAL_precondition(CGAL::is_closed(m_surface));
     m_tree = tree_of(faces(m_surface));
     find_shells();

@@ -39,6 +39,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
+class Triangle_tree;
+
 class Surface_oracle_3
 {
 public:
@@ -64,9 +66,13 @@ public:
   const Bbox_3& bbox() const { return m_bbox; }
   double area() const;
   double volume() const;
-  std::size_t number_of_facets() const { return m_triangles.size(); }
-  /// The facets, in the order of the surface's faces.
-  const std::vector<Triangle_3>& facets() const { return m_triangles; }
+  std::size_t number_of_facets() const { return m_facets.size(); }
+  /// A facet, by the number of the surface's face.
+  Triangle_3 facet(std::size_t f) const
+  {
+    const std::array<std::uint32_t, 3>& v = m_facets[f];
+    return Triangle_3(m_points[v[0]], m_points[v[1]], m_points[v[2]]);
+  }
   /// The shells of the whole surface.
   const Shell_counts& shells() const { return m_shells; }
 
@@ -100,7 +106,7 @@ public:
   {
     part.facets.clear();
     for(std::uint32_t f : parent.facets)
-      if(m_boxes[f].may_overlap(cell.bbox()) && cell.do_intersect(m_triangles[f]))
+      if(m_boxes[f].may_overlap(cell.bbox()) && cell.do_intersect(facet(f)))
         part.facets.push_back(f);
     part.reference = cell.center();
     part.reference_side = bounded_side(cell.center(), parent);
@@ -120,7 +126,7 @@ public:
     for(std::uint32_t f : part.facets) {
       if(!m_boxes[f].may_overlap(segment))
         continue;
-      const Triangle_3& t = m_triangles[f];
+      const Triangle_3 t = facet(f);
       const Orientation side_p = orientation(t[0], t[1], t[2], p);
       const Orientation side_q = orientation(t[0], t[1], t[2], q);
       if(side_p == side_q && side_p != COPLANAR)
@@ -149,8 +155,8 @@ public:
     Point_3 hint = p;
     double nearest = std::numeric_limits<double>::infinity();
     for(std::uint32_t f : part.facets)
-      for(int i = 0; i < 3; ++i) {
-        const Point_3& q = m_triangles[f][i];
+      for(std::uint32_t v : m_facets[f]) {
+        const Point_3& q = m_points[v];
         const double d = CGAL::squared_distance(p, q);
         if(d < nearest) {
           nearest = d;
@@ -165,6 +171,9 @@ public:
 
   /// The closest point of the surface.
   Point_3 closest_point(const Point_3& p) const;
+
+  /// The tree of the facets' closest points.
+  std::shared_ptr<const Triangle_tree> tree_of_closest_points() const { return m_closest; }
 
   /// Points of the surface, such that no point of the surface is farther than about `spacing` from one of
   /// them: all vertices, and a grid on larger triangles.
@@ -194,22 +203,25 @@ private:
     }
   };
 
-  struct Trees; // AABB trees: defined where they are used
-  struct Delete_trees
+  struct Side_tree; // AABB tree: defined where it is used
+  struct Delete_side_tree
   {
-    void operator()(Trees* trees) const;
+    void operator()(Side_tree* tree) const;
   };
 
   static Bounded_side opposite(Bounded_side side) { return Bounded_side(-int(side)); }
 
-  void build(const Triangle_soup& soup);
-  void count_shells(const Triangle_soup& soup);
+  void build(Triangle_soup soup);
+  void count_shells(const std::vector<std::array<std::size_t, 3>>& triangles);
 
-  std::vector<Triangle_3> m_triangles;
+  // Vertices and facets without the links of a mesh, as a surface may have millions.
+  std::vector<Point_3> m_points;
+  std::vector<std::array<std::uint32_t, 3>> m_facets;
   std::vector<Facet_box> m_boxes;
   Bbox_3 m_bbox;
   Shell_counts m_shells;
-  std::unique_ptr<Trees, Delete_trees> m_trees; // the tree keeps the address of the surface
+  std::shared_ptr<const Triangle_tree> m_closest;
+  std::unique_ptr<Side_tree, Delete_side_tree> m_side_tree;
 };
 
 } // namespace internal

@@ -51,23 +51,40 @@ struct Is_sharp_map
   friend void put(const Is_sharp_map& map, key_type e, bool is_sharp) { (*map.is_sharp)[e] = is_sharp; }
 };
 
-struct Surface_oracle_3::Trees
+/// The surface as a mesh.
+inline CGAL::Surface_mesh<Surface_oracle_3::Point_3>
+mesh_of(const std::vector<Surface_oracle_3::Point_3>& points,
+        const std::vector<std::array<std::uint32_t, 3>>& facets)
+{
+  CGAL::Surface_mesh<Surface_oracle_3::Point_3> mesh;
+  mesh.reserve(std::uint32_t(points.size()), std::uint32_t(3 * facets.size() / 2),
+               std::uint32_t(facets.size()));
+  for(const auto& p : points)
+    mesh.add_vertex(p);
+  for(const auto& [a, b, c] : facets) {
+    using Vertex_index = CGAL::Surface_mesh<Surface_oracle_3::Point_3>::Vertex_index;
+    mesh.add_face(Vertex_index(a), Vertex_index(b), Vertex_index(c));
+  }
+  return mesh;
+}
+
+struct Surface_oracle_3::Side_tree
 {
   using Surface = CGAL::Surface_mesh<Point_3>;
   using Side_of_surface = CGAL::Side_of_triangle_mesh<Surface, Kernel>;
   using Tree = Side_of_surface::AABB_tree; // the traits have another name in each CGAL version
 
-  Surface surface;
+  Surface surface; // the tree keeps its address
   std::once_flag has_tree;
   Tree tree;
   std::optional<Side_of_surface> side_of_surface;
-  std::optional<Triangle_tree> triangles;
 
   // The side of a point. Most sides follow from that of a point nearby, and some surfaces need no tree for
   // the others, which takes as long as the closest points of all.
-  Bounded_side bounded_side(const Point_3& p)
+  Bounded_side bounded_side(const Point_3& p, const Surface_oracle_3& oracle)
   {
-    std::call_once(has_tree, [this] {
+    std::call_once(has_tree, [&] {
+      surface = mesh_of(oracle.m_points, oracle.m_facets);
       tree.insert(faces(surface).first, faces(surface).second, surface,
                   get(CGAL::vertex_point, std::as_const(surface)));
       tree.build();
@@ -77,48 +94,42 @@ struct Surface_oracle_3::Trees
   }
 };
 
-CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::Delete_trees::operator()(Trees* trees) const { delete trees; }
-
-CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::build(const Triangle_soup& soup)
+CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::Delete_side_tree::operator()(Side_tree* tree) const
 {
-  const auto& [points, triangles] = soup;
-  m_trees.reset(new Trees());
-  Trees::Surface& s = m_trees->surface;
-  s.reserve(std::uint32_t(points.size()), std::uint32_t(3 * triangles.size() / 2),
-            std::uint32_t(triangles.size()));
-  m_triangles.reserve(triangles.size());
-  m_boxes.reserve(triangles.size());
-  for(const Point_3& p : points)
-    s.add_vertex(p);
-  for(const auto& t : triangles) {
-    s.add_face(Trees::Surface::Vertex_index(std::uint32_t(t[0])),
-               Trees::Surface::Vertex_index(std::uint32_t(t[1])),
-               Trees::Surface::Vertex_index(std::uint32_t(t[2])));
-    m_triangles.emplace_back(points[t[0]], points[t[1]], points[t[2]]);
-    const Bbox_3 box = m_triangles.back().bbox();
+  delete tree;
+}
+
+CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::build(Triangle_soup soup)
+{
+  m_points = std::move(soup.points);
+  m_facets.reserve(soup.triangles.size());
+  m_boxes.reserve(soup.triangles.size());
+  for(const auto& t : soup.triangles) {
+    m_facets.push_back({std::uint32_t(t[0]), std::uint32_t(t[1]), std::uint32_t(t[2])});
+    const Bbox_3 box = m_points[t[0]].bbox() + m_points[t[1]].bbox() + m_points[t[2]].bbox();
     m_boxes.emplace_back(box);
     m_bbox += box;
   }
-  std::vector<std::array<Vec3, 3>> corners;
-  corners.reserve(m_triangles.size());
-  for(const Triangle_3& t : m_triangles)
-    corners.push_back({to_vec3(t[0]), to_vec3(t[1]), to_vec3(t[2])});
-  m_trees->triangles.emplace(corners);
-  count_shells(soup);
+  m_closest = std::make_shared<const Triangle_tree>(m_facets.size(), [this](std::size_t f) {
+    const std::array<std::uint32_t, 3>& v = m_facets[f];
+    return std::array<Vec3, 3>{to_vec3(m_points[v[0]]), to_vec3(m_points[v[1]]), to_vec3(m_points[v[2]])};
+  });
+  m_side_tree.reset(new Side_tree());
+  count_shells(soup.triangles);
 }
 
 // Counts the shells, without specks. Around a cavity, points inside the shell, but near to it, are outside of
 // the domain, for either orientation of the triangles.
-CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::count_shells(const Triangle_soup& soup)
+CGAL_MIXED_MESH_3_INLINE void
+Surface_oracle_3::count_shells(const std::vector<std::array<std::size_t, 3>>& triangles)
 {
-  const auto& triangles = soup.triangles;
   constexpr double near = 1e-6; // distance in sides of a triangle
-  const Shells_of_vertices shells = find_shells(triangles, soup.points.size());
+  const Shells_of_vertices shells = find_shells(triangles, m_points.size());
   m_shells = shells.counts;
   m_shells.number_of_cavities = 0;
   if(m_shells.number_of_shells < 2)
     return;
-  const auto point = [&](std::size_t v) { return to_vec3(soup.points[v]); };
+  const auto point = [&](std::size_t v) { return to_vec3(m_points[v]); };
   const std::vector<double> volumes = volumes_of_shells(shells, triangles, point);
   double largest_volume = 0;
   for(double volume : volumes)
@@ -131,7 +142,7 @@ CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::count_shells(const Triangle_soup
                             }),
              kept.end());
   if(kept.size() != triangles.size())
-    return count_shells({soup.points, std::move(kept)});
+    return count_shells(kept);
   std::vector<const std::array<std::size_t, 3>*> largest(volumes.size(), nullptr);
   std::vector<double> areas(volumes.size(), -1); // doubled
   const auto normal = [&](const std::array<std::size_t, 3>& t) {
@@ -162,28 +173,28 @@ CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::count_shells(const Triangle_soup
 CGAL_MIXED_MESH_3_INLINE double Surface_oracle_3::area() const
 {
   double sum = 0;
-  for(const Triangle_3& t : m_triangles)
-    sum += std::sqrt(t.squared_area());
+  for(std::size_t f = 0; f < number_of_facets(); ++f)
+    sum += std::sqrt(facet(f).squared_area());
   return sum;
 }
 
 CGAL_MIXED_MESH_3_INLINE double Surface_oracle_3::volume() const
 {
   double sum = 0;
-  const Point_3 o = m_triangles.front()[0];
-  for(const Triangle_3& t : m_triangles)
-    sum += CGAL::volume(o, t[0], t[1], t[2]);
+  const Point_3 o = facet(0)[0];
+  for(const auto& v : m_facets)
+    sum += CGAL::volume(o, m_points[v[0]], m_points[v[1]], m_points[v[2]]);
   return std::abs(sum);
 }
 
 CGAL_MIXED_MESH_3_INLINE Sharp_edges Surface_oracle_3::sharp_edges(double angle) const
 {
-  const Trees::Surface& s = m_trees->surface;
+  const Side_tree::Surface s = mesh_of(m_points, m_facets);
   std::vector<std::uint8_t> is_sharp(s.number_of_edges(), 0);
   Polygon_mesh_processing::detect_sharp_edges(s, angle, Is_sharp_map{&is_sharp});
   Sharp_edges result;
   std::vector<std::size_t> numbers(s.number_of_vertices(), std::size_t(-1));
-  const auto number = [&](Trees::Surface::Vertex_index v) {
+  const auto number = [&](Side_tree::Surface::Vertex_index v) {
     if(numbers[v] == std::size_t(-1)) {
       numbers[v] = result.points.size();
       result.points.push_back(to_vec3(s.point(v)));
@@ -202,7 +213,8 @@ CGAL_MIXED_MESH_3_INLINE Sharp_edges Surface_oracle_3::sharp_edges(double angle)
 CGAL_MIXED_MESH_3_INLINE Axis_parallel_planes Surface_oracle_3::axis_parallel_planes() const
 {
   Axis_parallel_planes planes;
-  for(const Triangle_3& t : m_triangles) {
+  for(std::size_t f = 0; f < number_of_facets(); ++f) {
+    const Triangle_3 t = facet(f);
     int k = 0;
     while(k < 3 && !(t[0][k] == t[1][k] && t[0][k] == t[2][k]))
       ++k;
@@ -215,19 +227,19 @@ CGAL_MIXED_MESH_3_INLINE Axis_parallel_planes Surface_oracle_3::axis_parallel_pl
 
 CGAL_MIXED_MESH_3_INLINE Bounded_side Surface_oracle_3::bounded_side(const Point_3& p) const
 {
-  return m_trees->bounded_side(p);
+  return m_side_tree->bounded_side(p, *this);
 }
 
 CGAL_MIXED_MESH_3_INLINE Surface_oracle_3::Point_3 Surface_oracle_3::closest_point(const Point_3& p,
                                                                                    const Point_3& hint) const
 {
-  const Vec3 q = m_trees->triangles->closest(to_vec3(p), {to_vec3(hint), 0}).point;
+  const Vec3 q = m_closest->closest(to_vec3(p), {to_vec3(hint), 0}).point;
   return Point_3(q[0], q[1], q[2]);
 }
 
 CGAL_MIXED_MESH_3_INLINE Surface_oracle_3::Point_3 Surface_oracle_3::closest_point(const Point_3& p) const
 {
-  const Vec3 q = m_trees->triangles->closest(to_vec3(p)).point;
+  const Vec3 q = m_closest->closest(to_vec3(p)).point;
   return Point_3(q[0], q[1], q[2]);
 }
 
@@ -235,16 +247,15 @@ CGAL_MIXED_MESH_3_INLINE std::vector<Surface_oracle_3::Point_3>
 Surface_oracle_3::surface_samples(double spacing) const
 {
   std::vector<Point_3> samples;
-  const auto& s = m_trees->surface;
-  std::vector<std::uint8_t> is_seen(s.number_of_vertices(), 0);
-  for(const auto f : faces(s)) {
+  std::vector<std::uint8_t> is_seen(m_points.size(), 0);
+  for(const auto& facet : m_facets) {
     std::array<Point_3, 3> p;
     double longest = 0;
     int k = 0;
-    for(const auto v : vertices_around_face(halfedge(f, s), s)) {
-      p[k++] = s.point(v);
+    for(std::uint32_t v : facet) {
+      p[k++] = m_points[v];
       if(!is_seen[v])
-        samples.push_back(s.point(v));
+        samples.push_back(m_points[v]);
       is_seen[v] = 1;
     }
     for(int i = 0; i < 3; ++i)

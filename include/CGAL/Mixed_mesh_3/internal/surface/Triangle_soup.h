@@ -21,7 +21,6 @@
 
 #include <array>
 #include <cstddef>
-#include <unordered_map>
 #include <vector>
 
 namespace CGAL {
@@ -44,20 +43,24 @@ Triangle_soup surface_triangles(const FaceListGraph& surface, const NamedParamet
   CGAL_precondition(CGAL::is_triangle_mesh(surface));
   auto vpm = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
                                           get_const_property_map(CGAL::vertex_point, surface));
+  const auto vertex_index = CGAL::get_initialized_vertex_index_map(surface, np);
   Triangle_soup soup;
-  std::unordered_map<typename boost::graph_traits<FaceListGraph>::vertex_descriptor, std::size_t> index;
+  std::vector<std::size_t> index; // in the soup, by the index in the graph, which may have gaps
   index.reserve(num_vertices(surface));
   soup.points.reserve(num_vertices(surface));
   soup.triangles.reserve(num_faces(surface));
   for(auto v : vertices(surface)) {
-    index[v] = soup.points.size();
+    const std::size_t i = std::size_t(get(vertex_index, v));
+    if(i >= index.size())
+      index.resize(i + 1);
+    index[i] = soup.points.size();
     soup.points.push_back(rounded_point(to_vec3(get(vpm, v))));
   }
   for(auto f : faces(surface)) {
     std::array<std::size_t, 3> t;
     int i = 0;
     for(auto v : vertices_around_face(halfedge(f, surface), surface))
-      t[i++] = index[v];
+      t[i++] = index[std::size_t(get(vertex_index, v))];
     soup.triangles.push_back(t);
   }
   return soup;

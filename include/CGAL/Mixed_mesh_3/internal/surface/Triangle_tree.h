@@ -95,19 +95,27 @@ public:
   /// \par Complexity
   /// \f$ O(n \log n) \f$
   explicit Triangle_tree(const std::vector<std::array<Vec3, 3>>& triangles)
+    : Triangle_tree(triangles.size(), [&triangles](std::size_t i) { return triangles[i]; })
+  {
+  }
+
+  /// \param number number of triangles
+  /// \param corners `std::array<Vec3, 3>(std::size_t)`: corners of a triangle, which may be degenerate
+  template <class Corners>
+  Triangle_tree(std::size_t number, const Corners& corners)
   {
     Box box;
-    if(!triangles.empty())
-      box = Box(triangles.front());
-    for(const auto& t : triangles)
-      box.add(Box(t));
+    if(number > 0)
+      box = Box(corners(0));
+    for(std::size_t i = 1; i < number; ++i)
+      box.add(Box(corners(i)));
     std::vector<Center> centers;
-    centers.reserve(triangles.size());
-    for(const auto& t : triangles)
-      centers.push_back(center_of(Box(t), box, centers.size()));
-    m_nodes.reserve(triangles.size() / 3);
-    if(!triangles.empty())
-      add_node(triangles, box.high - box.low, centers, 0, centers.size());
+    centers.reserve(number);
+    for(std::size_t i = 0; i < number; ++i)
+      centers.push_back(center_of(Box(corners(i)), box, i));
+    m_nodes.reserve(number / 3);
+    if(number > 0)
+      add_node(corners, box.high - box.low, centers, 0, number);
     m_nodes.shrink_to_fit();
     constexpr double roundings = 8 * std::numeric_limits<double>::epsilon();
     for(std::size_t k = 0; k < 3; ++k)
@@ -118,7 +126,7 @@ public:
     m_positions.resize(centers.size());
     for(const Center& c : centers) {
       m_positions[c.number] = std::uint32_t(m_triangles.size());
-      m_triangles.emplace_back(triangles[c.number]);
+      m_triangles.emplace_back(corners(c.number));
       m_numbers.push_back(c.number);
     }
   }
@@ -241,8 +249,9 @@ private:
 
   // Adds the nodes of a range, the first of which has the index that the number of nodes was; returns the box
   // of the range.
-  Box add_node(const std::vector<std::array<Vec3, 3>>& triangles, const Vec3& sides,
-               std::vector<Center>& centers, std::size_t first, std::size_t last)
+  template <class Corners>
+  Box add_node(const Corners& corners, const Vec3& sides, std::vector<Center>& centers, std::size_t first,
+               std::size_t last)
   {
     const std::size_t index = m_nodes.size();
     const std::size_t middle = halve(centers, sides, first, last),
@@ -250,17 +259,17 @@ private:
                       three_quarters = halve(centers, sides, middle, last);
     const std::array<std::size_t, width + 1> ends{first, quarter, middle, three_quarters, last};
     m_nodes.emplace_back();
-    Box all(triangles[centers[first].number]);
+    Box all(corners(centers[first].number));
     for(std::size_t child = 0; child < width; ++child) {
       constexpr double infinity = std::numeric_limits<double>::infinity();
       const std::size_t begin = ends[child], end = ends[child + 1];
-      Box box(triangles[centers[begin < end ? begin : first].number]);
+      Box box(corners(centers[begin < end ? begin : first].number));
       const bool is_leaf = end - begin <= width;
       const std::uint32_t start = std::uint32_t(is_leaf ? begin : m_nodes.size());
       if(!is_leaf)
-        box = add_node(triangles, sides, centers, begin, end);
+        box = add_node(corners, sides, centers, begin, end);
       for(std::size_t i = begin; is_leaf && i < end; ++i)
-        box.add(Box(triangles[centers[i].number]));
+        box.add(Box(corners(centers[i].number)));
       all.add(box);
       Node& node = m_nodes[index];
       for(std::size_t k = 0; k < 3; ++k) {
