@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 using Status = CGAL::Mixed_mesh_status;
@@ -33,11 +34,12 @@ Solid solid_of(const mm3::Solid_topology& t)
 
 } // namespace
 
-Fidelity distances_and_volumes_of(const Mesh& mesh, const Surface& surface, double volume_of_surface)
+Fidelity distances_and_volumes_of(const Mesh& mesh, const Surface& surface, double volume_of_surface,
+                                  Surface_tree tree)
 {
   constexpr double relative_error = 1e-4; // default of hausdorff_distance()
   const auto [distance, vertices_off] = mm3::internal::distances_from_surface(mesh, surface, relative_error,
-                                                                              on_surface);
+                                                                              on_surface, std::move(tree));
   Fidelity f;
   f.vertices_off = vertices_off;
   f.from_mesh = distance_of(distance.from_mesh);
@@ -49,7 +51,7 @@ Fidelity distances_and_volumes_of(const Mesh& mesh, const Surface& surface, doub
 
 Fidelity fidelity_of(const Mesh& mesh, const Surface& surface, double volume_of_surface)
 {
-  Fidelity f = distances_and_volumes_of(mesh, surface, volume_of_surface);
+  Fidelity f = distances_and_volumes_of(mesh, surface, volume_of_surface, nullptr);
   f.vertices = mm3::boundary_vertices(mesh).size();
   return f;
 }

@@ -17,8 +17,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
+
+namespace CGAL::Mixed_meshes_3::internal {
+class Triangle_tree;
+}
 
 /// Largest relative difference of the volume of a body from its right volume.
 constexpr double volume_tolerance = 0.05;
@@ -74,9 +79,14 @@ struct Topology
   bool is_same = true;
 };
 
+/// The tree of the points of a surface that are closest to given ones.
+using Surface_tree = std::shared_ptr<const CGAL::Mixed_meshes_3::internal::Triangle_tree>;
+
 /// Measures the fidelity but for the numbers of vertices, which another thread may count meanwhile. \pre the
 /// boundary is a closed manifold
-Fidelity distances_and_volumes_of(const Mesh& mesh, const Surface& surface, double volume_of_surface);
+/// \param tree tree of the surface; if null, it is built. The tree is released if no other owner is left
+Fidelity distances_and_volumes_of(const Mesh& mesh, const Surface& surface, double volume_of_surface,
+                                  Surface_tree tree);
 
 /// Measures the fidelity. \pre the boundary is a closed manifold
 Fidelity fidelity_of(const Mesh& mesh, const Surface& surface, double volume_of_surface);

@@ -70,8 +70,8 @@ Aspect_ratios aspect_ratios_of(const Mesh& mesh)
           mm3::histogram(mesh, mm3::aspect_ratio_coefficient, histogram_edges())};
 }
 
-void examine(const Mesh& mesh, const Surface& surface, const Options& options, Stage_log& log,
-             Outcome& outcome)
+void examine(const Mesh& mesh, const Surface& surface, Surface_tree tree, const Options& options,
+             Stage_log& log, Outcome& outcome)
 {
   mm3::Mesh_certificate certificate{log("checks", [&] { return mm3::find_defects(mesh); })};
   if(certificate.defects.none()) {
@@ -80,7 +80,9 @@ void examine(const Mesh& mesh, const Surface& surface, const Options& options, S
     log.together(
       options.threads,
       {{"distance to surface",
-        [&] { outcome.fidelity = distances_and_volumes_of(mesh, surface, outcome.surface.volume); }},
+        [&] {
+          outcome.fidelity = distances_and_volumes_of(mesh, surface, outcome.surface.volume, std::move(tree));
+        }},
        {"checks", [&] { self_intersections = mm3::number_of_boundary_self_intersections(mesh); }},
        {"checks",
         [&] {

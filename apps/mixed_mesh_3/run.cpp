@@ -301,7 +301,13 @@ bool run(Options o)
   Mesh mesh = make_mesh_until_stopped(domain, inputs, o, log, outcome);
   o.vertices = outcome.result.vertex_budget; // number found by --vertices auto
   const std::vector<std::string> warnings = outcome.warnings;
-  examine(mesh, *inputs.boundary, o, log, outcome);
+  Surface_tree tree;
+  if(inputs.subdomains.size() == 1 && inputs.boundary == inputs.subdomains.front().surface) {
+    tree = domain.tree_of_closest_points();
+    if(sheets.empty())
+      domain = Domain(); // a copy of a large surface, which nothing below needs
+  }
+  examine(mesh, *inputs.boundary, std::move(tree), o, log, outcome);
   examine_subdomains(mesh, domain, inputs.subdomains, o, outcome);
   std::vector<mm3::IO::Facet_set> facet_sets = examine_sheets(mesh, domain, sheets, o, outcome);
   outcome.nodes = number_of_nodes(mesh, o.order); // with those that --slit doubles

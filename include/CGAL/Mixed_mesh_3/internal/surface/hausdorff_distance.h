@@ -29,6 +29,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <queue>
 #include <utility>
 #include <vector>
@@ -61,14 +62,11 @@ Triangle_soup boundary_triangles(const Mesh& mesh)
   return soup;
 }
 
-/// The corners of the triangles.
-inline std::vector<std::array<Vec3, 3>> corners(const Triangle_soup& soup)
+/// The corners of a triangle.
+inline std::array<Vec3, 3> corners(const Triangle_soup& soup, std::size_t triangle)
 {
-  std::vector<std::array<Vec3, 3>> result;
-  result.reserve(soup.triangles.size());
-  for(const auto& t : soup.triangles)
-    result.push_back({to_vec3(soup.points[t[0]]), to_vec3(soup.points[t[1]]), to_vec3(soup.points[t[2]])});
-  return result;
+  const auto& t = soup.triangles[triangle];
+  return {to_vec3(soup.points[t[0]]), to_vec3(soup.points[t[1]]), to_vec3(soup.points[t[2]])};
 }
 
 /// Nearest points on the triangles of a soup.
@@ -76,7 +74,7 @@ class Nearest_triangle
 {
   using Point_3 = Predicates_kernel::Point_3;
 
-  Triangle_tree m_tree;
+  std::shared_ptr<const Triangle_tree> m_tree;
 
 public:
   using Hint = Triangle_tree::Closest;
@@ -90,19 +88,26 @@ public:
   };
 
   /// Constructs the query. \pre the soup is not empty
-  explicit Nearest_triangle(const Triangle_soup& soup) : m_tree(corners(soup)) {}
+  explicit Nearest_triangle(const Triangle_soup& soup)
+    : m_tree(std::make_shared<const Triangle_tree>(soup.triangles.size(),
+                                                   [&soup](std::size_t i) { return corners(soup, i); }))
+  {
+  }
 
-  Query operator()(const Point_3& p) const { return query(p, m_tree.closest(to_vec3(p))); }
+  /// Constructs the query from the tree of a soup, or of a surface. \pre the tree is not empty
+  explicit Nearest_triangle(std::shared_ptr<const Triangle_tree> tree) : m_tree(std::move(tree)) {}
+
+  Query operator()(const Point_3& p) const { return query(p, m_tree->closest(to_vec3(p))); }
 
   /// \param hint point of the soup; the query is faster if the hint is near
   Query operator()(const Point_3& p, const Hint& hint) const
   {
-    return query(p, m_tree.closest(to_vec3(p), hint));
+    return query(p, m_tree->closest(to_vec3(p), hint));
   }
 
   double distance(const Point_3& p, std::size_t triangle) const
   {
-    return query(p, m_tree.closest(to_vec3(p), triangle)).distance;
+    return query(p, m_tree->closest(to_vec3(p), triangle)).distance;
   }
 
 private:
