@@ -51,42 +51,39 @@ struct Is_sharp_map
   friend void put(const Is_sharp_map& map, key_type e, bool is_sharp) { (*map.is_sharp)[e] = is_sharp; }
 };
 
-/// The surface as a mesh.
-inline CGAL::Surface_mesh<Surface_oracle_3::Point_3>
-mesh_of(const std::vector<Surface_oracle_3::Point_3>& points,
-        const std::vector<std::array<std::uint32_t, 3>>& facets)
-{
-  CGAL::Surface_mesh<Surface_oracle_3::Point_3> mesh;
-  mesh.reserve(std::uint32_t(points.size()), std::uint32_t(3 * facets.size() / 2),
-               std::uint32_t(facets.size()));
-  for(const auto& p : points)
-    mesh.add_vertex(p);
-  for(const auto& [a, b, c] : facets) {
-    using Vertex_index = CGAL::Surface_mesh<Surface_oracle_3::Point_3>::Vertex_index;
-    mesh.add_face(Vertex_index(a), Vertex_index(b), Vertex_index(c));
-  }
-  return mesh;
-}
-
+/// The tree that tells sides, and its mesh, which sharp edges are found in; each is made when it is needed.
 struct Surface_oracle_3::Side_tree
 {
   using Surface = CGAL::Surface_mesh<Point_3>;
   using Side_of_surface = CGAL::Side_of_triangle_mesh<Surface, Kernel>;
   using Tree = Side_of_surface::AABB_tree; // the traits have another name in each CGAL version
 
+  std::once_flag has_mesh, has_tree;
   Surface surface; // the tree keeps its address
-  std::once_flag has_tree;
   Tree tree;
   std::optional<Side_of_surface> side_of_surface;
+
+  const Surface& mesh(const Surface_oracle_3& oracle)
+  {
+    std::call_once(has_mesh, [&] {
+      const std::size_t facets = oracle.m_facets.size();
+      surface.reserve(std::uint32_t(oracle.m_points.size()), std::uint32_t(3 * facets / 2),
+                      std::uint32_t(facets));
+      for(const Point_3& p : oracle.m_points)
+        surface.add_vertex(p);
+      for(const auto& [a, b, c] : oracle.m_facets)
+        surface.add_face(Surface::Vertex_index(a), Surface::Vertex_index(b), Surface::Vertex_index(c));
+    });
+    return surface;
+  }
 
   // The side of a point. Most sides follow from that of a point nearby, and some surfaces need no tree for
   // the others, which takes as long as the closest points of all.
   Bounded_side bounded_side(const Point_3& p, const Surface_oracle_3& oracle)
   {
     std::call_once(has_tree, [&] {
-      surface = mesh_of(oracle.m_points, oracle.m_facets);
-      tree.insert(faces(surface).first, faces(surface).second, surface,
-                  get(CGAL::vertex_point, std::as_const(surface)));
+      const Surface& s = mesh(oracle);
+      tree.insert(faces(s).first, faces(s).second, s, get(CGAL::vertex_point, s));
       tree.build();
       side_of_surface.emplace(tree);
     });
@@ -189,7 +186,7 @@ CGAL_MIXED_MESH_3_INLINE double Surface_oracle_3::volume() const
 
 CGAL_MIXED_MESH_3_INLINE Sharp_edges Surface_oracle_3::sharp_edges(double angle) const
 {
-  const Side_tree::Surface s = mesh_of(m_points, m_facets);
+  const Side_tree::Surface& s = m_side_tree->mesh(*this);
   std::vector<std::uint8_t> is_sharp(s.number_of_edges(), 0);
   Polygon_mesh_processing::detect_sharp_edges(s, angle, Is_sharp_map{&is_sharp});
   Sharp_edges result;
