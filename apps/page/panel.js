@@ -329,11 +329,18 @@ function showSubdomains() {
     "\u2013" :
     (100 * (s["ratio of volumes"] - 1)).toFixed(1).replace("-", "\u2212").replace(/^(?=[1-9]|0.*[1-9])/, "+");
   const head = ["", "Elements", `Volume ${unitOfVolume}`, `Input ${unitOfVolume}`, "Difference, %"];
-  $("subdomains").querySelector("table").replaceChildren(
-    make("tr", {}, ...head.map(text => make("th", {scope: "col"}, text))),
-    ...told.map(s => make("tr", {}, ...[nameOf(s.index), count(s.elements), number(inUnit(s.volume)),
-      number(s["volume of surface"] == null ? undefined : inUnit(s["volume of surface"])), difference(s)]
-        .map(text => make("td", {}, text)))));
+  $("subdomains")
+    .querySelector("table")
+    .replaceChildren(
+      make("tr", {}, ...head.map(text => make("th", {scope: "col"}, text))),
+      ...told.map(
+        s => make(
+          "tr", {},
+          ...
+            [nameOf(s.index), count(s.elements), number(inUnit(s.volume)),
+             number(s["volume of surface"] == null ? undefined : inUnit(s["volume of surface"])),
+             difference(s)]
+              .map(text => make("td", {}, text)))));
 }
 
 // The paper's Table 1: what elements of each kind are like.

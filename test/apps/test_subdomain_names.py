@@ -214,7 +214,7 @@ class Test(unittest.TestCase):
         second = {end: WORK / f"second.{end}" for end in ("vtu", "msh", "feb")}
         surfaces = [WORK / "box.off", "--subdomain", f"tumor={WORK / 'a.off'}", "--subdomain",
                     f"Left-Ventricle={WORK / 'b.off'}", "--vertices", "500", "--report", WORK / "part.json"]
-        hole = ["--patch", "hole=sphere:43.5,30,20,25", "--order", "2"]
+        hole = ["--patch", "hole=box:34,19,9,53,41,31", "--order", "2"]
         for more, outputs in (([], files), (hole, second)):
             run = subprocess.run([MESHER, *surfaces, "--extract", "tumor", "--extract", "BOX", *more, "--page",
                                   WORK / "part.html", *(w for f in outputs.values() for w in ("--output", f))],
