@@ -615,8 +615,8 @@ void test_brain(const std::string& data)
   }
 }
 
-// The elements of some subdomains are those of the mesh, in their order, with their attributes; all subdomains
-// have the volume of the mesh together, and none have no element.
+// The elements of some subdomains are those of the mesh, in their order, with their attributes; together,
+// all subdomains have the volume of the mesh.
 void test_extract(Element_kind kind)
 {
   const Mesh cells = grid(4, kind);
