@@ -101,10 +101,47 @@ mm3::Subdomain_index largest_index(const std::vector<Label_group>& groups)
   return largest;
 }
 
-} // namespace
+// Makes one group of several, in the place of the first one. An image need not have all of FreeSurfer's.
+void merge(const Merge_option& option, const Input_options& o, const Label_image& image,
+           std::vector<Label_group>& groups)
+{
+  const auto is_named = [](const std::string& name) {
+    return [&name](const Label_group& g) { return boost::iequals(g.name, name); };
+  };
+  std::vector<std::string> names;
+  for(const Label_group& group : groups)
+    names.push_back(group.name);
+  std::vector<Label_group> merged;
+  std::size_t place = groups.size();
+  for(const std::string& part : option.parts) {
+    const auto group = std::find_if(groups.begin(), groups.end(), is_named(part));
+    if(group == groups.end()) {
+      if(o.label_choice == Label_choice::FREESURFER)
+        continue;
+      throw std::runtime_error(option.text() + ": " + part + ": " + sentence_on_no_subdomain(names));
+    }
+    place = (std::min)(place, std::size_t(group - groups.begin()));
+    merged.push_back(std::move(*group));
+    groups.erase(group);
+  }
+  if(merged.empty())
+    throw std::runtime_error(option.text() + ": " + o.surface + " has no labels of these");
+  if(std::any_of(groups.begin(), groups.end(), is_named(option.name)))
+    throw std::runtime_error(option.text() + ": the name is taken");
+  mm3::Subdomain_index index = merged.front().index;
+  std::vector<std::uint32_t> labels;
+  for(const std::uint32_t label : image.labels())
+    for(const Label_group& part : merged)
+      if(part.voxels(float(label))) {
+        labels.push_back(label);
+        index = (std::min)(index, part.index);
+      }
+  groups.insert(groups.begin() + std::ptrdiff_t(place), {option.name, labels_selection(labels), index});
+}
 
-std::vector<Label_group> label_groups(const Input_options& o, const Label_image& image,
-                                      std::vector<std::string>& warnings)
+// The groups before merges.
+std::vector<Label_group> chosen_groups(const Input_options& o, const Label_image& image,
+                                       std::vector<std::string>& warnings)
 {
   if(o.label_choice == Label_choice::EACH)
     return each_label(o, image);
@@ -116,6 +153,17 @@ std::vector<Label_group> label_groups(const Input_options& o, const Label_image&
       throw std::runtime_error(o.surface + ": there are no voxels " + s.voxels.text);
     groups.push_back({s.name, s.voxels, mm3::Subdomain_index(groups.size() + 1)});
   }
+  return groups;
+}
+
+} // namespace
+
+std::vector<Label_group> label_groups(const Input_options& o, const Label_image& image,
+                                      std::vector<std::string>& warnings)
+{
+  std::vector<Label_group> groups = chosen_groups(o, image, warnings);
+  for(const Merge_option& option : o.merges)
+    merge(option, o, image, groups);
   return groups;
 }
 

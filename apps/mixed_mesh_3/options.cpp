@@ -16,6 +16,7 @@
 #include <CGAL/version.h>
 
 #include <boost/algorithm/string/predicate.hpp>
+#include <boost/algorithm/string/split.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -155,6 +156,20 @@ Region_option region_of_labels(const std::string& text, const Options& o)
           labels_option(option, text.substr(0, colon), o, one_selection)};
 }
 
+// The option of labels that become one.
+Merge_option merge_option(const std::string& text)
+{
+  const std::size_t equals = text.find('=');
+  Merge_option merge{text.substr(0, equals), {}};
+  if(equals != std::string::npos)
+    boost::algorithm::split(merge.parts, text.substr(equals + 1), [](char c) { return c == '+'; });
+  if(merge.parts.size() < 2)
+    throw CLI::ValidationError("--merge " + text, "expected NAME=A+B, as in tissue=white_matter+gray_matter");
+  if(!is_subdomain_name(merge.name))
+    throw CLI::ValidationError("--merge " + text, what_a_name_is);
+  return merge;
+}
+
 // The option of a label that grows, or of one for holes if the text has no distance.
 Layer_option layer_option(const std::string& option, const std::string& text, bool has_distance)
 {
@@ -256,6 +271,13 @@ void add_labels(CLI::App& app, Options& o)
     ->type_name("MM")
     ->group(group);
   add_several(
+    app, "--merge",
+    "Make one subdomain NAME of several of --labels, as in tissue=white_matter+gray_matter; it has the "
+    "smallest of their numbers. Before --close, --hull and --grow; can be given several times",
+    [&o](const std::string& text) { o.merges.push_back(merge_option(text)); })
+    ->type_name("NAME=A+B")
+    ->group(group);
+  add_several(
     app, "--grow",
     "Give what is 0 in the image, up to MM from the label NAME of --labels, to that label; a new NAME "
     "is a layer around all labels, as in fluid=2. After --close and --hull; can be given several times",
@@ -354,6 +376,17 @@ void add_outputs(CLI::App& app, Options& o)
     "plane:X,Y,Z,NX,NY,NZ or beyond, where the normal points to. Can be given several times",
     [&o](const std::string& text) { o.patches.push_back(patch_option(text)); })
     ->type_name("NAME=WHERE");
+  add_several(
+    app, "--extract",
+    "Write only these subdomains of --subdomain or --labels, as in skull,brain: their elements, whose "
+    "interfaces with others become boundary; the mesh is that of all, which the budget and the checks are "
+    "for",
+    [&o](const std::string& text) {
+      std::vector<std::string> names;
+      boost::algorithm::split(names, text, [](char c) { return c == ','; });
+      o.extract.insert(o.extract.end(), names.begin(), names.end());
+    })
+    ->type_name("NAMES");
   app.add_option("--report", o.report, "Report with counts, quality, checks, times and memory")
     ->type_name("FILE.json");
   app
@@ -528,21 +561,53 @@ void set_up(CLI::App& app, Options& o)
              "  mixed_mesh_3 data/brain.off --region data/region.off --vertices 660 --output brain.vtu");
 }
 
-// Checks that names differ, and that options for a single subdomain are not used with several.
-void check_subdomains(const Options& o)
+// The names of labels after merges; of each label, which the image tells, those of merges only.
+std::vector<std::string> names_of_labels(const Options& o)
 {
   std::vector<std::string> names;
-  for(const auto& subdomains : {o.labels, o.subdomains})
-    for(const Subdomain_option& s : subdomains)
-      names.push_back(s.name);
+  for(const Subdomain_option& s : o.labels)
+    names.push_back(s.name);
+  for(const Merge_option& merge : o.merges) {
+    const std::vector<std::string> before = names;
+    for(const std::string& part : merge.parts) {
+      const auto found = std::find_if(names.begin(), names.end(), [&part](const std::string& name) {
+        return boost::iequals(name, part);
+      });
+      if(found != names.end())
+        names.erase(found);
+      else if(o.label_choice != Label_choice::EACH)
+        throw CLI::ValidationError(merge.text() + ": " + part, sentence_on_no_subdomain(before));
+    }
+    names.push_back(merge.name);
+  }
+  return names;
+}
+
+// The names of subdomains, except those of each label, and of what is around all.
+std::vector<std::string> names_of_subdomains(const Options& o)
+{
+  const std::vector<std::string> labels = names_of_labels(o);
+  std::vector<std::string> names = labels;
+  for(const Subdomain_option& s : o.subdomains)
+    names.push_back(s.name);
   const auto has_name = [](const std::string& name) {
     return [&name](const auto& other) { return boost::iequals(other.name, name); };
   };
+  const auto is_label = [&labels](const std::string& name) {
+    return std::any_of(labels.begin(), labels.end(),
+                       [&name](const std::string& label) { return boost::iequals(label, name); });
+  };
   for(auto layer = o.label_layers.begin(); layer != o.label_layers.end();
       ++layer) // others are of labels and layers
-    if(std::none_of(o.labels.begin(), o.labels.end(), has_name(layer->name))
-       && std::none_of(o.label_layers.begin(), layer, has_name(layer->name)))
+    if(!is_label(layer->name) && std::none_of(o.label_layers.begin(), layer, has_name(layer->name)))
       names.push_back(layer->name);
+  return names;
+}
+
+// Checks that names differ, and that options for a single subdomain are not used with several.
+void check_subdomains(const Options& o)
+{
+  std::vector<std::string> names = names_of_subdomains(o);
   if(names.empty() && o.cavities.empty() && o.label_choice == Label_choice::NONE)
     return;
   if(o.label_choice == Label_choice::NONE)
@@ -578,6 +643,26 @@ void check_patches(const Options& o)
         throw CLI::ValidationError(o.patches[i].text(), "the name is taken");
 }
 
+// Checks names as far as they are known before the image is read.
+void check_extract(const Options& o)
+{
+  if(o.extract.empty())
+    return;
+  if(o.subdomains.empty() && o.label_choice == Label_choice::NONE)
+    throw CLI::ValidationError("--extract",
+                               "needs --subdomain, or --labels with names, as in brain=1-189, or "
+                               "each, or freesurfer");
+  if(o.label_choice == Label_choice::EACH)
+    return;
+  std::vector<std::string> names = names_of_subdomains(o);
+  if(o.label_choice == Label_choice::NONE)
+    names.push_back(surrounding_name(o));
+  for(const std::string& name : o.extract)
+    if(std::none_of(names.begin(), names.end(),
+                    [&name](const std::string& other) { return boost::iequals(other, name); }))
+      throw CLI::ValidationError("--extract " + name, sentence_on_no_subdomain(names));
+}
+
 // Checks combinations of options, and options that this program was built without: these are wrong use.
 void check_options(Options& o)
 {
@@ -602,15 +687,26 @@ void check_options(Options& o)
                         [](const Region_option& r) { return !r.voxels.ranges.empty(); })))
     throw CLI::ValidationError(o.surface,
                                std::string("labels and thresholds need an image: ") + image_endings);
+  const char* const labels_needed = "needs --labels with names, as in brain=1-189, or each, or freesurfer";
+  if(!o.merges.empty() && o.label_choice == Label_choice::NONE)
+    throw CLI::ValidationError("--merge", labels_needed);
   if(!o.label_layers.empty() && o.label_choice == Label_choice::NONE)
-    throw CLI::ValidationError(o.label_layers[0].distance ? "--grow" : "--fill",
-                               "needs --labels with names, as in brain=1-189, or each, or freesurfer");
+    throw CLI::ValidationError(o.label_layers[0].distance ? "--grow" : "--fill", labels_needed);
   check_subdomains(o);
   check_sheets(o);
   check_patches(o);
+  check_extract(o);
 }
 
 } // namespace
+
+std::string Merge_option::text() const
+{
+  std::string text = "--merge " + name;
+  for(std::size_t i = 0; i < parts.size(); ++i)
+    text += (i == 0 ? '=' : '+') + parts[i];
+  return text;
+}
 
 bool is_subdomain_name(const std::string& name)
 {
@@ -630,6 +726,15 @@ std::string surrounding_name(const Input_options& o)
   const std::string file = std::filesystem::path(o.surface).filename().string(),
                     name = file.substr(0, file.find('.'));
   return is_subdomain_name(name) ? name : "domain";
+}
+
+std::string sentence_on_no_subdomain(const std::vector<std::string>& names)
+{
+  constexpr std::size_t most = 20; // an atlas has hundreds
+  std::string text = "there is no subdomain of that name, but ";
+  for(std::size_t i = 0; i < (std::min)(most, names.size()); ++i)
+    text += (i == 0 ? "" : ", ") + names[i];
+  return text + (names.size() > most ? ", and " + std::to_string(names.size() - most) + " more" : "");
 }
 
 std::optional<int> parse_command_line(int argc, char** argv, Options& options)

@@ -45,6 +45,16 @@ struct Subdomain_option
 /// The choice of labels that become subdomains.
 enum class Label_choice { NONE, LISTS, EACH, FREESURFER };
 
+/// Subdomains of labels that become one.
+struct Merge_option
+{
+  std::string name;
+  std::vector<std::string> parts;
+
+  /// The option, with its value.
+  std::string text() const;
+};
+
 /// A change of an image before it is meshed: voxels near a label, or those that labels enclose, get a label.
 struct Layer_option
 {
@@ -69,7 +79,8 @@ struct Input_options
   std::vector<Subdomain_option> subdomains;       // inside the surface; earlier ones count where they overlap
   Label_choice label_choice = Label_choice::NONE; // labels of an image instead of voxels
   std::vector<Subdomain_option> labels;           // the choice, except of each label
-  std::vector<Layer_option> label_layers;         // in their order
+  std::vector<Merge_option> merges;               // of labels, in their order
+  std::vector<Layer_option> label_layers;         // in their order, after merges
   Label_table label_table;
   std::vector<std::string> cavities;
   std::vector<Subdomain_option> sheets; // surfaces inside that need not enclose anything
@@ -106,6 +117,7 @@ struct Options : Input_options, Relaxation_options
   std::string command; // the command with all options
   std::vector<std::string> outputs;
   std::vector<Patch_option> patches;
+  std::vector<std::string> extract; // names of the subdomains that are written; empty: all
   int base_level = CGAL::Mixed_mesh_criteria_3::automatic;
   CGAL::Mixed_meshes_3::Boundary_mode mode = CGAL::Mixed_meshes_3::Boundary_mode::VERTEX_ORDER;
   CGAL::Mixed_meshes_3::Root_cell root = CGAL::Mixed_meshes_3::Root_cell::CUBE;
@@ -138,6 +150,9 @@ inline constexpr std::size_t longest_subdomain_name = 24;
 
 /// The name of the subdomain around all others: the name of its file, if that is a valid name.
 std::string surrounding_name(const Input_options& options);
+
+/// What is wrong with a name that is not among those of the subdomains.
+std::string sentence_on_no_subdomain(const std::vector<std::string>& names);
 
 /// Returns the exit status if the program ends with its command line: help, the version, or wrong use.
 std::optional<int> parse_command_line(int argc, char** argv, Options& options);

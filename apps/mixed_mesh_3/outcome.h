@@ -63,7 +63,8 @@ struct Subdomain_outcome
   std::string voxels; // voxels of an image, in words
   std::size_t elements = 0;
   double volume = 0;
-  std::optional<double> volume_of_surface; // without inner parts; none where surfaces cross
+  std::optional<double> volume_of_voxels;  // of a label
+  std::optional<double> volume_of_surface; // or of voxels, without inner parts; none where surfaces cross
   double mean_arc = 0, largest_arc = 0;
 };
 
@@ -94,6 +95,16 @@ struct Patch_outcome
   double area = 0;
 };
 
+/// The part of the mesh that is written, if the user wants only some subdomains.
+struct Extract_outcome
+{
+  std::vector<std::string> subdomains; // names
+  Mesh_facts mesh;
+  std::size_t nodes = 0, boundary_faces = 0, bad_edges = 0, bad_vertices = 0;
+  double volume = 0;
+  std::vector<Interface_outcome> interfaces; // those with what is left out are with the outside
+};
+
 /// A layer of an image.
 struct Layer_outcome
 {
@@ -122,6 +133,7 @@ struct Outcome
   std::vector<Sheet_outcome> sheets;
   std::vector<Patch_outcome> patches;
   std::optional<Slit_outcome> slit;
+  std::optional<Extract_outcome> extract; // else the whole mesh is written
   CGAL::Mixed_mesh_result_3 result;
   CGAL::Mixed_mesh_fit_result_3 algorithm_1;
   bool is_stopped = false; // stopped by a signal or the limit of time

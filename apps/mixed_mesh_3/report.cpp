@@ -255,10 +255,13 @@ void describe_subdomains(const Outcome& outcome, Json& report)
        {"elements", s.elements},
        {"volume", s.volume},
        {"volume of surface", s.volume_of_surface ? Json(*s.volume_of_surface) : Json()},
+       {"ratio of volumes", s.volume_of_surface ? Json(s.volume / *s.volume_of_surface) : Json()},
        {"ARC mean", s.elements > 0 ? Json(s.mean_arc) : Json()},
        {"ARC max", s.elements > 0 ? Json(s.largest_arc) : Json()}});
     if(!s.voxels.empty())
       report["subdomains"].back()["voxels"] = s.voxels;
+    if(s.volume_of_voxels)
+      report["subdomains"].back()["volume of voxels"] = *s.volume_of_voxels;
   }
   for(const Interface_outcome& i : outcome.interfaces)
     report["interfaces"].push_back({{"between", {i.first, i.second}},
@@ -284,6 +287,28 @@ void describe_sheets(const Outcome& outcome, Json& report)
     report["slit"] = {{"faces", outcome.slit->faces},
                       {"faces that stay closed", outcome.slit->faces_left},
                       {"vertices doubled", outcome.slit->vertices}};
+}
+
+// Describes the part of the mesh that the files have; everything else is about the whole mesh.
+void describe_extract(const Outcome& outcome, Json& report)
+{
+  if(!outcome.extract)
+    return;
+  const Extract_outcome& part = *outcome.extract;
+  Json extracted = {{"subdomains", part.subdomains},
+                    {"vertices", part.mesh.vertices},
+                    {"nodes", part.nodes},
+                    {"elements", part.mesh.elements},
+                    {"boundary faces", part.boundary_faces},
+                    {"nonmanifold boundary edges", part.bad_edges},
+                    {"nonmanifold boundary vertices", part.bad_vertices},
+                    {"volume", part.volume},
+                    {"share of volume", part.volume / outcome.fidelity.volume_of_mesh}};
+  add_kinds(part.mesh, extracted);
+  for(const Interface_outcome& i : part.interfaces)
+    extracted["interfaces"].push_back(
+      {{"between", {i.first, i.second}}, {"faces", i.faces}, {"area", i.area}, {"manifold", i.is_manifold}});
+  report["extracted"] = std::move(extracted);
 }
 
 void describe_patches(const Outcome& outcome, Json& report)
@@ -328,7 +353,9 @@ std::string parts_in_words(const Options& o, const Outcome& outcome)
     text << s.name << " (" << s.index << "): " << s.elements << " elements, volume "
          << volume_with_unit(s.volume, o.is_in_patient_space());
     if(s.volume_of_surface)
-      text << ", " << as_part_of(s.volume / *s.volume_of_surface) << " that of its surface";
+      text << ", " << as_part_of(s.volume / *s.volume_of_surface) << " that of its "
+           << (s.volume_of_voxels ? "voxels, " : "surface, ")
+           << volume_with_unit(*s.volume_of_surface, o.is_in_patient_space());
     text << '\n';
   }
   for(const Sheet_outcome& s : outcome.sheets)
@@ -337,6 +364,14 @@ std::string parts_in_words(const Options& o, const Outcome& outcome)
   if(outcome.slit)
     text << "slit along " << outcome.slit->faces << " of them: " << outcome.slit->vertices
          << " vertices doubled\n";
+  if(outcome.extract) {
+    const Extract_outcome& part = *outcome.extract;
+    std::string names;
+    for(const std::string& name : part.subdomains)
+      names += (names.empty() ? "" : ", ") + name;
+    text << "written of that: " << names << ", " << part.mesh.vertices << " vertices, " << part.mesh.elements
+         << " elements, volume " << volume_with_unit(part.volume, o.is_in_patient_space()) << '\n';
+  }
   for(const Patch_outcome& p : outcome.patches)
     text << p.name << ": " << counted(p.faces, "face", "faces") << " of the boundary, area " << p.area
          << unit_of_area << '\n';
@@ -417,6 +452,7 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
   report["surface"] = describe(outcome.fidelity);
   describe_subdomains(outcome, report);
   describe_sheets(outcome, report);
+  describe_extract(outcome, report);
   describe_patches(outcome, report);
   report["topology"] = describe(outcome.topology);
   report["quality"] = describe_quality(o, outcome);

@@ -14,6 +14,7 @@
 #include "core/write_files.h"
 #include "mixed_mesh_3/algorithm_1.h"
 #include "mixed_mesh_3/examine.h"
+#include "mixed_mesh_3/extract.h"
 #include "mixed_mesh_3/inputs.h"
 #include "mixed_mesh_3/nodes.h"
 #include "mixed_mesh_3/patches.h"
@@ -284,6 +285,7 @@ bool run(Options o)
   Stage_log log(!o.quiet);
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);
+  check_names_to_extract(o, inputs.subdomains);
   if(o.tolerance > 0)
     check_tolerance(o, *inputs.boundary);
   Domain domain = log("AABB tree of surface", [&] { return make_domain(inputs.subdomains); });
@@ -311,6 +313,7 @@ bool run(Options o)
   examine_subdomains(mesh, domain, inputs.subdomains, o, outcome);
   std::vector<mm3::IO::Facet_set> facet_sets = examine_sheets(mesh, domain, sheets, o, outcome);
   outcome.nodes = number_of_nodes(mesh, o.order); // with those that --slit doubles
+  extract(o, inputs.subdomains, mesh, facet_sets, outcome);
   for(mm3::IO::Facet_set& set : interfaces_of(mesh, inputs.subdomains))
     facet_sets.push_back(std::move(set));
   for(mm3::IO::Facet_set& set : examine_patches(mesh, patches, outcome))

@@ -24,15 +24,6 @@ namespace {
 
 constexpr double tolerated_change_of_volume = 0.05;
 
-std::string name_of(const std::vector<Subdomain>& subdomains, mm3::Subdomain_index index)
-{
-  if(index == 0)
-    return outside;
-  return std::find_if(subdomains.begin(), subdomains.end(),
-                      [&](const Subdomain& s) { return s.index == index; })
-    ->name;
-}
-
 // A surface as a domain, and the sides of the vertices of other surfaces.
 class Enclosed
 {
@@ -110,7 +101,8 @@ void warn_of(const Subdomain_outcome& s, const Options& o, std::vector<std::stri
     warnings.push_back(named + " has a volume of " + volume_with_unit(s.volume, o.is_in_patient_space())
                        + ", " + percent(std::abs(s.volume / *s.volume_of_surface - 1))
                        + (s.volume < *s.volume_of_surface ? " less" : " more")
-                       + " than its surface encloses; try more vertices");
+                       + (s.volume_of_voxels ? " than its voxels have" : " than its surface encloses")
+                       + "; try more vertices");
 }
 
 void warn_of(const std::vector<Interface_outcome>& interfaces, std::vector<std::string>& warnings)
@@ -139,6 +131,15 @@ void warn_of(const std::vector<Interface_outcome>& interfaces, std::vector<std::
 }
 
 } // namespace
+
+std::string name_of(const std::vector<Subdomain>& subdomains, mm3::Subdomain_index index)
+{
+  if(index == 0)
+    return outside;
+  return std::find_if(subdomains.begin(), subdomains.end(),
+                      [&](const Subdomain& s) { return s.index == index; })
+    ->name;
+}
 
 Domain make_domain(const std::vector<Subdomain>& subdomains)
 {
@@ -220,6 +221,7 @@ void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vecto
     s.surface = subdomains[i].facts;
     s.voxels = subdomains[i].voxels;
     s.volume_of_surface = expected[i];
+    s.volume_of_voxels = subdomains[i].volume;
     s.mean_arc = s.elements > 0 ? sums[s.index] / double(s.elements) : 0;
     warn_of(s, options, outcome.warnings);
     if(s.elements == 0)

@@ -35,6 +35,9 @@ struct Subdomain
 /// The name of what is around all subdomains, which no subdomain has.
 inline constexpr const char* outside = "outside";
 
+/// The name of a subdomain, or of what is outside.
+std::string name_of(const std::vector<Subdomain>& subdomains, CGAL::Mixed_meshes_3::Subdomain_index index);
+
 /// \param subdomains surfaces; where some overlap, the first one counts
 CGAL::Labeled_polyhedral_mixed_mesh_domain_3 make_domain(const std::vector<Subdomain>& subdomains);
 

@@ -11,6 +11,9 @@ const controlPoints =
     .map(c => [relative(c.position), relative(c.position.map((x, k) => x + c.displacement[k]))]);
 const places = findPlaces();
 
+// What the report says of the whole mesh, unless the page has only a part of the mesh.
+function ofWhole(measured) { return report.extracted ? undefined : measured; }
+
 // Warnings, those that name a point with it; then what is worth looking at.
 function findPlaces() {
   const result = [], differences = report.topology?.differences ?? [];
@@ -25,7 +28,7 @@ function findPlaces() {
   for (const d of differences)
     if (!result.some(place => place.text.endsWith(d.text)))
       result.push({kind: "warning", text: d.text, at: relative(d.at)});
-  const distances = report.surface?.["Hausdorff distance"];
+  const distances = ofWhole(report.surface)?.["Hausdorff distance"];
   if (distances) {
     const [d, what] = ["from mesh to surface", "from surface to mesh"]
                         .map(key => [distances[key], key])
@@ -278,6 +281,7 @@ function update() {
   showSettings();
   showLegend();
   showFacts();
+  showSubdomains();
   askDraw();
 }
 
@@ -286,7 +290,7 @@ function update() {
 const sourceFile = report.inputs.surface?.file ?? report.inputs.mesh?.file ?? "";
 
 function showFacts() {
-  const mesh = report.mesh ?? report.inputs.mesh, fidelity = report.surface,
+  const mesh = report.extracted ?? report.mesh ?? report.inputs.mesh, fidelity = ofWhole(report.surface),
         shift = report["shift after resection"] ?? report.shift;
   const cubic = volume => state.isPatient ? `${number(volume / 1000)}\u00a0ml` : number(volume);
   const facts =
@@ -314,6 +318,29 @@ function showFacts() {
   lengths.forEach(span => {
     span.textContent = `: ${number(Number(span.dataset.length))}${unit()}`;
   });
+}
+
+// Subdomains of the page, with their volumes beside those of the surfaces or voxels that they come from.
+function showSubdomains() {
+  const told = (report.subdomains ?? []).filter(s => labelRow.has(s.index));
+  $("subdomains").hidden = told.length === 0;
+  const unitOfVolume = state.isPatient ? "ml" : "", inUnit = x => state.isPatient ? x / 1000 : x;
+  const difference = s => s["ratio of volumes"] == null ?
+    "\u2013" :
+    (100 * (s["ratio of volumes"] - 1)).toFixed(1).replace("-", "\u2212").replace(/^(?=[1-9]|0.*[1-9])/, "+");
+  const head = ["", "Elements", `Volume ${unitOfVolume}`, `Input ${unitOfVolume}`, "Difference, %"];
+  $("subdomains")
+    .querySelector("table")
+    .replaceChildren(
+      make("tr", {}, ...head.map(text => make("th", {scope: "col"}, text))),
+      ...told.map(
+        s => make(
+          "tr", {},
+          ...
+            [nameOf(s.index), count(s.elements), number(inUnit(s.volume)),
+             number(s["volume of surface"] == null ? undefined : inUnit(s["volume of surface"])),
+             difference(s)]
+              .map(text => make("td", {}, text)))));
 }
 
 // The paper's Table 1: what elements of each kind are like.
@@ -346,7 +373,7 @@ function showHistogram() {
     const bin = edges.findIndex(edge => ratio < edge);
     ++bins[bin < 0 ? 20 : bin];
   }
-  const before = report.quality?.histograms.ARC.before;
+  const before = ofWhole(report.quality)?.histograms.ARC.before;
   const share = (list, i) => list[i] / list.reduce((a, b) => a + b, 0);
   const top = Math.max(...bins.map((_, i) => Math.max(share(bins, i), before ? share(before, i) : 0)));
   const width = 360, height = 120, bar = width / 21, y = x => height * (1 - x / top);
@@ -443,6 +470,7 @@ function showReport() {
   showPlaces();
   showChecks();
   showFacts();
+  showSubdomains();
 }
 
 // ---- start -----------------------------------------------------------------------------------------------

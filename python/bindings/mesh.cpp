@@ -12,6 +12,7 @@
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
 #include <CGAL/Mixed_mesh_3/certify_mesh.h>
+#include <CGAL/Mixed_mesh_3/extract_subdomains.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 
 #include <CGAL/version.h>
@@ -199,6 +200,12 @@ py::array_t<double> quality(const Mesh& mesh, const std::string& measure)
                               + "'; expected ARC, scaled Jacobian or volume");
 }
 
+std::shared_ptr<Mesh> extract(const Mesh& mesh, const std::vector<mm3::Subdomain_index>& subdomains)
+{
+  const py::gil_scoped_release release;
+  return std::make_shared<Mesh>(mm3::extract_subdomains(mesh, subdomains));
+}
+
 // Values of vertices or elements by name, (n) or (n, components), which have to outlive the result.
 std::vector<mm3::IO::Data_array> data_arrays(const std::map<std::string, Doubles>& data,
                                              std::deque<std::vector<double>>& values)
@@ -365,6 +372,7 @@ void add_mesh(py::module_& module)
   module.def("certify", &certify);
   module.def("defects", &defects);
   module.def("quality", &quality);
+  module.def("extract", &extract);
   module.def("save", &save);
   module.def("read_mesh", &read_mesh);
   module.def("element_kinds", &element_kinds);

@@ -9,6 +9,7 @@
 #include "test_surfaces.h"
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/extract_subdomains.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/Mixed_mesh_3/resect.h>
 #include <CGAL/Mixed_mesh_3/validation.h>
@@ -614,14 +615,61 @@ void test_brain(const std::string& data)
   }
 }
 
+// The elements of some subdomains are those of the mesh, in their order, with their attributes; together,
+// all subdomains have the volume of the mesh.
+void test_extract(Element_kind kind)
+{
+  const Mesh cells = grid(4, kind);
+  Mesh mesh;
+  for(const Test_point& p : cells.points())
+    mesh.add_vertex(p);
+  std::mt19937 random(7);
+  for(Element_index e = 0; e < cells.number_of_elements(); ++e)
+    mesh.add_element(kind, std::vector<Vertex_index>(cells.element(e).begin(), cells.element(e).end()),
+                     {Subdomain_index(1 + 3 * (random() % 3)), random() % 2 == 0, int(random() % 3)});
+  const double whole = volume(mesh);
+  double sum = 0;
+  for(const std::vector<Subdomain_index>& chosen :
+      std::vector<std::vector<Subdomain_index>>{{1}, {4}, {7}, {7, 1, 7}, {4, 1, 7}, {}, {2}}) {
+    std::vector<Vertex_index> vertices;
+    std::vector<Element_index> elements;
+    const Mesh part = extract_subdomains(mesh, chosen, &vertices, &elements);
+    std::vector<Element_index> expected;
+    for(Element_index e = 0; e < mesh.number_of_elements(); ++e)
+      if(std::count(chosen.begin(), chosen.end(), mesh.subdomain_index(e)) > 0)
+        expected.push_back(e);
+    BOOST_TEST(elements == expected);
+    BOOST_TEST_EQ(part.number_of_elements(), expected.size());
+    BOOST_TEST_EQ(part.number_of_vertices(), vertices.size());
+    BOOST_TEST(std::is_sorted(vertices.begin(), vertices.end()));
+    bool is_same = true;
+    for(Element_index e = 0; e < part.number_of_elements(); ++e) {
+      const Element_view a = part.element(e), b = mesh.element(elements[e]);
+      is_same = is_same && a.kind() == b.kind() && part.attributes(e) == mesh.attributes(elements[e]);
+      for(int i = 0; i < a.size(); ++i)
+        is_same = is_same && vertices[a[i]] == b[i] && part.point(a[i]) == mesh.point(b[i]);
+    }
+    BOOST_TEST(is_same);
+    const Mesh_defects defects = find_defects(part);
+    BOOST_TEST(defects.conforming() && defects.positive() && defects.unused_vertices == 0);
+    if(chosen.size() == 1)
+      sum += volume(part);
+    if(chosen == std::vector<Subdomain_index>{4, 1, 7})
+      BOOST_TEST(part.elements().connectivity() == mesh.elements().connectivity());
+  }
+  BOOST_TEST(is_close(sum, whole, whole));
+}
+
 int run(int argc, char* argv[])
 {
   test_two_cubes();
   test_checkerboards();
   test_statuses();
   test_domains();
-  for(Element_kind kind : element_kinds)
+  for(Element_kind kind : element_kinds) {
+    test_extract(kind);
     test_random_sets(grid(4, kind), 20, unsigned(kind));
+  }
   test_brain(argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR);
   // A removal without repair fails the check of the manifold, the repaired one passes.
   BOOST_TEST_GT(tally.repaired, 500u);

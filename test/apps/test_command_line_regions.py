@@ -9,6 +9,7 @@ import json
 import math
 import sys
 import unittest
+import xml.etree.ElementTree as ElementTree
 
 from command_line_case import DATA, WORK, Case
 from cube import CUBE, TRIANGLES, moved, off
@@ -109,6 +110,50 @@ class Regions(Case):
         run = self.mesher(DATA / "brain.off", "--vertices", 1500, "--subdomain", "a=nothing.off")
         self.assertEqual(run.returncode, 1)
         self.assertIn("nothing.off", run.stderr)
+
+    def test_wrong_extract(self):
+        """Names are refused before the surfaces are read, or, of each label, before there is a mesh."""
+        tumor = f"tumor={DATA / 'tumour.off'}"
+        brain = (DATA / "brain.off", "--vertices", 500, "--output", self.output)
+        for names in ("tumour", "tumor,", "tumor,skull", "outside", ""):
+            run = self.fails(*brain, "--subdomain", tumor, "--extract", names, status=2, names="--extract",
+                             words="there is no subdomain of that name, but tumor, brain; see")
+        self.assertNotIn("tumor:", run.stderr)
+        self.fails(*brain, "--extract", "brain", status=2, names="--extract: needs --subdomain, or --labels with names")
+        self.fails(*brain, "--cavity", DATA / "tumour.off", "--extract", "cavity", status=2, names="--extract: needs")
+        self.fails(*brain, "--merge", "a=b+c", status=2, names="--merge: needs --labels with names")
+
+    def test_extract_of_a_lost_subdomain(self):
+        """What the cells are too coarse for is told after meshing, and nothing is written."""
+        speck = self.file("speck.off", off(moved(CUBE, 1e-3, (10, 20, 30)), TRIANGLES))
+        arguments = (DATA / "brain.off", "--subdomain", speck, "--vertices", 300, "--no-fit", "--quiet", "--output",
+                     self.output, "--extract")
+        self.fails(*arguments, "brain,speck", names="--extract speck: the mesh has no element of this subdomain")
+        run = self.mesher(*arguments, "brain")
+        self.assertEqual(run.returncode, 0, run.stderr)
+
+    def test_extract_with_sheet(self):
+        """Each part has the faces of the sheet that are in it, slit or not."""
+        outer, inner = self.file("outer.off", off(moved(CUBE, 40, (0, 0, 0)), TRIANGLES)), WORK / "inner.off"
+        inner.write_text(off(moved(CUBE, 20, (10, 10, 10)), TRIANGLES))
+        wall = self.file("wall.off", "OFF\n4 2 0\n-5 -5 20\n45 -5 20\n45 45 20\n-5 45 20\n3 0 1 2\n3 0 2 3\n")
+        report, faces = WORK / "sheet.json", {}
+        for names in ("outer,inner", "outer", "inner"):
+            for slit in ((), ("--slit",)):
+                path = WORK / "sheet.feb"
+                run = self.mesher(outer, "--subdomain", inner, "--sheet", wall, *slit, "--vertices", 800, "--extract",
+                                  names, "--output", path, "--report", report)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                sets = {s.get("name"): len(s) for s in ElementTree.parse(path).getroot().iter("Surface")}
+                told = json.loads(report.read_text())
+                sheet = told["sheets"][0]
+                faces[names, slit] = [sets[name] for name in (("wall_front", "wall_behind") if slit else ("wall",))]
+                self.assertEqual(told["sheets"][0]["faces"], sheet["faces"])  # it is described on the whole mesh
+        for slit, number in (((), 1), (("--slit",), 2)):
+            self.assertEqual(faces["outer,inner", slit], [sheet["faces"]] * number)
+            self.assertEqual([sum(parts) for parts in zip(faces["outer", slit], faces["inner", slit])],
+                             [sheet["faces"]] * number)
+            self.assertEqual(len(set(faces["inner", slit])), 1)
 
     def test_sheets(self):
         """A plane through half of the brain: a facet set, and a slit."""

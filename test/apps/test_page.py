@@ -289,6 +289,43 @@ def test_without_3d(path):
         assert page.run("return document.getElementById('settings').offsetHeight") == 0
 
 
+def test_extract():
+    """The page has the part that is written, and tells its volumes, not the distances of the whole."""
+    report_file, path = WORK / "extract.json", WORK / "extract.html"
+    (WORK / "outer.off").write_text(off(moved(CUBE, 40, (0, 0, 0)), TRIANGLES))
+    (WORK / "inner.off").write_text(off(moved(CUBE, 20, (10, 10, 10)), TRIANGLES))
+    (WORK / "core.off").write_text(off(moved(CUBE, 10, (15, 15, 15)), TRIANGLES))
+    make(MESHER, "outer.off", "--subdomain", "inner.off", "--subdomain", "core.off", "--vertices", "800", "--extract",
+         "inner,outer", "--report", report_file.name, "--page", path.name)
+    report, data = json.loads(report_file.read_text()), data_of(path)
+    part, told = report["extracted"], {s["name"]: s for s in report["subdomains"]}
+    assert len(unpacked(data["element kinds"], "B")) == part["elements"] < report["mesh"]["elements"]
+    labels = list(unpacked(data["labels"], "I"))
+    with Page() as page:
+        page.open(path)
+        whole = page.choose("cuts", -1)
+        assert (whole["elements"], whole["faces"]) == (part["elements"], part["boundary faces"]), whole
+        facts = page.text("#facts")
+        assert f"{part['vertices']:,}" in facts and f"{part['elements']:,}" in facts
+        assert "from the surface" not in facts and "Farthest" not in page.text("#places")
+        rows = page.run("return [...document.querySelectorAll('#subdomains tr')].map(row => [...row.cells].map(c => c.textContent))")
+        assert [row[0] for row in rows[1:]] == [f"{name} ({told[name]['index']})" for name in ("inner", "outer")], rows
+        for row, name in zip(rows[1:], ("inner", "outer")):
+            s = told[name]
+            assert int(row[1].replace(",", "")) == s["elements"] == labels.count(s["index"])
+            assert abs(float(row[2]) - s["volume"] / 1000) < 0.01 * s["volume"] / 1000
+            assert abs(float(row[3]) - s["volume of surface"] / 1000) < 0.01 * s["volume of surface"] / 1000
+            assert abs(float(row[4].replace("\u2212", "-")) / 100 - s["ratio of volumes"] + 1) < 0.00051
+        # Materials are hidden by their rows of the legend, and cut.
+        page.choose("colors", "label")
+        page.run("document.querySelector('#legend button').click()")
+        first = min(labels)
+        assert page.look()["elements"] == len(labels) - labels.count(first)
+        assert page.choose("cuts", 0)["elements"] < len(labels) - labels.count(first)
+        page.screenshot(WORK / "extract.png")
+        page.is_quiet()
+
+
 def test_brain_shift():
     report_file, path = WORK / "shift.json", WORK / "shift.html"
     arguments = ["brain.vtu", "--control-points", str(DATA / "control_points.csv"), "--control-radius", "8",
@@ -479,6 +516,7 @@ def main():
         test_mouse_and_keys(page)
     test_layout(path)
     test_without_3d(path)
+    test_extract()
     test_brain_shift()
     test_hostile_names()
     test_warnings()

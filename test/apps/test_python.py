@@ -292,6 +292,22 @@ class Test(unittest.TestCase):
         self.assertAlmostEqual(centers[3], 0.25, delta=0.05)
         self.assertAlmostEqual(centers[2], 0.75, delta=0.05)
         np.testing.assert_array_equal(mm3.resect(mesh, label="left"), mesh.labels == 3)
+        for chosen, labels in ((["left"], {3}), ("left", {3}), (1, {1}), ([1, "left"], {1, 3}), (np.array([3, 2, 3]), {2, 3}),
+                               ([1, 2, 3], {1, 2, 3})):
+            part = mesh.extract(chosen)
+            of_mesh = np.flatnonzero(np.isin(mesh.labels, list(labels)))
+            self.assertEqual((set(part.labels), part.names), (labels, {3: "left"} if 3 in labels else {}))
+            np.testing.assert_array_equal(part.kinds, mesh.kinds[of_mesh])
+            np.testing.assert_array_equal(part.points[part.connectivity],
+                                          mesh.points[np.hstack([mesh.connectivity[mesh.offsets[e]:mesh.offsets[e + 1]]
+                                                                 for e in of_mesh])])
+            self.assertAlmostEqual(mm3.quality(part, "volume").sum(), mm3.quality(mesh, "volume")[of_mesh].sum())
+            self.assertEqual(sum(mm3.defects(part).values()), 0)  # also a closed manifold
+        for chosen, text in ((["right"], "no subdomain with the name 'right'"), ([2, 4], "no element with the label 4"),
+                             ([], "at least one"), ([0], "at least 1")):
+            with self.assertRaisesRegex(ValueError, text):
+                mesh.extract(chosen)
+        self.assertIn('[[3, "left"]]', mesh.extract(["left"]).show().html)
         model = mm3.Elasticity(mesh, materials={"left": (10, 0.3)})
         model.fix(np.flatnonzero(mesh.points[:, 2] == 0))
         with self.assertRaisesRegex(ValueError, "no subdomain with the name 'right'"):

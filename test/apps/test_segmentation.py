@@ -398,6 +398,48 @@ class Test_segmentation(unittest.TestCase):
                          {1: "label_3rd-Ventricle", 2: "tumor_2", 3: "Outside_2", 4: "label_all",
                           5: "long__name__long__name__", 6: "Long__name__Long__name_2", LESION: f"label_{LESION}"})
 
+    def test_merge(self):
+        """Merged labels are the same as one list of these labels, and only what is chosen is written."""
+        values = labels()
+        x, y, _ = np.meshgrid(*(np.arange(n) for n in SIZE), indexing="ij")
+        values[values == HEAD] = 1 + (x // 20 + 3 * (y // 25))[values == HEAD]
+        path = self.image("labels.nii.gz", values, AFFINES["oblique"])
+        meshes = []
+        for options in (("--labels", f"half=1-3,other=4-6,{LESION}"),
+                        ("--labels", f"half=1-3,b=4,c=5-6,d={LESION}", "--merge", "x=b+C", "--merge", "other=X+d"),
+                        ("--labels", f"half=1-2,b=4-6,c={LESION},d=3", "--merge", "other=c+b", "--merge", "half=d+half")):
+            self.mesh(path, *options, "--vertices", 1000)
+            meshes.append(self.output.read_bytes())
+        self.assertEqual(meshes[0], meshes[1])
+        self.assertEqual(meshes[0], meshes[2])
+        told, run = self.mesh(path, "--labels", "each", "--merge", "half=label_1+label_2+label_3", "--extract", "HALF,label_6",
+                              "--vertices", 1000)
+        voxel = abs(np.linalg.det(AFFINES["oblique"][:3, :3]))
+        for s in told["subdomains"]:
+            number = np.isin(values, {"half": (1, 2, 3)}.get(s["name"], (s["index"],))).sum()
+            self.assertAlmostEqual(s["volume of voxels"], number * voxel, delta=1e-6 * number * voxel)
+            self.assertAlmostEqual(s["ratio of volumes"], s["volume"] / s["volume of voxels"])
+            self.assertIn(f"{s['name']} ({s['index']}): ", run.stdout)
+        self.assertIn("that of its voxels, ", run.stdout)
+        self.assertEqual({s["name"]: s["index"] for s in told["subdomains"] if s["index"] < 7},
+                         {"half": 1, "label_4": 4, "label_5": 5, "label_6": 6})
+        self.assertEqual(told["extracted"]["subdomains"], ["half", "label_6"])
+        reader = vtk.vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(self.output))
+        reader.Update()
+        self.assertEqual(set(vtk_to_numpy(reader.GetOutput().GetCellData().GetArray("subdomain"))), {1, 6})
+        self.output.unlink()
+        for text, status, words in (("a=label_1", 2, "expected NAME=A+B"), ("all=label_1+label_2", 2, "a name has"),
+                                    ("a=label_1+label_8", 1, "label_8: there is no subdomain of that name, but label_1, label_2"),
+                                    ("a=label_1+label_1", 1, "label_1: there is no"),
+                                    ("label_3=label_1+label_2", 1, "the name is taken")):
+            self.fails(path, "--labels", "each", "--merge", text, words=words, status=status)
+        self.fails(path, "--labels", "a=1,b=2,c=3", "--merge", "c=a+b", words="the name is taken", status=2)
+        self.fails(path, "--labels", "a=1,b=2,c=3", "--merge", "d=a+b", "--extract", "a", status=2,
+                   words="--extract a: there is no subdomain of that name, but c, d")
+        self.fails(path, "--labels", "each", "--extract", "label_8", words="--extract label_8: there is no subdomain")
+        self.fails(path, "--labels", "freesurfer", "--merge", "t=wm+gm", words="wm: there is no subdomain", status=2)
+
     def ball(self):
         """A small closed surface in the middle."""
         center = centers(AFFINES["oblique"]).mean(axis=0)

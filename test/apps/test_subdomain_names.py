@@ -207,6 +207,84 @@ class Test(unittest.TestCase):
             self.assertEqual([v[:3] for v in values[:3]], [v[:3] for v in first[:3]])
             self.assertAlmostEqual(values[3], first[3], delta=1e-9 * first[3])
 
+    def test_extract(self):
+        """All formats have the elements of the chosen subdomains, the same as in the whole mesh, and the facets that were
+        interfaces with what is left out as boundary."""
+        files = {end: WORK / f"part.{end}" for end in ("vtu", "msh", "inp", "feb", "mesh")}
+        second = {end: WORK / f"second.{end}" for end in ("vtu", "msh", "feb")}
+        surfaces = [WORK / "box.off", "--subdomain", f"tumor={WORK / 'a.off'}", "--subdomain",
+                    f"Left-Ventricle={WORK / 'b.off'}", "--vertices", "500", "--report", WORK / "part.json"]
+        hole = ["--patch", "hole=box:34,19,9,53,41,31", "--order", "2"]
+        for more, outputs in (([], files), (hole, second)):
+            run = subprocess.run([MESHER, *surfaces, "--extract", "tumor", "--extract", "BOX", *more, "--page",
+                                  WORK / "part.html", *(w for f in outputs.values() for w in ("--output", f))],
+                                 capture_output=True, text=True)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertIn("written of that: tumor, box, ", run.stdout)
+        told = json.loads((WORK / "part.json").read_text())
+        part = told["extracted"]
+        volumes = {s["name"]: s["volume"] for s in told["subdomains"]}
+        self.assertEqual(part["subdomains"], ["tumor", "box"])
+        self.assertEqual(part["elements"], self.elements[1] + self.elements[2])
+        self.assertAlmostEqual(part["volume"], volumes["tumor"] + volumes["box"], delta=1e-9 * part["volume"])
+        self.assertEqual((part["nonmanifold boundary edges"], part["nonmanifold boundary vertices"]), (0, 0))
+
+        # what VTK reads: the cells of the whole file, and a closed surface
+        def cells(path):
+            reader = vtk.vtkXMLUnstructuredGridReader()
+            reader.SetFileName(str(path))
+            reader.Update()
+            grid = reader.GetOutput()
+            labels = vtk_to_numpy(grid.GetCellData().GetArray("subdomain"))
+            points = vtk_to_numpy(grid.GetPoints().GetData())
+            ends = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+            vertices = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+            return grid, [(int(label), points[vertices[a:b]].tolist()) for label, a, b in zip(labels, ends, ends[1:])]
+        _, whole = cells(self.files["vtu"])
+        grid, found = cells(files["vtu"])
+        self.assertEqual(found, [cell for cell in whole if cell[0] != 3])
+        self.assertEqual(grid.GetNumberOfPoints(), part["vertices"])
+        self.assertEqual(grid.GetNumberOfPoints(), len({tuple(p) for _, points in found for p in points}))
+        surface = vtk.vtkDataSetSurfaceFilter()
+        surface.SetInputData(grid)
+        edges = vtk.vtkFeatureEdges()
+        edges.SetInputConnection(surface.GetOutputPort())
+        edges.FeatureEdgesOff()
+        edges.Update()
+        self.assertEqual(surface.GetOutput().GetNumberOfCells(), part["boundary faces"])
+        self.assertEqual(edges.GetOutput().GetNumberOfCells(), 0)  # neither open nor of more than two faces
+        grid, _ = cells(second["vtu"])
+        self.assertEqual(grid.GetNumberOfPoints(), told["extracted"]["nodes"])
+
+        def groups(path, dimension):
+            gmsh.initialize()
+            gmsh.option.setNumber("General.Terminal", 0)
+            gmsh.open(str(path))
+            result = {gmsh.model.getPhysicalName(d, tag):
+                      sum(len(numbers) for entity in gmsh.model.getEntitiesForPhysicalGroup(d, tag)
+                          for numbers in gmsh.model.mesh.getElements(d, entity)[1])
+                      for d, tag in gmsh.model.getPhysicalGroups(dimension)}
+            gmsh.finalize()
+            return result
+        before = groups(self.files["msh"], 2)
+        hole_faces = before["interface_box_Left-Ventricle"]
+        self.assertEqual(groups(files["msh"], 3), {"box": self.elements[1], "tumor": self.elements[2]})
+        outside = before["outside_box"] + hole_faces
+        after = {"boundary": outside, "outside_box": outside, "interface_box_tumor": before["interface_box_tumor"]}
+        self.assertEqual(groups(files["msh"], 2), after)
+        self.assertEqual(groups(second["msh"], 2)["hole"], hole_faces)
+        self.assertEqual({tuple(i["between"]): i["faces"] for i in part["interfaces"]},
+                         {("box", "outside"): after["outside_box"], ("box", "tumor"): after["interface_box_tumor"]})
+        self.assertEqual(told["patches"][0]["faces"], hole_faces)
+        for path in (files["feb"], second["feb"]):
+            sets = {s.get("name"): s.text.split(",") for s in ElementTree.parse(path).getroot().iter("ElementSet")}
+            self.assertEqual({n: len(set(s)) for n, s in sets.items()}, {"box": self.elements[1], "tumor": self.elements[2]})
+        self.assertNotIn("LEFT-VENTRICLE", files["inp"].read_text().upper())
+        lines = files["mesh"].read_text().splitlines()
+        number = sum(int(lines[i + 1]) for i, line in enumerate(lines) if line in
+                     ("Tetrahedra", "Pyramids", "Prisms", "Hexahedra"))
+        self.assertEqual(number, part["elements"])
+
     def test_bad_names(self):
         run = self.shift(self.files["vtu"], "--material", "lesion=3,0.45")
         self.assertEqual(run.returncode, 1)

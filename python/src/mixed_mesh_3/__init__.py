@@ -152,6 +152,28 @@ def _save(self, path, *, order=1, tetrahedra=False, names=None, point_data=None,
                self.names if names is None else dict(names), _data(point_data), _data(cell_data), _patches(self, patches))
 
 
+def _extract(self, subdomains):
+    """The elements of some subdomains, with their vertices, as a mesh of its own: as the program's --extract.
+
+    subdomains: labels or names, in any order, or one of them. Vertices and elements keep their order, elements their
+    labels, and subdomains their names: element i of the result is `numpy.flatnonzero(numpy.isin(mesh.labels, labels))[i]`
+    of the mesh. Interfaces with what is left out become boundary, which need not be a manifold: see defects(). Raises
+    ValueError if there is no element of a subdomain.
+
+        skull = mesh.extract(["skull"])
+    """
+    chosen = [subdomains] if isinstance(subdomains, (str, _numbers.Integral)) else list(subdomains)
+    labels = {_count("extract(): label", _label(self, label)) for label in chosen}
+    if not labels:
+        raise ValueError("extract(): expected at least one subdomain")
+    for label in sorted(labels - set(self.labels.tolist())):
+        name = f", {self.names[label]!r}" if label in self.names else ""
+        raise ValueError(f"extract(): there is no element with the label {label}{name}")
+    result = _core.extract(self, sorted(labels))
+    result.names = {label: name for label, name in self.names.items() if label in labels}
+    return result
+
+
 def _data(data):
     return {str(name): _np.asarray(values, dtype=float) for name, values in (data or {}).items()}
 
@@ -176,6 +198,7 @@ Mesh.names = property(_names, _set_names)
 Mesh.to_meshio = _to_meshio
 Mesh.to_pyvista = _to_pyvista
 Mesh.patch = _patch
+Mesh.extract = _extract
 Mesh.save = _save
 Mesh.show = _show
 Mesh.__repr__ = _repr

@@ -59,7 +59,7 @@ def _data(mesh, displacements, removed, report, title, version):
         steps = [{"name": "shifted", "displacements": _packed(u, "<f4"), "removed": _packed(is_removed, "u1")}]
     elif removed is not None:
         raise ValueError("removed: needs displacements")
-    return {"command": "mesh.show()", "is in patient space": False, "report": told, "kinds": kinds, "subdomain names": [],
+    return {"command": "mesh.show()", "is in patient space": False, "report": told, "kinds": kinds, "subdomain names": sorted(mesh.names.items()),
             "center": center.tolist(), "points": _packed(points - center, "<f4"),
             "element kinds": _packed(mesh.kinds, "u1"), "element vertices": _packed(mesh.connectivity, "<u4"),
             "labels": _packed(mesh.labels, "<u4"), "in region": _packed(mesh.in_region, "u1"),
