@@ -240,8 +240,8 @@ void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vecto
                               options.fit() == Fit::NONE
                                 ? 0
                                 : mm3::number_of_vertices_off_interface(mesh, one, domain, on_surface),
-                              one.number_of_bad_edges,
-                              one.number_of_bad_vertices,
+                              one.bad_edges.size(),
+                              one.bad_vertices.size(),
                               one.area,
                               one.is_manifold(),
                               one.second == 0};

@@ -356,13 +356,13 @@ void test_interfaces()
   mesh.set_subdomain_index(cube(1, 1, 1), 2);
   mesh.set_subdomain_index(cube(2, 2, 1), 2);
   found = interfaces();
-  BOOST_TEST_EQ((found.at({1, 2}).number_of_bad_edges), 1u);
+  BOOST_TEST_EQ((found.at({1, 2}).bad_edges.size()), 1u);
   mesh.set_subdomain_index(cube(2, 2, 1), 1);
   BOOST_TEST((interfaces().at({1, 2}).is_manifold()));
   mesh.set_subdomain_index(cube(2, 2, 2), 2);
   found = interfaces();
-  BOOST_TEST_EQ((found.at({1, 2}).number_of_bad_edges), 0u);
-  BOOST_TEST_EQ((found.at({1, 2}).number_of_bad_vertices), 1u);
+  BOOST_TEST_EQ((found.at({1, 2}).bad_edges.size()), 0u);
+  BOOST_TEST_EQ((found.at({1, 2}).bad_vertices.size()), 1u);
 }
 
 // An interface between subdomains has vertices on both sides of its surface before it is fitted, and inner

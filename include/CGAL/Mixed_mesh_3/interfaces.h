@@ -37,15 +37,14 @@ struct Subdomain_interface
   std::vector<Face> faces;    ///< faces of elements of the first subdomain, in the order of the elements
   /// The sum of the areas of the faces, in the square of the mesh's unit.
   double area = 0;
-  /// The number of edges that are not between two faces of the interface, although no third subdomain meets
-  /// there.
-  std::size_t number_of_bad_edges = 0;
-  /// The number of vertices with more than one fan of faces of the interface.
-  std::size_t number_of_bad_vertices = 0;
+  /// Edges that are not between two faces of the interface, although no third subdomain meets there.
+  std::vector<std::pair<Vertex_index, Vertex_index>> bad_edges = {};
+  /// Vertices with more than one fan of faces of the interface.
+  std::vector<Vertex_index> bad_vertices = {};
 
   /// Whether the interface is an oriented 2-manifold whose border is where three subdomains meet, which may
   /// include the outside.
-  bool is_manifold() const { return number_of_bad_edges == 0 && number_of_bad_vertices == 0; }
+  bool is_manifold() const { return bad_edges.empty() && bad_vertices.empty(); }
 };
 
 namespace internal {
@@ -79,9 +78,10 @@ public:
     for(const auto& [e, times] : edges) {
       const bool is_inside = times[0] == 1 && times[1] == 1,
                  is_border = times[0] + times[1] == 1 && m_faces_at_edges.at(e) > 2;
-      one.number_of_bad_edges += !is_inside && !is_border;
+      if(!is_inside && !is_border)
+        one.bad_edges.push_back(e);
     }
-    one.number_of_bad_vertices = vertices_with_several_fans(polygons).size();
+    one.bad_vertices = vertices_with_several_fans(polygons);
   }
 };
 

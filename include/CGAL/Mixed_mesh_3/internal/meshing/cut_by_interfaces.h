@@ -30,12 +30,17 @@
 #include <CGAL/assertions.h>
 #include <CGAL/enum.h>
 
+#include <boost/container/small_vector.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <limits>
+#include <map>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -49,10 +54,12 @@ to stay, beside no surface, and pyramids and others between these.
 
 A subdomain that an edge passes, between others, first gets a vertex there: so a layer keeps its own vertices
 if it is a quarter as thick as a cell, or more. Then a vertex that is near to an interface, beside the length
-of its edges, is moved there (as in isosurface stuffing: Labelle, Shewchuk, 2007), and each edge whose ends
-are in different subdomains is bisected where it crosses the interface (as in lattice cleaving: Bronson,
-Levine, Whitaker, 2014). Bisections keep the mesh conforming, whatever subdomains meet, and at the end no
-element has vertices inside different subdomains.
+of its edges, is moved there (as in isosurface stuffing: Labelle, Shewchuk, 2007). Then one subdomain after
+the other is separated from those that follow, the outside first: each edge between it and them is bisected
+where it crosses its surface. A vertex that comes to be on that surface belongs to one of those that follow
+when these are separated, so that edges on the boundary are bisected where layers end at it: where no vertex
+is moved, each surface is that of marching tetrahedra, a manifold, and the next ones divide it along curves.
+Bisections keep the mesh conforming, and at the end no element has vertices inside different subdomains.
 */
 class Interface_cutter
 {
@@ -65,15 +72,21 @@ class Interface_cutter
     double share; // of the edge before the point, seen from the first end
   };
 
-  // The state of a vertex of an interface is that it is inside no subdomain.
+  // Instead of a subdomain, for vertices of the lattice that are exactly on an interface.
   static constexpr Subdomain_rank on_interface = outside_rank - 2;
+
+  // The place of a subdomain in the order in which they are separated: the outside is the first.
+  static Subdomain_rank step(Subdomain_rank rank) { return Subdomain_rank(rank + 1); }
+  using Steps = boost::container::small_vector<Subdomain_rank, 2>;
 
   const Located_octree& m_octree;
   const std::size_t m_size_of_lattice; // number of vertices
   std::vector<std::uint8_t> m_is_near; // whether a vertex is at a cell that meets a surface
   Working_mesh m_mesh;
-  std::vector<Subdomain_rank> m_ranks; // of the subdomains that vertices are inside, or `on_interface`
-  std::vector<Cut> m_cuts;             // of edges between subdomains
+  std::vector<Subdomain_rank> m_ranks; // of subdomains of vertices: the last one where several meet
+  std::vector<Steps> m_surfaces;       // those of the subdomains before the last one, ascending
+  std::vector<std::uint8_t> m_stays;   // whether a vertex is not moved
+  std::vector<Cut> m_cuts;             // of edges between subdomains, before any is bisected; ascending
   bool m_is_clear;
   std::vector<Vertex_index> m_vertices; // vertices of the result
   double m_shortest;                    // edge of the octree near a surface
@@ -82,6 +95,8 @@ class Interface_cutter
   // Share of the edge up to which its end is moved. With a larger one there are fewer and better elements,
   // but tetrahedra of the octree may be inverted, which is tested.
   static constexpr double near = 0.3;
+  // Accuracy of the points where edges are cut, in edges; they are so far from the ends, at least.
+  static constexpr double accuracy = 1e-3;
 
 public:
   using Leaf_predicate = std::function<bool(Octree::Node_index)>;
@@ -94,6 +109,7 @@ public:
   {
     for(Vertex_index v = 0; v < lattice.vertices.size(); ++v)
       m_ranks.push_back(lattice.sides[v] == ON_BOUNDARY ? on_interface : lattice.subdomain(v));
+    m_surfaces.resize(m_ranks.size());
     m_shortest = shortest_edge();
     m_is_clear = insert_hidden_vertices();
     if(m_is_clear)
@@ -106,29 +122,54 @@ public:
   /// The number of vertices before edges are bisected.
   std::size_t number_of_vertices() const { return m_ranks.size(); }
 
-  /// \param stays vertices, of those before, that are not moved
+  /// \param stays vertices, of those before, that are not moved; nor are those that bisect their edges
   /// \param keeps_thin_parts whether vertices between two sheets of an interface stay as well
   /// \pre `is_clear()`
-  Core_mesh operator()(const std::vector<std::uint8_t>& stays, bool keeps_thin_parts)
+  Core_mesh operator()(std::vector<std::uint8_t> stays, bool keeps_thin_parts)
   {
     CGAL_precondition(is_clear() && stays.size() == number_of_vertices());
-    move_near_vertices(stays, keeps_thin_parts);
+    m_stays = std::move(stays);
+    std::map<Subdomain_rank, std::vector<Edge>> edges; // by step
     for(const Cut& cut : m_cuts)
-      if(is_inside(cut.ends[0]) && is_inside(cut.ends[1]))
-        bisect(cut);
+      edges[first_step(cut.ends[0], cut.ends[1])].emplace_back(cut.ends[0], cut.ends[1]);
+    const auto add_edges_of = [&](Vertex_index v) { // on the surface of this step: these are of later ones
+      for(Vertex_index u : m_mesh.neighbors(v))
+        if(is_between(u, v))
+          edges[first_step(u, v)].push_back(std::minmax(u, v));
+    };
+    for(; !edges.empty(); edges.erase(edges.begin())) {
+      std::vector<Edge>& of_step = edges.begin()->second;
+      std::sort(of_step.begin(), of_step.end());
+      of_step.erase(std::unique(of_step.begin(), of_step.end()), of_step.end());
+      std::vector<Cut> cuts;
+      for(const auto& [a, b] : of_step)
+        if(is_between(a, b))
+          cuts.push_back(cut_of(a, b));
+      for(Vertex_index v : move_near_vertices(cuts, keeps_thin_parts))
+        add_edges_of(v);
+      for(const Cut& cut : cuts)
+        if(const Vertex_index v = is_between(cut.ends[0], cut.ends[1]) ? bisect(cut) : no_vertex;
+           v != no_vertex)
+          add_edges_of(v);
+    }
     return mesh_of_subdomains();
   }
 
-  /// The vertices where the boundary of the result is no manifold, and those around.
+  /// The vertices where the boundary of the result, or an interface, is no manifold, and those around.
   std::vector<Vertex_index> defects(const Core_mesh& result) const
   {
     std::vector<Face_vertices> polygons;
     for(const Face& face : boundary_faces(result))
       polygons.push_back(face.vertices());
-    const Manifold_defects all = manifold_defects(polygons);
-    std::vector<Vertex_index> centers = all.vertices, vertices;
-    for(const auto& edge : all.edges)
+    const Manifold_defects of_boundary = manifold_defects(polygons);
+    std::vector<Vertex_index> centers = of_boundary.vertices, vertices;
+    for(const auto& edge : of_boundary.edges)
       centers.insert(centers.end(), edge.begin(), edge.end());
+    for(const Subdomain_interface& one : find_interfaces(result)) {
+      centers.insert(centers.end(), one.bad_vertices.begin(), one.bad_vertices.end());
+      for(const auto& [a, b] : one.bad_edges)
+        centers.insert(centers.end(), {a, b});
+    }
     for(Vertex_index center : centers)
       for(Element_index e : m_mesh.incident[m_vertices[center]])
         vertices.insert(vertices.end(), m_mesh.elements[e].begin(), m_mesh.elements[e].end());
@@ -168,7 +209,39 @@ private:
     });
   }
 
-  bool is_inside(Vertex_index v) const { return m_ranks[v] != on_interface; }
+  bool is_inside(Vertex_index v) const { return m_ranks[v] != on_interface && m_surfaces[v].empty(); }
+
+  bool is_on(Vertex_index v, Subdomain_rank step) const
+  {
+    return std::binary_search(m_surfaces[v].begin(), m_surfaces[v].end(), step);
+  }
+
+  // The step that separates the subdomains of two vertices.
+  Subdomain_rank first_step(Vertex_index a, Vertex_index b) const
+  {
+    return (std::min)(step(m_ranks[a]), step(m_ranks[b]));
+  }
+
+  // Whether the edge of two vertices has to be bisected.
+  bool is_between(Vertex_index a, Vertex_index b) const
+  {
+    if(m_ranks[a] == m_ranks[b] || m_ranks[a] == on_interface || m_ranks[b] == on_interface)
+      return false;
+    const Subdomain_rank first = first_step(a, b);
+    return !is_on(a, first) && !is_on(b, first);
+  }
+
+  // Sets a vertex on the surface that separates the subdomains of two vertices.
+  void set_on_surface(Vertex_index v, Vertex_index a, Vertex_index b)
+  {
+    Steps steps;
+    std::set_intersection(m_surfaces[a].begin(), m_surfaces[a].end(), m_surfaces[b].begin(),
+                          m_surfaces[b].end(), std::back_inserter(steps));
+    const Subdomain_rank first = first_step(a, b);
+    steps.insert(std::upper_bound(steps.begin(), steps.end(), first), first);
+    m_ranks[v] = step(m_ranks[a]) == first ? m_ranks[b] : m_ranks[a];
+    m_surfaces[v] = std::move(steps);
+  }
 
   // Edges of tetrahedra, each once, ascending.
   template <class Is_chosen>
@@ -233,12 +306,16 @@ private:
     return hidden;
   }
 
-  Vertex_index bisect(Vertex_index a, Vertex_index b, const Vec3& p, Subdomain_rank rank)
+  Vertex_index bisect(Vertex_index a, Vertex_index b, const Vec3& p, Subdomain_rank rank,
+                      double bound = infinity)
   {
-    if(!bisect_edge(m_mesh, Aspect_ratio_quality_3(), a, b, p, free_stratum, infinity))
+    if(!bisect_edge(m_mesh, Aspect_ratio_quality_3(), a, b, p, free_stratum, bound))
       return no_vertex;
     m_ranks.push_back(rank);
+    m_surfaces.emplace_back();
     m_is_near.push_back(1);
+    if(!m_stays.empty())
+      m_stays.push_back(m_stays[a] || m_stays[b]);
     return Vertex_index(m_ranks.size() - 1);
   }
 
@@ -255,7 +332,7 @@ private:
       const Hidden hidden = hidden_subdomain(a, b);
       if(hidden.share == 0)
         continue;
-      const Vertex_index v = bisect(a, b, m_mesh.points[a] + hidden.share * edge, hidden.rank);
+      const Vertex_index v = bisect(a, b, m_mesh.points[a] + hidden.share * edge, hidden.rank, 1 / accuracy);
       if(v == no_vertex)
         continue;
       if(v - m_size_of_lattice > m_size_of_lattice)
@@ -270,9 +347,7 @@ private:
   std::vector<Cut> all_cuts() const
   {
     std::vector<Cut> cuts;
-    for(const auto& [a, b] : edges([this](Vertex_index u, Vertex_index v) {
-          return m_ranks[u] != m_ranks[v] && is_inside(u) && is_inside(v);
-        }))
+    for(const auto& [a, b] : edges([this](Vertex_index u, Vertex_index v) { return is_between(u, v); }))
       cuts.push_back(crossing(a, b));
     return cuts;
   }
@@ -290,7 +365,6 @@ private:
   Cut crossing(Vertex_index a, Vertex_index b) const
   {
     constexpr int most_steps = 6;
-    constexpr double accuracy = 1e-3; // in edges; so far from the ends, at least
     const Vec3 p = m_mesh.points[a], edge = m_mesh.points[b] - p;
     const double length = norm(edge);
     double low = 0, high = 1, share = 0.5;
@@ -299,7 +373,11 @@ private:
       const double distance = norm(way), along = dot(way, edge);
       if(distance < accuracy * length)
         break;
-      (m_octree.subdomain_rank(x) == m_ranks[a] ? low : high) = share;
+      const Subdomain_rank rank = m_octree.subdomain_rank(x); // another one beside a curve of the boundary
+      if(rank == m_ranks[a])
+        low = share;
+      else if(rank == m_ranks[b])
+        high = share;
       const double next = along == 0 ? low : share + distance * distance / along;
       share = low < next && next < high ? next : (low + high) / 2;
     }
@@ -308,103 +386,110 @@ private:
     return {{a, b}, norm(q - x) < accuracy * length ? q : x, share};
   }
 
+  // The cut of an edge, found before if its ends are where they were.
+  Cut cut_of(Vertex_index a, Vertex_index b) const
+  {
+    if(!is_inside(a) || !is_inside(b))
+      return crossing(a, b);
+    const auto found = std::lower_bound(m_cuts.begin(), m_cuts.end(), std::array<Vertex_index, 2>{a, b},
+                                        [](const Cut& c, const auto& ends) { return c.ends < ends; });
+    CGAL_assertion(found != m_cuts.end() && found->ends[0] == a && found->ends[1] == b);
+    return *found;
+  }
+
   // An end of a cut.
   struct End
   {
     Vertex_index vertex, other;
-    Vec3 way;     // to the point of the cut
-    double share; // of the edge before it
+    double share; // of the edge before the point of the cut
+    Vec3 point;
   };
 
-  End end_of(const Cut& cut, std::size_t i) const
+  // The ends of cuts from which these are near, of vertices that may move, the nearest first.
+  // \param is_one_sheet whether all cuts of a vertex have to be on the side where the interface is nearest: a
+  // vertex between two sheets of it that left for one of them would take along what is between it and the
+  // other
+  std::vector<End> near_ends(const std::vector<Cut>& cuts, bool is_one_sheet) const
   {
-    return {cut.ends[i], cut.ends[1 - i], cut.point - m_mesh.points[cut.ends[i]],
-            i == 0 ? cut.share : 1 - cut.share};
-  }
-
-  template <class Function>
-  void for_each_end(const Function& f) const
-  {
-    for(std::size_t i = 0; i < 2 * m_cuts.size(); ++i)
-      f(i, end_of(m_cuts[i / 2], i % 2));
-  }
-
-  // Whether all cuts of the edges of a vertex are of the same subdomains.
-  // \param is_one_sheet and on the side where the interface is nearest: a vertex between two sheets of it
-  // that left for one of them would take along what is between it and the other
-  std::vector<std::uint8_t> vertices_beside_one_interface(bool is_one_sheet) const
-  {
-    const std::size_t n = m_ranks.size();
-    std::vector<End> nearest(n, {no_vertex, no_vertex, {}, near});
-    for_each_end([&](std::size_t, const End& end) {
-      if(end.share < nearest[end.vertex].share)
-        nearest[end.vertex] = end;
+    std::vector<End> ends, chosen;
+    for(const Cut& cut : cuts)
+      for(std::size_t i = 0; i < 2; ++i)
+        ends.push_back({cut.ends[i], cut.ends[1 - i], i == 0 ? cut.share : 1 - cut.share, cut.point});
+    std::stable_sort(ends.begin(), ends.end(), [](const End& a, const End& b) {
+      return std::tie(a.vertex, a.share) < std::tie(b.vertex, b.share);
     });
-    std::vector<std::uint8_t> is_beside_one(n, 0);
-    std::vector<Vec3> ways(n); // to the interface
-    for(const End& end : nearest)
-      if(end.vertex != no_vertex) {
-        const Vec3& p = m_mesh.points[end.vertex];
-        is_beside_one[end.vertex] = 1;
-        if(is_one_sheet)
-          ways[end.vertex] = closest(p, m_ranks[end.vertex], m_ranks[end.other]) - p;
-      }
-    for_each_end([&](std::size_t, const End& end) {
-      const Vertex_index v = end.vertex;
-      is_beside_one[v] = is_beside_one[v] && m_ranks[end.other] == m_ranks[nearest[v].other]
-                         && (!is_one_sheet || dot(ways[v], end.way) >= 0);
-    });
-    return is_beside_one;
-  }
-
-  // Moves vertices to the nearest one of the points where their edges are cut, the nearest first.
-  void move_near_vertices(const std::vector<std::uint8_t>& stays, bool keeps_thin_parts)
-  {
-    const std::vector<std::uint8_t> is_beside_one = vertices_beside_one_interface(keeps_thin_parts);
-    std::vector<std::pair<double, std::size_t>> order; // of ends
-    for_each_end([&](std::size_t i, const End& end) {
-      if(end.share < near && is_beside_one[end.vertex] && !stays[end.vertex])
-        order.emplace_back(end.share, i);
-    });
-    std::sort(order.begin(), order.end());
-    for(const auto& [share, i] : order) {
-      const Cut& cut = m_cuts[i / 2];
-      const Vertex_index v = cut.ends[i % 2];
-      if(!is_inside(cut.ends[0]) || !is_inside(cut.ends[1]))
+    for(auto first = ends.begin(), last = first; first != ends.end(); first = last) {
+      const Vertex_index v = first->vertex;
+      last = std::find_if(first, ends.end(), [v](const End& end) { return end.vertex != v; });
+      if(m_stays[v] || !(first->share < near))
         continue;
-      const Vec3 before = std::exchange(m_mesh.points[v], cut.point);
-      if(std::all_of(m_mesh.incident[v].begin(), m_mesh.incident[v].end(),
-                     [&](Element_index e) { return m_mesh.is_positive(m_mesh.elements[e]); }))
-        m_ranks[v] = on_interface;
-      else
-        m_mesh.points[v] = before;
+      const Vec3& p = m_mesh.points[v];
+      const Vec3 way = is_one_sheet ? closest(p, m_ranks[v], m_ranks[first->other]) - p : Vec3{};
+      if(std::all_of(first, last, [&](const End& end) { return dot(way, end.point - p) >= 0; }))
+        std::copy_if(first, last, std::back_inserter(chosen), [](const End& e) { return e.share < near; });
     }
+    std::stable_sort(chosen.begin(), chosen.end(),
+                     [](const End& a, const End& b) { return a.share < b.share; });
+    return chosen;
+  }
+
+  // Moves vertices to the nearest one of the points where their edges are cut, the nearest first; those on
+  // surfaces along these.
+  // \return the vertices
+  std::vector<Vertex_index> move_near_vertices(const std::vector<Cut>& cuts, bool keeps_thin_parts)
+  {
+    std::vector<Vertex_index> moved;
+    for(const auto& [v, other, share, point] : near_ends(cuts, keeps_thin_parts)) {
+      const Steps &mine = m_surfaces[v], &others = m_surfaces[other];
+      if(!is_between(v, other) || !std::includes(others.begin(), others.end(), mine.begin(), mine.end()))
+        continue;
+      const Vec3 before = std::exchange(m_mesh.points[v], point);
+      if(std::all_of(m_mesh.incident[v].begin(), m_mesh.incident[v].end(),
+                     [&](Element_index e) { return m_mesh.is_positive(m_mesh.elements[e]); })) {
+        set_on_surface(v, v, other);
+        moved.push_back(v);
+      } else {
+        m_mesh.points[v] = before;
+      }
+    }
+    return moved;
   }
 
   // A point that is not quite on the edge may be impossible where tetrahedra are flat.
-  void bisect(const Cut& cut)
+  Vertex_index bisect(const Cut& cut)
   {
     const auto [a, b] = cut.ends;
     const Vec3 on_edge = m_mesh.points[a] + cut.share * (m_mesh.points[b] - m_mesh.points[a]);
-    if(bisect(a, b, cut.point, on_interface) == no_vertex)
-      bisect(a, b, on_edge, on_interface);
+    Vertex_index v = bisect(a, b, cut.point, on_interface, 1 / accuracy);
+    if(v == no_vertex)
+      v = bisect(a, b, on_edge, on_interface);
+    if(v != no_vertex)
+      set_on_surface(v, a, b);
+    return v;
   }
 
-  // The subdomain that vertices of a tetrahedron are inside; where there are none, or several, that of its
-  // center.
+  // The subdomain of a tetrahedron: the first one of its vertices, if the others are inside it or on its
+  // surface. That of its center, if all vertices are on one surface, or some edge could not be bisected.
   Subdomain_rank subdomain(const Working_mesh::Element& t) const
   {
-    Subdomain_rank rank = on_interface;
-    bool is_clear = true;
+    Vertex_index first = no_vertex;
+    Steps common; // surfaces that all vertices are on
     Vec3 sum{};
     for(Vertex_index v : t) {
       sum = sum + m_mesh.points[v];
-      if(is_inside(v)) {
-        is_clear = is_clear && (rank == on_interface || rank == m_ranks[v]);
-        rank = m_ranks[v];
-      }
+      if(m_ranks[v] == on_interface)
+        continue;
+      if(first == no_vertex)
+        common = m_surfaces[v];
+      common.erase(std::remove_if(common.begin(), common.end(), [&](auto s) { return !is_on(v, s); }),
+                   common.end());
+      if(first == no_vertex || step(m_ranks[v]) < step(m_ranks[first]))
+        first = v;
     }
-    return is_clear && rank != on_interface ? rank : m_octree.subdomain_rank((1. / double(t.size())) * sum);
+    const bool is_clear = first != no_vertex && common.empty()
+                          && std::none_of(t.begin(), t.end(),
+                                          [&](Vertex_index v) { return is_between(first, v); });
+    return is_clear ? m_ranks[first] : m_octree.subdomain_rank((1. / double(t.size())) * sum);
   }
 
   Core_mesh mesh_of_subdomains()
@@ -439,9 +524,9 @@ private:
 };
 
 /*!
-The elements of a lattice, cut along the interfaces of subdomains. Where the boundary would be no manifold,
-vertices are not moved; none is if some interface would be none, or in the end: then all are manifolds, unless
-some edge could not be cut.
+The elements of a lattice, cut along the interfaces of subdomains. Where the boundary or an interface would be
+no manifold, vertices are not moved; in the end none is: then all are manifolds, unless vertices of the
+lattice are on surfaces, or some edge could not be cut.
 
 \param is_kept whether hexahedra of a leaf stay, if they are not beside a surface
 \param keeps_thin_parts whether vertices between two sheets of an interface are not moved: parts and gaps
@@ -462,16 +547,12 @@ inline Core_mesh cut_by_interfaces(const Located_octree& octree, const Lattice_m
     Interface_cutter cut = uncut;
     Core_mesh mesh = cut(stays, keeps_thin_parts);
     const std::vector<Vertex_index> defects = cut.defects(mesh);
+    if(defects.empty())
+      return mesh;
     for(Vertex_index v : defects)
       if(v < stays.size()) // others are on the interface
         stays[v] = 1;
-    if(defects.empty()) {
-      const std::vector<Subdomain_interface> interfaces = find_interfaces(mesh);
-      if(std::all_of(interfaces.begin(), interfaces.end(),
-                     [](const Subdomain_interface& one) { return one.is_manifold(); }))
-        return mesh;
-    }
-    if(defects.empty() || attempt == most_attempts - 2)
+    if(attempt == most_attempts - 2)
       std::fill(stays.begin(), stays.end(), 1);
   }
   return {};

@@ -115,7 +115,7 @@ inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_
   };
   if(begins_fine(root, criteria)) {
     const bool is_right = (!is_always_cut && simplify(false)) || simplify(true);
-    if(is_right || !(has_layers || mesh.is_empty()))
+    if(is_right || !mesh.is_empty())
       return result;
   }
   run(make_mesh_within_budget);

@@ -162,9 +162,9 @@ inline bool simplify_and_fit(Meshing_state& s, const Simplification_limits& limi
 /// \param mesh empty; stays so if there is none
 inline void make_simplified_mesh(Meshing_state& s, bool is_cut, Core_mesh& mesh)
 {
-  // Largest bound in bounds that were asked for: in thin walls there is room for flatter elements only. And
-  // what few elements may have between layers, which no octree resolves better; above, they are no use.
-  constexpr double largest_multiple = 5, largest_between_layers = 30;
+  // Largest bound in bounds that were asked for: in thin walls there is room for flatter elements only.
+  // Between layers, few elements may have any: no octree resolves these.
+  constexpr double largest_multiple = 5;
   // The same, before vertices are removed: vertices of flat elements go early. Without that, one to five
   // vertices of plates and gears stay off the surface in the end, with 3 or 5 parts keep less of their sharp
   // edges.
@@ -211,7 +211,7 @@ inline void make_simplified_mesh(Meshing_state& s, bool is_cut, Core_mesh& mesh)
   const bool is_above = fit.number_of_elements_above_bound > 0;
   const double worst = is_above ? quality_statistics(mesh).back().maximum : 0;
   const bool is_bad = worst > limits.largest_bound
-                      && (!s.has_several_subdomains() || worst > largest_between_layers * limits.bound);
+                      && (!s.has_several_subdomains() || s.criteria.is_quality_bound_strict());
   if(!fit.is_boundary_simple || is_bad) { // the octree of the budget is tried
     mesh.clear();
     s.result.is_kept = false;
