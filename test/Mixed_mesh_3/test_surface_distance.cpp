@@ -300,6 +300,37 @@ void test_slabs()
     BOOST_TEST(vertices_of_self_intersections(points, faces, threads) == more);
 }
 
+// A search that tests only pairs of triangles that have moved finds what one of all pairs finds.
+void test_repeated_search()
+{
+  const Mesh mesh = solid(sphere({0, 0, 0}, 1, 50), {0, 0, 0});
+  auto triangles = internal::triangles_of_faces(boundary_faces(mesh));
+  std::vector<Vec3> points;
+  for(Vertex_index v = 0; v < mesh.number_of_vertices(); ++v)
+    points.push_back(to_vec3(mesh.point(v)));
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-0.06, 0.06); // up to an edge
+  std::size_t most = 0;
+  internal::Self_intersections one, several;
+  for(int round = 0; round < 40; ++round) {
+    // Some vertices move, or return, which makes triangles cut others, or no longer; once all do, once one.
+    const std::size_t step = round == 20 ? 1 : round == 30 ? points.size() : 1 + random() % 500;
+    for(std::size_t v = random() % step; v < points.size(); v += step) {
+      points[v] = to_vec3(mesh.point(Vertex_index(v)));
+      if(round % 3 != 0)
+        for(double& x : points[v])
+          x += uniform(random);
+    }
+    if(round == 35) // other triangles
+      triangles.resize(triangles.size() / 2);
+    const std::vector<Vertex_index> all = internal::vertices_of_self_intersections(points, triangles);
+    BOOST_TEST(one.vertices(points, triangles, 1) == all);
+    BOOST_TEST(several.vertices(points, triangles, 3) == all);
+    most = (std::max)(most, all.size());
+  }
+  BOOST_TEST_GT(most, 10u);
+}
+
 void test_self_intersections()
 {
   const Test_surface surface = sphere({0, 0, 0}, 1, 8);
@@ -394,6 +425,7 @@ int run(int argc, char* argv[])
   test_vertices_off_surface();
   test_self_intersections();
   test_slabs();
+  test_repeated_search();
   test_brain(argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR);
   return boost::report_errors();
 }

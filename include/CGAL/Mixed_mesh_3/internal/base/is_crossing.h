@@ -16,7 +16,6 @@
 #include <CGAL/enum.h>
 #include <CGAL/intersections.h>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -37,15 +36,17 @@ bool is_crossing(const std::array<Index, 3>& s, const std::array<Index, 3>& t, c
   std::size_t shared = 0;
   const auto turned = [&shared](const std::array<Index, 3>& v, const std::array<Index, 3>& other) {
     std::array<Index, 3> result{};
+    std::array<bool, 3> is_shared{};
+    for(std::size_t i = 0; i < 3; ++i)
+      is_shared[i] = (v[i] == other[0]) | (v[i] == other[1]) | (v[i] == other[2]);
     std::size_t n = 0;
-    const auto append = [&](bool is_shared) {
-      for(Index u : v)
-        if((std::find(other.begin(), other.end(), u) != other.end()) == is_shared)
-          result[n++] = u;
-    };
-    append(true);
+    for(std::size_t i = 0; i < 3; ++i)
+      if(is_shared[i])
+        result[n++] = v[i];
     shared = n;
-    append(false);
+    for(std::size_t i = 0; i < 3; ++i)
+      if(!is_shared[i])
+        result[n++] = v[i];
     return result;
   };
   const std::array<Index, 3> a = turned(s, t), b = turned(t, s);

@@ -19,7 +19,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <tuple>
 #include <vector>
 
 namespace CGAL {
@@ -74,48 +73,66 @@ inline Manifold_defects manifold_defects(const std::vector<Face_vertices>& polyg
   Manifold_defects defects;
 
   // Each edge must be present once in each direction.
-  std::vector<std::array<Vertex_index, 3>> edges; // smaller, larger, is reversed
+  std::size_t number = 0; // of edges, and of links
+  for(const Face_vertices& p : polygons)
+    number += std::size_t(p.size());
+  const auto pair = [](Vertex_index a, Vertex_index b) { return std::uint64_t(a) << 32 | b; };
+  struct Edge
+  {
+    std::uint64_t ends; // the smaller one first; one number is sorted faster than two
+    bool is_reversed;
+    bool operator<(const Edge& e) const
+    {
+      return ends != e.ends ? ends < e.ends : is_reversed < e.is_reversed;
+    }
+  };
+  std::vector<Edge> edges;
+  edges.reserve(number);
   for(const Face_vertices& p : polygons)
     for(int i = 0; i < p.size(); ++i) {
-      const Vertex_index a = p[i], b = p[(i + 1) % p.size()];
-      edges.push_back({(std::min)(a, b), (std::max)(a, b), a > b});
+      const Vertex_index a = p[i], b = p[i + 1 < p.size() ? i + 1 : 0];
+      edges.push_back({pair((std::min)(a, b), (std::max)(a, b)), a > b});
     }
   std::sort(edges.begin(), edges.end());
   for(std::size_t i = 0, j; i < edges.size(); i = j) {
-    for(j = i; j < edges.size() && edges[j][0] == edges[i][0] && edges[j][1] == edges[i][1];)
+    for(j = i; j < edges.size() && edges[j].ends == edges[i].ends;)
       ++j;
-    if(j - i != 2 || edges[i][2] == edges[i + 1][2])
-      defects.edges.push_back({edges[i][0], edges[i][1]});
+    if(j - i != 2 || edges[i].is_reversed == edges[i + 1].is_reversed)
+      defects.edges.push_back({Vertex_index(edges[i].ends >> 32), Vertex_index(edges[i].ends)});
   }
 
   // The links around each vertex (predecessor to successor in each polygon) must form one cycle.
   struct Link
   {
-    Vertex_index vertex, from, to;
+    std::uint64_t vertex_and_from;
+    Vertex_index to;
+    Vertex_index vertex() const { return Vertex_index(vertex_and_from >> 32); }
+    Vertex_index from() const { return Vertex_index(vertex_and_from); }
     bool operator<(const Link& l) const
     {
-      return std::tie(vertex, from, to) < std::tie(l.vertex, l.from, l.to);
+      return vertex_and_from != l.vertex_and_from ? vertex_and_from < l.vertex_and_from : to < l.to;
     }
   };
   std::vector<Link> links;
+  links.reserve(number);
   for(const Face_vertices& p : polygons)
-    for(int i = 0; i < p.size(); ++i)
-      links.push_back({p[i], p[(i + 1) % p.size()], p[(i + p.size() - 1) % p.size()]});
+    for(int i = 0, last = p.size() - 1; i <= last; ++i)
+      links.push_back({pair(p[i], p[i < last ? i + 1 : 0]), p[i > 0 ? i - 1 : last]});
   std::sort(links.begin(), links.end());
   for(auto first = links.begin(), last = first; first != links.end(); first = last) {
-    while(last != links.end() && last->vertex == first->vertex)
+    while(last != links.end() && last->vertex() == first->vertex())
       ++last;
     std::ptrdiff_t length = 0;
-    Vertex_index v = first->from;
+    Vertex_index v = first->from();
     do {
-      const auto next = std::lower_bound(first, last, Link{first->vertex, v, 0});
-      if(next == last || next->from != v)
+      const auto next = std::lower_bound(first, last, Link{pair(first->vertex(), v), 0});
+      if(next == last || next->from() != v)
         break;
       v = next->to;
       ++length;
-    } while(v != first->from && length <= last - first);
-    if(v != first->from || length != last - first)
-      defects.vertices.push_back(first->vertex);
+    } while(v != first->from() && length <= last - first);
+    if(v != first->from() || length != last - first)
+      defects.vertices.push_back(first->vertex());
   }
   return defects;
 }

@@ -113,7 +113,8 @@ struct Fitting_state
   // had arrived. New vertices get positions between the ends of their edges.
   std::vector<Vec3> saved_points;
   std::vector<std::uint8_t> saved_is_arrived;
-  std::vector<Vec3> feature_places; // starts of the search for targets, if there are features
+  std::vector<Vec3> feature_places;      // starts of the search for targets, if there are features
+  Self_intersections self_intersections; // of the boundary at the last test
   Mixed_mesh_optimization_result_3 result;
 
   Fitting_state(const Core_mesh& start, const Any_surface& surface, const Criteria& c, const Quality& q,
@@ -242,14 +243,14 @@ struct Fitting_state
   }
 
   /// The vertices of faces of the boundary that cut each other, ascending.
-  std::vector<Vertex_index> crossing_vertices() const
+  std::vector<Vertex_index> crossing_vertices()
   {
     // Interfaces can not cut anything if no element is inverted.
     std::vector<Face> faces;
     for(std::size_t f = 0; f < boundary.faces.size(); ++f)
       if(strata.is_on_boundary(boundary.strata[f]))
         faces.push_back(boundary.faces[f]);
-    return vertices_of_self_intersections(mesh.points, faces, criteria.number_of_threads);
+    return self_intersections.vertices(mesh.points, triangles_of_faces(faces), criteria.number_of_threads);
   }
 
   /// Saves all positions if no faces cut each other. \return the number of vertices of faces that cut

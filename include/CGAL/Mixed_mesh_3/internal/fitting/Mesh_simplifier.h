@@ -111,6 +111,8 @@ class Mesh_simplifier
   std::vector<double> m_weights;                  // of vertices; empty: all are equal
   std::vector<std::size_t> m_changed;             // number of collapses when elements of the vertex changed
   std::vector<Choice> m_choices;
+  std::vector<std::uint64_t> m_marks; // time at which each vertex was marked as a neighbor
+  std::uint64_t m_time = 0;
   std::priority_queue<Entry> m_queue;
   std::size_t m_removed = 0;
   double m_bound = 0, m_distance = 0;
@@ -148,7 +150,7 @@ public:
       m_origin(targets.front()), m_quadrics(targets.size()), m_targets(targets), m_places(targets.size()),
       m_defects(defects), m_curves(boundary, targets.size()), m_is_outer(targets.size(), 0),
       m_is_queued(targets.size(), 0), m_stays(targets.size(), 0), m_changed(targets.size(), 0),
-      m_choices(targets.size())
+      m_choices(targets.size()), m_marks(targets.size(), 0)
   {
     for(const Working_mesh::Element& element : mesh.elements)
       if(element.kind != TETRAHEDRON)
@@ -238,21 +240,24 @@ private:
       return;
     const Short_vector<Candidate> all = candidates(v);
     if(!all.empty())
-      push(v, all.front().loss);
+      push(v, std::min_element(all.begin(), all.end())->loss);
   }
 
-  // By elements, ascending.
-  Short_vector<Vertex_index> neighbors(Vertex_index v) const
+  // By elements, each once, in any order: marks find the neighbors in less time than sorting.
+  Short_vector<Vertex_index> neighbors(Vertex_index v)
   {
     Short_vector<Vertex_index> all;
+    m_marks[v] = ++m_time;
     for(Element_index e : m_mesh.incident[v])
       for(Vertex_index u : m_mesh.elements[e])
-        if(u != v)
+        if(m_marks[u] != m_time) {
+          m_marks[u] = m_time;
           all.push_back(u);
-    sort_uniquely(all);
+        }
     return all;
   }
 
+  // Ascending.
   Short_vector<Vertex_index> neighbors_on_boundary(Vertex_index v) const
   {
     Short_vector<Vertex_index> all;
@@ -261,18 +266,13 @@ private:
         if(u != v)
           all.push_back(u);
     });
-    sort_uniquely(all);
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;
   }
 
-  static void sort_uniquely(Short_vector<Vertex_index>& vertices)
-  {
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  }
-
   // The vertices that a vertex may go into, as far as strata tell.
-  Short_vector<Vertex_index> ends(Vertex_index v) const
+  Short_vector<Vertex_index> ends(Vertex_index v)
   {
     const bool is_on_boundary = m_mesh.is_on_boundary(v);
     Short_vector<Vertex_index> all;
@@ -280,15 +280,14 @@ private:
       all.assign(m_curves.neighbors(v).begin(), m_curves.neighbors(v).end());
     else
       all = is_on_boundary ? neighbors_on_boundary(v) : neighbors(v);
-    if(is_on_boundary)
+    if(m_mesh.strata[v] >= first_sharp_stratum)
       all.erase(std::remove_if(all.begin(), all.end(),
                                [&](Vertex_index w) { return !m_mesh.keeps_sharp_edges(v, w); }),
                 all.end());
     return all;
   }
 
-  // Sorted by loss.
-  Short_vector<Candidate> candidates(Vertex_index v) const
+  Short_vector<Candidate> candidates(Vertex_index v)
   {
     Short_vector<Candidate> all;
     const Short_vector<Vertex_index> around = neighbors(v);
@@ -310,7 +309,6 @@ private:
       }
       all.push_back({share(v) * loss, w});
     }
-    std::sort(all.begin(), all.end());
     return all;
   }
 
@@ -318,7 +316,9 @@ private:
   {
     Candidate best{infinity, no_vertex};
     double least = infinity;
-    for(const Candidate& c : candidates(v))
+    Short_vector<Candidate> all = candidates(v);
+    std::sort(all.begin(), all.end());
+    for(const Candidate& c : all)
       if(is_possible(v, c.end)) {
         if(!has_defect(v))
           return c;

@@ -43,6 +43,9 @@ struct Flip_context
   /// Bits for the edges of each tetrahedron that were tried in vain: until something around an edge changes,
   /// it need not be tried from each of the tetrahedra around it.
   std::vector<std::uint8_t> edges_in_vain = {};
+  /// Costs of the first elements, if they are tetrahedra: each is asked for from all of its edges and faces.
+  /// Elements keep their vertices, and vertices their positions, while flips run.
+  std::vector<double> costs = {};
 
   bool is_tetrahedron(Element_index e) const
   {
@@ -52,6 +55,19 @@ struct Flip_context
   double cost(const Vertex_index* v) const
   {
     return power(quality(TETRAHEDRON, mesh.relative_points(Element_view(TETRAHEDRON, v))), exponent);
+  }
+
+  /// The cost of a tetrahedron of the mesh.
+  double cost_of(Element_index e) const
+  {
+    return e < costs.size() ? costs[e] : cost(mesh.elements[e].vertices.data());
+  }
+
+  /// Computes the costs of elements that the mesh has more than before.
+  void add_costs()
+  {
+    for(Element_index e = Element_index(costs.size()); e < mesh.elements.size(); ++e)
+      costs.push_back(is_tetrahedron(e) ? cost(mesh.elements[e].vertices.data()) : 0);
   }
 
   /// Whether the edge of the vertices i and j of a tetrahedron was tried in vain. \pre i < j
@@ -97,7 +113,7 @@ struct Flip_context
   {
     double before = 0, most = power(bound, exponent);
     for(Element_index e : old) {
-      const double c = cost(mesh.elements[e].vertices.data());
+      const double c = cost_of(e);
       before += c;
       most = (std::max)(most, c);
     }

@@ -54,13 +54,15 @@ public:
     const double least = power(worst, exponent);
     const Working_mesh& mesh = m_context.mesh;
     m_context.edges_in_vain.assign(mesh.elements.size(), 0);
+    m_context.costs.clear();
+    m_context.add_costs();
     const auto change = [&](Vertex_index v) {
       m_context.forget_around(v);
       changed(v);
     };
     std::size_t flips = 0;
     for(Element_index e = 0; e < mesh.elements.size(); ++e)
-      if(m_context.is_tetrahedron(e) && m_context.cost(mesh.elements[e].vertices.data()) > least) {
+      if(m_context.is_tetrahedron(e) && m_context.cost_of(e) > least) {
         const std::size_t first_new = mesh.elements.size();
         const auto vertices = mesh.elements[e].vertices;
         if(!flip_edges(m_context, e) && !flip_faces(m_context, e)) {
@@ -69,11 +71,13 @@ public:
           std::for_each_n(vertices.begin(), 4, change);
         }
         ++flips;
+        m_context.add_costs();
         for(std::size_t n = first_new; n < mesh.elements.size(); ++n)
           for(Vertex_index v : mesh.elements[n])
             change(v);
       }
     m_context.edges_in_vain.clear();
+    m_context.costs.clear();
     return flips;
   }
 

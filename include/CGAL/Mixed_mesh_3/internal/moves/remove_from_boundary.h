@@ -96,7 +96,7 @@ bool remove_from_boundary(Flip_context<Quality>& context, Element_index e)
                                {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};
   const Working_mesh& mesh = context.mesh;
   const auto v = mesh.elements[e].vertices;
-  if(context.cost(v.data()) < power(least_cost, context.exponent)
+  if(context.cost_of(e) < power(least_cost, context.exponent)
      || !std::all_of(v.begin(), v.begin() + 4, [&](Vertex_index u) { return mesh.is_on_boundary(u); }))
     return false;
   for(const auto& k : edges)
