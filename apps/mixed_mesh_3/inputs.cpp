@@ -209,6 +209,7 @@ void read_domain(const Input_options& o, Surface_reader& read, Outcome& outcome,
     if(subdomains.size() > 1)
       outcome.surface.volume = CGAL::Polygon_mesh_processing::volume(*inputs.boundary);
   }
+  measure_visible_parts(subdomains);
   for(const Subdomain& s : subdomains)
     if(s.index == 0) {
       auto with_cavity = std::make_shared<Surface>(*inputs.boundary);

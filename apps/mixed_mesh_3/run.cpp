@@ -286,6 +286,7 @@ bool run(Options o)
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);
   check_names_to_extract(o, inputs.subdomains);
+  check_layers(inputs.subdomains, o, outcome.warnings);
   if(o.tolerance > 0)
     check_tolerance(o, *inputs.boundary);
   Domain domain = log("AABB tree of surface", [&] { return make_domain(inputs.subdomains); });

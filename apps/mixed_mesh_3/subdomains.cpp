@@ -9,12 +9,14 @@
 
 #include <CGAL/Mixed_mesh_3/interfaces.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
@@ -49,37 +51,6 @@ public:
     return CGAL::do_overlap(m_domain.bbox(), other.m_domain.bbox());
   }
 };
-
-// Volumes without the volumes of earlier subdomains. None where surfaces cross.
-std::vector<std::optional<double>> expected_volumes(const std::vector<Subdomain>& subdomains)
-{
-  std::vector<std::optional<double>> volumes;
-  std::vector<Enclosed> enclosed;
-  for(std::size_t i = 0; i < subdomains.size(); ++i) {
-    const Surface& mine = *subdomains[i].surface;
-    const bool are_labels = std::all_of(subdomains.begin(), subdomains.begin() + std::ptrdiff_t(i) + 1,
-                                        [](const Subdomain& s) { return s.volume.has_value(); });
-    if(are_labels) { // labels do not overlap
-      volumes.push_back(subdomains[i].volume);
-      continue;
-    }
-    while(enclosed.size() <= i) // trees take time, and labels need none
-      enclosed.emplace_back(*subdomains[enclosed.size()].surface);
-    volumes.emplace_back(subdomains[i].facts.volume);
-    for(std::size_t j = 0; j < i && volumes[i]; ++j) {
-      if(!enclosed[i].is_near(enclosed[j]))
-        continue;
-      const auto [has_inside, has_outside] = enclosed[i].has_inside_and_outside(*subdomains[j].surface);
-      if(enclosed[j].has_inside_and_outside(mine).first || (has_inside && has_outside))
-        volumes[i] = std::nullopt;
-      else if(has_inside && volumes[j])
-        *volumes[i] -= *volumes[j];
-      else if(has_inside)
-        volumes[i] = std::nullopt;
-    }
-  }
-  return volumes;
-}
 
 // Whether the volume is that of the surface, as far as that is known.
 bool has_right_volume(const Subdomain_outcome& s)
@@ -181,6 +152,43 @@ void order_by_nesting(std::vector<Subdomain>& subdomains, std::vector<std::strin
     }
 }
 
+void measure_visible_parts(std::vector<Subdomain>& subdomains)
+{
+  using CGAL::Polygon_mesh_processing::area;
+  std::vector<Enclosed> enclosed;
+  std::vector<std::vector<std::size_t>> inside(subdomains.size()); // earlier ones inside each one
+  for(std::size_t i = 0; i < subdomains.size(); ++i) {
+    const Surface& mine = *subdomains[i].surface;
+    std::optional<double>& volume = subdomains[i].visible_volume = subdomains[i].facts.volume;
+    subdomains[i].visible_area = area(mine);
+    const bool are_labels = std::all_of(subdomains.begin(), subdomains.begin() + std::ptrdiff_t(i) + 1,
+                                        [](const Subdomain& s) { return s.volume.has_value(); });
+    if(are_labels) { // labels do not overlap
+      volume = subdomains[i].volume;
+      continue;
+    }
+    while(enclosed.size() <= i && subdomains.size() > 1) // trees take time, and labels need none
+      enclosed.emplace_back(*subdomains[enclosed.size()].surface);
+    for(std::size_t j = i; j-- > 0;) {
+      if(!enclosed[i].is_near(enclosed[j]))
+        continue;
+      const auto [has_inside, has_outside] = enclosed[i].has_inside_and_outside(*subdomains[j].surface);
+      if(enclosed[j].has_inside_and_outside(mine).first || (has_inside && has_outside)) {
+        volume = std::nullopt;
+      } else if(has_inside) {
+        volume = volume && subdomains[j].visible_volume ? *volume - *subdomains[j].visible_volume
+                                                        : std::optional<double>();
+        const auto has_j = [&](std::size_t k) {
+          return std::find(inside[k].begin(), inside[k].end(), j) != inside[k].end();
+        };
+        if(std::none_of(inside[i].begin(), inside[i].end(), has_j))
+          subdomains[i].visible_area += area(*subdomains[j].surface);
+        inside[i].push_back(j);
+      }
+    }
+  }
+}
+
 Surface union_of(const std::vector<Subdomain>& subdomains)
 {
   namespace PMP = CGAL::Polygon_mesh_processing;
@@ -192,6 +200,43 @@ Surface union_of(const std::vector<Subdomain>& subdomains)
       whole = std::move(both);
   }
   return whole;
+}
+
+void check_layers(const std::vector<Subdomain>& subdomains, const Options& o,
+                  std::vector<std::string>& warnings)
+{
+  // Edges of a layer, in its thickness, with which all checks hold: spherical layers around a ball of 90 mm
+  // take 8,000 vertices if they are 2 mm thick, 2,000 if 4, 700 if 6, 250 if 12 mm. With a quarter of these
+  // vertices, volumes are a quarter off, or nothing is left of them.
+  constexpr double longest_edge = 2.7, least_share = 0.25, most_told = 1e12;
+  const double area_of_edge = std::sqrt(3.) / 2; // for each vertex of equilateral triangles
+  if(subdomains.size() < 2 || o.nodes > 0 || o.fewest_vertices || o.no_simplification
+     || o.fit() != Fit::OPTIMIZATION)
+    return;
+  double needed = 0, most = 0, thickness = 0;
+  const Subdomain* thinnest = nullptr;
+  for(const Subdomain& s : subdomains) {
+    if(s.index == 0 || !s.visible_volume || !(*s.visible_volume > 0))
+      continue;
+    const double mine = 2 * *s.visible_volume / s.visible_area, edge = longest_edge * mine,
+                 vertices = s.visible_area / (area_of_edge * edge * edge);
+    needed += vertices;
+    if(vertices > most) {
+      most = vertices;
+      thickness = mine;
+      thinnest = &s;
+    }
+  }
+  if(double(o.vertices) >= needed)
+    return;
+  const std::string text = o.budget() + ": few for the layers of " + o.surface + ", which take about "
+                           + std::to_string(100 * std::size_t(std::ceil((std::min)(needed, most_told) / 100)))
+                           + " vertices: " + thinnest->name + " is " + rounded(thickness)
+                           + (o.is_in_patient_space() ? " mm" : "") + " thick on average";
+  if(double(o.vertices) < least_share * needed)
+    throw std::runtime_error(text + ", and would be lost"
+                             + (thinnest->volume ? "; --merge joins it to another one" : ""));
+  warnings.push_back(text);
 }
 
 void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vector<Subdomain>& subdomains,
@@ -211,7 +256,6 @@ void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vecto
     s.largest_arc = (std::max)(s.largest_arc, arc);
     sums[mesh.subdomain_index(e)] += arc;
   }
-  const std::vector<std::optional<double>> expected = expected_volumes(subdomains);
   for(std::size_t i = 0; i < subdomains.size(); ++i) {
     if(subdomains[i].index == 0)
       continue;
@@ -220,7 +264,7 @@ void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vecto
     s.index = subdomains[i].index;
     s.surface = subdomains[i].facts;
     s.voxels = subdomains[i].voxels;
-    s.volume_of_surface = expected[i];
+    s.volume_of_surface = subdomains[i].visible_volume;
     s.volume_of_voxels = subdomains[i].volume;
     s.mean_arc = s.elements > 0 ? sums[s.index] / double(s.elements) : 0;
     warn_of(s, options, outcome.warnings);

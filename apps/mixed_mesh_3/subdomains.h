@@ -30,6 +30,10 @@ struct Subdomain
   Surface_facts facts;
   std::optional<double> volume; // volume of the voxels of a label, if known
   std::string voxels;           // which ones, in words; empty for a surface from a file
+  // The volume without subdomains that are inside, where the surfaces of no two cross, and the area of the
+  // surfaces around it.
+  std::optional<double> visible_volume = {};
+  double visible_area = 0;
 };
 
 /// The name of what is around all subdomains, which no subdomain has.
@@ -45,8 +49,16 @@ CGAL::Labeled_polyhedral_mixed_mesh_domain_3 make_domain(const std::vector<Subdo
 /// it; where surfaces cross, the order stays, with a warning. Cavities stay where they are.
 void order_by_nesting(std::vector<Subdomain>& subdomains, std::vector<std::string>& warnings);
 
+/// Sets the volumes and areas of the visible parts of all subdomains, which come after those inside them.
+void measure_visible_parts(std::vector<Subdomain>& subdomains);
+
 /// The surface of the union of all subdomains that are no cavities.
 Surface union_of(const std::vector<Subdomain>& subdomains);
+
+/// Checks that the budget can hold the layers that labels are: each edge of a thin one may be some times as
+/// long as it is thick, on average. Too few vertices are told, and refused if nothing would be left of it.
+void check_layers(const std::vector<Subdomain>& subdomains, const Options& options,
+                  std::vector<std::string>& warnings);
 
 /// Examines volumes, quality and interfaces of several subdomains, with warnings for defects; and sets a
 /// status for parts that the mesh does not have.

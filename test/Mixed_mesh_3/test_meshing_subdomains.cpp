@@ -5,11 +5,14 @@
 //
 // Domains of several subdomains: the subdomain of a point, and meshes whose interfaces are on the surfaces.
 
+#include "test_lattice.h"
 #include "test_meshing.h"
 
 #include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
 #include <CGAL/Mixed_mesh_3/interfaces.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/cut_by_interfaces.h>
+#include <CGAL/Mixed_mesh_3/internal/transitions/apply_transitions.h>
 #include <CGAL/Mixed_mesh_3/surface_distance.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 
@@ -311,6 +314,38 @@ void test_any()
 }
 
 // A mesh of cubes with two subdomains: the interface is their common square.
+// Balls and boxes anywhere, cut out of a lattice whose cells are often larger than they are: the boundary and
+// all interfaces are manifolds, also where layers end at the boundary, and the volumes are right.
+void test_cuts()
+{
+  const Aligned_traits traits({-0.27, -0.31, -0.29, 1.33, 1.29, 1.31});
+  const CGAL::Everywhere_mixed_mesh_region_3 region;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for(int round = 0; round < 40; ++round) {
+    Domain domain;
+    const int n = 2 + round % 4;
+    for(int i = 0; i < n; ++i) {
+      const Point_3 c(unit(random), unit(random), unit(random));
+      domain.add(sphere(c, 0.1 + 0.3 * unit(random), 8), i + 1);
+    }
+    if(round % 2 == 0)
+      domain.add(sphere(Point_3(0.5, 0.5, 0.5), 0.6, 10), n + 1);
+    Located_octree octree(domain, region, traits);
+    for(int level = 0; level < 3 + round % 3; ++level)
+      octree.refine(octree.leaves_to_refine(level, false));
+    const internal::Core_mesh mesh = internal::cut_by_interfaces(
+      octree, internal::apply_transitions(octree, Transition_templates_choice::FEWEST_VERTICES),
+      [](internal::Octree::Node_index) { return false; }, false);
+    BOOST_TEST(!mesh.is_empty());
+    if(mesh.is_empty())
+      continue;
+    BOOST_TEST(find_defects(mesh).none());
+    for(const Subdomain_interface& one : find_interfaces(mesh))
+      BOOST_TEST(one.is_manifold());
+  }
+}
+
 void test_interfaces()
 {
   Mesh mesh;
@@ -410,6 +445,7 @@ int run(int, char*[])
   test_layers();
   test_junction();
   test_any();
+  test_cuts();
   test_both_sides();
   return boost::report_errors();
 }

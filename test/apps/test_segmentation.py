@@ -398,6 +398,24 @@ class Test_segmentation(unittest.TestCase):
                          {1: "label_3rd-Ventricle", 2: "tumor_2", 3: "Outside_2", 4: "label_all",
                           5: "long__name__long__name__", 6: "Long__name__Long__name_2", LESION: f"label_{LESION}"})
 
+    def test_vertices_for_layers(self):
+        """The vertices that a thin layer takes are told before it is meshed, and are enough; few are refused."""
+        x, y, z = np.meshgrid(*(2 * (np.arange(36) - 17.3),) * 3, indexing="ij")
+        r = np.sqrt(x**2 + y**2 + z**2)
+        image = self.image("shell.nii.gz", np.select([r < 25, r < 28.5], [1, 2], 0).astype(np.int16), affine((2, 2, 2)))
+        layers = (image, "--labels", "core=1,shell=2", "--vertices")
+        words = "shell is 3.48 mm thick on average"
+        told = self.fails(*layers, 50, words=words).stderr
+        self.assertIn("--merge", told)
+        needed = int(told.split("about ")[1].split()[0])
+        _, run = self.mesh(*layers, needed // 2)
+        self.assertIn(words, run.stderr)
+        told, run = self.mesh(*layers, 3 * needed // 2)
+        self.assertEqual(run.stderr, "")
+        self.assertEqual(told["status"], "success")
+        for s in told["subdomains"]:
+            self.assertAlmostEqual(s["ratio of volumes"], 1, delta=0.05)
+
     def test_merge(self):
         """Merged labels are the same as one list of these labels, and only what is chosen is written."""
         values = labels()

@@ -53,12 +53,12 @@ Cuts the elements of a lattice along the interfaces of subdomains. All are tetra
 to stay, beside no surface, and pyramids and others between these.
 
 A subdomain that an edge passes, between others, first gets a vertex there: so a layer keeps its own vertices
-if it is a quarter as thick as a cell, or more. Then a vertex that is near to an interface, beside the length
-of its edges, is moved there (as in isosurface stuffing: Labelle, Shewchuk, 2007). Then one subdomain after
-the other is separated from those that follow, the outside first: each edge between it and them is bisected
-where it crosses its surface. A vertex that comes to be on that surface belongs to one of those that follow
-when these are separated, so that edges on the boundary are bisected where layers end at it: where no vertex
-is moved, each surface is that of marching tetrahedra, a manifold, and the next ones divide it along curves.
+if it is a quarter as thick as a cell, or more. Then one subdomain after the other is separated from those
+that follow, the outside first. Vertices that are near to its surface, beside the length of their edges, are
+moved there (as in isosurface stuffing: Labelle, Shewchuk, 2007), and the edges that still cross it are
+bisected there (as in lattice cleaving: Bronson, Levine, Whitaker, 2014). A vertex on that surface belongs to
+one of those that follow when these are separated, so that edges on the boundary are bisected where layers end
+at it: where no vertex is moved, each surface is that of marching tetrahedra, a manifold, divided by curves.
 Bisections keep the mesh conforming, and at the end no element has vertices inside different subdomains.
 */
 class Interface_cutter

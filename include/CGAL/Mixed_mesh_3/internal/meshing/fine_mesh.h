@@ -341,7 +341,8 @@ inline bool split_largest_cells_at_surface(Located_octree& octree, int coarsest_
 /// lattice: its vertices on interfaces and on the boundary are there, but for curves where interfaces meet,
 /// and sharp edges.
 /// \return an empty mesh if there is none, or if the surfaces do not fit together: where they should be one,
-/// and cut each other all over, there would be too many vertices that have to stay
+/// and cut each other all over, there would be too many vertices that have to stay; so there are where layers
+/// are too thin for the cells, which are split for that
 inline Core_mesh cut_fine_mesh(Meshing_state& s)
 {
   constexpr std::size_t vertices_per_corner = 10; // of the budget, at least
@@ -359,28 +360,26 @@ inline Core_mesh cut_fine_mesh(Meshing_state& s)
   Core_mesh fine;
   const auto cut = [&] { // whether something is wrong
     fine = cut_mesh(s, number_kept, keeps_thin_parts);
-    return fine.is_empty() || Misfit(fine, s.root.domain(), false, 0, 0, 0, 0).is_topology_wrong();
+    return fine.is_empty() || Misfit(fine, s.root.domain(), false, 0, 0, 0, 0).is_topology_wrong()
+           || (s.has_several_subdomains()
+               && vertices_per_corner * number_of_corners(fine, s.root.domain())
+                    > s.criteria.maximal_number_of_vertices());
   };
   bool is_wrong = cut();
   const std::size_t most = most_cells_for_topology * s.criteria.maximal_number_of_vertices();
-  while(is_wrong && !s.has_several_subdomains() && s.go_on()) {
-    if(keeps_thin_parts && !split_largest_cells_at_surface(s.octree, s.coarsest_level(), most))
+  while(is_wrong && s.go_on()) {
+    if((keeps_thin_parts || s.has_several_subdomains())
+       && !split_largest_cells_at_surface(s.octree, s.coarsest_level(), most))
       break;
     describe_cells(s);
-    keeps_thin_parts = true;
+    keeps_thin_parts = !s.has_several_subdomains();
     is_wrong = cut();
   }
   const Stage_scope scope(s.visitor, Stage::ASSEMBLY);
   s.lost = lost_cells(s.octree, fine);
-  if(fine.is_empty()) {
-    s.result.status = Mixed_mesh_status::EMPTY;
-  } else if(is_wrong) { // and would stay so
-    s.result.status = Mixed_mesh_status::TOPOLOGY_DIFFERS;
-    fine.clear();
-  } else if(s.has_several_subdomains()
-            && vertices_per_corner * number_of_corners(fine, s.root.domain())
-                 > s.criteria.maximal_number_of_vertices()) {
-    s.result.status = Mixed_mesh_status::BUDGET_TOO_SMALL;
+  if(is_wrong) { // and would stay so
+    s.result.status = fine.is_empty() || s.has_several_subdomains() ? Mixed_mesh_status::EMPTY
+                                                                    : Mixed_mesh_status::TOPOLOGY_DIFFERS;
     fine.clear();
   }
   return fine;

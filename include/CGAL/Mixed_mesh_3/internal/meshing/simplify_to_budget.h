@@ -131,6 +131,7 @@ inline bool simplify_and_fit(Meshing_state& s, const Simplification_limits& limi
                                       limits.distance, limits.usual_distance, bound, limits.largest_bound,
                                       [&s] { return s.go_on() || s.keeps_mesh_if_stopped(); });
   if(!is_simplified) {
+    s.result.number_of_vertices_needed = mesh.number_of_vertices();
     mesh.clear();
     s.result.status = s.is_stopped ? Mixed_mesh_status::STOPPED : Mixed_mesh_status::BUDGET_TOO_SMALL;
     return false;
@@ -215,7 +216,7 @@ inline void make_simplified_mesh(Meshing_state& s, bool is_cut, Core_mesh& mesh)
   if(!fit.is_boundary_simple || is_bad) { // the octree of the budget is tried
     mesh.clear();
     s.result.is_kept = false;
-    s.result.status = s.is_stopped ? Mixed_mesh_status::STOPPED : Mixed_mesh_status::BUDGET_TOO_SMALL;
+    s.result.status = s.is_stopped ? Mixed_mesh_status::STOPPED : Mixed_mesh_status::EMPTY;
     return;
   }
   if(is_above)
