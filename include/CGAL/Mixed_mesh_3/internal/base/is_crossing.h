@@ -38,7 +38,7 @@ bool is_crossing(const std::array<Index, 3>& s, const std::array<Index, 3>& t, c
     std::array<Index, 3> result{};
     std::array<bool, 3> is_shared{};
     for(std::size_t i = 0; i < 3; ++i)
-      is_shared[i] = (v[i] == other[0]) | (v[i] == other[1]) | (v[i] == other[2]);
+      is_shared[i] = v[i] == other[0] || v[i] == other[1] || v[i] == other[2];
     std::size_t n = 0;
     for(std::size_t i = 0; i < 3; ++i)
       if(is_shared[i])
