@@ -155,6 +155,8 @@ void order_by_nesting(std::vector<Subdomain>& subdomains, std::vector<std::strin
 void measure_visible_parts(std::vector<Subdomain>& subdomains)
 {
   using CGAL::Polygon_mesh_processing::area;
+  if(subdomains.size() < 2)
+    return; // nothing is asked of one, and it may be large
   std::vector<Enclosed> enclosed;
   std::vector<std::vector<std::size_t>> inside(subdomains.size()); // earlier ones inside each one
   for(std::size_t i = 0; i < subdomains.size(); ++i) {
@@ -167,7 +169,7 @@ void measure_visible_parts(std::vector<Subdomain>& subdomains)
       volume = subdomains[i].volume;
       continue;
     }
-    while(enclosed.size() <= i && subdomains.size() > 1) // trees take time, and labels need none
+    while(enclosed.size() <= i) // trees take time, and labels need none
       enclosed.emplace_back(*subdomains[enclosed.size()].surface);
     for(std::size_t j = i; j-- > 0;) {
       if(!enclosed[i].is_near(enclosed[j]))

@@ -49,7 +49,7 @@ CGAL::Labeled_polyhedral_mixed_mesh_domain_3 make_domain(const std::vector<Subdo
 /// it; where surfaces cross, the order stays, with a warning. Cavities stay where they are.
 void order_by_nesting(std::vector<Subdomain>& subdomains, std::vector<std::string>& warnings);
 
-/// Sets the volumes and areas of the visible parts of all subdomains, which come after those inside them.
+/// Sets the volumes and areas of the visible parts of several subdomains, which come after those inside them.
 void measure_visible_parts(std::vector<Subdomain>& subdomains);
 
 /// The surface of the union of all subdomains that are no cavities.
