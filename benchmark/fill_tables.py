@@ -20,9 +20,9 @@ RESULTS = ROOT / "benchmark" / "results"
 sys.path.insert(0, str(RESULTS.parent))
 from results import markdown  # noqa: E402
 
-TEXTS = ("README.md", "doc/Mixed_mesh_3/Mixed_mesh_3.txt")
+TEXTS = ("README.md", "doc/Mixed_mesh_3/Performance.txt")
 BLOCK = re.compile(r"(<!-- table ([a-z_]+) -->\n)(.*?)(<!-- end of table -->\n)", re.DOTALL)
-SECTION = re.compile(r"^(?=## |\\section )", re.MULTILINE)
+SECTION = re.compile(r"^(?=## |\\(?:page|section) )", re.MULTILINE)
 NUMBERS = re.compile(r"^\|.*\d.*\|$", re.MULTILINE)
 
 
