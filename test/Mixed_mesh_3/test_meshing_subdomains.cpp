@@ -335,8 +335,9 @@ void test_cuts()
     for(int level = 0; level < 3 + round % 3; ++level)
       octree.refine(octree.leaves_to_refine(level, false));
     const internal::Core_mesh mesh = internal::cut_by_interfaces(
-      octree, internal::apply_transitions(octree, Transition_templates_choice::FEWEST_VERTICES),
-      [](internal::Octree::Node_index) { return false; }, false);
+      {octree, internal::apply_transitions(octree, Transition_templates_choice::FEWEST_VERTICES),
+       [](internal::Octree::Node_index) { return false; }},
+      false);
     BOOST_TEST(!mesh.is_empty());
     if(mesh.is_empty())
       continue;

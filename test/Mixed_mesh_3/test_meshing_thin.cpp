@@ -273,8 +273,9 @@ void test_cuts()
         for(int i = 0; i < level; ++i)
           octree.refine(octree.leaves_to_refine(i, false));
         const internal::Core_mesh mesh = internal::cut_by_interfaces(
-          octree, internal::apply_transitions(octree, Transition_templates_choice::FEWEST_VERTICES),
-          [](internal::Octree::Node_index) { return false; }, true);
+          {octree, internal::apply_transitions(octree, Transition_templates_choice::FEWEST_VERTICES),
+           [](internal::Octree::Node_index) { return false; }},
+          true);
         const bool is_right = !mesh.is_empty() && internal::shells_of_boundary(mesh) == domain.shells();
         const double ratio = volume(mesh) / domain.volume();
         std::cout << (is_gap ? "gap" : "plate") << " of " << share << " cells, level " << level << ": "

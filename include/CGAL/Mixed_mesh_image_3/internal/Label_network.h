@@ -83,8 +83,10 @@ class Label_network_maker
   };
   using Tetrahedron = std::array<Corner, 4>; // ascending
 
-  // Least distance of vertices from the ends of an edge, in edges: an error of one hundredth of a voxel.
-  static constexpr double least_share = 0.01;
+  // Least distance of vertices from the ends of an edge, in edges: an error of one hundredth of a voxel; and
+  // from an end where its label is one voxel thick: a layer is half as thick as a voxel at least, where its
+  // score is hardly the best one, or where it has been sealed.
+  static constexpr double least_share = 0.01, least_share_in_layer = 0.25;
   static constexpr Index none = Index(-1);
 
   const Label_scores& m_scores;
@@ -209,12 +211,25 @@ private:
     if(vertex == none) {
       const double u = m_scores.lead(m_scores.offset(p.voxel), p.label, q.label),
                    v = m_scores.lead(m_scores.offset(q.voxel), q.label, p.label);
-      const double share = u + v > 0 ? u / (u + v) : 0.5;
-      vertex = add_point(position(p)
-                         + (std::min)((std::max)(share, least_share), 1 - least_share)
-                             * (position(q) - position(p)));
+      const double share = u + v > 0 ? u / (u + v) : 0.5,
+                   least = is_layer(p, q) ? least_share_in_layer : least_share,
+                   least_behind = is_layer(q, p) ? least_share_in_layer : least_share;
+      vertex = add_point(
+        position(p) + (std::min)((std::max)(share, least), 1 - least_behind) * (position(q) - position(p)));
     }
     return vertex;
+  }
+
+  // Whether the label of the voxel `p` is one voxel thick where an edge to `q` passes.
+  bool is_layer(const Corner& p, const Corner& q) const
+  {
+    Voxel before;
+    for(std::size_t i = 0; i < 3; ++i) {
+      before[i] = 2 * p.voxel[i] - q.voxel[i]; // wraps around if negative
+      if(before[i] >= m_scores.size[i])
+        return false;
+    }
+    return m_scores.label(m_scores.offset(before)) != p.label;
   }
 
   Index in_face(const std::array<const Corner*, 3>& f, const Voxel& cube)
@@ -242,36 +257,59 @@ private:
   }
 };
 
-/// Makes the network of scores, which are changed such that each label has the volume of its voxels.
+/// Makes the network of scores, whose weights are changed such that each label has the volume of its voxels.
 /// \param deviations deviations of the Gaussian, in voxels along each axis
 inline Label_network balanced_network(Label_scores& scores, const std::vector<Label_extent_3>& extents,
                                       const std::array<double, 3>& deviations)
 {
-  constexpr int most_rounds = 4;
-  constexpr double accuracy = 0.01;
-  // Where two labels meet in a plane, the difference of their scores changes by 2 / sqrt(2 pi) in a
-  // deviation. Two labels that meet share the change; with twice as much, thin layers between others do not
-  // converge.
+  constexpr int most_rounds = 8;
+  constexpr double accuracy = 0.01, resolution = 0.5; // relative, and in voxels
+  // The logarithm of the ratio of two indicators changes by 4 / sqrt(2 pi) in a deviation where two labels meet
+  // in a plane; both share the change. It is linear near the plane only: farther steps are cut short.
+  constexpr double change_per_deviation = 0.8, longest_step = 0.25;
   const double deviation = std::cbrt(deviations[0] * deviations[1] * deviations[2]);
+  const std::size_t n = extents.size() + 1;                     // with the outside
+  std::vector<double> wanted(n, 0), lacks(n, 0), damping(n, 1); // 0 is all that is inside
+  for(std::size_t l = 1; l < n; ++l) {
+    wanted[l] = double(extents[l - 1].number_of_voxels);
+    wanted[0] += wanted[l];
+  }
+  Label_scores::Weights best = scores.weights();
+  double least_error = std::numeric_limits<double>::infinity();
   for(int round = 0;; ++round) {
-    scores.seal_diagonal_contacts();
+    scores.seal_contacts();
     Label_network network = Label_network_maker(scores)();
     const std::vector<Volume_and_area> measured = measures(network, extents.size());
-    std::vector<float> offsets(extents.size(), 0.f);
+    double error = 0;
     bool is_balanced = true;
-    double lack_of_all = 0;
-    for(std::size_t l = 0; l < extents.size(); ++l) {
-      const auto [volume, area] = measured[l + 1];
-      const double lack = double(extents[l].number_of_voxels) - volume;
-      lack_of_all += lack;
-      is_balanced = is_balanced && std::abs(lack) <= accuracy * double(extents[l].number_of_voxels);
-      if(area > 0 && deviation > 0)
-        offsets[l] = float(0.4 / deviation * lack / area);
+    Label_scores::Weights weights = scores.weights();
+    for(std::size_t l = 0; l < n; ++l) {
+      const double lack = wanted[l] - std::abs(measured[l].volume);
+      error += wanted[l] != 0 ? std::abs(lack / wanted[l]) : 0;
+      is_balanced = is_balanced
+                    && (l == 0 || std::abs(lack) <= (std::max)(accuracy * wanted[l], resolution)
+                        || weights[l] >= Label_scores::largest_weight);
+      if(lack * lacks[l] < 0 && std::abs(lack) > std::abs(lacks[l]) / 2)
+        damping[l] /= 2; // it would go on to oscillate
+      lacks[l] = lack;
+      if(measured[l].area > 0 && deviation > 0) {
+        const double step = lack / measured[l].area / deviation;
+        weights[l] *= float(std::exp(damping[l] * change_per_deviation
+                                     * (std::min)((std::max)(step, -longest_step), longest_step)));
+      }
     }
-    if(is_balanced || round == most_rounds || deviation == 0)
-      return network;
-    const double outer_area = measured[0].area;
-    scores.add(offsets, outer_area > 0 ? float(0.4 / deviation * lack_of_all / outer_area) : 0.f);
+    const bool is_last = is_balanced || round >= most_rounds || deviation == 0;
+    if(error < least_error) {
+      least_error = error;
+      best = scores.weights();
+      if(is_last)
+        return network;
+    } else if(is_last) { // layers of a voxel may not converge: the best round is repeated
+      scores.set_weights(best);
+      scores.seal_contacts();
+      return Label_network_maker(scores)();
+    }
+    scores.set_weights(weights);
   }
 }
 

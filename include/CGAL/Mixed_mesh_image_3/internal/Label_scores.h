@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -32,16 +33,26 @@ namespace internal {
 using Label_number = std::uint16_t;
 
 /// A box of voxels of an image, with 0 at its border, and the smoothed indicators of several labels. A voxel
-/// is inside where the sum of all is large enough, so that there is no groove where two of them meet the
-/// outside; and has the label with the best score there.
+/// has the label with the best score, its indicator times a weight, if it is inside: where the odds of the
+/// outside, against all labels together, are less than this weight times one of the outside. So there is no
+/// groove where two labels meet the outside, and no weight gives a label a voxel that it is not near to: where
+/// numbers were added to indicators, a layer with a large one had voxels at all other interfaces.
 class Label_scores : public Voxel_box
 {
+public:
+  using Weights = std::vector<float>; // of the outside, and of label 1, 2, ...
+
+  // Weight with which labels are kept. Of its indicator, a layer of one voxel has 0.38 if the deviation is a
+  // voxel, a line 0.15, a voxel alone 0.06: layers and lines are kept, specks are not.
+  static constexpr float largest_weight = 8;
+
+private:
   static constexpr float infinity = std::numeric_limits<float>::infinity();
 
-  std::vector<Indicator> m_indicators;      // of label 1, 2, ...
-  std::vector<float> m_outside;             // one minus all of them
-  std::vector<float> m_offsets;             // of each label
-  float m_level = 0.5f;                     // of the outside: where it is less, the inside is
+  std::vector<Indicator> m_indicators; // of label 1, 2, ...
+  std::vector<float> m_outside;        // one minus all of them
+  Weights m_weights;
+  std::function<Label_number(std::size_t)> m_label_in_image;
   std::vector<std::size_t> m_numbers;       // of voxels of each label, from 1 on
   std::vector<float> m_best, m_second_best; // scores
   std::vector<Label_number> m_labels;       // with the best scores
@@ -54,8 +65,21 @@ public:
   Label_scores(const Voxel_image_3& image, const std::vector<HasLabel>& has_label,
                const std::vector<Label_extent_3>& extents, const std::array<double, 3>& deviations,
                unsigned threads)
-    : m_indicators(has_label.size()), m_offsets(has_label.size(), 0.f)
+    : m_indicators(has_label.size()), m_weights(has_label.size() + 1, 1.f)
   {
+    m_label_in_image = [this, &image, has_label](std::size_t v) {
+      const std::array<std::size_t, 3> p = voxel(v);
+      std::array<std::size_t, 3> in_image;
+      for(int i = 0; i < 3; ++i) {
+        in_image[i] = std::size_t(std::int64_t(p[i]) + first[i]); // wraps around if negative
+        if(in_image[i] >= image.grid.size[i])
+          return Label_number(0);
+      }
+      const float value = image.values[image.grid.offset(in_image[0], in_image[1], in_image[2])];
+      const auto found = std::find_if(has_label.begin(), has_label.end(),
+                                      [value](const HasLabel& has) { return has(value); });
+      return found == has_label.end() ? Label_number(0) : Label_number(found - has_label.begin() + 1);
+    };
     parallel_for(
       has_label.size(), threads,
       [&](std::size_t l) { m_indicators[l] = smooth_indicator(image, has_label[l], deviations, extents[l]); },
@@ -82,25 +106,27 @@ public:
                         : score(v, label) - score(v, other);
   }
 
-  /// Adds to the numbers that are added to labels, and to the level of the outside.
-  void add(const std::vector<float>& offsets, float to_level)
+  const Weights& weights() const { return m_weights; }
+
+  void set_weights(const Weights& weights)
   {
-    for(std::size_t l = 0; l < offsets.size(); ++l)
-      m_offsets[l] += offsets[l];
-    m_level += to_level;
+    m_weights = weights;
+    for(std::size_t l = 1; l < m_weights.size(); ++l)
+      m_weights[l] = (std::min)(m_weights[l], largest_weight);
     find_best_labels();
   }
 
   /*!
-  Lets labels that touch between diagonal voxels only not touch there: a layer of one voxel that is no plane
-  has diagonal gaps, through which what is on both sides would meet in a thousand places. A place is a set of
-  edges of the network's tetrahedra, each with a triangle in common with the next; one end of each gets the
-  best label among the others around the edge.
+  Lets labels not touch where they do not touch in the image: a layer of one voxel, of which smoothing leaves
+  less than a voxel here and there, and which has diagonal gaps where it is no plane, would be full of holes.
+  A place is a set of edges of the network's tetrahedra between the same two labels, each with a triangle in
+  common with the next. It stays if both labels have a common face of voxels in the image at one of them;
+  otherwise one end of each edge gets the best one of the other labels.
   */
-  void seal_diagonal_contacts()
+  void seal_contacts()
   {
     constexpr int most_passes = 8; // a change can let others touch, a third of the places
-    for(int pass = 0; pass < most_passes && seal_diagonal_contacts_once(); ++pass) {
+    for(int pass = 0; pass < most_passes && seal_contacts_once(); ++pass) {
     }
   }
 
@@ -108,7 +134,7 @@ private:
   using Edge =
     std::pair<std::size_t, std::size_t>; // first voxel, and direction: bit i says whether along axis i
 
-  bool seal_diagonal_contacts_once()
+  bool seal_contacts_once()
   {
     std::vector<std::uint8_t> is_known(8 * m_labels.size(), 0);
     std::vector<Edge> place;
@@ -118,16 +144,16 @@ private:
         for(std::size_t i = 1; i + 1 < size[0]; ++i)
           for(std::size_t d = 1; d < 8; ++d) {
             const std::size_t v = offset({i, j, k});
-            if(m_labels[v] == m_labels[v + step(d)] || is_known[8 * v + d])
+            const Label_number a = m_labels[v], b = m_labels[v + step(d)];
+            if(a == b || is_known[8 * v + d])
               continue;
             find_place({v, d}, is_known, place);
-            const bool has_face = std::any_of(place.begin(), place.end(),
-                                              [](const Edge& e) { return (e.second & (e.second - 1)) == 0; });
-            if(!has_face)
-              for(const Edge& edge : place) {
-                seal(edge);
-                is_changed = true;
-              }
+            if(std::any_of(place.begin(), place.end(),
+                           [&](const Edge& e) { return touch_in_image(a, b, e); }))
+              continue;
+            is_changed = true;
+            for(const Edge& edge : place)
+              seal(edge, a, b);
           }
     return is_changed;
   }
@@ -154,6 +180,30 @@ private:
     }
   }
 
+  // Whether two labels have a common face of voxels in the image, a voxel away from an edge at most.
+  bool touch_in_image(Label_number a, Label_number b, const Edge& edge) const
+  {
+    const std::array<std::size_t, 3> center = voxel(edge.first);
+    std::array<std::size_t, 3> low, high;
+    for(std::size_t i = 0; i < 3; ++i) {
+      low[i] = (std::max)(center[i], std::size_t(1)) - 1;
+      high[i] = (std::min)(center[i] + 1 + (edge.second >> i & 1), size[i] - 1);
+    }
+    for(std::size_t k = low[2]; k <= high[2]; ++k)
+      for(std::size_t j = low[1]; j <= high[1]; ++j)
+        for(std::size_t i = low[0]; i <= high[0]; ++i) {
+          const std::array<std::size_t, 3> p{i, j, k};
+          const Label_number first_label = m_label_in_image(offset(p));
+          if(first_label != a && first_label != b)
+            continue;
+          for(std::size_t axis = 0; axis < 3; ++axis)
+            if(p[axis] < high[axis]
+               && m_label_in_image(offset(p) + strides()[axis]) == (first_label == a ? b : a))
+              return true;
+        }
+    return false;
+  }
+
   // The edges between the same two labels that are connected by triangles.
   void find_place(const Edge& first, std::vector<std::uint8_t>& is_known, std::vector<Edge>& edges) const
   {
@@ -172,49 +222,69 @@ private:
     }
   }
 
-  void seal(const Edge& edge)
+  // Lets two labels not touch at an edge.
+  void seal(const Edge& edge, Label_number a, Label_number b)
   {
     const std::size_t v = edge.first, w = v + step(edge.second);
-    if(m_labels[v] == m_labels[w])
+    if(m_labels[v] == m_labels[w] || (m_labels[v] != a && m_labels[v] != b)
+       || (m_labels[w] != a && m_labels[w] != b))
       return; // sealed by another edge
-    float least_loss = infinity;
+    float best_ratio = 0;
     std::pair<std::size_t, Label_number> best{v, m_labels[v]};
-    for_each_triangle_at(edge, [&](std::size_t other, const Edge&, const Edge&) {
-      const Label_number label = m_labels[other];
-      if(label == m_labels[v] || label == m_labels[w])
-        return;
+    for(std::size_t label = 0; label <= m_indicators.size(); ++label) {
+      if(label == a || label == b)
+        continue;
       for(std::size_t end : {v, w}) {
-        const float loss = lead(end, m_labels[end], label);
-        if(loss < least_loss) {
-          least_loss = loss;
-          best = {end, label};
+        const float ratio = ratio_of_scores(end, Label_number(label), m_labels[end]);
+        if(ratio > best_ratio) {
+          best_ratio = ratio;
+          best = {end, Label_number(label)};
         }
       }
-    });
+    }
     m_labels[best.first] = best.second;
   }
 
-  // Where the outside is less, a label may be: one with a larger offset reaches farther, as between labels. A
-  // voxel alone has 0.06 of its indicator left, one of a layer 0.38, if the deviation is a voxel: layers
-  // reach a quarter, specks do not.
-  float level(Label_number label) const
+  std::array<std::size_t, 3> voxel(std::size_t v) const
   {
-    constexpr float farthest = 0.25f;
-    return m_level + (std::min)(m_offsets[label - 1] / 2, farthest);
+    return {v % size[0], v / size[0] % size[1], v / (size[0] * size[1])};
   }
 
-  // The smoothed indicator of a label, plus its offset.
+  static float odds(float share)
+  {
+    return share / (std::max)(1 - share, std::numeric_limits<float>::epsilon());
+  }
+
+  // Where the outside is less, a label may be.
+  float level(Label_number label) const
+  {
+    const float highest_odds = m_weights[0] * m_weights[label];
+    return highest_odds / (1 + highest_odds);
+  }
+
+  // The smoothed indicator of a label, times its weight.
   float score(std::size_t v, Label_number label) const
   {
-    const std::array<std::size_t, 3> voxel{v % size[0], v / size[0] % size[1], v / (size[0] * size[1])};
+    const std::array<std::size_t, 3> in_box = voxel(v);
     const Indicator& indicator = m_indicators[label - 1];
     std::array<std::size_t, 3> p;
     for(int i = 0; i < 3; ++i) {
-      p[i] = std::size_t(std::int64_t(voxel[i]) + first[i] - indicator.first[i]); // wraps around if negative
+      p[i] = std::size_t(std::int64_t(in_box[i]) + first[i] - indicator.first[i]); // wraps around if negative
       if(p[i] >= indicator.size[i])
-        return m_offsets[label - 1];
+        return 0;
     }
-    return indicator.values[indicator.offset(p)] + m_offsets[label - 1];
+    return indicator.values[indicator.offset(p)] * m_weights[label];
+  }
+
+  // How many times as good as another one a label is in a voxel; 0 where nothing of it is.
+  float ratio_of_scores(std::size_t v, Label_number label, Label_number other) const
+  {
+    if(label == 0)
+      return odds(m_outside[v]) / (m_weights[0] * m_weights[other]);
+    const float own = score(v, label);
+    if(own == 0)
+      return 0;
+    return other == 0 ? m_weights[0] * m_weights[label] / odds(m_outside[v]) : own / score(v, other);
   }
 
   // Makes the box large enough for all indicators, at whose borders are zeros, with a voxel around them.
@@ -264,17 +334,15 @@ private:
   }
 
   // A voxel is inside if the outside is less than the level of the best of all labels there. If only those
-  // were compared that reach so far, one with a large offset would have all that is just outside of others.
+  // were compared that reach so far, one with a large weight would have all that is just outside of others.
   void find_best_labels()
   {
-    m_best.assign(m_outside.size(), -infinity);
+    m_best.assign(m_outside.size(), 0);
     m_second_best = m_best;
     m_labels.assign(m_outside.size(), 0);
     for(std::size_t l = 0; l < m_indicators.size(); ++l)
       for_each_voxel_of(m_indicators[l], [&, l](std::size_t v, std::size_t own) {
-        const float value = m_indicators[l].values[own], score = value + m_offsets[l];
-        if(!(value > 0))
-          return;
+        const float score = m_indicators[l].values[own] * m_weights[l + 1];
         if(score > m_best[v]) {
           m_second_best[v] = std::exchange(m_best[v], score);
           m_labels[v] = Label_number(l + 1);
@@ -293,10 +361,11 @@ private:
     const auto inside = std::size_t(std::accumulate(m_numbers.begin(), m_numbers.end(), std::size_t(0)));
     const auto next = values.begin() + std::ptrdiff_t((std::min)(inside, values.size() - 1));
     std::nth_element(values.begin(), next, values.end());
-    m_level = next == values.begin() ? 0 : (*next + *std::max_element(values.begin(), next)) / 2;
+    const float level = next == values.begin() ? 0 : (*next + *std::max_element(values.begin(), next)) / 2;
+    m_weights[0] = odds(level);
   }
 
-  // Changes the offsets until each label is the best one of about as many voxels as have it. Two labels that
+  // Changes the weights until each label is the best one of about as many voxels as have it. Two labels that
   // meet share the change, half each.
   void balance()
   {
@@ -317,28 +386,29 @@ private:
         return;
       for(std::size_t l = 0; l < numbers.size(); ++l)
         if(m_numbers[l] > 0)
-          m_offsets[l] += (balancing_offset(l) - m_offsets[l]) / 2;
+          m_weights[l + 1] = (std::min)(std::sqrt(m_weights[l + 1] * balancing_weight(l)), largest_weight);
     }
   }
 
-  // The offset with which a label is the best one of as many voxels as have it, if the others keep theirs.
-  float balancing_offset(std::size_t l) const
+  // The weight with which a label is the best one of as many voxels as have it, if the others keep theirs.
+  float balancing_weight(std::size_t l) const
   {
-    std::vector<float> lacks; // what lacks to the best of the others, which may be none, and to the level
+    std::vector<float> needed; // to be the best, and inside
     for_each_voxel_of(m_indicators[l], [&](std::size_t v, std::size_t own) {
       const float value = m_indicators[l].values[own];
       if(value > 0) {
-        const bool is_best = value + m_offsets[l] >= m_best[v];
-        lacks.push_back(
-          (std::max)((is_best ? m_second_best[v] : m_best[v]) - value, 2 * (m_outside[v] - m_level)));
+        const bool is_best = value * m_weights[l + 1] >= m_best[v];
+        needed.push_back(
+          (std::max)((is_best ? m_second_best[v] : m_best[v]) / value, odds(m_outside[v]) / m_weights[0]));
       }
     });
-    if(lacks.empty())
-      return m_offsets[l];
-    const auto next = lacks.begin() + std::ptrdiff_t((std::min)(m_numbers[l], lacks.size() - 1));
-    std::nth_element(lacks.begin(), next, lacks.end());
-    const float offset = next == lacks.begin() ? *next : (*next + *std::max_element(lacks.begin(), next)) / 2;
-    return std::isfinite(offset) ? offset : m_offsets[l];
+    if(needed.empty())
+      return m_weights[l + 1];
+    const auto next = needed.begin() + std::ptrdiff_t((std::min)(m_numbers[l], needed.size() - 1));
+    std::nth_element(needed.begin(), next, needed.end());
+    const float weight = next == needed.begin() ? *next
+                                                : (*next + *std::max_element(needed.begin(), next)) / 2;
+    return std::isfinite(weight) && weight > 0 ? weight : m_weights[l + 1];
   }
 };
 

@@ -119,6 +119,26 @@ public:
   /// Whether there are no hidden subdomains all over, as between surfaces that should be one.
   bool is_clear() const { return m_is_clear; }
 
+  /// Places on edges between subdomains that do not meet there: another one is between them.
+  std::vector<Vec3> places_without_contact() const
+  {
+    constexpr double part = 0.05; // of an edge, before and behind the place where it is cut
+    std::vector<Vec3> places;
+    for(const Cut& cut : m_cuts) {
+      const auto [a, b] = cut.ends;
+      const Vec3 edge = m_mesh.points[b] - m_mesh.points[a], p = m_mesh.points[a] + cut.share * edge;
+      const auto is_of_another = [&](const Vec3& q) {
+        const Subdomain_rank rank = m_octree.subdomain_rank(q);
+        return rank != m_ranks[a] && rank != m_ranks[b];
+      };
+      if(is_inside(a) && is_inside(b)
+         && ((cut.share > part && is_of_another(p - part * edge))
+             || (cut.share < 1 - part && is_of_another(p + part * edge))))
+        places.push_back(p);
+    }
+    return places;
+  }
+
   /// The number of vertices before edges are bisected.
   std::size_t number_of_vertices() const { return m_ranks.size(); }
 
@@ -524,24 +544,20 @@ private:
 };
 
 /*!
-The elements of a lattice, cut along the interfaces of subdomains. Where the boundary or an interface would be
-no manifold, vertices are not moved; in the end none is: then all are manifolds, unless vertices of the
-lattice are on surfaces, or some edge could not be cut.
+The mesh of a cutter. Where the boundary or an interface would be no manifold, vertices are not moved; in the
+end none is: then all are manifolds, unless vertices of the lattice are on surfaces, or some edge could not be
+cut.
 
-\param is_kept whether hexahedra of a leaf stay, if they are not beside a surface
 \param keeps_thin_parts whether vertices between two sheets of an interface are not moved: parts and gaps
 that are thinner than cells are there then, of more and flatter elements
-\return an empty mesh if one of them is no manifold all the same, or if the surfaces do not fit together
+\return an empty mesh if one of them is no manifold all the same
 \par Complexity
 Some queries for each edge at a cell that meets a surface
+\pre `uncut.is_clear()`
 */
-inline Core_mesh cut_by_interfaces(const Located_octree& octree, const Lattice_mesh& lattice,
-                                   const Interface_cutter::Leaf_predicate& is_kept, bool keeps_thin_parts)
+inline Core_mesh cut_by_interfaces(const Interface_cutter& uncut, bool keeps_thin_parts)
 {
   constexpr int most_attempts = 4;
-  const Interface_cutter uncut(octree, lattice, is_kept);
-  if(!uncut.is_clear())
-    return {};
   std::vector<std::uint8_t> stays(uncut.number_of_vertices(), 0);
   for(int attempt = 0; attempt < most_attempts; ++attempt) {
     Interface_cutter cut = uncut;

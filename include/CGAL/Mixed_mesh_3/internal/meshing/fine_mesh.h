@@ -308,17 +308,45 @@ inline std::vector<Octree::Node_index> lost_cells(const Located_octree& octree, 
   return lost_cells(octree, std::move(is_meshed));
 }
 
-/// Cuts the octree's mesh along the surfaces.
-inline Core_mesh cut_mesh(Meshing_state& s, std::size_t number_kept, bool keeps_thin_parts)
+/// Splits the leaves that contain points, as long as there are not too many cells.
+inline bool split_cells_at(Located_octree& octree, const std::vector<Vec3>& points, std::size_t most)
 {
-  Lattice_mesh lattice;
-  {
-    const Stage_scope scope(s.visitor, Stage::TRANSITIONS);
-    lattice = apply_transitions(s.octree, s.criteria.transition_templates(), s.criteria.number_of_threads);
+  std::vector<Octree::Node_index> leaves;
+  for(const Vec3& p : points)
+    leaves.push_back(octree.leaf_at({p[0], p[1], p[2]}));
+  std::sort(leaves.begin(), leaves.end());
+  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  Located_octree trial = octree;
+  trial.refine(leaves);
+  if(leaves.empty() || trial.number_of_cells() > most)
+    return false;
+  octree = std::move(trial);
+  return true;
+}
+
+/// Cuts the octree's mesh along the surfaces. Cells are split where subdomains would meet that do not, as long
+/// as that leaves fewer such places: holes in a layer between them would be full of curves and corners, at
+/// which elements are flat.
+/// \param most number of cells
+/// \return an empty mesh if the surfaces do not fit together, or an interface would be no manifold
+inline Core_mesh cut_mesh(Meshing_state& s, std::size_t number_kept, bool keeps_thin_parts, std::size_t most)
+{
+  for(std::size_t fewest = std::size_t(-1);;) {
+    Lattice_mesh lattice;
+    {
+      const Stage_scope scope(s.visitor, Stage::TRANSITIONS);
+      lattice = apply_transitions(s.octree, s.criteria.transition_templates(), s.criteria.number_of_threads);
+    }
+    const Stage_scope scope(s.visitor, Stage::BOUNDARY);
+    const Interface_cutter cutter(s.octree, lattice, [&](Octree::Node_index n) { return n < number_kept; });
+    if(!cutter.is_clear())
+      return {};
+    const std::vector<Vec3> places = s.has_several_subdomains() ? cutter.places_without_contact()
+                                                                : std::vector<Vec3>();
+    if(places.size() >= fewest || !s.go_on() || !split_cells_at(s.octree, places, most))
+      return cut_by_interfaces(cutter, keeps_thin_parts);
+    fewest = places.size();
   }
-  const Stage_scope scope(s.visitor, Stage::BOUNDARY);
-  return cut_by_interfaces(
-    s.octree, lattice, [&](Octree::Node_index n) { return n < number_kept; }, keeps_thin_parts);
 }
 
 /// Splits the largest cells at the surface, and what is too large for layers, walls and gaps then.
@@ -346,7 +374,8 @@ inline bool split_largest_cells_at_surface(Located_octree& octree, int coarsest_
 inline Core_mesh cut_fine_mesh(Meshing_state& s)
 {
   constexpr std::size_t vertices_per_corner = 10; // of the budget, at least
-  const std::size_t number_kept = fill_octree_to_cut(s);
+  const std::size_t number_kept = fill_octree_to_cut(s),
+                    most = most_cells_for_topology * s.criteria.maximal_number_of_vertices();
   s.result.status = Mixed_mesh_status::SUCCESS;
   s.result.base_level = s.coarsest_level();
   if(!describe_cells(s))
@@ -359,14 +388,13 @@ inline Core_mesh cut_fine_mesh(Meshing_state& s)
                           && (s.root.is_region_everywhere() || !is_tolerance_wished(s.criteria));
   Core_mesh fine;
   const auto cut = [&] { // whether something is wrong
-    fine = cut_mesh(s, number_kept, keeps_thin_parts);
+    fine = cut_mesh(s, number_kept, keeps_thin_parts, most);
     return fine.is_empty() || Misfit(fine, s.root.domain(), false, 0, 0, 0, 0).is_topology_wrong()
            || (s.has_several_subdomains()
                && vertices_per_corner * number_of_corners(fine, s.root.domain())
                     > s.criteria.maximal_number_of_vertices());
   };
   bool is_wrong = cut();
-  const std::size_t most = most_cells_for_topology * s.criteria.maximal_number_of_vertices();
   while(is_wrong && s.go_on()) {
     if((keeps_thin_parts || s.has_several_subdomains())
        && !split_largest_cells_at_surface(s.octree, s.coarsest_level(), most))

@@ -192,16 +192,18 @@ inline void make_simplified_mesh(Meshing_state& s, bool is_cut, Core_mesh& mesh)
   if(s.is_stopped && !s.keeps_mesh_if_stopped())
     return note_stop();
   // A part of the vertices bisect edges that are far from the surface. Where these do not arrive, all are
-  // left of the fine mesh.
+  // left of the fine mesh; not where no more could be removed than leave more than all.
   const Mixed_mesh_result_3 result = s.result;
   const std::size_t n = s.criteria.maximal_number_of_vertices();
-  bool is_right = false;
+  bool is_right = false, has_too_many = false;
   if(s.budget() < n) {
     Followed_features f = followed;
     mesh = fine;
     is_right = simplify_and_fit(s, limits, s.budget(), f, mesh);
+    has_too_many = s.result.status == Mixed_mesh_status::BUDGET_TOO_SMALL
+                   && s.result.number_of_vertices_needed > n;
   }
-  if(!is_right && !s.is_stopped) {
+  if(!is_right && !has_too_many && !s.is_stopped) {
     s.result = result;
     mesh = std::move(fine);
     simplify_and_fit(s, limits, n, followed, mesh);
