@@ -195,8 +195,8 @@ void test_layer()
   }
 }
 
-// Few thin layers around each other, in voxels that are no cubes: none is lost, though the smallest one has to
-// reach farther into its neighbor than others.
+// Few thin layers around each other, in voxels that are no cubes: none is lost, though the smallest one has
+// to reach farther into its neighbor than others.
 void test_small_layers()
 {
   constexpr std::array<std::array<double, 3>, 3> radii{{{2.15, 4.52, 6.6}, {2.2, 4., 6.4}, {1.8, 4.6, 5.9}}};

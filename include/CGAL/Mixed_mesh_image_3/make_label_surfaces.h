@@ -40,12 +40,12 @@ namespace Mixed_meshes_3 {
 
 The indicator of each label is smoothed by a Gaussian, as by `make_label_surface()`. A point is inside where
 the sum of all is large enough, and belongs to the label with the largest value then (Stalling, Z&ouml;ckler,
-Hege: Segmentation of 3D medical images with subvoxel accuracy, 1998), after the values have been multiplied by
-a weight of each label such that it has the volume of its voxels: so a layer of one voxel keeps its thickness,
-and a ball its volume, beside larger ones. Each cube between eight centers of
-voxels is split into six tetrahedra, in which labels are separated at places of equal values; where three or
-more meet, at a point in the tetrahedron. Labels do not touch where they have no
-common face of voxels: a layer of one voxel has no holes. Of a label of very few voxels nothing is left.
+Hege: Segmentation of 3D medical images with subvoxel accuracy, 1998), after the values have been multiplied
+by a weight of each label such that it has the volume of its voxels: so a layer of one voxel keeps its
+thickness, and a ball its volume, beside larger ones. Each cube between eight centers of voxels is split into
+six tetrahedra, in which labels are separated at places of equal values; where three or more meet, at a point
+in the tetrahedron. Labels do not touch where they have no common face of voxels: a layer of one voxel has no
+holes. Of a label of very few voxels nothing is left.
 
 So each surface is a closed oriented 2-manifold, and no two triangles of any surfaces meet in more than their
 common vertices and edges: `Labeled_polyhedral_mixed_mesh_domain_3` has neither gaps nor overlaps then, and

@@ -264,8 +264,8 @@ inline Label_network balanced_network(Label_scores& scores, const std::vector<La
 {
   constexpr int most_rounds = 8;
   constexpr double accuracy = 0.01, resolution = 0.5; // relative, and in voxels
-  // The logarithm of the ratio of two indicators changes by 4 / sqrt(2 pi) in a deviation where two labels meet
-  // in a plane; both share the change. It is linear near the plane only: farther steps are cut short.
+  // The logarithm of the ratio of two indicators changes by 4 / sqrt(2 pi) in a deviation where two labels
+  // meet in a plane; both share the change. It is linear near the plane only: farther steps are cut short.
   constexpr double change_per_deviation = 0.8, longest_step = 0.25;
   const double deviation = std::cbrt(deviations[0] * deviations[1] * deviations[2]);
   const std::size_t n = extents.size() + 1;                     // with the outside

@@ -35,8 +35,8 @@ using Label_number = std::uint16_t;
 /// A box of voxels of an image, with 0 at its border, and the smoothed indicators of several labels. A voxel
 /// has the label with the best score, its indicator times a weight, if it is inside: where the odds of the
 /// outside, against all labels together, are less than this weight times one of the outside. So there is no
-/// groove where two labels meet the outside, and no weight gives a label a voxel that it is not near to: where
-/// numbers were added to indicators, a layer with a large one had voxels at all other interfaces.
+/// groove where two labels meet the outside, and no weight gives a label a voxel that it is not near to:
+/// where numbers were added to indicators, a layer with a large one had voxels at all other interfaces.
 class Label_scores : public Voxel_box
 {
 public:

@@ -324,9 +324,9 @@ inline bool split_cells_at(Located_octree& octree, const std::vector<Vec3>& poin
   return true;
 }
 
-/// Cuts the octree's mesh along the surfaces. Cells are split where subdomains would meet that do not, as long
-/// as that leaves fewer such places: holes in a layer between them would be full of curves and corners, at
-/// which elements are flat.
+/// Cuts the octree's mesh along the surfaces. Cells are split where subdomains would meet that do not, as
+/// long as that leaves fewer such places: holes in a layer between them would be full of curves and corners,
+/// at which elements are flat.
 /// \param most number of cells
 /// \return an empty mesh if the surfaces do not fit together, or an interface would be no manifold
 inline Core_mesh cut_mesh(Meshing_state& s, std::size_t number_kept, bool keeps_thin_parts, std::size_t most)
