@@ -8,10 +8,12 @@
 #include "core/messages.h"
 
 #include <CGAL/Mixed_mesh_3/interfaces.h>
-#include <CGAL/Polygon_mesh_processing/corefinement.h>
+#include <CGAL/Mixed_mesh_3/internal/repair/Solid_reading.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -194,13 +196,27 @@ void measure_visible_parts(std::vector<Subdomain>& subdomains)
 Surface union_of(const std::vector<Subdomain>& subdomains)
 {
   namespace PMP = CGAL::Polygon_mesh_processing;
-  Surface whole = *subdomains.back().surface;
-  for(std::size_t i = 0; i + 1 < subdomains.size(); ++i) {
-    Surface part = *subdomains[i].surface, others = whole, both;
-    if(subdomains[i].index != 0 && Enclosed(whole).has_inside_and_outside(part).second
-       && PMP::corefine_and_compute_union(others, part, both))
-      whole = std::move(both);
+  // Each surface winds once around what it encloses, and all together at least once around the union.
+  std::vector<Kernel::Point_3> points;
+  std::vector<std::array<std::size_t, 3>> triangles;
+  for(const Subdomain& s : subdomains) {
+    if(s.index == 0)
+      continue;
+    const std::size_t first = points.size();
+    points.insert(points.end(), s.surface->points().begin(), s.surface->points().end());
+    for(const auto f : s.surface->faces()) {
+      std::size_t i = 0;
+      triangles.emplace_back();
+      for(const auto v : s.surface->vertices_around_face(s.surface->halfedge(f)))
+        triangles.back()[i++] = first + v;
+    }
   }
+  const auto solid = mm3::internal::read_solid(points, triangles);
+  if(!solid.is_complete)
+    throw std::runtime_error("the surfaces of " + subdomains.back().name
+                             + " and its subdomains meet in too many places for their union");
+  Surface whole;
+  PMP::polygon_soup_to_polygon_mesh(solid.points, solid.triangles, whole);
   return whole;
 }
 
