@@ -7,6 +7,7 @@
 
 #include "core/messages.h"
 #include "core/read_label_surface.h"
+#include "mixed_mesh_3/contacts.h"
 #include "mixed_mesh_3/label_groups.h"
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -199,8 +200,11 @@ void read_domain(const Input_options& o, Surface_reader& read, Outcome& outcome,
   } else {
     subdomains.push_back(is_image(o.surface) ? read.whole(whole, read.domain(o.voxels, o.voxels, outcome), 1)
                                              : read.whole(whole, 1));
-    if(!is_image(o.surface))
+    if(!is_image(o.surface) && subdomains.size() > 1) {
+      join_contacts(subdomains, o.surface_options, outcome.warnings);
+      build_solids(subdomains);
       order_by_nesting(subdomains, outcome.warnings);
+    }
     inputs.boundary = is_image(o.surface) || subdomains.size() == 1
                         ? subdomains.back().surface
                         : std::make_shared<const Surface>(union_of(subdomains));
@@ -209,6 +213,7 @@ void read_domain(const Input_options& o, Surface_reader& read, Outcome& outcome,
     if(subdomains.size() > 1)
       outcome.surface.volume = CGAL::Polygon_mesh_processing::volume(*inputs.boundary);
   }
+  build_solids(subdomains);
   measure_visible_parts(subdomains);
   for(const Subdomain& s : subdomains)
     if(s.index == 0) {

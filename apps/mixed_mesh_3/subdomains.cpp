@@ -8,12 +8,9 @@
 #include "core/messages.h"
 
 #include <CGAL/Mixed_mesh_3/interfaces.h>
-#include <CGAL/Mixed_mesh_3/internal/repair/Solid_reading.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -28,31 +25,22 @@ namespace {
 
 constexpr double tolerated_change_of_volume = 0.05;
 
-// A surface as a domain, and the sides of the vertices of other surfaces.
-class Enclosed
+bool is_near(const Subdomain& s, const Subdomain& t) { return CGAL::do_overlap(s.solid->bbox(), t.solid->bbox()); }
+
+// Whether there are vertices of a surface inside another one, and vertices outside: those where the surfaces
+// touch are neither.
+std::pair<bool, bool> has_inside_and_outside(const Subdomain& of, const Subdomain& other)
 {
-  Domain m_domain;
-
-public:
-  explicit Enclosed(const Surface& surface) { m_domain.add(surface, 1); }
-
-  // Whether there are vertices of a surface inside, and vertices outside.
-  std::pair<bool, bool> has_inside_and_outside(const Surface& surface) const
-  {
-    bool has_inside = false, has_outside = false;
-    for(const auto& p : surface.points()) {
-      (m_domain.subdomain_index(p) != 0 ? has_inside : has_outside) = true;
-      if(has_inside && has_outside)
-        break;
-    }
-    return {has_inside, has_outside};
+  bool has_inside = false, has_outside = false;
+  for(const auto& p : of.surface->points()) {
+    const CGAL::Bounded_side side = other.solid->bounded_side(p);
+    has_inside = has_inside || side == CGAL::ON_BOUNDED_SIDE;
+    has_outside = has_outside || side == CGAL::ON_UNBOUNDED_SIDE;
+    if(has_inside && has_outside)
+      break;
   }
-
-  bool is_near(const Enclosed& other) const
-  {
-    return CGAL::do_overlap(m_domain.bbox(), other.m_domain.bbox());
-  }
-};
+  return {has_inside, has_outside};
+}
 
 // Whether the volume is that of the surface, as far as that is known.
 bool has_right_volume(const Subdomain_outcome& s)
@@ -118,37 +106,41 @@ Domain make_domain(const std::vector<Subdomain>& subdomains)
 {
   Domain domain;
   for(const Subdomain& s : subdomains)
-    domain.add(*s.surface, s.index);
+    if(s.solid)
+      domain.add(s.solid, s.index);
+    else
+      domain.add(*s.surface, s.index);
   return domain;
+}
+
+void build_solids(std::vector<Subdomain>& subdomains)
+{
+  if(subdomains.size() < 2)
+    return; // the tree of a large surface is that of the domain only, which can be freed
+  for(Subdomain& s : subdomains)
+    s.solid = std::make_shared<const CGAL::Polyhedral_mixed_mesh_domain_3>(*s.surface);
 }
 
 void order_by_nesting(std::vector<Subdomain>& subdomains, std::vector<std::string>& warnings)
 {
-  if(subdomains.size() < 2)
-    return; // trees of a large surface take seconds
-  std::vector<Enclosed> enclosed;
-  for(const Subdomain& s : subdomains)
-    enclosed.emplace_back(*s.surface);
   const auto may_meet = [&](std::size_t i, std::size_t j) {
-    return subdomains[i].index != 0 && subdomains[j].index != 0 && enclosed[i].is_near(enclosed[j]);
+    return subdomains[i].index != 0 && subdomains[j].index != 0 && is_near(subdomains[i], subdomains[j]);
   };
   const auto is_inside = [&](std::size_t i, std::size_t j) {
-    return may_meet(i, j) && !enclosed[j].has_inside_and_outside(*subdomains[i].surface).second;
+    return may_meet(i, j) && has_inside_and_outside(subdomains[i], subdomains[j]) == std::pair(true, false);
   };
   for(std::size_t i = 0; i < subdomains.size(); ++i)
     for(std::size_t j = i + 1; j < subdomains.size(); ++j)
       if(is_inside(j, i)) { // all others stay in their order
         const auto to = std::ptrdiff_t(i), from = std::ptrdiff_t(j);
         std::rotate(subdomains.begin() + to, subdomains.begin() + from, subdomains.begin() + from + 1);
-        std::rotate(enclosed.begin() + to, enclosed.begin() + from, enclosed.begin() + from + 1);
         j = i; // what is inside the new one comes before it
       }
   for(std::size_t i = 0; i < subdomains.size(); ++i)
     for(std::size_t j = i + 1; j < subdomains.size(); ++j) {
       if(!may_meet(i, j))
         continue;
-      const auto [has_inside, has_outside] = enclosed[j].has_inside_and_outside(*subdomains[i].surface);
-      if(has_inside && has_outside)
+      if(has_inside_and_outside(subdomains[i], subdomains[j]) == std::pair(true, true))
         warnings.push_back("the surfaces of " + subdomains[i].name + " and " + subdomains[j].name
                            + " cross: " + subdomains[i].name + " has what both have inside");
     }
@@ -159,25 +151,21 @@ void measure_visible_parts(std::vector<Subdomain>& subdomains)
   using CGAL::Polygon_mesh_processing::area;
   if(subdomains.size() < 2)
     return; // nothing is asked of one, and it may be large
-  std::vector<Enclosed> enclosed;
   std::vector<std::vector<std::size_t>> inside(subdomains.size()); // earlier ones inside each one
   for(std::size_t i = 0; i < subdomains.size(); ++i) {
-    const Surface& mine = *subdomains[i].surface;
     std::optional<double>& volume = subdomains[i].visible_volume = subdomains[i].facts.volume;
-    subdomains[i].visible_area = area(mine);
+    subdomains[i].visible_area = area(*subdomains[i].surface);
     const bool are_labels = std::all_of(subdomains.begin(), subdomains.begin() + std::ptrdiff_t(i) + 1,
                                         [](const Subdomain& s) { return s.volume.has_value(); });
     if(are_labels) { // labels do not overlap
       volume = subdomains[i].volume;
       continue;
     }
-    while(enclosed.size() <= i) // trees take time, and labels need none
-      enclosed.emplace_back(*subdomains[enclosed.size()].surface);
     for(std::size_t j = i; j-- > 0;) {
-      if(!enclosed[i].is_near(enclosed[j]))
+      if(!is_near(subdomains[i], subdomains[j]))
         continue;
-      const auto [has_inside, has_outside] = enclosed[i].has_inside_and_outside(*subdomains[j].surface);
-      if(enclosed[j].has_inside_and_outside(mine).first || (has_inside && has_outside)) {
+      const auto [has_inside, has_outside] = has_inside_and_outside(subdomains[j], subdomains[i]);
+      if(has_inside_and_outside(subdomains[i], subdomains[j]).first || (has_inside && has_outside)) {
         volume = std::nullopt;
       } else if(has_inside) {
         volume = volume && subdomains[j].visible_volume ? *volume - *subdomains[j].visible_volume
@@ -191,33 +179,6 @@ void measure_visible_parts(std::vector<Subdomain>& subdomains)
       }
     }
   }
-}
-
-Surface union_of(const std::vector<Subdomain>& subdomains)
-{
-  namespace PMP = CGAL::Polygon_mesh_processing;
-  // Each surface winds once around what it encloses, and all together at least once around the union.
-  std::vector<Kernel::Point_3> points;
-  std::vector<std::array<std::size_t, 3>> triangles;
-  for(const Subdomain& s : subdomains) {
-    if(s.index == 0)
-      continue;
-    const std::size_t first = points.size();
-    points.insert(points.end(), s.surface->points().begin(), s.surface->points().end());
-    for(const auto f : s.surface->faces()) {
-      std::size_t i = 0;
-      triangles.emplace_back();
-      for(const auto v : s.surface->vertices_around_face(s.surface->halfedge(f)))
-        triangles.back()[i++] = first + v;
-    }
-  }
-  const auto solid = mm3::internal::read_solid(points, triangles);
-  if(!solid.is_complete)
-    throw std::runtime_error("the surfaces of " + subdomains.back().name
-                             + " and its subdomains meet in too many places for their union");
-  Surface whole;
-  PMP::polygon_soup_to_polygon_mesh(solid.points, solid.triangles, whole);
-  return whole;
 }
 
 void check_layers(const std::vector<Subdomain>& subdomains, const Options& o,
