@@ -13,6 +13,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/box_pairs.h>
 #include <CGAL/Mixed_mesh_3/internal/repair/Solid_reading.h>
 #include <CGAL/Mixed_mesh_3/internal/repair/Triangle_arrangement.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 
 #include <algorithm>
@@ -42,28 +43,53 @@ struct Soup
   std::vector<Triangle> triangles;
   std::vector<std::size_t> solid_of_point, solid_of_triangle; // numbers of subdomains
 
+  Soup() = default;
+
   explicit Soup(const std::vector<Subdomain>& subdomains)
   {
-    for(std::size_t i = 0; i < subdomains.size(); ++i) {
-      if(subdomains[i].index == 0)
-        continue;
-      const Surface& surface = *subdomains[i].surface;
-      std::map<Surface::Vertex_index, std::size_t> number;
-      for(const auto v : surface.vertices()) {
-        number[v] = points.size();
-        points.push_back(surface.point(v));
-      }
-      for(const auto f : surface.faces()) {
-        triangles.emplace_back();
-        std::size_t k = 0;
-        for(const auto v : surface.vertices_around_face(surface.halfedge(f)))
-          triangles.back()[k++] = number[v];
-      }
-      solid_of_point.resize(points.size(), i);
-      solid_of_triangle.resize(triangles.size(), i);
+    for(std::size_t i = 0; i < subdomains.size(); ++i)
+      if(subdomains[i].index != 0)
+        add(*subdomains[i].surface, i, false);
+  }
+
+  void add(const Surface& surface, std::size_t solid, bool is_reversed)
+  {
+    std::map<Surface::Vertex_index, std::size_t> number;
+    for(const auto v : surface.vertices()) {
+      number[v] = points.size();
+      points.push_back(surface.point(v));
     }
+    for(const auto f : surface.faces()) {
+      triangles.emplace_back();
+      std::size_t k = 0;
+      for(const auto v : surface.vertices_around_face(surface.halfedge(f)))
+        triangles.back()[k++] = number[v];
+      if(is_reversed)
+        std::swap(triangles.back()[1], triangles.back()[2]);
+    }
+    solid_of_point.resize(points.size(), solid);
+    solid_of_triangle.resize(triangles.size(), solid);
   }
 };
+
+// The boundary of what triangles wind around more often outwards than inwards.
+Surface solid_of(const Soup& soup, const std::string& name)
+{
+  const auto solid = mm3::internal::read_solid(soup.points, soup.triangles, most_meetings);
+  if(!solid.is_complete)
+    throw std::runtime_error("the surfaces of " + name + " and other subdomains meet in too many places");
+  Surface surface;
+  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(solid.points, solid.triangles, surface);
+  return surface;
+}
+
+bool have_common_point(const Surface& s, const Surface& t)
+{
+  std::vector<Point> points(s.points().begin(), s.points().end());
+  std::sort(points.begin(), points.end());
+  return std::any_of(t.points().begin(), t.points().end(),
+                     [&](const Point& p) { return std::binary_search(points.begin(), points.end(), p); });
+}
 
 // Makes points of different surfaces equal that are at most that far apart, and the coordinates of planes
 // that differ by about as much. Returns the largest distance of such points.
@@ -214,15 +240,38 @@ void join_contacts(std::vector<Subdomain>& subdomains, const mm3::IO::Read_surfa
         subdomains[i].surface = std::move(surface);
 }
 
+void take_overlaps(std::vector<Subdomain>& subdomains, std::vector<std::string>& warnings)
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  const Soup all(subdomains);
+  // An overlap of that thickness is rounding.
+  const double thickness = mm3::IO::internal::rounding_of_points * mm3::IO::internal::diagonal_of(all.points);
+  for(std::size_t i = 0; i < subdomains.size(); ++i) {
+    Subdomain& s = subdomains[i];
+    if(s.index == 0)
+      continue;
+    // Earlier surfaces do not overlap any more: the winding number is 1 in this one without them.
+    Soup soup;
+    soup.add(*s.surface, i, false);
+    for(std::size_t j = 0; j < i; ++j)
+      if(subdomains[j].index != 0 && have_common_point(*subdomains[j].surface, *s.surface))
+        soup.add(*subdomains[j].surface, j, true);
+    if(soup.solid_of_triangle.front() == soup.solid_of_triangle.back())
+      continue;
+    auto rest = std::make_shared<Surface>(solid_of(soup, s.name));
+    const double volume = rest->is_empty() ? 0 : PMP::volume(*rest),
+                 least = thickness * PMP::area(*s.surface);
+    if(volume <= least) {
+      warnings.push_back("the subdomain " + s.name + ": nothing is left of it, earlier ones have all inside");
+    } else if(PMP::volume(*s.surface) - volume > least) {
+      s.surface = std::move(rest);
+      s.solid = nullptr;
+    }
+  }
+}
+
 Surface union_of(const std::vector<Subdomain>& subdomains)
 {
   // Each surface winds once around what it encloses, and all together at least once around the union.
-  const Soup soup(subdomains);
-  const auto solid = mm3::internal::read_solid(soup.points, soup.triangles, most_meetings);
-  if(!solid.is_complete)
-    throw std::runtime_error("the surfaces of " + subdomains.back().name
-                             + " and its subdomains meet in too many places for their union");
-  Surface whole;
-  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(solid.points, solid.triangles, whole);
-  return whole;
+  return solid_of(Soup(subdomains), subdomains.back().name);
 }

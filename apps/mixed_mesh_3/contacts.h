@@ -24,6 +24,11 @@ void join_contacts(std::vector<Subdomain>& subdomains,
                    const CGAL::Mixed_meshes_3::IO::Read_surface_options& options,
                    std::vector<std::string>& warnings);
 
+/// Takes from each surface what earlier ones have inside, where the surfaces meet: then no two overlap, and
+/// their interfaces are equal facets. A subdomain of which nothing is left stays as it is, with a warning.
+/// \pre contacts are joined
+void take_overlaps(std::vector<Subdomain>& subdomains, std::vector<std::string>& warnings);
+
 /// The surface of the union of all subdomains that are no cavities.
 Surface union_of(const std::vector<Subdomain>& subdomains);
 

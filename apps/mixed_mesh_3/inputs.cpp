@@ -204,6 +204,7 @@ void read_domain(const Input_options& o, Surface_reader& read, Outcome& outcome,
       join_contacts(subdomains, o.surface_options, outcome.warnings);
       build_solids(subdomains);
       order_by_nesting(subdomains, outcome.warnings);
+      take_overlaps(subdomains, outcome.warnings);
     }
     inputs.boundary = is_image(o.surface) || subdomains.size() == 1
                         ? subdomains.back().surface

@@ -25,7 +25,10 @@ namespace {
 
 constexpr double tolerated_change_of_volume = 0.05;
 
-bool is_near(const Subdomain& s, const Subdomain& t) { return CGAL::do_overlap(s.solid->bbox(), t.solid->bbox()); }
+bool is_near(const Subdomain& s, const Subdomain& t)
+{
+  return CGAL::do_overlap(s.solid->bbox(), t.solid->bbox());
+}
 
 // Whether there are vertices of a surface inside another one, and vertices outside: those where the surfaces
 // touch are neither.
@@ -118,7 +121,8 @@ void build_solids(std::vector<Subdomain>& subdomains)
   if(subdomains.size() < 2)
     return; // the tree of a large surface is that of the domain only, which can be freed
   for(Subdomain& s : subdomains)
-    s.solid = std::make_shared<const CGAL::Polyhedral_mixed_mesh_domain_3>(*s.surface);
+    if(!s.solid)
+      s.solid = std::make_shared<const CGAL::Polyhedral_mixed_mesh_domain_3>(*s.surface);
 }
 
 void order_by_nesting(std::vector<Subdomain>& subdomains, std::vector<std::string>& warnings)
@@ -153,7 +157,8 @@ void measure_visible_parts(std::vector<Subdomain>& subdomains)
     return; // nothing is asked of one, and it may be large
   std::vector<std::vector<std::size_t>> inside(subdomains.size()); // earlier ones inside each one
   for(std::size_t i = 0; i < subdomains.size(); ++i) {
-    std::optional<double>& volume = subdomains[i].visible_volume = subdomains[i].facts.volume;
+    std::optional<double>& volume = subdomains[i].visible_volume = CGAL::Polygon_mesh_processing::volume(
+      *subdomains[i].surface);
     subdomains[i].visible_area = area(*subdomains[i].surface);
     const bool are_labels = std::all_of(subdomains.begin(), subdomains.begin() + std::ptrdiff_t(i) + 1,
                                         [](const Subdomain& s) { return s.volume.has_value(); });

@@ -47,7 +47,7 @@ std::string name_of(const std::vector<Subdomain>& subdomains, CGAL::Mixed_meshes
 /// \param subdomains surfaces; where some overlap, the first one counts
 CGAL::Labeled_polyhedral_mixed_mesh_domain_3 make_domain(const std::vector<Subdomain>& subdomains);
 
-/// Builds the search trees of several surfaces, which the functions below and the domain have in common.
+/// Builds the search trees of several surfaces that have none, which the functions below and the domain have in common.
 void build_solids(std::vector<Subdomain>& subdomains);
 
 /// Lets a subdomain that is inside another one come before it, so that a point is in the innermost one around
