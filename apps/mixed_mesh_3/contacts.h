@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-/// Cuts the surfaces of subdomains where they meet others, so that surfaces that touch in a face, or in a part
-/// of a face, have equal facets there: those are what the domain knows as their interface. Points of different
+/// Cuts the surfaces of subdomains where they meet others, so that surfaces that touch in a face, or in a
+/// part of a face, have equal facets there: the domain knows those as their interface. Points of different
 /// surfaces that are one point, up to rounding, become equal before.
 /// \param options how far points may be apart that are one, as where a surface is not closed
 void join_contacts(std::vector<Subdomain>& subdomains,

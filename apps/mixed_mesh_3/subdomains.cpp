@@ -228,8 +228,8 @@ void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vecto
 {
   if(outcome.has_lost_labels)
     outcome.result.status = mm3::worse_status(outcome.result.status, CGAL::Mixed_mesh_status::PARTS_LOST);
-  if(subdomains.size() < 2)
-    return;
+  if(subdomains.size() < 2 && options.label_choice == Label_choice::NONE)
+    return; // nobody has named a part
   std::map<mm3::Subdomain_index, Subdomain_outcome> found;
   std::map<mm3::Subdomain_index, double> sums;
   for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e) {

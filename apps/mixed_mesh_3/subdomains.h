@@ -47,7 +47,7 @@ std::string name_of(const std::vector<Subdomain>& subdomains, CGAL::Mixed_meshes
 /// \param subdomains surfaces; where some overlap, the first one counts
 CGAL::Labeled_polyhedral_mixed_mesh_domain_3 make_domain(const std::vector<Subdomain>& subdomains);
 
-/// Builds the search trees of several surfaces that have none, which the functions below and the domain have in common.
+/// Builds the search trees of several surfaces that have none; the functions below and the domain share them.
 void build_solids(std::vector<Subdomain>& subdomains);
 
 /// Lets a subdomain that is inside another one come before it, so that a point is in the innermost one around
@@ -62,8 +62,8 @@ void measure_visible_parts(std::vector<Subdomain>& subdomains);
 void check_layers(const std::vector<Subdomain>& subdomains, const Options& options,
                   std::vector<std::string>& warnings);
 
-/// Examines volumes, quality and interfaces of several subdomains, with warnings for defects; and sets a
-/// status for parts that the mesh does not have.
+/// Examines volumes, quality and interfaces of subdomains that the user has named, with warnings for defects;
+/// and sets a status for parts that the mesh does not have.
 void examine_subdomains(const Mesh& mesh, const CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
                         const std::vector<Subdomain>& subdomains, const Options& options, Outcome& outcome);
 

@@ -328,7 +328,9 @@ class Test_segmentation(unittest.TestCase):
         told, run = self.mesh(path, "--labels", "head=1-9,200,speck=11", "--vertices", 300, "--base-level", 2)
         self.assertEqual(told["status"], "parts lost")
         self.assertRegex(run.stderr, r"the subdomain speck, of volume [0-9.]+ mm\^3, is lost: smoothing leaves nothing")
-        self.assertNotIn("subdomains", told)  # there is one
+        self.assertEqual({s["name"]: s["elements"] > 0 for s in told["subdomains"]}, {"speck": False, "head": True})
+        self.assertEqual(told["subdomains"][0]["volume"], 0)
+        self.assertIn("speck (2): 0 elements", run.stdout)
 
     def test_touching_labels(self):
         """Gray matter around white matter around ventricles: each has its volume, all vertices are on interfaces."""
