@@ -153,8 +153,11 @@ void order_by_nesting(std::vector<Subdomain>& subdomains, std::vector<std::strin
 void measure_visible_parts(std::vector<Subdomain>& subdomains)
 {
   using CGAL::Polygon_mesh_processing::area;
-  if(subdomains.size() < 2)
-    return; // nothing is asked of one, and it may be large
+  if(subdomains.size() < 2) { // nothing is asked of one surface, which may be large
+    for(Subdomain& s : subdomains)
+      s.visible_volume = s.volume;
+    return;
+  }
   std::vector<std::vector<std::size_t>> inside(subdomains.size()); // earlier ones inside each one
   for(std::size_t i = 0; i < subdomains.size(); ++i) {
     std::optional<double>& volume = subdomains[i].visible_volume = CGAL::Polygon_mesh_processing::volume(
@@ -240,6 +243,7 @@ void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vecto
     s.largest_arc = (std::max)(s.largest_arc, arc);
     sums[mesh.subdomain_index(e)] += arc;
   }
+  const auto number_lost = std::ptrdiff_t(outcome.subdomains.size());
   for(std::size_t i = 0; i < subdomains.size(); ++i) {
     if(subdomains[i].index == 0)
       continue;
@@ -256,6 +260,7 @@ void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vecto
       outcome.result.status = mm3::worse_status(outcome.result.status, CGAL::Mixed_mesh_status::PARTS_LOST);
     outcome.subdomains.push_back(std::move(s));
   }
+  std::rotate(outcome.subdomains.begin(), outcome.subdomains.begin() + number_lost, outcome.subdomains.end());
   if(options.fit() != Fit::NONE)
     outcome.checks_of_fidelity.push_back(
       {"volume of each subdomain within 5 % of its surface's",

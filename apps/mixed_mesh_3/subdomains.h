@@ -63,7 +63,7 @@ void check_layers(const std::vector<Subdomain>& subdomains, const Options& optio
                   std::vector<std::string>& warnings);
 
 /// Examines volumes, quality and interfaces of subdomains that the user has named, with warnings for defects;
-/// and sets a status for parts that the mesh does not have.
+/// and sets a status for parts that the mesh does not have. Those lost before come last.
 void examine_subdomains(const Mesh& mesh, const CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
                         const std::vector<Subdomain>& subdomains, const Options& options, Outcome& outcome);
 
