@@ -187,6 +187,9 @@ Labels read_labels(const Input_options& o, Surface_reader& read, Outcome& outcom
                                    facts[i + 1], volume, voxels.text});
     }
   }
+  if(labels.subdomains.empty())
+    throw std::runtime_error(o.surface + ": nothing is left of the voxels " + outcome.voxels
+                             + " after smoothing, see --smoothing");
   labels.boundary = std::move(surfaces[0]);
   outcome.surface = facts[0];
   return labels;

@@ -332,6 +332,13 @@ class Test_segmentation(unittest.TestCase):
         self.assertEqual(told["subdomains"][1]["volume"], 0)
         self.assertIn("speck (2): 0 elements", run.stdout)
 
+    def test_lost_labels(self):
+        """Nothing is left of two voxels: there is no domain, and no mesh."""
+        values = np.zeros((12, 12, 12), np.int16)
+        values[5, 5, 5], values[8, 8, 8] = 1, 2
+        path = self.image("voxels.nii", values, affine((1, 1, 1)))
+        self.fails(path, "--labels", "each", "--smoothing", 3, "--vertices", 300, words="nothing is left of the voxels")
+
     def test_touching_labels(self):
         """Gray matter around white matter around ventricles: each has its volume, all vertices are on interfaces."""
         x, y, z = np.meshgrid(*(3 * np.arange(n) - 1.5 * (n - 1) for n in (48, 56, 46)), indexing="ij")
