@@ -18,10 +18,10 @@
 
 /// Cuts the surfaces of subdomains where they meet others, so that surfaces that touch in a face, or in a
 /// part of a face, have equal facets there: the domain knows those as their interface. Points of different
-/// surfaces that are one point, up to rounding, become equal before; edges are split at vertices of others that
-/// are on them up to rounding, and a plane face in which surfaces touch up to rounding is triangulated once for
-/// all of them. Faces that touch and are not plane, and have other triangles, are not joined. If a surface would
-/// not bound a solid any more, all stay as they are, with a warning.
+/// surfaces that are one point, up to rounding, become equal before; edges are split at vertices of others
+/// that are on them up to rounding, and a plane face in which surfaces touch up to rounding is triangulated
+/// once for all of them. Faces that touch and are not plane, and have other triangles, are not joined. If a
+/// surface would not bound a solid any more, all stay as they are, with a warning.
 /// \param options how far points may be apart that are one, as where a surface is not closed
 void join_contacts(std::vector<Subdomain>& subdomains,
                    const CGAL::Mixed_meshes_3::IO::Read_surface_options& options,

@@ -7,8 +7,8 @@
 
 import json
 import math
-import sys
 import struct
+import sys
 import unittest
 import xml.etree.ElementTree as ElementTree
 
