@@ -7,6 +7,7 @@
 
 #include "core/messages.h"
 #include "core/read_label_surface.h"
+#include "mixed_mesh_3/contacts.h"
 #include "mixed_mesh_3/label_groups.h"
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -156,9 +157,10 @@ Labels read_labels(const Input_options& o, Surface_reader& read, Outcome& outcom
   for(const Label_group& group : groups)
     all.push_back(group.voxels);
   outcome.voxels = (all.size() == 1 ? all[0] : united(all)).text;
-  const auto lose = [&outcome](const std::string& what) {
+  const auto lose = [&outcome](Subdomain_outcome s, const std::string& why) {
     outcome.has_lost_labels = true;
-    outcome.warnings.push_back("the subdomain " + what);
+    outcome.warnings.push_back("the subdomain " + s.name + why);
+    outcome.subdomains.push_back(std::move(s));
   };
   Labels labels;
   std::vector<Surface_facts> facts;
@@ -168,15 +170,26 @@ Labels read_labels(const Input_options& o, Surface_reader& read, Outcome& outcom
     labels.largest_index = (std::max)(labels.largest_index, index);
     const auto number = double(image.number_of_voxels(all[i]));
     const double volume = number * image.volume_of_voxel();
-    if(number == 0)
-      lose(name + " is lost: its component of the domain is dropped");
-    else if(surfaces[i + 1].is_empty())
-      lose(name + ", of volume " + volume_with_unit(volume, o.is_in_patient_space())
-           + ", is lost: smoothing leaves nothing of it, see --smoothing");
-    else
+    Subdomain_outcome lost;
+    lost.name = name;
+    lost.index = index;
+    lost.surface = facts[i + 1];
+    lost.voxels = voxels.text;
+    lost.volume_of_voxels = volume;
+    if(number == 0) {
+      lose(std::move(lost), " is lost: its component of the domain is dropped");
+    } else if(surfaces[i + 1].is_empty()) {
+      lost.volume_of_surface = volume; // that of the voxels, as for other labels
+      lose(std::move(lost), ", of volume " + volume_with_unit(volume, o.is_in_patient_space())
+                              + ", is lost: smoothing leaves nothing of it, see --smoothing");
+    } else {
       labels.subdomains.push_back({name, index, std::make_shared<const Surface>(std::move(surfaces[i + 1])),
                                    facts[i + 1], volume, voxels.text});
+    }
   }
+  if(labels.subdomains.empty())
+    throw std::runtime_error(o.surface + ": nothing is left of the voxels " + outcome.voxels
+                             + " after smoothing, see --smoothing");
   labels.boundary = std::move(surfaces[0]);
   outcome.surface = facts[0];
   return labels;
@@ -199,8 +212,12 @@ void read_domain(const Input_options& o, Surface_reader& read, Outcome& outcome,
   } else {
     subdomains.push_back(is_image(o.surface) ? read.whole(whole, read.domain(o.voxels, o.voxels, outcome), 1)
                                              : read.whole(whole, 1));
-    if(!is_image(o.surface))
+    if(!is_image(o.surface) && subdomains.size() > 1) {
+      join_contacts(subdomains, o.surface_options, outcome.warnings);
+      build_solids(subdomains);
       order_by_nesting(subdomains, outcome.warnings);
+      take_overlaps(subdomains, outcome.warnings);
+    }
     inputs.boundary = is_image(o.surface) || subdomains.size() == 1
                         ? subdomains.back().surface
                         : std::make_shared<const Surface>(union_of(subdomains));
@@ -209,6 +226,7 @@ void read_domain(const Input_options& o, Surface_reader& read, Outcome& outcome,
     if(subdomains.size() > 1)
       outcome.surface.volume = CGAL::Polygon_mesh_processing::volume(*inputs.boundary);
   }
+  build_solids(subdomains);
   measure_visible_parts(subdomains);
   for(const Subdomain& s : subdomains)
     if(s.index == 0) {

@@ -8,7 +8,6 @@
 #include "core/messages.h"
 
 #include <CGAL/Mixed_mesh_3/interfaces.h>
-#include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 
 #include <algorithm>
@@ -26,31 +25,25 @@ namespace {
 
 constexpr double tolerated_change_of_volume = 0.05;
 
-// A surface as a domain, and the sides of the vertices of other surfaces.
-class Enclosed
+bool is_near(const Subdomain& s, const Subdomain& t)
 {
-  Domain m_domain;
+  return CGAL::do_overlap(s.solid->bbox(), t.solid->bbox());
+}
 
-public:
-  explicit Enclosed(const Surface& surface) { m_domain.add(surface, 1); }
-
-  // Whether there are vertices of a surface inside, and vertices outside.
-  std::pair<bool, bool> has_inside_and_outside(const Surface& surface) const
-  {
-    bool has_inside = false, has_outside = false;
-    for(const auto& p : surface.points()) {
-      (m_domain.subdomain_index(p) != 0 ? has_inside : has_outside) = true;
-      if(has_inside && has_outside)
-        break;
-    }
-    return {has_inside, has_outside};
+// Whether there are vertices of a surface inside another one, and vertices outside: those where the surfaces
+// touch are neither.
+std::pair<bool, bool> has_inside_and_outside(const Subdomain& of, const Subdomain& other)
+{
+  bool has_inside = false, has_outside = false;
+  for(const auto& p : of.surface->points()) {
+    const CGAL::Bounded_side side = other.solid->bounded_side(p);
+    has_inside = has_inside || side == CGAL::ON_BOUNDED_SIDE;
+    has_outside = has_outside || side == CGAL::ON_UNBOUNDED_SIDE;
+    if(has_inside && has_outside)
+      break;
   }
-
-  bool is_near(const Enclosed& other) const
-  {
-    return CGAL::do_overlap(m_domain.bbox(), other.m_domain.bbox());
-  }
-};
+  return {has_inside, has_outside};
+}
 
 // Whether the volume is that of the surface, as far as that is known.
 bool has_right_volume(const Subdomain_outcome& s)
@@ -116,37 +109,42 @@ Domain make_domain(const std::vector<Subdomain>& subdomains)
 {
   Domain domain;
   for(const Subdomain& s : subdomains)
-    domain.add(*s.surface, s.index);
+    if(s.solid)
+      domain.add(s.solid, s.index);
+    else
+      domain.add(*s.surface, s.index);
   return domain;
+}
+
+void build_solids(std::vector<Subdomain>& subdomains)
+{
+  if(subdomains.size() < 2)
+    return; // the tree of a large surface is that of the domain only, which can be freed
+  for(Subdomain& s : subdomains)
+    if(!s.solid)
+      s.solid = std::make_shared<const CGAL::Polyhedral_mixed_mesh_domain_3>(*s.surface);
 }
 
 void order_by_nesting(std::vector<Subdomain>& subdomains, std::vector<std::string>& warnings)
 {
-  if(subdomains.size() < 2)
-    return; // trees of a large surface take seconds
-  std::vector<Enclosed> enclosed;
-  for(const Subdomain& s : subdomains)
-    enclosed.emplace_back(*s.surface);
   const auto may_meet = [&](std::size_t i, std::size_t j) {
-    return subdomains[i].index != 0 && subdomains[j].index != 0 && enclosed[i].is_near(enclosed[j]);
+    return subdomains[i].index != 0 && subdomains[j].index != 0 && is_near(subdomains[i], subdomains[j]);
   };
   const auto is_inside = [&](std::size_t i, std::size_t j) {
-    return may_meet(i, j) && !enclosed[j].has_inside_and_outside(*subdomains[i].surface).second;
+    return may_meet(i, j) && has_inside_and_outside(subdomains[i], subdomains[j]) == std::pair(true, false);
   };
   for(std::size_t i = 0; i < subdomains.size(); ++i)
     for(std::size_t j = i + 1; j < subdomains.size(); ++j)
       if(is_inside(j, i)) { // all others stay in their order
         const auto to = std::ptrdiff_t(i), from = std::ptrdiff_t(j);
         std::rotate(subdomains.begin() + to, subdomains.begin() + from, subdomains.begin() + from + 1);
-        std::rotate(enclosed.begin() + to, enclosed.begin() + from, enclosed.begin() + from + 1);
         j = i; // what is inside the new one comes before it
       }
   for(std::size_t i = 0; i < subdomains.size(); ++i)
     for(std::size_t j = i + 1; j < subdomains.size(); ++j) {
       if(!may_meet(i, j))
         continue;
-      const auto [has_inside, has_outside] = enclosed[j].has_inside_and_outside(*subdomains[i].surface);
-      if(has_inside && has_outside)
+      if(has_inside_and_outside(subdomains[i], subdomains[j]) == std::pair(true, true))
         warnings.push_back("the surfaces of " + subdomains[i].name + " and " + subdomains[j].name
                            + " cross: " + subdomains[i].name + " has what both have inside");
     }
@@ -155,27 +153,27 @@ void order_by_nesting(std::vector<Subdomain>& subdomains, std::vector<std::strin
 void measure_visible_parts(std::vector<Subdomain>& subdomains)
 {
   using CGAL::Polygon_mesh_processing::area;
-  if(subdomains.size() < 2)
-    return; // nothing is asked of one, and it may be large
-  std::vector<Enclosed> enclosed;
+  if(subdomains.size() < 2) { // nothing is asked of one surface, which may be large
+    for(Subdomain& s : subdomains)
+      s.visible_volume = s.volume;
+    return;
+  }
   std::vector<std::vector<std::size_t>> inside(subdomains.size()); // earlier ones inside each one
   for(std::size_t i = 0; i < subdomains.size(); ++i) {
-    const Surface& mine = *subdomains[i].surface;
-    std::optional<double>& volume = subdomains[i].visible_volume = subdomains[i].facts.volume;
-    subdomains[i].visible_area = area(mine);
+    std::optional<double>& volume = subdomains[i].visible_volume = CGAL::Polygon_mesh_processing::volume(
+      *subdomains[i].surface);
+    subdomains[i].visible_area = area(*subdomains[i].surface);
     const bool are_labels = std::all_of(subdomains.begin(), subdomains.begin() + std::ptrdiff_t(i) + 1,
                                         [](const Subdomain& s) { return s.volume.has_value(); });
     if(are_labels) { // labels do not overlap
       volume = subdomains[i].volume;
       continue;
     }
-    while(enclosed.size() <= i) // trees take time, and labels need none
-      enclosed.emplace_back(*subdomains[enclosed.size()].surface);
     for(std::size_t j = i; j-- > 0;) {
-      if(!enclosed[i].is_near(enclosed[j]))
+      if(!is_near(subdomains[i], subdomains[j]))
         continue;
-      const auto [has_inside, has_outside] = enclosed[i].has_inside_and_outside(*subdomains[j].surface);
-      if(enclosed[j].has_inside_and_outside(mine).first || (has_inside && has_outside)) {
+      const auto [has_inside, has_outside] = has_inside_and_outside(subdomains[j], subdomains[i]);
+      if(has_inside_and_outside(subdomains[i], subdomains[j]).first || (has_inside && has_outside)) {
         volume = std::nullopt;
       } else if(has_inside) {
         volume = volume && subdomains[j].visible_volume ? *volume - *subdomains[j].visible_volume
@@ -189,19 +187,6 @@ void measure_visible_parts(std::vector<Subdomain>& subdomains)
       }
     }
   }
-}
-
-Surface union_of(const std::vector<Subdomain>& subdomains)
-{
-  namespace PMP = CGAL::Polygon_mesh_processing;
-  Surface whole = *subdomains.back().surface;
-  for(std::size_t i = 0; i + 1 < subdomains.size(); ++i) {
-    Surface part = *subdomains[i].surface, others = whole, both;
-    if(subdomains[i].index != 0 && Enclosed(whole).has_inside_and_outside(part).second
-       && PMP::corefine_and_compute_union(others, part, both))
-      whole = std::move(both);
-  }
-  return whole;
 }
 
 void check_layers(const std::vector<Subdomain>& subdomains, const Options& o,
@@ -246,8 +231,8 @@ void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vecto
 {
   if(outcome.has_lost_labels)
     outcome.result.status = mm3::worse_status(outcome.result.status, CGAL::Mixed_mesh_status::PARTS_LOST);
-  if(subdomains.size() < 2)
-    return;
+  if(subdomains.size() < 2 && options.label_choice == Label_choice::NONE)
+    return; // nobody has named a part
   std::map<mm3::Subdomain_index, Subdomain_outcome> found;
   std::map<mm3::Subdomain_index, double> sums;
   for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e) {
@@ -258,6 +243,7 @@ void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vecto
     s.largest_arc = (std::max)(s.largest_arc, arc);
     sums[mesh.subdomain_index(e)] += arc;
   }
+  const auto number_lost = std::ptrdiff_t(outcome.subdomains.size());
   for(std::size_t i = 0; i < subdomains.size(); ++i) {
     if(subdomains[i].index == 0)
       continue;
@@ -274,6 +260,7 @@ void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vecto
       outcome.result.status = mm3::worse_status(outcome.result.status, CGAL::Mixed_mesh_status::PARTS_LOST);
     outcome.subdomains.push_back(std::move(s));
   }
+  std::rotate(outcome.subdomains.begin(), outcome.subdomains.begin() + number_lost, outcome.subdomains.end());
   if(options.fit() != Fit::NONE)
     outcome.checks_of_fidelity.push_back(
       {"volume of each subdomain within 5 % of its surface's",

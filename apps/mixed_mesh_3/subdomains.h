@@ -15,6 +15,7 @@
 
 #include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
 #include <CGAL/Mixed_mesh_3/IO/Facet_set.h>
+#include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 
 #include <memory>
 #include <optional>
@@ -34,6 +35,7 @@ struct Subdomain
   // surfaces around it.
   std::optional<double> visible_volume = {};
   double visible_area = 0;
+  std::shared_ptr<const CGAL::Polyhedral_mixed_mesh_domain_3> solid = {}; // of several surfaces, each
 };
 
 /// The name of what is around all subdomains, which no subdomain has.
@@ -45,6 +47,9 @@ std::string name_of(const std::vector<Subdomain>& subdomains, CGAL::Mixed_meshes
 /// \param subdomains surfaces; where some overlap, the first one counts
 CGAL::Labeled_polyhedral_mixed_mesh_domain_3 make_domain(const std::vector<Subdomain>& subdomains);
 
+/// Builds the search trees of several surfaces that have none; the functions below and the domain share them.
+void build_solids(std::vector<Subdomain>& subdomains);
+
 /// Lets a subdomain that is inside another one come before it, so that a point is in the innermost one around
 /// it; where surfaces cross, the order stays, with a warning. Cavities stay where they are.
 void order_by_nesting(std::vector<Subdomain>& subdomains, std::vector<std::string>& warnings);
@@ -52,16 +57,13 @@ void order_by_nesting(std::vector<Subdomain>& subdomains, std::vector<std::strin
 /// Sets the volumes and areas of the visible parts of several subdomains, which come after those inside them.
 void measure_visible_parts(std::vector<Subdomain>& subdomains);
 
-/// The surface of the union of all subdomains that are no cavities.
-Surface union_of(const std::vector<Subdomain>& subdomains);
-
 /// Checks that the budget can hold the layers that labels are: each edge of a thin one may be some times as
 /// long as it is thick, on average. Too few vertices are told, and refused if nothing would be left of it.
 void check_layers(const std::vector<Subdomain>& subdomains, const Options& options,
                   std::vector<std::string>& warnings);
 
-/// Examines volumes, quality and interfaces of several subdomains, with warnings for defects; and sets a
-/// status for parts that the mesh does not have.
+/// Examines volumes, quality and interfaces of subdomains that the user has named, with warnings for defects;
+/// and sets a status for parts that the mesh does not have. Those lost before come last.
 void examine_subdomains(const Mesh& mesh, const CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
                         const std::vector<Subdomain>& subdomains, const Options& options, Outcome& outcome);
 

@@ -19,3 +19,20 @@ def moved(points, scale=1, shift=(0, 0, 0)):
 
 def shifted(faces, n):
     return [tuple(v + n for v in f) for f in faces]
+
+
+def grid_box(n, low, high):
+    """A box from one corner to the opposite one; its faces are grids of n x n squares, each of two triangles."""
+    numbers, triangles = {}, []
+    for axis in range(3):
+        for side in (0, n):
+            for i in range(n):
+                for j in range(n):
+                    corners = []
+                    for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)):
+                        place = [i + a, j + b]
+                        place.insert(axis, side)  # of axis 1, the turn is the other one
+                        corners.append(numbers.setdefault(tuple(place), len(numbers)))
+                    p, q, r, s = corners if (side == n) != (axis == 1) else corners[::-1]
+                    triangles += [(p, q, r), (p, r, s)]
+    return [tuple(l + (h - l) * x / n for l, h, x in zip(low, high, place)) for place in numbers], triangles

@@ -7,12 +7,13 @@
 
 import json
 import math
+import struct
 import sys
 import unittest
 import xml.etree.ElementTree as ElementTree
 
 from command_line_case import DATA, WORK, Case
-from cube import CUBE, TRIANGLES, moved, off
+from cube import CUBE, TRIANGLES, grid_box, moved, off
 from sphere import sphere
 
 
@@ -95,6 +96,79 @@ class Regions(Case):
         common = math.pi * (90 - 45) ** 2 * (45 ** 2 + 2 * 45 * 90 - 3 * 10 ** 2) / (12 * 45)  # of two balls
         union = 4 / 3 * math.pi * (50 ** 3 + 40 ** 3) - common
         self.assertAlmostEqual(told["mesh"]["volume"] / union, 1, delta=0.05)
+
+    def test_parts_that_touch(self):
+        """Where boxes touch, in whatever triangles, they have an interface; where they overlap, the earlier one counts.
+        The volume of the union, and the numbers of its bodies, are exact."""
+        report = WORK / "touch.json"
+        whole = self.file("whole.off", off(*grid_box(2, (0, 0, 0), (10, 10, 10))))
+        float32 = 10 * (1 + 2 ** -20)  # ten times the last digit of 10 as a float is 10 * 2 ** -20
+        for name, n, low, high, union, bodies, area in (
+                ("equal face", 2, (10, 0, 0), (20, 10, 10), 2000, 1, 100),
+                ("other triangles", 3, (10, 0, 0), (20, 10, 10), 2000, 1, 100),
+                ("rounded", 3, (float32, 0, 0), (20, 10, 10), 2000, 1, 100),
+                ("part of a face", 3, (10, 2, 2), (16, 8, 8), 1216, 1, 36),
+                ("nested with a shared face", 2, (5, 2, 2), (10, 8, 8), 1000, 1, 156),
+                ("edge", 2, (10, 10, 0), (20, 20, 10), 2000, 2, None),
+                ("vertex", 2, (10, 10, 10), (20, 20, 20), 2000, 2, None),
+                ("equal", 3, (0, 0, 0), (10, 10, 10), 1000, 1, None),
+                ("crossing", 2, (5, 5, 5), (15, 15, 15), 1875, 1, 75)):
+            with self.subTest(name):
+                part = self.file("part.off", off(*grid_box(n, low, high)))
+                run = self.mesher(whole, "--subdomain", f"part={part}", "--vertices", 1500, "--report", report)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                told = json.loads(report.read_text())
+                self.assertAlmostEqual(told["surface"]["volume of surface"] / union, 1, delta=1e-5)
+                self.assertEqual((told["topology"]["surface"]["bodies"], told["topology"]["surface"]["cavities"]), (bodies, 0))
+                self.assertEqual("nothing is left of it" in run.stderr, name == "equal")
+                if area is None:
+                    continue
+                areas = {tuple(i["between"]): i["area"] for i in told["interfaces"]}
+                self.assertAlmostEqual(areas["whole", "part"] / area, 1, delta=0.1)
+                for s in told["subdomains"]:
+                    self.assertAlmostEqual(s["ratio of volumes"], 1, delta=0.03)
+                if name in ("equal face", "other triangles", "rounded", "nested with a shared face"):
+                    self.assertIn("all checks hold", run.stdout)
+
+    def test_parts_that_touch_obliquely(self):
+        """Rounding makes the faces of turned boxes uneven; where they touch, they have an interface nevertheless."""
+        def turned(points):
+            for angle in (0.3, 0.7):
+                c, s = math.cos(angle), math.sin(angle)
+                points = [(c * x - s * y, s * x + c * y, z) for x, y, z in points]
+                points = [(x, c * y - s * z, s * y + c * z) for x, y, z in points]
+            return points
+
+        def file(name, n, low, high, is_float):
+            points, triangles = grid_box(n, low, high)
+            points = turned(points)
+            if is_float:
+                points = [struct.unpack("3f", struct.pack("3f", *p)) for p in points]
+            return self.file(name, off(points, triangles))
+
+        report = WORK / "oblique.json"
+        for name, n, low, high, union, bodies, area in (
+                ("other diagonals", 2, (10, 0, 0), (20, 10, 10), 2000, 1, 100),
+                ("other triangles", 3, (10, 0, 0), (20, 10, 10), 2000, 1, 100),
+                ("part of a face", 3, (10, 3, 3), (14, 7, 7), 1064, 1, 16),
+                ("at the rim", 2, (10, 3, 0), (14, 7, 4), 1064, 1, 16),
+                ("nested with a shared face", 2, (5, 2, 2), (10, 8, 8), 1000, 1, 156),
+                ("edge", 3, (10, 10, 0), (20, 20, 10), 2000, 2, None)):
+            for is_float in (False, True):
+                with self.subTest(name, is_float=is_float):
+                    whole = file("whole.off", 2, (0, 0, 0), (10, 10, 10), is_float)
+                    part = file("part.off", n, low, high, is_float)
+                    run = self.mesher(whole, "--subdomain", f"part={part}", "--vertices", 1500, "--report", report)
+                    self.assertEqual(run.returncode, 0, run.stderr)
+                    told = json.loads(report.read_text())
+                    self.assertAlmostEqual(told["surface"]["volume of surface"] / union, 1, delta=1e-6)
+                    surface = told["topology"]["surface"]
+                    self.assertEqual((surface["bodies"], surface["cavities"], surface["handles"]), (bodies, 0, 0))
+                    for s in told["subdomains"]:
+                        self.assertAlmostEqual(s["ratio of volumes"], 1, delta=0.05)
+                    if area is not None:
+                        areas = {tuple(i["between"]): i["area"] for i in told["interfaces"]}
+                        self.assertAlmostEqual(areas["whole", "part"] / area, 1, delta=0.1)
 
     def test_wrong_subdomains(self):
         tumor = DATA / "tumour.off"

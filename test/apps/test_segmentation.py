@@ -328,7 +328,16 @@ class Test_segmentation(unittest.TestCase):
         told, run = self.mesh(path, "--labels", "head=1-9,200,speck=11", "--vertices", 300, "--base-level", 2)
         self.assertEqual(told["status"], "parts lost")
         self.assertRegex(run.stderr, r"the subdomain speck, of volume [0-9.]+ mm\^3, is lost: smoothing leaves nothing")
-        self.assertNotIn("subdomains", told)  # there is one
+        self.assertEqual({s["name"]: s["elements"] > 0 for s in told["subdomains"]}, {"speck": False, "head": True})
+        self.assertEqual(told["subdomains"][1]["volume"], 0)
+        self.assertIn("speck (2): 0 elements", run.stdout)
+
+    def test_lost_labels(self):
+        """Nothing is left of two voxels: there is no domain, and no mesh."""
+        values = np.zeros((12, 12, 12), np.int16)
+        values[5, 5, 5], values[8, 8, 8] = 1, 2
+        path = self.image("voxels.nii", values, affine((1, 1, 1)))
+        self.fails(path, "--labels", "each", "--smoothing", 20, "--vertices", 300, words="nothing is left of the voxels")
 
     def test_touching_labels(self):
         """Gray matter around white matter around ventricles: each has its volume, all vertices are on interfaces."""
@@ -515,7 +524,8 @@ class Test_segmentation(unittest.TestCase):
         one = self.image("one.nii", np.where((values == 2) | (values == 251), values, 0), affine((2, 2, 2)))
         told, run = self.mesh(one, "--labels", "freesurfer", "--vertices", 500)
         self.assertEqual(told["inputs"]["surface"]["voxels"], "with the labels 2,251")
-        self.assertNotIn("subdomains", told)
+        self.assertEqual([s["name"] for s in told["subdomains"]], ["white_matter"])
+        self.assertAlmostEqual(told["subdomains"][0]["ratio of volumes"], 1, delta=0.05)
         other = self.image("other.nii", np.where(values == 258, 258, 0).astype(np.int16), affine((2, 2, 2)))
         self.output.unlink()
         self.fails(other, "--labels", "freesurfer", words=f"{other}: has no labels of --labels freesurfer, only 258")

@@ -43,6 +43,13 @@ struct Arrangement_facet
   int number = 0;                      ///< number of triangles
 };
 
+/// A piece of one triangle, oriented as the triangle.
+struct Triangle_piece
+{
+  std::array<std::size_t, 3> vertices;
+  std::size_t triangle;
+};
+
 /*!
 Triangles that have nothing in common but vertices and edges, and cover the same points as the given
 triangles.
@@ -65,6 +72,7 @@ private:
 
   std::vector<Point> m_points;
   std::vector<Arrangement_facet> m_facets;
+  std::vector<Triangle_piece> m_pieces;
   bool m_is_complete = true;
   std::map<Point, std::size_t> m_index;
   std::map<Triangle, std::size_t> m_facet;
@@ -84,16 +92,21 @@ public:
     for(std::size_t v = 0; v < points.size(); ++v)
       first[v] = place.emplace(points[v], v).first->second;
     std::vector<Triangle> triangles;
-    for(const Triangle& t : input) {
+    std::vector<std::size_t> numbers; // numbers in the input
+    for(std::size_t i = 0; i < input.size(); ++i) {
+      const Triangle& t = input[i];
       const Triangle u{first[t[0]], first[t[1]], first[t[2]]};
-      if(!CGAL::collinear(points[u[0]], points[u[1]], points[u[2]]))
+      if(!CGAL::collinear(points[u[0]], points[u[1]], points[u[2]])) {
         triangles.push_back(u);
+        numbers.push_back(i);
+      }
     }
     try {
-      arrange(points, std::move(triangles), most);
+      arrange(points, std::move(triangles), numbers, most);
     } catch(const Too_many&) {
       m_points.clear();
       m_facets.clear();
+      m_pieces.clear();
       m_is_complete = false;
     }
   }
@@ -102,8 +115,12 @@ public:
   const std::vector<Point>& points() const { return m_points; }
   const std::vector<Arrangement_facet>& facets() const { return m_facets; }
 
+  /// The pieces of all triangles, by the number of the triangle: where triangles overlap, each has its piece.
+  const std::vector<Triangle_piece>& pieces() const { return m_pieces; }
+
 private:
-  void arrange(const std::vector<Input_point>& points, std::vector<Triangle> triangles, std::size_t most)
+  void arrange(const std::vector<Input_point>& points, std::vector<Triangle> triangles,
+               const std::vector<std::size_t>& numbers, std::size_t most)
   {
     const std::vector<Pair> pairs = meetings(points, triangles, most);
     std::vector<std::vector<std::size_t>> met(triangles.size());
@@ -127,9 +144,9 @@ private:
       t = {index[t[0]], index[t[1]], index[t[2]]};
     for(std::size_t t = 0; t < triangles.size(); ++t)
       if(met[t].empty())
-        add(triangles[t]);
+        add(triangles[t], numbers[t]);
       else
-        cut(t, met[t], triangles, triangles.size() + most);
+        cut(t, met[t], triangles, numbers[t], triangles.size() + most);
   }
 
   static std::vector<Pair> meetings(const std::vector<Input_point>& points,
@@ -162,8 +179,9 @@ private:
     return found->second;
   }
 
-  void add(const Triangle& t)
+  void add(const Triangle& t, std::size_t number)
   {
+    m_pieces.push_back({t, number});
     Triangle key = t;
     std::sort(key.begin(), key.end());
     const auto [found, is_new] = m_facet.emplace(key, m_facets.size());
@@ -249,7 +267,7 @@ private:
 
   // Triangulates a triangle such that its edges have all points that other triangles have on them.
   void cut(std::size_t number, const std::vector<std::size_t>& met, const std::vector<Triangle>& triangles,
-           std::size_t most_facets)
+           std::size_t number_in_input, std::size_t most_facets)
   {
     const Triangle t = triangles[number];
     const std::array<Point, 3> p{m_points[t[0]], m_points[t[1]], m_points[t[2]]};
@@ -272,7 +290,8 @@ private:
     const bool is_from_behind = view.is_from_behind();
     for(auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f)
       add({indices[f->vertex(0)], indices[f->vertex(is_from_behind ? 2 : 1)],
-           indices[f->vertex(is_from_behind ? 1 : 2)]});
+           indices[f->vertex(is_from_behind ? 1 : 2)]},
+          number_in_input);
   }
 };
 
