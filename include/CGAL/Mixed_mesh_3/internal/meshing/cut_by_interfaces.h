@@ -125,7 +125,7 @@ public:
     constexpr double part = 0.05; // of an edge, before and behind the place where it is cut
     std::vector<Vec3> places;
     for(const Cut& cut : m_cuts) {
-      const auto [a, b] = cut.ends;
+      const Vertex_index a = cut.ends[0], b = cut.ends[1];
       const Vec3 edge = m_mesh.points[b] - m_mesh.points[a], p = m_mesh.points[a] + cut.share * edge;
       const auto is_of_another = [&](const Vec3& q) {
         const Subdomain_rank rank = m_octree.subdomain_rank(q);
