@@ -53,7 +53,7 @@ class Surface_tolerances
   // Multiple of the mean chord: with a smaller one, the parts of a brain would take cells that its surface
   // and the region lack.
   static constexpr double share_of_chord = 3;
-  // Number of samples: about ten samples of a face are enough; a few subdomains have fewer.
+  // Number of samples: about ten samples of a face are enough; ordinary surfaces and few subdomains have fewer.
   static constexpr std::size_t samples_per_vertex = 20, least_samples = 50000;
 
 public:
@@ -92,6 +92,7 @@ public:
   {
     std::vector<Surface_sample> result;
     const auto add = [&](const auto& points, double tolerance) {
+      result.reserve(result.size() + points.size());
       for(const auto& p : points)
         result.push_back({to_vec3(p), tolerance});
     };
@@ -101,23 +102,23 @@ public:
       for(Subdomain_index index : indices)
         add(domain.surface_samples((std::max)(2 * (*this)(index), least_spacing(index)), index),
             (*this)(index));
-      // Queries in succession are faster where they are near to each other.
-      if(indices.size() > 2) {
-        sort_along_curve(result);
-        thin_out(result);
-      }
     } else {
       add(domain.surface_samples((std::max)(2 * m_tolerance, least_spacing(1))), m_tolerance);
     }
+    thin_out(result);
     return result;
   }
 
 private:
-  // Thins out the samples of many subdomains, evenly, as the samples are sorted along a curve.
+  // Thins out the samples of many subdomains, and of surfaces much finer than the mesh, evenly, as they are
+  // sorted along a curve; queries in succession are faster then, too.
   void thin_out(std::vector<Surface_sample>& samples) const
   {
     const std::size_t most = samples_per_vertex * m_number_of_vertices + least_samples,
                       step = samples.size() / most + 1;
+    if(step == 1)
+      return;
+    sort_along_curve(samples);
     std::size_t n = 0;
     for(std::size_t i = 0; i < samples.size(); i += step)
       samples[n++] = samples[i];
@@ -128,6 +129,7 @@ private:
   {
     using Kernel = CGAL::Simple_cartesian<double>;
     std::vector<std::pair<Kernel::Point_3, std::size_t>> numbered;
+    numbered.reserve(samples.size());
     for(std::size_t i = 0; i < samples.size(); ++i)
       numbered.emplace_back(Kernel::Point_3(samples[i].point[0], samples[i].point[1], samples[i].point[2]),
                             i);
@@ -136,6 +138,7 @@ private:
                        CGAL::Spatial_sort_traits_adapter_3<Kernel, Map>(Map()),
                        CGAL::Hilbert_sort_middle_policy());
     std::vector<Surface_sample> sorted;
+    sorted.reserve(samples.size());
     for(const auto& [point, i] : numbered)
       sorted.push_back(samples[i]);
     samples = std::move(sorted);
