@@ -8,6 +8,7 @@
 #include "core/Closed_surface.h"
 #include "core/patch_shapes.h"
 
+#include <CGAL/Mixed_mesh_3/IO/interface_sets.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 
@@ -33,9 +34,9 @@ std::vector<std::string> names_in_files(const Options& o, const std::vector<Subd
       names.push_back(sheet.name + side);
   for(std::size_t i = 0; subdomains.size() > 1 && i < subdomains.size(); ++i) {
     names.push_back(subdomains[i].name);
-    names.push_back(interface_set_name(subdomains[i].name, outside));
+    names.push_back(mm3::IO::interface_set_name(subdomains[i].name));
     for(const Subdomain& other : subdomains)
-      names.push_back(interface_set_name(subdomains[i].name, other.name));
+      names.push_back(mm3::IO::interface_set_name(subdomains[i].name, other.name));
   }
   return names;
 }

@@ -7,6 +7,7 @@
 
 #include "core/messages.h"
 
+#include <CGAL/Mixed_mesh_3/IO/interface_sets.h>
 #include <CGAL/Mixed_mesh_3/interfaces.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 
@@ -283,19 +284,12 @@ void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vecto
   warn_of(outcome.interfaces, outcome.warnings);
 }
 
-std::string interface_set_name(const std::string& first, const std::string& second)
-{
-  return second == outside ? second + '_' + first : "interface_" + first + '_' + second;
-}
-
 std::vector<mm3::IO::Facet_set> interfaces_of(const Mesh& mesh, const std::vector<Subdomain>& subdomains)
 {
-  std::vector<mm3::IO::Facet_set> sets;
   if(subdomains.size() < 2)
-    return sets;
-  for(mm3::Subdomain_interface& one : mm3::find_interfaces(mesh)) {
-    const std::string first = name_of(subdomains, one.first), second = name_of(subdomains, one.second);
-    sets.push_back({interface_set_name(first, second), std::move(one.faces)});
-  }
-  return sets;
+    return {};
+  mm3::IO::Subdomain_names names;
+  for(const Subdomain& s : subdomains)
+    names.emplace(s.index, s.name);
+  return mm3::IO::interface_sets(mesh, names);
 }

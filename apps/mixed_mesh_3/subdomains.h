@@ -67,9 +67,6 @@ void check_layers(const std::vector<Subdomain>& subdomains, const Options& optio
 void examine_subdomains(const Mesh& mesh, const CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
                         const std::vector<Subdomain>& subdomains, const Options& options, Outcome& outcome);
 
-/// The name of the facet set between two subdomains, or between a subdomain and the outside.
-std::string interface_set_name(const std::string& first, const std::string& second);
-
 /// The interfaces between two subdomains, such as `interface_tumor_brain`; with several subdomains, also the
 /// boundary of each subdomain, such as `outside_brain`.
 std::vector<CGAL::Mixed_meshes_3::IO::Facet_set> interfaces_of(const Mesh& mesh,

@@ -7,6 +7,7 @@
 
 #include "arrays.h"
 
+#include <CGAL/Mixed_mesh_3/IO/interface_sets.h>
 #include <CGAL/Mixed_mesh_3/IO/read_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/IO/write_mixed_mesh.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
@@ -243,7 +244,7 @@ std::vector<mm3::IO::Facet_set> facet_sets(const Mesh& mesh,
 void save(const Mesh& mesh, const std::string& path, int order, bool has_only_tetrahedra,
           const mm3::IO::Subdomain_names& names, const std::map<std::string, Doubles>& point_data,
           const std::map<std::string, Doubles>& cell_data,
-          const std::vector<std::pair<std::string, Marks>>& patches)
+          const std::vector<std::pair<std::string, Marks>>& patches, bool has_interfaces)
 {
   mm3::IO::Write_options options;
   options.order = order;
@@ -252,7 +253,12 @@ void save(const Mesh& mesh, const std::string& path, int order, bool has_only_te
   std::deque<std::vector<double>> values;
   options.vertex_data = data_arrays(point_data, values);
   options.element_data = data_arrays(cell_data, values);
-  options.facet_sets = facet_sets(mesh, patches);
+  if(has_interfaces)
+    options.facet_sets = mm3::IO::interface_sets(mesh, names);
+  if(options.facet_sets.size() == 1) // the boundary of one subdomain
+    options.facet_sets.clear();
+  for(mm3::IO::Facet_set& set : facet_sets(mesh, patches))
+    options.facet_sets.push_back(std::move(set));
   std::string error;
   bool is_written;
   {

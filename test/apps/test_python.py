@@ -430,6 +430,21 @@ class Test(unittest.TestCase):
         removed = mm3.resect(mesh, label=2)
         np.testing.assert_array_equal(removed, mesh.labels == 2)
 
+    def test_interfaces_in_files(self):
+        """Interfaces are facet sets with the bytes of the program."""
+        subprocess.run([BUILD / "bin" / "mixed_mesh_3", DATA / "brain.off", "--subdomain", f"tumor={DATA / 'tumour.off'}",
+                        "--vertices", "800", "--quiet", *(x for ending in ("inp", "msh") for x in
+                                                          ("--output", FOLDER / f"told.{ending}"))], check=True)
+        mesh, _ = mm3.mesh(*BRAIN, subdomains={"tumor": TUMOR}, vertices=800)
+        mesh.names = {1: "brain", **mesh.names}
+        for ending in ("inp", "msh"):
+            saved = FOLDER / f"saved.{ending}"
+            mesh.save(saved)
+            self.assertEqual(saved.read_bytes(), (FOLDER / f"told.{ending}").read_bytes(), ending)
+        self.assertIn("interface_brain_tumor", saved.read_text())
+        mesh.save(saved, interfaces=False)
+        self.assertNotIn("interface_", saved.read_text())
+
     def test_labels_of_an_image(self):
         n, affine = 24, np.diag([-2.0, 2.0, 2.0, 1.0])
         affine[:3, 3] = [20, -30, 5]

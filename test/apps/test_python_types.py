@@ -52,6 +52,7 @@ mm3.boundary_faces(mesh)[opening.faces].shape
 mesh.patch(sphere=(0, 0, 0))  # wrong
 mesh.patch(cone=((0, 0, 0), 20.0))  # wrong
 mesh.save("mesh.inp", patches=[opening])  # wrong
+mesh.save("mesh.inp", interfaces=False)
 opening.elements  # wrong
 model.solve().shape
 count: str = mesh.labels  # wrong

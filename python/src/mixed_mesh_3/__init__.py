@@ -137,7 +137,8 @@ def _patches(mesh, patches):
             for name, patch in (patches or {}).items()]
 
 
-def _save(self, path, *, order=1, tetrahedra=False, names=None, point_data=None, cell_data=None, patches=None):
+def _save(self, path, *, order=1, tetrahedra=False, names=None, point_data=None, cell_data=None, patches=None,
+          interfaces=True):
     """Writes a file as the program does: .vtu, .msh (Gmsh 4.1), .msh2 (Gmsh 2.2), .mesh, .inp or .feb.
 
     order: the order of the elements. Elements of order 2 are quadratic and straight-sided, with a node in the middle of
@@ -145,11 +146,12 @@ def _save(self, path, *, order=1, tetrahedra=False, names=None, point_data=None,
     elements are split into tetrahedra. names: {label: name} of subdomains; None: those of the mesh. .msh2 and .mesh have no
     place for them. point_data: {name: values} of vertices, (n,) or (n, components), for .vtu, .msh, .msh2 and .feb;
     cell_data: of elements, for .vtu. patches: {name: patch} of the boundary, each as of Mesh.patch(), or faces by truth
-    values or indices of the rows of boundary_faces(): the facet sets and node sets of the program's --patch. In .msh2 and
-    .mesh, no face is in two patches. Raises ValueError with the message of the program.
+    values or indices of the rows of boundary_faces(): the facet sets and node sets of the program's --patch. interfaces:
+    whether the interfaces of several subdomains are facet sets, too, such as interface_brain_tumor and outside_brain. In
+    .msh2 and .mesh, no face is in two sets. Raises ValueError with the message of the program.
     """
     _core.save(self, _os.fspath(path), _count("order", order), bool(tetrahedra),
-               self.names if names is None else dict(names), _data(point_data), _data(cell_data), _patches(self, patches))
+               self.names if names is None else dict(names), _data(point_data), _data(cell_data), _patches(self, patches), bool(interfaces))
 
 
 def _extract(self, subdomains):
