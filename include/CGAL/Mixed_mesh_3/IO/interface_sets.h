@@ -23,8 +23,8 @@ namespace Mixed_meshes_3 {
 namespace IO {
 
 /// \ingroup PkgMixedMesh3IO
-/// The name of the facet set between two subdomains, or, if the second one has no name, between a subdomain and
-/// the outside: `interface_skull_brain`, `outside_skull`.
+/// The name of the facet set between two subdomains, or, if the second one has no name, between a subdomain
+/// and the outside: `interface_skull_brain`, `outside_skull`.
 inline std::string interface_set_name(const std::string& first, const std::string& second = {})
 {
   return second.empty() ? "outside_" + first : "interface_" + first + '_' + second;
@@ -33,8 +33,8 @@ inline std::string interface_set_name(const std::string& first, const std::strin
 /*!
 \ingroup PkgMixedMesh3IO
 
-\brief Returns the interfaces of subdomains, and of subdomains and the outside, as facet sets to be written with
-the mesh.
+\brief Returns the interfaces of subdomains, and of subdomains and the outside, as facet sets to be written
+with the mesh.
 
 Faces are those of the subdomain that comes first in the name, which has the smaller index.
 

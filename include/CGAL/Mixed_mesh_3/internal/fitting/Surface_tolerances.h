@@ -53,7 +53,8 @@ class Surface_tolerances
   // Multiple of the mean chord: with a smaller one, the parts of a brain would take cells that its surface
   // and the region lack.
   static constexpr double share_of_chord = 3;
-  // Number of samples: about ten samples of a face are enough; ordinary surfaces and few subdomains have fewer.
+  // Number of samples: about ten samples of a face are enough; ordinary surfaces and few subdomains have
+  // fewer.
   static constexpr std::size_t samples_per_vertex = 20, least_samples = 50000;
 
 public:
