@@ -10,6 +10,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/Data_columns.h>
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/Mixed_element_traits_3.h>
@@ -56,6 +57,8 @@ public:
   using Subdomain_index = Mixed_meshes_3::Subdomain_index;
   /// The attributes of an element besides its kind and vertices.
   using Element_attributes = Mixed_meshes_3::Element_attributes;
+  /// The data of the user.
+  using Data_columns = Mixed_meshes_3::Data_columns;
   /// An element: its kind and its vertices, a range.
   using Element = Mixed_meshes_3::Element_view;
   /// The list of elements.
@@ -96,17 +99,31 @@ public:
   /// All elements.
   const Elements& elements() const { return m_elements; }
 
+  /// \name Data of the user
+  /// @{
+
+  /// The data at the vertices.
+  const Data_columns& vertex_data() const { return m_vertex_data; }
+  /// The data at the vertices; the caller may change columns, which have a row for each vertex.
+  Data_columns& vertex_data() { return m_vertex_data; }
+  /// The data of the elements.
+  const Data_columns& element_data() const { return m_element_data; }
+  /// The data of the elements; the caller may change columns, which have a row for each element.
+  Data_columns& element_data() { return m_element_data; }
+  /// @}
+
   /// \name Construction
   /// @{
 
-  /// Adds a vertex at a point.
+  /// Adds a vertex at a point; data there are NaN.
   Vertex_index add_vertex(const Point_3& p)
   {
     m_points.push_back(p);
+    m_vertex_data.add_row();
     return Vertex_index(m_points.size() - 1);
   }
 
-  /// Adds an element; its vertices are in the order of `reference_elements`.
+  /// Adds an element; its vertices are in the order of `reference_elements`, and its data are NaN.
   template <class Vertices>
   Element_index add_element(Element_kind kind, const Vertices& vertices,
                             const Element_attributes& attributes = {})
@@ -114,6 +131,7 @@ public:
     CGAL_precondition(attributes.subdomain_index > 0);
     m_elements.add(kind, vertices);
     m_attributes.push_back(attributes);
+    m_element_data.add_row();
     return Element_index(m_elements.size() - 1);
   }
 
@@ -124,19 +142,25 @@ public:
     return add_element<std::initializer_list<Vertex_index>>(kind, vertices, attributes);
   }
 
-  /// Takes whole arrays over. \pre `attributes.size() == elements.size()`, subdomain indices are positive
-  void assign(std::vector<Point_3> points, Elements elements, std::vector<Element_attributes> attributes)
+  /// Takes whole arrays over, and the data, by default none.
+  /// \pre `attributes.size() == elements.size()`, subdomain indices are positive, columns have a row for each
+  /// vertex, or each element
+  void assign(std::vector<Point_3> points, Elements elements, std::vector<Element_attributes> attributes,
+              Data_columns vertex_data = {}, Data_columns element_data = {})
   {
     CGAL_precondition(attributes.size() == elements.size());
+    CGAL_precondition(vertex_data.has_size(points.size()) && element_data.has_size(elements.size()));
     CGAL_expensive_precondition(
       std::all_of(attributes.begin(), attributes.end(),
                   [](const Element_attributes& a) { return a.subdomain_index > 0; }));
     m_points = std::move(points);
     m_elements = std::move(elements);
     m_attributes = std::move(attributes);
+    m_vertex_data = std::move(vertex_data);
+    m_element_data = std::move(element_data);
   }
 
-  /// Removes all vertices and elements.
+  /// Removes all vertices, elements and data.
   void clear() { *this = Mixed_mesh_3(); }
   /// @}
 
@@ -144,6 +168,7 @@ private:
   std::vector<Point_3> m_points;
   Elements m_elements;
   std::vector<Element_attributes> m_attributes;
+  Data_columns m_vertex_data, m_element_data;
 };
 
 } // namespace CGAL

@@ -90,7 +90,7 @@ void test_coloring()
 
   // New elements are between vertices of the same color, and there is a new vertex.
   internal::Transaction transaction(mesh);
-  const Vertex_index middle = transaction.add_vertex({2.5, 2.5, 2.5}, internal::free_stratum);
+  const Vertex_index middle = transaction.add_vertex({2.5, 2.5, 2.5}, internal::free_stratum, {0, 1});
   std::size_t i = 0;
   for(const std::vector<Vertex_index>& same : std::vector(coloring.vertices())) {
     transaction.add({TETRAHEDRON, false, {}, {same[0], same[1], same[2], middle}});

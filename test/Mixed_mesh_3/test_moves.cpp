@@ -354,8 +354,9 @@ class Random_moves
       case 1: remove(transaction, e); break;
       case 2: transaction.add(m_mesh.elements[e]); break;
       case 3:
-        transaction.add(m_mesh.elements[e].with_other_vertex(random_vertex_of(e),
-                                                             transaction.add_vertex(random_step(1), 1)));
+        transaction.add(
+          m_mesh.elements[e].with_other_vertex(random_vertex_of(e),
+                                               transaction.add_vertex(random_step(1), 1, {0, 1})));
         break;
       case 4: transaction.set_attributes(e, {int(below(4)) + 1, below(2) == 0, int(below(3))}); break;
       case 5: transaction.move(a, random_step(1)); break;

@@ -27,10 +27,11 @@ namespace Mixed_meshes_3 {
 
 \brief The elements of some subdomains, with their vertices: a mesh of its own.
 
-Elements and vertices keep their order, elements their attributes, so that the result is conforming, and its
-elements are valid, if those of the mesh are. Interfaces with subdomains that are left out are part of the
-boundary. The boundary need not be a manifold: subdomains may have only an edge or a vertex in common, which
-`find_defects()` counts; `resect()` removes and restores elements such that there is no such place.
+Elements and vertices keep their order and their data, elements their attributes, so that the result is
+conforming, and its elements are valid, if those of the mesh are. Interfaces with subdomains that are left out
+are part of the boundary. The boundary need not be a manifold: subdomains may have only an edge or a vertex in
+common, which `find_defects()` counts; `resect()` removes and restores elements such that there is no such
+place.
 
 \tparam Mesh a `Mixed_mesh_3`
 \param mesh the mesh

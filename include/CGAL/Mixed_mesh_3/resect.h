@@ -271,7 +271,7 @@ Resection_3 resect(const Mesh& mesh, const Tumor& tumor,
 
 \brief The mesh that is left: without the removed elements, and without vertices of removed elements only.
 
-Elements and vertices keep their order, elements their attributes.
+Elements and vertices keep their order, elements their attributes, and both their data.
 
 \param mesh the mesh
 \param is_removed true for each element that is removed. \pre one for each element
@@ -292,15 +292,12 @@ Mesh remaining_mesh(const Mesh& mesh, const std::vector<bool>& is_removed,
       for(Vertex_index v : mesh.element(e))
         numbers[v] = 0;
   Mesh remaining;
-  if(vertex_map != nullptr)
-    vertex_map->clear();
-  if(element_map != nullptr)
-    element_map->clear();
+  std::vector<Vertex_index> vertices;
+  std::vector<Element_index> elements;
   for(Vertex_index v = 0; v < numbers.size(); ++v)
     if(numbers[v] != internal::no_vertex) {
       numbers[v] = remaining.add_vertex(mesh.point(v));
-      if(vertex_map != nullptr)
-        vertex_map->push_back(v);
+      vertices.push_back(v);
     }
   for(Element_index e = 0; e < is_removed.size(); ++e)
     if(!is_removed[e]) {
@@ -309,9 +306,14 @@ Mesh remaining_mesh(const Mesh& mesh, const std::vector<bool>& is_removed,
       for(Vertex_index u : element)
         v.push_back(numbers[u]);
       remaining.add_element(element.kind(), v, mesh.attributes(e));
-      if(element_map != nullptr)
-        element_map->push_back(e);
+      elements.push_back(e);
     }
+  remaining.vertex_data() = mesh.vertex_data().selected(vertices);
+  remaining.element_data() = mesh.element_data().selected(elements);
+  if(vertex_map != nullptr)
+    *vertex_map = std::move(vertices);
+  if(element_map != nullptr)
+    *element_map = std::move(elements);
   return remaining;
 }
 

@@ -10,6 +10,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/Data_columns.h>
 #include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/for_each_face.h>
@@ -221,7 +222,8 @@ come apart, or slide along each other. Vertices at the rim of the faces, where t
 connected, stay single, except on the boundary of the mesh: the slit is open there. A vertex where sheets meet
 gets as many copies as there are parts around.
 
-All vertices and elements keep their numbers; copies are at the end, at the same places as their originals.
+All vertices and elements keep their numbers and their data; copies are at the end, at the same places as
+their originals, with the same data.
 The mesh is conforming except for the slit, and no element changes its shape. The boundary is a manifold if it
 was one: where it would not be, faces stay closed.
 
@@ -259,7 +261,11 @@ Slit split_along_faces(Mesh& mesh, const std::vector<Face>& faces)
       result.faces.emplace_back(first == face ? a : b, first == face ? b : a);
   }
   result.origins = slit.origins();
-  mesh.assign(std::move(points), std::move(elements), mesh.attributes());
+  Data_columns vertex_data = mesh.vertex_data();
+  for(Vertex_index v : result.origins)
+    vertex_data.add_row({{v, 1}});
+  mesh.assign(std::move(points), std::move(elements), mesh.attributes(), std::move(vertex_data),
+              mesh.element_data());
   return result;
 }
 

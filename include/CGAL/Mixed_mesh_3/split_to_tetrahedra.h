@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -29,7 +30,8 @@ is a cone from its vertex of smallest index. Both elements at a face therefore s
 way, and the result is conforming; no vertex is added. A pyramid becomes 2 tetrahedra, a prism 3, a
 hexahedron 6.
 
-Tetrahedra are in the order of the elements that they come from, and have the attributes of these elements.
+Tetrahedra are in the order of the elements that they come from, and have the attributes and the data of these
+elements. Vertices keep their data.
 
 The union is the same where quadrilaterals are planar. Where quadrilaterals are warped, the surface follows
 the diagonals, and tetrahedra of a valid but badly shaped element can have a negative volume.
@@ -42,8 +44,7 @@ Mesh split_to_tetrahedra(const Mesh& mesh, std::vector<Element_index>* origins =
 {
   Mesh result;
   result.points() = mesh.points();
-  if(origins != nullptr)
-    origins->clear();
+  std::vector<Element_index> elements; // element of each tetrahedron
 
   for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
     const Element_view element = mesh.element(e);
@@ -67,11 +68,14 @@ Mesh split_to_tetrahedra(const Mesh& mesh, std::vector<Element_index>* origins =
                             element[face.vertices[(first + i) % face.size]],
                             element[face.vertices[(first + i + 1) % face.size]]},
                            mesh.attributes(e));
-        if(origins != nullptr)
-          origins->push_back(e);
+        elements.push_back(e);
       }
     }
   }
+  result.vertex_data() = mesh.vertex_data();
+  result.element_data() = mesh.element_data().selected(elements);
+  if(origins != nullptr)
+    *origins = std::move(elements);
   return result;
 }
 

@@ -18,6 +18,7 @@
 #include <CGAL/Mixed_mesh_3/IO/internal/mesh/Compressed_blocks.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/mesh/Element_blocks.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/mesh/Mesh_nodes.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/mesh/VTU_names.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 
 #include <CGAL/config.h>
@@ -110,6 +111,37 @@ VTU_array element_data_array(const Mesh& mesh, const Data_array& data)
           }};
 }
 
+// What is wrong with columns of the mesh; empty if nothing is.
+inline std::string column_defect(const Data_columns& columns, bool is_vertex_data, std::size_t size)
+{
+  for(const Data_column& column : columns) {
+    if(is_own_VTU_name(column.name(), is_vertex_data))
+      return "data \"" + column.name() + "\" of the mesh have a name that VTK files have for something else";
+    if(column.number_of_rows() != size)
+      return "data \"" + column.name() + "\" do not have the size of the mesh";
+  }
+  return "";
+}
+
+template <class Mesh>
+std::string column_defect(const Mesh& mesh)
+{
+  const std::string defect = column_defect(mesh.vertex_data(), true, mesh.number_of_vertices());
+  return defect.empty() ? column_defect(mesh.element_data(), false, mesh.number_of_elements()) : defect;
+}
+
+// The columns of the mesh, but for those that have the name of an array given, and the arrays given.
+inline std::vector<Data_array> with_columns(const Data_columns& columns, const std::vector<Data_array>& given)
+{
+  std::vector<Data_array> all;
+  for(const Data_column& column : columns)
+    if(std::none_of(given.begin(), given.end(),
+                    [&](const Data_array& array) { return array.name == column.name(); }))
+      all.push_back({column.name(), &column.values(), column.number_of_components()});
+  all.insert(all.end(), given.begin(), given.end());
+  return all;
+}
+
 // What is known of the elements of each mesh.
 template <class Mesh>
 VTU_arrays own_element_arrays(const Mesh& mesh)
@@ -149,8 +181,8 @@ void add_node_set_arrays(VTU_arrays& arrays, const Mesh_nodes<Mesh>& nodes,
 {
   for(const Facet_set& set : sets)
     if(!set.faces.empty())
-      arrays.push_back({"nodes_" + set.name, vtk_type_name<std::uint8_t>(), 1, nodes.size(),
-                        [&nodes, &set](Buffered_output& out) {
+      arrays.push_back({std::string(VTU_prefix_of_nodes) + set.name, vtk_type_name<std::uint8_t>(), 1,
+                        nodes.size(), [&nodes, &set](Buffered_output& out) {
                           std::vector<std::uint8_t> is_in_set(nodes.size(), 0);
                           for(Vertex_index node : nodes.of(set.faces))
                             is_in_set[node] = 1;
@@ -165,7 +197,7 @@ void add_facet_arrays(VTU_arrays& arrays, const Mesh& mesh, const std::vector<Fa
 {
   for(std::size_t i = 0; i < sets.size(); ++i)
     if(!sets[i].faces.empty())
-      arrays.push_back(element_array<std::uint8_t>("facets_" + sets[i].name, mesh,
+      arrays.push_back(element_array<std::uint8_t>(std::string(VTU_prefix_of_facets) + sets[i].name, mesh,
                                                    [&numbers = numbers_of_facets[i]](Element_index e) {
                                                      return numbers[e];
                                                    }));
@@ -303,12 +335,14 @@ zlib if `CGAL_USE_ZLIB` is defined and zlib is linked.
 Elements are sorted by kind, within a kind in the order of the mesh: programs that read blocks of one kind
 find four. Element data: `kind` (the number of the `Element_kind`), `ARC` (the aspect-ratio coefficient),
 `in_region` (1 or 0), `subdomain` (the subdomain index), `compartment`
-(if there are sheets, see `find_sheet_faces()`), what the options add, and for each facet set
+(if there are sheets, see `find_sheet_faces()`), the columns of `Mixed_mesh_3::element_data()`, what the
+options add, and for each facet set
 `facets_` with its name: the number of the element's faces in the set, since a file of elements has no faces
-of their own; a threshold above 0 selects the elements. Point data for each facet set: `nodes_` with its name,
-1 for the nodes of its faces and 0 for others. Field data, if subdomains have
-names: `subdomain_indices`, and `subdomain_names` as bytes with a zero behind each name. Nothing of the size
-of the mesh is allocated but for facet sets, for middle nodes, and for what is compressed.
+of their own; a threshold above 0 selects the elements. Point data: the columns of
+`Mixed_mesh_3::vertex_data()`, at middle nodes the means of both ends; what the options add; and for each
+facet set: `nodes_` with its name, 1 for the nodes of its faces and 0 for others. Field data, if subdomains
+have names: `subdomain_indices`, and `subdomain_names` as bytes with a zero behind each name. Nothing of the
+size of the mesh is allocated but for facet sets, for middle nodes, and for what is compressed.
 
 VTK disagrees with itself on wedges. Written in the documented order, as here, their faces look
 outwards and `vtkCellSizeFilter` finds a positive volume, but the Jacobian of the shape functions of
@@ -319,8 +353,11 @@ version of VTK has for all four kinds. VTK documents the order of its quadratic 
 one, and disagrees with itself in the same way. meshio mirrors linear wedges only: other programs get
 quadratic prisms by `.msh` or `.inp`.
 
-\return whether the stream took everything. If the size of an added array does not fit the mesh, then
-        nothing is written, and the stream's `failbit` is set.
+A value that the options give replaces the column of the mesh that has its name.
+
+\return whether the stream took everything. If the size of an added array or of a column does not fit the
+        mesh, or if a column has one of the names above, or begins with `facets_` at elements or `nodes_` at
+        vertices, then nothing is written, and the stream's `failbit` is set.
 */
 template <class Mesh>
 bool write_VTU(std::ostream& stream, const Mesh& mesh, const VTU_options& options = VTU_options())
@@ -330,17 +367,19 @@ bool write_VTU(std::ostream& stream, const Mesh& mesh, const VTU_options& option
 
   VTU_arrays vertex_data, element_data = own_element_arrays(mesh);
   const Mesh_nodes<Mesh> nodes(mesh, options.order);
-  bool fits = true;
-  for(const Data_array& data : options.vertex_data)
+  const std::vector<Data_array> data_of_vertices = with_columns(mesh.vertex_data(), options.vertex_data),
+                                data_of_elements = with_columns(mesh.element_data(), options.element_data);
+  bool fits = column_defect(mesh).empty();
+  for(const Data_array& data : data_of_vertices)
     fits = fits && (data.has_size(mesh.number_of_vertices()) || data.has_size(nodes.size()));
-  for(const Data_array& data : options.element_data)
+  for(const Data_array& data : data_of_elements)
     if((fits = fits && data.has_size(m)))
       element_data.push_back(element_data_array(mesh, data));
   if(!fits) {
     stream.setstate(std::ios_base::failbit);
     return false;
   }
-  const Node_data node_data(nodes, options.vertex_data);
+  const Node_data node_data(nodes, data_of_vertices);
   for(const Data_array& data : node_data.arrays())
     vertex_data.push_back(vertex_data_array(data));
   add_node_set_arrays(vertex_data, nodes, options.facet_sets);

@@ -52,7 +52,8 @@ template <class Mesh>
     for(const auto& p : input.points)
       points.emplace_back(p[0], p[1], p[2]);
     Mesh result;
-    result.assign(std::move(points), std::move(input.elements), std::move(input.attributes));
+    result.assign(std::move(points), std::move(input.elements), std::move(input.attributes),
+                  std::move(input.vertex_data), std::move(input.element_data));
     mesh = std::move(result);
     subdomain_names = std::move(input.subdomain_names);
   });
@@ -83,6 +84,10 @@ subdomain, a positive integer; without them the subdomain is 1. Physical volumes
 and "subdomain_2_rest" are these parts of subdomains. The subdomain in the other formats is the reference
 (Medit), the first attribute (TetGen) or the material (Netgen), and no element is in the region.
 `write_mixed_mesh()` sorts the elements of a `.vtu` file by kind.
+
+All other arrays of numbers at points and cells (VTK) become columns of `Mixed_mesh_3::vertex_data()` and
+`Mixed_mesh_3::element_data()`, but those that `write_VTU()` makes of the mesh itself and of facet sets, and,
+of a file of several pieces, those that some pieces do not have. Integers become doubles.
 
 The file is checked, and coordinates are finite and at most 1e30, but the mesh is not checked: elements may be
 inverted, or not fit together; see `find_defects()`.

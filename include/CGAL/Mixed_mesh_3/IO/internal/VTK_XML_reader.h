@@ -341,6 +341,16 @@ protected:
 
   bool has_strings(const Array& array) const { return type_of(array) == "String"; }
 
+  bool has_numbers(const Array& array) const
+  {
+    return !has_strings(array) && with_type(type_of(array), [](auto) {});
+  }
+
+  std::uint64_t number_of_components(const Array& array) const
+  {
+    return has_attribute(array.tag, "NumberOfComponents") ? number(array.tag, "NumberOfComponents") : 1;
+  }
+
   // The number of bytes of an array of strings; 0 if the strings are compressed, which is not supported.
   std::uint64_t size_of_text(const Array& array) const
   {
@@ -373,21 +383,25 @@ protected:
     const Array* const array = piece.array(section, name);
     if(array == nullptr)
       refuse("has no array \"" + std::string(name) + "\"");
-    const std::uint64_t components = attribute(array->tag, "NumberOfComponents")
-                                       ? number(array->tag, "NumberOfComponents")
-                                       : 1;
+    const std::uint64_t components = number_of_components(*array);
     if(components != (std::string_view(section) == "Points" ? 3 : 1))
       refuse_array(*array, "has " + std::to_string(components) + " components");
+    return values<Value>(*array, count);
+  }
+
+  template <class Value>
+  std::vector<Value> values(const Array& array, std::uint64_t count)
+  {
     if(count > std::uint64_t(m_bytes.size()) * largest_compression)
-      refuse_array(*array, "would have " + std::to_string(count) + " values, more than fit into the file");
+      refuse_array(array, "would have " + std::to_string(count) + " values, more than fit into the file");
     std::vector<Value> result;
-    const bool is_known = with_type(type_of(*array), [&](auto zero) {
+    const bool is_known = with_type(type_of(array), [&](auto zero) {
       using T = decltype(zero);
       if constexpr(std::is_floating_point<T>::value && !std::is_floating_point<Value>::value) {
-        refuse_array(*array, "has the type " + in_quotes(type_of(*array)) + "; expected integers");
+        refuse_array(array, "has the type " + in_quotes(type_of(array)) + "; expected integers");
       } else {
-        std::vector<T> read = format_of(*array) == "ascii" ? read_text<T>(*array, std::size_t(count))
-                                                           : read_binary<T>(*array, std::size_t(count));
+        std::vector<T> read = format_of(array) == "ascii" ? read_text<T>(array, std::size_t(count))
+                                                          : read_binary<T>(array, std::size_t(count));
         if constexpr(std::is_same<T, Value>::value)
           result = std::move(read);
         else
@@ -395,7 +409,7 @@ protected:
       }
     });
     if(!is_known)
-      refuse_array(*array, "has the unknown type " + in_quotes(type_of(*array)));
+      refuse_array(array, "has the unknown type " + in_quotes(type_of(array)));
     return result;
   }
 };

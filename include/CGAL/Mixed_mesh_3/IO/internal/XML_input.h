@@ -25,9 +25,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -40,6 +42,23 @@ struct XML_tag
   std::string_view attributes;
   bool is_start = false, is_end = false; // both for <name/>
 };
+
+// The text of an attribute: the inverse of `escaped_for_XML()`.
+inline std::string unescaped_from_XML(std::string_view text)
+{
+  constexpr std::pair<std::string_view, char> entities[] = {
+    {"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
+  std::string result;
+  while(!text.empty()) {
+    const auto entity = std::find_if(std::begin(entities), std::end(entities), [text](const auto& e) {
+      return text.substr(0, e.first.size()) == e.first;
+    });
+    const bool is_entity = entity != std::end(entities);
+    result += is_entity ? entity->second : text.front();
+    text.remove_prefix(is_entity ? entity->first.size() : 1);
+  }
+  return result;
+}
 
 // Reader of the part of XML that VTK and GIFTI use. Characters written as entities are left as they are.
 class XML_input

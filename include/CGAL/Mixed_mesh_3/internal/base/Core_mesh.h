@@ -38,7 +38,8 @@ decltype(auto) as_core_mesh(const Mesh& mesh)
     for(const auto& p : mesh.points())
       points.emplace_back(rounded(p.x()), rounded(p.y()), rounded(p.z()));
     Core_mesh core;
-    core.assign(std::move(points), mesh.elements(), mesh.attributes());
+    core.assign(std::move(points), mesh.elements(), mesh.attributes(), mesh.vertex_data(),
+                mesh.element_data());
     return core;
   }
 }
@@ -64,7 +65,8 @@ auto with_core_mesh(Mesh& mesh, const Function& f)
       else
         points.emplace_back(p.x(), p.y(), p.z());
     }
-    mesh.assign(std::move(points), core.elements(), core.attributes());
+    mesh.assign(std::move(points), core.elements(), core.attributes(), core.vertex_data(),
+                core.element_data());
     return result;
   }
 }

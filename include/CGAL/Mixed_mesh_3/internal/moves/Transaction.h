@@ -75,9 +75,9 @@ public:
     m_changes.undo.emplace_back([e, before](Working_mesh& mesh) { mesh.elements[e].attributes = before; });
   }
 
-  Vertex_index add_vertex(const Vec3& p, Stratum stratum)
+  Vertex_index add_vertex(const Vec3& p, Stratum stratum, const Working_mesh::Edge& bisected)
   {
-    m_mesh.add_vertex(p, stratum);
+    m_mesh.add_vertex(p, stratum, bisected);
     m_changes.undo.emplace_back([](Working_mesh& mesh) { mesh.remove_last_vertex(); });
     return Vertex_index(m_mesh.points.size() - 1);
   }

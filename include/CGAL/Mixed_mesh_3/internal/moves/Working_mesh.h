@@ -13,6 +13,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/Data_columns.h>
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/certificate.h>
@@ -20,6 +21,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Incident_elements.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Strata.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/element_origins.h>
 
 #include <CGAL/assertions.h>
 
@@ -87,6 +89,7 @@ struct Working_mesh
   std::vector<Stratum> strata;                        ///< strata of the vertices
   using Edge = std::pair<Vertex_index, Vertex_index>; ///< smaller vertex first
   std::map<Edge, Stratum> sharp_edges;                ///< edges of the boundary along sharp edges
+  std::vector<Edge> bisected;                         ///< edges of which the added vertices are the middles
   std::vector<Vertex_index> merged;                   ///< vertices that no element has any more
   Transaction* transaction = nullptr;                 ///< the innermost one that is open
 
@@ -285,7 +288,8 @@ struct Working_mesh
     if(!has_elements_of_start())
       return with_changed_elements(start);
     Mesh mesh;
-    mesh.assign(changed_points(start), start.elements(), start.attributes());
+    mesh.assign(changed_points(start), start.elements(), start.attributes(), start.vertex_data(),
+                start.element_data());
     return mesh;
   }
 
@@ -332,9 +336,10 @@ private:
 
   // Changes, each with the one that undoes it.
 
-  void add_vertex(const Vec3& p, Stratum stratum)
+  void add_vertex(const Vec3& p, Stratum stratum, const Edge& edge)
   {
     points.push_back(p);
+    bisected.push_back(edge);
     incident.add_vertex();
     strata.push_back(stratum);
   }
@@ -342,6 +347,7 @@ private:
   void remove_last_vertex()
   {
     points.pop_back();
+    bisected.pop_back();
     incident.remove_last_vertex();
     strata.pop_back();
   }
@@ -410,7 +416,41 @@ private:
       mesh.assign(changed_points(start), element_list(is_present), attributes(is_present));
     else
       assign_without_merged(changed_points(start), mesh);
+    mesh.vertex_data() = vertex_data(start.vertex_data());
+    mesh.element_data() = element_data(start);
     return mesh;
+  }
+
+  // Data of the vertices of the changed mesh: those of the start, and of the middles, one after the other, as
+  // the ends of an edge may be middles themselves.
+  Data_columns vertex_data(Data_columns data) const
+  {
+    if(data.empty())
+      return data;
+    for(const Edge& edge : bisected)
+      data.add_row({{edge.first, 0.5}, {edge.second, 0.5}});
+    const std::vector<Vertex_index> numbers = numbers_without_merged();
+    std::vector<Vertex_index> left;
+    for(Vertex_index v = 0; v < points.size(); ++v)
+      if(numbers[v] != no_vertex)
+        left.push_back(v);
+    return data.selected(left);
+  }
+
+  // Data of the elements of the changed mesh. Elements of the start keep their numbers while the mesh is
+  // changed.
+  template <class Mesh>
+  Data_columns element_data(const Mesh& start) const
+  {
+    if(start.element_data().empty())
+      return {};
+    std::vector<Vec3> old_points;
+    old_points.reserve(points.size());
+    for(const auto& p : start.points())
+      old_points.push_back(to_vec3(p));
+    for(const Edge& edge : bisected)
+      old_points.push_back(0.5 * (old_points[edge.first] + old_points[edge.second]));
+    return start.element_data().selected(element_origins(start, elements, old_points));
   }
 
   // The numbers of vertices once those are gone that were merged; these have none.

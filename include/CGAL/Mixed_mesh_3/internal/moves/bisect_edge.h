@@ -34,7 +34,7 @@ bool bisect_edge(Working_mesh& mesh, const Quality& quality, Vertex_index a, Ver
                   [&](Element_index e) { return mesh.elements[e].kind == TETRAHEDRON; }))
     return false;
   Transaction transaction(mesh);
-  const Vertex_index middle = transaction.add_vertex(p, stratum);
+  const Vertex_index middle = transaction.add_vertex(p, stratum, {a, b});
   for(Element_index e : old)
     transaction.remove(e);
   for(Element_index e : old)

@@ -13,6 +13,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/Data_columns.h>
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
@@ -31,6 +32,7 @@ struct Mesh_input
   std::vector<Mixed_meshes_3::Vec3> points;
   Element_list elements;
   std::vector<Element_attributes> attributes;
+  Data_columns vertex_data, element_data; // columns with a row for each, or none
   Subdomain_names subdomain_names;
 };
 

@@ -12,10 +12,13 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/Data_columns.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/mesh/Mesh_input.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/VTK_XML_reader.h>
+#include <CGAL/Mixed_mesh_3/IO/internal/mesh/VTU_names.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/mesh/element_names.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -23,6 +26,8 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -98,6 +103,78 @@ class VTU_reader : VTK_XML_reader
     return result;
   }
 
+  // ---- data of the user ---------------------------------------------------------------------
+
+  // The values of one array, from all pieces.
+  struct Column
+  {
+    std::string_view name_in_file;
+    std::string name;
+    std::uint64_t number_of_components;
+    std::vector<double> values;
+  };
+  std::vector<Column> m_vertex_columns, m_element_columns;
+
+  // The array of a piece for a column; null if there is none, or one of another number of components.
+  const Array* array_of(const Column& column, const Piece& piece, std::string_view section) const
+  {
+    const Array* const array = piece.array(section, column.name_in_file);
+    return array != nullptr && has_numbers(*array)
+               && number_of_components(*array) == column.number_of_components
+             ? array
+             : nullptr;
+  }
+
+  // The arrays of the user that all pieces have, as columns without values.
+  std::vector<Column> columns(std::string_view section, bool is_vertex_data) const
+  {
+    constexpr std::uint64_t most_components = (std::numeric_limits<int>::max)();
+    std::vector<Column> result;
+    if(pieces().empty())
+      return result;
+    for(const Array& array : pieces().front().arrays) {
+      const std::string name = unescaped_from_XML(array.name);
+      if(array.section != section || name.empty() || is_own_VTU_name(name, is_vertex_data)
+         || !has_numbers(array))
+        continue;
+      Column column{array.name, name, number_of_components(array), {}};
+      const auto is_same = [&](const Column& other) { return other.name == column.name; };
+      const auto has_column = [&](const Piece& piece) { return array_of(column, piece, section) != nullptr; };
+      if(column.number_of_components > 0 && column.number_of_components <= most_components
+         && std::none_of(result.begin(), result.end(), is_same)
+         && std::all_of(pieces().begin(), pieces().end(), has_column))
+        result.push_back(std::move(column));
+    }
+    return result;
+  }
+
+  // Reads the rows of a piece that are chosen.
+  template <class Is_chosen>
+  void read_rows(std::vector<Column>& columns, const Piece& piece, std::string_view section,
+                 std::uint64_t number, const Is_chosen& is_chosen)
+  {
+    if(number == 0)
+      return;
+    for(Column& column : columns) {
+      const std::size_t n = std::size_t(column.number_of_components);
+      const std::vector<double> all = values<double>(*array_of(column, piece, section), number * n);
+      for(std::size_t row = 0; row < number; ++row)
+        if(is_chosen(row))
+          column.values.insert(column.values.end(), all.begin() + std::ptrdiff_t(row * n),
+                               all.begin() + std::ptrdiff_t((row + 1) * n));
+    }
+  }
+
+  static Data_columns data(std::vector<Column>& columns)
+  {
+    Data_columns result;
+    for(Column& column : columns)
+      result.add(std::move(column.name), std::move(column.values), int(column.number_of_components));
+    return result;
+  }
+
+  // ---- the file -----------------------------------------------------------------------------
+
   void read_piece(const Piece& piece, Mesh_input& mesh)
   {
     const std::uint64_t n = number(piece.tag, "NumberOfPoints"), m = number(piece.tag, "NumberOfCells"),
@@ -116,6 +193,7 @@ class VTU_reader : VTK_XML_reader
 
     for(std::size_t v = 0; v < n; ++v)
       mesh.points.push_back({coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]});
+    std::vector<bool> is_element(std::size_t(m), false);
     std::int64_t begin = 0;
     for(std::size_t e = 0; e < m; ++e) {
       const std::int64_t end = offsets[e];
@@ -138,9 +216,12 @@ class VTU_reader : VTK_XML_reader
                                                   + std::uint64_t(connectivity[std::size_t(begin + i)]));
         mesh.elements.add(type->kind, vertices.data());
         mesh.attributes.push_back(attributes(labels_of_cells, e));
+        is_element[e] = true;
       }
       begin = end;
     }
+    read_rows(m_vertex_columns, piece, "PointData", n, [](std::size_t) { return true; });
+    read_rows(m_element_columns, piece, "CellData", m, [&](std::size_t e) { return is_element[e]; });
   }
 
   void read_subdomain_names(Mesh_input& mesh)
@@ -175,8 +256,12 @@ public:
   Mesh_input read()
   {
     Mesh_input mesh;
+    m_vertex_columns = columns("PointData", true);
+    m_element_columns = columns("CellData", false);
     for(const Piece& piece : pieces())
       read_piece(piece, mesh);
+    mesh.vertex_data = data(m_vertex_columns);
+    mesh.element_data = data(m_element_columns);
     read_subdomain_names(mesh);
     return mesh;
   }

@@ -84,6 +84,8 @@ inline std::string defect_of_output(const Core_mesh& mesh, const Mesh_format& fo
   std::string defect = order_defect(format, options.order);
   if(defect.empty())
     defect = data_defect(mesh, format, options);
+  if(defect.empty() && format.format == Format::VTU)
+    defect = column_defect(mesh);
   for(std::size_t v = 0; v < mesh.number_of_vertices() && defect.empty(); ++v)
     for(double x : Mixed_meshes_3::to_vec3(mesh.points()[v]))
       if(!std::isfinite(x))
