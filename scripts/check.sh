@@ -24,6 +24,8 @@
 #   doc         the manual, by doxygen; a warning is an error
 #   fuzz        targets of libFuzzer, one a reader, run for FUZZ_SECONDS each (default: 12), from test/fuzz/corpus;
 #               what makes one fail is kept in the build directory
+#   threads     meshes of a surface and of an image by four threads, with ThreadSanitizer, by g++: a data race is an
+#               error; test/threads has the parallel loop that it understands
 #   layout      the repository as it would lie in CGAL's tree: scripts/lay_out_as_cgal.py; examples and a test
 #               are compiled there, with -Wpedantic, by LAYOUT_COMPILERS (default: g++ clang++), also with the CGAL of
 #               CGAL_DIR_61
@@ -33,7 +35,7 @@
 #
 # A part that fails does not keep the next ones from running. If DEADLINE is set, in seconds since 1970, parts that
 # have not ended by then are left out, and named: those that find most come first. BUILD_DIR overrides the folder of
-# the build directories, build: release and checked, as the presets have them, clang, cgal61 and layout.
+# the build directories, build: release and checked, as the presets have them, clang, threads, cgal61 and layout.
 
 set -euo pipefail
 
@@ -43,7 +45,7 @@ source "$root/scripts/setup.sh"
 
 build=$(realpath -m "${BUILD_DIR:-$root/build}")
 quick=(format shell python layers)
-compiled=(checked headers same_bytes instructions doc fuzz layout benchmarks cgal61)
+compiled=(checked headers same_bytes instructions doc fuzz threads layout benchmarks cgal61)
 
 # The tests that run with sanitizers, and their programs. Not those that read a surface or mesh one: with
 # sanitizers, a compiler takes long for CGAL's polygon meshes. The preset `checked` has all.
@@ -239,6 +241,22 @@ check_fuzz() {
   export -f fuzz
   printf '%s\n' "${readers[@]}" | xargs --max-procs="$(nproc)" -I{} bash -c 'fuzz {}' ||
     fail "a reader fails: see the files in $build/clang/fuzz"
+}
+
+check_threads() {
+  local meshes=$build/threads/meshes mesher=$build/threads/bin/mixed_mesh_3 megabytes=2500
+  local sanitizer="-O1 -g1 -DNDEBUG -fsanitize=thread -I$root/test/threads"
+  configure threads -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=$sanitizer" -DMIXED_MESH_3_BUILD_APPS=ON
+  build "$build/threads" mixed_mesh_3
+  mkdir -p "$meshes"
+  export TSAN_OPTIONS=halt_on_error=1 # with exit status 66
+  mesh() {
+    "$mesher" "${@:2}" --threads 4 --quiet --output "$meshes/$1.msh"
+  }
+  mesh brain data/brain.off --region data/region.off --vertices 3000
+  mesh subdomains data/brain.off --subdomain data/tumour.off --vertices 2000
+  mesh labels test/corpus/bridge_of_a_voxel.nii.gz --labels a=1,b=2,c=3 --vertices 1000
+  echo "no data races in $(find "$meshes" -name '*.msh' | wc -l) meshes"
 }
 
 check_cgal61() {
