@@ -45,7 +45,7 @@ source "$root/scripts/setup.sh"
 
 build=$(realpath -m "${BUILD_DIR:-$root/build}")
 quick=(format shell python layers)
-compiled=(checked headers same_bytes instructions doc fuzz threads layout benchmarks cgal61)
+compiled=(checked headers same_bytes instructions doc fuzz layout benchmarks cgal61 threads)
 
 # The tests that run with sanitizers, and their programs. Not those that read a surface or mesh one: with
 # sanitizers, a compiler takes long for CGAL's polygon meshes. The preset `checked` has all.
