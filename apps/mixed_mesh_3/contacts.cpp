@@ -10,6 +10,7 @@
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/take_faces.h>
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/weld_points.h>
 #include <CGAL/Mixed_mesh_3/IO/read_closed_surface.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Disjoint_sets.h>
 #include <CGAL/Mixed_mesh_3/internal/base/box_pairs.h>
 #include <CGAL/Mixed_mesh_3/internal/repair/Solid_reading.h>
 #include <CGAL/Mixed_mesh_3/internal/repair/Triangle_arrangement.h>
@@ -288,13 +289,7 @@ bool have_common_face(const std::array<mm3::Vec3, 3>& s, const std::array<mm3::V
 // Sets of triangles of different surfaces that touch in faces, in triangles that are not equal.
 std::vector<std::vector<std::size_t>> touching_triangles(double distance, const Soup& soup)
 {
-  std::vector<std::size_t> parent(soup.triangles.size());
-  std::iota(parent.begin(), parent.end(), std::size_t(0));
-  const auto root_of = [&parent](std::size_t t) {
-    while(parent[t] != t)
-      t = parent[t] = parent[parent[t]];
-    return t;
-  };
+  mm3::internal::Disjoint_sets touching(soup.triangles.size());
   const auto corners = [&soup](std::size_t t) {
     const auto& [a, b, c] = soup.triangles[t];
     return std::array<mm3::Vec3, 3>{mm3::to_vec3(soup.points[a]), mm3::to_vec3(soup.points[b]),
@@ -304,16 +299,15 @@ std::vector<std::vector<std::size_t>> touching_triangles(double distance, const 
     const Triangle &a = soup.triangles[s], &b = soup.triangles[t];
     if(!std::is_permutation(a.begin(), a.end(), b.begin())
        && have_common_face(corners((std::min)(s, t)), corners((std::max)(s, t)), distance))
-      parent[root_of(s)] = root_of(t);
+      touching.unite(s, t);
   });
-  std::map<std::size_t, std::vector<std::size_t>> sets;
-  for(std::size_t t = 0; t < parent.size(); ++t)
-    sets[root_of(t)].push_back(t);
-  std::vector<std::vector<std::size_t>> result;
-  for(auto& [root, set] : sets)
-    if(set.size() > 1)
-      result.push_back(std::move(set));
-  return result;
+  const auto [set_of, number_of_sets] = touching.numbered();
+  std::vector<std::vector<std::size_t>> sets(number_of_sets);
+  for(std::size_t t = 0; t < set_of.size(); ++t)
+    sets[set_of[t]].push_back(t);
+  sets.erase(std::remove_if(sets.begin(), sets.end(), [](const auto& set) { return set.size() == 1; }),
+             sets.end());
+  return sets;
 }
 
 // Triangulates the face in which triangles touch once for all: seen along the axis that is most upright, they

@@ -13,6 +13,7 @@
 #include <CGAL/Mixed_mesh_3/Data_columns.h>
 #include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Disjoint_sets.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/for_each_face.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/manifold_defects.h>
 
@@ -20,7 +21,6 @@
 #include <array>
 #include <cstddef>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 #include <vector>
@@ -128,28 +128,22 @@ private:
         if(is_slit(v))
           corners.emplace(Corner(v, i), corners.size());
     }
-    std::vector<std::size_t> parent(corners.size());
-    std::iota(parent.begin(), parent.end(), std::size_t(0));
-    const auto root = [&parent](std::size_t c) {
-      while(parent[c] != c)
-        c = parent[c] = parent[parent[c]];
-      return c;
-    };
+    internal::Disjoint_sets sets(corners.size());
     for_each_face(around, m_mesh.number_of_vertices(), [&](const auto& group) {
       if(group.size() != 2 || m_faces.count(key(group[0])) > 0)
         return;
       const Face face = group[0];
       for(Vertex_index v : face.vertices())
         if(is_slit(v))
-          parent[root(corners.at({v, group.element(0)}))] = root(corners.at({v, group.element(1)}));
+          sets.unite(corners.at({v, group.element(0)}), corners.at({v, group.element(1)}));
     });
 
     m_origins.clear();
-    std::vector<Vertex_index> numbers(corners.size(), no_vertex); // numbers of roots
+    std::vector<Vertex_index> numbers(corners.size(), no_vertex); // numbers of sets
     Vertex_index last = no_vertex;
     std::map<Corner, Vertex_index> renamed;
     for(const auto& [corner, c] : corners) { // sorted by vertex, then by element
-      Vertex_index& number = numbers[root(c)];
+      Vertex_index& number = numbers[sets.least(c)];
       if(number == no_vertex) {
         number = corner.first;
         if(corner.first == last) {

@@ -14,6 +14,7 @@
 
 #include <CGAL/Mixed_mesh_3/Element_list.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Disjoint_sets.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <Eigen/Eigenvalues>
@@ -21,7 +22,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numeric>
 #include <vector>
 
 namespace CGAL {
@@ -93,30 +93,24 @@ template <class Is_kept>
 std::vector<std::vector<Vertex_index>>
 connected_vertices(const Element_list& elements, std::size_t number_of_vertices, const Is_kept& is_kept)
 {
-  std::vector<Vertex_index> parent(number_of_vertices);
-  std::iota(parent.begin(), parent.end(), Vertex_index(0));
-  const auto root = [&](Vertex_index v) {
-    while(parent[v] != v)
-      v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  Disjoint_sets sets(number_of_vertices);
   std::vector<bool> is_used(number_of_vertices, false);
   for(Element_index e = 0; e < elements.size(); ++e)
     if(is_kept(e))
       for(Vertex_index v : elements[e]) {
         is_used[v] = true;
-        const Vertex_index a = root(v), b = root(elements[e][0]);
-        parent[(std::max)(a, b)] = (std::min)(a, b);
+        sets.unite(v, elements[e][0]);
       }
   std::vector<std::vector<Vertex_index>> parts;
   std::vector<std::size_t> part_of(number_of_vertices, 0);
   for(Vertex_index v = 0; v < number_of_vertices; ++v)
     if(is_used[v]) {
-      if(root(v) == v) {
+      const std::size_t least = sets.least(v);
+      if(least == v) {
         part_of[v] = parts.size();
         parts.emplace_back();
       }
-      parts[part_of[root(v)]].push_back(v);
+      parts[part_of[least]].push_back(v);
     }
   return parts;
 }

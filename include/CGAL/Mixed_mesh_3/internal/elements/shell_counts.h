@@ -13,6 +13,7 @@
 #include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/Surface_description.h>
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Disjoint_sets.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <algorithm>
@@ -47,36 +48,27 @@ template <class Polygons>
 Shells_of_vertices find_shells(const Polygons& polygons, std::size_t number_of_vertices)
 {
   constexpr std::size_t unused = Shells_of_vertices::unused;
-  std::vector<std::size_t> leader(number_of_vertices, unused);
-  const auto find = [&](std::size_t v) {
-    while(leader[v] != v)
-      v = leader[v] = leader[leader[v]];
-    return v;
-  };
+  Disjoint_sets sets(number_of_vertices);
+  std::vector<std::uint8_t> is_used(number_of_vertices, 0);
   Shells_of_vertices shells;
   Shell_counts& counts = shells.counts;
   std::size_t number_of_halfedges = 0, number_of_faces = 0;
   for(const auto& polygon : polygons) {
     for(const std::size_t v : polygon)
-      if(leader[v] == unused) {
-        leader[v] = v;
+      if(std::exchange(is_used[v], 1) == 0)
         ++counts.euler_characteristic;
-      }
-    const std::size_t first = find(*polygon.begin());
     for(const std::size_t v : polygon)
-      if(const std::size_t other = find(v); other != first)
-        leader[other] = first;
+      sets.unite(*polygon.begin(), v);
     number_of_halfedges += polygon.size();
     ++number_of_faces;
   }
   counts.euler_characteristic += std::ptrdiff_t(number_of_faces) - std::ptrdiff_t(number_of_halfedges / 2);
   shells.shell_of.assign(number_of_vertices, unused);
   for(std::size_t v = 0; v < number_of_vertices; ++v)
-    if(leader[v] != unused && find(v) == v)
-      shells.shell_of[v] = counts.number_of_shells++;
-  for(std::size_t v = 0; v < number_of_vertices; ++v)
-    if(leader[v] != unused)
-      shells.shell_of[v] = shells.shell_of[find(v)];
+    if(is_used[v]) {
+      const std::size_t least = sets.least(v);
+      shells.shell_of[v] = least == v ? counts.number_of_shells++ : shells.shell_of[least];
+    }
   return shells;
 }
 

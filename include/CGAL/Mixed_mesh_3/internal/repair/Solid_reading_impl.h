@@ -10,6 +10,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/base/Disjoint_sets.h>
 #include <CGAL/Mixed_mesh_3/internal/base/compiled.h>
 #include <CGAL/Mixed_mesh_3/internal/repair/Solid_reading.h>
 #include <CGAL/Mixed_mesh_3/internal/repair/Space_partition.h>
@@ -22,7 +23,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -44,35 +44,28 @@ class Solid_sheets
   using Triangle = std::array<std::size_t, 3>;
   using Link = std::array<std::size_t, 2>; // two triangles at an edge
 
-  std::vector<Triangle>& m_triangles;  // triangles of points of the arrangement; then of vertices
-  std::vector<std::size_t> m_vertices; // vertices by corner, as in a forest of sets
-  std::vector<std::size_t> m_points;   // points of the vertices
+  std::vector<Triangle>& m_triangles; // triangles of points of the arrangement; then of vertices
+  Disjoint_sets m_corners;            // those of a vertex are one set
 
 public:
-  Solid_sheets(std::vector<Triangle>& triangles) : m_triangles(triangles), m_vertices(3 * triangles.size())
-  {
-    std::iota(m_vertices.begin(), m_vertices.end(), std::size_t(0));
-  }
+  Solid_sheets(std::vector<Triangle>& triangles) : m_triangles(triangles), m_corners(3 * triangles.size()) {}
 
   /// Links triangles that follow each other around an edge: their corners at the edge are the same.
   void link(std::size_t s, std::size_t t, std::size_t a, std::size_t b)
   {
     for(std::size_t v : {a, b})
-      m_vertices[root_of_set(m_vertices, corner(s, v))] = root_of_set(m_vertices, corner(t, v));
+      m_corners.unite(corner(s, v), corner(t, v));
   }
 
   /// Replaces points by vertices, and returns the point of each.
   std::vector<std::size_t> make_vertices()
   {
-    std::map<std::size_t, std::size_t> number;
-    std::vector<std::size_t> points;
-    for(std::size_t t = 0; t < m_triangles.size(); ++t)
-      for(std::size_t i = 0; i < 3; ++i) {
-        const auto [found, is_new] = number.emplace(root_of_set(m_vertices, 3 * t + i), points.size());
-        if(is_new)
-          points.push_back(m_triangles[t][i]);
-        m_triangles[t][i] = found->second;
-      }
+    const auto [vertex_of, number_of_vertices] = m_corners.numbered();
+    std::vector<std::size_t> points(number_of_vertices);
+    for(std::size_t c = 0; c < vertex_of.size(); ++c) {
+      points[vertex_of[c]] = m_triangles[c / 3][c % 3];
+      m_triangles[c / 3][c % 3] = vertex_of[c];
+    }
     return points;
   }
 

@@ -12,6 +12,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/base/Disjoint_sets.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/repair/Solid_rule.h>
 #include <CGAL/Mixed_mesh_3/internal/repair/Triangle_arrangement.h>
@@ -25,7 +26,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -33,14 +33,6 @@
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
-
-/// The set of an element in a forest of sets.
-inline std::size_t root_of_set(std::vector<std::size_t>& parent, std::size_t i)
-{
-  while(parent[i] != i)
-    i = parent[i] = parent[parent[i]];
-  return i;
-}
 
 /*!
 The cells of an arrangement. The two sides of each facet see one cell each; around an edge, neighbors see the
@@ -62,7 +54,7 @@ class Space_partition
   Bbox_3 m_bbox;
   std::vector<std::vector<std::size_t>> m_around;  // facets around an edge, in cyclic order
   std::vector<std::array<std::size_t, 2>> m_edges; // edges, vertices ascending
-  std::vector<std::size_t> m_cell;                 // cell by side, as in a forest of sets
+  std::vector<std::size_t> m_cell;                 // cell by side: the least side that sees it
   std::vector<int> m_winding;                      // winding number by side
   Solid_rule m_rule = Solid_rule::WINDING;
   bool m_is_complete = true;
@@ -77,15 +69,15 @@ public:
       m_bbox += m_boxes.back();
     }
     find_edges();
-    m_cell.resize(2 * m_facets.size());
-    std::iota(m_cell.begin(), m_cell.end(), std::size_t(0));
-    for_each_edge([this](std::size_t a, std::size_t b, const std::vector<std::size_t>& around) {
+    Disjoint_sets sides(2 * m_facets.size());
+    for_each_edge([&](std::size_t a, std::size_t b, const std::vector<std::size_t>& around) {
       for(std::size_t i = 0; i < around.size(); ++i) {
         const std::size_t side = side_after(around[i], a, b),
                           next = side_after(around[(i + 1) % around.size()], a, b) ^ 1;
-        m_cell[root_of_set(m_cell, side)] = root_of_set(m_cell, next);
+        sides.unite(side, next);
       }
     });
+    m_cell = sides.least_of_all();
     find_rule();
     find_windings();
   }
@@ -210,16 +202,15 @@ private:
   // Numbers the components of facets connected by edges; returns the first facet of each component.
   std::vector<std::size_t> find_components(std::vector<std::size_t>& component) const
   {
-    std::iota(component.begin(), component.end(), std::size_t(0));
+    Disjoint_sets sets(m_facets.size());
     for(const auto& around : m_around)
       for(std::size_t f : around)
-        component[root_of_set(component, f)] = root_of_set(component, around[0]);
+        sets.unite(f, around[0]);
+    component = sets.least_of_all();
     std::vector<std::size_t> first;
     for(std::size_t f = 0; f < m_facets.size(); ++f)
-      if(root_of_set(component, f) == f)
+      if(component[f] == f)
         first.push_back(f);
-    for(std::size_t f = 0; f < m_facets.size(); ++f)
-      component[f] = root_of_set(component, f);
     return first;
   }
 
@@ -227,16 +218,14 @@ private:
   {
     m_winding.resize(m_cell.size());
     const std::size_t unknown = std::size_t(-1);
-    std::vector<std::size_t> cell(m_cell.size());
-    for(std::size_t s = 0; s < cell.size(); ++s)
-      cell[s] = root_of_set(m_cell, s);
+    const std::vector<std::size_t>& cell = m_cell;
     std::vector<int> winding(cell.size(), 0); // winding numbers by cell
     std::vector<char> is_known(cell.size(), 0);
     std::vector<std::vector<std::size_t>> facets_of(cell.size());
     for(std::size_t f = 0; f < m_facets.size(); ++f)
       for(std::size_t s : {front(f), back(f)})
         facets_of[cell[s]].push_back(f);
-    std::vector<std::size_t> component(m_facets.size());
+    std::vector<std::size_t> component;
     for(std::size_t first : find_components(component)) {
       const std::optional<Segment_result> result = cast_segment(first, component);
       if(!result) {

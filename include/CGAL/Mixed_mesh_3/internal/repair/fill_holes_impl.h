@@ -10,6 +10,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/base/Disjoint_sets.h>
 #include <CGAL/Mixed_mesh_3/internal/base/compiled.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/repair/fill_holes.h>
@@ -24,7 +25,6 @@
 #include <exception>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -44,27 +44,18 @@ class Surface_parts
 
 public:
   /// Constructs the components. \pre the surface is oriented consistently, and a manifold
-  Surface_parts(std::vector<Point>& points, std::vector<Triangle>& triangles)
-    : m_points(points), m_part(triangles.size())
+  Surface_parts(std::vector<Point>& points, std::vector<Triangle>& triangles) : m_points(points)
   {
     for(std::size_t t = 0; t < triangles.size(); ++t)
       for(std::size_t i = 0; i < 3; ++i)
         m_directed_edges[{triangles[t][i], triangles[t][(i + 1) % 3]}] = t;
-    std::iota(m_part.begin(), m_part.end(), std::size_t(0));
-    const auto root = [this](std::size_t t) {
-      while(m_part[t] != t)
-        t = m_part[t] = m_part[m_part[t]];
-      return t;
-    };
+    Disjoint_sets sets(triangles.size());
     for(const auto& [edge, t] : m_directed_edges) {
       const auto opposite = m_directed_edges.find({edge[1], edge[0]});
-      if(opposite != m_directed_edges.end()) {
-        const auto [low, high] = std::minmax({root(t), root(opposite->second)});
-        m_part[high] = low;
-      }
+      if(opposite != m_directed_edges.end())
+        sets.unite(t, opposite->second);
     }
-    for(std::size_t t = 0; t < triangles.size(); ++t)
-      m_part[t] = root(t);
+    m_part = sets.least_of_all();
   }
 
   std::size_t part(std::size_t t) const { return m_part[t]; }

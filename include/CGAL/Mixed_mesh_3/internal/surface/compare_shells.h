@@ -12,12 +12,12 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/base/Disjoint_sets.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Nested_shells.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <map>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -107,34 +107,22 @@ struct Region_group
 inline std::vector<Region_group> groups(const std::vector<Region_location>& of_a,
                                         const std::vector<Region_location>& of_b)
 {
-  std::vector<std::size_t> leader(of_a.size() + of_b.size());
-  std::iota(leader.begin(), leader.end(), std::size_t(0));
-  const auto find = [&](std::size_t r) {
-    while(leader[r] != r)
-      r = leader[r] = leader[leader[r]];
-    return r;
-  };
-  const auto unite = [&](std::size_t r, std::size_t s) {
-    const auto [first, second] = std::minmax({find(r), find(s)}); // by value
-    leader[second] = first;
-  };
+  Disjoint_sets sets(of_a.size() + of_b.size());
   for(std::size_t r = 0; r < of_a.size(); ++r)
     if(of_a[r].same != Nested_shells::outside)
-      unite(r, of_a.size() + of_a[r].same);
+      sets.unite(r, of_a.size() + of_a[r].same);
   for(std::size_t r = 0; r < of_b.size(); ++r)
     if(of_b[r].same != Nested_shells::outside)
-      unite(of_a.size() + r, of_b[r].same);
-  std::map<std::size_t, Region_group> by_leader;
-  for(std::size_t r = 0; r < leader.size(); ++r) {
-    Region_group& group = by_leader[find(r)];
+      sets.unite(of_a.size() + r, of_b[r].same);
+  const auto [group_of, number_of_groups] = sets.numbered();
+  std::vector<Region_group> result(number_of_groups);
+  for(std::size_t r = 0; r < group_of.size(); ++r) {
+    Region_group& group = result[group_of[r]];
     if(r < of_a.size())
       group.in_a.push_back(r);
     else
       group.in_b.push_back(r - of_a.size());
   }
-  std::vector<Region_group> result;
-  for(auto& entry : by_leader)
-    result.push_back(std::move(entry.second));
   return result;
 }
 

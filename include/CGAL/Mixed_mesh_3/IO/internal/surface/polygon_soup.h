@@ -12,6 +12,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/base/Disjoint_sets.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
@@ -25,9 +26,9 @@
 #include <iterator>
 #include <locale>
 #include <map>
-#include <numeric>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -189,21 +190,12 @@ inline Edge_polygons edges_of(const Polygons& polygons)
 inline std::size_t find_parts(const Polygons& polygons, const Edge_polygons& edges, std::size_t most,
                               std::vector<std::size_t>& part)
 {
-  part.resize(polygons.size());
-  std::iota(part.begin(), part.end(), std::size_t(0));
-  const auto root = [&part](std::size_t f) {
-    while(part[f] != f)
-      f = part[f] = part[part[f]];
-    return f;
-  };
+  Mixed_meshes_3::internal::Disjoint_sets sets(polygons.size());
   for(const auto& [edge, around] : edges)
-    for(std::size_t i = 1; i < around.size() && around.size() <= most; ++i) {
-      const auto [low, high] = std::minmax({root(around[0]), root(around[i])});
-      part[high] = low; // roots are the smallest
-    }
-  std::size_t n = 0;
-  for(std::size_t f = 0; f < polygons.size(); ++f)
-    part[f] = part[f] == f ? n++ : part[part[f]];
+    for(std::size_t i = 1; i < around.size() && around.size() <= most; ++i)
+      sets.unite(around[0], around[i]);
+  std::size_t n;
+  std::tie(part, n) = sets.numbered();
   return n;
 }
 

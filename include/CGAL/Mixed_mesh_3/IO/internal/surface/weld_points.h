@@ -13,6 +13,7 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/IO/internal/surface/polygon_soup.h>
+#include <CGAL/Mixed_mesh_3/internal/base/Disjoint_sets.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <CGAL/Bbox_3.h>
@@ -161,22 +162,13 @@ struct Welding
 // differ by about as much as those of merged points.
 inline Welding weld_border_points(double distance, Points& points, Polygons& polygons)
 {
-  std::vector<std::size_t> first(points.size());
-  std::iota(first.begin(), first.end(), std::size_t(0));
-  const auto root = [&first](std::size_t v) {
-    while(first[v] != v)
-      v = first[v] = first[first[v]];
-    return v;
-  };
+  Mixed_meshes_3::internal::Disjoint_sets sets(points.size());
   for_each_near_pair(points, border_points(polygons, points.size()), distance,
-                     [&](std::size_t a, std::size_t b) {
-                       const auto [low, high] = std::minmax({root(a), root(b)});
-                       first[high] = low; // roots are the smallest
-                     });
+                     [&sets](std::size_t a, std::size_t b) { sets.unite(a, b); });
+  std::vector<std::size_t> first = sets.least_of_all();
   Welding welding;
   Vec3 error{};
   for(std::size_t v = 0; v < points.size(); ++v) {
-    first[v] = root(v);
     const Vec3 d = to_vec3(points[v]) - to_vec3(points[first[v]]);
     welding.distance = (std::max)(welding.distance, norm(d));
     for(std::size_t k = 0; k < 3; ++k)
