@@ -11,13 +11,13 @@ message says why they changed.
 """
 
 import argparse
-import json
 import pathlib
 import subprocess
 import sys
 import tempfile
 
 from compare_programs import cases
+from results import load_json, save_json
 
 RECORD = pathlib.Path(__file__).resolve().parent / "results" / "instructions.json"
 USUAL = ("brain_660", "cube", "torus")
@@ -41,7 +41,7 @@ def main():
     parser.add_argument("--cases", nargs="+", default=USUAL)
     parser.add_argument("--update", action="store_true")
     options = parser.parse_args()
-    record = json.loads(RECORD.read_text()) if RECORD.exists() else {}
+    record = load_json(RECORD) if RECORD.exists() else {}
     is_too_much = False
     print("| case | instructions, millions: recorded | now | change | |\n|---|--:|--:|--:|---|")
     with tempfile.TemporaryDirectory() as folder:
@@ -55,7 +55,7 @@ def main():
             print("| " + " | ".join(cells) + " |", flush=True)
             record[name] = now
     if options.update:
-        RECORD.write_text(json.dumps(record, indent=1, sort_keys=True) + "\n")
+        save_json(RECORD, dict(sorted(record.items())))
     elif is_too_much:
         sys.exit("count_instructions.py: error: over 10 % more than recorded: say why, and run it with --update")
 

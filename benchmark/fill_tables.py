@@ -3,13 +3,13 @@
 """Puts what was measured into the tables of README and manual.
 
   fill_tables.py [FOLDER]     takes over the results in FOLDER (out/benchmark of scripts/benchmark.sh) first
-  fill_tables.py --check      changes nothing, and fails if a table is not what benchmark/results says
+  fill_tables.py --check      changes nothing, and fails if a table is not what benchmark/results says, or if a file
+                              there is not as results.py writes it, a row in a line
 
 A table stands between <!-- table NAME --> and <!-- end of table -->; TABLES says what is in each. In a section
 that has one, there is no other table with numbers.
 """
 
-import json
 import pathlib
 import re
 import shutil
@@ -18,7 +18,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "benchmark" / "results"
 sys.path.insert(0, str(RESULTS.parent))
-from results import markdown  # noqa: E402
+from results import json_text, load_json, markdown, save_json  # noqa: E402
 
 TEXTS = ("README.md", "doc/Mixed_mesh_3/Performance.txt")
 BLOCK = re.compile(r"(<!-- table ([a-z_]+) -->\n)(.*?)(<!-- end of table -->\n)", re.DOTALL)
@@ -27,7 +27,7 @@ NUMBERS = re.compile(r"^\|.*\d.*\|$", re.MULTILINE)
 
 
 def load(name):
-    return json.loads((RESULTS / f"{name}.json").read_text())
+    return load_json(RESULTS / f"{name}.json")
 
 
 def number(value, form):
@@ -108,13 +108,18 @@ def main():
     if arguments == ["--check"]:
         found = [defect for name, text in texts.items() for defect in defects(name, text)]
         tables = {block[2] for text in texts.values() for block in BLOCK.finditer(text)}
+        found += [f"{file.name} is not as results.py writes it" for file in sorted(RESULTS.glob("*.json"))
+                  if file.read_text(encoding="utf-8") != json_text(load_json(file))]
         found += [f"no text has the table {name}" for name in TABLES if name not in tables]
         sys.exit("\n".join(found) or 0)
     if arguments:
         RESULTS.mkdir(exist_ok=True)
         for name in TABLES:
             for file in pathlib.Path(arguments[0]).glob(f"{name}.*"):
-                shutil.copy(file, RESULTS)
+                if file.suffix == ".json":
+                    save_json(RESULTS / file.name, load_json(file))  # kernels.json is of Google Benchmark
+                else:
+                    shutil.copy(file, RESULTS)
     for name, text in texts.items():
         (ROOT / name).write_text(filled(text))
 

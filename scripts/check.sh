@@ -12,6 +12,7 @@
 #   python      programs in Python, by pyflakes
 #   layers      arrows between folders run one way: scripts/check_layers.py; the graph of ARCHITECTURE.md has
 #               them: scripts/draw_architecture.py
+#   version     the version number is the same in all places: scripts/check_version.py
 #   checked     some examples, one for each way through the stages, and short tests run with CGAL's assertions and
 #               preconditions, the tests also with AddressSanitizer and UndefinedBehaviorSanitizer
 #   headers     headers compile alone, by clang, without a warning: public ones that the change since BASE (default:
@@ -44,7 +45,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/scripts/setup.sh"
 
 build=$(realpath -m "${BUILD_DIR:-$root/build}")
-quick=(format shell python layers)
+quick=(format shell python layers version)
 compiled=(checked headers same_bytes instructions doc fuzz layout benchmarks cgal61 threads)
 
 # The tests that run with sanitizers, and their programs. Not those that read a surface or mesh one: with
@@ -94,6 +95,10 @@ check_python() {
 check_layers() {
   /usr/bin/python3 scripts/check_layers.py
   /usr/bin/python3 scripts/draw_architecture.py --check
+}
+
+check_version() {
+  /usr/bin/python3 scripts/check_version.py > /dev/null
 }
 
 # Makes a build directory in the folder of these, or brings it up to date.

@@ -16,6 +16,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+from results import save_json  # noqa: E402
+
 
 def run(mesher, surface, vertices, timeout, options):
     with tempfile.TemporaryDirectory() as folder:
@@ -63,7 +66,7 @@ def main():
         if outcome != "meshed":
             print(f"{surface.stem}: {outcome}: {result['message']}", flush=True)
     if args.json:
-        args.json.write_text(json.dumps(results, indent=1) + "\n")
+        save_json(args.json, results)
     print(f"{len(args.surfaces)} surfaces: " + ", ".join(f"{n} {what}" for what, n in counts.most_common()))
 
 

@@ -17,7 +17,11 @@ import json
 import pathlib
 import resource
 import subprocess
+import sys
 import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+import results  # noqa: E402
 
 ENDINGS = (".off", ".stl", ".ply", ".obj")
 ROWS = {
@@ -128,7 +132,7 @@ def main():
     parser.add_argument("--compare", nargs="+", metavar="FILE.json")
     a = parser.parse_args()
     if a.compare:
-        print_tables([(pathlib.Path(f).stem, json.load(open(f))) for f in a.compare])
+        print_tables([(pathlib.Path(f).stem, results.load_json(f)) for f in a.compare])
         return
     if a.build is None or not a.folders:
         parser.error("a build and folders are needed")
@@ -143,7 +147,7 @@ def main():
                     rows.append({"kind": kind, **measure(programs["mixed_mesh_3"], file, n, a.timeout,
                                                          pathlib.Path(folder) / "report.json")})
                     if a.save:  # what there is, if it is stopped
-                        pathlib.Path(a.save).write_text(json.dumps(rows, indent=1))
+                        results.save_json(a.save, rows)
     if a.csv:
         with open(a.csv, "w", newline="") as out:
             writer = csv.DictWriter(out, sorted({k for r in rows for k in r}))

@@ -6,12 +6,16 @@
 """
 
 import argparse
-import json
+import pathlib
+import sys
 
 import matplotlib
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+from results import load_json  # noqa: E402
 
 PANELS = (("ARC max", "worst aspect-ratio coefficient"), ("Hausdorff", "Hausdorff distance, mm"),
           ("CPU seconds", "meshing, CPU s"))
@@ -22,7 +26,7 @@ def main():
     parser.add_argument("peers")
     parser.add_argument("plot")
     options = parser.parse_args()
-    rows = [r for r in json.load(open(options.peers))["rows"] if "failure" not in r]
+    rows = [r for r in load_json(options.peers)["rows"] if "failure" not in r]
     names = list(dict.fromkeys(r["mesher"] for r in rows))
     figure, axes = pyplot.subplots(1, len(PANELS), figsize=(15, 4.5), constrained_layout=True)
     for axis, (key, title) in zip(axes, PANELS):

@@ -6,13 +6,17 @@
 """
 
 import argparse
-import json
+import pathlib
+import sys
 
 import matplotlib
 import numpy
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+from results import load_json  # noqa: E402
 
 STAGES = ("octree", "transitions", "boundary", "optimization", "checks")
 
@@ -29,7 +33,7 @@ def main():
     parser.add_argument("scale")
     parser.add_argument("plot")
     options = parser.parse_args()
-    rows = json.load(open(options.scale))["rows"]
+    rows = load_json(options.scale)["rows"]
     figure, (times, stages, memory) = pyplot.subplots(1, 3, figsize=(15, 4.5), constrained_layout=True)
     for i, threads in enumerate(sorted({r["threads"] for r in rows})):
         those = [r for r in rows if r["threads"] == threads]

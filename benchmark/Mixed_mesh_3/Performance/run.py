@@ -51,7 +51,7 @@ def cells(r):
 
 def compare(old, new):
     print("| budget | CPU s old | CPU s new | new / old | memory new / old |\n|---:|---:|---:|---:|---:|")
-    for a, b in zip(*(json.load(open(file))["rows"] for file in (old, new))):
+    for a, b in zip(*(results.load_json(file)["rows"] for file in (old, new))):
         print(f"| {a['budget']} | {a['CPU seconds']:.3f} | {b['CPU seconds']:.3f} | "
               f"{b['CPU seconds'] / a['CPU seconds']:.2f} | {b['peak MiB'] / a['peak MiB']:.2f} |")
 

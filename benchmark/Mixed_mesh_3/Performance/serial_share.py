@@ -11,7 +11,6 @@ threads, and their contention for memory, is not counted. The whole process coun
 """
 
 import argparse
-import json
 import pathlib
 import statistics
 import subprocess
@@ -59,7 +58,7 @@ def main():
                      "16 threads, at most": f"{whole / (whole - loops + with_16):.1f}"})
     print(results.markdown(rows), end="")
     if options.save:
-        options.save.write_text(json.dumps({"rows": rows}, indent=1) + "\n", encoding="utf-8")
+        results.save_json(options.save, {"rows": rows})
 
 
 if __name__ == "__main__":

@@ -15,6 +15,10 @@ import json
 import pathlib
 import statistics
 import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+import results  # noqa: E402
 
 DATA = pathlib.Path(__file__).resolve().parents[3] / "data"
 MIXED = "Mixed_mesh_3"
@@ -109,7 +113,7 @@ def main():
             print("| " + " | ".join(map(str, cells.values())) + " |", flush=True)
             rows.append(line)
     if options.save:
-        pathlib.Path(options.save).write_text(json.dumps(rows, indent=2) + "\n")
+        results.save_json(options.save, rows)
 
 
 if __name__ == "__main__":
