@@ -3,8 +3,8 @@
 #
 # Installs what is missing, and checks what a Release build and its tests do not show:
 #
-#   scripts/check.sh [PART...]            all parts, or those named; `quick` are those that need no compiler,
-#                                         `compiled` the others
+#   scripts/check.sh [PART...]            all parts but `threads`, or those named; `quick` are those that need no
+#                                         compiler, `compiled` the others
 #
 #   format      C++ and JavaScript are as clang-format 14 makes them with .clang-format; no line is longer than
 #               110 columns
@@ -26,7 +26,7 @@
 #   fuzz        targets of libFuzzer, one a reader, run for FUZZ_SECONDS each (default: 12), from test/fuzz/corpus;
 #               what makes one fail is kept in the build directory
 #   threads     meshes of a surface and of an image by four threads, with ThreadSanitizer, by g++: a data race is an
-#               error; test/threads has the parallel loop that it understands
+#               error; test/threads has the parallel loop that it understands. Only if it is named
 #   layout      the repository as it would lie in CGAL's tree: scripts/lay_out_as_cgal.py; examples and a test
 #               are compiled there, with -Wpedantic, by LAYOUT_COMPILERS (default: g++ clang++), also with the CGAL of
 #               CGAL_DIR_61
@@ -46,7 +46,8 @@ source "$root/scripts/setup.sh"
 
 build=$(realpath -m "${BUILD_DIR:-$root/build}")
 quick=(format shell python layers version)
-compiled=(checked headers same_bytes instructions doc fuzz layout benchmarks cgal61 threads)
+compiled=(checked headers same_bytes instructions doc fuzz layout benchmarks cgal61)
+by_name=(threads)
 
 # The tests that run with sanitizers, and their programs. Not those that read a surface or mesh one: with
 # sanitizers, a compiler takes long for CGAL's polygon meshes. The preset `checked` has all.
@@ -285,8 +286,8 @@ for part in "$@"; do
     quick) parts+=("${quick[@]}") ;;
     compiled) parts+=("${compiled[@]}") ;;
     *)
-      [[ " ${quick[*]} ${compiled[*]} " == *" $part "* ]] ||
-        fail "unknown part '$part': expected one of ${quick[*]} ${compiled[*]}"
+      [[ " ${quick[*]} ${compiled[*]} ${by_name[*]} " == *" $part "* ]] ||
+        fail "unknown part '$part': expected one of ${quick[*]} ${compiled[*]} ${by_name[*]}"
       parts+=("$part")
       ;;
   esac
