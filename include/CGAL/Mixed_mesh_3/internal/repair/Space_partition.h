@@ -218,13 +218,12 @@ private:
   {
     m_winding.resize(m_cell.size());
     const std::size_t unknown = std::size_t(-1);
-    const std::vector<std::size_t>& cell = m_cell;
-    std::vector<int> winding(cell.size(), 0); // winding numbers by cell
-    std::vector<char> is_known(cell.size(), 0);
-    std::vector<std::vector<std::size_t>> facets_of(cell.size());
+    std::vector<int> winding(m_cell.size(), 0); // winding numbers by cell
+    std::vector<char> is_known(m_cell.size(), 0);
+    std::vector<std::vector<std::size_t>> facets_of(m_cell.size());
     for(std::size_t f = 0; f < m_facets.size(); ++f)
       for(std::size_t s : {front(f), back(f)})
-        facets_of[cell[s]].push_back(f);
+        facets_of[m_cell[s]].push_back(f);
     std::vector<std::size_t> component;
     for(std::size_t first : find_components(component)) {
       const std::optional<Segment_result> result = cast_segment(first, component);
@@ -233,12 +232,12 @@ private:
         return;
       }
       const auto [side, outside, w] = *result;
-      std::vector<std::size_t> queue{m_rule == Solid_rule::ENCLOSED ? cell[outside] : cell[side]};
+      std::vector<std::size_t> queue{m_rule == Solid_rule::ENCLOSED ? m_cell[outside] : m_cell[side]};
       winding[queue[0]] = m_rule == Solid_rule::ENCLOSED ? 0 : w;
       is_known[queue[0]] = 1;
       for(std::size_t i = 0; i < queue.size() && queue[i] != unknown; ++i)
         for(std::size_t f : facets_of[queue[i]]) {
-          const std::size_t s = cell[front(f)] == queue[i] ? front(f) : back(f), other = cell[s ^ 1];
+          const std::size_t s = m_cell[front(f)] == queue[i] ? front(f) : back(f), other = m_cell[s ^ 1];
           if(is_known[other])
             continue;
           is_known[other] = 1;
@@ -248,8 +247,8 @@ private:
           queue.push_back(other);
         }
     }
-    for(std::size_t s = 0; s < cell.size(); ++s)
-      m_winding[s] = winding[cell[s]];
+    for(std::size_t s = 0; s < m_cell.size(); ++s)
+      m_winding[s] = winding[m_cell[s]];
   }
 
   struct Segment_result
