@@ -14,6 +14,7 @@
 #include <CGAL/Mixed_mesh_3/Surface_description.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Triangle_tree.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/visible_sharp_edges.h>
 #include <CGAL/Mixed_mesh_sheet_3.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 
@@ -289,23 +290,26 @@ public:
     return 4 * volume / area;
   }
 
-  /// The sharp edges of the surfaces, like those of `Polyhedral_mixed_mesh_domain_3`; none if there are
-  /// several subdomains, or sheets.
+  /// The sharp edges of the surfaces, like those of `Polyhedral_mixed_mesh_domain_3`, where they are between
+  /// subdomains or at the boundary, with points where they cross other surfaces and sheets.
   Mixed_meshes_3::Sharp_edges sharp_edges(double angle) const
   {
-    Mixed_meshes_3::Sharp_edges all;
-    if(m_indices.size() > 1 || !m_sheets.empty())
-      return all;
-    for(const Labeled& s : m_surfaces) {
-      const Mixed_meshes_3::Sharp_edges more = s.surface->sharp_edges(angle);
-      const std::size_t first = all.points.size();
-      all.points.insert(all.points.end(), more.points.begin(), more.points.end());
-      for(const auto& e : more.edges)
-        all.edges.push_back({first + e[0], first + e[1]});
-      all.diagonal = (std::max)(all.diagonal, more.diagonal);
-      all.area += more.area;
-    }
-    return all;
+    if(m_surfaces.size() == 1 && m_sheets.empty())
+      return m_surfaces.front().surface->sharp_edges(angle);
+    const auto subdomain_at = [this](const Vec3& p) { return subdomain_index(Point_3(p[0], p[1], p[2])); };
+    Mixed_meshes_3::internal::Visible_sharp_edges all(subdomain_at);
+    for(const Labeled& s : m_surfaces)
+      all.add(
+        s.surface->surface_edges(angle),
+        [&](const Vec3& p, const Vec3& q) {
+          return crossings(p, q, m_surfaces, [&](const Labeled& other) {
+            return other.surface == s.surface ? nullptr : other.surface.get();
+          });
+        },
+        [&](const Vec3& p, const Vec3& q) {
+          return crossings(p, q, m_sheets, [](const auto& sheet) { return sheet.get(); });
+        });
+    return std::move(all)();
   }
 
   /// The planes that the surfaces lie in, like those of `Polyhedral_mixed_mesh_domain_3`; nothing if there
@@ -420,6 +424,23 @@ private:
       return std::lexicographical_compare(&a[0], &a[0] + 3, &b[0], &b[0] + 3);
     });
     return result;
+  }
+
+  // The shares of a segment at which it crosses surfaces. \param surface_of returns none for the surface of
+  // the segment
+  template <class Range, class Surface_of>
+  static std::vector<double> crossings(const Vec3& p, const Vec3& q, const Range& range,
+                                       const Surface_of& surface_of)
+  {
+    const Bbox_3 box = Point_3(p[0], p[1], p[2]).bbox() + Point_3(q[0], q[1], q[2]).bbox();
+    std::vector<double> all;
+    for(const auto& one : range)
+      if(const auto* surface = surface_of(one);
+         surface != nullptr && CGAL::do_overlap(box, surface->bbox())) {
+        const std::vector<double> more = surface->crossings(p, q);
+        all.insert(all.end(), more.begin(), more.end());
+      }
+    return all;
   }
 
   Subdomain_index index_of(std::size_t surface) const

@@ -68,6 +68,10 @@ public:
   using Base::locate;
   using Base::may_intersect;
   using Base::number_of_facets;
+
+  /// \cond SKIP_IN_MANUAL
+  using Base::crossings;
+  /// \endcond
 };
 
 } // namespace CGAL

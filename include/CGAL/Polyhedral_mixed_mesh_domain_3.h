@@ -76,6 +76,11 @@ public:
   using Base::surface_samples;
   using Base::tree_of_closest_points;
   using Base::volume;
+
+  /// \cond SKIP_IN_MANUAL
+  using Base::crossings;
+  using Base::surface_edges;
+  /// \endcond
 };
 
 } // namespace CGAL

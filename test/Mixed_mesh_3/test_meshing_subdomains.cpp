@@ -19,11 +19,13 @@
 #include <boost/core/lightweight_test.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <random>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -437,6 +439,126 @@ void test_both_sides()
   }
 }
 
+// The subdomains in the quarters around the middle of a segment of length 1 along an axis.
+std::array<Subdomain_index, 4> subdomains_around(const std::vector<Box>& boxes,
+                                                 const std::array<int, 3>& from, int axis)
+{
+  std::array<Subdomain_index, 4> around{};
+  for(std::size_t q = 0; q < 4; ++q) {
+    double x[3];
+    x[axis] = from[axis] + 0.5;
+    x[(axis + 1) % 3] = from[(axis + 1) % 3] + (q % 2 ? 0.25 : -0.25);
+    x[(axis + 2) % 3] = from[(axis + 2) % 3] + (q / 2 ? 0.25 : -0.25);
+    around[q] = subdomain_by_hand(boxes, Point_3(x[0], x[1], x[2]));
+  }
+  return around;
+}
+
+bool is_on_edge(const Box& b, const std::array<int, 3>& from, int axis)
+{
+  const auto is_at_end = [&](int k) { return from[k] == b.from[k] || from[k] == b.to[k]; };
+  return b.from[axis] <= from[axis] && from[axis] < b.to[axis] && is_at_end((axis + 1) % 3)
+         && is_at_end((axis + 2) % 3);
+}
+
+// Sharp edges of boxes that are nested, touch, or cross each other, against the quarters around all segments.
+void test_sharp_edges()
+{
+  constexpr int size = 6;
+  using Segment = std::pair<std::array<int, 3>, int>; // lower end, axis
+  std::mt19937 random(7);
+  std::size_t number = 0, number_cut = 0;
+  for(int trial = 0; trial < 200; ++trial) {
+    std::vector<Box> boxes(3);
+    Domain domain;
+    for(std::size_t i = 0; i < boxes.size(); ++i) {
+      Box& b = boxes[i];
+      b.index = trial % 4 == 0 ? Subdomain_index(i) : Subdomain_index(i + 1);
+      for(int k = 0; k < 3; ++k) {
+        b.from[k] = int(random() % size);
+        b.to[k] = b.from[k] + 1 + int(random() % unsigned(size - b.from[k]));
+      }
+      domain.add(box(Point_3(b.from[0], b.from[1], b.from[2]), Point_3(b.to[0], b.to[1], b.to[2])), b.index);
+    }
+    std::map<Segment, std::set<Subdomain_index>> expected, found;
+    for(int axis = 0; axis < 3; ++axis)
+      for(int i = 0; i < (size + 1) * (size + 1) * (size + 1); ++i) {
+        const std::array<int, 3> from{i % (size + 1), i / (size + 1) % (size + 1),
+                                      i / (size + 1) / (size + 1)};
+        const auto q = subdomains_around(boxes, from, axis);
+        const bool is_flat = (q[0] == q[1] && q[2] == q[3]) || (q[0] == q[2] && q[1] == q[3]);
+        if(!is_flat && std::any_of(boxes.begin(), boxes.end(), [&](const Box& b) {
+             return is_on_edge(b, from, axis);
+           }))
+          expected[{from, axis}].insert(q.begin(), q.end());
+      }
+    const Sharp_edges edges = domain.sharp_edges(50);
+    BOOST_TEST_EQ(edges.edges.size(), edges.subdomains.size());
+    for(std::size_t e = 0; e < edges.edges.size(); ++e) {
+      Vec3 p = edges.points[edges.edges[e][0]], q = edges.points[edges.edges[e][1]];
+      int axis = 0;
+      while(p[axis] == q[axis])
+        ++axis;
+      if(p[axis] > q[axis])
+        std::swap(p, q);
+      for(int x = int(std::lround(p[axis])); x < int(std::lround(q[axis])); ++x) {
+        std::array<int, 3> from{int(std::lround(p[0])), int(std::lround(p[1])), int(std::lround(p[2]))};
+        from[axis] = x;
+        BOOST_TEST((found.count({from, axis}) == 0));
+        found[{from, axis}].insert(edges.subdomains[e].begin(), edges.subdomains[e].end());
+      }
+    }
+    BOOST_TEST(found == expected);
+    number += expected.size();
+    number_cut += edges.crossings.size();
+  }
+  BOOST_TEST_GT(number, 5000u);
+  BOOST_TEST_GT(number_cut, 200u);
+}
+
+// Meshes of boxes keep all edges and corners of all subdomains: side by side, nested, and with a sheet across
+// edges.
+void test_sharp_edges_of_meshes()
+{
+  struct Case
+  {
+    std::vector<Test_surface> surfaces;
+    double length; // of all sharp edges
+    std::size_t corners;
+    bool has_sheet = false;
+  };
+  const Case cases[] = {
+    {{box(Point_3(1, 0, 0), Point_3(2, 1, 1)), box(Point_3(0, 0, 0), Point_3(1, 1, 1))}, 20, 12},
+    {{box(Point_3(0.3, 0.3, 0.3), Point_3(0.7, 0.7, 0.7)), box(Point_3(0, 0, 0), Point_3(1, 1, 1))},
+     16.8,
+     16},
+    {{box(Point_3(0, 0, 0), Point_3(1, 1, 1))}, 12, 12, true}};
+  for(const Case& one : cases) {
+    Domain domain;
+    for(std::size_t i = 0; i < one.surfaces.size(); ++i)
+      domain.add(one.surfaces[i], Subdomain_index(i) + 1);
+    if(one.has_sheet) {
+      Test_surface sheet;
+      const auto a = sheet.add_vertex(Point_3(-1, -1, 0.4)), b = sheet.add_vertex(Point_3(2, -1, 0.5)),
+                 c = sheet.add_vertex(Point_3(2, 2, 0.6)), d = sheet.add_vertex(Point_3(-1, 2, 0.5));
+      sheet.add_face(a, b, c);
+      sheet.add_face(a, c, d);
+      domain.add_sheet(sheet);
+    }
+    Mesh mesh;
+    const auto result = run(domain, CGAL::Everywhere_mixed_mesh_region_3(), Mixed_mesh_criteria_3(1000),
+                            mesh);
+    const auto& fit = result.optimization;
+    BOOST_TEST_EQ(fit.number_of_arrived_vertices, fit.number_of_boundary_vertices);
+    BOOST_TEST_LT(std::abs(fit.length_of_sharp_edges - one.length), 1e-9);
+    BOOST_TEST_GT(fit.length_of_sharp_edges_kept, 0.999 * one.length);
+    BOOST_TEST_EQ(fit.number_of_corners, one.corners);
+    BOOST_TEST_EQ(fit.number_of_corners_kept, one.corners);
+    const double expected = one.surfaces.size() == 2 && one.corners == 12 ? 2 : 1;
+    BOOST_TEST_LT(std::abs(volume(mesh) - expected), 1e-9);
+  }
+}
+
 int run(int, char*[])
 {
   test_domain();
@@ -448,6 +570,8 @@ int run(int, char*[])
   test_any();
   test_cuts();
   test_both_sides();
+  test_sharp_edges();
+  test_sharp_edges_of_meshes();
   return boost::report_errors();
 }
 

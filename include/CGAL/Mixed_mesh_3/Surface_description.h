@@ -10,6 +10,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
 #include <array>
@@ -46,12 +47,22 @@ struct Shell_counts
 /// \ingroup PkgMixedMesh3Domains
 /// Sharp edges of a surface, each once, between positions of points. Edges that share a point make polylines.
 /// A domain may return them by `MixedMeshDomain_3::sharp_edges()`.
+///
+/// With several subdomains, the edges of the mesh that follow a sharp edge lie between the same subdomains.
+/// Lists of subdomains ascend; 0 is the outside, and `sheets` are the sheets.
 struct Sharp_edges
 {
+  /// Stands for the sheets in lists of subdomains.
+  static constexpr Subdomain_index sheets = -1;
+
   std::vector<Vec3> points;                      ///< points of the surface
   std::vector<std::array<std::size_t, 2>> edges; ///< the positions of their ends in `points`
   double diagonal = 0;                           ///< diagonal of the box of the whole surface; 0: not known
   double area = 0;                               ///< area of the whole surface; 0: not known
+  /// The subdomains around each edge; empty if there is only one.
+  std::vector<std::vector<Subdomain_index>> subdomains = {};
+  /// The subdomains around points where edges meet another surface, beside those around their edges.
+  std::map<std::size_t, std::vector<Subdomain_index>> crossings = {};
 };
 
 /// \ingroup PkgMixedMesh3Domains

@@ -225,11 +225,12 @@ struct Fitting_state
     return off;
   }
 
-  /// Releases a vertex from the sharp edge or corner that it was to be on.
+  /// Releases a vertex from the sharp edge or corner that it is to be on.
   void leave_feature(Vertex_index v)
   {
     Transaction transaction(mesh);
-    transaction.leave_sharp_edges(v, boundary_stratum);
+    transaction.leave_sharp_edges(v, strata.of_subdomains(
+                                       features->subdomains(mesh.strata[v] - first_sharp_stratum)));
     transaction.keep();
   }
 

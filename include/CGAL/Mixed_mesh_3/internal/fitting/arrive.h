@@ -14,6 +14,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/fitting/Fitting_state.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/follow_sharp_edges.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/split_flat_elements.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
 
 #include <algorithm>
@@ -78,6 +79,8 @@ bool arrive(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
   constexpr double least_cost_to_flip_in_vain = 2;
 
   set_targets(s);
+  if(!s.mode.keeps_sharp_edges)
+    split_flat_elements(s);
   // Small steps are checked: vertices whose faces would cut others are held. There is no check without a
   // bound: where elements may get that bad, too many vertices would be held.
   const bool is_careful = s.mode.is_without_attraction && s.has_bound() && s.crossing_vertices().empty();

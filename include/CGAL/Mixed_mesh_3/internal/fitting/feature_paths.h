@@ -13,11 +13,13 @@
 #include <CGAL/license/Mixed_mesh_3.h>
 
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/Strata.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/bisect_edge.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Sharp_features.h>
 
+#include <boost/container/small_vector.hpp>
+
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -38,7 +40,8 @@ Each corner takes the boundary vertex that will be nearest, and each polyline, t
 shortest path between the vertices of its ends, where the length of an edge counts the more, the farther the
 edge is from the polyline. Paths have no vertex in common but at corners, and no edge joins two vertices of a
 path past a vertex between them: such an edge would fold on the polyline. A path may lead through the middle
-of an edge too, which is bisected then.
+of an edge too, which is bisected then. With several subdomains, corners and paths lie between the same
+subdomains as the corners and sharp edges of the surface.
 
 Vertices of paths get the strata of their polylines and corners, edges are noted in
 `Working_mesh::sharp_edges`.
@@ -49,19 +52,28 @@ class Feature_paths
   using Edge = Working_mesh::Edge;
   using Node = Edge; // a vertex, twice, or an edge for its middle
 
+  // The triangles at an edge: their apexes and strata.
+  struct Edge_star
+  {
+    boost::container::small_vector<std::pair<Vertex_index, Stratum>, 2> triangles;
+    Stratum stratum = free_stratum; // what the strata have in common
+  };
+
   Working_mesh& m_mesh;
   const Quality& m_quality;
   const Sharp_features& m_features;
+  Strata& m_strata;
   const double m_worst;
   std::size_t m_bisections_left;
   std::vector<Vec3> m_places; // future places of boundary vertices
   std::vector<double> m_sizes;
   std::vector<std::uint8_t> m_is_free;
-  std::vector<std::vector<Vertex_index>> m_neighbors;   // neighbors on the boundary
-  std::map<Edge, std::array<Vertex_index, 2>> m_apexes; // apexes of the triangles at each edge
-  std::set<Edge> m_whole;                               // edges that can not be bisected
-  std::vector<Vertex_index> m_corners;                  // vertex of each corner, or none
+  std::vector<std::vector<Vertex_index>> m_neighbors; // neighbors on the boundary
+  std::map<Edge, Edge_star> m_stars;
+  std::set<Edge> m_whole;              // edges that can not be bisected
+  std::vector<Vertex_index> m_corners; // vertex of each corner, or none
   std::vector<Edge> m_bisected;
+  Stratum m_stratum = free_stratum; // of the polyline whose path is chosen
 
   // Weights of the length of edges: edges as far from the polyline as they are long count about
   // `distance_weight` times as much, and middles count more than vertices. Limits in sizes: farther away
@@ -70,32 +82,33 @@ class Feature_paths
   static constexpr int trials = 20;
 
 public:
-  /// \param boundary faces of the boundary
+  /// \param strata,boundary strata and faces of the boundary and of interfaces
   /// \param places future places of all vertices
   /// \param is_blocked whether paths must not use a vertex
   /// \param worst largest cost of halves of bisected tetrahedra
-  Feature_paths(Working_mesh& mesh, const Quality& quality, const Sharp_features& features,
+  Feature_paths(Working_mesh& mesh, const Quality& quality, const Sharp_features& features, Strata& strata,
                 const Interface_faces& boundary, std::vector<Vec3> places,
                 const std::vector<std::uint8_t>& is_blocked, double worst, std::size_t bisections)
-    : m_mesh(mesh), m_quality(quality), m_features(features), m_worst(worst), m_bisections_left(bisections),
-      m_places(std::move(places)), m_sizes(mesh.points.size(), 0), m_is_free(mesh.points.size(), 0),
-      m_neighbors(mesh.points.size()), m_corners(features.corners().size(), no_vertex)
+    : m_mesh(mesh), m_quality(quality), m_features(features), m_strata(strata), m_worst(worst),
+      m_bisections_left(bisections), m_places(std::move(places)), m_sizes(mesh.points.size(), 0),
+      m_is_free(mesh.points.size(), 0), m_neighbors(mesh.points.size()),
+      m_corners(features.corners().size(), no_vertex)
   {
-    for(const Face& face : boundary.faces) {
-      const Face_vertices& v = face.vertices();
+    for(std::size_t f = 0; f < boundary.faces.size(); ++f) {
+      const Face_vertices& v = boundary.faces[f].vertices();
       for(int i = 0; i < v.size(); ++i) {
         const Vertex_index a = v[i], b = v[(i + 1) % v.size()];
         m_is_free[a] = !is_blocked[a];
-        m_neighbors[a].push_back(b); // the other face has the opposite direction
-        std::array<Vertex_index, 2>& apexes =
-          m_apexes.try_emplace(edge(a, b), std::array<Vertex_index, 2>{no_vertex, no_vertex}).first->second;
-        apexes[apexes[0] == no_vertex ? 0 : 1] = v[(i + 2) % v.size()];
+        m_neighbors[a].push_back(b);
+        m_neighbors[b].push_back(a);
+        add_triangle(edge(a, b), v[(i + 2) % v.size()], boundary.strata[f]);
         if(v.size() != 3)
           m_whole.insert(edge(a, b));
       }
     }
     for(Vertex_index v = 0; v < m_neighbors.size(); ++v) {
       std::sort(m_neighbors[v].begin(), m_neighbors[v].end());
+      m_neighbors[v].erase(std::unique(m_neighbors[v].begin(), m_neighbors[v].end()), m_neighbors[v].end());
       for(Vertex_index u : m_neighbors[v])
         m_sizes[v] += norm(m_mesh.points[u] - m_mesh.points[v]) / double(m_neighbors[v].size());
     }
@@ -127,6 +140,15 @@ private:
   Vec3 place(const Node& n) const { return 0.5 * (m_places[n.first] + m_places[n.second]); }
   double size(const Node& n) const { return 0.5 * (m_sizes[n.first] + m_sizes[n.second]); }
 
+  Stratum stratum_of(const Edge& e) const { return m_stars.at(e).stratum; }
+
+  void add_triangle(const Edge& e, Vertex_index apex, Stratum stratum)
+  {
+    Edge_star& star = m_stars[e];
+    star.triangles.emplace_back(apex, stratum);
+    star.stratum = star.stratum == free_stratum ? stratum : m_strata.meet(star.stratum, stratum);
+  }
+
   void take_corners()
   {
     const std::vector<Vec3>& corners = m_features.corners();
@@ -134,10 +156,15 @@ private:
     for(const Feature_polyline& p : m_features.polylines())
       for(std::size_t c : p.corners)
         ++degrees[c];
+    std::vector<Stratum> strata;
+    for(std::size_t c = 0; c < corners.size(); ++c)
+      strata.push_back(m_strata.of_subdomains(m_features.subdomains(m_features.polylines().size() + c)));
     std::vector<std::tuple<double, std::size_t, Vertex_index>> pairs;
     for(Vertex_index v = 0; v < m_neighbors.size(); ++v)
       if(m_is_free[v])
         for(std::size_t c = 0; c < corners.size(); ++c) {
+          if(m_mesh.strata[v] != strata[c])
+            continue;
           // Several vertices may have the same place.
           const double d = norm(m_places[v] - corners[c]) + 0.1 * norm(m_mesh.points[v] - corners[c]);
           if(d < reach_of_corners * m_sizes[v] && m_neighbors[v].size() >= degrees[c])
@@ -164,6 +191,7 @@ private:
     const Vertex_index first = m_corners[polyline.corners[0]], last = m_corners[polyline.corners[1]];
     if(first == no_vertex || last == no_vertex)
       return;
+    m_stratum = m_strata.of_subdomains(m_features.subdomains(number));
     for(int trial = 0; trial < trials; ++trial) {
       std::vector<Node> path = shortest_path(polyline, first, last);
       if(path.empty())
@@ -183,28 +211,29 @@ private:
     }
   }
 
-  // Visits vertices and middles of edges that are joined by an edge, or would be after bisections; not across
-  // paths.
+  // Visits vertices and middles of edges that are joined by an edge of the stratum in force, or would be
+  // after bisections; not across paths.
   template <class Visit>
   void for_each_neighbor(const Node& n, const Visit& visit) const
   {
     const auto middle = [&](Vertex_index a, Vertex_index b) {
       // The edge may be a diagonal of a quadrilateral.
-      if(m_bisections_left > 0 && m_apexes.count(edge(a, b)) > 0 && m_whole.count(edge(a, b)) == 0
-         && !m_mesh.is_sharp(a, b))
+      const auto star = m_stars.find(edge(a, b));
+      if(m_bisections_left > 0 && star != m_stars.end() && star->second.stratum == m_stratum
+         && m_whole.count(edge(a, b)) == 0 && !m_mesh.is_sharp(a, b))
         visit(edge(a, b));
     };
     if(is_vertex(n)) {
       for(Vertex_index u : m_neighbors[n.first]) {
-        visit({u, u});
-        for(Vertex_index w : m_apexes.at(edge(n.first, u)))
-          if(w > u) // each pair once
+        const Edge_star& star = m_stars.at(edge(n.first, u));
+        if(star.stratum == m_stratum)
+          visit({u, u});
+        for(const auto& [w, stratum] : star.triangles)
+          if(w > u && stratum == m_stratum) // each pair once
             middle(u, w);
       }
     } else {
-      for(Vertex_index w : m_apexes.at(n)) {
-        if(w == no_vertex)
-          continue;
+      for(const auto& [w, stratum] : m_stars.at(n).triangles) {
         visit({w, w});
         middle(n.first, w);
         middle(n.second, w);
@@ -244,7 +273,7 @@ private:
       if(n == end)
         break;
       for_each_neighbor(n, [&](const Node& m) {
-        if(is_vertex(m) && !m_is_free[m.first] && m != end)
+        if(is_vertex(m) && m != end && (!m_is_free[m.first] || m_mesh.strata[m.first] != m_stratum))
           return;
         if(m == end && n == start && m_mesh.is_sharp(first, last))
           return; // an edge of another polyline between the same corners
@@ -290,7 +319,7 @@ private:
       const auto [a, b] = n;
       const Vec3 middle = 0.5 * (m_mesh.points[a] + m_mesh.points[b]);
       const Vec3 where = place(n);
-      if(m_bisections_left == 0 || !bisect_edge(m_mesh, m_quality, a, b, middle, boundary_stratum, m_worst)) {
+      if(m_bisections_left == 0 || !bisect_edge(m_mesh, m_quality, a, b, middle, stratum_of(n), m_worst)) {
         m_whole.insert(n);
         return false;
       }
@@ -308,19 +337,25 @@ private:
 
   void update(Vertex_index a, Vertex_index b, Vertex_index middle)
   {
-    const std::array<Vertex_index, 2> old = m_apexes.at(edge(a, b));
-    m_apexes.erase(edge(a, b));
-    m_apexes[edge(a, middle)] = m_apexes[edge(b, middle)] = old;
+    const Edge_star old = m_stars.at(edge(a, b));
+    m_stars.erase(edge(a, b));
+    m_stars[edge(a, middle)] = m_stars[edge(b, middle)] = old;
     const auto replace = [](auto& vertices, Vertex_index from, Vertex_index to) {
       std::replace(vertices.begin(), vertices.end(), from, to);
+    };
+    const auto replace_apex = [&](const Edge& e, Vertex_index from) {
+      for(auto& triangle : m_stars.at(e).triangles)
+        if(triangle.first == from)
+          triangle.first = middle;
     };
     replace(m_neighbors[a], b, middle);
     replace(m_neighbors[b], a, middle);
     m_neighbors.push_back({a, b});
-    for(Vertex_index c : old) {
-      m_apexes[edge(c, middle)] = {a, b};
-      replace(m_apexes.at(edge(c, a)), b, middle);
-      replace(m_apexes.at(edge(c, b)), a, middle);
+    for(const auto& [c, stratum] : old.triangles) {
+      add_triangle(edge(c, middle), a, stratum);
+      add_triangle(edge(c, middle), b, stratum);
+      replace_apex(edge(c, a), b);
+      replace_apex(edge(c, b), a);
       m_neighbors[c].push_back(middle);
       m_neighbors[middle].push_back(c);
     }
@@ -332,17 +367,17 @@ private:
   {
     constexpr double straight = -0.5; // cosine of the angle between the two edges
     std::vector<Edge> short_cuts;
-    for(const auto& [e, apexes] : m_apexes)
-      for(Vertex_index c : apexes) {
+    for(const auto& [e, star] : m_stars)
+      for(const auto& [c, stratum] : star.triangles) {
         const auto [a, b] = e;
-        if(c == no_vertex || m_mesh.is_sharp(a, b) || !m_mesh.is_sharp(a, c) || !m_mesh.is_sharp(b, c))
+        if(m_mesh.is_sharp(a, b) || !m_mesh.is_sharp(a, c) || !m_mesh.is_sharp(b, c))
           continue;
         const Vec3 to_a = m_places[a] - m_places[c], to_b = m_places[b] - m_places[c];
         if(dot(to_a, to_b) < straight * norm(to_a) * norm(to_b))
           short_cuts.push_back(e);
       }
     for(const Edge& e : short_cuts)
-      if(m_whole.count(e) == 0 && m_apexes.count(e) > 0) {
+      if(m_whole.count(e) == 0 && m_stars.count(e) > 0) {
         std::vector<Node> nodes{e};
         bisect(nodes);
       }
@@ -362,7 +397,9 @@ private:
       std::size_t j = path.size() - 1;
       for(; j > i + 1; --j) {
         const Vec3 &a = m_places[path[i].first], &b = m_places[path[j].first];
-        if(are_neighbors(path[i].first, path[j].first) && !m_mesh.is_sharp(path[i].first, path[j].first)
+        if(are_neighbors(path[i].first, path[j].first)
+           && stratum_of(edge(path[i].first, path[j].first)) == m_stratum
+           && !m_mesh.is_sharp(path[i].first, path[j].first)
            && std::abs(position(path, j, polyline) - position(path, i, polyline)) < longer_way * norm(b - a))
           break;
       }

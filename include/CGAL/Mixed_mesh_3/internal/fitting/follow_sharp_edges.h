@@ -34,7 +34,7 @@ void choose_feature_paths(Fitting_state<Quality>& s)
   s.feature_places = s.mesh.points;
   for(std::size_t i = 0; i < targets.vertices.size(); ++i)
     s.feature_places[targets.vertices[i]] = targets.positions[i];
-  Feature_paths paths(s.mesh, s.quality, *s.features, s.boundary, s.feature_places, s.is_held,
+  Feature_paths paths(s.mesh, s.quality, *s.features, s.strata, s.boundary, s.feature_places, s.is_held,
                       (std::min)(s.largest_cost_of_half, s.intermediate_bound()),
                       s.criteria.number_of_bisections());
   paths();

@@ -15,6 +15,7 @@
 
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Face.h>
+#include <CGAL/Mixed_mesh_3/Surface_description.h>
 #include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/for_each_face.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Any_surface.h>
@@ -149,21 +150,32 @@ public:
   std::vector<Stratum> of_vertices(std::size_t number_of_vertices, const Interface_faces& faces)
   {
     std::vector<Stratum> result(number_of_vertices, free_stratum);
-    std::map<Vertex_index, std::set<Stratum>> several;
     for(std::size_t i = 0; i < faces.faces.size(); ++i)
-      for(Vertex_index v : faces.faces[i].vertices()) {
-        if(result[v] == free_stratum)
-          result[v] = faces.strata[i];
-        else if(result[v] != faces.strata[i])
-          several[v].insert({result[v], faces.strata[i]});
-      }
-    for(const auto& [v, strata] : several) {
-      std::set<Subdomain_rank> ranks;
-      for(Stratum s : strata)
-        ranks.insert(m_ranks[s].begin(), m_ranks[s].end());
-      result[v] = number({ranks.begin(), ranks.end()});
-    }
+      for(Vertex_index v : faces.faces[i].vertices())
+        result[v] = result[v] == free_stratum ? faces.strata[i] : meet(result[v], faces.strata[i]);
     return result;
+  }
+
+  /// The stratum of the places where subdomains meet, as `Sharp_edges` lists them; an empty list stands for
+  /// the only subdomain and the outside.
+  Stratum of_subdomains(const std::vector<Subdomain_index>& subdomains)
+  {
+    if(subdomains.empty())
+      return number({0, outside_rank});
+    std::set<Subdomain_rank> ranks;
+    for(Subdomain_index i : subdomains)
+      ranks.insert(i == Sharp_edges::sheets ? sheet_rank : rank_of(m_order, i));
+    return number({ranks.begin(), ranks.end()});
+  }
+
+  /// The stratum of the places that two strata have in common.
+  Stratum meet(Stratum a, Stratum b)
+  {
+    if(a == b)
+      return a;
+    std::set<Subdomain_rank> ranks(m_ranks[a].begin(), m_ranks[a].end());
+    ranks.insert(m_ranks[b].begin(), m_ranks[b].end());
+    return number({ranks.begin(), ranks.end()});
   }
 
 private:

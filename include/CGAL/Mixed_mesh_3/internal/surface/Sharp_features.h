@@ -12,6 +12,7 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Surface_description.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 
@@ -21,6 +22,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -142,6 +144,8 @@ begin.
 class Sharp_features
 {
 public:
+  using Subdomains = std::vector<Subdomain_index>; // ascending
+
   static constexpr double sharp_turn = 45; // degrees
   // Least length of connected polylines altogether, in sizes of elements.
   static constexpr double least_length = 2;
@@ -193,6 +197,14 @@ public:
                                                           : polyline.length();
   }
 
+  /// The subdomains around a feature, as `Sharp_edges` lists them.
+  /// \param number of the feature: polylines are numbered first, then corners
+  const Subdomains& subdomains(std::size_t number) const
+  {
+    const std::size_t first_corner = m_polylines.size();
+    return number < first_corner ? m_at_polylines[number] : m_at_corners[number - first_corner];
+  }
+
   double length() const
   {
     double sum = 0;
@@ -207,6 +219,7 @@ private:
   std::vector<Feature_polyline> m_polylines;
   std::vector<Vec3> m_corners;
   std::vector<std::uint8_t> m_is_real;
+  std::vector<Subdomains> m_at_polylines, m_at_corners; // subdomains around
   double m_length_of_free = 0;
 
   const Vec3& point(std::size_t v) const { return m_sharp->points[v]; }
@@ -215,10 +228,28 @@ private:
     return m_sharp->edges[e][0] == v ? m_sharp->edges[e][1] : m_sharp->edges[e][0];
   }
 
+  Subdomains around_edge(std::size_t e) const
+  {
+    return m_sharp->subdomains.empty() ? Subdomains() : m_sharp->subdomains[e];
+  }
+
+  Subdomains around_corner(std::size_t v) const
+  {
+    std::set<Subdomain_index> all;
+    for(std::size_t e : m_around[v])
+      for(Subdomain_index i : around_edge(e))
+        all.insert(i);
+    if(const auto found = m_sharp->crossings.find(v); found != m_sharp->crossings.end())
+      all.insert(found->second.begin(), found->second.end());
+    return {all.begin(), all.end()};
+  }
+
   bool is_corner(std::size_t v) const
   {
     if(m_around[v].size() != 2)
       return !m_around[v].empty();
+    if(m_sharp->crossings.count(v) > 0 || around_edge(m_around[v][0]) != around_edge(m_around[v][1]))
+      return true;
     const Vec3 a = point(v) - point(other_end(m_around[v][0], v)),
                b = point(other_end(m_around[v][1], v)) - point(v);
     return dot(a, b) < std::cos(sharp_turn * M_PI / 180) * norm(a) * norm(b);
@@ -247,10 +278,11 @@ private:
     }
   }
 
-  std::size_t add_corner(const Vec3& p, bool is_real)
+  std::size_t add_corner(const Vec3& p, bool is_real, Subdomains around)
   {
     m_corners.push_back(p);
     m_is_real.push_back(is_real);
+    m_at_corners.push_back(std::move(around));
     return m_corners.size() - 1;
   }
 
@@ -260,11 +292,12 @@ private:
     std::vector<std::size_t> corners(m_around.size(), none);
     for(std::size_t v = 0; v < m_around.size(); ++v)
       if(is_corner(v))
-        corners[v] = add_corner(point(v), true);
+        corners[v] = add_corner(point(v), true, around_corner(v));
     std::vector<std::uint8_t> is_done(m_sharp->edges.size(), 0);
     const auto follow = [&](std::size_t v, std::size_t e) {
       std::vector<Vec3> points{point(v)};
       const std::size_t first = v;
+      const Subdomains around = around_edge(e);
       do {
         is_done[e] = 1;
         v = other_end(e, v);
@@ -272,7 +305,8 @@ private:
         if(corners[v] == none)
           e = m_around[v][m_around[v][0] == e ? 1 : 0];
       } while(corners[v] == none && v != first);
-      add(std::move(points), corners[first], corners[v]);
+      add(std::move(points), corners[first], corners[v], around);
+      m_at_polylines.resize(m_polylines.size(), around);
       if(m_around[first].size() == 1 || m_around[v].size() == 1)
         m_length_of_free += m_polylines.back().length();
     };
@@ -283,14 +317,14 @@ private:
             follow(v, e);
     for(std::size_t v = 0; v < m_around.size(); ++v)
       if(corners[v] == none && !m_around[v].empty() && !is_done[m_around[v][0]]) {
-        corners[v] = add_corner(point(v), false);
+        corners[v] = add_corner(point(v), false, around_corner(v));
         follow(v, m_around[v][0]);
       }
     m_around.clear();
     m_sharp = nullptr;
   }
 
-  void add(std::vector<Vec3> points, std::size_t first, std::size_t last)
+  void add(std::vector<Vec3> points, std::size_t first, std::size_t last, const Subdomains& around)
   {
     if(first != last) {
       m_polylines.emplace_back(std::move(points), std::array<std::size_t, 2>{first, last});
@@ -304,7 +338,7 @@ private:
       const bool is_last = i + 1 == points.size();
       if(!is_last && (cut > 2 || length < (double(cut) / 3 - 1e-9) * whole.length()))
         continue;
-      const std::size_t corner = is_last ? last : add_corner(points[i], false);
+      const std::size_t corner = is_last ? last : add_corner(points[i], false, around);
       m_polylines.emplace_back(std::vector<Vec3>(points.begin() + std::ptrdiff_t(begin),
                                                  points.begin() + std::ptrdiff_t(i) + 1),
                                std::array<std::size_t, 2>{begin_corner, corner});

@@ -55,6 +55,9 @@ public:
   /// Whether the sheet meets a closed segment, exactly.
   bool do_intersect(const Point_3& p, const Point_3& q) const;
 
+  /// The shares of a segment at which it crosses the sheet; none for triangles parallel to it.
+  std::vector<double> crossings(const Vec3& p, const Vec3& q) const;
+
   Point_3 closest_point(const Point_3& p) const;
   /// The closest point of the sheet; faster if `hint`, a point of the sheet, is near.
   Point_3 closest_point(const Point_3& p, const Point_3& hint) const;

@@ -14,6 +14,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/compiled.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Sheet_oracle_3.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Triangle_tree.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/visible_sharp_edges.h>
 
 #include <CGAL/AABB_tree.h>
 
@@ -21,6 +22,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
@@ -108,6 +110,20 @@ CGAL_MIXED_MESH_3_INLINE bool Sheet_oracle_3::may_intersect(const Bbox_3& box) c
 CGAL_MIXED_MESH_3_INLINE bool Sheet_oracle_3::do_intersect(const Point_3& p, const Point_3& q) const
 {
   return CGAL::do_overlap(p.bbox() + q.bbox(), m_bbox) && m_trees->tree.do_intersect(Kernel::Segment_3(p, q));
+}
+
+CGAL_MIXED_MESH_3_INLINE std::vector<double> Sheet_oracle_3::crossings(const Vec3& p, const Vec3& q) const
+{
+  std::vector<Trees::Triangles::const_iterator> triangles;
+  m_trees->tree.all_intersected_primitives(Kernel::Segment_3(Point_3(p[0], p[1], p[2]),
+                                                             Point_3(q[0], q[1], q[2])),
+                                           std::back_inserter(triangles));
+  std::vector<double> shares;
+  for(const auto t : triangles)
+    if(const double share = share_at_plane(p, q, {to_vec3((*t)[0]), to_vec3((*t)[1]), to_vec3((*t)[2])});
+       share >= 0 && share <= 1)
+      shares.push_back(share);
+  return shares;
 }
 
 CGAL_MIXED_MESH_3_INLINE Sheet_oracle_3::Point_3 Sheet_oracle_3::closest_point(const Point_3& p) const

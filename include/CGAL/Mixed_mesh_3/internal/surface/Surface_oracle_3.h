@@ -18,6 +18,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Triangle_soup.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/visible_sharp_edges.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/assertions.h>
@@ -77,7 +78,11 @@ public:
   const Shell_counts& shells() const { return m_shells; }
 
   /// The edges between facets whose normals differ by more than an angle, in degrees.
-  Sharp_edges sharp_edges(double angle) const;
+  Sharp_edges sharp_edges(double angle) const { return surface_edges(angle).edges; }
+  Surface_edges surface_edges(double angle) const;
+
+  /// The shares of a segment at which it crosses facets; none for facets parallel to it.
+  std::vector<double> crossings(const Vec3& p, const Vec3& q) const;
 
   /// The coordinates of the planes of the facets, with the area in each plane, for each axis, if each facet
   /// is perpendicular to an axis; else nothing.

@@ -26,6 +26,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -77,9 +78,9 @@ struct Surface_oracle_3::Side_tree
     return surface;
   }
 
-  // The side of a point. Most sides follow from that of a point nearby, and some surfaces need no tree for
-  // the others, which takes as long as the closest points of all.
-  Bounded_side bounded_side(const Point_3& p, const Surface_oracle_3& oracle)
+  // Most sides follow from that of a point nearby, and some surfaces need no tree for the others, which takes
+  // as long as the closest points of all.
+  void build(const Surface_oracle_3& oracle)
   {
     std::call_once(has_tree, [&] {
       const Surface& s = mesh(oracle);
@@ -87,7 +88,6 @@ struct Surface_oracle_3::Side_tree
       tree.build();
       side_of_surface.emplace(tree);
     });
-    return (*side_of_surface)(p);
   }
 };
 
@@ -184,12 +184,30 @@ CGAL_MIXED_MESH_3_INLINE double Surface_oracle_3::volume() const
   return std::abs(sum);
 }
 
-CGAL_MIXED_MESH_3_INLINE Sharp_edges Surface_oracle_3::sharp_edges(double angle) const
+CGAL_MIXED_MESH_3_INLINE std::vector<double> Surface_oracle_3::crossings(const Vec3& p, const Vec3& q) const
+{
+  m_side_tree->build(*this);
+  std::vector<Side_tree::Surface::Face_index> facets;
+  m_side_tree->tree.all_intersected_primitives(Kernel::Segment_3(Point_3(p[0], p[1], p[2]),
+                                                                 Point_3(q[0], q[1], q[2])),
+                                               std::back_inserter(facets));
+  std::vector<double> shares;
+  for(const auto f : facets) {
+    const Triangle_3 t = facet(f);
+    if(const double share = share_at_plane(p, q, {to_vec3(t[0]), to_vec3(t[1]), to_vec3(t[2])});
+       share >= 0 && share <= 1)
+      shares.push_back(share);
+  }
+  return shares;
+}
+
+CGAL_MIXED_MESH_3_INLINE Surface_edges Surface_oracle_3::surface_edges(double angle) const
 {
   const Side_tree::Surface& s = m_side_tree->mesh(*this);
   std::vector<std::uint8_t> is_sharp(s.number_of_edges(), 0);
   Polygon_mesh_processing::detect_sharp_edges(s, angle, Is_sharp_map{&is_sharp});
-  Sharp_edges result;
+  Surface_edges all;
+  Sharp_edges& result = all.edges;
   std::vector<std::size_t> numbers(s.number_of_vertices(), std::size_t(-1));
   const auto number = [&](Side_tree::Surface::Vertex_index v) {
     if(numbers[v] == std::size_t(-1)) {
@@ -199,12 +217,16 @@ CGAL_MIXED_MESH_3_INLINE Sharp_edges Surface_oracle_3::sharp_edges(double angle)
     return numbers[v];
   };
   for(const auto e : edges(s))
-    if(is_sharp[e])
-      result.edges.push_back({number(source(halfedge(e, s), s)), number(target(halfedge(e, s), s))});
+    if(is_sharp[e]) {
+      const auto h = halfedge(e, s);
+      const auto apex = [&](auto side) { return to_vec3(s.point(target(next(side, s), s))); };
+      result.edges.push_back({number(source(h, s)), number(target(h, s))});
+      all.apexes.push_back({apex(h), apex(s.opposite(h))});
+    }
   const Bbox_3& b = m_bbox;
   result.diagonal = norm({b.x_span(), b.y_span(), b.z_span()});
   result.area = area();
-  return result;
+  return all;
 }
 
 CGAL_MIXED_MESH_3_INLINE Axis_parallel_planes Surface_oracle_3::axis_parallel_planes() const
@@ -224,7 +246,8 @@ CGAL_MIXED_MESH_3_INLINE Axis_parallel_planes Surface_oracle_3::axis_parallel_pl
 
 CGAL_MIXED_MESH_3_INLINE Bounded_side Surface_oracle_3::bounded_side(const Point_3& p) const
 {
-  return m_side_tree->bounded_side(p, *this);
+  m_side_tree->build(*this);
+  return (*m_side_tree->side_of_surface)(p);
 }
 
 CGAL_MIXED_MESH_3_INLINE Surface_oracle_3::Point_3 Surface_oracle_3::closest_point(const Point_3& p,
