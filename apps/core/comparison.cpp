@@ -121,10 +121,21 @@ std::string sentence_on_volume(double ratio, const Input_names& names)
 std::string sentence_on_sharp_edges(const CGAL::Mixed_mesh_result_3& result, const Input_names& names)
 {
   const double share = share_of_sharp_edges(result);
-  return share < least_share_of_sharp_edges
-           ? "only " + as_part_of(share) + " the length of the sharp edges of " + names.surface
-               + " is kept, the rest is cut off; try more vertices"
-           : "";
+  if(share >= least_share_of_sharp_edges)
+    return "";
+  const auto& lost = result.optimization.lost_sharp_edges;
+  const auto length = [](const std::vector<mm3::Vec3>& part) {
+    double sum = 0;
+    for(std::size_t i = 1; i < part.size(); ++i)
+      sum += mm3::norm(part[i] - part[i - 1]);
+    return sum;
+  };
+  const auto longest = std::max_element(lost.begin(), lost.end(),
+                                        [&](const auto& a, const auto& b) { return length(a) < length(b); });
+  return "only " + as_part_of(share) + " the length of the sharp edges of " + names.surface
+         + " is kept, the rest is cut off"
+         + (longest != lost.end() ? ", the longest part at " + place((*longest)[longest->size() / 2]) : "")
+         + "; try more vertices";
 }
 
 std::string sentence_on_vertices_off(const Fidelity& fidelity, const Input_names& names)

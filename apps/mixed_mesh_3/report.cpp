@@ -200,6 +200,7 @@ Json describe(const CGAL::Mixed_mesh_optimization_result_3& r)
             {"share kept", r.length_of_sharp_edges > 0
                              ? Json(r.length_of_sharp_edges_kept / r.length_of_sharp_edges)
                              : Json()},
+            {"lost", r.lost_sharp_edges},
             {"corners", r.number_of_corners},
             {"corners kept", r.number_of_corners_kept}}}};
 }

@@ -131,6 +131,7 @@ const state = {
   isPatient: true,
   hasEdges: true,
   hasPlaces: true,
+  hasLost: true,
   picked: -1,
   place: -1
 };

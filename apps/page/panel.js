@@ -9,6 +9,7 @@ const relative = p => p.map((x, c) => x - center[c]);
 const controlPoints =
   (report["control points"] ?? [])
     .map(c => [relative(c.position), relative(c.position.map((x, k) => x + c.displacement[k]))]);
+const lostEdges = ofWhole(report.fitting)?.["sharp edges"]?.lost ?? [];
 const places = findPlaces();
 
 // What the report says of the whole mesh, unless the page has only a part of the mesh.
@@ -226,7 +227,10 @@ function showSettings() {
     input.checked = state[key];
     return make("label", {}, input, text);
   };
-  $("switches").replaceChildren(check("hasEdges", "Edges"), check("hasPlaces", "Places"));
+  $("switches")
+    .replaceChildren(
+      check("hasEdges", "Edges"), check("hasPlaces", "Places"),
+      ...(lostEdges.length > 0 ? [check("hasLost", "Lost sharp edges")] : []));
   if (!data["is in patient space"])
     $("switches")
       .append(
@@ -495,5 +499,6 @@ window.mixedMeshPage = {
   state,
   update,
   frame,
-  camera: () => camera
+  camera: () => camera,
+  lost: () => lost.visible ? lost.geometry.attributes.position.count / 2 : 0
 };  // for the console

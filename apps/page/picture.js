@@ -6,7 +6,7 @@
 
 const $ = id => document.getElementById(id);
 const view = $("view"), canvas = $("canvas"), overlay = $("overlay");
-let renderer, camera, controls, surface, lines, outline, drawnFaces, scene;
+let renderer, camera, controls, surface, lines, outline, lost, drawnFaces, scene;
 
 function setUpScene() {
   THREE.ColorManagement.enabled = false;  // colors are those of the legend
@@ -34,7 +34,11 @@ function setUpScene() {
   outline = new THREE.LineSegments(
     new THREE.BufferGeometry(), new THREE.LineBasicMaterial({color: 0xd02070, depthTest: false}));
   outline.renderOrder = 1;
-  scene.add(surface, lines, outline);
+  lost = new THREE.LineSegments(  // seen through the mesh, as they are inside or outside of it
+    new THREE.BufferGeometry(), new THREE.LineBasicMaterial({color: 0xe00000, depthTest: false}));
+  lost.renderOrder = 1;
+  setGeometry(lost, {position: pointsOfLost()});
+  scene.add(surface, lines, outline, lost);
   controls = new THREE.OrbitControls(camera, canvas);
   controls.minZoom = 0.2;
   controls.maxZoom = 200;
@@ -90,6 +94,7 @@ function draw() {
   setGeometry(surface, {position: xyz, color});
   setGeometry(lines, {position: pointsOf(ends, where)});
   lines.visible = state.hasEdges;
+  lost.visible = state.hasLost;
   drawPicked(where);
   $("shown").replaceChildren(
     `${count(numberShown)} of ${count(numberOfElements)}`, make("span", {}, " elements shown"));
@@ -101,6 +106,14 @@ function pointsOf(list, where) {
   for (let i = 0; i < list.length; ++i)
     for (let c = 0; c < 3; ++c) xyz[3 * i + c] = where[3 * list[i] + c];
   return xyz;
+}
+
+// The ends of the segments of sharp edges of the surface that no edges of the mesh follow.
+function pointsOfLost() {
+  const points = [];
+  for (const part of lostEdges)
+    for (let i = 0; i + 1 < part.length; ++i) points.push(...relative(part[i]), ...relative(part[i + 1]));
+  return new Float32Array(points);
 }
 
 function drawPicked(where) {

@@ -10,8 +10,11 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+
 #include <cstddef>
 #include <limits>
+#include <vector>
 
 namespace CGAL {
 
@@ -67,6 +70,8 @@ struct Mixed_mesh_optimization_result_3
   /// The length of the part of sharp edges within 0.05 of the length of the edge of the mesh that follows
   /// them.
   double length_of_sharp_edges_kept = 0;
+  /// The other parts of sharp edges, each as the points of a polyline.
+  std::vector<std::vector<Mixed_meshes_3::Vec3>> lost_sharp_edges = {};
   std::size_t number_of_corners = 0;      ///< places where sharp edges of the surface end or turn
   std::size_t number_of_corners_kept = 0; ///< corners that have a vertex
   double quality_bound = std::numeric_limits<double>::infinity(); ///< bound of the criteria

@@ -277,6 +277,11 @@ void test_acute_angles()
       std::cout << "tetrahedron" << (is_turned ? ", turned" : "") << ": "
                 << o.length_of_sharp_edges_kept / o.length_of_sharp_edges << " of the edges, "
                 << o.number_of_corners_kept << " corners" << std::endl;
+      double lost = 0;
+      for(const auto& part : o.lost_sharp_edges)
+        for(std::size_t i = 1; i < part.size(); ++i)
+          lost += mm3::norm(part[i] - part[i - 1]);
+      BOOST_TEST_LT(std::abs(o.length_of_sharp_edges_kept + lost - o.length_of_sharp_edges), 1e-5);
       kept += o.length_of_sharp_edges_kept;
       length += o.length_of_sharp_edges;
       corners += o.number_of_corners_kept;

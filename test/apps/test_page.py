@@ -424,6 +424,29 @@ def test_warnings():
         page.is_quiet()
 
 
+def test_lost_sharp_edges():
+    """They are red, the longest one has its place, and a switch hides all; a mesh that keeps all has no switch."""
+    corpus = pathlib.Path(__file__).resolve().parent.parent / "corpus"
+    for surface, vertices in (("gear_8_teeth.off", "150"), ("nut.off", "500")):
+        make(MESHER, str(corpus / surface), "--vertices", vertices, "--page", "edges.html", "--report", "edges.json")
+        edges = json.loads((WORK / "edges.json").read_text())["fitting"]["sharp edges"]
+        length = sum(math.dist(p, q) for part in edges["lost"] for p, q in zip(part, part[1:]))
+        assert abs(length - (1 - edges["share kept"]) * edges["length"]) < 1e-5
+        with Page() as page:
+            page.open(WORK / "edges.html")
+            page.look()
+            switch = page.run("return document.getElementById('hasLost') !== null")
+            assert switch == (len(edges["lost"]) > 0) == (surface != "nut.off")
+            if switch:
+                assert page.run("return mixedMeshPage.lost()") == sum(len(part) - 1 for part in edges["lost"])
+                text = page.run("return document.getElementById('places').textContent")
+                assert "the longest part at" in text
+                page.run("document.getElementById('hasLost').click()")
+                page.look()
+                assert page.run("return mixedMeshPage.lost()") == 0
+            page.is_quiet()
+
+
 def test_crowded_places():
     """Badges that would overlap are one, which leads to each of its places in turn; near by, they come apart."""
     cubes = [moved(CUBE, 10)] + [moved(CUBE, 0.11, (12 + 0.13 * i, 0.2 * j, 0.2 * k)) for i in range(3) for j in range(4)
@@ -520,6 +543,7 @@ def main():
     test_brain_shift()
     test_hostile_names()
     test_warnings()
+    test_lost_sharp_edges()
     test_crowded_places()
     test_files()
     test_large()

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -66,11 +67,14 @@ void give_up_features(Fitting_state<Quality>& s, bool beside)
   s.choose_new_targets();
 }
 
-/// The length of the part of its polyline that an edge is near to.
+/// An interval of arc lengths of a polyline.
+using Arc = std::pair<double, double>;
+
+/// The parts of its polyline that an edge is near to.
 /// \pre both ends have arrived
 template <class Quality>
-double length_kept(const Fitting_state<Quality>& s, const Working_mesh::Edge& edge,
-                   const Feature_polyline& polyline)
+std::vector<Arc> arcs_kept(const Fitting_state<Quality>& s, const Working_mesh::Edge& edge,
+                           const Feature_polyline& polyline)
 {
   constexpr int samples = 16;
   constexpr double near_enough = 0.05; // in lengths of the edge
@@ -78,15 +82,34 @@ double length_kept(const Fitting_state<Quality>& s, const Working_mesh::Edge& ed
   const auto arc_length = [&](Vertex_index v) {
     return s.features->arc_length(s.mesh.points[v], s.mesh.strata[v] - first_sharp_stratum, polyline);
   };
-  const double first = arc_length(edge.first), last = arc_length(edge.second);
-  double kept = 0;
+  const auto [first, last] = std::minmax({arc_length(edge.first), arc_length(edge.second)});
+  std::vector<Arc> arcs;
   for(int i = 0; i < samples; ++i) {
-    const Vec3 q = polyline.at(first + (i + 0.5) / samples * (last - first)) - p;
+    const auto at = [&, first = first, last = last](double k) {
+      return first + k / samples * (last - first);
+    };
+    const Vec3 q = polyline.at(at(i + 0.5)) - p;
     const double share = (std::min)((std::max)(dot(q, along) / dot(along, along), 0.), 1.);
     if(norm(q - share * along) <= near_enough * norm(along))
-      kept += std::abs(last - first) / samples;
+      arcs.emplace_back(at(i), at(i + 1));
   }
-  return kept;
+  return arcs;
+}
+
+/// The parts of a polyline between others.
+inline std::vector<std::vector<Vec3>> parts_between(const Feature_polyline& polyline, std::vector<Arc> arcs)
+{
+  constexpr double least = 1e-6; // in lengths of the polyline: rounding
+  std::sort(arcs.begin(), arcs.end());
+  arcs.emplace_back(polyline.length(), polyline.length());
+  std::vector<std::vector<Vec3>> parts;
+  double end = 0;
+  for(const auto& [first, last] : arcs) {
+    if(first - end > least * polyline.length())
+      parts.push_back(polyline.part(end, first));
+    end = (std::max)(end, last);
+  }
+  return parts;
 }
 
 /// Measures the sharp edges and corners that the mesh has kept, for the result.
@@ -97,9 +120,17 @@ void measure_features(Fitting_state<Quality>& s)
   Mixed_mesh_optimization_result_3& result = s.result;
   result.length_of_sharp_edges = s.features->length();
   result.length_of_sharp_edges_kept = 0;
+  result.lost_sharp_edges.clear();
+  std::vector<std::vector<Arc>> kept(polylines.size());
   for(const auto& [edge, stratum] : s.mesh.sharp_edges)
     if(s.is_arrived[edge.first] && s.is_arrived[edge.second])
-      result.length_of_sharp_edges_kept += length_kept(s, edge, polylines[stratum - first_sharp_stratum]);
+      for(const Arc& arc : arcs_kept(s, edge, polylines[stratum - first_sharp_stratum])) {
+        result.length_of_sharp_edges_kept += arc.second - arc.first;
+        kept[stratum - first_sharp_stratum].push_back(arc);
+      }
+  for(std::size_t i = 0; i < polylines.size(); ++i)
+    for(std::vector<Vec3>& part : parts_between(polylines[i], std::move(kept[i])))
+      result.lost_sharp_edges.push_back(std::move(part));
   result.number_of_corners = s.features->number_of_real_corners();
   result.number_of_corners_kept = 0;
   const std::size_t first_corner = first_sharp_stratum + polylines.size();

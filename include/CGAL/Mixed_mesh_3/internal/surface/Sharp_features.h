@@ -101,6 +101,17 @@ public:
     return lengths;
   }
 
+  /// The points of the part between two arc lengths, of which the first one is less.
+  std::vector<Vec3> part(double first, double last) const
+  {
+    std::vector<Vec3> points{at(first)};
+    for(std::size_t i = 0; i < m_points.size(); ++i)
+      if(m_lengths[i] > first && m_lengths[i] < last)
+        points.push_back(m_points[i]);
+    points.push_back(at(last));
+    return points;
+  }
+
   /// Whether the part between two arc lengths is near to an edge from a to b, compared with the length of the
   /// edge.
   bool is_near(const Vec3& a, double length_at_a, const Vec3& b, double length_at_b) const
