@@ -443,14 +443,15 @@ CLI::Option* add_fit(CLI::App& app, Options& o)
     ->excludes(no_optimize);
   app
     .add_option(
-      "--sharp-angle", o.sharp_angle,
+      "--sharp-angle", o.given_sharp_angle,
       "Edges of SURFACE between facets whose normals differ by more are kept: edges of the mesh lie on "
       "them, and vertices at their corners, if they are long and not only noise; a surface that is "
-      "perpendicular to the axes gets cells between its planes (default: 50; 0: neither)")
+      "perpendicular to the axes gets cells between its planes (default: 50, or 0 for several subdomains of "
+      "an image, whose surfaces are smooth; 0: neither)")
     ->check(number("from 0 to 180", [](double x) { return x >= 0 && x <= 180; }))
     ->type_name("DEGREES");
   app.add_flag_callback(
-    "--no-sharp", [&o] { o.sharp_angle = 0; }, "The same as --sharp-angle 0");
+    "--no-sharp", [&o] { o.given_sharp_angle = 0; }, "The same as --sharp-angle 0");
   return no_optimize;
 }
 

@@ -129,10 +129,20 @@ struct Options : Input_options, Relaxation_options
   double time_limit = std::numeric_limits<double>::infinity();                          // seconds
   double largest_arc = CGAL::Mixed_mesh_optimization_criteria_3::default_quality_bound; // 0: any
   bool is_arc_strict = false;
-  double sharp_angle = CGAL::Mixed_mesh_optimization_criteria_3::default_sharp_angle; // degrees; 0: none
+  std::optional<double> given_sharp_angle; // degrees; 0: no sharp edges
   unsigned threads = 1;
   int order = 1;         // of the elements in files
   std::size_t nodes = 0; // budget in nodes of that order; 0: the budget is in vertices
+
+  /// The angle of sharp edges. The surfaces of voxels are smooth: their sharp edges are noise, which is told
+  /// from edges of parts by its arrangement where there is one subdomain, and not where labels have many.
+  double sharp_angle() const
+  {
+    const bool is_smooth = is_image(surface)
+                           && (label_choice != Label_choice::NONE || !subdomains.empty() || !sheets.empty());
+    return given_sharp_angle.value_or(
+      is_smooth ? 0 : CGAL::Mixed_mesh_optimization_criteria_3::default_sharp_angle);
+  }
 
   /// The option of the budget, with its value.
   std::string budget() const

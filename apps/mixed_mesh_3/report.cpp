@@ -58,7 +58,7 @@ Json describe(const Options& o)
                  {"tolerance", o.tolerance > 0 ? Json(o.tolerance) : Json("automatic")},
                  {"max ARC", o.has_quality_bound() ? Json(o.largest_arc) : Json()},
                  {"max ARC is strict", o.is_arc_strict},
-                 {"sharp angle", o.sharp_angle},
+                 {"sharp angle", o.sharp_angle()},
                  {"tetrahedra", o.tetrahedra},
                  {"order", o.order},
                  {"slit", o.slit},

@@ -126,7 +126,7 @@ Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3
                     .transition_templates(o.templates)
                     .quality_bound(o.largest_arc)
                     .strict_quality_bound(o.is_arc_strict)
-                    .sharp_angle(o.sharp_angle)
+                    .sharp_angle(o.sharp_angle())
                     .only_tetrahedra(o.tetrahedra) // the tetrahedra are fitted, checked, reported and written
                     .keep_mesh_if_stopped(true)
                     .fewest_vertices(o.fewest_vertices);

@@ -50,7 +50,8 @@ holes. Of a label of very few voxels nothing is left.
 So each surface is a closed oriented 2-manifold, and no two triangles of any surfaces meet in more than their
 common vertices and edges: `Labeled_polyhedral_mixed_mesh_domain_3` has neither gaps nor overlaps then, and
 brings interfaces onto the common triangles. All surfaces are simplified together, by quadric errors (Garland,
-Heckbert, 1997), and keep their topology and that of the curves in which they meet.
+Heckbert, 1997), and keep their topology and that of the curves in which they meet. They are smooth: meshes of
+them should have `Mixed_mesh_criteria_3::sharp_angle(0)`, as their sharp edges are noise.
 
 \tparam HasLabel `bool(float)`, of which at most one is true for each value
 \tparam Surface_mesh_ a `CGAL::Surface_mesh` with points that can be made of three `double`
