@@ -51,7 +51,7 @@ void split_flat_elements(Fitting_state<Quality>& s)
 {
   using Edge = Working_mesh::Edge;
   if(s.mesh.sharp_edges.empty() && s.domain.subdomain_indices().size() == 1)
-    return;                      // no curves
+    return;
   std::map<Edge, Stratum> outer; // edges of the boundary and of interfaces
   std::vector<std::uint8_t> is_beside_curve(s.mesh.points.size(), 0);
   for(std::size_t f = 0; f < s.boundary.faces.size(); ++f) {

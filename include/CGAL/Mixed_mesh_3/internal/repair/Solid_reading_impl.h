@@ -42,7 +42,6 @@ struct Solid_facet
 class Solid_sheets
 {
   using Triangle = std::array<std::size_t, 3>;
-  using Link = std::array<std::size_t, 2>; // two triangles at an edge
 
   std::vector<Triangle>& m_triangles; // triangles of points of the arrangement; then of vertices
   Disjoint_sets m_corners;            // those of a vertex are one set

@@ -14,7 +14,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/compiled.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Sheet_oracle_3.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Triangle_tree.h>
-#include <CGAL/Mixed_mesh_3/internal/surface/visible_sharp_edges.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/segment_crossings.h>
 
 #include <CGAL/AABB_tree.h>
 
@@ -22,7 +22,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
@@ -114,16 +113,7 @@ CGAL_MIXED_MESH_3_INLINE bool Sheet_oracle_3::do_intersect(const Point_3& p, con
 
 CGAL_MIXED_MESH_3_INLINE std::vector<double> Sheet_oracle_3::crossings(const Vec3& p, const Vec3& q) const
 {
-  std::vector<Trees::Triangles::const_iterator> triangles;
-  m_trees->tree.all_intersected_primitives(Kernel::Segment_3(Point_3(p[0], p[1], p[2]),
-                                                             Point_3(q[0], q[1], q[2])),
-                                           std::back_inserter(triangles));
-  std::vector<double> shares;
-  for(const auto t : triangles)
-    if(const double share = share_at_plane(p, q, {to_vec3((*t)[0]), to_vec3((*t)[1]), to_vec3((*t)[2])});
-       share >= 0 && share <= 1)
-      shares.push_back(share);
-  return shares;
+  return segment_crossings(m_trees->tree, p, q, [](auto t) { return *t; });
 }
 
 CGAL_MIXED_MESH_3_INLINE Sheet_oracle_3::Point_3 Sheet_oracle_3::closest_point(const Point_3& p) const

@@ -14,6 +14,7 @@
 #include <CGAL/Mixed_mesh_3/internal/elements/shell_counts.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/Triangle_tree.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/segment_crossings.h>
 
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Side_of_triangle_mesh.h>
@@ -26,7 +27,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -187,18 +187,7 @@ CGAL_MIXED_MESH_3_INLINE double Surface_oracle_3::volume() const
 CGAL_MIXED_MESH_3_INLINE std::vector<double> Surface_oracle_3::crossings(const Vec3& p, const Vec3& q) const
 {
   m_side_tree->build(*this);
-  std::vector<Side_tree::Surface::Face_index> facets;
-  m_side_tree->tree.all_intersected_primitives(Kernel::Segment_3(Point_3(p[0], p[1], p[2]),
-                                                                 Point_3(q[0], q[1], q[2])),
-                                               std::back_inserter(facets));
-  std::vector<double> shares;
-  for(const auto f : facets) {
-    const Triangle_3 t = facet(f);
-    if(const double share = share_at_plane(p, q, {to_vec3(t[0]), to_vec3(t[1]), to_vec3(t[2])});
-       share >= 0 && share <= 1)
-      shares.push_back(share);
-  }
-  return shares;
+  return segment_crossings(m_side_tree->tree, p, q, [this](auto f) { return facet(f); });
 }
 
 CGAL_MIXED_MESH_3_INLINE Surface_edges Surface_oracle_3::surface_edges(double angle) const

@@ -35,13 +35,6 @@ struct Surface_edges
   std::vector<std::array<Vec3, 2>> apexes;
 };
 
-/// The share of the segment pq up to the plane of a triangle; nothing if they are parallel.
-inline double share_at_plane(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& triangle)
-{
-  const Vec3 normal = cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
-  return dot(triangle[0] - p, normal) / dot(q - p, normal);
-}
-
 /*!
 Collects the sharp edges of surfaces. Edges that several surfaces have are one edge. An edge is cut where it
 crosses other surfaces, and a part is left out that other surfaces hide.
