@@ -145,7 +145,7 @@ Fitting_outcome optimize_surface(const Core_mesh& start, const Any_surface& doma
   if(goes_on && crossing.empty() && !mode.leaves_rest)
     goes_on = finish(s, crossing, go_on);
   if(criteria.tolerance() > 0 && mode.number_of_vertices_estimated == 0) {
-    s.attract_boundary(); // all distances are measured again
+    s.attraction.forget_measurements(); // bounds of distances are not distances
     s.attraction.measure();
     s.result.largest_distance = s.attraction.largest_distance();
   }

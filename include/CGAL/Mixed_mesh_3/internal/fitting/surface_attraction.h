@@ -27,6 +27,8 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -47,14 +49,26 @@ class Surface_attraction
 {
   using Triangle = std::array<Vertex_index, 3>;
 
+  struct Boundary_triangle
+  {
+    Triangle vertices;
+    Stratum stratum;
+    double tolerance;
+    int steps = 0;                 // of the grid of samples; 0: there is none yet
+    std::size_t first_sample = 0;  // its other samples follow
+
+    friend bool operator<(const Boundary_triangle& a, const Boundary_triangle& b)
+    {
+      return std::tie(a.vertices, a.stratum, a.tolerance) < std::tie(b.vertices, b.stratum, b.tolerance);
+    }
+  };
+
   const Working_mesh& m_mesh;
   const Project& m_project;
   const std::vector<Surface_sample>& m_samples;
   const unsigned m_threads;
-  std::vector<double> m_tolerances_of_triangles;
-  std::vector<Triangle> m_triangles; // triangles of the boundary
-  std::vector<Stratum> m_strata;     // strata of the triangles
-  std::vector<double> m_stiffness;   // factor of each vertex: grows when drawn in vain
+  std::vector<Boundary_triangle> m_triangles;
+  std::vector<double> m_stiffness; // factor of each vertex: grows when drawn in vain
   // Vertices of the boundary, ascending. In a large mesh they are few: what is known of them only is in
   // arrays in this order, and the corners of triangles are their positions here.
   std::vector<Vertex_index> m_vertices;
@@ -67,19 +81,17 @@ class Surface_attraction
   double m_most_steps = 8; // largest number of steps along the edge of a triangle
   // Most samples are near: a sample need not be measured again until the boundary next to it has moved so far
   // that the sample might draw.
-  std::vector<Vec3> m_last_points;        // last positions of the boundary vertices
+  std::vector<Vec3> m_last_points;        // positions of the boundary vertices at the last measurement
   std::vector<double> m_moved;            // way of each boundary vertex since the last measurement
   std::vector<double> m_slack_of_samples; // distance that the boundary may move until the sample draws
   std::vector<std::size_t> m_nearest;     // triangle of each sample
-  // Samples of the boundary: those of triangle t are at the positions from `m_starts[t]` on.
-  std::vector<int> m_steps_of_triangles; // steps of the grid of samples
-  std::vector<std::size_t> m_starts;
-  std::vector<double> m_slacks;
+  std::vector<double> m_slacks;           // of samples of the boundary
   std::vector<Vec3> m_found; // points of the surface, the closest ones when they were asked for
 
   // Rounding of barycentric coordinates: a place on an edge does not draw the vertex opposite to the edge.
   static constexpr double nearly_0 = 1e-9;
   static constexpr double not_measured = -std::numeric_limits<double>::infinity(); // slack of a new sample
+  static constexpr std::size_t no_triangle = std::size_t(-1);
   // Share of the tolerance below which samples draw nothing.
   static constexpr double tolerated_share = 0.35;
   // Number of successive samples for one thread, each of which is a hint for the next one.
@@ -92,32 +104,32 @@ public:
   Surface_attraction(const Working_mesh& mesh, const Project& project,
                      const std::vector<Surface_sample>& samples, unsigned threads = 1)
     : m_mesh(mesh), m_project(project), m_samples(samples), m_threads(threads),
-      m_stiffness(mesh.points.size(), 1)
+      m_stiffness(mesh.points.size(), 1), m_slack_of_samples(samples.size(), 0), m_nearest(samples.size(), 0)
   {
   }
 
+  /// Sets the faces of the boundary. Samples are not measured again where these stay.
   /// \param tolerance `double(Stratum)`: tolerance of a face
   template <class Tolerance>
   void set_boundary(const Interface_faces& boundary, const Tolerance& tolerance)
   {
-    m_tolerances_of_triangles.clear();
-    m_triangles.clear();
-    m_strata.clear();
+    const std::vector<Boundary_triangle> before = std::exchange(m_triangles, {});
     m_stiffness.resize(m_mesh.points.size(), 1);
-    m_last_points.clear();
     for(std::size_t f = 0; f < boundary.faces.size(); ++f) {
       const Face_vertices& v = boundary.faces[f].vertices();
-      for(int i = 2; i < v.size(); ++i) {
-        m_triangles.push_back({v[0], v[i - 1], v[i]});
-        m_strata.push_back(boundary.strata[f]);
-        m_tolerances_of_triangles.push_back(tolerance(boundary.strata[f]));
-      }
+      for(int i = 2; i < v.size(); ++i)
+        m_triangles.push_back({{v[0], v[i - 1], v[i]}, boundary.strata[f], tolerance(boundary.strata[f])});
     }
     number_vertices();
+    take_over_measurements(before);
+  }
+
+  /// Lets all samples be measured again.
+  void forget_measurements()
+  {
+    for(Boundary_triangle& t : m_triangles)
+      t.steps = 0;
     m_slack_of_samples.assign(m_samples.size(), 0);
-    m_nearest.assign(m_samples.size(), 0);
-    m_steps_of_triangles.assign(m_triangles.size(), 0);
-    m_starts.assign(m_triangles.size() + 1, 0);
   }
 
   /// Samples the boundary at the middles of edges only.
@@ -134,10 +146,11 @@ public:
   {
     std::map<std::pair<Vertex_index, Vertex_index>, double> edges;
     for(std::size_t t = 0; t < m_farthest.size(); ++t)
-      if(m_farthest[t] > m_tolerances_of_triangles[t]) {
+      if(m_farthest[t] > m_triangles[t].tolerance) {
+        const Triangle& v = m_triangles[t].vertices;
         std::pair<double, std::pair<Vertex_index, Vertex_index>> longest{};
         for(int i = 0; i < 3; ++i) {
-          const Vertex_index a = m_triangles[t][i], b = m_triangles[t][(i + 1) % 3];
+          const Vertex_index a = v[i], b = v[(i + 1) % 3];
           longest = (std::max)(longest, {norm(m_mesh.points[a] - m_mesh.points[b]), std::minmax(a, b)});
         }
         double& distance = edges[longest.second];
@@ -185,19 +198,54 @@ public:
   }
 
 private:
+  // Numbers the vertices of the boundary. Those that were there keep their last positions.
   void number_vertices()
   {
-    m_vertices.clear();
-    for(const Triangle& t : m_triangles)
-      m_vertices.insert(m_vertices.end(), t.begin(), t.end());
+    const std::vector<Vertex_index> before = std::exchange(m_vertices, {});
+    for(const Boundary_triangle& t : m_triangles)
+      m_vertices.insert(m_vertices.end(), t.vertices.begin(), t.vertices.end());
     std::sort(m_vertices.begin(), m_vertices.end());
     m_vertices.erase(std::unique(m_vertices.begin(), m_vertices.end()), m_vertices.end());
     const auto number = [this](Vertex_index v) {
       return std::uint32_t(std::lower_bound(m_vertices.begin(), m_vertices.end(), v) - m_vertices.begin());
     };
     m_corners.clear();
-    for(const Triangle& t : m_triangles)
-      m_corners.push_back({number(t[0]), number(t[1]), number(t[2])});
+    for(const Boundary_triangle& t : m_triangles)
+      m_corners.push_back({number(t.vertices[0]), number(t.vertices[1]), number(t.vertices[2])});
+    const std::vector<Vec3> last = std::exchange(m_last_points, {});
+    auto old = before.begin();
+    for(Vertex_index v : m_vertices) {
+      old = std::lower_bound(old, before.end(), v);
+      m_last_points.push_back(!last.empty() && old != before.end() && *old == v ? last[old - before.begin()]
+                                                                                : m_mesh.points[v]);
+    }
+  }
+
+  // Lets triangles that were there keep their samples, and samples of the surface the triangles that were
+  // nearest.
+  void take_over_measurements(const std::vector<Boundary_triangle>& before)
+  {
+    std::vector<std::size_t> sorted(before.size()), now(before.size(), no_triangle);
+    std::iota(sorted.begin(), sorted.end(), 0);
+    std::sort(sorted.begin(), sorted.end(),
+              [&](std::size_t a, std::size_t b) { return before[a] < before[b]; });
+    for(std::size_t k = 0; k < m_triangles.size(); ++k) {
+      Boundary_triangle& t = m_triangles[k];
+      const auto old = std::lower_bound(sorted.begin(), sorted.end(), t, [&](std::size_t i, const auto& value) {
+        return before[i] < value;
+      });
+      if(old == sorted.end() || t < before[*old])
+        continue;
+      t = before[*old];
+      now[*old] = k;
+    }
+    for(std::size_t i = 0; i < m_samples.size(); ++i) {
+      m_nearest[i] = before.empty() ? no_triangle : now[m_nearest[i]];
+      if(m_nearest[i] != no_triangle)
+        continue;
+      m_nearest[i] = 0; // some hint
+      m_slack_of_samples[i] = 0;
+    }
   }
 
   double mean_edge_length(Vertex_index v) const
@@ -258,7 +306,7 @@ private:
     if(asked.empty())
       return;
     std::vector<std::array<Vec3, 3>> triangles;
-    for(const Triangle& t : m_triangles)
+    for(const auto& [t, stratum, tolerance, steps, first] : m_triangles)
       triangles.push_back({m_mesh.points[t[0]], m_mesh.points[t[1]], m_mesh.points[t[2]]});
     const Triangle_tree tree(triangles);
     std::vector<Vec3> found(asked.size());
@@ -282,7 +330,7 @@ private:
       const std::size_t i = asked[k];
       const Vec3 &s = m_samples[i].point, &p = found[k];
       m_slack_of_samples[i] = threshold(m_samples[i].tolerance) - norm(s - p);
-      add(m_nearest[i], barycentric_coordinates(m_triangles[m_nearest[i]], p), s - p, s, 1,
+      add(m_nearest[i], barycentric_coordinates(m_triangles[m_nearest[i]].vertices, p), s - p, s, 1,
           m_samples[i].tolerance);
     }
   }
@@ -311,11 +359,11 @@ private:
 
   // Calls `f(sample, b, p)` for each sample of a triangle, with its barycentric coordinates.
   template <class F>
-  void for_each_sample(std::size_t triangle, const F& f) const
+  void for_each_sample(const Boundary_triangle& triangle, const F& f) const
   {
-    const Triangle& t = m_triangles[triangle];
-    const int n = m_steps_of_triangles[triangle];
-    std::size_t sample = m_starts[triangle];
+    const Triangle& t = triangle.vertices;
+    const int n = triangle.steps;
+    std::size_t sample = triangle.first_sample;
     for(int i = 0; i <= n; ++i)
       for(int j = 0; i + j <= n; ++j)
         if((i > 0) + (j > 0) + (i + j < n) > 1) { // not at a vertex
@@ -328,23 +376,28 @@ private:
   // Chooses the samples of the boundary: those of a triangle with as many steps as before stay.
   void update_samples_of_boundary()
   {
-    std::vector<std::size_t> starts{0};
+    std::vector<int> steps;
+    std::size_t number = 0;
+    for(const Boundary_triangle& t : m_triangles) {
+      steps.push_back(number_of_steps(t.vertices, t.tolerance));
+      number += std::size_t(number_of_samples(steps.back()));
+    }
     std::vector<double> slacks;
     std::vector<Vec3> found;
+    slacks.reserve(number);
+    found.reserve(number);
     for(std::size_t k = 0; k < m_triangles.size(); ++k) {
-      const int n = number_of_steps(m_triangles[k], m_tolerances_of_triangles[k]);
-      starts.push_back(starts.back() + std::size_t(number_of_samples(n)));
-      if(n == m_steps_of_triangles[k]) {
-        const auto first = std::ptrdiff_t(m_starts[k]), last = std::ptrdiff_t(m_starts[k + 1]);
-        slacks.insert(slacks.end(), m_slacks.begin() + first, m_slacks.begin() + last);
-        found.insert(found.end(), m_found.begin() + first, m_found.begin() + last);
+      Boundary_triangle& t = m_triangles[k];
+      const auto first = std::ptrdiff_t(std::exchange(t.first_sample, slacks.size()));
+      const int n = number_of_samples(steps[k]);
+      if(std::exchange(t.steps, steps[k]) == steps[k]) {
+        slacks.insert(slacks.end(), m_slacks.begin() + first, m_slacks.begin() + first + n);
+        found.insert(found.end(), m_found.begin() + first, m_found.begin() + first + n);
       } else {
-        slacks.resize(starts.back(), not_measured);
-        found.resize(starts.back());
-        m_steps_of_triangles[k] = n;
+        slacks.insert(slacks.end(), std::size_t(n), not_measured);
+        found.resize(slacks.size());
       }
     }
-    m_starts = std::move(starts);
     m_slacks = std::move(slacks);
     m_found = std::move(found);
   }
@@ -354,37 +407,40 @@ private:
     update_samples_of_boundary();
     std::vector<std::size_t> asked; // triangles with samples that are not near
     for(std::size_t k = 0; k < m_triangles.size(); ++k) {
+      const Boundary_triangle& t = m_triangles[k];
       bool are_near = true;
-      for(std::size_t i = m_starts[k]; i < m_starts[k + 1]; ++i)
-        are_near = is_near(m_slacks[i], k, m_tolerances_of_triangles[k]) && are_near;
+      for(int i = 0; i < number_of_samples(t.steps); ++i)
+        are_near = is_near(m_slacks[t.first_sample + std::size_t(i)], k, t.tolerance) && are_near;
       if(!are_near)
         asked.push_back(k);
     }
     // A point of the surface of each stratum, a hint where there is no nearer one: several threads need
     // hints.
     std::map<Stratum, Vec3> anywhere;
-    for(std::size_t k : asked)
-      if(const auto found = anywhere.try_emplace(m_strata[k]); found.second)
-        found.first->second = m_project(m_mesh.points[m_triangles[k][0]], m_strata[k]);
+    for(std::size_t k : asked) {
+      const Boundary_triangle& t = m_triangles[k];
+      if(const auto found = anywhere.try_emplace(t.stratum); found.second)
+        found.first->second = m_project(m_mesh.points[t.vertices[0]], t.stratum);
+    }
     parallel_for(asked.size(), m_threads, [&](std::size_t i) {
-      const std::size_t k = asked[i];
-      const Vec3* last = &anywhere.at(m_strata[k]);
-      for_each_sample(k, [&](std::size_t sample, const auto&, const Vec3& p) {
+      const Boundary_triangle& t = m_triangles[asked[i]];
+      const Vec3* last = &anywhere.at(t.stratum);
+      for_each_sample(t, [&](std::size_t sample, const auto&, const Vec3& p) {
         Vec3& found = m_found[sample];
         if(!(m_slacks[sample] > 0))
-          found = m_project(p, m_slacks[sample] == not_measured ? *last : found, m_strata[k]);
+          found = m_project(p, m_slacks[sample] == not_measured ? *last : found, t.stratum);
         last = &found;
       });
     });
     for(std::size_t k : asked) {
-      const double tolerance = m_tolerances_of_triangles[k],
-                   share = 4. / number_of_samples(m_steps_of_triangles[k]); // weighted like four samples
-      for_each_sample(k, [&](std::size_t sample, const std::array<double, 3>& b, const Vec3& p) {
+      const Boundary_triangle& t = m_triangles[k];
+      const double share = 4. / number_of_samples(t.steps); // weighted like four samples
+      for_each_sample(t, [&](std::size_t sample, const std::array<double, 3>& b, const Vec3& p) {
         if(m_slacks[sample] > 0)
           return;
         const Vec3& q = m_found[sample];
-        m_slacks[sample] = threshold(tolerance) - norm(q - p);
-        add(k, b, q - p, q, share, tolerance);
+        m_slacks[sample] = threshold(t.tolerance) - norm(q - p);
+        add(k, b, q - p, q, share, t.tolerance);
       });
     }
   }

@@ -31,6 +31,7 @@
 #include <CGAL/enum.h>
 
 #include <boost/container/small_vector.hpp>
+#include <boost/functional/hash.hpp>
 
 #include <algorithm>
 #include <array>
@@ -41,12 +42,52 @@
 #include <limits>
 #include <map>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
+
+/// An edge that is cut.
+struct Edge_cut
+{
+  Vec3 point;   ///< on the interface
+  double share; ///< of the edge before the point
+  bool is_contact; ///< whether the subdomains of the ends meet there, not another one
+};
+
+/// The subdomain that an edge passes between those of its ends.
+struct Hidden_subdomain
+{
+  double share = 0; ///< of the edge, where the subdomain is; 0: there is none
+  Subdomain_rank rank = outside_rank;
+};
+
+/// What is known of edges, by the positions of their ends: most edges of an octree are those of the one
+/// before, which has a few cells less.
+struct Known_edges
+{
+  using Ends = std::array<Vec3, 2>;
+
+  struct Hash
+  {
+    std::size_t operator()(const Ends& ends) const
+    {
+      std::size_t hash = 0;
+      for(const Vec3& p : ends)
+        boost::hash_range(hash, p.begin(), p.end());
+      return hash;
+    }
+  };
+
+  template <class T>
+  using Map = std::unordered_map<Ends, T, Hash>;
+
+  Map<Hidden_subdomain> hidden;
+  Map<Edge_cut> cuts;
+};
 
 /*!
 Cuts the elements of a lattice along the interfaces of subdomains. All are tetrahedra, but hexahedra that are
@@ -65,11 +106,9 @@ class Interface_cutter
 {
   using Edge = Working_mesh::Edge;
 
-  struct Cut
+  struct Cut : Edge_cut
   {
     std::array<Vertex_index, 2> ends;
-    Vec3 point;   // on the interface
-    double share; // of the edge before the point, seen from the first end
   };
 
   // Instead of a subdomain, for vertices of the lattice that are exactly on an interface.
@@ -102,7 +141,9 @@ public:
   using Leaf_predicate = std::function<bool(Octree::Node_index)>;
 
   /// \param is_kept whether hexahedra of a leaf stay whole, if they are not beside a surface
-  Interface_cutter(const Located_octree& octree, const Lattice_mesh& lattice, const Leaf_predicate& is_kept)
+  /// \param known edges of octrees of the same domain; those of this one are added
+  Interface_cutter(const Located_octree& octree, const Lattice_mesh& lattice, const Leaf_predicate& is_kept,
+                   Known_edges& known)
     : m_octree(octree), m_size_of_lattice(lattice.vertices.size()), m_is_near(near_vertices(octree, lattice)),
       m_mesh(split_elements(octree, lattice, m_is_near, is_kept),
              std::vector<Stratum>(lattice.vertices.size(), free_stratum))
@@ -111,9 +152,9 @@ public:
       m_ranks.push_back(lattice.sides[v] == ON_BOUNDARY ? on_interface : lattice.subdomain(v));
     m_surfaces.resize(m_ranks.size());
     m_shortest = shortest_edge();
-    m_is_clear = insert_hidden_vertices();
+    m_is_clear = insert_hidden_vertices(known);
     if(m_is_clear)
-      m_cuts = all_cuts();
+      m_cuts = all_cuts(known);
   }
 
   /// Whether there are no hidden subdomains all over, as between surfaces that should be one.
@@ -122,19 +163,11 @@ public:
   /// Places on edges between subdomains that do not meet there: another one is between them.
   std::vector<Vec3> places_without_contact() const
   {
-    constexpr double part = 0.05; // of an edge, before and behind the place where it is cut
     std::vector<Vec3> places;
     for(const Cut& cut : m_cuts) {
-      const Vertex_index a = cut.ends[0], b = cut.ends[1];
-      const Vec3 edge = m_mesh.points[b] - m_mesh.points[a], p = m_mesh.points[a] + cut.share * edge;
-      const auto is_of_another = [&](const Vec3& q) {
-        const Subdomain_rank rank = m_octree.subdomain_rank(q);
-        return rank != m_ranks[a] && rank != m_ranks[b];
-      };
-      if(is_inside(a) && is_inside(b)
-         && ((cut.share > part && is_of_another(p - part * edge))
-             || (cut.share < 1 - part && is_of_another(p + part * edge))))
-        places.push_back(p);
+      const Vec3 &p = m_mesh.points[cut.ends[0]], &q = m_mesh.points[cut.ends[1]];
+      if(!cut.is_contact && is_inside(cut.ends[0]) && is_inside(cut.ends[1]))
+        places.push_back(p + cut.share * (q - p));
     }
     return places;
   }
@@ -291,14 +324,8 @@ private:
     return shortest;
   }
 
-  struct Hidden
-  {
-    double share = 0; // of the edge, where the subdomain is; 0: there is none
-    Subdomain_rank rank = outside_rank;
-  };
-
   // The subdomain that an edge passes between those of its ends; the one with the longest part of it.
-  Hidden hidden_subdomain(Vertex_index a, Vertex_index b) const
+  Hidden_subdomain hidden_subdomain(Vertex_index a, Vertex_index b) const
   {
     constexpr std::size_t n = 8;     // parts of the edge
     constexpr std::size_t least = 2; // samples: a single one may be between surfaces that should be one
@@ -313,7 +340,7 @@ private:
     auto last = ranks.end();
     while(last != first && *(last - 1) == ranks[n])
       --last;
-    Hidden hidden;
+    Hidden_subdomain hidden;
     std::ptrdiff_t longest = least - 1;
     for(auto i = first; i != last;) {
       const auto end = std::find_if(i, last, [&](Subdomain_rank r) { return r != *i; });
@@ -340,7 +367,7 @@ private:
   }
 
   // \return whether there are not too many: at most as many as the lattice has
-  bool insert_hidden_vertices()
+  bool insert_hidden_vertices(Known_edges& known)
   {
     constexpr double least_length = 0.5; // in edges of the octree: shorter ones are not bisected
     std::vector<Edge> queue = edges_near_surfaces();
@@ -349,7 +376,10 @@ private:
       const Vec3 edge = m_mesh.points[b] - m_mesh.points[a];
       if(norm(edge) < least_length * m_shortest || m_mesh.elements_at_edge(a, b).empty())
         continue;
-      const Hidden hidden = hidden_subdomain(a, b);
+      const auto [found, is_new] = known.hidden.try_emplace({m_mesh.points[a], m_mesh.points[b]});
+      if(is_new)
+        found->second = hidden_subdomain(a, b);
+      const Hidden_subdomain hidden = found->second;
       if(hidden.share == 0)
         continue;
       const Vertex_index v = bisect(a, b, m_mesh.points[a] + hidden.share * edge, hidden.rank, 1 / accuracy);
@@ -364,12 +394,32 @@ private:
   }
 
   // The edges between subdomains, with the points where they are cut.
-  std::vector<Cut> all_cuts() const
+  std::vector<Cut> all_cuts(Known_edges& known) const
   {
     std::vector<Cut> cuts;
-    for(const auto& [a, b] : edges([this](Vertex_index u, Vertex_index v) { return is_between(u, v); }))
-      cuts.push_back(crossing(a, b));
+    for(const auto& [a, b] : edges([this](Vertex_index u, Vertex_index v) { return is_between(u, v); })) {
+      const auto [found, is_new] = known.cuts.try_emplace({m_mesh.points[a], m_mesh.points[b]});
+      if(is_new) {
+        found->second = crossing(a, b);
+        found->second.is_contact = is_contact(a, b, found->second.share);
+      }
+      cuts.push_back({found->second, {a, b}});
+    }
     return cuts;
+  }
+
+  // Whether the subdomains of the ends of an edge meet where it is cut.
+  bool is_contact(Vertex_index a, Vertex_index b, double share) const
+  {
+    constexpr double part = 0.05; // of the edge, before and behind that place
+    const Vec3 p = m_mesh.points[a], edge = m_mesh.points[b] - p;
+    const auto is_of_another = [&](double where) {
+      const Subdomain_rank rank = m_octree.subdomain_rank(p + where * edge);
+      return rank != m_ranks[a] && rank != m_ranks[b];
+    };
+    return m_octree.domain().subdomain_indices().size() == 1
+           || !((share > part && is_of_another(share - part))
+                || (share < 1 - part && is_of_another(share + part)));
   }
 
   Vec3 closest(const Vec3& p, Subdomain_rank a, Subdomain_rank b) const
@@ -403,7 +453,7 @@ private:
     }
     share = (std::min)((std::max)(share, accuracy), 1 - accuracy);
     const Vec3 x = p + share * edge, q = closest(x, m_ranks[a], m_ranks[b]);
-    return {{a, b}, norm(q - x) < accuracy * length ? q : x, share};
+    return {{norm(q - x) < accuracy * length ? q : x, share, true}, {a, b}};
   }
 
   // The cut of an edge, found before if its ends are where they were.

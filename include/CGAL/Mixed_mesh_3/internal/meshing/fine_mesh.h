@@ -331,6 +331,7 @@ inline bool split_cells_at(Located_octree& octree, const std::vector<Vec3>& poin
 /// \return an empty mesh if the surfaces do not fit together, or an interface would be no manifold
 inline Core_mesh cut_mesh(Meshing_state& s, std::size_t number_kept, bool keeps_thin_parts, std::size_t most)
 {
+  Known_edges known;
   for(std::size_t fewest = std::size_t(-1);;) {
     Lattice_mesh lattice;
     {
@@ -338,7 +339,8 @@ inline Core_mesh cut_mesh(Meshing_state& s, std::size_t number_kept, bool keeps_
       lattice = apply_transitions(s.octree, s.criteria.transition_templates(), s.criteria.number_of_threads);
     }
     const Stage_scope scope(s.visitor, Stage::BOUNDARY);
-    const Interface_cutter cutter(s.octree, lattice, [&](Octree::Node_index n) { return n < number_kept; });
+    const Interface_cutter cutter(
+      s.octree, lattice, [&](Octree::Node_index n) { return n < number_kept; }, known);
     if(!cutter.is_clear())
       return {};
     const std::vector<Vec3> places = s.has_several_subdomains() ? cutter.places_without_contact()
