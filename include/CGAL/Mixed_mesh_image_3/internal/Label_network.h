@@ -99,23 +99,31 @@ class Label_network_maker
 public:
   explicit Label_network_maker(const Label_scores& scores) : m_scores(scores) {}
 
-  /// Makes the network; points are in indices of the image.
-  Label_network operator()()
+  /// Makes the network; points are in indices of the image. The next call replaces it, and uses its memory
+  /// again.
+  Label_network& operator()()
   {
     const Voxel& size = m_scores.size;
+    m_network.points.clear();
+    m_network.triangles.clear();
+    m_in_faces.clear();
+    std::vector<Label_number> differences;
     for(std::vector<Index>& slice : m_on_edges)
       slice.assign(8 * size[0] * size[1], none);
     for(std::size_t k = 0; k + 1 < size[2]; ++k) {
-      for(std::size_t j = 0; j + 1 < size[1]; ++j)
+      for(std::size_t j = 0; j + 1 < size[1]; ++j) {
+        m_scores.find_differences(m_scores.offset({0, j, k}), differences);
         for(std::size_t i = 0; i + 1 < size[0]; ++i)
-          march({i, j, k});
+          if(differences[i] != 0)
+            march({i, j, k});
+      }
       m_on_edges[0].swap(m_on_edges[1]);
       std::fill(m_on_edges[1].begin(), m_on_edges[1].end(), none);
     }
     for(Vec3& p : m_network.points)
       for(std::size_t i = 0; i < 3; ++i)
         p[i] += double(m_scores.first[i]);
-    return std::move(m_network);
+    return m_network;
   }
 
 private:
@@ -124,19 +132,16 @@ private:
     return {double(c.voxel[0]), double(c.voxel[1]), double(c.voxel[2])};
   }
 
+  // Cuts a cube whose corners have different labels.
   void march(const Voxel& cube)
   {
     std::array<Corner, 8> corners;
-    bool is_crossed = false;
     for(int c = 0; c < 8; ++c) {
       Voxel v = cube;
       for(int i = 0; i < 3; ++i)
         v[std::size_t(i)] += std::size_t(c >> i & 1);
       corners[std::size_t(c)] = {v, c, m_scores.label(m_scores.offset(v))};
-      is_crossed = is_crossed || corners[std::size_t(c)].label != corners[0].label;
     }
-    if(!is_crossed)
-      return;
     constexpr int orders[6][2] = {{1, 3}, {2, 6}, {4, 5}, {1, 5}, {4, 6}, {2, 3}}; // from corner 0 to 7
     for(const auto& [first, second] : orders)
       cut({corners[0], corners[std::size_t(first)], corners[std::size_t(second)], corners[7]}, cube);
@@ -156,13 +161,14 @@ private:
   // The triangle or the two triangles between two labels.
   void separate(const Tetrahedron& t, const Voxel& cube)
   {
-    std::vector<const Corner*> in, out;
+    std::array<const Corner*, 4> in, out;
+    std::size_t number_in = 0, number_out = 0;
     for(const Corner& c : t)
-      (c.label == t[0].label ? in : out).push_back(&c);
+      (c.label == t[0].label ? in[number_in++] : out[number_out++]) = &c;
     const auto vertex = [&](std::size_t i, std::size_t o) { return on_edge(*in[i], *out[o], cube); };
-    if(in.size() == 1) {
+    if(number_in == 1) {
       add(vertex(0, 0), vertex(0, 1), vertex(0, 2), *in[0], *out[0]);
-    } else if(out.size() == 1) {
+    } else if(number_out == 1) {
       add(vertex(0, 0), vertex(1, 0), vertex(2, 0), *in[0], *out[0]);
     } else {
       const Index a = vertex(0, 0), b = vertex(0, 1), c = vertex(1, 1), d = vertex(1, 0);
@@ -209,8 +215,7 @@ private:
     Index& vertex = m_on_edges[p.voxel[2] - cube[2]][8 * (p.voxel[0] + m_scores.size[0] * p.voxel[1])
                                                      + std::size_t(q.bits - p.bits)];
     if(vertex == none) {
-      const double u = m_scores.lead(m_scores.offset(p.voxel), p.label, q.label),
-                   v = m_scores.lead(m_scores.offset(q.voxel), q.label, p.label);
+      const double u = m_scores.lead(p.voxel, p.label, q.label), v = m_scores.lead(q.voxel, q.label, p.label);
       const double share = u + v > 0 ? u / (u + v) : 0.5,
                    least = is_layer(p, q) ? least_share_in_layer : least_share,
                    least_behind = is_layer(q, p) ? least_share_in_layer : least_share;
@@ -276,9 +281,10 @@ inline Label_network balanced_network(Label_scores& scores, const std::vector<La
   }
   Label_scores::Weights best = scores.weights();
   double least_error = std::numeric_limits<double>::infinity();
+  Label_network_maker make(scores);
   for(int round = 0;; ++round) {
     scores.seal_contacts();
-    Label_network network = Label_network_maker(scores)();
+    Label_network& network = make();
     const std::vector<Volume_and_area> measured = measures(network, extents.size());
     double error = 0;
     bool is_balanced = true;
@@ -303,11 +309,11 @@ inline Label_network balanced_network(Label_scores& scores, const std::vector<La
       least_error = error;
       best = scores.weights();
       if(is_last)
-        return network;
+        return std::move(network);
     } else if(is_last) { // layers of a voxel may not converge: the best round is repeated
       scores.set_weights(best);
       scores.seal_contacts();
-      return Label_network_maker(scores)();
+      return std::move(make());
     }
     scores.set_weights(weights);
   }

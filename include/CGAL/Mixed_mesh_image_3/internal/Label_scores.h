@@ -19,7 +19,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -52,10 +51,12 @@ private:
   std::vector<Indicator> m_indicators; // of label 1, 2, ...
   std::vector<float> m_outside;        // one minus all of them
   Weights m_weights;
-  std::function<Label_number(std::size_t)> m_label_in_image;
+  std::vector<Label_number> m_in_image;     // the label of each voxel
   std::vector<std::size_t> m_numbers;       // of voxels of each label, from 1 on
   std::vector<float> m_best, m_second_best; // scores
   std::vector<Label_number> m_labels;       // with the best scores
+  std::array<std::size_t, 8> m_steps{};     // to voxels in directions: bit i says whether along axis i
+  std::vector<std::uint8_t> m_is_known;     // bit d: the edge from the voxel in direction d
 
 public:
   /// \param has_label functions `bool(float)`, one for each label
@@ -67,19 +68,6 @@ public:
                unsigned threads)
     : m_indicators(has_label.size()), m_weights(has_label.size() + 1, 1.f)
   {
-    m_label_in_image = [this, &image, has_label](std::size_t v) {
-      const std::array<std::size_t, 3> p = voxel(v);
-      std::array<std::size_t, 3> in_image;
-      for(int i = 0; i < 3; ++i) {
-        in_image[i] = std::size_t(std::int64_t(p[i]) + first[i]); // wraps around if negative
-        if(in_image[i] >= image.grid.size[i])
-          return Label_number(0);
-      }
-      const float value = image.values[image.grid.offset(in_image[0], in_image[1], in_image[2])];
-      const auto found = std::find_if(has_label.begin(), has_label.end(),
-                                      [value](const HasLabel& has) { return has(value); });
-      return found == has_label.end() ? Label_number(0) : Label_number(found - has_label.begin() + 1);
-    };
     parallel_for(
       has_label.size(), threads,
       [&](std::size_t l) { m_indicators[l] = smooth_indicator(image, has_label[l], deviations, extents[l]); },
@@ -88,6 +76,10 @@ public:
     for(std::size_t l = 0; l < has_label.size(); ++l)
       m_numbers.push_back(extents[l].number_of_voxels);
     if(!is_empty()) {
+      const std::array<std::size_t, 3> s = strides();
+      for(std::size_t d = 0; d < 8; ++d)
+        m_steps[d] = (d & 1) * s[0] + (d >> 1 & 1) * s[1] + (d >> 2) * s[2];
+      find_labels_in_image(image, has_label);
       subtract_from_outside();
       find_level();
       balance();
@@ -99,11 +91,26 @@ public:
   Label_number label(std::size_t offset_in_box) const { return m_labels[offset_in_box]; }
 
   /// How much better a label is in a voxel than another one.
-  float lead(std::size_t v, Label_number label, Label_number other) const
+  float lead(const std::array<std::size_t, 3>& voxel, Label_number label, Label_number other) const
   {
-    return label == 0   ? m_outside[v] - level(other)
-           : other == 0 ? level(label) - m_outside[v]
-                        : score(v, label) - score(v, other);
+    return label == 0   ? m_outside[offset(voxel)] - level(other)
+           : other == 0 ? level(label) - m_outside[offset(voxel)]
+                        : score(voxel, label) - score(voxel, other);
+  }
+
+  /// Finds in which cubes, between a voxel of a row and the next voxels along all axes, labels are different.
+  /// Nearly all have one label: a loop that is the same for all cubes is faster than to look at each of them.
+  /// \param row first voxel
+  /// \param differences one for each voxel, 0 for the last one and for cubes of one label
+  void find_differences(std::size_t row, std::vector<Label_number>& differences) const
+  {
+    differences.assign(size[0], 0);
+    const Label_number* const labels = m_labels.data() + row;
+    for(std::size_t d = 1; d < 8; ++d) {
+      const Label_number* const others = labels + m_steps[d];
+      for(std::size_t i = 0; i + 1 < size[0]; ++i)
+        differences[i] = Label_number(differences[i] | (labels[i] ^ others[i]));
+    }
   }
 
   const Weights& weights() const { return m_weights; }
@@ -136,32 +143,34 @@ private:
 
   bool seal_contacts_once()
   {
-    std::vector<std::uint8_t> is_known(8 * m_labels.size(), 0);
+    m_is_known.assign(m_labels.size(), 0);
     std::vector<Edge> place;
+    std::vector<Label_number> differences;
     bool is_changed = false;
     for(std::size_t k = 1; k + 1 < size[2]; ++k)
-      for(std::size_t j = 1; j + 1 < size[1]; ++j)
-        for(std::size_t i = 1; i + 1 < size[0]; ++i)
+      for(std::size_t j = 1; j + 1 < size[1]; ++j) {
+        const std::size_t row = offset({0, j, k});
+        find_differences(row, differences);
+        for(std::size_t i = 1; i + 1 < size[0]; ++i) {
+          if(differences[i] == 0)
+            continue;
+          const std::size_t v = row + i;
           for(std::size_t d = 1; d < 8; ++d) {
-            const std::size_t v = offset({i, j, k});
-            const Label_number a = m_labels[v], b = m_labels[v + step(d)];
-            if(a == b || is_known[8 * v + d])
+            const Label_number a = m_labels[v], b = m_labels[v + m_steps[d]];
+            if(a == b || (m_is_known[v] >> d & 1) != 0)
               continue;
-            find_place({v, d}, is_known, place);
+            find_place({v, d}, place);
             if(std::any_of(place.begin(), place.end(),
                            [&](const Edge& e) { return touch_in_image(a, b, e); }))
               continue;
             is_changed = true;
             for(const Edge& edge : place)
               seal(edge, a, b);
+            find_differences(row, differences);
           }
+        }
+      }
     return is_changed;
-  }
-
-  std::size_t step(std::size_t direction) const
-  {
-    const std::array<std::size_t, 3> s = strides();
-    return (direction & 1) * s[0] + (direction >> 1 & 1) * s[1] + (direction >> 2) * s[2];
   }
 
   // Calls `f(voxel, edge from the first end, edge from the second end)` for each triangle at an edge.
@@ -169,13 +178,13 @@ private:
   void for_each_triangle_at(const Edge& edge, const F& f) const
   {
     const auto [v, d] = edge;
-    const std::size_t w = v + step(d);
+    const std::size_t w = v + m_steps[d];
     for(std::size_t e = 1; e < 8; ++e) {
       if((e & d) == e && e != d) // between both ends
-        f(v + step(e), Edge(v, e), Edge(v + step(e), d ^ e));
+        f(v + m_steps[e], Edge(v, e), Edge(v + m_steps[e], d ^ e));
       if((e & d) == 0) { // before the first end, and behind the second one
-        f(v - step(e), Edge(v - step(e), e), Edge(v - step(e), e | d));
-        f(w + step(e), Edge(v, d | e), Edge(w, e));
+        f(v - m_steps[e], Edge(v - m_steps[e], e), Edge(v - m_steps[e], e | d));
+        f(w + m_steps[e], Edge(v, d | e), Edge(w, e));
       }
     }
   }
@@ -193,31 +202,36 @@ private:
       for(std::size_t j = low[1]; j <= high[1]; ++j)
         for(std::size_t i = low[0]; i <= high[0]; ++i) {
           const std::array<std::size_t, 3> p{i, j, k};
-          const Label_number first_label = m_label_in_image(offset(p));
+          const Label_number first_label = m_in_image[offset(p)];
           if(first_label != a && first_label != b)
             continue;
           for(std::size_t axis = 0; axis < 3; ++axis)
-            if(p[axis] < high[axis]
-               && m_label_in_image(offset(p) + strides()[axis]) == (first_label == a ? b : a))
+            if(p[axis] < high[axis] && m_in_image[offset(p) + strides()[axis]] == (first_label == a ? b : a))
               return true;
         }
     return false;
   }
 
   // The edges between the same two labels that are connected by triangles.
-  void find_place(const Edge& first, std::vector<std::uint8_t>& is_known, std::vector<Edge>& edges) const
+  void find_place(const Edge& first, std::vector<Edge>& edges)
   {
-    const Label_number a = m_labels[first.first], b = m_labels[first.first + step(first.second)];
-    edges = {first};
-    is_known[8 * first.first + first.second] = 1;
+    const Label_number a = m_labels[first.first], b = m_labels[first.first + m_steps[first.second]];
+    const auto add = [&](const Edge& edge) {
+      const auto bit = std::uint8_t(1 << edge.second);
+      if((m_is_known[edge.first] & bit) != 0)
+        return;
+      m_is_known[edge.first] |= bit;
+      edges.push_back(edge);
+    };
+    edges.clear();
+    add(first);
     for(std::size_t i = 0; i < edges.size(); ++i) {
-      const Label_number at_start = m_labels[edges[i].first];
-      for_each_triangle_at(edges[i], [&](std::size_t v, const Edge& from_first, const Edge& from_second) {
-        if(m_labels[v] != a && m_labels[v] != b)
-          return;
-        const Edge& next = m_labels[v] == at_start ? from_second : from_first;
-        if(!std::exchange(is_known[8 * next.first + next.second], 1))
-          edges.push_back(next);
+      const Edge edge = edges[i];
+      const Label_number at_start = m_labels[edge.first];
+      for_each_triangle_at(edge, [&](std::size_t v, const Edge& from_first, const Edge& from_second) {
+        const Label_number label = m_labels[v];
+        if(label == a || label == b)
+          add(label == at_start ? from_second : from_first);
       });
     }
   }
@@ -225,7 +239,7 @@ private:
   // Lets two labels not touch at an edge.
   void seal(const Edge& edge, Label_number a, Label_number b)
   {
-    const std::size_t v = edge.first, w = v + step(edge.second);
+    const std::size_t v = edge.first, w = v + m_steps[edge.second];
     if(m_labels[v] == m_labels[w] || (m_labels[v] != a && m_labels[v] != b)
        || (m_labels[w] != a && m_labels[w] != b))
       return; // sealed by another edge
@@ -263,9 +277,8 @@ private:
   }
 
   // The smoothed indicator of a label, times its weight.
-  float score(std::size_t v, Label_number label) const
+  float score(const std::array<std::size_t, 3>& in_box, Label_number label) const
   {
-    const std::array<std::size_t, 3> in_box = voxel(v);
     const Indicator& indicator = m_indicators[label - 1];
     std::array<std::size_t, 3> p;
     for(int i = 0; i < 3; ++i) {
@@ -281,10 +294,30 @@ private:
   {
     if(label == 0)
       return odds(m_outside[v]) / (m_weights[0] * m_weights[other]);
-    const float own = score(v, label);
+    const std::array<std::size_t, 3> p = voxel(v);
+    const float own = score(p, label);
     if(own == 0)
       return 0;
-    return other == 0 ? m_weights[0] * m_weights[label] / odds(m_outside[v]) : own / score(v, other);
+    return other == 0 ? m_weights[0] * m_weights[label] / odds(m_outside[v]) : own / score(p, other);
+  }
+
+  template <class HasLabel>
+  void find_labels_in_image(const Voxel_image_3& image, const std::vector<HasLabel>& has_label)
+  {
+    m_in_image.assign(size[0] * size[1] * size[2], 0);
+    // The label of the last value: most voxels have the value of the one before.
+    float last_value = std::numeric_limits<float>::quiet_NaN();
+    Label_number last_label = 0;
+    for_each_in_image(*this, image.grid, [&](std::size_t v, std::size_t w) {
+      const float value = image.values[w];
+      if(value != last_value) {
+        const auto found = std::find_if(has_label.begin(), has_label.end(),
+                                        [value](const HasLabel& has) { return has(value); });
+        last_value = value;
+        last_label = found == has_label.end() ? Label_number(0) : Label_number(found - has_label.begin() + 1);
+      }
+      m_in_image[v] = last_label;
+    });
   }
 
   // Makes the box large enough for all indicators, at whose borders are zeros, with a voxel around them.

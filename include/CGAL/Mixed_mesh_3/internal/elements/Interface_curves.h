@@ -33,6 +33,7 @@ from the vertex, they are a circle, or arcs that have both ends in common. All o
 class Interface_curves
 {
   using Ends = std::vector<Vertex_index>;
+  using Link = std::vector<std::pair<Vertex_index, Vertex_index>>; // edges opposite to a vertex
 
   std::vector<Ends> m_neighbors; // along curves
   std::vector<std::uint8_t> m_is_corner;
@@ -42,12 +43,21 @@ public:
   Interface_curves(const std::vector<Face_vertices>& triangles, std::size_t number_of_vertices)
     : m_neighbors(number_of_vertices), m_is_corner(number_of_vertices, 0)
   {
-    std::vector<std::vector<std::pair<Vertex_index, Vertex_index>>> links(number_of_vertices);
-    for(const Face_vertices& t : triangles)
-      for(int i = 0; i < 3; ++i)
-        links[t[i]].emplace_back(t[(i + 1) % 3], t[(i + 2) % 3]);
-    for(Vertex_index v = 0; v < number_of_vertices; ++v)
-      examine(v, links[v]);
+    // The corners of a vertex are a list of links: corner i of triangle t has the number 3 t + i.
+    const std::size_t none = 3 * triangles.size();
+    std::vector<std::size_t> first(number_of_vertices, none), next(none);
+    for(std::size_t c = none; c-- > 0;)
+      next[c] = std::exchange(first[triangles[c / 3][int(c % 3)]], c);
+    Link link;
+    Ends ends;
+    for(Vertex_index v = 0; v < number_of_vertices; ++v) {
+      link.clear();
+      for(std::size_t c = first[v]; c != none; c = next[c]) {
+        const Face_vertices& t = triangles[c / 3];
+        link.emplace_back(t[int((c + 1) % 3)], t[int((c + 2) % 3)]);
+      }
+      examine(v, link, ends);
+    }
   }
 
   Interface_curves(const std::vector<Face>& triangles, std::size_t number_of_vertices)
@@ -93,10 +103,10 @@ private:
     return result;
   }
 
-  // \param link edges opposite to the vertex in its triangles
-  void examine(Vertex_index v, const std::vector<std::pair<Vertex_index, Vertex_index>>& link)
+  // \param ends memory for the ends of the link
+  void examine(Vertex_index v, const Link& link, Ends& ends)
   {
-    Ends ends;
+    ends.clear();
     for(const auto& [a, b] : link) {
       ends.push_back(a);
       ends.push_back(b);
