@@ -208,9 +208,10 @@ public:
 
   /// Sets whether the quality bound is kept even where topology, volume and arrival of the boundary cannot be
   /// right with it. If not, larger bounds are tried then, up to five times as large, and the first bound that
-  /// suffices is taken; `Mixed_mesh_optimization_result_3::number_of_elements_above_bound` counts the
-  /// elements that exceed the bound that was asked for. Domains that can be meshed within the bound, such as
-  /// organs, are not concerned. Default: no
+  /// suffices is taken; beyond, elements stay only where no other mesh is nearer to the surface.
+  /// `Mixed_mesh_optimization_result_3::number_of_elements_above_bound` counts the elements that exceed the
+  /// bound that was asked for. Domains that can be meshed within the bound, such as organs, are not
+  /// concerned. Default: no
   Mixed_mesh_criteria_3& strict_quality_bound(bool is_strict)
   {
     m_is_quality_bound_strict = is_strict;

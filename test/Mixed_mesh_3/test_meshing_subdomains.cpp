@@ -336,9 +336,10 @@ void test_cuts()
     Located_octree octree(domain, region, traits);
     for(int level = 0; level < 3 + round % 3; ++level)
       octree.refine(octree.leaves_to_refine(level, false));
+    internal::Known_edges known;
     const internal::Core_mesh mesh = internal::cut_by_interfaces(
       {octree, internal::apply_transitions(octree, Transition_templates_choice::FEWEST_VERTICES),
-       [](internal::Octree::Node_index) { return false; }},
+       [](internal::Octree::Node_index) { return false; }, known},
       false);
     BOOST_TEST(!mesh.is_empty());
     if(mesh.is_empty())

@@ -12,6 +12,7 @@
 #include <CGAL/Mixed_mesh_3/fidelity.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/shell_counts.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/cut_by_interfaces.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/layer_cells.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/apply_transitions.h>
 #include <CGAL/Mixed_mesh_3/quality_bound.h>
 
@@ -26,6 +27,7 @@
 #include <initializer_list>
 #include <iostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace test_meshing_thin {
@@ -272,9 +274,10 @@ void test_cuts()
         Located_octree octree(domain, region, traits);
         for(int i = 0; i < level; ++i)
           octree.refine(octree.leaves_to_refine(i, false));
+        internal::Known_edges known;
         const internal::Core_mesh mesh = internal::cut_by_interfaces(
           {octree, internal::apply_transitions(octree, Transition_templates_choice::FEWEST_VERTICES),
-           [](internal::Octree::Node_index) { return false; }},
+           [](internal::Octree::Node_index) { return false; }, known},
           true);
         const bool is_right = !mesh.is_empty() && internal::shells_of_boundary(mesh) == domain.shells();
         const double ratio = volume(mesh) / domain.volume();
@@ -290,8 +293,54 @@ void test_cuts()
       }
 }
 
+// A prism over a triangle with an angle of 80 degrees in front, where a line at right angles to one face soon
+// leads out of the other one.
+Surface wedge()
+{
+  const double slope = 0.5 * std::tan(80 * M_PI / 360);
+  Surface s;
+  const Point_3 triangle[] = {{0, 0.5, 0}, {0.5, 0.5 - slope, 0}, {0.5, 0.5 + slope, 0}};
+  std::vector<Surface::Vertex_index> v;
+  for(double z : {0., 1.})
+    for(const Point_3& p : triangle)
+      v.push_back(s.add_vertex(Point_3(p.x(), p.y(), z)));
+  s.add_face(v[0], v[2], v[1]);
+  s.add_face(v[3], v[4], v[5]);
+  for(std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    s.add_face(v[i], v[j], v[j + 3]);
+    s.add_face(v[i], v[j + 3], v[i + 3]);
+  }
+  return turned(s);
+}
+
+// Cells are split for a plate, and for a gap between two blocks, but not for a wedge, which no cell is small
+// enough for.
+void test_layers()
+{
+  const Aligned_traits traits({-1, -1, -1, 2, 2, 2});
+  const Everywhere_mixed_mesh_region_3 region;
+  const double thickness = 0.3 * 3 / 16;
+  Surface blocks = box(Point_3(0, 0, 0), Point_3(1, 1, 0.4));
+  blocks += box(Point_3(0, 0, 0.4 + thickness), Point_3(1, 1, 1));
+  const std::pair<Surface, bool> cases[] = {{turned(box(Point_3(0, 0, 0), Point_3(1, 1, thickness))), true},
+                                            {turned(blocks), true},
+                                            {wedge(), false}};
+  for(const auto& [surface, has_layer] : cases) {
+    const Polyhedral_mixed_mesh_domain_3 domain(surface);
+    Located_octree octree(domain, region, traits);
+    for(int level = 0; level < 4; ++level)
+      octree.refine(octree.leaves_to_refine(level, false));
+    const std::size_t number = octree.number_of_cells();
+    BOOST_TEST(internal::split_layer_cells(octree, 100 * number));
+    std::cout << "layers: " << number << " cells, then " << octree.number_of_cells() << std::endl;
+    BOOST_TEST(has_layer ? octree.number_of_cells() > 2 * number : octree.number_of_cells() == number);
+  }
+}
+
 int run(int, char*[])
 {
+  test_layers();
   test_cuts();
   test_shell_counts();
   test_weights_of_shells();

@@ -140,10 +140,14 @@ private:
     if(!m_sharp_at_start.empty()) {
       Outcome outcome = optimize_freely({true, false}, go_on);
       if(!outcome.result.is_boundary_simple && outcome.result.status != Status::STOPPED)
-        outcome.result = optimize_within(outcome, go_on);
+        outcome.result = optimize_without_crossing(outcome, within_bound, go_on);
       return take(outcome);
     }
     Outcome best;
+    if(m_estimate.stays_simple) {
+      best.result = optimize_without_crossing(best, freely(), go_on);
+      return take(best);
+    }
     for(const Fitting_mode& mode : {freely(), without_attraction}) {
       Outcome outcome = optimize_freely(mode, go_on);
       if(outcome.result.status == Status::STOPPED)
@@ -160,7 +164,7 @@ private:
         break;
     }
     Outcome bounded;
-    bounded.result = optimize_within(bounded, go_on);
+    bounded.result = optimize_without_crossing(bounded, within_bound, go_on);
     bounded.meets_guarantees = true;
     return take(bounded.result.status == Status::STOPPED || is_better(bounded, best) ? bounded : best);
   }
@@ -233,12 +237,13 @@ private:
            && number_not_arrived(r) <= tolerated + tolerated_loss * r.length_of_sharp_edges / m_edge_length;
   }
 
-  // Optimizes within the bound, and repeats until no faces cut each other.
-  Result optimize_within(Outcome& outcome, const std::function<bool()>& go_on)
+  // Optimizes, and repeats until no faces cut each other, if none did before.
+  Result optimize_without_crossing(Outcome& outcome, const Fitting_mode& mode,
+                                   const std::function<bool()>& go_on)
   {
     for(std::size_t i = 0;; ++i) {
-      Fitting_outcome fitted = optimize_surface(m_mesh, m_domain, m_criteria, m_quality, within_bound,
-                                                m_features, m_sharp_at_start, m_is_held, go_on);
+      Fitting_outcome fitted = optimize_surface(m_mesh, m_domain, m_criteria, m_quality, mode, m_features,
+                                                m_sharp_at_start, m_is_held, go_on);
       outcome.mesh = std::move(fitted.mesh);
       outcome.sharp = std::move(fitted.sharp);
       const Result& result = fitted.result;

@@ -27,6 +27,9 @@ struct Fitting_estimate
   /// Whether what does not arrive is left as it is, as those vertices will be removed: one run, in which
   /// vertices stay on their way to sharp edges, and bad elements are not mended.
   bool leaves_rest = false;
+  /// Whether places where the boundary would cut itself are held, as it does not at the start. Otherwise it
+  /// may, if `leaves_rest`.
+  bool stays_simple = false;
 };
 
 /*!

@@ -54,8 +54,8 @@ class Surface_attraction
     Triangle vertices;
     Stratum stratum;
     double tolerance;
-    int steps = 0;                 // of the grid of samples; 0: there is none yet
-    std::size_t first_sample = 0;  // its other samples follow
+    int steps = 0;                // of the grid of samples; 0: there is none yet
+    std::size_t first_sample = 0; // its other samples follow
 
     friend bool operator<(const Boundary_triangle& a, const Boundary_triangle& b)
     {
@@ -78,7 +78,9 @@ class Surface_attraction
   std::vector<std::pair<double, Vec3>> m_far_points; // points with their distances
   std::vector<double> m_farthest;                    // distance of the farthest sample of each triangle
   double m_largest_distance = 0;
-  double m_most_steps = 8; // largest number of steps along the edge of a triangle
+  // Largest number of steps along the edge of a triangle. With 4, a pipe with a wall of a fortieth of its
+  // radius loses 4 % of its volume, and the optimization of five labels takes a sixth less time.
+  double m_most_steps = 8;
   // Most samples are near: a sample need not be measured again until the boundary next to it has moved so far
   // that the sample might draw.
   std::vector<Vec3> m_last_points;        // positions of the boundary vertices at the last measurement
@@ -86,7 +88,7 @@ class Surface_attraction
   std::vector<double> m_slack_of_samples; // distance that the boundary may move until the sample draws
   std::vector<std::size_t> m_nearest;     // triangle of each sample
   std::vector<double> m_slacks;           // of samples of the boundary
-  std::vector<Vec3> m_found; // points of the surface, the closest ones when they were asked for
+  std::vector<Vec3> m_found;              // points of the surface, the closest ones when they were asked for
 
   // Rounding of barycentric coordinates: a place on an edge does not draw the vertex opposite to the edge.
   static constexpr double nearly_0 = 1e-9;
@@ -231,9 +233,8 @@ private:
               [&](std::size_t a, std::size_t b) { return before[a] < before[b]; });
     for(std::size_t k = 0; k < m_triangles.size(); ++k) {
       Boundary_triangle& t = m_triangles[k];
-      const auto old = std::lower_bound(sorted.begin(), sorted.end(), t, [&](std::size_t i, const auto& value) {
-        return before[i] < value;
-      });
+      const auto old = std::lower_bound(sorted.begin(), sorted.end(), t,
+                                        [&](std::size_t i, const auto& value) { return before[i] < value; });
       if(old == sorted.end() || t < before[*old])
         continue;
       t = before[*old];

@@ -53,8 +53,8 @@ namespace internal {
 /// An edge that is cut.
 struct Edge_cut
 {
-  Vec3 point;   ///< on the interface
-  double share; ///< of the edge before the point
+  Vec3 point;      ///< on the interface
+  double share;    ///< of the edge before the point
   bool is_contact; ///< whether the subdomains of the ends meet there, not another one
 };
 

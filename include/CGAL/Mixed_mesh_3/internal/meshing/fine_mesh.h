@@ -56,30 +56,41 @@ constexpr double width_of_chord = 0.3;
 /// How many times the budget cells may have that are split for narrow places and for the topology.
 constexpr std::size_t most_cells_for_narrow_places = 8, most_cells_for_topology = 16;
 
-/// Lets the octree begin with cells that are small enough for sharp edges that are near to each other, and
-/// for curved ones, as far as the budget allows.
-/// \param size edge of the cells that the fine mesh has anyway
-inline void resolve_sharp_edges(Meshing_state& s, double size)
+/// Splits cells that are too large for sharp edges that are near to each other, and for curved ones, as far as
+/// the number of cells allows.
+/// \param size edge of the cells that there are anyway
+/// \return whether cells were split
+inline bool split_cells_at_narrow_edges(Located_octree& octree, const Meshing_criteria& criteria, double size,
+                                        std::size_t most)
 {
   constexpr double reach = 2;         // wider places are resolved by the cells that there are anyway
   constexpr double samples = 8;       // in a cell
   constexpr double smallest = 1. / 8; // of these cells
-  const Sharp_edges edges = s.root.domain().sharp_edges(s.criteria.sharp_angle());
+  const Sharp_edges edges = octree.domain().sharp_edges(criteria.sharp_angle());
   if(edges.edges.empty())
-    return;
+    return false;
   const std::vector<Narrow_place> places = narrow_places(Sharp_features(edges, size), reach * size,
                                                          size / samples);
-  const std::size_t most = most_cells_for_narrow_places * s.criteria.maximal_number_of_vertices();
   for(double share = smallest; !places.empty() && share < reach; share *= 2) {
-    Located_octree octree = s.root;
-    if(!refine_to_level(octree, s.coarsest_level(), s.budget()))
-      return;
-    split_narrow_cells(octree, places, share * size);
-    if(octree.number_of_cells() <= most) {
-      s.start = std::move(octree);
-      return;
+    Located_octree trial = octree;
+    split_narrow_cells(trial, places, share * size);
+    if(trial.number_of_cells() <= most) {
+      octree = std::move(trial);
+      return true;
     }
   }
+  return false;
+}
+
+/// Lets the octree begin with cells that are small enough for sharp edges.
+/// \param size edge of the cells that the fine mesh has anyway
+inline void resolve_sharp_edges(Meshing_state& s, double size)
+{
+  Located_octree octree = s.root;
+  if(refine_to_level(octree, s.coarsest_level(), s.budget())
+     && split_cells_at_narrow_edges(octree, s.criteria, size,
+                                    most_cells_for_narrow_places * s.criteria.maximal_number_of_vertices()))
+    s.start = std::move(octree);
 }
 
 /// Splits cells at shells that these cells would not be round enough for, as far as the budget allows: at the
@@ -270,9 +281,10 @@ inline std::size_t fill_octree_to_cut(Meshing_state& s)
     refine_in_region(s, octree,
                      n - (std::min)(share_inserted * n - times_root * std::sqrt(n), most_inserted));
     number_kept = s.criteria.only_tetrahedra() ? 0 : octree.octree().size();
-    split_cells_outside_region(octree, s.coarsest_level(),
-                               octree.number_of_cells()
-                                 + std::size_t((std::min)(cells_at_surface * n, most_inserted)));
+    const std::size_t most = octree.number_of_cells()
+                             + std::size_t((std::min)(cells_at_surface * n, most_inserted));
+    split_cells_at_narrow_edges(octree, s.criteria, std::cbrt(s.volume() / n), most);
+    split_cells_outside_region(octree, s.coarsest_level(), most);
   }
   if(s.has_several_subdomains() && s.root.is_region_everywhere()) // with one, that is where cells are small
     split_cells_at_small_subdomains(octree, octree.number_of_cells() + budget);

@@ -33,7 +33,9 @@ namespace internal {
 /*!
 Function object that tells whether a leaf that meets a surface is too large for the subdomains there: a line
 from the point of the surface that is nearest to a point of the cell, at right angles to the surface, leads
-through a subdomain, or through the outside, within the length of an edge of the cell.
+through a layer of a subdomain, or of the outside, within half the length of an edge of the cell. The middle
+of a layer is as far from its surfaces as half of it is thick; not so between surfaces that meet at a large
+angle, where smaller cells would be too large as well.
 */
 class Layer_finder
 {
@@ -77,15 +79,29 @@ private:
     if(!(distance > 1e-9 * edge && distance < edge))
       return false;
     const Vec3 normal = (edge / distance) * (p - q);
-    return ends_soon(q, normal) || ends_soon(q, -1 * normal);
+    return leads_through_layer(n, q, normal) || leads_through_layer(n, q, -1 * normal);
   }
 
-  // Whether a line leaves the subdomain that it begins in.
-  bool ends_soon(const Vec3& q, const Vec3& line) const
+  bool leads_through_layer(Node_index n, const Vec3& q, const Vec3& line) const
   {
-    const Subdomain_rank first = m_octree.subdomain_rank(q + first_share * line);
-    return std::any_of(std::begin(more_shares), std::end(more_shares),
-                       [&](double share) { return m_octree.subdomain_rank(q + share * line) != first; });
+    // Cosine of 45 degrees: surfaces that meet at a larger angle have no layer between them.
+    constexpr double least_ratio = 0.7;
+    constexpr int bisections = 4;
+    const auto rank = [&](double share) { return m_octree.subdomain_rank(q + share * line); };
+    const Subdomain_rank first = rank(first_share);
+    const double* end = std::find_if(std::begin(more_shares), std::end(more_shares),
+                                     [&](double share) { return rank(share) != first; });
+    if(end == std::end(more_shares))
+      return false;
+    double low = end == std::begin(more_shares) ? first_share : *(end - 1), high = *end;
+    for(int i = 0; i < bisections; ++i) {
+      const double middle = (low + high) / 2;
+      (rank(middle) == first ? low : high) = middle;
+    }
+    const Vec3 middle = q + low / 2 * line;
+    const auto closest = m_octree.domain().closest_point(Any_domain::Point_3(middle[0], middle[1], middle[2]),
+                                                         m_octree.surface_part(n));
+    return norm(to_vec3(closest) - middle) >= least_ratio * low / 2 * norm(line);
   }
 };
 

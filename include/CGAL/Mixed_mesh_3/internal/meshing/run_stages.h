@@ -77,8 +77,8 @@ inline void make_mesh_within_budget(Meshing_state& s, Core_mesh& mesh)
 /// Makes the mesh: with a region, or several subdomains, out of a fine one that is cut along the surfaces;
 /// else out of a fine one on the lattice, which follows sharp edges best, and if something is wrong in the
 /// end, out of one that is cut, which keeps walls and gaps; the better mesh is taken. If there is none then,
-/// or none of these is to be made, the mesh is that of an octree with the vertices of the budget; but not if
-/// there are layers that these vertices can not hold, of which the octree's cells would leave nothing.
+/// or one with elements that are too flat, or none of these is to be made, a mesh is made of an octree with
+/// the vertices of the budget; but not if there are layers, of which the octree's cells would leave nothing.
 /// \param root the octree with nothing but its root
 inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_criteria& criteria,
                                       Any_visitor& visitor, Core_mesh& mesh)
@@ -116,7 +116,9 @@ inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_
   };
   if(begins_fine(root, criteria)) {
     const bool is_right = (!is_always_cut && simplify(false)) || simplify(true);
-    if(is_right || !mesh.is_empty() || (has_layers && result.status == Mixed_mesh_status::BUDGET_TOO_SMALL))
+    const bool is_flat = result.quality_bound > largest_multiple_of_bound * criteria.quality_bound();
+    if(is_right || (!mesh.is_empty() && (has_layers || !is_flat))
+       || (has_layers && result.status == Mixed_mesh_status::BUDGET_TOO_SMALL))
       return result;
   }
   run(make_mesh_within_budget);

@@ -54,7 +54,9 @@ inline std::size_t number_of_vertices_in_region(const Core_mesh& mesh)
 /// Brings the boundary of the fine mesh onto the surface and its sharp edges. Vertices that do not arrive are
 /// left where they are, as they will be removed first, and vertices of flat elements soon after.
 /// \param bound that elements may have on the way to the budget
-inline void fit_fine_mesh(Meshing_state& s, double bound, Core_mesh& mesh, Followed_features& followed)
+/// \param stays_simple whether the boundary does not cut itself, and stays so
+inline void fit_fine_mesh(Meshing_state& s, double bound, bool stays_simple, Core_mesh& mesh,
+                          Followed_features& followed)
 {
   const auto rough = Mixed_mesh_optimization_criteria_3()
                        .quality_bound(bound)
@@ -63,7 +65,7 @@ inline void fit_fine_mesh(Meshing_state& s, double bound, Core_mesh& mesh, Follo
                        .number_of_rounds(1);
   optimize_bounded(
     mesh, s.root.domain(), {rough, s.criteria.number_of_threads}, Aspect_ratio_quality_3(),
-    [&s] { return s.go_on(); }, {0, 0, true}, &followed);
+    [&s] { return s.go_on(); }, {0, 0, true, stays_simple}, &followed);
 }
 
 /// Brings the boundary of a fine mesh that is cut onto sharp edges and curves where interfaces meet. It is on
@@ -75,7 +77,7 @@ inline void fit_cut_mesh(Meshing_state& s, double bound, Core_mesh& mesh, Follow
      && domain.sharp_edges(s.criteria.sharp_angle()).edges.empty())
     return;
   Core_mesh fitted = mesh;
-  fit_fine_mesh(s, bound, fitted, followed);
+  fit_fine_mesh(s, bound, true, fitted, followed);
   if(cuts_itself(fitted))
     followed = {};
   else
@@ -158,14 +160,15 @@ inline bool simplify_and_fit(Meshing_state& s, const Simplification_limits& limi
          && double(mesh.number_of_vertices()) >= Mixed_mesh_criteria_3::full_share * double(n);
 }
 
+/// Largest bound in bounds that were asked for: in thin walls there is room for flatter elements only. Between
+/// layers, few elements may have any: no octree resolves these.
+constexpr double largest_multiple_of_bound = 5;
+
 /// Makes a mesh with the vertices of the budget out of a finer one.
 /// \param is_cut whether the finer one is cut, or on the lattice
 /// \param mesh empty; stays so if there is none
 inline void make_simplified_mesh(Meshing_state& s, bool is_cut, Core_mesh& mesh)
 {
-  // Largest bound in bounds that were asked for: in thin walls there is room for flatter elements only.
-  // Between layers, few elements may have any: no octree resolves these.
-  constexpr double largest_multiple = 5;
   // The same, before vertices are removed: vertices of flat elements go early. Without that, one to five
   // vertices of plates and gears stay off the surface in the end, with 3 or 5 parts keep less of their sharp
   // edges.
@@ -183,12 +186,13 @@ inline void make_simplified_mesh(Meshing_state& s, bool is_cut, Core_mesh& mesh)
                                        : Mixed_mesh_optimization_criteria_3::default_quality_bound;
   limits.usual_distance = share_of_edge_tolerated * s.mean_edge();
   limits.distance = s.result.tolerance > 0 ? s.result.tolerance : limits.usual_distance;
-  limits.largest_bound = (s.criteria.is_quality_bound_strict() ? 1 : largest_multiple) * limits.bound;
+  limits.largest_bound = (s.criteria.is_quality_bound_strict() ? 1 : largest_multiple_of_bound)
+                         * limits.bound;
   const double bound_on_the_way = (std::min)(multiple_on_the_way * limits.bound, limits.largest_bound);
   if(is_cut)
     fit_cut_mesh(s, bound_on_the_way, fine, followed);
   else
-    fit_fine_mesh(s, bound_on_the_way, fine, followed);
+    fit_fine_mesh(s, bound_on_the_way, false, fine, followed);
   if(s.is_stopped && !s.keeps_mesh_if_stopped())
     return note_stop();
   // A part of the vertices bisect edges that are far from the surface. Where these do not arrive, all are
@@ -213,8 +217,7 @@ inline void make_simplified_mesh(Meshing_state& s, bool is_cut, Core_mesh& mesh)
   const Mixed_mesh_optimization_result_3& fit = s.result.optimization;
   const bool is_above = fit.number_of_elements_above_bound > 0;
   const double worst = is_above ? quality_statistics(mesh).back().maximum : 0;
-  const bool is_bad = worst > limits.largest_bound
-                      && (!s.has_several_subdomains() || s.criteria.is_quality_bound_strict());
+  const bool is_bad = worst > limits.largest_bound && s.criteria.is_quality_bound_strict();
   if(!fit.is_boundary_simple || is_bad) { // the octree of the budget is tried
     mesh.clear();
     s.result.is_kept = false;
