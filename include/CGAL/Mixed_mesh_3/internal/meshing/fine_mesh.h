@@ -56,8 +56,8 @@ constexpr double width_of_chord = 0.3;
 /// How many times the budget cells may have that are split for narrow places and for the topology.
 constexpr std::size_t most_cells_for_narrow_places = 8, most_cells_for_topology = 16;
 
-/// Splits cells that are too large for sharp edges that are near to each other, and for curved ones, as far as
-/// the number of cells allows.
+/// Splits cells that are too large for sharp edges that are near to each other, and for curved ones, as far
+/// as the number of cells allows.
 /// \param size edge of the cells that there are anyway
 /// \return whether cells were split
 inline bool split_cells_at_narrow_edges(Located_octree& octree, const Meshing_criteria& criteria, double size,

@@ -160,8 +160,8 @@ inline bool simplify_and_fit(Meshing_state& s, const Simplification_limits& limi
          && double(mesh.number_of_vertices()) >= Mixed_mesh_criteria_3::full_share * double(n);
 }
 
-/// Largest bound in bounds that were asked for: in thin walls there is room for flatter elements only. Between
-/// layers, few elements may have any: no octree resolves these.
+/// Largest bound in bounds that were asked for: in thin walls there is room for flatter elements only.
+/// Between layers, few elements may have any: no octree resolves these.
 constexpr double largest_multiple_of_bound = 5;
 
 /// Makes a mesh with the vertices of the budget out of a finer one.
