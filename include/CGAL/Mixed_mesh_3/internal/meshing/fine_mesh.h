@@ -340,10 +340,11 @@ inline bool split_cells_at(Located_octree& octree, const std::vector<Vec3>& poin
 /// long as that leaves fewer such places: holes in a layer between them would be full of curves and corners,
 /// at which elements are flat.
 /// \param most number of cells
+/// \param known edges of meshes that were cut before; those of this one are added
 /// \return an empty mesh if the surfaces do not fit together, or an interface would be no manifold
-inline Core_mesh cut_mesh(Meshing_state& s, std::size_t number_kept, bool keeps_thin_parts, std::size_t most)
+inline Core_mesh cut_mesh(Meshing_state& s, std::size_t number_kept, bool keeps_thin_parts, std::size_t most,
+                          Known_edges& known)
 {
-  Known_edges known;
   for(std::size_t fewest = std::size_t(-1);;) {
     Lattice_mesh lattice;
     {
@@ -401,8 +402,9 @@ inline Core_mesh cut_fine_mesh(Meshing_state& s)
   bool keeps_thin_parts = !s.has_several_subdomains()
                           && (s.root.is_region_everywhere() || !is_tolerance_wished(s.criteria));
   Core_mesh fine;
+  Known_edges known;
   const auto cut = [&] { // whether something is wrong
-    fine = cut_mesh(s, number_kept, keeps_thin_parts, most);
+    fine = cut_mesh(s, number_kept, keeps_thin_parts, most, known);
     return fine.is_empty() || Misfit(fine, s.root.domain(), false, 0, 0, 0, 0).is_topology_wrong()
            || (s.has_several_subdomains()
                && vertices_per_corner * number_of_corners(fine, s.root.domain())
