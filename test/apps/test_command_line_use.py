@@ -190,24 +190,26 @@ class Use(Case):
         report = WORK / "report.json"
 
         def repeated(f):
-            """Where the machine is suddenly faster or slower than before, the middle is missed: the run has ended, or
-            vertices have not arrived yet."""
-            for _ in range(10):
-                result = f()
-                if result[0] == 4 and "all checks hold" in result[1]:
+            """A time in the middle of the optimization is searched, as the machine may be faster or slower than before:
+            stopped earlier, there is no mesh; later, it has ended, or inserted vertices have not arrived yet."""
+            time_limit = middle
+            for _ in range(20):
+                status, out, errors = f(time_limit)
+                if status == 4 and "all checks hold" in out:
                     break
-            return result
+                time_limit *= 1.1 if status == 1 else 0.9
+            return status, out, errors, time_limit
 
-        def interrupted():
+        def interrupted(seconds):
             run = subprocess.Popen([MESHER, *map(str, arguments)], stderr=subprocess.PIPE, stdout=subprocess.PIPE,
                                    text=True)
-            time.sleep(middle)
+            time.sleep(seconds)
             run.send_signal(signal.SIGINT)
             out, errors = run.communicate()
             return run.returncode, out, errors
 
-        def limited():
-            run = self.mesher(*arguments, "--report", report, "--time-limit", middle)
+        def limited(seconds):
+            run = self.mesher(*arguments, "--report", report, "--time-limit", seconds)
             return run.returncode, run.stdout, run.stderr
 
         self.assertEqual(self.mesher(*arguments, "--report", report).returncode, 0)
@@ -216,15 +218,15 @@ class Use(Case):
         middle = (sum(stages[n] for n in names[:names.index("optimization")]) + stages["quality"]
                   + 0.4 * stages["optimization"])
         whole = self.output.read_bytes()
-        status, out, errors = repeated(limited)
+        status, out, errors, time_limit = repeated(limited)
         self.assertEqual(status, 4, errors)
         self.assertIn("warning: stopped by --time-limit after ", errors)
         told = json.loads(report.read_text())
-        self.assertEqual((told["status"], told["options"]["time limit"]), ("stopped", middle))
+        self.assertEqual((told["status"], told["options"]["time limit"]), ("stopped", time_limit))
         self.assertTrue(all(told["checks"].values()))
         self.assertTrue(0.9 * 10000 < told["mesh"]["vertices"] <= 10000)
         self.assertNotEqual(self.output.read_bytes(), whole)
-        status, out, errors = repeated(interrupted)
+        status, out, errors, _ = repeated(interrupted)
         self.assertEqual(status, 4, errors)
         self.assertIn("warning: stopped by a signal after ", errors)
         self.assertIn("all checks hold", out)
