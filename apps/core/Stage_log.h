@@ -57,7 +57,6 @@ public:
   /// \param show_progress whether to show on stderr, while stages run, how far they are
   explicit Stage_log(bool show_progress) : m_show_progress(show_progress), m_progress(show_progress, m_start)
   {
-    give_arrays_back();
   }
 
   void begin_stage(CGAL::Mixed_meshes_3::Stage stage)
@@ -246,17 +245,6 @@ private:
     timespec t{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
     return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-  }
-
-  // glibc: the system gets arrays back as soon as they are freed. By default, arrays of up to 32 MB stay with
-  // the process, a sixth of the memory of a million vertices.
-  static void give_arrays_back()
-  {
-#ifdef __GLIBC__
-    constexpr int array = 1 << 20, rest = 16 << 20; // bytes; less would take time
-    mallopt(M_MMAP_THRESHOLD, array);
-    mallopt(M_TRIM_THRESHOLD, rest);
-#endif
   }
 
   // glibc: the system gets pages back that earlier stages have freed between others; of a million vertices,
