@@ -21,6 +21,7 @@
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/assertions.h>
 #include <CGAL/squared_distance_3.h>
+#include <CGAL/tags.h>
 
 #include <boost/functional/hash.hpp>
 
@@ -57,6 +58,8 @@ All answers are exact on the coordinates of the surfaces, rounded to double, as 
 `Polyhedral_mixed_mesh_domain_3`.
 
 \cgalModels{MixedMeshDomainWithSheets_3}
+\cgalModels{MixedMeshDomainWithFeatures_3}
+\cgalModels{MixedMeshDomainWithShells_3}
 */
 class Labeled_polyhedral_mixed_mesh_domain_3
 {
@@ -66,6 +69,10 @@ public:
   using Point_3 = Surface::Point_3;
   /// The label of a subdomain.
   using Subdomain_index = Mixed_meshes_3::Subdomain_index;
+  using Has_subdomains = Tag_true;
+  using Has_sheets = Tag_true;
+  using Has_features = Tag_true;
+  using Has_shells = Tag_true;
 
   /// The surfaces that are visible in a cell: those that meet the cell and are not hidden inside an earlier
   /// one.

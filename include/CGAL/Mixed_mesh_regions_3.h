@@ -19,6 +19,7 @@
 #include <CGAL/Bbox_3.h>
 #include <CGAL/assertions.h>
 #include <CGAL/squared_distance_3.h>
+#include <CGAL/tags.h>
 
 #include <algorithm>
 #include <array>
@@ -132,7 +133,7 @@ Cells become smaller by a factor of about \f$ w^{1/5} \f$ where the weight is \f
 to the weights of other places, and to 1, for which the share of the budget that serves the volume is set.
 
 \tparam Region a model of `MixedMeshRegion_3`
-\cgalModels{MixedMeshRegion_3}
+\cgalModels{MixedMeshRegionWithWeights_3}
 */
 template <class Region>
 class Weighted_mixed_mesh_region_3 : public Region
@@ -140,6 +141,7 @@ class Weighted_mixed_mesh_region_3 : public Region
 public:
   /// The type of points.
   using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
+  using Has_weights = Tag_true;
 
   /// Takes the region over (wrap it in `std::move` if it cannot be copied).
   /// \param region region
@@ -177,7 +179,7 @@ private:
 An error counts as in the region in which it counts most.
 
 \tparam Regions models of `MixedMeshRegion_3`
-\cgalModels{MixedMeshRegion_3}
+\cgalModels{MixedMeshRegionWithWeights_3}
 */
 template <class... Regions>
 class Union_mixed_mesh_region_3
@@ -185,6 +187,8 @@ class Union_mixed_mesh_region_3
 public:
   /// The type of points.
   using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
+  /// Whether one of the regions has weights.
+  using Has_weights = Boolean_tag<(Mixed_meshes_3::internal::has_weights<Regions>() || ...)>;
   /// The parts of the regions, and the side of the cell relative to each region.
   struct Surface_part
   {
@@ -220,13 +224,9 @@ public:
   double weight(const Point_3& p, double reach) const
   {
     using namespace Mixed_meshes_3::internal;
-    if constexpr((!Has_weight<Regions, Point_3>::value && ...)) {
-      return 1;
-    } else {
-      const auto of = [&](const auto& r) { return std::pair(r.depth(p), weight_in_region(r, p, reach)); };
-      return std::apply([&](const auto&... r) { return weight_in_union(std::array{of(r)...}, reach); },
-                        m_regions);
-    }
+    const auto of = [&](const auto& r) { return std::pair(r.depth(p), weight_in_region(r, p, reach)); };
+    return std::apply([&](const auto&... r) { return weight_in_union(std::array{of(r)...}, reach); },
+                      m_regions);
   }
 
 private:

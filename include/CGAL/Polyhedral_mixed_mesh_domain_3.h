@@ -13,6 +13,7 @@
 #include <CGAL/Mixed_mesh_3/internal/surface/Surface_oracle_3.h>
 
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/tags.h>
 
 namespace CGAL {
 
@@ -25,7 +26,8 @@ A point is inside if a ray from it crosses the surface an odd number of times: a
 another one is a cavity. All answers are exact on the coordinates, rounded to double. The surface is
 copied.
 
-\cgalModels{MixedMeshDomain_3}
+\cgalModels{MixedMeshDomainWithFeatures_3}
+\cgalModels{MixedMeshDomainWithShells_3}
 */
 class Polyhedral_mixed_mesh_domain_3 : private Mixed_meshes_3::internal::Surface_oracle_3
 {
@@ -35,6 +37,8 @@ public:
   using Base::Kernel;
   using Base::Point_3;
   using Base::Surface_part;
+  using Has_features = Tag_true;
+  using Has_shells = Tag_true;
 
   /*!
   Builds the AABB tree.
@@ -61,7 +65,7 @@ public:
   {
   }
 
-  // The queries of the concept, optional ones among them.
+  // The queries of the concepts.
   using Base::area;
   using Base::axis_parallel_planes;
   using Base::bbox;

@@ -18,6 +18,7 @@
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/assertions.h>
 #include <CGAL/squared_distance_3.h>
+#include <CGAL/tags.h>
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +89,7 @@ public:
 An error counts as in the region in which it counts most. Without regions, an error counts everywhere alike,
 as with `Everywhere_mixed_mesh_region_3`. Copies share the regions.
 
-\cgalModels{MixedMeshRegion_3}
+\cgalModels{MixedMeshRegionWithWeights_3}
 */
 class Polyhedral_mixed_mesh_regions_3
 {
@@ -97,6 +98,7 @@ class Polyhedral_mixed_mesh_regions_3
 public:
   /// The type of points.
   using Point_3 = Mixed_meshes_3::Predicates_kernel::Point_3;
+  using Has_weights = Tag_true;
   /// The parts of the regions, and the side of the cell relative to each region.
   struct Surface_part
   {

@@ -8,6 +8,7 @@
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
 #include <CGAL/Mixed_mesh_3/IO/MEDIT.h>
 #include <CGAL/Mixed_mesh_3/IO/VTU.h>
@@ -29,6 +30,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <type_traits>
 #include <utility>
@@ -94,6 +96,47 @@ constexpr bool is_domain()
          && converts<decltype(a<Domain>().closest_point(a<P>())), P> && converts<Sample, P>;
 }
 
+template <class Domain>
+constexpr bool is_domain_with_features()
+{
+  const bool has_edges = converts<decltype(a<Domain>().sharp_edges(50.)), mm3::Sharp_edges>;
+  const bool has_planes = converts<decltype(a<Domain>().axis_parallel_planes()), mm3::Axis_parallel_planes>;
+  return has_edges && has_planes && mm3::internal::has_features<Domain>();
+}
+
+template <class Domain>
+constexpr bool is_domain_with_shells()
+{
+  const bool has_counts = converts<decltype(a<Domain>().shells()), std::optional<mm3::Shell_counts>>;
+  const bool has_volume = converts<decltype(a<Domain>().volume()), std::optional<double>>;
+  return has_counts && has_volume && mm3::internal::has_shells<Domain>();
+}
+
+template <class Domain>
+constexpr bool is_labeled_domain()
+{
+  using P = typename Domain::Point_3;
+  using Part = typename Domain::Surface_part;
+  using Index = mm3::Subdomain_index;
+  using Sample = decltype(*a<Domain>().surface_samples(1., Index()).begin());
+  return mm3::internal::has_subdomains<Domain>()
+         && converts<decltype(*a<Domain>().subdomain_indices().begin()), Index>
+         && converts<decltype(a<Domain>().subdomain_index(a<P>(), a<Part>())), Index>
+         && converts<decltype(a<Domain>().closest_point(a<P>(), Index(), Index())), P>
+         && converts<decltype(a<Domain>().closest_point(a<P>(), a<P>(), Index(), Index())), P>
+         && converts<Sample, P> && converts<decltype(a<Domain>().mean_chord_length(Index())), double>;
+}
+
+template <class Domain>
+constexpr bool is_domain_with_sheets()
+{
+  using Sheet = std::decay_t<decltype(**a<Domain>().sheets().begin())>;
+  return mm3::internal::has_sheets<Domain>() && is_labeled_domain<Domain>()
+         && converts<decltype(a<Sheet>().may_intersect(a<CGAL::Bbox_3>())), bool>
+         && converts<decltype(a<Sheet>().do_intersect(a<Point_3>(), a<Point_3>())), bool>
+         && converts<decltype(a<Sheet>().closest_point(a<Point_3>(), a<Point_3>())), Point_3>;
+}
+
 template <class Region, class Cell>
 constexpr bool is_region()
 {
@@ -102,6 +145,13 @@ constexpr bool is_region()
          && converts<decltype(a<Region>().locate(a<Cell>(), a<Part>(), a_variable<Part>())),
                      Bounded_side>
          && converts<decltype(a<Region>().depth(a<Point_3>())), double>;
+}
+
+template <class Region>
+constexpr bool is_region_with_weights()
+{
+  return mm3::internal::has_weights<Region>()
+         && converts<decltype(a<Region>().weight(a<Point_3>(), 1.)), double>;
 }
 
 template <class Quality>
@@ -118,10 +168,12 @@ constexpr bool is_quality()
 template <class Visitor>
 constexpr bool is_visitor()
 {
+  using Mesh = CGAL::Mixed_mesh_3<Kernel>;
   return std::is_same_v<decltype(a_variable<Visitor>().begin_stage(Stage())), void>
          && std::is_same_v<decltype(a_variable<Visitor>().end_stage(Stage())), void>
          && std::is_same_v<decltype(a_variable<Visitor>().progress(std::size_t(), std::size_t())), void>
-         && converts<decltype(a_variable<Visitor>().go_on()), bool>;
+         && converts<decltype(a_variable<Visitor>().go_on()), bool>
+         && std::is_same_v<decltype(a_variable<Visitor>().before_fitting(a<Mesh>())), void>;
 }
 
 template <class Traits>
@@ -235,6 +287,42 @@ private:
   static double norm(const Point_3& p) { return std::hypot(p.x(), p.y(), p.z()); }
 };
 
+// The unit ball, with what is known of it.
+struct Refined_domain_archetype : Domain_archetype
+{
+  using Domain_archetype::closest_point;
+  using Domain_archetype::Domain_archetype;
+  using Domain_archetype::surface_samples;
+
+  typedef CGAL::Tag_true Has_features;
+  mm3::Sharp_edges sharp_edges(double) const { return {}; }
+  mm3::Axis_parallel_planes axis_parallel_planes() const { return {}; }
+
+  typedef CGAL::Tag_true Has_shells;
+  std::optional<mm3::Shell_counts> shells() const { return mm3::Shell_counts{1, 2}; }
+  std::optional<double> volume() const { return 4 * CGAL_PI / 3; }
+
+  typedef CGAL::Tag_true Has_subdomains;
+  std::array<mm3::Subdomain_index, 1> subdomain_indices() const { return {3}; }
+  mm3::Subdomain_index subdomain_index(const Point_3&, const Surface_part&) const { return 3; }
+  Point_3 closest_point(const Point_3& p, mm3::Subdomain_index, mm3::Subdomain_index) const
+  {
+    return closest_point(p);
+  }
+  Point_3 closest_point(const Point_3& p, const Point_3&, mm3::Subdomain_index, mm3::Subdomain_index) const
+  {
+    return closest_point(p);
+  }
+  std::array<Point_3, 6> surface_samples(double spacing, mm3::Subdomain_index) const
+  {
+    return surface_samples(spacing);
+  }
+  double mean_chord_length(mm3::Subdomain_index) const { return 4. / 3; }
+
+  typedef CGAL::Tag_true Has_sheets;
+  std::array<const CGAL::Mixed_mesh_sheet_3*, 0> sheets() const { return {}; }
+};
+
 // The half space x > 1/4.
 struct Region_archetype : Archetype
 {
@@ -251,6 +339,20 @@ struct Region_archetype : Archetype
                                : CGAL::ON_BOUNDARY;
   }
   double depth(const Point_3& p) const { return p.x() - 0.25; }
+};
+
+struct Region_with_weights_archetype : Region_archetype
+{
+  using Region_archetype::Region_archetype;
+  typedef CGAL::Tag_true Has_weights;
+  double weight(const Point_3&, double) const { return 2; }
+};
+
+// Members that are not those of a refinement, as its model says.
+struct Region_with_another_weight : Region_archetype
+{
+  typedef CGAL::Tag_false Has_weights;
+  int weight() const { return 5; }
 };
 
 // A measure of a user: the worst corner, as a tetrahedron; its gradient by differences.
@@ -312,6 +414,7 @@ struct Visitor_archetype : Archetype
   void end_stage(Stage s) { m_log.emplace_back(s, false); }
   void progress(std::size_t, std::size_t) { ++m_trials; }
   bool go_on() { return --m_questions != 0; }
+  void before_fitting(const CGAL::Mixed_mesh_3<Kernel>&) {}
 
   // Members for the test, not of the concept.
   const std::vector<std::pair<Stage, bool>>& log() const { return m_log; }
@@ -362,6 +465,7 @@ struct Element_traits_archetype
 using CGAL::Ball_mixed_mesh_region_3;
 using CGAL::Everywhere_mixed_mesh_region_3;
 using CGAL::Implicit_mixed_mesh_region_3;
+using CGAL::Labeled_polyhedral_mixed_mesh_domain_3;
 using CGAL::Polyhedral_mixed_mesh_domain_3;
 using CGAL::Polyhedral_mixed_mesh_region_3;
 using CGAL::Polyhedral_mixed_mesh_regions_3;
@@ -376,7 +480,8 @@ constexpr bool is_cell_traits_with_all()
   using Cell = decltype(a<Traits>().cell(a<Lattice_point>(), std::uint32_t()));
   using Union = Union_mixed_mesh_region_3<Ball_mixed_mesh_region_3, Polyhedral_mixed_mesh_region_3>;
   return is_cell_traits<Traits>() && is_domain<Polyhedral_mixed_mesh_domain_3, Cell>()
-         && is_domain<Domain_archetype, Cell>() && is_region<Polyhedral_mixed_mesh_region_3, Cell>()
+         && is_domain<Labeled_polyhedral_mixed_mesh_domain_3, Cell>() && is_domain<Domain_archetype, Cell>()
+         && is_region<Polyhedral_mixed_mesh_region_3, Cell>()
          && is_region<Implicit_mixed_mesh_region_3, Cell>() && is_region<Ball_mixed_mesh_region_3, Cell>()
          && is_region<Everywhere_mixed_mesh_region_3, Cell>() && is_region<Union, Cell>()
          && is_region<Polyhedral_mixed_mesh_regions_3, Cell>()
@@ -386,6 +491,57 @@ constexpr bool is_cell_traits_with_all()
 static_assert(is_cell_traits_with_all<Axis_aligned_octree_cell_traits_3>());
 static_assert(is_cell_traits_with_all<Rotated_octree_cell_traits_3>());
 static_assert(is_cell_traits_with_all<Cell_traits_archetype>());
+
+// Refinements, and models that are none.
+static_assert(is_domain_with_features<Polyhedral_mixed_mesh_domain_3>());
+static_assert(is_domain_with_features<Labeled_polyhedral_mixed_mesh_domain_3>());
+static_assert(is_domain_with_features<Refined_domain_archetype>());
+static_assert(!mm3::internal::has_features<Domain_archetype>());
+static_assert(is_domain_with_shells<Polyhedral_mixed_mesh_domain_3>());
+static_assert(is_domain_with_shells<Labeled_polyhedral_mixed_mesh_domain_3>());
+static_assert(is_domain_with_shells<Refined_domain_archetype>());
+static_assert(!mm3::internal::has_shells<Domain_archetype>());
+static_assert(is_domain_with_sheets<Labeled_polyhedral_mixed_mesh_domain_3>());
+static_assert(is_domain_with_sheets<Refined_domain_archetype>());
+static_assert(!mm3::internal::has_subdomains<Polyhedral_mixed_mesh_domain_3>());
+static_assert(!mm3::internal::has_sheets<Polyhedral_mixed_mesh_domain_3>());
+static_assert(is_region_with_weights<Polyhedral_mixed_mesh_regions_3>());
+static_assert(is_region_with_weights<Weighted_mixed_mesh_region_3<Region_archetype>>());
+static_assert(
+  is_region_with_weights<Union_mixed_mesh_region_3<Region_with_weights_archetype, Region_archetype>>());
+static_assert(is_region_with_weights<Region_with_weights_archetype>());
+static_assert(!mm3::internal::has_weights<Polyhedral_mixed_mesh_region_3>());
+static_assert(!mm3::internal::has_weights<Union_mixed_mesh_region_3<Region_archetype, Region_archetype>>());
+static_assert(!mm3::internal::has_weights<Region_with_another_weight>());
+
+// Members without a tag are found whatever their signature is: overloaded, static, not const, a template.
+template <class Model>
+constexpr bool is_told_of_shells = mm3::internal::tag_of<Model, mm3::internal::Shell_members>()
+                                   != mm3::internal::Tag_of_model::MISSING;
+struct Overloaded_volume
+{
+  double volume() const;
+  double volume(int) const;
+};
+struct Volume_template
+{
+  template <class T>
+  T volume(T);
+};
+struct Static_volume
+{
+  static int volume;
+};
+struct Derived_volume : Overloaded_volume
+{
+};
+struct Tagged_volume : Overloaded_volume
+{
+  typedef CGAL::Tag_false Has_shells;
+};
+static_assert(!is_told_of_shells<Overloaded_volume> && !is_told_of_shells<Volume_template>);
+static_assert(!is_told_of_shells<Static_volume> && !is_told_of_shells<Derived_volume>);
+static_assert(is_told_of_shells<Tagged_volume> && is_told_of_shells<Domain_archetype>);
 
 // A model with points of an exact kernel is refused, with a message; a ball may have a center of any kernel.
 struct Exact_surface
@@ -466,6 +622,12 @@ void test_archetypes()
     mesh, CGAL::parameters::visitor(std::ref(visitor)));
   BOOST_TEST(result.has_mesh());
   BOOST_TEST(mm3::find_defects(mesh).none());
+  // What a domain knows is compared with the mesh; its label is that of the elements.
+  const auto refined = CGAL::make_mixed_mesh_3(Refined_domain_archetype(0), Region_with_weights_archetype(0),
+                                               CGAL::Mixed_mesh_criteria_3(700), mesh);
+  test_mesh(refined, mesh, 700);
+  BOOST_TEST(refined.shells_of_domain && refined.shells == refined.shells_of_domain);
+  BOOST_TEST_EQ(mesh.subdomain_index(0), 3);
   // There are no cell traits, and no visitor.
   test_mesh(CGAL::make_mixed_mesh_3(domain, region, CGAL::Mixed_mesh_criteria_3(700), mesh), mesh, 700);
 }

@@ -52,11 +52,13 @@ class Two_balls_with_shells : public Two_balls
   Shell_counts m_shells;
 
 public:
+  using Has_shells = CGAL::Tag_true;
   Two_balls_with_shells(double distance, double blend, const Shell_counts& shells)
     : Two_balls(distance, blend), m_shells(shells)
   {
   }
   std::optional<Shell_counts> shells() const { return m_shells; }
+  std::optional<double> volume() const { return std::nullopt; }
 };
 
 // A box in a rotated frame, given by its planes.
@@ -160,7 +162,9 @@ private:
 struct Box_with_edges : Box_domain
 {
   using Box_domain::Box_domain;
+  using Has_features = CGAL::Tag_true;
 
+  Axis_parallel_planes axis_parallel_planes() const { return {}; }
   Sharp_edges sharp_edges(double angle) const
   {
     Sharp_edges edges;
@@ -176,15 +180,16 @@ struct Box_with_edges : Box_domain
 
 struct Box_with_planes : Box_domain
 {
+  using Has_features = CGAL::Tag_true;
   explicit Box_with_planes(const Vec3& extents) : Box_domain(extents, 0) {}
 
-  double volume() const { return 8 * m_half[0] * m_half[1] * m_half[2]; }
+  Sharp_edges sharp_edges(double) const { return {}; }
   Axis_parallel_planes axis_parallel_planes() const
   {
     Axis_parallel_planes planes;
     for(std::size_t k = 0; k < 3; ++k)
       for(const double side : {-1., 1.})
-        planes[k][side * m_half[k]] = volume() / (2 * m_half[k]);
+        planes[k][side * m_half[k]] = 8 * m_half[0] * m_half[1] * m_half[2] / (2 * m_half[k]);
     return planes;
   }
 };
@@ -228,6 +233,7 @@ void test_topology_that_differs()
 
 struct Box_of_volume : Box_domain
 {
+  using Has_shells = CGAL::Tag_true;
   double told;
   Box_of_volume(const Vec3& extents, double told_volume) : Box_domain(extents, 0.3), told(told_volume) {}
   double volume() const { return told; }

@@ -173,6 +173,10 @@ struct Recording_visitor
     sizes.push_back(number_of_vertices);
   }
   bool go_on() { return number_of_questions++ < stop_at; }
+  template <class Mesh>
+  void before_fitting(const Mesh&)
+  {
+  }
 };
 
 #endif // MIXED_MESH_3_TEST_MESHING_H

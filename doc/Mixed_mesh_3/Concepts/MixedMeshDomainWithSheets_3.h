@@ -19,6 +19,10 @@ not enclose a volume, such as the falx of a brain. Faces of the mesh are brought
 class MixedMeshDomainWithSheets_3
 {
 public:
+  /// The tag by which a model says that it has the function below. With `CGAL::Tag_false`, or without the
+  /// tag, the domain has no sheets; a model that has the function, but no tag, does not compile.
+  typedef CGAL::Tag_true Has_sheets;
+
   /// The sheets: a range of pointers, of any kind, to `CGAL::Mixed_mesh_sheet_3`, or to a type with the same
   /// functions `may_intersect()`, `do_intersect()`, `closest_point()` and `locate()`.
   unspecified_type sheets() const;

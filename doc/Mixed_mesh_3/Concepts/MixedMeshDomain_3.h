@@ -35,6 +35,9 @@ must not throw then.
 
 The example \ref Mixed_mesh_3/mixed_mesh_custom_domain.cpp has a model that is given by a formula.
 
+\sa `MixedMeshDomainWithFeatures_3`
+\sa `MixedMeshDomainWithShells_3`
+\sa `MixedMeshLabeledDomain_3`
 \sa `MixedMeshRegion_3`
 \sa `CGAL::make_mixed_mesh_3()`
 */
@@ -45,11 +48,6 @@ public:
   /// `MoveConstructible`. There is one `Surface_part` for each octree node that meets the surface; a part is
   /// never copied or changed, and copies of the octree share it.
   typedef unspecified_type Surface_part;
-
-  /// A box that contains the domain, of positive finite extents. Only the overload of
-  /// `CGAL::make_mixed_mesh_3()` without cell traits needs the box: with cell traits, the root cell defines
-  /// the scale on which lengths are compared.
-  CGAL::Bbox_3 bbox() const;
 
   /// The part for the root cell, before any query.
   Surface_part surface_part() const;
@@ -85,27 +83,4 @@ public:
   /// \param part the part of a cell which contains `p`, or a default-constructed part if that cell does not
   ///        meet the surface; the part is a hint, and the closest point may lie elsewhere
   Point_3 closest_point(const Point_3& p, const Surface_part& part) const;
-
-  /// \name Optional Functions
-  /// Properties of the surface as a whole. A model need not have these functions.
-  /// @{
-
-  /// The number of shells of the surface, its Euler characteristic and, if known, the number of shells around
-  /// cavities. Where the boundary of the mesh has other values, another one is cut along the surface, and if
-  /// the values still differ, the status is `CGAL::Mixed_mesh_status::TOPOLOGY_DIFFERS`.
-  /// Without this function, or if the result is empty, topology and volume are not compared, and
-  /// `CGAL::Mixed_mesh_result_3::shells_of_domain` is empty.
-  std::optional<CGAL::Mixed_meshes_3::Shell_counts> shells() const;
-
-  /// The volume of the domain. If the volume of the mesh, or that of one of its shells, differs by more than
-  /// 5 %, another mesh is made in the same way, and if volumes still differ, the status is
-  /// `CGAL::Mixed_mesh_status::VOLUME_DIFFERS`. Called if the result of `shells()` is not empty.
-  double volume() const;
-
-  /// The planes that contain the surface, if all of its facets are perpendicular to the axes; else nothing.
-  /// Then cells are placed such that these planes are between cells, as described for the overload of
-  /// `CGAL::make_mixed_mesh_3()` without cell traits. Then `locate()` is asked for the boxes between the
-  /// planes.
-  CGAL::Mixed_meshes_3::Axis_parallel_planes axis_parallel_planes() const;
-  /// @}
 };

@@ -27,6 +27,11 @@ kept if the answer is `ON_BOUNDED_SIDE`, because the part gives the subdomain of
 class MixedMeshLabeledDomain_3
 {
 public:
+  /// The tag by which a model says that it has the functions below. With `CGAL::Tag_false`, or without the
+  /// tag, the domain has one subdomain, 1; a model with `subdomain_indices()` or `subdomain_index()`, but no
+  /// tag, does not compile.
+  typedef CGAL::Tag_true Has_subdomains;
+
   /// The subdomains in their order: a range of `CGAL::Mixed_meshes_3::Subdomain_index`, all positive and
   /// different.
   unspecified_type subdomain_indices() const;

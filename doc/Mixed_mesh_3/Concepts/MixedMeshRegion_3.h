@@ -25,6 +25,7 @@ A model need not be copyable. A model must outlive the call.
 \cgalHasModels{CGAL::Weighted_mixed_mesh_region_3<Region>}
 \cgalHasModelsEnd
 
+\sa `MixedMeshRegionWithWeights_3`
 \sa `MixedMeshDomain_3`
 \sa `CGAL::make_mixed_mesh_3()`
 */
@@ -64,16 +65,4 @@ public:
   /// diagonal of the root cell. Depths must not be NaN.
   /// \param p a `CGAL::Mixed_meshes_3::Predicates_kernel::Point_3`, as cell traits return it
   double depth(const Point_3& p) const;
-
-  /*!
-  The factor by which an error at a point is multiplied, in addition to the factor for the distance of the
-  point from the region. Optional: 1 in a model without this function.
-
-  \param p the center of a cell, as that of `depth()`
-  \param reach the length over which the weight decreases: at a distance d from a region, the weight 1 has
-         decreased to \f$ (1 + d / reach)^{-6} \f$; 0 if an error counts in the region only
-         \f$ (1 + d / reach)^{-6} \f$; 0 if it counts in the region only
-  \return 0 or more, finite
-  */
-  double weight(const Point_3& p, double reach) const;
 };

@@ -30,6 +30,11 @@ public:
   */
   typedef unspecified_type Point_3;
 
+  /// A box that contains the surface, of positive finite extents. `CGAL::make_mixed_mesh_3()` without cell
+  /// traits places its root cell around the box; with cell traits, the root cell defines the scale on which
+  /// lengths are compared.
+  CGAL::Bbox_3 bbox() const;
+
   /// A point of the surface closest to `p`: the target of a boundary vertex.
   ///
   /// A point that is not the closest one reduces quality or fidelity, not validity. The returned point
@@ -47,9 +52,4 @@ public:
   /// from the mesh is measured at these points. The result is a range of points, in a fixed order;
   /// consecutive points should be near each other.
   std::vector<Point_3> surface_samples(double spacing) const;
-
-  /// The edges where the surface is not smooth, by an angle in degrees or more: paths of edges of the mesh
-  /// follow these edges, if the edges are long enough. Optional: none in a model without this function.
-  /// \param angle the angle between the normals on both sides, positive
-  CGAL::Mixed_meshes_3::Sharp_edges sharp_edges(double angle) const;
 };

@@ -23,6 +23,9 @@ with the same calls. All of these calls repeat where more than one mesh is made:
 mesh begins finer or walls are resolved, octrees may have more vertices than the budget. Stages are not
 nested, and each stage ends. All calls come from the thread that called `CGAL::make_mixed_mesh_3()`.
 
+A model that derives from `CGAL::Mixed_meshes_3::Default_visitor` has all members, and redefines those it
+needs.
+
 `CGAL::optimize_mixed_mesh_3()` and `CGAL::fit_mixed_mesh_to_surface()` call `go_on()` only.
 
 A model need not be copyable: pass it as `CGAL::parameters::visitor(std::ref(my_visitor))`. Members need not
@@ -58,11 +61,7 @@ public:
   /// made until then.
   bool go_on();
 
-  /// \name Optional
-  /// @{
-
   /// Called with each mesh before its boundary is fitted, in the stage `OPTIMIZATION`: the result is made
-  /// from the last one. A model need not have this function.
+  /// from the last one.
   void before_fitting(const CGAL::Mixed_mesh_3<CGAL::Mixed_meshes_3::Predicates_kernel>& mesh);
-  /// @}
 };

@@ -48,6 +48,11 @@ struct Default_visitor
   void progress(std::size_t /* number_of_vertices */, std::size_t /* budget */) {}
   /// Asked between stages; `false` stops the run with the status `STOPPED`.
   bool go_on() { return true; }
+  /// Called with each mesh before its boundary is fitted.
+  template <class Mesh>
+  void before_fitting(const Mesh&)
+  {
+  }
 };
 
 } // namespace Mixed_meshes_3

@@ -137,7 +137,8 @@ std::size_t number_of_vertices_off_interface(const Mesh& mesh, const Subdomain_i
   using Point_3 = typename Domain::Point_3;
   const auto& box = domain.bbox();
   const double most = share_of_diagonal * norm({box.x_span(), box.y_span(), box.z_span()});
-  const std::vector<Subdomain_index> order = internal::subdomain_indices(domain);
+  const std::vector<Subdomain_index> order(domain.subdomain_indices().begin(),
+                                           domain.subdomain_indices().end());
   Subdomain_index first = interface.first, second = interface.second;
   if(second != 0 && internal::rank_of(order, second) < internal::rank_of(order, first))
     std::swap(first, second);

@@ -16,7 +16,7 @@
 #include <CGAL/Mixed_mesh_3/Octree_cell_traits_3.h>
 #include <CGAL/Mixed_mesh_3/Surface_description.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Boxes_between_planes.h>
-#include <CGAL/Mixed_mesh_3/internal/oracle/optional_members.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/refinements.h>
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
 
 #include <algorithm>
@@ -146,7 +146,7 @@ Axis_aligned_octree_cell_traits_3 cell_traits_of(const Domain& domain, const Reg
                                                  const Criteria& criteria)
 {
   const Axis_aligned_octree_cell_traits_3 around(domain.bbox(), criteria.root_cell());
-  if constexpr(Has_axis_parallel_planes<Domain>::value) {
+  if constexpr(has_features<Domain>()) {
     const bool is_wanted = criteria.sharp_angle() > 0 && criteria.root_cell() == Root_cell::CUBE
                            && criteria.boundary_mode() == Boundary_mode::VERTEX_ORDER;
     const Axis_parallel_planes planes = is_wanted ? domain.axis_parallel_planes() : Axis_parallel_planes();

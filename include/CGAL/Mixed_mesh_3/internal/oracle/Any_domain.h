@@ -100,7 +100,7 @@ public:
   Subdomain_index subdomain_index([[maybe_unused]] const Point_3& p,
                                   [[maybe_unused]] const Surface_part& part) const override
   {
-    if constexpr(Is_labeled_domain<Domain>::value)
+    if constexpr(has_subdomains<Domain>())
       return m_surface.subdomain_index(this->to_user_point(p), part_or_none(part));
     else
       return 1;
@@ -108,7 +108,7 @@ public:
 
   std::optional<Shell_counts> shells() const override
   {
-    if constexpr(Has_shells<Domain>::value)
+    if constexpr(has_shells<Domain>())
       return m_surface.shells();
     else
       return std::nullopt;
@@ -116,7 +116,7 @@ public:
 
   std::optional<double> volume() const override
   {
-    if constexpr(Has_volume<Domain>::value)
+    if constexpr(has_shells<Domain>())
       return m_surface.volume();
     else
       return std::nullopt;

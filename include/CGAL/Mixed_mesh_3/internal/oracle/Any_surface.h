@@ -5,8 +5,8 @@
 // $Id$
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A surface whose type is not known: the method is compiled once for all. Optional functions that a model
-// lacks have a default here.
+// A surface whose type is not known: the method is compiled once for all. Functions of refinements
+// that a model lacks have a default here.
 
 #ifndef CGAL_MIXED_MESH_3_INTERNAL_ORACLE_ANY_SURFACE_H
 #define CGAL_MIXED_MESH_3_INTERNAL_ORACLE_ANY_SURFACE_H
@@ -16,8 +16,7 @@
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>
 #include <CGAL/Mixed_mesh_3/Surface_description.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
-#include <CGAL/Mixed_mesh_3/internal/base/labeled_domain.h>
-#include <CGAL/Mixed_mesh_3/internal/oracle/optional_members.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/refinements.h>
 
 #include <CGAL/Bbox_3.h>
 
@@ -85,7 +84,6 @@ public:
   virtual std::vector<Point_3> surface_samples(double spacing) const = 0;
   /// The sharp edges; none if the angle is not positive.
   virtual Sharp_edges sharp_edges(double angle) const = 0;
-  /// The bounding box; empty if the model has none.
   virtual Bbox_3 bbox() const = 0;
 
   /// \name Functions of surfaces with labels
@@ -111,7 +109,7 @@ template <class Surface, class Base = Any_surface>
 class Surface_reference : public Base
 {
   using User_point = typename Surface::Point_3;
-  static constexpr bool has_labels = Is_labeled_domain<Surface>::value;
+  static constexpr bool has_labels = has_subdomains<Surface>();
 
 protected:
   const Surface& m_surface;
@@ -127,7 +125,7 @@ public:
       this->m_subdomain_indices.assign(surface.subdomain_indices().begin(),
                                        surface.subdomain_indices().end());
     }
-    if constexpr(Is_domain_with_sheets<Surface>::value)
+    if constexpr(has_sheets<Surface>())
       for(const auto& sheet : surface.sheets())
         this->m_sheets.push_back(std::make_unique<Sheet_reference<std::decay_t<decltype(*sheet)>>>(*sheet));
   }
@@ -146,18 +144,12 @@ public:
   }
   Sharp_edges sharp_edges([[maybe_unused]] double angle) const override
   {
-    if constexpr(Has_sharp_edges<Surface>::value)
+    if constexpr(has_features<Surface>())
       if(angle > 0)
         return m_surface.sharp_edges(angle);
     return {};
   }
-  Bbox_3 bbox() const override
-  {
-    if constexpr(Has_bbox<Surface>::value)
-      return m_surface.bbox();
-    else
-      return {};
-  }
+  Bbox_3 bbox() const override { return m_surface.bbox(); }
 
   Point_3 closest_point(const Point_3& p, [[maybe_unused]] Subdomain_index first,
                         [[maybe_unused]] Subdomain_index second) const override

@@ -12,7 +12,6 @@
 
 #include <CGAL/Mixed_mesh_3/Default_visitor.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
-#include <CGAL/Mixed_mesh_3/internal/oracle/optional_members.h>
 
 #include <cstddef>
 
@@ -46,11 +45,7 @@ public:
     m_visitor.progress(number_of_vertices, budget);
   }
   bool go_on() override { return m_visitor.go_on(); }
-  void before_fitting(const Core_mesh& mesh) override
-  {
-    if constexpr(Has_before_fitting<Visitor, Core_mesh>::value)
-      m_visitor.before_fitting(mesh);
-  }
+  void before_fitting(const Core_mesh& mesh) override { m_visitor.before_fitting(mesh); }
 };
 
 } // namespace internal

@@ -12,11 +12,11 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/oracle/refinements.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
-#include <utility>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -32,23 +32,11 @@ inline double weight_of_distance(double distance, double reach)
   return distance <= 0 ? 1 : reach > 0 ? std::pow(1 + distance / reach, -exponent) : 0;
 }
 
-template <class Region, class Point, class = void>
-struct Has_weight : std::false_type
-{
-};
-template <class Region, class Point>
-struct Has_weight<
-  Region, Point,
-  std::void_t<decltype(std::declval<const Region&>().weight(std::declval<const Point&>(), 0.))>>
-  : std::true_type
-{
-};
-
 /// The weight of an error at a point, without the factor for the distance from the region.
 template <class Region, class Point>
-double weight_in_region(const Region& region, const Point& p, double reach)
+double weight_in_region(const Region& region, [[maybe_unused]] const Point& p, [[maybe_unused]] double reach)
 {
-  if constexpr(Has_weight<Region, Point>::value)
+  if constexpr(has_weights<Region>())
     return region.weight(p, reach);
   else
     return 1;

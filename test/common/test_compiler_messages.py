@@ -5,13 +5,15 @@
   test_compiler_messages.py CMAKE BUILD_DIRECTORY TARGET SENTENCE
 """
 
+import os
 import re
 import subprocess
 import sys
 
 CMAKE, BUILD, TARGET, SENTENCE = sys.argv[1:]
 
-run = subprocess.run([CMAKE, "--build", BUILD, "--target", TARGET], capture_output=True, text=True)
+run = subprocess.run([CMAKE, "--build", BUILD, "--target", TARGET], capture_output=True, text=True,
+                     env={**os.environ, "LC_ALL": "C"})
 errors = [line for line in (run.stdout + run.stderr).splitlines() if re.search(r"\berror:", line)]
 if run.returncode == 0 or not errors:
     sys.exit(f"{TARGET} compiles, or for another reason does not:\n{run.stdout}{run.stderr}")
