@@ -58,6 +58,8 @@ std::vector<Check> checks_of_fidelity(const Outcome& outcome, bool is_fitted)
     if(outcome.result.optimization.length_of_sharp_edges > 0)
       checks.push_back(
         {"sharp edges kept", share_of_sharp_edges(outcome.result) >= least_share_of_sharp_edges});
+    if(outcome.result.tolerance > 0)
+      checks.push_back({"distance within the tolerance", !outcome.fidelity.misses(outcome.result.tolerance)});
   }
   return checks;
 }

@@ -122,8 +122,8 @@ struct Options : Input_options, Relaxation_options
   CGAL::Mixed_meshes_3::Boundary_mode mode = CGAL::Mixed_meshes_3::Boundary_mode::VERTEX_ORDER;
   CGAL::Mixed_meshes_3::Root_cell root = CGAL::Mixed_meshes_3::Root_cell::CUBE;
   Templates templates = Templates::FEWEST_VERTICES;
-  bool slit = false, no_simplification = false, no_fit = false, no_optimize = false, msh2 = false,
-       tetrahedra = false, quiet = false;
+  bool slit = false, best_effort = false, no_simplification = false, no_fit = false, no_optimize = false,
+       msh2 = false, tetrahedra = false, quiet = false;
   double tolerance = 0; // automatic
   double grading = 0.35;
   double time_limit = std::numeric_limits<double>::infinity();                          // seconds

@@ -62,6 +62,7 @@ Json describe(const Options& o)
                  {"tetrahedra", o.tetrahedra},
                  {"order", o.order},
                  {"slit", o.slit},
+                 {"best effort", o.best_effort},
                  {"msh version", o.msh2 ? "2.2" : "4.1"},
                  {"space", space_of(o.surface_options)},
                  {"strict", o.surface_options.is_strict},

@@ -221,9 +221,9 @@ void check_layers(const std::vector<Subdomain>& subdomains, const Options& o,
                            + std::to_string(100 * std::size_t(std::ceil((std::min)(needed, most_told) / 100)))
                            + " vertices: " + thinnest->name + " is " + rounded(thickness)
                            + (o.is_in_patient_space() ? " mm" : "") + " thick on average";
-  if(double(o.vertices) < least_share * needed)
-    throw std::runtime_error(text + ", and would be lost"
-                             + (thinnest->volume ? "; --merge joins it to another one" : ""));
+  if(double(o.vertices) < least_share * needed && !o.best_effort)
+    throw std::runtime_error(text + ", and would be lost; --best-effort goes on"
+                             + (thinnest->volume ? ", --merge joins it to another one" : ""));
   warnings.push_back(text);
 }
 

@@ -58,7 +58,8 @@ void order_by_nesting(std::vector<Subdomain>& subdomains, std::vector<std::strin
 void measure_visible_parts(std::vector<Subdomain>& subdomains);
 
 /// Checks that the budget can hold the layers that labels are: each edge of a thin one may be some times as
-/// long as it is thick, on average. Too few vertices are told, and refused if nothing would be left of it.
+/// long as it is thick, on average. Too few vertices are told, and refused if nothing would be left of it,
+/// but for `--best-effort`.
 void check_layers(const std::vector<Subdomain>& subdomains, const Options& options,
                   std::vector<std::string>& warnings);
 

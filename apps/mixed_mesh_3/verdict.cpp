@@ -127,8 +127,10 @@ void add_warnings(const Options& o, Outcome& outcome)
   if(const std::string cut_off = sentence_on_sharp_edges(outcome.result, names_of(o));
      o.fit() != Fit::NONE && !cut_off.empty())
     warnings.push_back(cut_off);
-  if(f.misses(o.tolerance))
-    warnings.push_back(sentence_on_tolerance(f, "--tolerance " + rounded(o.tolerance), names_of(o)));
+  if(const double tolerance = outcome.result.tolerance; o.fit() != Fit::NONE && f.misses(tolerance))
+    warnings.push_back(
+      sentence_on_tolerance(f, (o.tolerance > 0 ? "--tolerance " : "default tolerance ") + rounded(tolerance),
+                            names_of(o)));
   // The cells around the boundary add some volume before it is fitted; corners cut off take some.
   const bool is_fitted = o.fit() != Fit::NONE;
   const double ratio = f.ratio_of_volumes();

@@ -417,6 +417,10 @@ class Test_segmentation(unittest.TestCase):
         told = self.fails(*layers, 50, words=words).stderr
         self.assertIn("--merge", told)
         needed = int(told.split("about ")[1].split()[0])
+        self.fails(*layers, needed // 5, words=words)
+        told, run = self.mesh(*layers, needed // 5, "--best-effort")
+        self.assertIn(words, run.stderr)
+        self.assertTrue(told["options"]["best effort"])
         _, run = self.mesh(*layers, needed // 2)
         self.assertIn(words, run.stderr)
         told, run = self.mesh(*layers, 3 * needed // 2)
