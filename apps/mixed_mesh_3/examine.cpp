@@ -48,8 +48,9 @@ Topology topology_with_units(const Mesh& mesh, const Surface& surface, const Opt
   return t;
 }
 
-std::vector<Check> checks_of_fidelity(const Outcome& outcome, bool is_fitted)
+std::vector<Check> checks_of_fidelity(const Outcome& outcome, const Options& options)
 {
+  const bool is_fitted = options.fit() != Fit::NONE;
   std::vector<Check> checks{{"same topology as the surface", outcome.topology.is_same},
                             {"no part of the domain lost", outcome.result.number_of_lost_cells == 0}};
   if(is_fitted) {
@@ -58,7 +59,7 @@ std::vector<Check> checks_of_fidelity(const Outcome& outcome, bool is_fitted)
     if(outcome.result.optimization.length_of_sharp_edges > 0)
       checks.push_back(
         {"sharp edges kept", share_of_sharp_edges(outcome.result) >= least_share_of_sharp_edges});
-    if(outcome.result.tolerance > 0)
+    if(options.fit() == Fit::OPTIMIZATION && outcome.result.tolerance > 0)
       checks.push_back({"distance within the tolerance", !outcome.fidelity.misses(outcome.result.tolerance)});
   }
   return checks;
@@ -105,7 +106,7 @@ void examine(const Mesh& mesh, const Surface& surface, Surface_tree tree, const 
     outcome.checks.push_back({check.name, check.holds});
   require_all(outcome.checks, certificate.number_of_self_intersections); // throws if there are defects
   require_volume(options, outcome);
-  outcome.checks_of_fidelity = checks_of_fidelity(outcome, options.fit() != Fit::NONE);
+  outcome.checks_of_fidelity = checks_of_fidelity(outcome, options);
 
   outcome.mesh = facts_of(mesh);
   for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e)

@@ -127,7 +127,7 @@ void add_warnings(const Options& o, Outcome& outcome)
   if(const std::string cut_off = sentence_on_sharp_edges(outcome.result, names_of(o));
      o.fit() != Fit::NONE && !cut_off.empty())
     warnings.push_back(cut_off);
-  if(const double tolerance = outcome.result.tolerance; o.fit() != Fit::NONE && f.misses(tolerance))
+  if(const double tolerance = outcome.result.tolerance; o.fit() == Fit::OPTIMIZATION && f.misses(tolerance))
     warnings.push_back(
       sentence_on_tolerance(f, (o.tolerance > 0 ? "--tolerance " : "default tolerance ") + rounded(tolerance),
                             names_of(o)));

@@ -284,7 +284,8 @@ class Surfaces(Case):
             run = self.mesher(surface, "--region", region, "--vertices", 500, "--no-sharp", "--report", report,
                               *arguments)
             self.assertEqual(run.returncode, 0, run.stderr)
-            return json.loads(report.read_text())["warnings"]
+            # without sharp edges, those of the box are cut off
+            return [w for w in json.loads(report.read_text())["warnings"] if not w.startswith("default tolerance")]
 
         inside = moved(CUBE, 3, (4, 8, 10))
         turned = [(-x, -y, z) for x, y, z in inside]

@@ -52,9 +52,6 @@ bool improve(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
                                                                                    : 3 * rounds / 4;
   constexpr double power_of_late_bisections = 16; // the farthest edges, nearly; with 4, larger by 7 %
   const int rounds_to_flip = has_many_rounds ? 3 : 1;
-  // A fine mesh is improved where the boundary has moved: other vertices will be removed, or improved then.
-  // Along sharp edges, parts are farther from their surface by a fifth without the rest.
-  const bool improves_all = !s.mode.leaves_rest || s.features != nullptr;
   typename Fitting_state<Quality>::Flipper flipper(s.mesh, s.quality, s.intermediate_bound());
   s.moves.set_bound((std::min)(s.acceptable_final_cost, s.intermediate_bound()));
   for(int round = 0; round < rounds; ++round) {
@@ -64,11 +61,11 @@ bool improve(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
       s.save_points_if_simple(); // before the first round, the arrival was tested
     const int phase = round < second_phase ? 0 : 1;
     const auto [power, least_cost_to_flip, weight] = phases[phase];
-    if(s.criteria.flips() && improves_all && round % rounds_to_flip == 0)
+    if(s.criteria.flips() && round % rounds_to_flip == 0)
       s.result.number_of_flips += s.flip(flipper, power, least_cost_to_flip);
     s.choose_new_targets();
     s.advance(acceptable);
-    if(improves_all && (round == 0 || round == second_phase))
+    if(round == 0 || round == second_phase)
       s.moves.activate_all();
     if(has_tolerance) {
       s.attraction.measure();
