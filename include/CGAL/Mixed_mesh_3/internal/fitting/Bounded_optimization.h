@@ -78,10 +78,9 @@ class Bounded_optimization
   std::vector<std::uint8_t> m_is_held; // one value for each vertex
   bool m_is_within_bound = false;      // known of the mesh taken
 
-  // Tolerated share of boundary vertices that have not arrived, with several subdomains, and with one: of a
-  // brain of a million vertices one did not, in 100,000, and further runs took five times as long, in vain.
-  // Tolerated loss of the length of sharp edges.
-  static constexpr double tolerated_share_on_interfaces = 0.01, tolerated_share = 1e-4, tolerated_loss = 0.02;
+  // Tolerated share of vertices between subdomains that have not arrived; tolerated loss of the length of
+  // sharp edges.
+  static constexpr double tolerated_share_on_interfaces = 0.01, tolerated_loss = 0.02;
 
   // The attraction would make hard cases harder.
   static constexpr Fitting_mode without_attraction{false, true}, within_bound{true, true};
@@ -97,7 +96,7 @@ public:
       m_has_subdomains(domain.subdomain_indices().size() > 1 || domain.has_sheets()), m_estimate(estimate),
       m_tolerated_share_not_arrived(
         (std::max)(estimate.tolerated_share_not_arrived,
-                   m_has_subdomains ? tolerated_share_on_interfaces : tolerated_share)),
+                   m_has_subdomains ? tolerated_share_on_interfaces : share_not_arrived_tolerated)),
       m_sharp_edges(is_chosen(followed) ? Sharp_edges() : domain.sharp_edges(criteria.sharp_angle())),
       m_edge_length(m_sharp_edges.edges.empty() ? 1 : mean_edge_length()),
       m_features(is_chosen(followed) ? followed->features : Sharp_features(m_sharp_edges, m_edge_length)),
@@ -174,7 +173,7 @@ private:
   // The first mode: a run that is good only if all of the boundary arrives may end early.
   Fitting_mode freely() const
   {
-    return {false, m_estimate.leaves_rest, m_tolerated_share_not_arrived <= tolerated_share,
+    return {false, m_estimate.leaves_rest, m_tolerated_share_not_arrived <= share_not_arrived_tolerated,
             m_estimate.number_of_vertices, m_estimate.leaves_rest};
   }
 

@@ -15,6 +15,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/lost_cells.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/Optimization_effort.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Candidate.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Misfit.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/Tolerance_search.h>
@@ -199,8 +200,8 @@ struct Meshing_state
   /// flat elements that octrees do not have.
   std::size_t number_off_tolerated() const
   {
-    constexpr double tolerated = 1e-4, tolerated_at_junctions = 0.05;
-    return std::size_t((has_several_subdomains() ? tolerated_at_junctions : tolerated)
+    constexpr double tolerated_at_junctions = 0.05;
+    return std::size_t((has_several_subdomains() ? tolerated_at_junctions : share_not_arrived_tolerated)
                        * double(result.optimization.number_of_boundary_vertices));
   }
 
